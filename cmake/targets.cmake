@@ -1,0 +1,39 @@
+# Flags that every target of the project shares: warnings are errors, one floating-point model in both host compilers.
+add_library(tread_flags INTERFACE)
+target_include_directories(tread_flags INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_BINARY_DIR}/generated)
+target_compile_definitions(tread_flags INTERFACE EIGEN_MAX_STATIC_ALIGN_BYTES=0
+                                                 $<$<BOOL:${TREAD_WITH_CUDA}>:TREAD_WITH_CUDA>)
+target_compile_options(
+  tread_flags
+  INTERFACE
+    $<$<COMPILE_LANGUAGE:CXX>:-Wall
+    -Wextra
+    -Wshadow
+    -Wconversion
+    -Werror
+    -ffp-contract=off
+    -fno-math-errno
+    -fno-trapping-math
+    -fopenmp>
+    $<$<COMPILE_LANGUAGE:CUDA>:-Werror=all-warnings
+    -diag-suppress=20012,20014
+    -Xcompiler=-ffp-contract=off>)
+target_link_options(tread_flags INTERFACE -fopenmp)
+if(TREAD_SANITIZE)
+  target_compile_options(tread_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${TREAD_SANITIZE}
+                                               -fno-omit-frame-pointer -fno-sanitize-recover=all>)
+  target_link_options(tread_flags INTERFACE -fsanitize=${TREAD_SANITIZE})
+endif()
+
+# tread_room(NAME [LINK targets...]): one folder, one target. Takes every .cpp of the folder and, with CUDA, every .cu.
+function(tread_room name)
+  cmake_parse_arguments(ROOM "" "" "LINK" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(TREAD_WITH_CUDA)
+    file(GLOB_RECURSE device_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cu)
+    list(APPEND sources ${device_sources})
+  endif()
+  add_library(tread_${name} STATIC ${sources})
+  target_link_libraries(tread_${name} PUBLIC tread_flags ${ROOM_LINK})
+  set_target_properties(tread_${name} PROPERTIES CUDA_RUNTIME_LIBRARY Static)
+endfunction()

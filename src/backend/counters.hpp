@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace tread
+{
+
+/// What a run launched and allocated, by name: how "nothing that the scene does not need" is checked.
+class Counters
+{
+public:
+    void launched(std::string_view name) { ++entry(launches_, name); }
+
+    void allocated(std::string_view name, std::int64_t bytes)
+    {
+        entry(bytes_, name) += bytes;
+        current_ += bytes;
+        if (current_ > peak_) { peak_ = current_; }
+    }
+
+    void freed(std::string_view name, std::int64_t bytes)
+    {
+        entry(bytes_, name) -= bytes;
+        current_ -= bytes;
+    }
+
+    std::int64_t current_bytes() const { return current_; }
+    std::int64_t peak_bytes() const { return peak_; }
+
+    /// Launches by kernel name.
+    const std::map<std::string, std::int64_t, std::less<>>& launches() const { return launches_; }
+
+    /// Bytes now held, by array name; an array that was ever allocated keeps its row.
+    const std::map<std::string, std::int64_t, std::less<>>& bytes() const { return bytes_; }
+
+private:
+    using Table = std::map<std::string, std::int64_t, std::less<>>;
+
+    static std::int64_t& entry(Table& table, std::string_view name)
+    {
+        auto at = table.find(name);
+        if (at == table.end()) { at = table.emplace(std::string(name), 0).first; }
+        return at->second;
+    }
+
+    Table        launches_;
+    Table        bytes_;
+    std::int64_t current_ = 0;
+    std::int64_t peak_    = 0;
+};
+
+} // namespace tread

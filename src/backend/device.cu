@@ -1,0 +1,32 @@
+#include "backend/cuda_check.cuh"
+#include "backend/device.hpp"
+
+namespace tread
+{
+
+int device_count()
+{
+    int count = 0;
+    return cudaGetDeviceCount(&count) == cudaSuccess ? count : 0;
+}
+
+DeviceFacts device_facts(int device)
+{
+    check_cuda(cudaSetDevice(device), "choice of the device");
+    cudaDeviceProp properties{};
+    check_cuda(cudaGetDeviceProperties(&properties, device), "properties of the device");
+    std::size_t free = 0, total = 0;
+    check_cuda(cudaMemGetInfo(&free, &total), "memory of the device");
+    return {properties.name, static_cast<std::int64_t>(total), static_cast<std::int64_t>(free)};
+}
+
+Device::Device(int device, Counters& counters)
+    : gpu_{nullptr, &counters}
+{
+    check_cuda(cudaSetDevice(device), "choice of the device");
+    check_cuda(cudaStreamCreate(&gpu_.stream), "stream of the device");
+}
+
+Device::~Device() { cudaStreamDestroy(gpu_.stream); }
+
+} // namespace tread

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "backend/execution.hpp"
+
+// Only in builds with a CUDA compiler (TREAD_WITH_CUDA).
+namespace tread
+{
+
+/// Devices that this process can use; 0 also when there is no driver.
+int device_count();
+
+struct DeviceFacts
+{
+    std::string  name;
+    std::int64_t total_bytes;
+    std::int64_t free_bytes;
+};
+
+DeviceFacts device_facts(int device);
+
+/// Makes `device` this thread's device and owns one stream on it. EnvironmentError when that fails.
+class Device
+{
+public:
+    Device(int device, Counters& counters);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const Gpu& gpu() const { return gpu_; }
+
+private:
+    Gpu gpu_;
+};
+
+} // namespace tread

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+// Item functions (the physics of one point, node, body or contact) are written once and run by both backends.
+#if defined(__CUDACC__)
+#define TREAD_HD __host__ __device__ __forceinline__
+#else
+#define TREAD_HD inline __attribute__((always_inline))
+#endif
+
+struct CUstream_st; // cudaStream_t without CUDA's headers
+
+namespace tread
+{
+
+class Counters;
+
+/// Execution tag, first argument of everything that runs on a backend: OpenMP threads of this process.
+struct Cpu
+{
+    Counters* counters;
+};
+
+/// Execution tag: one CUDA device, everything in order on one stream.
+struct Gpu
+{
+    CUstream_st* stream;
+    Counters*    counters;
+};
+
+} // namespace tread

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+
+#include "backend/counters.hpp"
+#include "backend/cuda_check.cuh"
+#include "backend/execution.hpp"
+
+namespace tread
+{
+
+template<class F>
+__global__ void for_each_kernel(std::int64_t n, F f)
+{
+    const std::int64_t i = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
+    if (i < n) { f(i); }
+}
+
+/// Runs f(i) for i in [0, n), one thread an item.
+template<class F>
+void for_each(const Gpu& gpu, const char* name, std::int64_t n, F f)
+{
+    if (n == 0) { return; }
+    gpu.counters->launched(name);
+    constexpr int threads = 128;
+    for_each_kernel<<<static_cast<unsigned>((n + threads - 1) / threads), threads, 0, gpu.stream>>>(n, f);
+    check_cuda(cudaGetLastError(), name);
+}
+
+template<int threads, class F>
+__global__ void __launch_bounds__(threads) for_each_block_kernel(F f)
+{
+    f(static_cast<std::int64_t>(blockIdx.x));
+}
+
+/// Runs f(block) with `threads` threads a block, for bodies that share memory and barriers.
+template<int threads, class F>
+void for_each_block(const Gpu& gpu, const char* name, std::int64_t blocks, F f)
+{
+    if (blocks == 0) { return; }
+    gpu.counters->launched(name);
+    for_each_block_kernel<threads><<<static_cast<unsigned>(blocks), threads, 0, gpu.stream>>>(f);
+    check_cuda(cudaGetLastError(), name);
+}
+
+} // namespace tread

@@ -1,0 +1,46 @@
+#include <cub/cub.cuh>
+
+#include "backend/cuda_check.cuh"
+#include "backend/sort.hpp"
+
+namespace tread
+{
+
+void sort_by_key(const Gpu& gpu, Array<Gpu, std::uint64_t>& keys, Array<Gpu, std::int32_t>& values,
+                 SortScratch<Gpu>& scratch)
+{
+    const std::int64_t n = keys.size();
+    if (n == 0) { return; }
+    gpu.counters->launched("sort");
+    scratch.keys.resize(n);
+    scratch.values.resize(n);
+    const int   count = static_cast<int>(n);
+    std::size_t bytes = 0;
+    check_cuda(cub::DeviceRadixSort::SortPairs(nullptr, bytes, keys.data(), scratch.keys.data(), values.data(),
+                                               scratch.values.data(), count, 0, 64, gpu.stream),
+               "sort");
+    scratch.bytes.resize(static_cast<std::int64_t>(bytes));
+    check_cuda(cub::DeviceRadixSort::SortPairs(scratch.bytes.data(), bytes, keys.data(), scratch.keys.data(),
+                                               values.data(), scratch.values.data(), count, 0, 64, gpu.stream),
+               "sort");
+    copy(gpu, keys.data(), scratch.keys.data(), static_cast<std::size_t>(n) * sizeof(std::uint64_t));
+    copy(gpu, values.data(), scratch.values.data(), static_cast<std::size_t>(n) * sizeof(std::int32_t));
+}
+
+std::int64_t exclusive_scan(const Gpu& gpu, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>& scratch)
+{
+    const std::int64_t n = values.size();
+    if (n == 0) { return 0; }
+    gpu.counters->launched("scan");
+    const std::int32_t last = read(gpu, values.data() + n - 1);
+    const int          count = static_cast<int>(n);
+    std::size_t        bytes = 0;
+    check_cuda(cub::DeviceScan::ExclusiveSum(nullptr, bytes, values.data(), values.data(), count, gpu.stream), "scan");
+    scratch.bytes.resize(static_cast<std::int64_t>(bytes));
+    check_cuda(
+        cub::DeviceScan::ExclusiveSum(scratch.bytes.data(), bytes, values.data(), values.data(), count, gpu.stream),
+        "scan");
+    return read(gpu, values.data() + n - 1) + last;
+}
+
+} // namespace tread

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+
+#include "backend/array.hpp"
+
+// Sort and scan of integers: the standard library on the CPU, CUB on the GPU. Results do not depend on thread counts.
+namespace tread
+{
+
+/// Scratch of sort_by_key and scan, kept between calls.
+template<class Exec>
+struct SortScratch
+{
+    explicit SortScratch(const Exec& exec)
+        : bytes(exec, "sort scratch")
+        , keys(exec, "sort scratch keys")
+        , values(exec, "sort scratch values")
+    {
+    }
+
+    Array<Exec, unsigned char> bytes;
+    Array<Exec, std::uint64_t> keys;
+    Array<Exec, std::int32_t>  values;
+};
+
+/// Sorts both arrays by key, stably: equal keys keep their order. n < 2^31.
+void sort_by_key(const Cpu&, Array<Cpu, std::uint64_t>& keys, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&);
+void sort_by_key(const Gpu&, Array<Gpu, std::uint64_t>& keys, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>&);
+
+/// In place: values[i] becomes the sum of the values before i; returns the sum of all (and waits for it).
+std::int64_t exclusive_scan(const Cpu&, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&);
+std::int64_t exclusive_scan(const Gpu&, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>&);
+
+/// First index in the sorted range whose value is not less than `key`.
+template<class T>
+TREAD_HD std::int64_t lower_bound(const T* sorted, std::int64_t count, T key)
+{
+    std::int64_t low = 0;
+    while (count > 0)
+    {
+        const std::int64_t half = count / 2;
+        if (sorted[low + half] < key)
+        {
+            low += half + 1;
+            count -= half + 1;
+        }
+        else { count = half; }
+    }
+    return low;
+}
+
+/// Index of `key` in the sorted range, or -1.
+template<class T>
+TREAD_HD std::int64_t find_sorted(const T* sorted, std::int64_t count, T key)
+{
+    const std::int64_t at = lower_bound(sorted, count, key);
+    return at < count && sorted[at] == key ? at : -1;
+}
+
+} // namespace tread

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "backend/execution.hpp"
+
+// Small vectors of item functions. EIGEN_MAX_STATIC_ALIGN_BYTES=0 (CMakeLists.txt) gives them one layout in both compilers.
+namespace tread
+{
+
+template<class Real>
+using Vec3 = Eigen::Matrix<Real, 3, 1>;
+template<class Real>
+using Mat3 = Eigen::Matrix<Real, 3, 3>;
+
+/// Symmetric tensor: xx, yy, zz, yz, xz, xy.
+template<class Real>
+using Sym3 = Eigen::Matrix<Real, 6, 1>;
+
+using Quat = Eigen::Quaternion<double>;
+
+/// Components in planes, one after the other, `stride` values apart: neighbouring items are neighbours in memory.
+template<class Real, int components>
+struct Planes
+{
+    Real*        data   = nullptr;
+    std::int64_t stride = 0;
+
+    TREAD_HD Eigen::Matrix<Real, components, 1> get(std::int64_t i) const
+    {
+        Eigen::Matrix<Real, components, 1> value;
+        for (int c = 0; c < components; ++c) { value[c] = data[c * stride + i]; }
+        return value;
+    }
+
+    TREAD_HD void set(std::int64_t i, const Eigen::Matrix<Real, components, 1>& value) const
+    {
+        for (int c = 0; c < components; ++c) { data[c * stride + i] = value[c]; }
+    }
+};
+
+} // namespace tread

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+
+#include "backend/array.hpp"
+#include "backend/vector.hpp"
+
+// State of the rigid bodies (rocks and wheels), fp64. Vectors in the world frame unless a line says body frame.
+// Body frame: centre of mass at the origin, axes of the template's mesh.
+namespace tread::dem
+{
+
+/// World degrees of freedom that a body does not have (bits of BodiesView::locked).
+enum LockedFreedom : std::uint32_t
+{
+    lock_x     = 1,
+    lock_y     = 2,
+    lock_z     = 4,
+    lock_roll  = 8,  ///< rotation about x
+    lock_pitch = 16, ///< about y
+    lock_yaw   = 32, ///< about z
+    lock_all   = 63,
+};
+
+/// How the time integration treats a locked degree of freedom: it keeps the velocity found in `velocity` and
+/// `angular_velocity` (zero for a held body, the prescribed value for a driven one) whatever the forces.
+struct BodiesView
+{
+    std::int64_t   count;
+    Vec3<double>*  position;         ///< m
+    Quat*          orientation;      ///< body to world
+    Vec3<double>*  velocity;         ///< m/s
+    Vec3<double>*  angular_velocity; ///< rad/s
+    double*        mass;             ///< kg
+    Mat3<double>*  inertia;          ///< kg m2, body frame
+    Mat3<double>*  inverse_inertia;  ///< body frame
+    double*        scale;            ///< of the template
+    std::int32_t*  shape;            ///< index of the template
+    std::int32_t*  material;         ///< index of the material
+    std::uint32_t* locked;           ///< bits of LockedFreedom
+    std::int32_t*  damped;           ///< 1 = takes part in the local damping of a settling phase
+    Vec3<double>*  force;            ///< N, contact, of the current substep (gravity not included)
+    Vec3<double>*  torque;           ///< N m, about the centre of mass
+    double*        stiffness;        ///< N/m, sum over live contacts of K, of the current substep
+};
+
+/// Owner of what BodiesView shows.
+template<class Exec>
+struct Bodies
+{
+    explicit Bodies(const Exec& exec)
+        : position(exec, "body position")
+        , orientation(exec, "body orientation")
+        , velocity(exec, "body velocity")
+        , angular_velocity(exec, "body angular velocity")
+        , mass(exec, "body mass")
+        , inertia(exec, "body inertia")
+        , inverse_inertia(exec, "body inverse inertia")
+        , scale(exec, "body scale")
+        , shape(exec, "body shape")
+        , material(exec, "body material")
+        , locked(exec, "body locked freedoms")
+        , damped(exec, "body damped")
+        , force(exec, "body force")
+        , torque(exec, "body torque")
+        , stiffness(exec, "body stiffness")
+    {
+    }
+
+    BodiesView view()
+    {
+        return {position.size(),  position.data(), orientation.data(),     velocity.data(), angular_velocity.data(),
+                mass.data(),      inertia.data(),  inverse_inertia.data(), scale.data(),    shape.data(),
+                material.data(),  locked.data(),   damped.data(),          force.data(),    torque.data(),
+                stiffness.data()};
+    }
+
+    Array<Exec, Vec3<double>>  position;
+    Array<Exec, Quat>          orientation;
+    Array<Exec, Vec3<double>>  velocity;
+    Array<Exec, Vec3<double>>  angular_velocity;
+    Array<Exec, double>        mass;
+    Array<Exec, Mat3<double>>  inertia;
+    Array<Exec, Mat3<double>>  inverse_inertia;
+    Array<Exec, double>        scale;
+    Array<Exec, std::int32_t>  shape;
+    Array<Exec, std::int32_t>  material;
+    Array<Exec, std::uint32_t> locked;
+    Array<Exec, std::int32_t>  damped;
+    Array<Exec, Vec3<double>>  force;
+    Array<Exec, Vec3<double>>  torque;
+    Array<Exec, double>        stiffness;
+};
+
+} // namespace tread::dem

@@ -1,0 +1,208 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+// What the user asked for, as plain data in SI units (angles in degrees where the name says so).
+// Defaults, units, ranges and meanings stand in keys.cpp, the one table that parses, validates and documents.
+namespace tread::scene
+{
+
+using Vector3 = std::array<double, 3>;
+
+enum class WallKind { slip, fixed, open };
+enum class Precision { single_, double_ };
+enum class Transfer { flip, apic };
+enum class ShapeFunctions { quadratic, linear };
+enum class PointMotion { supported, ballistic, frozen };
+enum class HertzFactor { standard, paper_eq7 };
+enum class PointRadius { sphere, semi_domain };
+enum class MaterialModel { elastic, mohr_coulomb, rigid };
+enum class Placement { replace, rain, grid };
+enum class StopRule { duration, equilibrium };
+
+struct Walls
+{
+    WallKind x      = WallKind::slip; ///< both walls normal to x
+    WallKind y      = WallKind::slip;
+    WallKind bottom = WallKind::fixed;
+    WallKind top    = WallKind::open;
+};
+
+struct Domain
+{
+    Vector3 size{};    ///< m; the domain is [0, size]
+    Vector3 gravity{}; ///< m/s2
+    Walls   walls;
+};
+
+struct GridOptions
+{
+    double spacing = 0; ///< m
+};
+
+struct TimeOptions
+{
+    std::optional<double>       dt;       ///< s; nothing means "auto"
+    std::optional<std::int64_t> substeps; ///< contact substeps a step; nothing means "auto"
+};
+
+struct Numerics
+{
+    Precision             precision       = Precision::single_;
+    Transfer              transfer        = Transfer::flip;
+    std::optional<double> pic_rate;       ///< PIC part of FLIP per unit time, in units of c_p/h; nothing = by material
+    ShapeFunctions        shape_functions = ShapeFunctions::quadratic;
+    PointMotion           point_motion    = PointMotion::supported;
+    HertzFactor           hertz           = HertzFactor::standard;
+    PointRadius           point_radius    = PointRadius::sphere;
+    double                linear_overlap  = 1e-3; ///< d0/R* under which the body-body traction is linear
+};
+
+struct Material
+{
+    std::string   name;
+    MaterialModel model              = MaterialModel::elastic;
+    double        density            = 0;   ///< kg/m3
+    double        young              = 0;   ///< Pa
+    double        poisson            = 0.3;
+    double        friction_angle_deg = 0;   ///< Mohr-Coulomb
+    double        dilation_angle_deg = 0;
+    double        cohesion           = 0;   ///< Pa
+    std::string   family;                   ///< contact class; default: the material's own name
+};
+
+/// Friction and restitution of one unordered pair of families.
+struct Contact
+{
+    std::array<std::string, 2> between;
+    double                     friction    = 0.3;
+    double                     restitution = 0.5; ///< body-body only
+};
+
+struct RockGenerator
+{
+    std::uint64_t seed       = 1;
+    double        aspect     = 0.75; ///< minor over major extent
+    double        sphericity = 0.90;
+    int           nodes      = 162; ///< surface nodes: 42, 162, 642 or 2562
+};
+
+struct SphereGenerator
+{
+    int nodes = 642;
+};
+
+/// A rigid wheel: drum with grousers; axle along the mesh's y. Lengths in metres.
+struct WheelGenerator
+{
+    double radius         = 0.26;   ///< over the grousers
+    double width          = 0.33;
+    double wall_thickness = 0.0095;
+    int    grousers       = 48;
+    double grouser_height = 0.0125;
+    double grouser_width  = 0.004;
+};
+
+struct MeshFile
+{
+    std::string path; ///< absolute, or relative to the scene file
+    double      unit = 1.0; ///< metres a mesh unit
+};
+
+using ShapeSource = std::variant<RockGenerator, SphereGenerator, WheelGenerator, MeshFile>;
+
+struct Shape
+{
+    std::string name;
+    ShapeSource source;
+    int         sdf_cells    = 64;  ///< cells along the longest axis of the 120 % box
+    double      node_spacing = 0;   ///< m; surface nodes; 0 = by the generator, or a 40th of the extent
+};
+
+struct Box
+{
+    Vector3 low{};
+    Vector3 high{};
+};
+
+struct Terrain
+{
+    std::string material;
+    Box         region;
+    int         points_per_cell = 8; ///< a cube number: 1, 8, 27, 64
+};
+
+struct Rocks
+{
+    std::string   shape;
+    std::string   material;
+    std::int64_t  count    = 0;
+    double        diameter = 0; ///< m, of the sphere of equal volume
+    Box           region;
+    Placement     placement = Placement::replace;
+    std::uint64_t seed      = 1;
+};
+
+struct Body
+{
+    std::string              name;
+    std::string              shape; ///< a [[shape]], or a built-in wheel
+    std::string              material;
+    std::optional<double>    density; ///< kg/m3; exactly one of density, mass, load
+    std::optional<double>    mass;    ///< kg
+    std::optional<double>    load;    ///< N under the scene's gravity
+    Vector3                  position{}; ///< m, of the centre of mass
+    Vector3                  velocity{}; ///< m/s, when first released
+    std::optional<double>    rolling_radius; ///< m; default: over the grousers
+    std::vector<std::string> lock; ///< world degrees of freedom held fixed: x y z roll pitch yaw
+};
+
+struct Drive
+{
+    std::string           body;
+    double                angular_velocity = 0; ///< rad/s about the axle; positive drives towards +x
+    double                ramp             = 0; ///< s, linear from the value at phase start
+    std::optional<double> slip;                 ///< 1 - v_x/(omega r); nothing leaves v_x free
+};
+
+struct Phase
+{
+    std::string              name;
+    std::vector<std::string> hold;
+    double                   damping = 0; ///< local (Cundall) damping of sand and rocks
+    StopRule                 until   = StopRule::duration;
+    double                   duration     = 0; ///< s
+    double                   max_duration = 0; ///< s, for until = "equilibrium"
+    std::optional<Drive>     drive;
+};
+
+struct Output
+{
+    double every           = 0.02; ///< s, time series
+    double snapshots_every = 0;    ///< s; 0 = none
+};
+
+struct Scene
+{
+    std::string           title;
+    Domain                domain;
+    GridOptions           grid;
+    TimeOptions           time;
+    Numerics              numerics;
+    std::vector<Material> materials;
+    std::vector<Contact>  contacts;
+    std::vector<Shape>    shapes;
+    std::vector<Terrain>  terrain;
+    std::vector<Rocks>    rocks;
+    std::vector<Body>     bodies;
+    std::vector<Phase>    phases;
+    Output                output;
+    std::string           directory; ///< of the scene file; mesh paths are relative to it
+};
+
+} // namespace tread::scene

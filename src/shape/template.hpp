@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "scene/scene.hpp"
+#include "shape/mass_properties.hpp"
+#include "shape/mesh.hpp"
+
+namespace tread::shape
+{
+
+/// Signed distance on a uniform grid, negative inside. Body frame (centre of mass at the origin, mesh axes), metres.
+/// Node (i, j, k) stands at origin + spacing * (i, j, k); values[i + nodes[0] * (j + nodes[1] * k)].
+struct SignedDistanceGrid
+{
+    Eigen::Vector3d             origin;
+    double                      spacing;
+    std::array<std::int32_t, 3> nodes;
+    std::vector<float>          values;
+};
+
+/// Surface nodes that carry contact traction; areas sum to the mesh's area. Ordered so that each run of
+/// cluster_size nodes (the last may be shorter) is close together and lies within its bounding sphere.
+struct SurfaceNodes
+{
+    static constexpr int cluster_size = 32;
+
+    std::vector<Eigen::Vector3d> positions; ///< body frame
+    std::vector<double>          areas;     ///< m2, tributary
+    std::vector<Eigen::Vector3d> cluster_centres;
+    std::vector<double>          cluster_radii;
+    double                       spacing; ///< m, sqrt(area / count)
+};
+
+/// What a wheel adds to a shape: the axle is the mesh's y axis.
+struct WheelGeometry
+{
+    double radius; ///< m, over the grousers
+    double width;  ///< m
+};
+
+/// One shape at scale 1, shared by all its instances through scale and rotation. Body frame: centre of mass at the
+/// origin, mesh axes (not principal axes: the inertia tensor is full).
+struct ShapeTemplate
+{
+    std::string        name;
+    TriangleMesh       mesh;
+    MassProperties     unit; ///< density 1; unit.centre is zero
+    Eigen::Vector3d    mesh_centre; ///< centre of mass in the frame of the source mesh
+    SignedDistanceGrid sdf;
+    SurfaceNodes       nodes;
+    Bounds             box;
+    double             bounding_radius;   ///< m, about the centre of mass
+    double             equivalent_radius; ///< m, of the sphere of equal volume; R of the contact law (wheels: radius)
+    bool               is_wheel;
+    WheelGeometry      wheel; ///< meaningful if is_wheel
+};
+
+/// The built-in wheels that a scene may name without a [[shape]] table.
+std::vector<std::string> builtin_shape_names();
+
+/// The scene's shape called `name`, or the built-in; InputError if there is none.
+scene::Shape find_shape(const scene::Scene& scene, const std::string& name);
+
+/// Mesh, checks, mass properties, surface nodes and SDF of one shape. Paths are relative to `directory`.
+ShapeTemplate make_template(const scene::Shape& shape, const std::string& directory);
+
+/// Distance from `point` (body frame) by trilinear interpolation; outside the box a positive lower bound.
+double sample(const SignedDistanceGrid& sdf, const Eigen::Vector3d& point);
+
+/// Exact gradient of the same interpolant, not normalised.
+Eigen::Vector3d sample_gradient(const SignedDistanceGrid& sdf, const Eigen::Vector3d& point);
+
+} // namespace tread::shape

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "backend/counters.hpp"
+#include "backend/execution.hpp"
+#ifdef TREAD_WITH_CUDA
+#include "backend/device.hpp"
+#endif
+
+// One test body, every backend: TYPED_TEST_SUITE(Name, tread::test::Backends, tread::test::BackendNames).
+// TREAD_TEST_BACKEND=cpu|cuda runs one of them alone; cuda is skipped where there is no device.
+namespace tread::test
+{
+
+template<class Exec>
+class BackendTest;
+
+template<>
+class BackendTest<Cpu> : public ::testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        const char* wanted = std::getenv("TREAD_TEST_BACKEND");
+        if (wanted != nullptr && std::string(wanted) != "cpu") { GTEST_SKIP() << "TREAD_TEST_BACKEND=" << wanted; }
+    }
+
+    Cpu exec() { return {&counters}; }
+
+    Counters counters;
+};
+
+#ifdef TREAD_WITH_CUDA
+template<>
+class BackendTest<Gpu> : public ::testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        const char* wanted = std::getenv("TREAD_TEST_BACKEND");
+        if (wanted != nullptr && std::string(wanted) != "cuda") { GTEST_SKIP() << "TREAD_TEST_BACKEND=" << wanted; }
+        if (device_count() == 0) { GTEST_SKIP() << "no CUDA device"; }
+        device = std::make_unique<Device>(0, counters);
+    }
+
+    Gpu exec() { return device->gpu(); }
+
+    Counters                counters;
+    std::unique_ptr<Device> device;
+};
+
+using Backends = ::testing::Types<Cpu, Gpu>;
+#else
+using Backends = ::testing::Types<Cpu>;
+#endif
+
+struct BackendNames
+{
+    template<class Exec>
+    static std::string GetName(int)
+    {
+        return std::is_same_v<Exec, Cpu> ? "cpu" : "cuda";
+    }
+};
+
+} // namespace tread::test
