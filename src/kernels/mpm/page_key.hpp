@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "backend/vector.hpp"
+
+// A page is 4 x 4 x 4 cells. A point's cell is named by the lowest node of its stencil, so that all points of a cell
+// share their 27 nodes; the page of a node is its coordinates / 4. Keys are 63-bit Morton codes of page coordinates.
+namespace tread::mpm
+{
+
+constexpr int page_edge  = 4;
+constexpr int page_cells = page_edge * page_edge * page_edge;
+
+/// Nodes touched by the stencils of a page's cells, along one axis and in all.
+constexpr int tile_edge  = page_edge + 2;
+constexpr int tile_nodes = tile_edge * tile_edge * tile_edge;
+
+/// Page coordinates are shifted by this much before they become a key: negative ones have keys too.
+constexpr std::int32_t page_bias = 1 << 20;
+
+/// Key of points that left the domain: sorts behind every page.
+constexpr std::uint64_t no_page = ~0ull;
+
+struct Index3
+{
+    std::int32_t x, y, z;
+};
+
+TREAD_HD std::uint64_t spread_bits(std::uint64_t v)
+{
+    v = (v | v << 32) & 0x001f00000000ffffull;
+    v = (v | v << 16) & 0x001f0000ff0000ffull;
+    v = (v | v << 8) & 0x100f00f00f00f00full;
+    v = (v | v << 4) & 0x10c30c30c30c30c3ull;
+    return (v | v << 2) & 0x1249249249249249ull;
+}
+
+TREAD_HD std::int32_t compact_bits(std::uint64_t v)
+{
+    v &= 0x1249249249249249ull;
+    v = (v ^ v >> 2) & 0x10c30c30c30c30c3ull;
+    v = (v ^ v >> 4) & 0x100f00f00f00f00full;
+    v = (v ^ v >> 8) & 0x001f0000ff0000ffull;
+    v = (v ^ v >> 16) & 0x001f00000000ffffull;
+    return static_cast<std::int32_t>((v ^ v >> 32) & 0x1fffffull);
+}
+
+/// Morton key of page coordinates in [-2^20, 2^20).
+TREAD_HD std::uint64_t page_key(Index3 page)
+{
+    return spread_bits(static_cast<std::uint64_t>(page.x + page_bias)) |
+           spread_bits(static_cast<std::uint64_t>(page.y + page_bias)) << 1 |
+           spread_bits(static_cast<std::uint64_t>(page.z + page_bias)) << 2;
+}
+
+TREAD_HD Index3 page_coordinates(std::uint64_t key)
+{
+    return {compact_bits(key) - page_bias, compact_bits(key >> 1) - page_bias, compact_bits(key >> 2) - page_bias};
+}
+
+/// Page of a node (or of a cell, named by its lowest node).
+TREAD_HD Index3 page_of(Index3 node) { return {node.x >> 2, node.y >> 2, node.z >> 2}; }
+
+/// Place of a node within its page, 0..63.
+TREAD_HD int place_in_page(Index3 node) { return (node.x & 3) | (node.y & 3) << 2 | (node.z & 3) << 4; }
+
+} // namespace tread::mpm

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+
+#include "backend/array.hpp"
+#include "kernels/mpm/page_key.hpp"
+
+namespace tread::mpm
+{
+
+/// The pages that hold points ("point pages") and those that their stencils reach ("node pages", which include them).
+/// Points are ordered by page key, then by place in the page.
+struct PagesView
+{
+    double               spacing; ///< m, of the grid
+    double               stencil_shift; ///< cell = floor(x / spacing - stencil_shift): 0.5 quadratic, 0 linear
+    std::int64_t         point_pages;
+    std::int64_t         node_pages;
+    const std::uint64_t* point_page_key;   ///< [point_pages], ascending
+    const std::int32_t*  first_point;      ///< [point_pages + 1]
+    const std::int32_t*  cell_first_point; ///< [64 * point_pages + 1], by place in the page
+    const std::uint64_t* node_page_key;    ///< [node_pages], ascending
+    const std::int32_t*  node_page_of;     ///< [8 * point_pages], node page at + (o & 1, o >> 1 & 1, o >> 2)
+    const std::int32_t*  point_page_of;    ///< [8 * node_pages], point page at - (o & 1, o >> 1 & 1, o >> 2), or -1
+};
+
+/// Owner of what PagesView shows.
+template<class Exec>
+struct Pages
+{
+    explicit Pages(const Exec& exec)
+        : point_page_key(exec, "point page keys")
+        , first_point(exec, "point page first point")
+        , cell_first_point(exec, "cell first point")
+        , node_page_key(exec, "node page keys")
+        , node_page_of(exec, "node pages of point pages")
+        , point_page_of(exec, "point pages of node pages")
+    {
+    }
+
+    PagesView view(double spacing, double stencil_shift) const
+    {
+        return {spacing,
+                stencil_shift,
+                point_page_key.size(),
+                node_page_key.size(),
+                point_page_key.data(),
+                first_point.data(),
+                cell_first_point.data(),
+                node_page_key.data(),
+                node_page_of.data(),
+                point_page_of.data()};
+    }
+
+    Array<Exec, std::uint64_t> point_page_key;
+    Array<Exec, std::int32_t>  first_point;
+    Array<Exec, std::int32_t>  cell_first_point;
+    Array<Exec, std::uint64_t> node_page_key;
+    Array<Exec, std::int32_t>  node_page_of;
+    Array<Exec, std::int32_t>  point_page_of;
+};
+
+/// Node that names the cell of a position: the lowest of its stencil.
+TREAD_HD Index3 cell_of(const Vec3<double>& position, double spacing, double stencil_shift)
+{
+    return {static_cast<std::int32_t>(std::floor(position[0] / spacing - stencil_shift)),
+            static_cast<std::int32_t>(std::floor(position[1] / spacing - stencil_shift)),
+            static_cast<std::int32_t>(std::floor(position[2] / spacing - stencil_shift))};
+}
+
+} // namespace tread::mpm
