@@ -6,7 +6,8 @@
 #include "backend/vector.hpp"
 
 // A page is 4 x 4 x 4 cells. A point's cell is named by the lowest node of its stencil, so that all points of a cell
-// share their 27 nodes; the page of a node is its coordinates / 4. Keys are 63-bit Morton codes of page coordinates.
+// share their 27 nodes; the page of a node is its coordinates / 4. Keys are 57-bit Morton codes of page coordinates, so
+// that a key and a place in the page (6 bits) fit 64.
 namespace tread::mpm
 {
 
@@ -18,7 +19,7 @@ constexpr int tile_edge  = page_edge + 2;
 constexpr int tile_nodes = tile_edge * tile_edge * tile_edge;
 
 /// Page coordinates are shifted by this much before they become a key: negative ones have keys too.
-constexpr std::int32_t page_bias = 1 << 20;
+constexpr std::int32_t page_bias = 1 << 18;
 
 /// Key of points that left the domain: sorts behind every page.
 constexpr std::uint64_t no_page = ~0ull;
@@ -47,7 +48,7 @@ TREAD_HD std::int32_t compact_bits(std::uint64_t v)
     return static_cast<std::int32_t>((v ^ v >> 32) & 0x1fffffull);
 }
 
-/// Morton key of page coordinates in [-2^20, 2^20).
+/// Morton key of page coordinates in [-2^18, 2^18).
 TREAD_HD std::uint64_t page_key(Index3 page)
 {
     return spread_bits(static_cast<std::uint64_t>(page.x + page_bias)) |
@@ -65,5 +66,11 @@ TREAD_HD Index3 page_of(Index3 node) { return {node.x >> 2, node.y >> 2, node.z 
 
 /// Place of a node within its page, 0..63.
 TREAD_HD int place_in_page(Index3 node) { return (node.x & 3) | (node.y & 3) << 2 | (node.z & 3) << 4; }
+
+/// Orders cells by page, then by place in the page.
+TREAD_HD std::uint64_t cell_key(Index3 cell)
+{
+    return page_key(page_of(cell)) << 6 | static_cast<std::uint64_t>(place_in_page(cell));
+}
 
 } // namespace tread::mpm

@@ -14,23 +14,154 @@ struct PointsView
 {
     std::int64_t      count;
     Planes<double, 3> position;      ///< m
-    Planes<Real, 3>   velocity;      ///< m/s
-    Planes<Real, 9>   affine;        ///< 1/s, APIC only (row-major); else null
-    Planes<Real, 6>   stress;        ///< Pa, Cauchy, tension positive
     Planes<double, 3> start;         ///< m, position that displacement is measured from
+    Planes<Real, 3>   velocity;      ///< m/s
+    Planes<Real, 6>   stress;        ///< Pa, Cauchy, tension positive
     Real*             mass;          ///< kg
     Real*             volume;        ///< m3, initial
     Real*             volume_ratio;  ///< current over initial volume
-    Real*             plastic_shear; ///< equivalent plastic shear strain
-    Real*             plastic_rate;  ///< 1/s, its rate in the last step
-    Real*             volume_gap;    ///< log volume opened at the apex that must close before compression
     std::uint32_t*    id;            ///< unique, for ever
     std::uint8_t*     material;
 
-    // Coupling with bodies only; else null.
-    Planes<Real, 3> contact_force;   ///< N, impulse of the step's contacts over dt
-    Planes<Real, 3> grid_velocity;   ///< m/s, interpolated at the end of the last step
-    Planes<Real, 3> support;         ///< m/s2, grid acceleration of the last step without its contact force
+    Planes<Real, 9>   affine;        ///< 1/s, row-major; APIC only, else null
+
+    // Plastic materials only, else null.
+    Real*             plastic_shear; ///< equivalent plastic shear strain
+    Real*             plastic_rate;  ///< 1/s, its rate in the last step
+    Real*             volume_gap;    ///< log volume opened at the apex that must close before compression
+
+    // Coupling with bodies only, else null.
+    Planes<Real, 3>   contact_force; ///< N, impulse of the step's contacts over dt
+    Planes<Real, 3>   grid_velocity; ///< m/s, interpolated at the end of the last step
+    Planes<Real, 3>   support;       ///< m/s2, grid acceleration of the last step without its contact force
+};
+
+/// What a scene needs of a point's state beyond the fields that every scene has.
+struct PointFields
+{
+    bool affine;
+    bool plastic;
+    bool coupled;
+};
+
+/// Owner of what PointsView shows. Fields that the scene does not need have no memory.
+template<class Exec, class Real>
+struct Points
+{
+    explicit Points(const Exec& exec)
+        : position(exec, "point position")
+        , start(exec, "point start")
+        , velocity(exec, "point velocity")
+        , stress(exec, "point stress")
+        , mass(exec, "point mass")
+        , volume(exec, "point volume")
+        , volume_ratio(exec, "point volume ratio")
+        , id(exec, "point id")
+        , material(exec, "point material")
+        , affine(exec, "point affine velocity")
+        , plastic_shear(exec, "point plastic shear")
+        , plastic_rate(exec, "point plastic rate")
+        , volume_gap(exec, "point volume gap")
+        , contact_force(exec, "point contact force")
+        , grid_velocity(exec, "point grid velocity")
+        , support(exec, "point support")
+    {
+    }
+
+    /// Memory for `points`; values are zero.
+    void allocate(std::int64_t points, PointFields fields)
+    {
+        count  = points;
+        stride = points;
+        const auto take = [&](auto& array, int components, bool wanted)
+        {
+            array.resize(wanted ? components * points : 0);
+            array.fill_zero();
+        };
+        take(position, 3, true);
+        take(start, 3, true);
+        take(velocity, 3, true);
+        take(stress, 6, true);
+        take(mass, 1, true);
+        take(volume, 1, true);
+        take(volume_ratio, 1, true);
+        take(id, 1, true);
+        take(material, 1, true);
+        take(affine, 9, fields.affine);
+        take(plastic_shear, 1, fields.plastic);
+        take(plastic_rate, 1, fields.plastic);
+        take(volume_gap, 1, fields.plastic);
+        take(contact_force, 3, fields.coupled);
+        take(grid_velocity, 3, fields.coupled);
+        take(support, 3, fields.coupled);
+    }
+
+    PointsView<Real> view()
+    {
+        return {count,
+                {position.data(), stride},
+                {start.data(), stride},
+                {velocity.data(), stride},
+                {stress.data(), stride},
+                mass.data(),
+                volume.data(),
+                volume_ratio.data(),
+                id.data(),
+                material.data(),
+                {affine.data(), stride},
+                plastic_shear.data(),
+                plastic_rate.data(),
+                volume_gap.data(),
+                {contact_force.data(), stride},
+                {grid_velocity.data(), stride},
+                {support.data(), stride}};
+    }
+
+    /// Calls f(array, components) for every field that has memory.
+    template<class F>
+    void for_each_field(F f)
+    {
+        const auto visit = [&](auto& array, int components)
+        {
+            if (array.size() > 0) { f(array, components); }
+        };
+        visit(position, 3);
+        visit(start, 3);
+        visit(velocity, 3);
+        visit(stress, 6);
+        visit(mass, 1);
+        visit(volume, 1);
+        visit(volume_ratio, 1);
+        visit(id, 1);
+        visit(material, 1);
+        visit(affine, 9);
+        visit(plastic_shear, 1);
+        visit(plastic_rate, 1);
+        visit(volume_gap, 1);
+        visit(contact_force, 3);
+        visit(grid_velocity, 3);
+        visit(support, 3);
+    }
+
+    std::int64_t count  = 0; ///< points alive
+    std::int64_t stride = 0; ///< of the planes: points at the start
+
+    Array<Exec, double>        position;
+    Array<Exec, double>        start;
+    Array<Exec, Real>          velocity;
+    Array<Exec, Real>          stress;
+    Array<Exec, Real>          mass;
+    Array<Exec, Real>          volume;
+    Array<Exec, Real>          volume_ratio;
+    Array<Exec, std::uint32_t> id;
+    Array<Exec, std::uint8_t>  material;
+    Array<Exec, Real>          affine;
+    Array<Exec, Real>          plastic_shear;
+    Array<Exec, Real>          plastic_rate;
+    Array<Exec, Real>          volume_gap;
+    Array<Exec, Real>          contact_force;
+    Array<Exec, Real>          grid_velocity;
+    Array<Exec, Real>          support;
 };
 
 } // namespace tread::mpm

@@ -1,0 +1,48 @@
+#include "kernels/mpm/gather.hpp"
+
+#include "backend/launch.hpp"
+#include "kernels/mpm/gather_kern.hpp"
+
+namespace tread::mpm
+{
+namespace
+{
+
+template<class Real>
+void gather_page(const PointsView<Real>& points, const PagesView& pages, const Real* motion,
+                 const GatherStep<Real>& step, std::int64_t page, double* sums, double* peaks)
+{
+    Real tile[tile_nodes][lanes] = {};
+    for (int node = 0; node < tile_nodes; ++node)
+    {
+        const Real* source = tile_source(motion, pages.node_page_of + 8 * page, node);
+        for (int c = 0; c < motion_channels; ++c) { tile[node][c] = source[c * page_cells]; }
+    }
+    const Real spacing = static_cast<Real>(pages.spacing);
+    for (int s = 0; s < point_sums; ++s) { sums[s] = 0; }
+    for (int p = 0; p < point_peaks; ++p) { peaks[p] = 0; }
+    for (std::int64_t i = pages.first_point[page]; i < pages.first_point[page + 1]; ++i)
+    {
+        const auto stencil = stencil_at<Real>(points.position.get(i), pages.spacing, pages.stencil_shift);
+        const auto seen    = see(stencil, spacing, [&](int node) -> const Real(&)[lanes] { return tile[node]; });
+        update_point(points, i, seen, stencil.base, pages, step, sums, peaks);
+    }
+}
+
+} // namespace
+
+template<class Real>
+void gather(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
+            const GatherStep<Real>& step, double* sums, double* peaks)
+{
+    const auto item = [=](std::int64_t page)
+    { gather_page(points, pages, motion, step, page, sums + page * point_sums, peaks + page * point_peaks); };
+    for_each_heavy(cpu, "gather", pages.point_pages, item);
+}
+
+template void gather(const Cpu&, const PointsView<float>&, const PagesView&, const float*, const GatherStep<float>&,
+                     double*, double*);
+template void gather(const Cpu&, const PointsView<double>&, const PagesView&, const double*, const GatherStep<double>&,
+                     double*, double*);
+
+} // namespace tread::mpm

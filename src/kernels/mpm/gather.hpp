@@ -1,0 +1,46 @@
+#pragma once
+
+#include "backend/array.hpp"
+#include "kernels/mpm/grid.hpp"
+#include "kernels/mpm/material_parameters.hpp"
+#include "kernels/mpm/pages.hpp"
+#include "kernels/mpm/points.hpp"
+
+namespace tread::mpm
+{
+
+template<class Real>
+struct GatherStep
+{
+    Real                            dt;        ///< s
+    const MaterialParameters<Real>* materials; ///< by PointsView::material
+    const Real*                     pic_rate;  ///< 1/s, by material: FLIP's part of PIC per unit time
+};
+
+/// Per page, fp64: what the points' update did.
+enum PointSum : int
+{
+    point_kinetic,      ///< J, after the step
+    point_plastic_work, ///< J, of the step
+    point_contact_work, ///< J, of the step's contact forces on the sand
+    point_sums
+};
+
+/// Per page, fp64, for the largest over all pages.
+enum PointPeak : int
+{
+    peak_speed, ///< m/s
+    peak_moved, ///< 1 if a point left its cell, 2 if one left the finite numbers
+    point_peaks
+};
+
+/// G2P: velocity (FLIP with PIC part, or APIC), position, stress and plastic state of every point; for coupled scenes also
+/// the interpolated grid velocity and the support acceleration. sums[point page][PointSum], peaks[point page][PointPeak].
+template<class Real>
+void gather(const Cpu&, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
+            const GatherStep<Real>& step, double* sums, double* peaks);
+template<class Real>
+void gather(const Gpu&, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
+            const GatherStep<Real>& step, double* sums, double* peaks);
+
+} // namespace tread::mpm

@@ -1,0 +1,168 @@
+#pragma once
+
+#include "kernels/mpm/gather.hpp"
+#include "kernels/mpm/law_kern.hpp"
+#include "kernels/mpm/stencil_kern.hpp"
+
+namespace tread::mpm
+{
+
+/// Of a node page's motion, the value of tile node `node` of a point page whose eight node pages are `neighbours`.
+template<class Real>
+TREAD_HD const Real* tile_source(const Real* motion, const std::int32_t* neighbours, int node)
+{
+    const int x = node % tile_edge, y = node / tile_edge % tile_edge, z = node / (tile_edge * tile_edge);
+    const int octant = (x >> 2) | (y >> 2) << 1 | (z >> 2) << 2;
+    return motion + std::int64_t(neighbours[octant]) * motion_channels * page_cells +
+           ((x & 3) | (y & 3) << 2 | (z & 3) << 4);
+}
+
+/// What a point sees of the grid.
+template<class Real>
+struct Seen
+{
+    Vec3<Real> velocity; ///< m/s, after the step
+    Vec3<Real> change;   ///< m/s, in the step
+    Mat3<Real> gradient; ///< 1/s, [i][j] = d v_i / d x_j
+    Mat3<Real> moment;   ///< m2/s, sum of weight v (x_node - x_point)^T; APIC only
+};
+
+/// tile(node) gives a pointer to the lanes of a tile node: velocity (3), change (3), two pads.
+template<class Real, class Tile>
+TREAD_HD Seen<Real> see(const Stencil<Real>& s, Real spacing, Tile tile)
+{
+    Real      sum[lanes] = {}, slope[3][lanes] = {}, moment[3][lanes] = {};
+    const int base = tile_base(s.base);
+    for (int c = 0; c < 3; ++c)
+    {
+        for (int b = 0; b < 3; ++b)
+        {
+            const Real plane = s.weight[1][b] * s.weight[2][c];
+            const Real py = s.slope[1][b] * s.weight[2][c], pz = s.weight[1][b] * s.slope[2][c];
+            const Real oy = (Real(b) - s.fraction[1]) * spacing, oz = (Real(c) - s.fraction[2]) * spacing;
+            for (int a = 0; a < 3; ++a)
+            {
+                const Real  weight = s.weight[0][a] * plane;
+                const Real  dx = s.slope[0][a] * plane, dy = s.weight[0][a] * py, dz = s.weight[0][a] * pz;
+                const Real  ox   = (Real(a) - s.fraction[0]) * spacing;
+                const auto& node = tile(base + tile_offset(a, b, c));
+                for (int l = 0; l < lanes; ++l)
+                {
+                    const Real value = node[l];
+                    const Real share = weight * value;
+                    sum[l] += share;
+                    slope[0][l] += dx * value;
+                    slope[1][l] += dy * value;
+                    slope[2][l] += dz * value;
+                    moment[0][l] += ox * share;
+                    moment[1][l] += oy * share;
+                    moment[2][l] += oz * share;
+                }
+            }
+        }
+    }
+    Seen<Real> seen;
+    for (int i = 0; i < 3; ++i)
+    {
+        seen.velocity[i] = sum[i];
+        seen.change[i]   = sum[3 + i];
+        for (int j = 0; j < 3; ++j)
+        {
+            seen.gradient(i, j) = slope[j][i];
+            seen.moment(i, j)   = moment[j][i];
+        }
+    }
+    return seen;
+}
+
+/// APIC's affine velocity: 4/h^2 times the moment for quadratic splines (Jiang et al. 2015), the velocity gradient for
+/// linear ones.
+template<class Real>
+TREAD_HD void set_affine(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen, double spacing,
+                         double stencil_shift)
+{
+    const Real scale = static_cast<Real>(4 / (spacing * spacing));
+    for (int a = 0; a < 3; ++a)
+    {
+        for (int b = 0; b < 3; ++b)
+        {
+            points.affine.data[(3 * a + b) * points.affine.stride + i] =
+                stencil_shift > 0 ? scale * seen.moment(a, b) : seen.gradient(a, b);
+        }
+    }
+}
+
+/// Velocity after the step: FLIP drawn towards PIC at a rate per unit time, so that the filter does not depend on dt
+/// (prototypes: an unfiltered FLIP fluidises sand at small steps); APIC takes the grid's velocity.
+template<class Real>
+TREAD_HD Vec3<Real> transferred_velocity(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen,
+                                         Real pic_rate, Real dt)
+{
+    if (points.affine.data != nullptr) { return seen.velocity; }
+    const Vec3<Real> flip = points.velocity.get(i) + seen.change;
+    const Real       pic  = pic_rate * dt / (Real(1) + pic_rate * dt);
+    return flip + pic * (seen.velocity - flip);
+}
+
+template<class Real>
+TREAD_HD void keep_for_contact(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen, Real dt,
+                               double* sums)
+{
+    const Vec3<Real> force = points.contact_force.get(i);
+    points.grid_velocity.set(i, seen.velocity);
+    points.support.set(i, seen.change / dt - force / points.mass[i]);
+    sums[point_contact_work] += double(dt) * double(force.dot(seen.velocity - Real(0.5) * seen.change));
+}
+
+template<class Real>
+TREAD_HD void update_material(const PointsView<Real>& points, std::int64_t i, const Mat3<Real>& gradient,
+                              const GatherStep<Real>& step, double* sums)
+{
+    const MaterialParameters<Real>& material = step.materials[points.material[i]];
+    const Real                      ratio    = points.volume_ratio[i] * (Real(1) + step.dt * gradient.trace());
+    points.volume_ratio[i]                   = ratio;
+    PlasticState<Real> state{};
+    if (points.plastic_shear != nullptr)
+    {
+        state = {points.plastic_shear[i], points.plastic_rate[i], points.volume_gap[i]};
+    }
+    const StressUpdate<Real> update = update_stress(material, points.stress.get(i), state, gradient, step.dt);
+    points.stress.set(i, update.stress);
+    if (points.plastic_shear != nullptr)
+    {
+        points.plastic_shear[i] = update.state.plastic_shear;
+        points.plastic_rate[i]  = update.state.plastic_rate;
+        points.volume_gap[i]    = update.state.volume_gap;
+        sums[point_plastic_work] += double(update.plastic_work) * double(points.volume[i]) * double(ratio);
+    }
+}
+
+/// The whole G2P of one point.
+template<class Real>
+TREAD_HD void update_point(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen, Index3 cell,
+                           const PagesView& pages, const GatherStep<Real>& step, double* sums, double* peaks)
+{
+    const Vec3<Real> velocity = transferred_velocity(points, i, seen, step.pic_rate[points.material[i]], step.dt);
+    points.velocity.set(i, velocity);
+    if (points.affine.data != nullptr) { set_affine(points, i, seen, pages.spacing, pages.stencil_shift); }
+    if (points.contact_force.data != nullptr) { keep_for_contact(points, i, seen, step.dt, sums); }
+    update_material(points, i, seen.gradient, step, sums);
+
+    const Vec3<double> position =
+        points.position.get(i) + double(step.dt) * seen.velocity.template cast<double>();
+    points.position.set(i, position);
+
+    const double speed = std::sqrt(double(velocity.squaredNorm()));
+    sums[point_kinetic] += 0.5 * double(points.mass[i]) * speed * speed;
+    const double stress = double(points.stress.get(i).sum());
+    if (!(speed < 1e30) || !(stress - stress == 0))
+    {
+        peaks[peak_moved] = 2;
+        return;
+    }
+    if (speed > peaks[peak_speed]) { peaks[peak_speed] = speed; }
+    const Index3 now = cell_of(position, pages.spacing, pages.stencil_shift);
+    if ((now.x != cell.x || now.y != cell.y || now.z != cell.z) && peaks[peak_moved] < 1) { peaks[peak_moved] = 1; }
+}
+
+} // namespace tread::mpm

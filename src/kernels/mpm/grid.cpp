@@ -1,0 +1,32 @@
+#include "kernels/mpm/grid.hpp"
+
+#include "backend/launch.hpp"
+#include "kernels/mpm/grid_kern.hpp"
+
+namespace tread::mpm
+{
+
+template<class Real>
+void update_grid(const Cpu& cpu, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                 double* sums)
+{
+    const auto update_page = [=](std::int64_t page)
+    {
+        const Index3 at   = page_coordinates(pages.node_page_key[page]);
+        double*      sum  = sums + page * grid_sums;
+        Real*        here = motion + page * motion_channels * page_cells;
+        for (int s = 0; s < grid_sums; ++s) { sum[s] = 0; }
+        for (int place = 0; place < page_cells; ++place)
+        {
+            Real channels[node_channels];
+            sum_tiles(pages, tiles, page, place, channels);
+            update_node(step, node_at(at, place), channels, here + place, sum);
+        }
+    };
+    for_each_heavy(cpu, "update grid", pages.node_pages, update_page);
+}
+
+template void update_grid(const Cpu&, const PagesView&, const float*, const GridStep<float>&, float*, double*);
+template void update_grid(const Cpu&, const PagesView&, const double*, const GridStep<double>&, double*, double*);
+
+} // namespace tread::mpm

@@ -1,0 +1,48 @@
+#include "kernels/mpm/grid.hpp"
+
+#include "backend/block_sum.cuh"
+#include "backend/launch.cuh"
+#include "kernels/mpm/grid_kern.hpp"
+
+namespace tread::mpm
+{
+namespace
+{
+
+/// One block a node page, one thread a node.
+template<class Real>
+struct UpdatePage
+{
+    PagesView      pages;
+    const Real*    tiles;
+    GridStep<Real> step;
+    Real*          motion;
+    double*        sums;
+
+    __device__ void operator()(std::int64_t page) const
+    {
+        __shared__ double shared[grid_sums * page_cells];
+        const int         place = static_cast<int>(threadIdx.x);
+        Real              channels[node_channels];
+        double            sum[grid_sums] = {};
+        sum_tiles(pages, tiles, page, place, channels);
+        update_node(step, node_at(page_coordinates(pages.node_page_key[page]), place), channels,
+                    motion + page * motion_channels * page_cells + place, sum);
+        block_sum<page_cells, grid_sums>(sum, shared, sums + page * grid_sums);
+    }
+};
+
+} // namespace
+
+template<class Real>
+void update_grid(const Gpu& gpu, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                 double* sums)
+{
+    for_each_block<page_cells>(gpu, "update grid", pages.node_pages,
+                               UpdatePage<Real>{pages, tiles, step, motion, sums});
+}
+
+template void update_grid(const Gpu&, const PagesView&, const float*, const GridStep<float>&, float*, double*);
+template void update_grid(const Gpu&, const PagesView&, const double*, const GridStep<double>&, double*, double*);
+
+} // namespace tread::mpm

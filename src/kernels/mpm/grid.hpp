@@ -1,0 +1,59 @@
+#pragma once
+
+#include "backend/array.hpp"
+#include "kernels/mpm/pages.hpp"
+#include "kernels/mpm/scatter_kern.hpp"
+
+namespace tread::mpm
+{
+
+/// What a wall of the domain does to the grid's velocity at its nodes and beyond.
+enum class WallRule : std::int32_t
+{
+    open,
+    slip, ///< no velocity into the wall; sand may leave it
+    fixed ///< no velocity
+};
+
+/// [axis][0 = low side, 1 = high side].
+struct GridWalls
+{
+    WallRule     rule[3][2];
+    std::int32_t last_node[3]; ///< node on the high wall; the low wall's is 0
+};
+
+template<class Real>
+struct GridStep
+{
+    Real       dt;         ///< s
+    Vec3<Real> gravity;    ///< m/s2
+    Real       damping;    ///< local (Cundall) damping, 0 outside settling phases
+    Real       mass_floor; ///< kg; lighter nodes stand still
+    GridWalls  walls;
+};
+
+/// Components of a node's result: velocity after the step (3), its change in the step (3).
+constexpr int motion_channels = 6;
+
+/// Per page, fp64: what the grid did to energy and momentum in the step.
+enum GridSum : int
+{
+    grid_kinetic_before, ///< J, after P2G
+    grid_kinetic_after,  ///< J, before G2P
+    grid_damped,         ///< J, taken by local damping
+    grid_wall_loss,      ///< J, taken by walls
+    grid_wall_impulse,   ///< N s (3)
+    grid_damping_impulse = grid_wall_impulse + 3, ///< N s (3)
+    grid_sums            = grid_damping_impulse + 3
+};
+
+/// Sums the tiles that reach each node, in a fixed order, and updates its velocity (Eq. 2 of the paper, lumped mass):
+/// motion[node page][channel][place], sums[node page][GridSum].
+template<class Real>
+void update_grid(const Cpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                 double* sums);
+template<class Real>
+void update_grid(const Gpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                 double* sums);
+
+} // namespace tread::mpm

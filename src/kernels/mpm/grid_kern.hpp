@@ -1,0 +1,95 @@
+#pragma once
+
+#include "kernels/mpm/grid.hpp"
+
+namespace tread::mpm
+{
+
+/// Sum of the up to eight tiles that reach a node, lowest octant first.
+template<class Real>
+TREAD_HD void sum_tiles(const PagesView& pages, const Real* tiles, std::int64_t node_page, int place, Real* total)
+{
+    const int x = place & 3, y = place >> 2 & 3, z = place >> 4;
+    for (int c = 0; c < node_channels; ++c) { total[c] = 0; }
+    for (int octant = 0; octant < 8; ++octant)
+    {
+        const int i = x + page_edge * (octant & 1), j = y + page_edge * (octant >> 1 & 1),
+                  k = z + page_edge * (octant >> 2);
+        if (i >= tile_edge || j >= tile_edge || k >= tile_edge) { continue; }
+        const std::int64_t page = pages.point_page_of[8 * node_page + octant];
+        if (page < 0) { continue; }
+        const Real* tile = tiles + page * node_channels * tile_nodes + i + tile_edge * (j + tile_edge * k);
+        for (int c = 0; c < node_channels; ++c) { total[c] += tile[c * tile_nodes]; }
+    }
+}
+
+template<class Real>
+TREAD_HD Vec3<Real> apply_walls(const GridWalls& walls, Index3 node, Vec3<Real> velocity)
+{
+    const std::int32_t at[3] = {node.x, node.y, node.z};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        const bool low = at[axis] <= 0, high = at[axis] >= walls.last_node[axis];
+        if ((low && walls.rule[axis][0] == WallRule::fixed) || (high && walls.rule[axis][1] == WallRule::fixed))
+        {
+            return Vec3<Real>::Zero();
+        }
+        if (low && walls.rule[axis][0] == WallRule::slip && velocity[axis] < 0) { velocity[axis] = 0; }
+        if (high && walls.rule[axis][1] == WallRule::slip && velocity[axis] > 0) { velocity[axis] = 0; }
+    }
+    return velocity;
+}
+
+/// Cundall (1987): against the motion, in proportion to the unbalanced force, component by component.
+template<class Real>
+TREAD_HD Vec3<Real> local_damping(Real coefficient, const Vec3<Real>& force, const Vec3<Real>& velocity)
+{
+    Vec3<Real> damping;
+    for (int c = 0; c < 3; ++c)
+    {
+        const Real against = velocity[c] > 0 ? Real(-1) : velocity[c] < 0 ? Real(1) : Real(0);
+        damping[c]         = coefficient * std::abs(force[c]) * against;
+    }
+    return damping;
+}
+
+/// One node's step. `channels`: what sum_tiles gave. Writes velocity and change to motion[c * 64], adds to `sums`.
+template<class Real>
+TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* channels, Real* motion, double* sums)
+{
+    Vec3<Real> after = Vec3<Real>::Zero(), change = Vec3<Real>::Zero();
+    const Real mass = channels[0];
+    if (mass > step.mass_floor)
+    {
+        const Vec3<Real> before = Vec3<Real>(channels[1], channels[2], channels[3]) / mass;
+        const Vec3<Real> force  = Vec3<Real>(channels[4], channels[5], channels[6]) + mass * step.gravity;
+        Vec3<Real>       damping = Vec3<Real>::Zero();
+        if (step.damping > 0) { damping = local_damping(step.damping, force, before); }
+        const Vec3<Real> moved = before + (step.dt / mass) * (force + damping);
+        after                  = apply_walls(step.walls, node, moved);
+        change                 = after - before;
+
+        const double m = double(mass);
+        sums[grid_kinetic_before] += 0.5 * m * double(before.squaredNorm());
+        sums[grid_kinetic_after] += 0.5 * m * double(after.squaredNorm());
+        sums[grid_damped] -= double(step.dt) * double(damping.dot((before + moved) * Real(0.5)));
+        sums[grid_wall_loss] += 0.5 * m * double(moved.squaredNorm() - after.squaredNorm());
+        for (int c = 0; c < 3; ++c)
+        {
+            sums[grid_wall_impulse + c] += m * double(after[c] - moved[c]);
+            sums[grid_damping_impulse + c] += double(step.dt * damping[c]);
+        }
+    }
+    for (int c = 0; c < 3; ++c)
+    {
+        motion[c * page_cells]       = after[c];
+        motion[(3 + c) * page_cells] = change[c];
+    }
+}
+
+TREAD_HD Index3 node_at(Index3 page, int place)
+{
+    return {page.x * page_edge + (place & 3), page.y * page_edge + (place >> 2 & 3), page.z * page_edge + (place >> 4)};
+}
+
+} // namespace tread::mpm

@@ -1,0 +1,11 @@
+#include "backend/launch.hpp"
+#include "kernels/mpm/order_impl.hpp"
+
+namespace tread::mpm
+{
+
+template void order_points(const Cpu&, Points<Cpu, float>&, Pages<Cpu>&, const GridGeometry&, OrderScratch<Cpu, float>&);
+template void order_points(const Cpu&, Points<Cpu, double>&, Pages<Cpu>&, const GridGeometry&,
+                           OrderScratch<Cpu, double>&);
+
+} // namespace tread::mpm

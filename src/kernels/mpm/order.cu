@@ -1,0 +1,11 @@
+#include "backend/launch.cuh"
+#include "kernels/mpm/order_impl.hpp"
+
+namespace tread::mpm
+{
+
+template void order_points(const Gpu&, Points<Gpu, float>&, Pages<Gpu>&, const GridGeometry&, OrderScratch<Gpu, float>&);
+template void order_points(const Gpu&, Points<Gpu, double>&, Pages<Gpu>&, const GridGeometry&,
+                           OrderScratch<Gpu, double>&);
+
+} // namespace tread::mpm

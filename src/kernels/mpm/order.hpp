@@ -1,0 +1,54 @@
+#pragma once
+
+#include "backend/sort.hpp"
+#include "kernels/mpm/pages.hpp"
+#include "kernels/mpm/points.hpp"
+
+namespace tread::mpm
+{
+
+/// Where cells and walls are.
+struct GridGeometry
+{
+    double       spacing;       ///< m
+    double       stencil_shift; ///< cell = floor(x / spacing - stencil_shift): 0.5 quadratic, 0 linear
+    Vec3<double> size;          ///< m; the domain is [0, size]
+};
+
+/// Scratch of order_points, kept between calls.
+template<class Exec, class Real>
+struct OrderScratch
+{
+    explicit OrderScratch(const Exec& exec)
+        : sort(exec)
+        , keys(exec, "order keys")
+        , order(exec, "order")
+        , marks(exec, "order marks")
+        , neighbour_keys(exec, "order neighbour keys")
+        , neighbour_order(exec, "order neighbour order")
+        , wide(exec, "order scratch fp64")
+        , real(exec, "order scratch fields")
+        , word(exec, "order scratch ids")
+        , byte(exec, "order scratch materials")
+    {
+    }
+
+    SortScratch<Exec>          sort;
+    Array<Exec, std::uint64_t> keys;
+    Array<Exec, std::int32_t>  order;
+    Array<Exec, std::int32_t>  marks;
+    Array<Exec, std::uint64_t> neighbour_keys;
+    Array<Exec, std::int32_t>  neighbour_order;
+    Array<Exec, double>        wide;
+    Array<Exec, Real>          real;
+    Array<Exec, std::uint32_t> word;
+    Array<Exec, std::uint8_t>  byte;
+};
+
+/// Orders points by page and cell, stably, and rebuilds the page tables. Points more than two cells outside the domain
+/// are dropped from the end (points.count shrinks). Post: every point stands in the range of its cell; page keys ascend.
+template<class Exec, class Real>
+void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, const GridGeometry& geometry,
+                  OrderScratch<Exec, Real>& scratch);
+
+} // namespace tread::mpm

@@ -1,0 +1,53 @@
+#include "kernels/mpm/scatter.hpp"
+
+#include "backend/launch.hpp"
+#include "kernels/mpm/scatter_kern.hpp"
+
+namespace tread::mpm
+{
+namespace
+{
+
+template<class Real>
+void scatter_page(const PointsView<Real>& points, const PagesView& pages, std::int64_t page, Real* out)
+{
+    Real       tile[tile_nodes][lanes] = {};
+    const Real spacing                 = static_cast<Real>(pages.spacing);
+    for (std::int64_t i = pages.first_point[page]; i < pages.first_point[page + 1]; ++i)
+    {
+        const auto load    = point_load(points, i);
+        const auto stencil = stencil_at<Real>(points.position.get(i), pages.spacing, pages.stencil_shift);
+        Real(*base)[lanes] = tile + tile_base(stencil.base);
+        for (int c = 0; c < 3; ++c)
+        {
+            for (int b = 0; b < 3; ++b)
+            {
+                for (int a = 0; a < 3; ++a)
+                {
+                    Real share[lanes];
+                    node_share(load, stencil, spacing, a, b, c, share);
+                    Real* node = base[tile_offset(a, b, c)];
+                    for (int l = 0; l < lanes; ++l) { node[l] += share[l]; }
+                }
+            }
+        }
+    }
+    for (int channel = 0; channel < node_channels; ++channel)
+    {
+        for (int node = 0; node < tile_nodes; ++node) { out[channel * tile_nodes + node] = tile[node][channel]; }
+    }
+}
+
+} // namespace
+
+template<class Real>
+void scatter(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, Real* tiles)
+{
+    for_each_heavy(cpu, "scatter", pages.point_pages, [=](std::int64_t page)
+                   { scatter_page(points, pages, page, tiles + page * node_channels * tile_nodes); });
+}
+
+template void scatter(const Cpu&, const PointsView<float>&, const PagesView&, float*);
+template void scatter(const Cpu&, const PointsView<double>&, const PagesView&, double*);
+
+} // namespace tread::mpm

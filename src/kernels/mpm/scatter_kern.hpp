@@ -1,0 +1,75 @@
+#pragma once
+
+#include "kernels/mpm/points.hpp"
+#include "kernels/mpm/stencil_kern.hpp"
+
+namespace tread::mpm
+{
+
+/// What a node receives: mass, momentum (3), force (3); the eighth lane pads to a vector register.
+constexpr int node_channels = 7;
+constexpr int lanes         = 8;
+
+/// A point's share of every node of its stencil is weight * (value + offset . per_offset) + slope . per_slope.
+template<class Real>
+struct PointLoad
+{
+    Real value[lanes];
+    Real per_offset[3][lanes]; ///< times the node's offset from the point, m; APIC only
+    Real per_slope[3][lanes];  ///< times the weight's gradient, 1/m
+};
+
+/// Mass, momentum, contact force and internal force -V sigma . grad w of a point (design: P2G; MLS/USL form).
+template<class Real>
+TREAD_HD PointLoad<Real> point_load(const PointsView<Real>& points, std::int64_t i)
+{
+    PointLoad<Real>  load{};
+    const Real       mass     = points.mass[i];
+    const Vec3<Real> velocity = points.velocity.get(i);
+    const Real       volume   = points.volume[i] * points.volume_ratio[i];
+    const Sym3<Real> s        = points.stress.get(i);
+    const int        row[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}}; // of Sym3
+    load.value[0]             = mass;
+    for (int a = 0; a < 3; ++a)
+    {
+        load.value[1 + a] = mass * velocity[a];
+        for (int b = 0; b < 3; ++b) { load.per_slope[b][4 + a] = -volume * s[row[a][b]]; }
+    }
+    if (points.contact_force.data != nullptr)
+    {
+        const Vec3<Real> force = points.contact_force.get(i);
+        for (int a = 0; a < 3; ++a) { load.value[4 + a] = force[a]; }
+    }
+    if (points.affine.data != nullptr)
+    {
+        for (int a = 0; a < 3; ++a)
+        {
+            for (int b = 0; b < 3; ++b)
+            {
+                load.per_offset[b][1 + a] = mass * points.affine.data[(3 * a + b) * points.affine.stride + i];
+            }
+        }
+    }
+    return load;
+}
+
+/// Share of node (a, b, c) of the stencil; offsets are (a - fraction) * spacing.
+template<class Real>
+TREAD_HD void node_share(const PointLoad<Real>& load, const Stencil<Real>& s, Real spacing, int a, int b, int c,
+                         Real* share)
+{
+    const Real plane  = s.weight[1][b] * s.weight[2][c];
+    const Real weight = s.weight[0][a] * plane;
+    const Real dx = s.slope[0][a] * plane, dy = s.weight[0][a] * s.slope[1][b] * s.weight[2][c],
+               dz = s.weight[0][a] * s.weight[1][b] * s.slope[2][c];
+    const Real ox = (Real(a) - s.fraction[0]) * spacing * weight, oy = (Real(b) - s.fraction[1]) * spacing * weight,
+               oz = (Real(c) - s.fraction[2]) * spacing * weight;
+    for (int l = 0; l < lanes; ++l)
+    {
+        share[l] = weight * load.value[l] + dx * load.per_slope[0][l] + dy * load.per_slope[1][l] +
+                   dz * load.per_slope[2][l] + ox * load.per_offset[0][l] + oy * load.per_offset[1][l] +
+                   oz * load.per_offset[2][l];
+    }
+}
+
+} // namespace tread::mpm
