@@ -1,0 +1,127 @@
+#include "base/communicator.hpp"
+
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+namespace tread
+{
+
+namespace
+{
+
+void check(int result, const char* what)
+{
+    if (result == MPI_SUCCESS) { return; }
+    char text[MPI_MAX_ERROR_STRING];
+    int  length = 0;
+    MPI_Error_string(result, text, &length);
+    throw EnvironmentError(
+        fmt::format("MPI: {} failed: {}", what, std::string(text, static_cast<std::size_t>(length))));
+}
+
+std::int64_t reduce(MPI_Comm communicator, std::int64_t value, MPI_Op operation)
+{
+    std::int64_t result = 0;
+    check(MPI_Allreduce(&value, &result, 1, MPI_INT64_T, operation, communicator), "all-reduce");
+    return result;
+}
+
+template<class T>
+std::vector<T> gather_all(const Communicator& communicator, T value, MPI_Datatype type)
+{
+    std::vector<T> values(static_cast<std::size_t>(communicator.size()));
+    check(MPI_Allgather(&value, 1, type, values.data(), 1, type, communicator.native()), "all-gather");
+    return values;
+}
+
+} // namespace
+
+Communicator::Communicator(MPI_Comm original)
+{
+    check(MPI_Comm_dup(original, &native_), "duplicating a communicator");
+    MPI_Comm_set_errhandler(native_, MPI_ERRORS_RETURN);
+    MPI_Comm_rank(native_, &rank_);
+    MPI_Comm_size(native_, &size_);
+}
+
+Communicator::~Communicator() { MPI_Comm_free(&native_); }
+
+void Communicator::barrier() const { check(MPI_Barrier(native_), "barrier"); }
+
+std::string Communicator::broadcast(const std::string& text) const
+{
+    std::int64_t length = static_cast<std::int64_t>(text.size());
+    check(MPI_Bcast(&length, 1, MPI_INT64_T, 0, native_), "broadcast");
+    std::string result = text;
+    result.resize(static_cast<std::size_t>(length));
+    check(MPI_Bcast(result.data(), static_cast<int>(length), MPI_CHAR, 0, native_), "broadcast");
+    return result;
+}
+
+std::int64_t Communicator::sum(std::int64_t value) const { return reduce(native_, value, MPI_SUM); }
+std::int64_t Communicator::maximum(std::int64_t value) const { return reduce(native_, value, MPI_MAX); }
+
+std::vector<std::int64_t> Communicator::gather(std::int64_t value) const
+{
+    return gather_all(*this, value, MPI_INT64_T);
+}
+
+std::vector<double> Communicator::gather(double value) const { return gather_all(*this, value, MPI_DOUBLE); }
+
+MpiSession::Library::Library()
+{
+    int provided = MPI_THREAD_SINGLE;
+    check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "initialisation");
+    MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+    if (provided < MPI_THREAD_FUNNELED)
+    {
+        MPI_Finalize();
+        throw EnvironmentError("MPI: this library allows no threads beside it (MPI_THREAD_FUNNELED is needed)");
+    }
+}
+
+MpiSession::Library::~Library() { MPI_Finalize(); }
+
+MpiSession::MpiSession()
+    : world_(MPI_COMM_WORLD)
+{
+    require_launcher_agrees(world_.size());
+}
+
+void on_root(const Communicator& communicator, const std::function<void()>& work)
+{
+    std::int64_t code = 0;
+    std::string  message;
+    if (communicator.rank() == 0)
+    {
+        try
+        {
+            work();
+        }
+        catch (const Error& error)
+        {
+            code    = static_cast<std::int64_t>(error.code());
+            message = error.what();
+        }
+    }
+    code = communicator.maximum(code);
+    if (code != 0) { throw Error(static_cast<ExitCode>(code), communicator.broadcast(message)); }
+}
+
+void require_launcher_agrees(int mpi_size)
+{
+    if (mpi_size > 1) { return; }
+    for (const char* variable : {"SLURM_STEP_NUM_TASKS", "PMI_SIZE", "OMPI_COMM_WORLD_SIZE"})
+    {
+        const char* value = std::getenv(variable);
+        if (value == nullptr || std::atoi(value) <= 1) { continue; }
+        throw EnvironmentError(fmt::format(
+            "MPI sees one rank, but the launcher started {0} tasks ({1}={0}): they do not know of each other. "
+            "With SLURM use `srun --mpi=pmix` (`srun --mpi=list` shows what there is), or mpirun of the MPI that tread "
+            "was built with",
+            value, variable));
+    }
+}
+
+} // namespace tread

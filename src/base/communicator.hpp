@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+#include "base/errors.hpp"
+
+namespace tread
+{
+
+/// A group of MPI ranks with its own message space (a duplicate: no message of ours meets another library's).
+/// Every call below is collective: all ranks make it, in the same order. A failing MPI call is an EnvironmentError.
+class Communicator
+{
+public:
+    explicit Communicator(MPI_Comm original);
+    ~Communicator();
+    Communicator(const Communicator&)            = delete;
+    Communicator& operator=(const Communicator&) = delete;
+
+    int      rank() const { return rank_; }
+    int      size() const { return size_; }
+    MPI_Comm native() const { return native_; }
+
+    void barrier() const;
+
+    /// Rank 0's text, on every rank.
+    std::string broadcast(const std::string& text) const;
+
+    std::int64_t sum(std::int64_t value) const;
+    std::int64_t maximum(std::int64_t value) const;
+
+    /// One value of every rank, in rank order. Floating-point sums are made from it, in that order, and so do not
+    /// depend on how MPI reduces.
+    std::vector<std::int64_t> gather(std::int64_t value) const;
+    std::vector<double>       gather(double value) const;
+
+private:
+    MPI_Comm native_ = MPI_COMM_NULL;
+    int      rank_   = 0;
+    int      size_   = 1;
+};
+
+/// MPI between construction and destruction. EnvironmentError when MPI does not start, when it has no place for
+/// OpenMP threads (MPI_THREAD_FUNNELED), or when the launcher started tasks that MPI knows nothing of.
+class MpiSession
+{
+public:
+    MpiSession();
+
+    const Communicator& world() const { return world_; }
+
+private:
+    struct Library
+    {
+        Library();
+        ~Library();
+    };
+
+    Library      library_;
+    Communicator world_;
+};
+
+/// Runs `work` on rank 0 alone. The error that it throws, if any, is thrown on every rank, so that all leave together.
+void on_root(const Communicator& communicator, const std::function<void()>& work);
+
+/// EnvironmentError if the environment of this process says that it is one of several tasks while MPI sees one
+/// rank: every task would then run the whole scene. Reads SLURM_STEP_NUM_TASKS (set by srun for its own step, unlike
+/// SLURM_NTASKS, which a batch script sees too), PMI_SIZE and OMPI_COMM_WORLD_SIZE.
+void require_launcher_agrees(int mpi_size);
+
+} // namespace tread

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/communicator.hpp"
+
+namespace tread
+{
+
+enum class Terminal
+{
+    shown,
+    silent
+};
+
+/// What a run says: lines to rank 0's terminal, and to a file from the moment that there is one. Other ranks are mute.
+class Log
+{
+public:
+    Log(const Communicator& communicator, Terminal terminal);
+
+    /// To standard output.
+    void info(std::string_view line);
+
+    /// To standard error, marked "warning: ".
+    void warning(std::string_view line);
+
+    /// Starts the file at `path` with every line said so far. EnvironmentError when it cannot be written, here and in
+    /// the calls above.
+    void open(const std::string& path);
+
+private:
+    void keep(std::string line);
+
+    bool                     speaks_;
+    Terminal                 terminal_;
+    std::string              path_;
+    std::ofstream            file_;
+    std::vector<std::string> early_; ///< lines said before there was a file
+};
+
+} // namespace tread

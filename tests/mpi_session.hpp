@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "base/communicator.hpp"
+
+// MPI for test programs: one session around all tests of a program that includes this.
+namespace tread::test
+{
+
+class MpiEnvironment : public ::testing::Environment
+{
+public:
+    void SetUp() override { session_ = std::make_unique<MpiSession>(); }
+    void TearDown() override { session_.reset(); }
+
+    const Communicator& world() const { return session_->world(); }
+
+private:
+    std::unique_ptr<MpiSession> session_;
+};
+
+inline const MpiEnvironment* const mpi_environment =
+    static_cast<MpiEnvironment*>(::testing::AddGlobalTestEnvironment(new MpiEnvironment));
+
+inline const Communicator& world() { return mpi_environment->world(); }
+
+} // namespace tread::test
