@@ -1,0 +1,90 @@
+#include "solver/materials.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "scene/scene.hpp"
+#include "scene/validate.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+/// Share of one side in 1/E* and 1/G* (Eqs. 8 and 10); a wall does not deform.
+struct Compliance
+{
+    double normal;
+    double shear;
+};
+
+Compliance compliance(const scene::Material& material)
+{
+    const double shear_modulus = material.young / (2 * (1 + material.poisson));
+    return {(1 - material.poisson * material.poisson) / material.young, (2 - material.poisson) / shear_modulus};
+}
+
+dem::PairProperties pair(const scene::Contact& contact, Compliance a, Compliance b)
+{
+    return {1 / (a.normal + b.normal), 1 / (a.shear + b.shear), contact.friction, damping_ratio(contact.restitution)};
+}
+
+} // namespace
+
+double damping_ratio(double restitution)
+{
+    const auto gives = [](double zeta)
+    {
+        const double w = std::sqrt(1 - zeta * zeta);
+        return std::exp(-(zeta / w) * (std::numbers::pi - std::atan2(2 * zeta * w, 1 - 2 * zeta * zeta)));
+    };
+    double low = 0, high = 0.9999;
+    for (int bisection = 0; bisection < 60; ++bisection)
+    {
+        const double middle = 0.5 * (low + high);
+        (gives(middle) > restitution ? low : high) = middle;
+    }
+    return restitution >= 1 ? 0 : low;
+}
+
+std::vector<dem::PairProperties> pair_properties(const scene::Scene& scene)
+{
+    const std::size_t                count = scene.materials.size();
+    std::vector<dem::PairProperties> table((count + 1) * (count + 1));
+    const Compliance                 wall{0, 0};
+    for (std::size_t a = 0; a < count; ++a)
+    {
+        const scene::Material& first = scene.materials[a];
+        for (std::size_t b = 0; b < count; ++b)
+        {
+            const scene::Material& second = scene.materials[b];
+            table[a * (count + 1) + b]    = pair(scene::contact_of(scene, first.family, second.family),
+                                                 compliance(first), compliance(second));
+        }
+        const auto against_wall        = pair(scene::contact_of(scene, first.family, "wall"), compliance(first), wall);
+        table[a * (count + 1) + count] = against_wall;
+        table[count * (count + 1) + a] = against_wall;
+    }
+    return table;
+}
+
+double compression_wave_speed(const scene::Material& material)
+{
+    const double modulus =
+        material.young * (1 - material.poisson) / ((1 + material.poisson) * (1 - 2 * material.poisson));
+    return std::sqrt(modulus / material.density);
+}
+
+std::vector<double> pic_rates(const scene::Scene& scene)
+{
+    std::vector<double> rates;
+    for (const scene::Material& material : scene.materials)
+    {
+        const bool   granular = material.model == scene::MaterialModel::mohr_coulomb;
+        const double factor   = scene.numerics.pic_rate.value_or(granular ? 0.2 : 0.04);
+        rates.push_back(factor * compression_wave_speed(material) / scene.grid.spacing);
+    }
+    return rates;
+}
+
+} // namespace tread::solver

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "kernels/dem/templates.hpp"
+#include "kernels/mpm/material_parameters.hpp"
+#include "scene/scene.hpp"
+
+namespace tread::solver
+{
+
+/// Law parameters of every material of the scene, in its order.
+template<class Real>
+std::vector<mpm::MaterialParameters<Real>> law_parameters(const scene::Scene& scene);
+
+/// Contact properties of every pair of materials; the last row and column is the domain's wall.
+std::vector<dem::PairProperties> pair_properties(const scene::Scene& scene);
+
+/// Speed of compression waves sqrt((lambda + 2 mu) / rho), m/s.
+double compression_wave_speed(const scene::Material& material);
+
+/// PIC part of FLIP per unit time, 1/s, by material: the scene's pic_rate, or 0.2 c_p/h for granular and 0.04 c_p/h for
+/// elastic materials.
+std::vector<double> pic_rates(const scene::Scene& scene);
+
+/// Damping ratio zeta of the stiffness-proportional law that gives restitution e when attraction is cut off:
+/// e = exp[-(zeta/W)(pi - atan2(2 zeta W, 1 - 2 zeta^2))], W = sqrt(1 - zeta^2) (prototypes 1).
+double damping_ratio(double restitution);
+
+} // namespace tread::solver

@@ -1,0 +1,95 @@
+#include "solver/time_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tread::solver
+{
+namespace
+{
+
+constexpr double contact_safety      = 0.2; ///< of sqrt(m / sum K), prototypes 1.7
+constexpr double contact_warning     = 0.4;
+constexpr double point_contact_bound = 0.5; ///< of k dt^2 / m_p, prototypes 2
+constexpr double point_contact_warn  = 2.0;
+constexpr double travel_bound        = 0.3; ///< of the spacing, or of the smallest body
+constexpr double growth              = 1.05;
+constexpr double substeps_alone      = 10;  ///< substeps a step where no sand sets the step
+
+struct Bound
+{
+    double      dt;
+    const char* name;
+};
+
+Bound smallest_bound(const PaceLimits& limits, const Pace& pace)
+{
+    Bound      least{limits.longest, "output interval"};
+    const auto bound = [&](double dt, const char* name)
+    {
+        if (dt < least.dt) { least = {dt, name}; }
+    };
+    const bool sand = limits.wave_speed > 0;
+    if (sand) { bound(limits.courant * limits.spacing / limits.wave_speed, "compression wave"); }
+    const double reach = sand ? limits.spacing : limits.smallest_body;
+    if (pace.largest_speed > 0) { bound(travel_bound * reach / pace.largest_speed, "speed"); }
+    if (limits.gravity > 0) { bound(std::sqrt(2 * travel_bound * reach / limits.gravity), "free fall"); }
+    if (pace.stiffest_point > 0) { bound(std::sqrt(point_contact_bound / pace.stiffest_point), "sand-body contact"); }
+    if (!sand && pace.shortest_contact > 0)
+    {
+        bound(substeps_alone * contact_safety * pace.shortest_contact, "body-body contact");
+    }
+    return least;
+}
+
+std::int64_t needed_substeps(double dt, const Pace& pace)
+{
+    if (pace.shortest_contact <= 0) { return 1; }
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(dt / (contact_safety * pace.shortest_contact))));
+}
+
+} // namespace
+
+TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace, double last_dt)
+{
+    TimeStep step;
+    if (options.dt) { step = {*options.dt, 1, "fixed by the scene"}; }
+    else
+    {
+        const Bound bound = smallest_bound(limits, pace);
+        step              = {bound.dt, 1, bound.name};
+        if (last_dt > 0 && step.dt > growth * last_dt) { step = {growth * last_dt, 1, "growth"}; }
+    }
+    step.substeps = options.substeps ? *options.substeps : needed_substeps(step.dt, pace);
+    return step;
+}
+
+std::optional<std::string> over_limit(const TimeStep& step, const PaceLimits& limits, const Pace& pace)
+{
+    if (limits.wave_speed > 0)
+    {
+        const double courant = limits.wave_speed * step.dt / limits.spacing;
+        if (courant > limits.courant * (1 + 1e-9))
+        {
+            return fmt::format("dt = {:.4g} s: Courant number c_p dt/h = {:.3g} is over {:.3g}", step.dt, courant,
+                               limits.courant);
+        }
+    }
+    const double spring = pace.stiffest_point * step.dt * step.dt;
+    if (spring > point_contact_warn)
+    {
+        return fmt::format("dt = {:.4g} s: sand-body contact k dt^2/m_p = {:.3g} is over {}", step.dt, spring,
+                           point_contact_warn);
+    }
+    const double substep = step.dt / static_cast<double>(step.substeps);
+    if (pace.shortest_contact > 0 && substep > contact_warning * pace.shortest_contact)
+    {
+        return fmt::format("substep = {:.4g} s is {:.3g} of sqrt(m / sum K) = {:.4g} s, over {}", substep,
+                           substep / pace.shortest_contact, pace.shortest_contact, contact_warning);
+    }
+    return std::nullopt;
+}
+
+} // namespace tread::solver

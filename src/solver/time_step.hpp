@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "scene/scene.hpp"
+
+namespace tread::solver
+{
+
+/// What the last step measured, for the choice of the next.
+struct Pace
+{
+    double largest_speed      = 0; ///< m/s, of points and bodies
+    double stiffest_point     = 0; ///< 1/s2, k/m_p of the stiffest live sand-body contact
+    double shortest_contact   = 0; ///< s, min over bodies of sqrt(m / sum of K); 0 = no body contact
+};
+
+/// Bounds that hold for the whole run.
+struct PaceLimits
+{
+    double spacing       = 0; ///< m, of the grid; 0 without sand
+    double wave_speed    = 0; ///< m/s, fastest compression wave of the sand; 0 without sand
+    double courant       = 0; ///< c_p dt/h: 0.4 at 1 point a cell, 0.6 at 8 and more
+    double smallest_body = 0; ///< m, smallest radius; 0 without bodies
+    double gravity       = 0; ///< m/s2
+    double longest       = 0; ///< s, no step is longer: the output interval
+};
+
+struct TimeStep
+{
+    double       dt       = 0; ///< s
+    std::int64_t substeps = 1;
+    std::string  limit;        ///< which bound the step is at
+};
+
+/// The step that the limits of the design allow: c_p dt/h <= courant, v dt <= 0.3 h, k dt^2/m_p <= 0.5 at the stiffest
+/// sand-body contact, dt/N <= 0.2 sqrt(m / sum K). Grows by at most 5 % a step. Fixed values of the scene are taken as
+/// they are.
+TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace, double last_dt);
+
+/// How far a step is over its limits: a sentence for a warning, or nothing.
+std::optional<std::string> over_limit(const TimeStep& step, const PaceLimits& limits, const Pace& pace);
+
+} // namespace tread::solver

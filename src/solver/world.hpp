@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "backend/vector.hpp"
+#include "kernels/dem/templates.hpp"
+#include "kernels/mpm/grid.hpp"
+#include "kernels/mpm/order.hpp"
+#include "scene/scene.hpp"
+#include "shape/template.hpp"
+
+// What a scene describes, built once on the host: the same on every machine and for every backend.
+namespace tread::solver
+{
+
+/// Material points before they are given to a backend. One entry a point in every array.
+struct HostPoints
+{
+    std::vector<Vec3<double>> position; ///< m
+    std::vector<double>       volume;   ///< m3
+    std::vector<double>       mass;     ///< kg
+    std::vector<Sym3<double>> stress;   ///< Pa
+    std::vector<std::uint8_t> material;
+
+    std::size_t size() const { return position.size(); }
+};
+
+/// Rigid bodies: first the scene's [[body]] tables in their order, then the rocks.
+struct HostBodies
+{
+    std::vector<Vec3<double>>  position;         ///< m, centre of mass
+    std::vector<Quat>          orientation;      ///< body to world
+    std::vector<Vec3<double>>  velocity;         ///< m/s
+    std::vector<double>        mass;             ///< kg
+    std::vector<double>        scale;            ///< of the template
+    std::vector<double>        radius;           ///< m, of the sphere of equal volume
+    std::vector<std::int32_t>  shape;            ///< of World::templates
+    std::vector<std::int32_t>  material;         ///< of Scene::materials
+    std::int64_t               named = 0;        ///< bodies of [[body]] tables
+
+    std::size_t size() const { return position.size(); }
+};
+
+struct World
+{
+    mpm::GridGeometry                 geometry;
+    mpm::GridWalls                    grid_walls;
+    std::vector<dem::Plane>           planes; ///< walls as bodies meet them
+    std::vector<shape::ShapeTemplate> templates;
+    HostPoints                        points;
+    HostBodies                        bodies;
+    double                            point_spacing; ///< m, smallest distance of neighbouring points; 0 without sand
+};
+
+/// Builds points, rocks and bodies of a scene; InputError where geometry is impossible: a body or rock that overlaps
+/// another, a wall or the sand (unless it replaces it), a shape over 100 times the domain, a region too small.
+World build_world(const scene::Scene& scene);
+
+/// Index of a material by its name.
+int material_index(const scene::Scene& scene, const std::string& name);
+
+} // namespace tread::solver
