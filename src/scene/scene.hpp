@@ -14,16 +14,60 @@ namespace tread::scene
 
 using Vector3 = std::array<double, 3>;
 
-enum class WallKind { slip, fixed, open };
-enum class Precision { single_, double_ };
-enum class Transfer { flip, apic };
-enum class ShapeFunctions { quadratic, linear };
-enum class PointMotion { supported, ballistic, frozen };
-enum class HertzFactor { standard, paper_eq7 };
-enum class PointRadius { sphere, semi_domain };
-enum class MaterialModel { elastic, mohr_coulomb, rigid };
-enum class Placement { replace, rain, grid };
-enum class StopRule { duration, equilibrium };
+enum class WallKind
+{
+    slip,
+    fixed,
+    open
+};
+enum class Precision
+{
+    single_,
+    double_
+};
+enum class Transfer
+{
+    flip,
+    apic
+};
+enum class ShapeFunctions
+{
+    quadratic,
+    linear
+};
+enum class PointMotion
+{
+    supported,
+    ballistic,
+    frozen
+};
+enum class HertzFactor
+{
+    standard,
+    paper_eq7
+};
+enum class PointRadius
+{
+    sphere,
+    semi_domain
+};
+enum class MaterialModel
+{
+    elastic,
+    mohr_coulomb,
+    rigid
+};
+enum class Placement
+{
+    replace,
+    rain,
+    grid
+};
+enum class StopRule
+{
+    duration,
+    equilibrium
+};
 
 struct Walls
 {
@@ -31,6 +75,8 @@ struct Walls
     WallKind y      = WallKind::slip;
     WallKind bottom = WallKind::fixed;
     WallKind top    = WallKind::open;
+
+    bool operator==(const Walls&) const = default;
 };
 
 struct Domain
@@ -38,42 +84,52 @@ struct Domain
     Vector3 size{};    ///< m; the domain is [0, size]
     Vector3 gravity{}; ///< m/s2
     Walls   walls;
+
+    bool operator==(const Domain&) const = default;
 };
 
 struct GridOptions
 {
     double spacing = 0; ///< m
+
+    bool operator==(const GridOptions&) const = default;
 };
 
 struct TimeOptions
 {
     std::optional<double>       dt;       ///< s; nothing means "auto"
     std::optional<std::int64_t> substeps; ///< contact substeps a step; nothing means "auto"
+
+    bool operator==(const TimeOptions&) const = default;
 };
 
 struct Numerics
 {
-    Precision             precision       = Precision::single_;
-    Transfer              transfer        = Transfer::flip;
-    std::optional<double> pic_rate;       ///< PIC part of FLIP per unit time, in units of c_p/h; nothing = by material
+    Precision             precision = Precision::single_;
+    Transfer              transfer  = Transfer::flip;
+    std::optional<double> pic_rate; ///< PIC part of FLIP per unit time, in units of c_p/h; nothing = by material
     ShapeFunctions        shape_functions = ShapeFunctions::quadratic;
     PointMotion           point_motion    = PointMotion::supported;
     HertzFactor           hertz           = HertzFactor::standard;
     PointRadius           point_radius    = PointRadius::sphere;
     double                linear_overlap  = 1e-3; ///< d0/R* under which the body-body traction is linear
+
+    bool operator==(const Numerics&) const = default;
 };
 
 struct Material
 {
     std::string   name;
     MaterialModel model              = MaterialModel::elastic;
-    double        density            = 0;   ///< kg/m3
-    double        young              = 0;   ///< Pa
+    double        density            = 0; ///< kg/m3
+    double        young              = 0; ///< Pa
     double        poisson            = 0.3;
-    double        friction_angle_deg = 0;   ///< Mohr-Coulomb
+    double        friction_angle_deg = 0; ///< Mohr-Coulomb
     double        dilation_angle_deg = 0;
-    double        cohesion           = 0;   ///< Pa
-    std::string   family;                   ///< contact class; default: the material's own name
+    double        cohesion           = 0; ///< Pa
+    std::string   family;                 ///< contact class; default: the material's own name
+
+    bool operator==(const Material&) const = default;
 };
 
 /// Friction and restitution of one unordered pair of families.
@@ -82,6 +138,8 @@ struct Contact
     std::array<std::string, 2> between;
     double                     friction    = 0.3;
     double                     restitution = 0.5; ///< body-body only
+
+    bool operator==(const Contact&) const = default;
 };
 
 struct RockGenerator
@@ -90,28 +148,36 @@ struct RockGenerator
     double        aspect     = 0.75; ///< minor over major extent
     double        sphericity = 0.90;
     int           nodes      = 162; ///< surface nodes: 42, 162, 642 or 2562
+
+    bool operator==(const RockGenerator&) const = default;
 };
 
 struct SphereGenerator
 {
     int nodes = 642;
+
+    bool operator==(const SphereGenerator&) const = default;
 };
 
 /// A rigid wheel: drum with grousers; axle along the mesh's y. Lengths in metres.
 struct WheelGenerator
 {
-    double radius         = 0.26;   ///< over the grousers
+    double radius         = 0.26; ///< over the grousers
     double width          = 0.33;
     double wall_thickness = 0.0095;
     int    grousers       = 48;
     double grouser_height = 0.0125;
     double grouser_width  = 0.004;
+
+    bool operator==(const WheelGenerator&) const = default;
 };
 
 struct MeshFile
 {
-    std::string path; ///< absolute, or relative to the scene file
+    std::string path;       ///< absolute, or relative to the scene file
     double      unit = 1.0; ///< metres a mesh unit
+
+    bool operator==(const MeshFile&) const = default;
 };
 
 using ShapeSource = std::variant<RockGenerator, SphereGenerator, WheelGenerator, MeshFile>;
@@ -120,14 +186,18 @@ struct Shape
 {
     std::string name;
     ShapeSource source;
-    int         sdf_cells    = 64;  ///< cells along the longest axis of the 120 % box
-    double      node_spacing = 0;   ///< m; surface nodes; 0 = by the generator, or a 40th of the extent
+    int         sdf_cells    = 64; ///< cells along the longest axis of the 120 % box
+    double      node_spacing = 0;  ///< m; surface nodes; 0 = by the generator, or a 40th of the extent
+
+    bool operator==(const Shape&) const = default;
 };
 
 struct Box
 {
     Vector3 low{};
     Vector3 high{};
+
+    bool operator==(const Box&) const = default;
 };
 
 struct Terrain
@@ -135,6 +205,8 @@ struct Terrain
     std::string material;
     Box         region;
     int         points_per_cell = 8; ///< a cube number: 1, 8, 27, 64
+
+    bool operator==(const Terrain&) const = default;
 };
 
 struct Rocks
@@ -146,6 +218,8 @@ struct Rocks
     Box           region;
     Placement     placement = Placement::replace;
     std::uint64_t seed      = 1;
+
+    bool operator==(const Rocks&) const = default;
 };
 
 struct Body
@@ -153,13 +227,15 @@ struct Body
     std::string              name;
     std::string              shape; ///< a [[shape]], or a built-in wheel
     std::string              material;
-    std::optional<double>    density; ///< kg/m3; exactly one of density, mass, load
-    std::optional<double>    mass;    ///< kg
-    std::optional<double>    load;    ///< N under the scene's gravity
-    Vector3                  position{}; ///< m, of the centre of mass
-    Vector3                  velocity{}; ///< m/s, when first released
+    std::optional<double>    density;        ///< kg/m3; exactly one of density, mass, load
+    std::optional<double>    mass;           ///< kg
+    std::optional<double>    load;           ///< N under the scene's gravity
+    Vector3                  position{};     ///< m, of the centre of mass
+    Vector3                  velocity{};     ///< m/s, when first released
     std::optional<double>    rolling_radius; ///< m; default: over the grousers
-    std::vector<std::string> lock; ///< world degrees of freedom held fixed: x y z roll pitch yaw
+    std::vector<std::string> lock;           ///< world degrees of freedom held fixed: x y z roll pitch yaw
+
+    bool operator==(const Body&) const = default;
 };
 
 struct Drive
@@ -168,23 +244,29 @@ struct Drive
     double                angular_velocity = 0; ///< rad/s about the axle; positive drives towards +x
     double                ramp             = 0; ///< s, linear from the value at phase start
     std::optional<double> slip;                 ///< 1 - v_x/(omega r); nothing leaves v_x free
+
+    bool operator==(const Drive&) const = default;
 };
 
 struct Phase
 {
     std::string              name;
     std::vector<std::string> hold;
-    double                   damping = 0; ///< local (Cundall) damping of sand and rocks
-    StopRule                 until   = StopRule::duration;
+    double                   damping      = 0; ///< local (Cundall) damping of sand and rocks
+    StopRule                 until        = StopRule::duration;
     double                   duration     = 0; ///< s
     double                   max_duration = 0; ///< s, for until = "equilibrium"
     std::optional<Drive>     drive;
+
+    bool operator==(const Phase&) const = default;
 };
 
 struct Output
 {
     double every           = 0.02; ///< s, time series
     double snapshots_every = 0;    ///< s; 0 = none
+
+    bool operator==(const Output&) const = default;
 };
 
 struct Scene
@@ -203,6 +285,8 @@ struct Scene
     std::vector<Phase>    phases;
     Output                output;
     std::string           directory; ///< of the scene file; mesh paths are relative to it
+
+    bool operator==(const Scene&) const = default;
 };
 
 } // namespace tread::scene

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "scene/validate.hpp"
+
+namespace tread::scene
+{
+
+/// A table of the document: a single one, or the index-th of an array.
+struct TableAt
+{
+    std::string name;
+    std::size_t index = 0;
+};
+
+/// Finds places in the document for the cross checks, and collects their problems.
+struct Checker
+{
+    const Node& document;
+    Problems&   problems;
+
+    std::string label(const TableAt& at) const;
+
+    /// The key of a table; nullptr if it was not given.
+    const Node* given(const TableAt& at, const std::string& key) const;
+
+    /// Whether all keys were read without a problem, so that what they say may be compared.
+    bool sound(const TableAt& at, const std::vector<std::string>& keys) const;
+
+    /// A problem at the key, or at its table if the key was not given.
+    void report(const TableAt& at, const std::string& key, std::string what, std::string accepted = {});
+
+    /// A problem unless `name` is among `known`; `what` is said of the name: "no [[material]] has this name".
+    void require_known(const TableAt& at, const std::string& key, const std::string& name,
+                       const std::vector<std::string>& known, const std::string& kind);
+};
+
+void validate_names(const Scene& scene, Checker& checker);
+void validate_references(const Scene& scene, Checker& checker);
+void validate_materials(const Scene& scene, Checker& checker);
+void validate_shapes(const Scene& scene, Checker& checker);
+void validate_places(const Scene& scene, Checker& checker);
+void validate_bodies(const Scene& scene, Checker& checker);
+void validate_phases(const Scene& scene, Checker& checker);
+void validate_contents(const Scene& scene, Checker& checker);
+
+template<class T>
+std::vector<std::string> names_in(const std::vector<T>& items)
+{
+    std::vector<std::string> names;
+    for (const auto& item : items) { names.push_back(item.name); }
+    return names;
+}
+
+} // namespace tread::scene

@@ -1,0 +1,218 @@
+#include "scene/keys.hpp"
+
+namespace tread::scene
+{
+namespace
+{
+
+Keys<Walls> wall_keys()
+{
+    const auto wall = word<WallKind>({"slip", "fixed", "open"});
+    return {
+        optional("x", "", &Walls::x, wall, "Both walls normal to x."),
+        optional("y", "", &Walls::y, wall, "Both walls normal to y."),
+        optional("bottom", "", &Walls::bottom, wall, "The wall at z = 0."),
+        optional("top", "", &Walls::top, wall, "The wall at z = size."),
+    };
+}
+
+Keys<Box> region_keys()
+{
+    auto access = [](auto& object) -> auto& { return object; };
+    return {make_key<Box>(Presence::required, {"box", "m", "", "", "Lower and upper corner.", ""}, access, box())};
+}
+
+Keys<Drive> drive_keys()
+{
+    return {
+        required("body", "", &Drive::body, name(), "The wheel that is driven: the name of a [[body]]."),
+        required("angular_velocity", "rad/s", &Drive::angular_velocity, number(any_number()),
+                 "Spin about the wheel's axle; positive drives towards +x."),
+        optional("ramp", "s", &Drive::ramp, number(at_least(0)),
+                 "Time over which the spin goes linearly from its value at phase start to `angular_velocity`."),
+        optional("slip", "", &Drive::slip, number_or("free", between(-1, 1)),
+                 "Slip ratio s: the wheel is moved at v_x = (1 - s) omega r. \"free\" leaves v_x to the forces."),
+    };
+}
+
+template<class T>
+Key<T> region_key(const std::string& table, const std::string& meaning)
+{
+    return table_key<T>(Presence::required, "region", "[[" + table + "]] region", &T::region, region_keys(), meaning,
+                        "required");
+}
+
+bool is_mohr_coulomb(const Material& material) { return material.model == MaterialModel::mohr_coulomb; }
+
+} // namespace
+
+Keys<Scene> scene_keys()
+{
+    return {optional("title", "", &Scene::title, text(), "One line for logs and reports; changes no result.")};
+}
+
+Keys<Domain> domain_keys()
+{
+    return {
+        required("size", "m", &Domain::size, vector3(above(0)), "Edge lengths; one corner is the origin."),
+        required("gravity", "m/s2", &Domain::gravity, vector3(any_number()), "Acceleration of gravity."),
+        table_key<Domain>(
+            Presence::optional, "walls", "[domain] walls", &Domain::walls, wall_keys(),
+            "What the domain's faces do to sand: \"slip\" stops the normal velocity, \"fixed\" all of it, "
+            "\"open\" lets it leave. Rocks and bodies meet every wall that is not open.",
+            "as below"),
+    };
+}
+
+Keys<GridOptions> grid_keys()
+{
+    return {optional("spacing", "m", &GridOptions::spacing, number(above(0)), "Edge length h of a grid cell.",
+                     "required with [[terrain]]")};
+}
+
+Keys<TimeOptions> time_keys()
+{
+    return {
+        optional("dt", "s", &TimeOptions::dt, number_or("auto", above(0)),
+                 "Time step. \"auto\" takes the largest stable one; a fixed one is checked."),
+        optional("substeps", "", &TimeOptions::substeps, integer_or("auto", 1),
+                 "Contact substeps in a step. \"auto\" takes as many as contact between bodies needs."),
+    };
+}
+
+Keys<Numerics> numerics_keys()
+{
+    return {
+        optional("precision", "", &Numerics::precision, word<Precision>({"single", "double"}),
+                 "Of velocities, stresses and grid sums; positions always resolve 1e-10 m."),
+        optional("transfer", "", &Numerics::transfer, word<Transfer>({"flip", "apic"}),
+                 "How velocity goes between points and grid."),
+        optional("pic_rate", "c_p/h", &Numerics::pic_rate, number_or("auto", at_least(0)),
+                 "PIC part of FLIP per unit time. \"auto\": 0.2 for granular materials, 0.04 for elastic ones."),
+        optional("shape_functions", "", &Numerics::shape_functions, word<ShapeFunctions>({"quadratic", "linear"}),
+                 "B-splines of the grid."),
+        optional("point_motion", "", &Numerics::point_motion, word<PointMotion>({"supported", "ballistic", "frozen"}),
+                 "How a point moves within the contact substeps of a step: held up by the grid's acceleration, freely, "
+                 "or not at all (the paper's)."),
+        optional("hertz", "", &Numerics::hertz, word<HertzFactor>({"standard", "paper-eq7"}),
+                 "Factor of the contact force: 4/3 E* sqrt(R*) d^1.5, or the paper's Eq. 7, which is 1/sqrt(2) of it."),
+        optional("point_radius", "", &Numerics::point_radius, word<PointRadius>({"sphere", "semi-domain"}),
+                 "Contact radius of a point: of the sphere of its initial volume V (Eq. 11), or 0.5 V^(1/3)."),
+        optional("linear_overlap", "R*", &Numerics::linear_overlap, number(above_up_to(0, 0.1)),
+                 "Overlap below which traction between bodies is linear; 1e-2 allows thrice the step."),
+    };
+}
+
+Keys<Material> material_keys()
+{
+    const std::string mohr_coulomb = "model = \"mohr-coulomb\"";
+    return {
+        required("name", "", &Material::name, name(), "Unique among materials."),
+        required("model", "", &Material::model, word<MaterialModel>({"elastic", "mohr-coulomb", "rigid"}),
+                 "Constitutive model of points. Rocks and bodies take \"elastic\" or \"rigid\"; both stay rigid, and "
+                 "`young` and `poisson` set the stiffness of their contacts."),
+        optional("density", "kg/m3", &Material::density, number(above(0)),
+                 "Of points: in bulk. Of rocks: of the solid.", "required with [[terrain]] and [[rocks]]"),
+        optional("young", "Pa", &Material::young, number(above(0)), "Young's modulus.",
+                 "required unless rigid; then perfectly stiff"),
+        optional("poisson", "", &Material::poisson, number(between(0, 0.499)), "Poisson's ratio."),
+        required("friction_angle_deg", "degrees", &Material::friction_angle_deg, number(from_below(0, 90)),
+                 "Internal friction angle.")
+            .when(mohr_coulomb, is_mohr_coulomb),
+        optional("dilation_angle_deg", "degrees", &Material::dilation_angle_deg, number(from_below(0, 90)),
+                 "Dilation angle; at most the friction angle.")
+            .when(mohr_coulomb, is_mohr_coulomb),
+        optional("cohesion", "Pa", &Material::cohesion, number(at_least(0)), "Cohesion.")
+            .when(mohr_coulomb, is_mohr_coulomb),
+        optional("family", "", &Material::family, name(),
+                 "Contact class, looked up in [[contact]]. \"wall\" is reserved for the domain's walls.",
+                 "the material's name"),
+    };
+}
+
+Keys<Contact> contact_keys()
+{
+    return {
+        required("between", "", &Contact::between, pair_of_names(),
+                 "Two families, or a family and \"wall\". Pairs that are left out get the defaults below."),
+        optional("friction", "", &Contact::friction, number(at_least(0)), "Coulomb's coefficient.",
+                 "0.3; with \"wall\" 0.5"),
+        optional("restitution", "", &Contact::restitution, number(between(0, 1)),
+                 "Coefficient of restitution between bodies and with walls; points have none."),
+    };
+}
+
+Keys<Terrain> terrain_keys()
+{
+    return {
+        required("material", "", &Terrain::material, name(), "The name of an elastic or Mohr-Coulomb [[material]]."),
+        region_key<Terrain>("terrain", "Where the points are; inside the domain."),
+        optional("points_per_cell", "", &Terrain::points_per_cell, integer_of({1, 8, 27, 64}),
+                 "Points in a grid cell: 1, 2, 3 or 4 each way."),
+    };
+}
+
+Keys<Rocks> rocks_keys()
+{
+    return {
+        required("shape", "", &Rocks::shape, name(), "The name of a [[shape]]."),
+        required("material", "", &Rocks::material, name(), "The name of an elastic or rigid [[material]]."),
+        required("count", "", &Rocks::count, integer<std::int64_t>(1, 100'000'000), "How many."),
+        required("diameter", "m", &Rocks::diameter, number(above(0)), "Of the sphere of equal volume."),
+        region_key<Rocks>("rocks", "Where the centres are; inside the domain."),
+        optional(
+            "placement", "", &Rocks::placement, word<Placement>({"replace", "rain", "grid"}),
+            "\"replace\" puts rocks into the terrain and removes the points in their place; \"rain\" lets them fall "
+            "from random places without overlap; \"grid\" sets them on a lattice."),
+        optional("seed", "", &Rocks::seed, integer<std::uint64_t>(0), "Of the random places and orientations."),
+    };
+}
+
+Keys<Body> body_keys()
+{
+    const std::string one_of = "exactly one of density, mass, load";
+    return {
+        required("name", "", &Body::name, name(), "Unique among bodies."),
+        required("shape", "", &Body::shape, name(),
+                 "The name of a [[shape]], or a built-in wheel: perseverance, curiosity, spirit, viper."),
+        required("material", "", &Body::material, name(), "The name of an elastic or rigid [[material]]."),
+        optional("density", "kg/m3", &Body::density, number_or("", above(0)), "Of the shape's solid volume.", one_of),
+        optional("mass", "kg", &Body::mass, number_or("", above(0)), "Spread evenly over the shape's volume.", one_of),
+        optional("load", "N", &Body::load, number_or("", above(0)), "Weight under the scene's gravity.", one_of),
+        required("position", "m", &Body::position, vector3(any_number()), "Of the centre of mass; inside the domain."),
+        optional("velocity", "m/s", &Body::velocity, vector3(any_number()), "When the body is first released."),
+        optional("rolling_radius", "m", &Body::rolling_radius, number_or("auto", above(0)),
+                 "Radius r of the slip ratio 1 - v_x/(omega r). \"auto\": over the grousers."),
+        optional("lock", "", &Body::lock, words_of({"x", "y", "z", "roll", "pitch", "yaw"}),
+                 "Degrees of freedom in the world's axes that are held fixed."),
+    };
+}
+
+Keys<Phase> phase_keys()
+{
+    return {
+        required("name", "", &Phase::name, name(), "Unique among phases."),
+        optional("hold", "", &Phase::hold, names(), "Bodies that do not move in this phase: names of [[body]]."),
+        optional("damping", "", &Phase::damping, number(from_below(0, 1)),
+                 "Local (Cundall) damping of sand and rocks; for settling only."),
+        optional("until", "", &Phase::until, word<StopRule>({"duration", "equilibrium"}), "What ends the phase."),
+        required("duration", "s", &Phase::duration, number(above(0)), "Simulated time of the phase.")
+            .when("until = \"duration\"", [](const Phase& phase) { return phase.until == StopRule::duration; }),
+        required("max_duration", "s", &Phase::max_duration, number(above(0)),
+                 "Simulated time after which the phase ends without equilibrium, with a warning.")
+            .when("until = \"equilibrium\"", [](const Phase& phase) { return phase.until == StopRule::equilibrium; }),
+        table_key<Phase>(Presence::optional, "drive", "[[phase]] drive", &Phase::drive, drive_keys(),
+                         "Prescribed spin, and by `slip` prescribed speed, of one wheel.", "no body is driven"),
+    };
+}
+
+Keys<Output> output_keys()
+{
+    return {
+        optional("every", "s", &Output::every, number(above(0)), "Simulated time between rows of the time series."),
+        optional("snapshots_every", "s", &Output::snapshots_every, number(at_least(0)),
+                 "Simulated time between snapshots; 0 writes none."),
+    };
+}
+
+} // namespace tread::scene

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "scene/scene.hpp"
+#include "scene/table.hpp"
+
+// The one table of everything that a scene may say. Reading, checking, writing and docs/scene.md iterate it.
+namespace tread::scene
+{
+
+/// Wheels that a body may name as its shape without a [[shape]] table.
+inline constexpr std::array<std::string_view, 4> builtin_wheels{"perseverance", "curiosity", "spirit", "viper"};
+
+/// The contact family of the domain's walls.
+inline constexpr std::string_view wall_family = "wall";
+
+Keys<Scene>       scene_keys();
+Keys<Domain>      domain_keys();
+Keys<GridOptions> grid_keys();
+Keys<TimeOptions> time_keys();
+Keys<Numerics>    numerics_keys();
+Keys<Material>    material_keys();
+Keys<Contact>     contact_keys();
+Keys<Shape>       shape_keys();
+Keys<Terrain>     terrain_keys();
+Keys<Rocks>       rocks_keys();
+Keys<Body>        body_keys();
+Keys<Phase>       phase_keys();
+Keys<Output>      output_keys();
+
+/// Calls visit(name, meaning, member pointer, keys) for each table of a scene, in the order in which they are written.
+/// A member that is a vector is an array of tables.
+template<class Visit>
+void for_each_table(Visit&& visit)
+{
+    visit("domain", "The box [0, size] in which everything happens, and its walls.", &Scene::domain, domain_keys());
+    visit("grid", "The background grid of the material points.", &Scene::grid, grid_keys());
+    visit("time", "Steps of the time loop.", &Scene::time, time_keys());
+    visit("numerics", "Choices of method.", &Scene::numerics, numerics_keys());
+    visit("material", "A material of terrain, rocks or bodies.", &Scene::materials, material_keys());
+    visit("contact", "Friction and restitution of one pair of contact families.", &Scene::contacts, contact_keys());
+    visit("shape", "A rigid shape, made once and shared by all its instances.", &Scene::shapes, shape_keys());
+    visit("terrain", "A region filled with material points.", &Scene::terrain, terrain_keys());
+    visit("rocks", "A set of rigid rocks of one shape.", &Scene::rocks, rocks_keys());
+    visit("body", "A single rigid body, such as a wheel.", &Scene::bodies, body_keys());
+    visit("phase", "A span of simulated time; phases run in the order given.", &Scene::phases, phase_keys());
+    visit("output", "What is written while the run goes on.", &Scene::output, output_keys());
+}
+
+} // namespace tread::scene

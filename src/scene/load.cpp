@@ -1,0 +1,122 @@
+#include "scene/load.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "scene/contacts.hpp"
+#include "scene/keys.hpp"
+#include "scene/overrides.hpp"
+#include "scene/validate.hpp"
+
+namespace tread::scene
+{
+namespace
+{
+
+template<class T>
+void read_member(const Node& document, const std::string& table, const Keys<T>& keys, T& object, Problems& problems)
+{
+    const Node  empty{NodeTable{}, document.where};
+    const Node* node = find(document, table);
+    read_table(node != nullptr ? *node : empty, table, keys, object, problems);
+}
+
+template<class T>
+void read_member(const Node& document, const std::string& table, const Keys<T>& keys, std::vector<T>& objects,
+                 Problems& problems)
+{
+    const Node* node = find(document, table);
+    if (node == nullptr) { return; }
+    const auto* array = std::get_if<NodeArray>(&node->value);
+    if (array == nullptr)
+    {
+        problems.push_back({node->where, table, "", "wrong type: " + kind_of(*node), fmt::format("[[{}]]", table)});
+        return;
+    }
+    objects.resize(array->size());
+    for (std::size_t i = 0; i < objects.size(); ++i)
+    {
+        read_table((*array)[i], table_label(document, table, i), keys, objects[i], problems);
+    }
+}
+
+Scene read_scene(const Node& document, Problems& problems)
+{
+    Scene scene;
+    // At the top level a key may also be a table; what is neither is reported with all of them as suggestions.
+    Node top   = document;
+    auto known = scene_keys();
+    for_each_table(
+        [&](const std::string& table, const char*, auto member, const auto& keys)
+        {
+            read_member(document, table, keys, scene.*member, problems);
+            known.push_back({{table, "", "", "", "", ""},
+                             Presence::optional,
+                             [](const Scene&) { return true; },
+                             [](const Node&, const std::string&, Scene&, Problems&) {},
+                             [](const Scene&) { return std::string(); },
+                             {}});
+        });
+    read_table(top, "", known, scene, problems);
+    return scene;
+}
+
+void complete_families(Scene& scene)
+{
+    for (auto& material : scene.materials)
+    {
+        if (material.family.empty()) { material.family = material.name; }
+    }
+}
+
+/// A pair with the wall that leaves friction out has the wall's default, not the struct's.
+void complete_wall_friction(Scene& scene, const Node& document)
+{
+    for (std::size_t i = 0; i < scene.contacts.size(); ++i)
+    {
+        auto& contact = scene.contacts[i];
+        if (find(std::get<NodeArray>(find(document, "contact")->value)[i], "friction") == nullptr)
+        {
+            contact.friction = contact_of({}, contact.between[0], contact.between[1]).friction;
+        }
+    }
+}
+
+void complete_paths(Scene& scene, const Node& document, Problems& problems)
+{
+    for (std::size_t i = 0; i < scene.shapes.size(); ++i)
+    {
+        auto*       mesh = std::get_if<MeshFile>(&scene.shapes[i].source);
+        const Node* file = find(std::get<NodeArray>(find(document, "shape")->value)[i], "file");
+        if (mesh == nullptr || file == nullptr) { continue; }
+        const auto path = (std::filesystem::path(scene.directory) / mesh->path).lexically_normal();
+        mesh->path      = path.string();
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(path, error))
+        {
+            problems.push_back({file->where, table_label(document, "shape", i), "file",
+                                fmt::format("there is no file {}", mesh->path), "STL or OBJ"});
+        }
+    }
+}
+
+} // namespace
+
+Scene load_scene(const std::string& path, const std::vector<std::string>& overrides)
+{
+    Problems problems;
+    Node     document = parse_document(path);
+    apply_overrides(document, overrides, problems);
+    Scene scene     = read_scene(document, problems);
+    scene.directory = std::filesystem::absolute(path).parent_path().string();
+    complete_families(scene);
+    complete_wall_friction(scene, document);
+    complete_paths(scene, document, problems);
+    validate(scene, document, problems);
+    throw_if_any(problems);
+    complete_contacts(scene);
+    return scene;
+}
+
+} // namespace tread::scene

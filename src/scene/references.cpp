@@ -1,0 +1,130 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scene/checker.hpp"
+#include "scene/keys.hpp"
+
+namespace tread::scene
+{
+namespace
+{
+
+const Material* find_material(const Scene& scene, const std::string& name)
+{
+    const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                    [&](const Material& material) { return material.name == name; });
+    return found == scene.materials.end() ? nullptr : &*found;
+}
+
+/// The material exists, and its model is not the one that this table cannot use.
+void check_material(const Scene& scene, const TableAt& at, const std::string& name, MaterialModel refused,
+                    const std::string& accepted, Checker& checker)
+{
+    checker.require_known(at, "material", name, names_in(scene.materials), "[[material]]");
+    const auto* material = find_material(scene, name);
+    if (material == nullptr || material->model != refused) { return; }
+    const auto index = static_cast<std::size_t>(material - scene.materials.data());
+    if (!checker.sound({"material", index}, {"model"})) { return; }
+    checker.report(at, "material", fmt::format("the model of \"{}\" does not suit [[{}]]", name, at.name), accepted);
+}
+
+std::vector<std::string> shape_names(const Scene& scene)
+{
+    auto names = names_in(scene.shapes);
+    names.insert(names.end(), builtin_wheels.begin(), builtin_wheels.end());
+    return names;
+}
+
+void check_materials(const Scene& scene, Checker& checker)
+{
+    const std::string stiff = "a material of model \"elastic\" | \"rigid\"";
+    for (std::size_t i = 0; i < scene.terrain.size(); ++i)
+    {
+        check_material(scene, {"terrain", i}, scene.terrain[i].material, MaterialModel::rigid,
+                       "a material of model \"elastic\" | \"mohr-coulomb\"", checker);
+    }
+    for (std::size_t i = 0; i < scene.rocks.size(); ++i)
+    {
+        check_material(scene, {"rocks", i}, scene.rocks[i].material, MaterialModel::mohr_coulomb, stiff, checker);
+    }
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    {
+        check_material(scene, {"body", i}, scene.bodies[i].material, MaterialModel::mohr_coulomb, stiff, checker);
+    }
+}
+
+void check_shapes(const Scene& scene, Checker& checker)
+{
+    for (std::size_t i = 0; i < scene.rocks.size(); ++i)
+    {
+        checker.require_known({"rocks", i}, "shape", scene.rocks[i].shape, names_in(scene.shapes), "[[shape]]");
+    }
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    {
+        checker.require_known({"body", i}, "shape", scene.bodies[i].shape, shape_names(scene), "shape");
+    }
+}
+
+void check_phases(const Scene& scene, Checker& checker)
+{
+    const auto bodies = names_in(scene.bodies);
+    for (std::size_t i = 0; i < scene.phases.size(); ++i)
+    {
+        const auto& phase = scene.phases[i];
+        for (const auto& held : phase.hold) { checker.require_known({"phase", i}, "hold", held, bodies, "[[body]]"); }
+        const auto label = checker.label({"phase", i}) + ".drive";
+        if (phase.drive && !mentions(checker.problems, label, "body"))
+        {
+            checker.require_known({"phase", i}, "drive", phase.drive->body, bodies, "[[body]]");
+        }
+    }
+}
+
+void check_contact(const Scene& scene, std::size_t index, const std::vector<std::string>& families, Checker& checker)
+{
+    const TableAt at{"contact", index};
+    if (!checker.sound(at, {"between"})) { return; }
+    const auto& pair = scene.contacts[index].between;
+    for (const auto& family : pair) { checker.require_known(at, "between", family, families, "contact family"); }
+    if (pair[0] == wall_family && pair[1] == wall_family)
+    {
+        checker.report(at, "between", "walls do not meet each other", "a family and \"wall\"");
+    }
+    for (std::size_t i = 0; i < index; ++i)
+    {
+        const auto& other = scene.contacts[i].between;
+        if (std::is_permutation(pair.begin(), pair.end(), other.begin()))
+        {
+            checker.report(at, "between", fmt::format("the same pair as [[contact]] {}", i), "a pair given once");
+            return;
+        }
+    }
+}
+
+void check_families(const Scene& scene, Checker& checker)
+{
+    std::vector<std::string> families{std::string(wall_family)};
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    {
+        const TableAt at{"material", i};
+        const auto&   family = scene.materials[i].family;
+        families.push_back(family);
+        if (family != wall_family) { continue; }
+        checker.report(at, checker.given(at, "family") != nullptr ? "family" : "name",
+                       "\"wall\" is reserved for the domain's walls", "another family");
+    }
+    for (std::size_t i = 0; i < scene.contacts.size(); ++i) { check_contact(scene, i, families, checker); }
+}
+
+} // namespace
+
+void validate_references(const Scene& scene, Checker& checker)
+{
+    check_materials(scene, checker);
+    check_shapes(scene, checker);
+    check_phases(scene, checker);
+    check_families(scene, checker);
+}
+
+} // namespace tread::scene

@@ -1,0 +1,167 @@
+#include "scene/keys.hpp"
+
+namespace tread::scene
+{
+namespace
+{
+
+Keys<RockGenerator> rock_keys()
+{
+    return {
+        optional("seed", "", &RockGenerator::seed, integer<std::uint64_t>(0), "Of the random shape."),
+        optional("aspect", "", &RockGenerator::aspect, number(above_up_to(0, 1)), "Smallest over largest extent."),
+        optional("sphericity", "", &RockGenerator::sphericity, number(above_up_to(0, 1)),
+                 "Surface of the sphere of equal volume over the rock's."),
+        optional("nodes", "", &RockGenerator::nodes, integer_of({42, 162, 642, 2562}), "Surface nodes."),
+    };
+}
+
+Keys<SphereGenerator> sphere_keys()
+{
+    return {optional("nodes", "", &SphereGenerator::nodes, integer_of({42, 162, 642, 2562}), "Surface nodes.")};
+}
+
+Keys<WheelGenerator> wheel_keys()
+{
+    return {
+        optional("radius", "m", &WheelGenerator::radius, number(above(0)), "Over the grousers."),
+        optional("width", "m", &WheelGenerator::width, number(above(0)), "Along the axle, which is the mesh's y axis."),
+        optional("wall_thickness", "m", &WheelGenerator::wall_thickness, number(above(0)), "Of the drum."),
+        optional("grousers", "", &WheelGenerator::grousers, integer<int>(0, 1000), "How many."),
+        optional("grouser_height", "m", &WheelGenerator::grouser_height, number(at_least(0)), "Above the drum."),
+        optional("grouser_width", "m", &WheelGenerator::grouser_width, number(above(0)), "Along the circumference."),
+    };
+}
+
+/// Calls visit(kind, keys) for each generator: the words of `kind` and what each of them takes.
+template<class Visit>
+void for_each_generator(Visit&& visit)
+{
+    visit("rock", rock_keys());
+    visit("sphere", sphere_keys());
+    visit("wheel", wheel_keys());
+}
+
+std::vector<std::string> generator_kinds()
+{
+    std::vector<std::string> kinds;
+    for_each_generator([&](const std::string& kind, const auto&) { kinds.push_back(kind); });
+    return kinds;
+}
+
+/// The generator that is made where a table has keys of type Keys<Generator>.
+template<class Generator>
+Generator made_by(const Keys<Generator>&)
+{
+    return {};
+}
+
+/// The word of `kind`; nothing, with a problem reported, if it is missing or unknown.
+std::optional<std::string> read_kind(const Node& node, const std::string& table, Problems& problems)
+{
+    const auto  kinds = generator_kinds();
+    const Node* kind  = find(node, "kind");
+    if (kind == nullptr)
+    {
+        problems.push_back({node.where, table, "kind", "missing", list_words(kinds)});
+        return std::nullopt;
+    }
+    try
+    {
+        return kinds[read_word(*kind, kinds)];
+    }
+    catch (const BadValue& bad)
+    {
+        problems.push_back({kind->where, table, "kind", bad.what, list_words(kinds)});
+        return std::nullopt;
+    }
+}
+
+void read_generator(const Node& node, const std::string& table, Shape& shape, Problems& problems)
+{
+    const auto label = table + ".generate";
+    const auto kind  = read_kind(node, label, problems);
+    if (!kind) { return; }
+    Node parameters = node;
+    std::get<NodeTable>(parameters.value).erase("kind");
+    for_each_generator(
+        [&](const std::string& candidate, const auto& keys)
+        {
+            if (candidate != *kind) { return; }
+            auto generator = made_by(keys);
+            read_table(parameters, label, keys, generator, problems);
+            shape.source = generator;
+        });
+}
+
+std::string write_generator(const Shape& shape)
+{
+    std::string text;
+    for_each_generator(
+        [&](const std::string& kind, const auto& keys)
+        {
+            const auto* generator = std::get_if<decltype(made_by(keys))>(&shape.source);
+            if (generator != nullptr)
+            {
+                text = "{ kind = \"" + kind + "\", " + write_keys(keys, *generator, ", ") + " }";
+            }
+        });
+    return text;
+}
+
+std::vector<TableText> describe_generators()
+{
+    std::vector<TableText> texts;
+    for_each_generator([&](const std::string& kind, const auto& keys)
+                       { texts.push_back(describe("[[shape]] generate, kind = \"" + kind + "\"", "", keys)); });
+    return texts;
+}
+
+bool is_file(const Shape& shape) { return std::holds_alternative<MeshFile>(shape.source); }
+
+Key<Shape> generate_key()
+{
+    KeyText text{"generate",
+                 "",
+                 "or `file`",
+                 "table with kind = " + list_words(generator_kinds()),
+                 "Makes the shape; `kind` says how, and the other keys stand below.",
+                 ""};
+    return {text,           Presence::optional, [](const Shape&) { return true; },
+            read_generator, write_generator,    describe_generators()};
+}
+
+/// `access` gives the member of a MeshFile; the key makes the shape a mesh file.
+template<class M>
+Key<Shape> mesh_key(KeyText text, M MeshFile::*member, const Value<M>& value)
+{
+    auto key  = make_key<MeshFile>(Presence::optional, std::move(text), member, value);
+    auto read = [=](const Node& node, const std::string& table, Shape& shape, Problems& problems)
+    {
+        if (!is_file(shape)) { shape.source = MeshFile{}; }
+        key.read(node, table, std::get<MeshFile>(shape.source), problems);
+    };
+    auto write = [=](const Shape& shape)
+    { return is_file(shape) ? key.write(std::get<MeshFile>(shape.source)) : std::string(); };
+    return {key.text, Presence::optional, [](const Shape&) { return true; }, read, write, {}};
+}
+
+} // namespace
+
+Keys<Shape> shape_keys()
+{
+    return {
+        required("name", "", &Shape::name, name(), "Unique among shapes."),
+        generate_key(),
+        mesh_key({"file", "", "or `generate`", "", "STL or OBJ; a relative path starts at the scene file.", ""},
+                 &MeshFile::path, text()),
+        mesh_key({"unit", "", "", "", "Length of one unit of the file; only with `file`.", ""}, &MeshFile::unit,
+                 length_unit()),
+        optional("sdf_cells", "", &Shape::sdf_cells, integer<int>(8, 1024),
+                 "Cells of the signed distance field along the longest axis of its box (1.2 times the shape's)."),
+        optional("node_spacing", "m", &Shape::node_spacing, number(at_least(0)),
+                 "Of the surface nodes; 0 leaves it to the generator, or takes a 40th of a mesh file's extent."),
+    };
+}
+
+} // namespace tread::scene

@@ -1,0 +1,214 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "scene/problems.hpp"
+#include "scene/values.hpp"
+
+// Keys of a TOML table, tied to the members of the struct that they fill.
+namespace tread::scene
+{
+
+/// What a key is to its reader; the columns of docs/scene.md.
+struct KeyText
+{
+    std::string name;
+    std::string unit;     ///< empty if it has none
+    std::string fallback; ///< default as TOML, or what absence means; "required"
+    std::string accepted;
+    std::string meaning;
+    std::string condition; ///< `until = "duration"`: the key is refused elsewhere; empty if it may always stand
+};
+
+struct TableText
+{
+    std::string          title; ///< `[domain]`, `[[phase]] drive`
+    std::string          meaning;
+    std::vector<KeyText> keys;
+};
+
+enum class Presence
+{
+    required,
+    optional
+};
+
+template<class T>
+struct Key
+{
+    KeyText                                                                   text;
+    Presence                                                                  presence;
+    std::function<bool(const T&)>                                             applies; ///< the condition
+    std::function<void(const Node&, const std::string& table, T&, Problems&)> read;
+    std::function<std::string(const T&)>                                      write; ///< TOML; empty = not given
+    std::vector<TableText>                                                    inner; ///< of a key that is a table
+
+    /// The key may stand only where `condition` holds; if it is required, then there.
+    Key when(std::string condition, std::function<bool(const T&)> holds) &&
+    {
+        text.condition = std::move(condition);
+        applies        = std::move(holds);
+        return std::move(*this);
+    }
+};
+
+template<class T>
+using Keys = std::vector<Key<T>>;
+
+template<class T>
+std::vector<std::string> names_of(const Keys<T>& keys)
+{
+    std::vector<std::string> names;
+    for (const auto& key : keys) { names.push_back(key.text.name); }
+    return names;
+}
+
+inline std::string accepted_with_unit(const KeyText& text)
+{
+    return text.unit.empty() ? text.accepted : text.accepted + " (" + text.unit + ")";
+}
+
+/// `access` is a member pointer, or a function from T& to the member's reference.
+template<class T, class Access, class M>
+Key<T> make_key(Presence presence, KeyText text, Access access, Value<M> value)
+{
+    text.accepted = value.accepted;
+    auto write    = [=](const T& object) { return value.write(std::invoke(access, object)); };
+    if (text.fallback.empty()) { text.fallback = presence == Presence::required ? "required" : write(T{}); }
+    auto read = [=](const Node& node, const std::string& table, T& object, Problems& problems)
+    {
+        try
+        {
+            std::invoke(access, object) = value.read(node);
+        }
+        catch (const BadValue& bad)
+        {
+            problems.push_back({node.where, table, text.name, bad.what, accepted_with_unit(text)});
+        }
+    };
+    return {text, presence, [](const T&) { return true; }, read, write, {}};
+}
+
+template<class T, class M>
+Key<T> required(std::string name, std::string unit, M T::*member, Value<M> value, std::string meaning)
+{
+    KeyText text{std::move(name), std::move(unit), {}, {}, std::move(meaning), {}};
+    return make_key<T>(Presence::required, std::move(text), member, std::move(value));
+}
+
+/// `fallback` says what absence means where the member's default does not.
+template<class T, class M>
+Key<T> optional(std::string name, std::string unit, M T::*member, Value<M> value, std::string meaning,
+                std::string fallback = {})
+{
+    KeyText text{std::move(name), std::move(unit), std::move(fallback), {}, std::move(meaning), {}};
+    return make_key<T>(Presence::optional, std::move(text), member, std::move(value));
+}
+
+template<class T>
+void check_unknown(const Node& node, const std::string& table, const Keys<T>& keys, Problems& problems)
+{
+    const auto names = names_of(keys);
+    for (const auto& [name, value] : std::get<NodeTable>(node.value))
+    {
+        if (std::find(names.begin(), names.end(), name) == names.end())
+        {
+            problems.push_back({value.where, table, name, "unknown key" + suggestion(name, names),
+                                fmt::format("{}", fmt::join(names, ", "))});
+        }
+    }
+}
+
+template<class T>
+void check_presence(const Node& node, const std::string& table, const Key<T>& key, const T& object, Problems& problems)
+{
+    const Node* value   = find(node, key.text.name);
+    const bool  applies = key.applies(object);
+    if (value != nullptr && !applies)
+    {
+        problems.push_back({value->where, table, key.text.name, "may stand only with " + key.text.condition, ""});
+    }
+    if (value == nullptr && applies && key.presence == Presence::required)
+    {
+        problems.push_back({node.where, table, key.text.name, "missing", accepted_with_unit(key.text)});
+    }
+}
+
+/// Fills `object` from a table; `table` names it in messages.
+template<class T>
+void read_table(const Node& node, const std::string& table, const Keys<T>& keys, T& object, Problems& problems)
+{
+    if (!std::holds_alternative<NodeTable>(node.value))
+    {
+        problems.push_back({node.where, table, "", "wrong type: " + kind_of(node), "table"});
+        return;
+    }
+    const auto before = problems.size();
+    check_unknown(node, table, keys, problems);
+    for (const auto& key : keys)
+    {
+        if (const Node* value = find(node, key.text.name)) { key.read(*value, table, object, problems); }
+    }
+    // A key that could not be read leaves conditions that hang on it undecided.
+    const bool decided = problems.size() == before;
+    for (const auto& key : keys)
+    {
+        if (decided || key.text.condition.empty()) { check_presence(node, table, key, object, problems); }
+    }
+}
+
+/// The keys given, each `name = value`, joined by `separator`.
+template<class T>
+std::string write_keys(const Keys<T>& keys, const T& object, const std::string& separator)
+{
+    std::string text;
+    for (const auto& key : keys)
+    {
+        const auto value = key.applies(object) ? key.write(object) : std::string();
+        if (!value.empty()) { text += (text.empty() ? "" : separator) + key.text.name + " = " + value; }
+    }
+    return text;
+}
+
+template<class T>
+std::string write_inline(const Keys<T>& keys, const T& object)
+{
+    return "{ " + write_keys(keys, object, ", ") + " }";
+}
+
+template<class T>
+TableText describe(std::string title, std::string meaning, const Keys<T>& keys)
+{
+    TableText text{std::move(title), std::move(meaning), {}};
+    for (const auto& key : keys) { text.keys.push_back(key.text); }
+    return text;
+}
+
+/// A key whose value is itself a table, held in a member; `title` heads its keys in docs/scene.md.
+template<class T, class Member, class M>
+Key<T> table_key(Presence presence, std::string name, std::string title, Member member, Keys<M> keys,
+                 std::string meaning, std::string fallback)
+{
+    auto read = [=](const Node& node, const std::string& table, T& object, Problems& problems)
+    {
+        M value{};
+        read_table(node, table + "." + name, keys, value, problems);
+        object.*member = value;
+    };
+    auto write = [=](const T& object)
+    {
+        if constexpr (std::is_same_v<std::decay_t<decltype(object.*member)>, std::optional<M>>)
+        {
+            return (object.*member) ? write_inline(keys, *(object.*member)) : std::string();
+        }
+        else { return write_inline(keys, object.*member); }
+    };
+    KeyText text{name, "", std::move(fallback), "table " + title, meaning, ""};
+    return {text, presence, [](const T&) { return true; }, read, write, {describe(title, meaning, keys)}};
+}
+
+} // namespace tread::scene

@@ -1,0 +1,254 @@
+#include "scene/validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scene/checker.hpp"
+
+namespace tread::scene
+{
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+template<class T>
+void require_unique(const std::string& table, const std::vector<T>& items, Checker& checker)
+{
+    for (std::size_t i = 0; i < items.size(); ++i)
+    {
+        const auto first =
+            std::find_if(items.begin(), items.end(), [&](const T& item) { return item.name == items[i].name; });
+        const auto index = static_cast<std::size_t>(first - items.begin());
+        if (index == i || items[i].name.empty()) { continue; }
+        checker.report({table, i}, "name",
+                       fmt::format("\"{}\" is also the name of [[{}]] {}", items[i].name, table, index),
+                       "a name that no other has");
+    }
+}
+
+bool used_by(const Scene& scene, const std::string& material)
+{
+    const auto uses = [&](const auto& item) { return item.material == material; };
+    return std::any_of(scene.terrain.begin(), scene.terrain.end(), uses) ||
+           std::any_of(scene.rocks.begin(), scene.rocks.end(), uses);
+}
+
+void validate_material(const Scene& scene, const Material& material, const TableAt& at, Checker& checker)
+{
+    if (checker.sound(at, {"friction_angle_deg", "dilation_angle_deg"}) &&
+        material.dilation_angle_deg > material.friction_angle_deg)
+    {
+        checker.report(at, "dilation_angle_deg",
+                       fmt::format("{} is above the friction angle", material.dilation_angle_deg),
+                       fmt::format("0 to friction_angle_deg = {} (degrees)", material.friction_angle_deg));
+    }
+    if (checker.sound(at, {"model"}) && material.model != MaterialModel::rigid && checker.given(at, "young") == nullptr)
+    {
+        checker.report(at, "young", "missing", "number > 0 (Pa)");
+    }
+    if (used_by(scene, material.name) && checker.given(at, "density") == nullptr)
+    {
+        checker.report(at, "density", "missing; terrain or rocks are made of this", "number > 0 (kg/m3)");
+    }
+}
+
+void validate_wheel(const WheelGenerator& wheel, const TableAt& at, Checker& checker)
+{
+    const auto table = checker.label(at) + ".generate";
+    for (const auto* key : {"radius", "wall_thickness", "grousers", "grouser_height", "grouser_width"})
+    {
+        if (mentions(checker.problems, table, key)) { return; }
+    }
+    if (wheel.wall_thickness + wheel.grouser_height >= wheel.radius)
+    {
+        checker.report(at, "generate", "wall and grousers leave no room in the wheel",
+                       fmt::format("wall_thickness + grouser_height < radius = {} (m)", wheel.radius));
+    }
+    const double circumference = 2 * pi * (wheel.radius - wheel.grouser_height);
+    if (wheel.grousers * wheel.grouser_width >= circumference)
+    {
+        checker.report(at, "generate", "the grousers overlap",
+                       fmt::format("grousers * grouser_width < {:.3g} (m)", circumference));
+    }
+}
+
+void validate_box(const Scene& scene, const Box& box, const TableAt& at, Checker& checker)
+{
+    const auto& size = scene.domain.size;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+        if (box.low[axis] < 0 || box.high[axis] > size[axis])
+        {
+            checker.report(at, "region", fmt::format("the box leaves the domain along {}", "xyz"[axis]),
+                           fmt::format("0 to {} (m)", size[axis]));
+        }
+    }
+}
+
+void validate_position(const Scene& scene, const Body& body, const TableAt& at, Checker& checker)
+{
+    const auto& size = scene.domain.size;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+        if (body.position[axis] < 0 || body.position[axis] > size[axis])
+        {
+            checker.report(at, "position",
+                           fmt::format("{} = {} is outside the domain", "xyz"[axis], body.position[axis]),
+                           fmt::format("0 to {} (m)", size[axis]));
+        }
+    }
+}
+
+void validate_drive(const Phase& phase, const TableAt& at, Checker& checker)
+{
+    const auto& drive = *phase.drive;
+    if (std::find(phase.hold.begin(), phase.hold.end(), drive.body) != phase.hold.end())
+    {
+        checker.report(at, "drive", fmt::format("\"{}\" is both held and driven", drive.body),
+                       "a body that `hold` does not name");
+    }
+    if (drive.slip && drive.angular_velocity == 0 &&
+        !mentions(checker.problems, checker.label(at) + ".drive", "angular_velocity"))
+    {
+        checker.report(at, "drive", "slip is a ratio to the wheel's spin, and angular_velocity is 0",
+                       "angular_velocity other than 0, or slip = \"free\"");
+    }
+}
+
+} // namespace
+
+void validate(const Scene& scene, const Node& document, Problems& problems)
+{
+    Checker checker{document, problems};
+    validate_names(scene, checker);
+    validate_references(scene, checker);
+    validate_materials(scene, checker);
+    validate_shapes(scene, checker);
+    validate_places(scene, checker);
+    validate_bodies(scene, checker);
+    validate_phases(scene, checker);
+    validate_contents(scene, checker);
+}
+
+void validate_names(const Scene& scene, Checker& checker)
+{
+    require_unique("material", scene.materials, checker);
+    require_unique("shape", scene.shapes, checker);
+    require_unique("body", scene.bodies, checker);
+    require_unique("phase", scene.phases, checker);
+}
+
+void validate_materials(const Scene& scene, Checker& checker)
+{
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    {
+        validate_material(scene, scene.materials[i], {"material", i}, checker);
+    }
+}
+
+void validate_shapes(const Scene& scene, Checker& checker)
+{
+    for (std::size_t i = 0; i < scene.shapes.size(); ++i)
+    {
+        const TableAt at{"shape", i};
+        const bool    file     = checker.given(at, "file") != nullptr;
+        const bool    generate = checker.given(at, "generate") != nullptr;
+        if (file == generate) { checker.report(at, "", file ? "both" : "neither", "exactly one of file, generate"); }
+        if (!file && checker.given(at, "unit") != nullptr) { checker.report(at, "unit", "may stand only with `file`"); }
+        if (const auto* wheel = std::get_if<WheelGenerator>(&scene.shapes[i].source))
+        {
+            validate_wheel(*wheel, at, checker);
+        }
+    }
+}
+
+void validate_places(const Scene& scene, Checker& checker)
+{
+    if (!checker.sound({"domain"}, {"size"})) { return; }
+    const auto check = [&](const std::string& table, const auto& items)
+    {
+        for (std::size_t i = 0; i < items.size(); ++i)
+        {
+            if (checker.sound({table, i}, {"region"})) { validate_box(scene, items[i].region, {table, i}, checker); }
+        }
+    };
+    check("terrain", scene.terrain);
+    check("rocks", scene.rocks);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    {
+        if (checker.sound({"body", i}, {"position"}))
+        {
+            validate_position(scene, scene.bodies[i], {"body", i}, checker);
+        }
+    }
+}
+
+void validate_bodies(const Scene& scene, Checker& checker)
+{
+    const auto& gravity    = scene.domain.gravity;
+    const bool  weightless = gravity == Vector3{} && checker.sound({"domain"}, {"gravity"});
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    {
+        const TableAt            at{"body", i};
+        std::vector<std::string> given;
+        for (const auto* key : {"density", "mass", "load"})
+        {
+            if (checker.given(at, key) != nullptr) { given.emplace_back(key); }
+        }
+        if (given.size() != 1)
+        {
+            const auto found = given.empty() ? "none of them" : fmt::format("{}", fmt::join(given, " and "));
+            checker.report(at, given.empty() ? "density" : given.back(), "found " + found,
+                           "exactly one of density, mass, load");
+        }
+        if (weightless && checker.given(at, "load") != nullptr)
+        {
+            checker.report(at, "load", "a load needs gravity, and [domain] gravity is zero", "density or mass");
+        }
+    }
+}
+
+void validate_phases(const Scene& scene, Checker& checker)
+{
+    for (std::size_t i = 0; i < scene.phases.size(); ++i)
+    {
+        if (scene.phases[i].drive) { validate_drive(scene.phases[i], {"phase", i}, checker); }
+    }
+}
+
+void validate_contents(const Scene& scene, Checker& checker)
+{
+    const auto absent = [&](const char* table) { return find(checker.document, table) == nullptr; };
+    if (absent("phase")) { checker.report({"phase"}, "", "missing", "at least one [[phase]]"); }
+    if (absent("terrain") && absent("rocks") && absent("body"))
+    {
+        checker.problems.push_back(
+            {checker.document.where, "", "", "the scene is empty", "at least one of [[terrain]], [[rocks]], [[body]]"});
+    }
+    if (absent("terrain"))
+    {
+        for (std::size_t i = 0; i < scene.rocks.size(); ++i)
+        {
+            if (scene.rocks[i].placement != Placement::replace) { continue; }
+            checker.report({"rocks", i}, "placement", "\"replace\" needs a [[terrain]] to replace",
+                           "\"rain\" | \"grid\"");
+        }
+        return;
+    }
+    if (checker.given({"grid"}, "spacing") == nullptr)
+    {
+        checker.report({"grid"}, "spacing", "missing; [[terrain]] needs it", "number > 0 (m)");
+        return;
+    }
+    const double smallest = *std::min_element(scene.domain.size.begin(), scene.domain.size.end());
+    if (scene.grid.spacing > smallest && checker.sound({"domain"}, {"size"}))
+    {
+        checker.report({"grid"}, "spacing", fmt::format("{} is more than the domain", scene.grid.spacing),
+                       fmt::format("number > 0 and <= {} (m)", smallest));
+    }
+}
+
+} // namespace tread::scene

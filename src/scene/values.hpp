@@ -1,0 +1,130 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scene/document.hpp"
+#include "scene/scene.hpp"
+
+// What one value of a scene may be: how it is read from TOML, written back, and described in messages and docs.
+namespace tread::scene
+{
+
+/// Thrown by Value::read; the reader of the table adds file, line, key and what is accepted.
+struct BadValue
+{
+    std::string what;
+};
+
+/// One kind of value held as an M.
+template<class M>
+struct Value
+{
+    std::string                          accepted;
+    std::function<M(const Node&)>        read;  ///< throws BadValue
+    std::function<std::string(const M&)> write; ///< TOML; empty if the value stands for "not given"
+};
+
+/// An interval of finite numbers.
+struct Range
+{
+    double low       = -std::numeric_limits<double>::infinity();
+    double high      = std::numeric_limits<double>::infinity();
+    bool   with_low  = true;
+    bool   with_high = true;
+
+    bool        contains(double value) const;
+    std::string text() const; ///< "number > 0 and <= 1"
+};
+
+Range any_number();
+Range above(double low);
+Range at_least(double low);
+Range between(double low, double high);     ///< [low, high]
+Range from_below(double low, double high);  ///< [low, high)
+Range above_up_to(double low, double high); ///< (low, high]
+
+/// A finite number; TOML integers are taken too. BadValue outside the range.
+double read_number(const Node& node, const Range& range);
+
+/// BadValue outside [low, high].
+std::int64_t read_integer(const Node& node, std::int64_t low, std::int64_t high);
+
+/// BadValue if `node` is no string.
+const std::string& read_string(const Node& node);
+
+/// The elements of an array; BadValue unless there are `size` of them.
+const NodeArray& read_array(const Node& node, std::size_t size);
+
+/// The shortest decimal that reads back as the same double, recognisable as a float.
+std::string write_number(double value);
+
+/// A quoted TOML string.
+std::string write_string(const std::string& text);
+
+/// A number out of range (0 where only > 0 is accepted) stands for "not given" and is not written.
+Value<double> number(Range range);
+
+/// `word` stands for "nothing"; with an empty word, absence does.
+Value<std::optional<double>>       number_or(const std::string& word, Range range);
+Value<std::optional<std::int64_t>> integer_or(const std::string& word, std::int64_t low);
+
+/// Three numbers, each in range.
+Value<Vector3> vector3(Range range);
+
+/// Any string.
+Value<std::string> text();
+
+/// A string of letters, digits, '_' and '-', so that it may stand in paths, HDF5 names and --set arguments.
+Value<std::string> name();
+
+/// An array of names.
+Value<std::vector<std::string>> names();
+
+/// An array of distinct words out of `words`.
+Value<std::vector<std::string>> words_of(std::vector<std::string> words);
+
+/// Two names.
+Value<std::array<std::string, 2>> pair_of_names();
+
+/// [[x, y, z], [x, y, z]], the second above the first in each component.
+Value<Box> box();
+
+/// Metres a mesh unit: a word of length or a number.
+Value<double> length_unit();
+
+/// An integer in [low, high] held as an M.
+template<class M>
+Value<M> integer(std::int64_t low, std::int64_t high = std::numeric_limits<std::int64_t>::max())
+{
+    const bool  bounded  = high != std::numeric_limits<std::int64_t>::max();
+    std::string accepted = bounded ? fmt::format("integer {} to {}", low, high) : fmt::format("integer >= {}", low);
+    return {std::move(accepted), [=](const Node& node) { return static_cast<M>(read_integer(node, low, high)); },
+            [](const M& value) { return fmt::format("{}", value); }};
+}
+
+/// One of a few integers.
+Value<int> integer_of(std::vector<int> choices);
+
+/// The word at `value`; the accepted words in the order given.
+std::size_t read_word(const Node& node, const std::vector<std::string>& words);
+
+/// `"a" | "b"`
+std::string list_words(const std::vector<std::string>& words);
+
+/// An enumeration whose enumerators, in order, are spelt as `words`.
+template<class E>
+Value<E> word(std::vector<std::string> words)
+{
+    return {list_words(words), [words](const Node& node) { return static_cast<E>(read_word(node, words)); },
+            [words](const E& value) { return write_string(words.at(static_cast<std::size_t>(value))); }};
+}
+
+} // namespace tread::scene
