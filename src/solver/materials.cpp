@@ -3,8 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/scene.hpp"
-#include "scene/validate.hpp"
+#include "scene/contacts.hpp"
 
 namespace tread::solver
 {
@@ -30,6 +29,27 @@ dem::PairProperties pair(const scene::Contact& contact, Compliance a, Compliance
 }
 
 } // namespace
+
+contact::RadiusRule radius_rule(scene::PointRadius rule)
+{
+    return rule == scene::PointRadius::sphere ? contact::RadiusRule::sphere : contact::RadiusRule::semi_domain;
+}
+
+contact::PointMotion point_motion(scene::PointMotion motion)
+{
+    switch (motion)
+    {
+    case scene::PointMotion::supported: return contact::PointMotion::supported;
+    case scene::PointMotion::ballistic: return contact::PointMotion::ballistic;
+    case scene::PointMotion::frozen: return contact::PointMotion::frozen;
+    }
+    return contact::PointMotion::supported;
+}
+
+double hertz_factor(scene::HertzFactor factor)
+{
+    return factor == scene::HertzFactor::standard ? 1.0 : 1.0 / std::numbers::sqrt2;
+}
 
 double damping_ratio(double restitution)
 {

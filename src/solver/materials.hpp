@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "kernels/contact/point_contact.hpp"
 #include "kernels/dem/templates.hpp"
 #include "kernels/mpm/material_parameters.hpp"
 #include "scene/scene.hpp"
@@ -22,6 +23,11 @@ double compression_wave_speed(const scene::Material& material);
 /// PIC part of FLIP per unit time, 1/s, by material: the scene's pic_rate, or 0.2 c_p/h for granular and 0.04 c_p/h for
 /// elastic materials.
 std::vector<double> pic_rates(const scene::Scene& scene);
+
+/// The kernels' words for the scene's.
+contact::RadiusRule  radius_rule(scene::PointRadius rule);
+contact::PointMotion point_motion(scene::PointMotion motion);
+double               hertz_factor(scene::HertzFactor factor);
 
 /// Damping ratio zeta of the stiffness-proportional law that gives restitution e when attraction is cut off:
 /// e = exp[-(zeta/W)(pi - atan2(2 zeta W, 1 - 2 zeta^2))], W = sqrt(1 - zeta^2) (prototypes 1).

@@ -9,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "base/random.hpp"
+#include "solver/materials.hpp"
 
 namespace tread::solver
 {
@@ -155,11 +156,6 @@ int template_index(const World& world, const std::string& name)
 
 } // namespace
 
-double point_radius(scene::PointRadius rule, double volume)
-{
-    return rule == scene::PointRadius::sphere ? std::cbrt(3 * volume / (4 * std::numbers::pi)) : 0.5 * std::cbrt(volume);
-}
-
 std::int64_t remove_points_in_body(const scene::Scene& scene, World& world, std::size_t body)
 {
     const auto&        shape    = world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
@@ -167,11 +163,12 @@ std::int64_t remove_points_in_body(const scene::Scene& scene, World& world, std:
     const Vec3<double> centre   = world.bodies.position[body];
     const Mat3<double> to_body  = world.bodies.orientation[body].toRotationMatrix().transpose();
     HostPoints&        points   = world.points;
+    const auto         rule     = radius_rule(scene.numerics.point_radius);
     std::size_t        kept     = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
     {
         const Vec3<double> offset = points.position[i] - centre;
-        const double       radius = point_radius(scene.numerics.point_radius, points.volume[i]);
+        const double       radius = contact::point_radius(points.volume[i], rule);
         if (offset.norm() < shape.bounding_radius * scale + radius &&
             scale * shape::sample(shape.sdf, to_body * offset / scale) < radius)
         {

@@ -10,9 +10,6 @@ namespace tread::solver
 /// placement "replace" the points with phi < r_p are removed; otherwise sand in the way is an InputError.
 void place_rocks(const scene::Scene& scene, const scene::Rocks& rocks, World& world);
 
-/// Radius of a point in contact: from its initial volume, as the scene's point_radius says (Eq. 11 or section 2.3.2).
-double point_radius(scene::PointRadius rule, double volume);
-
 /// Removes points with phi < r_p of the world's body `body`; returns how many.
 std::int64_t remove_points_in_body(const scene::Scene& scene, World& world, std::size_t body);
 

@@ -74,6 +74,7 @@ TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* c
         sums[grid_kinetic_after] += 0.5 * m * double(after.squaredNorm());
         sums[grid_damped] -= double(step.dt) * double(damping.dot((before + moved) * Real(0.5)));
         sums[grid_wall_loss] += 0.5 * m * double(moved.squaredNorm() - after.squaredNorm());
+        sums[grid_net_force] += double(mass * change.norm() / step.dt);
         for (int c = 0; c < 3; ++c)
         {
             sums[grid_wall_impulse + c] += m * double(after[c] - moved[c]);

@@ -1,0 +1,85 @@
+#include "solver/device_templates.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+/// Appends `from` to `to`; returns where it starts.
+template<class T>
+std::size_t append(std::vector<T>& to, const std::vector<T>& from)
+{
+    const std::size_t start = to.size();
+    to.insert(to.end(), from.begin(), from.end());
+    return start;
+}
+
+dem::TemplateView measures(const shape::ShapeTemplate& form)
+{
+    dem::TemplateView view{};
+    view.sdf_origin        = form.sdf.origin;
+    view.sdf_spacing       = form.sdf.spacing;
+    view.sdf_nodes[0]      = form.sdf.nodes[0];
+    view.sdf_nodes[1]      = form.sdf.nodes[1];
+    view.sdf_nodes[2]      = form.sdf.nodes[2];
+    view.node_count        = static_cast<std::int32_t>(form.nodes.positions.size());
+    view.cluster_count     = static_cast<std::int32_t>(form.nodes.cluster_centres.size());
+    view.low               = form.box.low;
+    view.high              = form.box.high;
+    view.bounding_radius   = form.bounding_radius;
+    view.equivalent_radius = form.equivalent_radius;
+    return view;
+}
+
+} // namespace
+
+template<class Exec>
+DeviceTemplates<Exec>::DeviceTemplates(const Exec& exec, const std::vector<shape::ShapeTemplate>& templates)
+    : sdf_values_(exec, "template sdf")
+    , node_positions_(exec, "template nodes")
+    , node_areas_(exec, "template node areas")
+    , cluster_centres_(exec, "template clusters")
+    , cluster_radii_(exec, "template cluster radii")
+    , views_(exec, "templates")
+{
+    struct Start
+    {
+        std::size_t sdf, node, cluster;
+    };
+    std::vector<float>        sdf;
+    std::vector<Vec3<double>> positions, centres;
+    std::vector<double>       areas, radii;
+    std::vector<Start>        starts;
+    for (const auto& form : templates)
+    {
+        starts.push_back({append(sdf, form.sdf.values), append(positions, form.nodes.positions),
+                          append(centres, form.nodes.cluster_centres)});
+        append(areas, form.nodes.areas);
+        append(radii, form.nodes.cluster_radii);
+    }
+    sdf_values_.assign(sdf);
+    node_positions_.assign(positions);
+    node_areas_.assign(areas);
+    cluster_centres_.assign(centres);
+    cluster_radii_.assign(radii);
+
+    std::vector<dem::TemplateView> views;
+    for (std::size_t t = 0; t < templates.size(); ++t)
+    {
+        dem::TemplateView view = measures(templates[t]);
+        view.sdf_values        = sdf_values_.data() + starts[t].sdf;
+        view.node_positions    = node_positions_.data() + starts[t].node;
+        view.node_areas        = node_areas_.data() + starts[t].node;
+        view.cluster_centres   = cluster_centres_.data() + starts[t].cluster;
+        view.cluster_radii     = cluster_radii_.data() + starts[t].cluster;
+        views.push_back(view);
+    }
+    views_.assign(views);
+}
+
+template class DeviceTemplates<Cpu>;
+#ifdef TREAD_WITH_CUDA
+template class DeviceTemplates<Gpu>;
+#endif
+
+} // namespace tread::solver

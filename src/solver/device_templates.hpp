@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "backend/array.hpp"
+#include "kernels/dem/templates.hpp"
+#include "shape/template.hpp"
+
+namespace tread::solver
+{
+
+/// The scene's templates in a backend's memory; views() is what kernels take.
+template<class Exec>
+class DeviceTemplates
+{
+public:
+    DeviceTemplates(const Exec& exec, const std::vector<shape::ShapeTemplate>& templates);
+
+    const dem::TemplateView* views() const { return views_.data(); }
+
+private:
+    Array<Exec, float>             sdf_values_;
+    Array<Exec, Vec3<double>>      node_positions_;
+    Array<Exec, double>            node_areas_;
+    Array<Exec, Vec3<double>>      cluster_centres_;
+    Array<Exec, double>            cluster_radii_;
+    Array<Exec, dem::TemplateView> views_;
+};
+
+} // namespace tread::solver

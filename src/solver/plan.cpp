@@ -1,0 +1,52 @@
+#include "solver/plan.hpp"
+
+#include <algorithm>
+
+namespace tread::solver
+{
+
+Plan make_plan(const scene::Scene& scene, const World& world)
+{
+    const auto plastic = [](const scene::Material& material)
+    { return material.model == scene::MaterialModel::mohr_coulomb; };
+    const auto damped = [](const scene::Phase& phase) { return phase.damping > 0; };
+    Plan       plan{};
+    plan.sand         = world.points.size() > 0;
+    plan.bodies       = world.bodies.size() > 0;
+    plan.coupling     = plan.sand && plan.bodies;
+    plan.body_contact = plan.bodies && (world.bodies.size() > 1 || !world.planes.empty());
+    plan.plasticity   = plan.sand && std::any_of(scene.materials.begin(), scene.materials.end(), plastic);
+    plan.affine       = plan.sand && scene.numerics.transfer == scene::Transfer::apic;
+    plan.damping      = std::any_of(scene.phases.begin(), scene.phases.end(), damped);
+    plan.rocks        = static_cast<std::int64_t>(world.bodies.size()) > world.bodies.named;
+    plan.snapshots    = scene.output.snapshots_every > 0;
+    return plan;
+}
+
+std::vector<Stage> stages(const scene::Scene&, const Plan& plan)
+{
+    const auto needs = [](const char* name, bool on, const char* yes, const char* no)
+    { return Stage{name, on, on ? yes : no}; };
+    const char* no_sand   = "no terrain of material points";
+    const char* no_bodies = "no wheel and no rocks";
+    return {
+        needs(stage::order, plan.sand, "terrain", no_sand),
+        needs(stage::pairs, plan.body_contact, "bodies that may meet each other or a wall", no_bodies),
+        needs(stage::candidates, plan.coupling, "sand and bodies", plan.sand ? no_bodies : no_sand),
+        needs(stage::sand_contact, plan.coupling, "sand and bodies", plan.sand ? no_bodies : no_sand),
+        needs(stage::body_contact, plan.body_contact, "bodies that may meet each other or a wall",
+              plan.bodies ? "one body and no walls" : no_bodies),
+        needs(stage::integrate, plan.bodies, "bodies", no_bodies),
+        needs(stage::scatter, plan.sand, "terrain", no_sand),
+        needs(stage::grid, plan.sand, "terrain", no_sand),
+        needs(stage::gather, plan.sand, "terrain", no_sand),
+        needs(stage::plasticity, plan.plasticity, "Mohr-Coulomb terrain; part of grid to points",
+              plan.sand ? "elastic terrain" : no_sand),
+        needs(stage::damping, plan.damping, "a phase with damping; part of grid and move bodies",
+              "no phase with damping"),
+        needs(stage::snapshots, plan.snapshots, "snapshots_every", "output.snapshots_every = 0"),
+        needs(stage::halo, false, "", "one rank"),
+    };
+}
+
+} // namespace tread::solver

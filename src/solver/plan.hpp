@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "solver/world.hpp"
+
+namespace tread::solver
+{
+
+/// One thing that a step does, and whether the scene needs it.
+struct Stage
+{
+    std::string name;
+    bool        on;
+    std::string why; ///< the reason, either way
+};
+
+/// Which parts of the state and of a step a scene needs. Nothing else is constructed, allocated or launched.
+struct Plan
+{
+    bool sand;         ///< points, pages, grid
+    bool bodies;       ///< wheels or rocks
+    bool coupling;     ///< sand-body contact
+    bool body_contact; ///< body-body or body-wall contact
+    bool plasticity;   ///< return mapping
+    bool affine;       ///< APIC
+    bool damping;      ///< local damping in some phase
+    bool rocks;
+    bool snapshots;
+};
+
+Plan make_plan(const scene::Scene& scene, const World& world);
+
+/// The stages of a step in their order, as `tread check`, the log and summary.json list them.
+std::vector<Stage> stages(const scene::Scene& scene, const Plan& plan);
+
+/// Stage names, shared by the plan, the clock and the tables.
+namespace stage
+{
+inline constexpr const char* order        = "order points";
+inline constexpr const char* pairs        = "find body pairs";
+inline constexpr const char* candidates   = "find sand-body candidates";
+inline constexpr const char* sand_contact = "sand-body contact";
+inline constexpr const char* body_contact = "body-body contact";
+inline constexpr const char* integrate    = "move bodies";
+inline constexpr const char* scatter      = "points to grid";
+inline constexpr const char* grid         = "grid";
+inline constexpr const char* gather       = "grid to points";
+inline constexpr const char* plasticity   = "return mapping";
+inline constexpr const char* damping      = "local damping";
+inline constexpr const char* measure      = "measure";
+inline constexpr const char* output       = "output";
+inline constexpr const char* snapshots    = "snapshots";
+inline constexpr const char* halo         = "halo";
+} // namespace stage
+
+} // namespace tread::solver

@@ -1,0 +1,163 @@
+#include "solver/sand.hpp"
+
+#include <algorithm>
+
+#include "solver/materials.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+/// Lighter nodes stand still: this share of the lightest point's mass is far below what moves anything.
+constexpr double mass_floor_share = 1e-7;
+
+template<class Real>
+std::vector<Real> cast(const std::vector<double>& values)
+{
+    return {values.begin(), values.end()};
+}
+
+/// Planes of a vector per point, one component after the other.
+template<class Real, int components>
+std::vector<Real> planes(const std::vector<Eigen::Matrix<double, components, 1>>& values)
+{
+    const std::size_t n = values.size();
+    std::vector<Real> out(components * n);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+        for (std::size_t c = 0; c < components; ++c)
+        {
+            out[c * n + i] = static_cast<Real>(values[i][static_cast<Eigen::Index>(c)]);
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+template<class Exec, class Real>
+Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields)
+    : exec_(exec)
+    , geometry_(world.geometry)
+    , walls_(world.grid_walls)
+    , gravity_(Vec3<double>(scene.domain.gravity[0], scene.domain.gravity[1], scene.domain.gravity[2]).cast<Real>())
+    , mass_floor_(static_cast<Real>(mass_floor_share *
+                                    *std::min_element(world.points.mass.begin(), world.points.mass.end())))
+    , points_(exec)
+    , pages_(exec)
+    , order_scratch_(exec)
+    , tiles_(exec, "tiles")
+    , motion_(exec, "grid motion")
+    , grid_rows_(exec, "grid sums")
+    , point_rows_(exec, "point sums")
+    , peak_rows_(exec, "point peaks")
+    , census_rows_(exec, "point census")
+    , totals_(exec, "sand totals", mpm::census_count + mpm::grid_sums + mpm::point_sums + mpm::point_peaks)
+    , materials_(exec, "materials")
+    , pic_rates_(exec, "pic rates")
+{
+    materials_.assign(law_parameters<Real>(scene));
+    pic_rates_.assign(cast<Real>(pic_rates(scene)));
+    upload(world, fields);
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::upload(const World& world, mpm::PointFields fields)
+{
+    const HostPoints& host = world.points;
+    const auto        n    = host.size();
+    points_.allocate(static_cast<std::int64_t>(n), fields);
+    points_.position.assign(planes<double, 3>(host.position));
+    points_.start.assign(planes<double, 3>(host.position));
+    points_.stress.assign(planes<Real, 6>(host.stress));
+    points_.mass.assign(cast<Real>(host.mass));
+    points_.volume.assign(cast<Real>(host.volume));
+    points_.volume_ratio.assign(std::vector<Real>(n, Real(1)));
+    points_.material.assign(host.material);
+    std::vector<std::uint32_t> ids(n);
+    for (std::size_t i = 0; i < n; ++i) { ids[i] = static_cast<std::uint32_t>(i); }
+    points_.id.assign(ids);
+}
+
+template<class Exec, class Real>
+mpm::PagesView Sand<Exec, Real>::pages() const
+{
+    return pages_.view(geometry_.spacing, geometry_.stencil_shift);
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::order()
+{
+    if (ordered_) { return; }
+    mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_);
+    ordered_ = true;
+    const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
+    tiles_.resize(point_pages * mpm::node_channels * mpm::tile_nodes);
+    motion_.resize(node_pages * mpm::motion_channels * mpm::page_cells);
+    grid_rows_.resize(node_pages * mpm::grid_sums);
+    point_rows_.resize(point_pages * mpm::point_sums);
+    peak_rows_.resize(point_pages * mpm::point_peaks);
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::scatter()
+{
+    mpm::scatter(exec_, points_.view(), pages(), tiles_.data());
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::update_grid(double dt, double damping)
+{
+    const mpm::GridStep<Real> step{static_cast<Real>(dt), gravity_, static_cast<Real>(damping), mass_floor_, walls_};
+    mpm::update_grid(exec_, pages(), tiles_.data(), step, motion_.data(), grid_rows_.data());
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::gather(double dt)
+{
+    const mpm::GatherStep<Real> step{static_cast<Real>(dt), materials_.data(), pic_rates_.data()};
+    mpm::gather(exec_, points_.view(), pages(), motion_.data(), step, point_rows_.data(), peak_rows_.data());
+}
+
+template<class Exec, class Real>
+SandReport Sand<Exec, Real>::report()
+{
+    const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
+    double*            grid   = totals_.data();
+    double*            points = grid + mpm::grid_sums;
+    double*            peaks  = points + mpm::point_sums;
+    sum_rows(exec_, grid_rows_.data(), node_pages, mpm::grid_sums, grid);
+    sum_rows(exec_, point_rows_.data(), point_pages, mpm::point_sums, points);
+    largest_of_rows(exec_, peak_rows_.data(), point_pages, mpm::point_peaks, peaks);
+    const auto read = [](const Exec& exec, auto& to, const double* from) { copy_to_host(exec, to, from, sizeof(to)); };
+    SandReport report;
+    read(exec_, report.grid, grid);
+    read(exec_, report.points, points);
+    read(exec_, report.peaks, peaks);
+    if (report.peaks[mpm::peak_moved] > 0) { ordered_ = false; }
+    return report;
+}
+
+template<class Exec, class Real>
+SandCensus Sand<Exec, Real>::census()
+{
+    order();
+    const std::int64_t point_pages = pages_.point_page_key.size();
+    census_rows_.resize(point_pages * mpm::census_count);
+    mpm::take_census(exec_, points_.view(), pages(), materials_.data(), census_rows_.data());
+    sum_rows(exec_, census_rows_.data(), point_pages, mpm::census_count, totals_.data());
+    double total[mpm::census_count];
+    copy_to_host(exec_, total, totals_.data(), sizeof(total));
+    return {total[mpm::census_mass], total[mpm::census_kinetic], total[mpm::census_strain],
+            Vec3<double>(total + mpm::census_momentum), Vec3<double>(total + mpm::census_moment)};
+}
+
+template class Sand<Cpu, float>;
+template class Sand<Cpu, double>;
+#ifdef TREAD_WITH_CUDA
+template class Sand<Gpu, float>;
+template class Sand<Gpu, double>;
+#endif
+
+} // namespace tread::solver

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <vector>
+
+#include "backend/reduce.hpp"
+#include "kernels/mpm/census.hpp"
+#include "kernels/mpm/gather.hpp"
+#include "kernels/mpm/grid.hpp"
+#include "kernels/mpm/order.hpp"
+#include "kernels/mpm/scatter.hpp"
+#include "solver/world.hpp"
+
+namespace tread::solver
+{
+
+/// What one step did to the sand, summed over its pages.
+struct SandReport
+{
+    double grid[mpm::grid_sums]     = {}; ///< by mpm::GridSum
+    double points[mpm::point_sums]  = {}; ///< by mpm::PointSum
+    double peaks[mpm::point_peaks]  = {}; ///< by mpm::PointPeak
+};
+
+/// What the sand holds.
+struct SandCensus
+{
+    double       mass     = 0; ///< kg
+    double       kinetic  = 0; ///< J
+    double       strain   = 0; ///< J
+    Vec3<double> momentum = Vec3<double>::Zero(); ///< kg m/s
+    Vec3<double> moment   = Vec3<double>::Zero(); ///< kg m, mass times position
+};
+
+/// The sand of a scene on one backend: points, pages, grid and the four calls of an MPM step.
+template<class Exec, class Real>
+class Sand
+{
+public:
+    Sand(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields);
+
+    std::int64_t                     count() const { return points_.count; }
+    mpm::PointsView<Real>            view() { return points_.view(); }
+    mpm::Points<Exec, Real>&         points() { return points_; }
+    mpm::PagesView                   pages() const;
+    const mpm::GridGeometry&         geometry() const { return geometry_; }
+
+    /// 1. Orders points by page and cell, if one has left its cell since.
+    void order();
+
+    /// 4. P2G.
+    void scatter();
+
+    /// 5. Grid momentum, with local damping (0 = none).
+    void update_grid(double dt, double damping);
+
+    /// 6. G2P and stress.
+    void gather(double dt);
+
+    /// Of the last step; waits for it.
+    SandReport report();
+
+    /// Of the present state, ordered or not since the last step; waits for it.
+    SandCensus census();
+
+private:
+    void upload(const World& world, mpm::PointFields fields);
+
+    Exec                                       exec_;
+    mpm::GridGeometry                          geometry_;
+    mpm::GridWalls                             walls_;
+    Vec3<Real>                                 gravity_;
+    Real                                       mass_floor_;
+    mpm::Points<Exec, Real>                    points_;
+    mpm::Pages<Exec>                           pages_;
+    mpm::OrderScratch<Exec, Real>              order_scratch_;
+    Array<Exec, Real>                          tiles_;
+    Array<Exec, Real>                          motion_;
+    Array<Exec, double>                        grid_rows_;
+    Array<Exec, double>                        point_rows_;
+    Array<Exec, double>                        peak_rows_;
+    Array<Exec, double>                        census_rows_;
+    Array<Exec, double>                        totals_;
+    Array<Exec, mpm::MaterialParameters<Real>> materials_;
+    Array<Exec, Real>                          pic_rates_;
+    bool                                       ordered_ = false;
+};
+
+} // namespace tread::solver

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "backend/memory.hpp"
+#include "io/summary.hpp"
+#include "solver/plan.hpp"
+
+namespace tread::solver
+{
+
+/// Wall time by stage. On a GPU a stage's end is waited for in one step of sixteen only, so that timing does not open
+/// gaps between launches; its seconds are scaled from the calls that were timed.
+class StageClock
+{
+public:
+    void begin_step(std::int64_t step) { step_ = step; }
+
+    template<class Exec, class F>
+    void run(const Exec& exec, const char* name, F f)
+    {
+        Row& row = rows_[name];
+        ++row.calls;
+        if (!sampled(exec))
+        {
+            f();
+            return;
+        }
+        synchronize(exec);
+        const auto start = std::chrono::steady_clock::now();
+        f();
+        synchronize(exec);
+        row.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        ++row.timed;
+    }
+
+    /// The plan's stages with calls and seconds.
+    std::vector<io::StageReport> reports(const std::vector<Stage>& stages) const;
+
+private:
+    struct Row
+    {
+        std::int64_t calls   = 0;
+        std::int64_t timed   = 0;
+        double       seconds = 0;
+    };
+
+    static constexpr std::int64_t gpu_sample = 16;
+
+    bool sampled(const Cpu&) const { return true; }
+    bool sampled(const Gpu&) const { return step_ % gpu_sample == 0; }
+
+    std::int64_t                          step_ = 0;
+    std::map<std::string, Row, std::less<>> rows_;
+};
+
+} // namespace tread::solver
