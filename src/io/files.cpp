@@ -1,0 +1,55 @@
+#include "io/files.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/errors.hpp"
+
+namespace tread::io
+{
+
+namespace
+{
+
+[[noreturn]] void fail(const std::string& path)
+{
+    throw EnvironmentError(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+}
+
+struct Close
+{
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+} // namespace
+
+void write_atomically(const std::string& path, const std::string& text)
+{
+    const std::string temporary = path + ".tmp";
+
+    std::unique_ptr<std::FILE, Close> file(std::fopen(temporary.c_str(), "w"));
+    if (!file) { fail(path); }
+    const bool written = std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() &&
+                         std::fflush(file.get()) == 0 && fsync(fileno(file.get())) == 0;
+    if (!written)
+    {
+        const int reason = errno;
+        std::remove(temporary.c_str());
+        errno = reason;
+        fail(path);
+    }
+    file.reset();
+    rename_file(temporary, path);
+}
+
+void rename_file(const std::string& from, const std::string& to)
+{
+    if (std::rename(from.c_str(), to.c_str()) != 0) { fail(to); }
+}
+
+} // namespace tread::io

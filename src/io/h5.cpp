@@ -1,0 +1,255 @@
+#include "io/h5.hpp"
+
+#include <type_traits>
+
+#include <fmt/format.h>
+
+namespace tread::io::h5
+{
+
+namespace
+{
+
+// Rows that a growing data set takes at a time: 8 KiB a column.
+constexpr hsize_t growth = 1024;
+
+template<class T>
+hid_t type_of()
+{
+    if constexpr (std::is_same_v<T, double>) { return H5T_NATIVE_DOUBLE; }
+    else if constexpr (std::is_same_v<T, float>) { return H5T_NATIVE_FLOAT; }
+    else if constexpr (std::is_same_v<T, std::int32_t>) { return H5T_NATIVE_INT32; }
+    else if constexpr (std::is_same_v<T, std::int64_t>) { return H5T_NATIVE_INT64; }
+    else if constexpr (std::is_same_v<T, std::uint32_t>) { return H5T_NATIVE_UINT32; }
+    else
+    {
+        static_assert(std::is_same_v<T, std::uint8_t>);
+        return H5T_NATIVE_UINT8;
+    }
+}
+
+// The error stack's innermost entry says most: "unable to create file: ... Permission denied".
+herr_t take_innermost(unsigned depth, const H5E_error2_t* entry, void* reason)
+{
+    if (depth == 0 && entry->desc != nullptr) { *static_cast<std::string*>(reason) = entry->desc; }
+    return 0;
+}
+
+// Called before anything may fail: HDF5 prints its whole stack to standard error unless told not to.
+void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+Handle property_list(hid_t kind) { return {H5Pcreate(kind), H5Pclose}; }
+
+std::vector<hsize_t> shape(hsize_t rows, int width)
+{
+    if (width == 1) { return {rows}; }
+    return {rows, static_cast<hsize_t>(width)};
+}
+
+Handle dataspace(const std::vector<hsize_t>& size)
+{
+    return {H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose};
+}
+
+void check(herr_t result, const File& file, const std::string& what) { checked(result, file.path(), what); }
+
+void select_rows(const File& file, const Handle& space, hsize_t first, hsize_t count, int width)
+{
+    if (count == 0)
+    {
+        H5Sselect_none(space.id());
+        return;
+    }
+    const std::vector<hsize_t> start{first, 0};
+    const std::vector<hsize_t> size = shape(count, width);
+    check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), file,
+          "selecting rows");
+}
+
+Handle open_dataset(const File& file, const std::string& name)
+{
+    return {checked(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), file.path(), "opening " + name), H5Dclose};
+}
+
+void write_attribute_data(const File& file, const std::string& object, const std::string& name, hid_t type,
+                          const Handle& space, const void* data)
+{
+    const std::string what = fmt::format("writing attribute {} of {}", name, object);
+    const Handle      at{checked(H5Oopen(file.id(), object.c_str(), H5P_DEFAULT), file.path(), what), H5Oclose};
+    const Handle      attribute{
+        checked(H5Acreate2(at.id(), name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT), file.path(), what),
+        H5Aclose};
+    check(H5Awrite(attribute.id(), type, data), file, what);
+}
+
+} // namespace
+
+hid_t checked(hid_t id, const std::string& path, const std::string& what)
+{
+    if (id >= 0) { return id; }
+    std::string reason = "no reason given";
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_innermost, &reason);
+    throw EnvironmentError(fmt::format("{}: HDF5: {} failed: {}", path, what, reason));
+}
+
+File::File(hid_t id, std::string path, Handle transfer)
+    : handle_(id, H5Fclose)
+    , path_(std::move(path))
+    , transfer_(std::move(transfer))
+{
+}
+
+File File::create(const std::string& path)
+{
+    silence();
+    const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    return {checked(id, path, "creating the file"), path, property_list(H5P_DATASET_XFER)};
+}
+
+File File::create(const std::string& path, const Communicator& communicator)
+{
+    silence();
+    const Handle access = property_list(H5P_FILE_ACCESS);
+    checked(H5Pset_fapl_mpio(access.id(), communicator.native(), MPI_INFO_NULL), path, "setting up MPI-IO");
+    H5Pset_coll_metadata_write(access.id(), true);
+    Handle transfer = property_list(H5P_DATASET_XFER);
+    H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE);
+    const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id());
+    return {checked(id, path, "creating the file"), path, std::move(transfer)};
+}
+
+File File::append(const std::string& path)
+{
+    silence();
+    const Handle access = property_list(H5P_FILE_ACCESS);
+    H5Pset_file_locking(access.id(), false, true);
+    const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id());
+    return {checked(id, path, "opening the file"), path, property_list(H5P_DATASET_XFER)};
+}
+
+File File::open(const std::string& path)
+{
+    silence();
+    const Handle access = property_list(H5P_FILE_ACCESS);
+    H5Pset_file_locking(access.id(), false, true);
+    const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id());
+    return {checked(id, path, "opening the file"), path, property_list(H5P_DATASET_XFER)};
+}
+
+void File::close() { check(H5Fclose(handle_.release()), *this, "closing the file"); }
+
+Rows rows_of_rank(const Communicator& communicator, std::size_t count)
+{
+    const std::vector<std::int64_t> counts = communicator.gather(static_cast<std::int64_t>(count));
+
+    Rows rows{0, 0, count};
+    for (std::size_t rank = 0; rank < counts.size(); ++rank)
+    {
+        const auto rows_there = static_cast<hsize_t>(counts[rank]);
+        if (static_cast<int>(rank) < communicator.rank()) { rows.first += rows_there; }
+        rows.total += rows_there;
+    }
+    return rows;
+}
+
+void create_group(const File& file, const std::string& name)
+{
+    const Handle links = property_list(H5P_LINK_CREATE);
+    H5Pset_create_intermediate_group(links.id(), 1);
+    const hid_t  id = H5Gcreate2(file.id(), name.c_str(), links.id(), H5P_DEFAULT, H5P_DEFAULT);
+    const Handle group{checked(id, file.path(), "creating group " + name), H5Gclose};
+}
+
+template<class T>
+void write(const File& file, const std::string& name, const std::vector<T>& values, int width, const Rows& rows)
+{
+    const std::string what     = "writing " + name;
+    const Handle      in_file  = dataspace(shape(rows.total, width));
+    const Handle      creation = property_list(H5P_DATASET_CREATE);
+    H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+    const hid_t id =
+        H5Dcreate2(file.id(), name.c_str(), type_of<T>(), in_file.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT);
+    const Handle dataset{checked(id, file.path(), what), H5Dclose};
+
+    const Handle in_memory = dataspace(shape(rows.count, width));
+    if (rows.count == 0) { H5Sselect_none(in_memory.id()); }
+    select_rows(file, in_file, rows.first, rows.count, width);
+    check(H5Dwrite(dataset.id(), type_of<T>(), in_memory.id(), in_file.id(), file.transfer(), values.data()), file,
+          what);
+}
+
+template void write(const File&, const std::string&, const std::vector<double>&, int, const Rows&);
+template void write(const File&, const std::string&, const std::vector<float>&, int, const Rows&);
+template void write(const File&, const std::string&, const std::vector<std::int32_t>&, int, const Rows&);
+template void write(const File&, const std::string&, const std::vector<std::int64_t>&, int, const Rows&);
+template void write(const File&, const std::string&, const std::vector<std::uint32_t>&, int, const Rows&);
+template void write(const File&, const std::string&, const std::vector<std::uint8_t>&, int, const Rows&);
+
+void create_growing(const File& file, const std::string& name, int width)
+{
+    std::vector<hsize_t> most       = shape(0, width);
+    std::vector<hsize_t> chunk      = most;
+    most[0]                         = H5S_UNLIMITED;
+    chunk[0]                        = growth;
+    const std::vector<hsize_t> none = shape(0, width);
+
+    const Handle space{H5Screate_simple(static_cast<int>(none.size()), none.data(), most.data()), H5Sclose};
+    const Handle creation = property_list(H5P_DATASET_CREATE);
+    H5Pset_chunk(creation.id(), static_cast<int>(chunk.size()), chunk.data());
+    const hid_t id =
+        H5Dcreate2(file.id(), name.c_str(), H5T_NATIVE_DOUBLE, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT);
+    const Handle dataset{checked(id, file.path(), "creating " + name), H5Dclose};
+}
+
+void append_rows(const File& file, const std::string& name, const std::vector<double>& values, int width)
+{
+    const std::string what    = "appending to " + name;
+    const hsize_t     count   = values.size() / static_cast<hsize_t>(width);
+    const Handle      dataset = open_dataset(file, name);
+
+    hsize_t size[2] = {0, 0};
+    {
+        const Handle before{H5Dget_space(dataset.id()), H5Sclose};
+        H5Sget_simple_extent_dims(before.id(), size, nullptr);
+    }
+    const hsize_t first = size[0];
+    size[0] += count;
+    check(H5Dset_extent(dataset.id(), size), file, what);
+
+    const Handle in_file{H5Dget_space(dataset.id()), H5Sclose};
+    const Handle in_memory = dataspace(shape(count, width));
+    select_rows(file, in_file, first, count, width);
+    check(H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, in_memory.id(), in_file.id(), file.transfer(), values.data()), file,
+          what);
+}
+
+void write_attribute(const File& file, const std::string& object, const std::string& name, const std::string& value)
+{
+    const Handle type{H5Tcopy(H5T_C_S1), H5Tclose};
+    H5Tset_size(type.id(), H5T_VARIABLE);
+    H5Tset_cset(type.id(), H5T_CSET_UTF8);
+    const char* text = value.c_str();
+    write_attribute_data(file, object, name, type.id(), {H5Screate(H5S_SCALAR), H5Sclose}, &text);
+}
+
+void write_attribute(const File& file, const std::string& object, const std::string& name, double value)
+{
+    write_attribute_data(file, object, name, H5T_NATIVE_DOUBLE, {H5Screate(H5S_SCALAR), H5Sclose}, &value);
+}
+
+void write_attribute(const File& file, const std::string& object, const std::string& name,
+                     const std::vector<std::int64_t>& values)
+{
+    write_attribute_data(file, object, name, H5T_NATIVE_INT64, dataspace({values.size()}), values.data());
+}
+
+void write_fixed_attribute(const File& file, const std::string& object, const std::string& name,
+                           const std::string& value)
+{
+    const Handle type{H5Tcopy(H5T_C_S1), H5Tclose};
+    H5Tset_size(type.id(), value.size());
+    H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+    write_attribute_data(file, object, name, type.id(), {H5Screate(H5S_SCALAR), H5Sclose}, value.data());
+}
+
+} // namespace tread::io::h5

@@ -1,0 +1,131 @@
+#include "io/snapshot.hpp"
+
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "io/files.hpp"
+#include "io/h5.hpp"
+
+namespace tread::io
+{
+
+namespace
+{
+
+template<class T>
+void write_with_unit(const h5::File& file, const std::string& name, const std::vector<T>& values, int width,
+                     const std::string& unit)
+{
+    h5::write(file, name, values, width);
+    h5::write_attribute(file, name, "units", unit);
+}
+
+template<class Index>
+std::vector<Index> flattened(const std::vector<std::array<Index, 3>>& triples)
+{
+    std::vector<Index> values;
+    values.reserve(3 * triples.size());
+    for (const auto& triple : triples) { values.insert(values.end(), triple.begin(), triple.end()); }
+    return values;
+}
+
+std::vector<double> flattened(const std::vector<Eigen::Vector3d>& points)
+{
+    std::vector<double> values;
+    values.reserve(3 * points.size());
+    for (const Eigen::Vector3d& point : points) { values.insert(values.end(), point.begin(), point.end()); }
+    return values;
+}
+
+std::string temporary(const std::string& path) { return path + ".tmp"; }
+
+} // namespace
+
+void write_bodies(const std::string& path, double time, const BodyFields& bodies)
+{
+    h5::File file = h5::File::create(path);
+    h5::write_attribute(file, "/", "time", time);
+    write_with_unit(file, "/position", bodies.position, 3, "m");
+    write_with_unit(file, "/orientation", bodies.orientation, 4, "1");
+    write_with_unit(file, "/velocity", bodies.velocity, 3, "m/s");
+    write_with_unit(file, "/angular_velocity", bodies.angular_velocity, 3, "rad/s");
+    write_with_unit(file, "/scale", bodies.scale, 1, "1");
+    write_with_unit(file, "/shape", bodies.shape, 1, "1");
+    file.close();
+}
+
+SnapshotWriter::SnapshotWriter(const Communicator& communicator, std::string directory)
+    : communicator_(&communicator)
+    , directory_(std::move(directory))
+{
+    on_root(communicator,
+            [&]
+            {
+                std::error_code error;
+                std::filesystem::create_directories(directory_, error);
+                if (error) { throw EnvironmentError(fmt::format("{}: {}", directory_, error.message())); }
+            });
+}
+
+void SnapshotWriter::write_shapes(const std::vector<NamedMesh>& shapes) const
+{
+    const std::string path = directory_ + "/shapes.h5";
+    on_root(*communicator_,
+            [&]
+            {
+                h5::File file = h5::File::create(temporary(path));
+                for (std::size_t i = 0; i < shapes.size(); ++i)
+                {
+                    const std::string group = fmt::format("/{}", i);
+                    h5::create_group(file, group);
+                    h5::write_attribute(file, group, "name", shapes[i].name);
+                    write_with_unit(file, group + "/vertices", flattened(shapes[i].mesh.vertices), 3, "m");
+                    write_with_unit(file, group + "/triangles", flattened(shapes[i].mesh.triangles), 3, "1");
+                }
+                file.close();
+                rename_file(temporary(path), path);
+            });
+}
+
+void SnapshotWriter::write(double time, const PointFields& points, const BodyFields& bodies)
+{
+    const int number = next_++;
+    if (communicator_->maximum(static_cast<std::int64_t>(points.position.size())) > 0)
+    {
+        const std::string name = fmt::format("points_{:04}.hdf", number);
+        const std::string path = directory_ + "/" + name;
+        write_points(*communicator_, temporary(path), time, points);
+        series_.push_back({name, time});
+        on_root(*communicator_,
+                [&]
+                {
+                    rename_file(temporary(path), path);
+                    write_series();
+                });
+    }
+    if (communicator_->maximum(static_cast<std::int64_t>(bodies.position.size())) > 0)
+    {
+        const std::string path = fmt::format("{}/bodies_{:04}.h5", directory_, number);
+        on_root(*communicator_,
+                [&]
+                {
+                    write_bodies(temporary(path), time, bodies);
+                    rename_file(temporary(path), path);
+                });
+    }
+}
+
+void SnapshotWriter::write_series() const
+{
+    nlohmann::ordered_json files = nlohmann::ordered_json::array();
+    for (const Entry& entry : series_) { files.push_back({{"name", entry.name}, {"time", entry.time}}); }
+    nlohmann::ordered_json series;
+    series["file-series-version"] = "1.0";
+    series["files"]               = files;
+    write_atomically(directory_ + "/points.hdf.series", series.dump(1) + "\n");
+}
+
+} // namespace tread::io

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "shape/mesh.hpp"
+
+namespace tread::io
+{
+
+/// This rank's material points, row-major host arrays of n points. An array that is empty on every rank is left out of
+/// the file.
+struct PointFields
+{
+    std::vector<double>        position;      ///< [n][3] m, world
+    std::vector<float>         displacement;  ///< [n][3] m, since the start
+    std::vector<float>         velocity;      ///< [n][3] m/s
+    std::vector<float>         stress;        ///< [n][6] Pa, tension positive: xx, yy, zz, yz, xz, xy
+    std::vector<float>         plastic_shear; ///< [n] equivalent plastic shear strain
+    std::vector<float>         plastic_rate;  ///< [n] 1/s
+    std::vector<std::int32_t>  material;      ///< [n]
+    std::vector<std::uint32_t> id;            ///< [n] unique, for ever
+};
+
+/// Rigid bodies, row-major host arrays of n bodies.
+struct BodyFields
+{
+    std::vector<double>       position;         ///< [n][3] m, world, centre of mass
+    std::vector<double>       orientation;      ///< [n][4] quaternion w, x, y, z, body to world
+    std::vector<double>       velocity;         ///< [n][3] m/s
+    std::vector<double>       angular_velocity; ///< [n][3] rad/s
+    std::vector<double>       scale;            ///< [n] of the shape
+    std::vector<std::int32_t> shape;            ///< [n] index in shapes.h5
+};
+
+/// A shape's surface at scale 1 in the body frame: what draws a body.
+struct NamedMesh
+{
+    std::string         name;
+    shape::TriangleMesh mesh;
+};
+
+/// The numbered snapshots of one run. A file appears under its name when it is whole. Every rank calls; a failure is an
+/// EnvironmentError.
+class SnapshotWriter
+{
+public:
+    /// Makes the directory.
+    SnapshotWriter(const Communicator& communicator, std::string directory);
+
+    /// shapes.h5: /<index>/{vertices [v][3] m, triangles [t][3]}, attribute name.
+    void write_shapes(const std::vector<NamedMesh>& shapes) const;
+
+    /// The next number: points_0007.hdf and points.hdf.series if there are points on any rank, bodies_0007.h5 if there
+    /// are bodies. `time` in s. Bodies are rank 0's.
+    void write(double time, const PointFields& points, const BodyFields& bodies);
+
+private:
+    struct Entry
+    {
+        std::string name;
+        double      time;
+    };
+
+    void write_series() const;
+
+    const Communicator* communicator_;
+    std::string         directory_;
+    int                 next_ = 0;
+    std::vector<Entry>  series_;
+};
+
+/// One VTKHDF 1.0 file: an UnstructuredGrid of vertices, one partition a rank, with point data `displacement`,
+/// `velocity`, `stress`, `plastic_shear`, `plastic_rate`, `material`, `id` and `rank`; each carries `units`. Stress
+/// components stand in VTK's order xx, yy, zz, xy, yz, xz (also in the attribute `components`). `time` is an attribute
+/// of the root. Every rank calls. Layout: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html#vtkhdf
+void write_points(const Communicator& communicator, const std::string& path, double time, const PointFields& points);
+
+/// One HDF5 file with the arrays of BodyFields, `units` on each, `time` on the root. This process alone.
+void write_bodies(const std::string& path, double time, const BodyFields& bodies);
+
+} // namespace tread::io

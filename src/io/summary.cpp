@@ -1,0 +1,79 @@
+#include "io/summary.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "base/version.hpp"
+#include "io/files.hpp"
+
+namespace tread::io
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+const char* name_of(RunStatus status)
+{
+    switch (status)
+    {
+    case RunStatus::finished:
+        return "finished";
+    case RunStatus::stopped:
+        return "stopped";
+    case RunStatus::failed:
+        break;
+    }
+    return "failed";
+}
+
+double per_wall_second(double amount, double wall_s) { return wall_s > 0 ? amount / wall_s : 0; }
+
+Json stages_of(const Summary& summary)
+{
+    Json stages = Json::array();
+    for (const StageReport& stage : summary.stages)
+    {
+        stages.push_back({{"name", stage.name},
+                          {"on", stage.on},
+                          {"why", stage.why},
+                          {"calls", stage.calls},
+                          {"seconds", stage.seconds}});
+    }
+    return stages;
+}
+
+} // namespace
+
+std::string to_json(const Summary& summary)
+{
+    Json json;
+    json["schema"]            = {1, 0};
+    json["status"]            = name_of(summary.status);
+    json["exit_code"]         = static_cast<int>(summary.exit_code);
+    json["reason"]            = summary.reason;
+    json["scene_hash"]        = summary.scene_hash;
+    json["version"]           = version;
+    json["backend"]           = summary.backend;
+    json["devices"]           = summary.devices;
+    json["ranks"]             = summary.ranks;
+    json["threads"]           = summary.threads;
+    json["points"]            = summary.points;
+    json["bodies"]            = summary.bodies;
+    json["steps"]             = summary.steps;
+    json["substeps"]          = summary.substeps;
+    json["time"]              = summary.time;
+    json["wall_s"]            = summary.wall_s;
+    json["steps_per_s"]       = per_wall_second(static_cast<double>(summary.steps), summary.wall_s);
+    json["sim_per_wall"]      = per_wall_second(summary.time, summary.wall_s);
+    json["peak_device_bytes"] = summary.peak_device_bytes;
+    json["peak_host_bytes"]   = summary.peak_host_bytes;
+    json["stages"]            = stages_of(summary);
+    json["errors"]            = {
+                   {"mass", summary.errors.mass}, {"momentum", summary.errors.momentum}, {"energy", summary.errors.energy}};
+    return json.dump(2) + "\n";
+}
+
+void write_summary(const std::string& path, const Summary& summary) { write_atomically(path, to_json(summary)); }
+
+} // namespace tread::io

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/exit_code.hpp"
+
+namespace tread::io
+{
+
+enum class RunStatus
+{
+    finished,
+    stopped,
+    failed
+};
+
+/// One stage of the plan: what it did, or why the scene has no need of it.
+struct StageReport
+{
+    std::string  name;
+    bool         on = true;
+    std::string  why; ///< why it is left out; empty when on
+    std::int64_t calls   = 0;
+    double       seconds = 0;
+};
+
+/// How wrong the run may be, from its own ledgers.
+struct ErrorReport
+{
+    double mass     = 0; ///< relative
+    double momentum = 0; ///< impulse imbalance over total weight x time
+    double energy   = 0; ///< unaccounted over the largest energy that changed hands
+};
+
+/// What a run did; summary.json holds these fields by these names, with schema and version.
+struct Summary
+{
+    RunStatus                status    = RunStatus::finished;
+    ExitCode                 exit_code = ExitCode::finished;
+    std::string              reason; ///< why it ended
+    std::string              scene_hash;
+    std::string              backend;
+    std::vector<std::string> devices;
+    int                      ranks             = 1;
+    int                      threads           = 1;
+    std::int64_t             points            = 0;
+    std::int64_t             bodies            = 0;
+    std::int64_t             steps             = 0;
+    std::int64_t             substeps          = 0; ///< all together
+    double                   time              = 0; ///< s simulated
+    double                   wall_s            = 0;
+    std::int64_t             peak_device_bytes = 0;
+    std::int64_t             peak_host_bytes   = 0;
+    std::vector<StageReport> stages;
+    ErrorReport              errors;
+};
+
+/// The text of summary.json. steps_per_s and sim_per_wall follow from the fields; numbers that are not finite are null.
+std::string to_json(const Summary& summary);
+
+/// Written in one step; EnvironmentError when it cannot be.
+void write_summary(const std::string& path, const Summary& summary);
+
+} // namespace tread::io

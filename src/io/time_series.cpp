@@ -1,0 +1,71 @@
+#include "io/time_series.hpp"
+
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "io/h5.hpp"
+
+namespace tread::io
+{
+
+TimeSeries::TimeSeries(std::string path)
+    : path_(std::move(path))
+{
+    h5::File file = h5::File::create(path_);
+    h5::write_attribute(file, "/", "schema", std::string("tread-timeseries"));
+    h5::write_attribute(file, "/", "schema_version", std::vector<std::int64_t>{1, 0});
+    file.close();
+}
+
+void TimeSeries::add_table(const std::string& group, std::vector<Column> columns)
+{
+    h5::File file = h5::File::append(path_);
+    h5::create_group(file, group);
+    for (const Column& column : columns)
+    {
+        const std::string name = group + "/" + column.name;
+        h5::create_growing(file, name, column.width);
+        h5::write_attribute(file, name, "units", column.unit);
+    }
+    file.close();
+    const std::size_t count = columns.size();
+    tables_[group]          = {std::move(columns), std::vector<std::vector<double>>(count)};
+}
+
+void TimeSeries::append(const std::string& group, const std::vector<double>& values)
+{
+    Table&    table = tables_.at(group);
+    const int width = std::accumulate(table.columns.begin(), table.columns.end(), 0,
+                                      [](int sum, const Column& column) { return sum + column.width; });
+    if (values.size() != static_cast<std::size_t>(width))
+    {
+        throw std::logic_error(fmt::format("{}: a row of {} values for {}", group, values.size(), width));
+    }
+    auto from = values.begin();
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+    {
+        const auto to = from + table.columns[c].width;
+        table.waiting[c].insert(table.waiting[c].end(), from, to);
+        from = to;
+    }
+}
+
+void TimeSeries::flush()
+{
+    h5::File file = h5::File::append(path_);
+    for (auto& [group, table] : tables_)
+    {
+        for (std::size_t c = 0; c < table.columns.size(); ++c)
+        {
+            const Column& column = table.columns[c];
+            h5::append_rows(file, group + "/" + column.name, table.waiting[c], column.width);
+            table.waiting[c].clear();
+        }
+    }
+    file.close();
+}
+
+} // namespace tread::io

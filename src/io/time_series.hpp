@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tread::io
+{
+
+struct Column
+{
+    std::string name;
+    int         width; ///< values a row: 1, or 3 for a vector
+    std::string unit;  ///< "m/s"; "1" if it has none
+};
+
+/// timeseries.h5: a data set for every column of every table, one row a time. Of one process. The file is closed
+/// between flushes, so that it can be read while the run goes on. EnvironmentError when it cannot be written.
+class TimeSeries
+{
+public:
+    /// Starts a new file.
+    explicit TimeSeries(std::string path);
+
+    /// `group` as in "/wheel/front"; groups above it are made.
+    void add_table(const std::string& group, std::vector<Column> columns);
+
+    /// One row: the values of all columns, one column after the other. Kept in memory until flush().
+    void append(const std::string& group, const std::vector<double>& values);
+
+    void flush();
+
+private:
+    struct Table
+    {
+        std::vector<Column>              columns;
+        std::vector<std::vector<double>> waiting; ///< of each column, row-major
+    };
+
+    std::string                  path_;
+    std::map<std::string, Table> tables_;
+};
+
+} // namespace tread::io

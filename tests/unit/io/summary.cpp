@@ -1,0 +1,94 @@
+#include "io/summary.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/errors.hpp"
+#include "io/progress.hpp"
+#include "temporary_directory.hpp"
+
+namespace tread::io
+{
+namespace
+{
+
+std::vector<StageReport> some_stages()
+{
+    return {{"p2g", true, "", 100, 2.0}, {"g2p", true, "", 100, 5.0}, {"body-body", false, "no rocks", 0, 0}};
+}
+
+TEST(Summary, json_holds_every_field)
+{
+    Summary summary;
+    summary.status    = RunStatus::failed;
+    summary.exit_code = ExitCode::numerical;
+    summary.reason    = "point 3: velocity \"too high\"";
+    summary.steps     = 200;
+    summary.time      = 0.5;
+    summary.wall_s    = 4;
+    summary.devices   = {"NVIDIA H200"};
+    summary.stages    = some_stages();
+    summary.errors    = {1e-9, 2e-3, std::numeric_limits<double>::quiet_NaN()};
+
+    const auto json = nlohmann::json::parse(to_json(summary));
+    for (const char* key : {"schema",
+                            "status",
+                            "exit_code",
+                            "reason",
+                            "scene_hash",
+                            "version",
+                            "backend",
+                            "devices",
+                            "ranks",
+                            "threads",
+                            "points",
+                            "bodies",
+                            "steps",
+                            "substeps",
+                            "time",
+                            "wall_s",
+                            "steps_per_s",
+                            "sim_per_wall",
+                            "peak_device_bytes",
+                            "peak_host_bytes",
+                            "stages",
+                            "errors"})
+    {
+        EXPECT_TRUE(json.contains(key)) << key;
+    }
+    EXPECT_EQ(json["status"], "failed");
+    EXPECT_EQ(json["exit_code"], 3);
+    EXPECT_EQ(json["reason"], summary.reason);
+    EXPECT_EQ(json["steps_per_s"], 50.0);
+    EXPECT_EQ(json["sim_per_wall"], 0.125);
+    EXPECT_EQ(json["stages"][2]["on"], false);
+    EXPECT_EQ(json["stages"][2]["why"], "no rocks");
+    EXPECT_EQ(json["errors"]["momentum"], 2e-3);
+    EXPECT_TRUE(json["errors"]["energy"].is_null());
+}
+
+TEST(Summary, unwritable_place_is_an_environment_error)
+{
+    EXPECT_THROW(write_summary("/proc/nowhere/summary.json", {}), EnvironmentError);
+}
+
+TEST(Progress, line)
+{
+    EXPECT_EQ(progress_line({"drive", 1.2, 3.6, 24000, 30, 5e-5, "elastic wave"}),
+              "drive  t 1.2 / 3.6 s  24000 steps  800 steps/s  ETA 0:01:00  dt 5.00e-05 s (elastic wave)");
+    EXPECT_EQ(clock_text(3725), "1:02:05");
+}
+
+TEST(Progress, table_is_sorted_and_says_what_was_left_out)
+{
+    EXPECT_EQ(timing_table(some_stages(), 10), "stage                             calls     seconds   share\n"
+                                               "g2p                                 100       5.000   50.0%\n"
+                                               "p2g                                 100       2.000   20.0%\n"
+                                               "everything else                               3.000   30.0%\n"
+                                               "left out: body-body - no rocks\n");
+}
+
+} // namespace
+} // namespace tread::io
