@@ -1,0 +1,254 @@
+#pragma once
+
+#include "kernels/contact/candidates_kern.hpp"
+
+// The steps of find_candidates, the same on both backends; candidates.cpp and candidates.cu bring in for_each and
+// instantiate. Three lists, each made from the one before by counting, scanning and filling: (body, page of its box),
+// (body, page with points), (body, point).
+namespace tread::contact
+{
+namespace candidate_steps
+{
+
+struct CountLookups
+{
+    dem::BodiesView          bodies;
+    const dem::TemplateView* templates;
+    mpm::PagesView           pages;
+    SearchReach              reach;
+    std::int32_t*            count; ///< [bodies + 1]
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        count[b] = 0;
+        if (b == bodies.count) { return; }
+        const PageBox box = page_box(search_body(bodies, templates, b, reach), pages, reach);
+        count[b]          = static_cast<std::int32_t>(lookups(box, pages.point_pages));
+    }
+};
+
+struct Lookup
+{
+    std::int64_t body;
+    std::int64_t page; ///< -1 = holds no points
+};
+
+struct LookUpPages
+{
+    dem::BodiesView          bodies;
+    const dem::TemplateView* templates;
+    mpm::PagesView           pages;
+    SearchReach              reach;
+    const std::int32_t*      first; ///< lookups of each body
+
+    TREAD_HD Lookup operator()(std::int64_t i) const
+    {
+        const std::int64_t b   = owner_of(first, bodies.count, i);
+        const PageBox      box = page_box(search_body(bodies, templates, b, reach), pages, reach);
+        return {b, look_up(box, pages, i - first[b])};
+    }
+};
+
+struct MarkPages
+{
+    LookUpPages   look_up;
+    std::int64_t  lookups;
+    std::int32_t* marks; ///< [lookups + 1]
+
+    TREAD_HD void operator()(std::int64_t i) const { marks[i] = i < lookups && look_up(i).page >= 0; }
+};
+
+struct WritePairs
+{
+    LookUpPages         look_up;
+    const std::int32_t* place; ///< [lookups + 1], after the scan
+    std::int32_t*       pair_body;
+    std::int32_t*       pair_page;
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        if (place[i + 1] == place[i]) { return; }
+        const Lookup found  = look_up(i);
+        pair_body[place[i]] = static_cast<std::int32_t>(found.body);
+        pair_page[place[i]] = static_cast<std::int32_t>(found.page);
+    }
+};
+
+/// Calls visit(body, point) for every candidate among the points of one cell; probe i = (pair, cell of its page).
+template<class Real>
+struct Probe
+{
+    const std::int32_t*      pair_body;
+    const std::int32_t*      pair_page;
+    mpm::PagesView           pages;
+    dem::BodiesView          bodies;
+    const dem::TemplateView* templates;
+    SearchReach              reach;
+    mpm::PointsView<Real>    points;
+    RadiusRule               radius;
+
+    template<class Visit>
+    TREAD_HD void operator()(std::int64_t i, Visit visit) const
+    {
+        const std::int64_t  pair = i / mpm::page_cells, page = pair_page[pair];
+        const int           place = static_cast<int>(i % mpm::page_cells);
+        const std::int32_t* range = pages.cell_first_point + page * mpm::page_cells + place;
+        if (range[0] == range[1]) { return; }
+        const SearchBody body = search_body(bodies, templates, pair_body[pair], reach);
+        if (!cell_may_touch(body, pages, page, place, reach)) { return; }
+        for (std::int32_t p = range[0]; p < range[1]; ++p)
+        {
+            const double own = point_radius(static_cast<double>(points.volume[p]), radius);
+            if (may_touch(body, points.position.get(p), own)) { visit(pair_body[pair], p); }
+        }
+    }
+};
+
+template<class Real>
+struct CountCandidates
+{
+    Probe<Real>   probe;
+    std::int64_t  count;
+    std::int32_t* found; ///< [count + 1]
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        found[i] = 0;
+        if (i < count)
+        {
+            probe(i, [this, i](std::int32_t, std::int32_t) { ++found[i]; });
+        }
+    }
+};
+
+template<class Real>
+struct WriteCandidates
+{
+    Probe<Real>         probe;
+    const std::int32_t* first; ///< [count + 1], after the scan
+    std::int32_t*       body;
+    std::int32_t*       point;
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        std::int32_t place = first[i];
+        if (place == first[i + 1]) { return; }
+        probe(i,
+              [&](std::int32_t b, std::int32_t p)
+              {
+                  body[place]    = b;
+                  point[place++] = p;
+              });
+    }
+};
+
+struct SortKeys
+{
+    const std::int32_t* point;
+    std::uint64_t*      keys;
+    std::int32_t*       order;
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        keys[i]  = static_cast<std::uint64_t>(point[i]);
+        order[i] = static_cast<std::int32_t>(i);
+    }
+};
+
+struct Narrow
+{
+    const std::uint64_t* keys;
+    std::int32_t*        points;
+
+    TREAD_HD void operator()(std::int64_t i) const { points[i] = static_cast<std::int32_t>(keys[i]); }
+};
+
+struct WriteTouched
+{
+    const std::int32_t* in_order;
+    const std::int32_t* heads; ///< after find_runs
+    std::int32_t*       touched;
+
+    TREAD_HD void operator()(std::int64_t i) const { touched[in_order[i]] = heads[i + 1] - 1; }
+};
+
+} // namespace candidate_steps
+
+template<class Exec>
+void clear(Candidates<Exec>& candidates)
+{
+    const auto empty = [](auto&... arrays) { (arrays.resize(0), ...); };
+    empty(candidates.body, candidates.point, candidates.touched, candidates.in_order, candidates.by_body.key,
+          candidates.by_body.first, candidates.by_point.key, candidates.by_point.first);
+}
+
+/// (body, page with points) pairs; returns how many.
+template<class Exec>
+std::int64_t find_page_pairs(const Exec& exec, Candidates<Exec>& c, const mpm::PagesView& pages,
+                             const dem::BodiesView& bodies, const dem::TemplateView* templates,
+                             const SearchReach& reach)
+{
+    using namespace candidate_steps;
+    c.box_first.resize(bodies.count + 1);
+    for_each(exec, "count contact pages", bodies.count + 1,
+             CountLookups{bodies, templates, pages, reach, c.box_first.data()});
+    const std::int64_t lookups = exclusive_scan(exec, c.box_first, c.sort);
+    if (lookups == 0) { return 0; }
+
+    const LookUpPages look_up{bodies, templates, pages, reach, c.box_first.data()};
+    c.pair_first.resize(lookups + 1);
+    for_each(exec, "find contact pages", lookups + 1, MarkPages{look_up, lookups, c.pair_first.data()});
+    const std::int64_t pairs = exclusive_scan(exec, c.pair_first, c.sort);
+    if (pairs == 0) { return 0; }
+
+    c.pair_body.resize(pairs);
+    c.pair_page.resize(pairs);
+    for_each(exec, "write contact pages", lookups,
+             WritePairs{look_up, c.pair_first.data(), c.pair_body.data(), c.pair_page.data()});
+    return pairs;
+}
+
+/// The order of the candidates by point, and the runs of both orders.
+template<class Exec>
+void order_by_point(const Exec& exec, Candidates<Exec>& c)
+{
+    using namespace candidate_steps;
+    const std::int64_t count = c.body.size();
+    c.sort_keys.resize(count);
+    c.in_order.resize(count);
+    c.sorted_points.resize(count);
+    c.touched.resize(count);
+    find_runs(exec, c.body, c.marks, c.by_body, c.sort);
+    for_each(exec, "candidate sort keys", count, SortKeys{c.point.data(), c.sort_keys.data(), c.in_order.data()});
+    sort_by_key(exec, c.sort_keys, c.in_order, c.sort);
+    for_each(exec, "candidate sorted points", count, Narrow{c.sort_keys.data(), c.sorted_points.data()});
+    find_runs(exec, c.sorted_points, c.marks, c.by_point, c.sort);
+    for_each(exec, "touched points", count, WriteTouched{c.in_order.data(), c.marks.data(), c.touched.data()});
+}
+
+template<class Exec, class Real>
+void find_candidates(const Exec& exec, Candidates<Exec>& c, const mpm::PointsView<Real>& points,
+                     const mpm::PagesView& pages, const dem::BodiesView& bodies, const dem::TemplateView* templates,
+                     RadiusRule radius, const SearchReach& reach)
+{
+    using namespace candidate_steps;
+    clear(c);
+    if (bodies.count == 0 || points.count == 0) { return; }
+    const std::int64_t pairs = find_page_pairs(exec, c, pages, bodies, templates, reach);
+    if (pairs == 0) { return; }
+
+    const std::int64_t cells = pairs * mpm::page_cells;
+    const Probe<Real>  probe{c.pair_body.data(), c.pair_page.data(), pages, bodies, templates, reach, points, radius};
+    c.cell_first.resize(cells + 1);
+    for_each(exec, "count candidates", cells + 1, CountCandidates<Real>{probe, cells, c.cell_first.data()});
+    const std::int64_t found = exclusive_scan(exec, c.cell_first, c.sort);
+    if (found == 0) { return; }
+
+    c.body.resize(found);
+    c.point.resize(found);
+    for_each(exec, "write candidates", cells,
+             WriteCandidates<Real>{probe, c.cell_first.data(), c.body.data(), c.point.data()});
+    order_by_point(exec, c);
+}
+
+} // namespace tread::contact

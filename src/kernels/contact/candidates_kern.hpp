@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "kernels/contact/candidates.hpp"
+#include "kernels/dem/sdf_kern.hpp"
+
+namespace tread::contact
+{
+
+/// A box of pages, both ends included.
+struct PageBox
+{
+    mpm::Index3 low;
+    mpm::Index3 high;
+
+    TREAD_HD std::int64_t pages() const
+    {
+        return static_cast<std::int64_t>(high.x - low.x + 1) * (high.y - low.y + 1) * (high.z - low.z + 1);
+    }
+
+    TREAD_HD bool contains(const mpm::Index3& page) const
+    {
+        return page.x >= low.x && page.x <= high.x && page.y >= low.y && page.y <= high.y && page.z >= low.z &&
+               page.z <= high.z;
+    }
+
+    /// Page `i` of the box, x fastest.
+    TREAD_HD mpm::Index3 page(std::int64_t i) const
+    {
+        const std::int64_t nx = high.x - low.x + 1, ny = high.y - low.y + 1;
+        return {low.x + static_cast<std::int32_t>(i % nx), low.y + static_cast<std::int32_t>(i / nx % ny),
+                low.z + static_cast<std::int32_t>(i / (nx * ny))};
+    }
+};
+
+/// Page coordinate of a position along one axis, held to the range that has keys: a body may be anywhere.
+TREAD_HD std::int32_t page_coordinate(double position, double spacing, double stencil_shift)
+{
+    const double page  = std::floor((position / spacing - stencil_shift) / mpm::page_edge);
+    const double limit = mpm::page_bias - 1;
+    if (!(page > -limit)) { return static_cast<std::int32_t>(-limit); }
+    return static_cast<std::int32_t>(page < limit ? page : limit);
+}
+
+/// A body as the search sees it.
+struct SearchBody
+{
+    const dem::TemplateView* shape;
+    double                   scale;
+    Vec3<double>             position;
+    Quat                     orientation;
+    double                   travel; ///< m, twice what body and points can move in the step
+};
+
+TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::TemplateView* templates, std::int64_t b,
+                                const SearchReach& reach)
+{
+    const dem::TemplateView* shape  = templates + bodies.shape[b];
+    const double             radius = shape->bounding_radius * bodies.scale[b];
+    const double speed = bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius + reach.point_speed;
+    return {shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], 2.0 * reach.dt * speed};
+}
+
+/// Pages whose points may be candidates of the body: those under its axis-aligned box, grown.
+TREAD_HD PageBox page_box(const SearchBody& body, const mpm::PagesView& pages, const SearchReach& reach)
+{
+    const Mat3<double> rotation = body.orientation.toRotationMatrix();
+    const Vec3<double> centre   = body.position + rotation * (0.5 * body.scale * (body.shape->low + body.shape->high));
+    const Vec3<double> half     = rotation.cwiseAbs() * (0.5 * body.scale * (body.shape->high - body.shape->low));
+    const double       margin   = reach.largest_radius + reach.point_drift + body.travel;
+
+    const auto page_at = [&](const Vec3<double>& x) -> mpm::Index3
+    {
+        return {page_coordinate(x[0], pages.spacing, pages.stencil_shift),
+                page_coordinate(x[1], pages.spacing, pages.stencil_shift),
+                page_coordinate(x[2], pages.spacing, pages.stencil_shift)};
+    };
+    const Vec3<double> grown = half + Vec3<double>::Constant(margin);
+    return {page_at(centre - grown), page_at(centre + grown)};
+}
+
+/// Pages to look up for a box: its own, or all that hold points where those are fewer.
+TREAD_HD std::int64_t lookups(const PageBox& box, std::int64_t point_pages)
+{
+    const std::int64_t own = box.pages();
+    return own < point_pages ? own : point_pages;
+}
+
+/// Point page of lookup `i` of the box, or -1.
+TREAD_HD std::int64_t look_up(const PageBox& box, const mpm::PagesView& pages, std::int64_t i)
+{
+    if (box.pages() < pages.point_pages)
+    {
+        return find_sorted(pages.point_page_key, pages.point_pages, mpm::page_key(box.page(i)));
+    }
+    return box.contains(mpm::page_coordinates(pages.point_page_key[i])) ? i : -1;
+}
+
+/// Whether x stands in the body's own box, grown by `margin` along each of the body's axes.
+TREAD_HD bool in_grown_box(const SearchBody& body, const Vec3<double>& x, double margin)
+{
+    const Vec3<double> local = body.orientation.conjugate() * Vec3<double>(x - body.position);
+    for (int c = 0; c < 3; ++c)
+    {
+        if (local[c] < body.scale * body.shape->low[c] - margin || local[c] > body.scale * body.shape->high[c] + margin)
+        {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Whether a point of a cell, wherever it stands in it, can be in the body's grown box.
+TREAD_HD bool cell_may_touch(const SearchBody& body, const mpm::PagesView& pages, std::int64_t page, int place,
+                             const SearchReach& reach)
+{
+    const mpm::Index3  corner = mpm::page_coordinates(pages.point_page_key[page]);
+    const Vec3<double> cell(corner.x * mpm::page_edge + (place & 3), corner.y * mpm::page_edge + (place >> 2 & 3),
+                            corner.z * mpm::page_edge + (place >> 4));
+    const Vec3<double> centre  = pages.spacing * (cell + Vec3<double>::Constant(pages.stencil_shift + 0.5));
+    const double       corners = std::sqrt(3.0) * (0.5 * pages.spacing + reach.point_drift);
+    return in_grown_box(body, centre, corners + reach.largest_radius + body.travel);
+}
+
+/// Whether a point of radius r_p at x can touch the body within the step.
+TREAD_HD bool may_touch(const SearchBody& body, const Vec3<double>& x, double radius)
+{
+    const double margin = radius + body.travel;
+    return in_grown_box(body, x, margin) &&
+           dem::sample_body_sdf(*body.shape, body.scale, body.position, body.orientation, x).distance <= margin;
+}
+
+} // namespace tread::contact

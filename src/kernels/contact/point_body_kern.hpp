@@ -1,0 +1,149 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "backend/vector.hpp"
+
+// The contact law of one sand point against one rigid body; everything acts at the point's position x_p.
+namespace tread::contact
+{
+
+/// Which sphere a point stands for. Both follow the initial volume: a radius that followed the current one would do
+/// work on its own.
+enum class RadiusRule : std::int32_t
+{
+    sphere,      ///< (3 V0 / 4 pi)^(1/3), the paper's Eq. 11 with eta = 1
+    semi_domain, ///< 0.5 V0^(1/3), the paper's section 2.3.2
+};
+
+TREAD_HD double point_radius(double initial_volume, RadiusRule rule)
+{
+    constexpr double sphere_factor = 0.75 / 3.14159265358979323846;
+    return rule == RadiusRule::sphere ? std::cbrt(sphere_factor * initial_volume) : 0.5 * std::cbrt(initial_volume);
+}
+
+/// What one contact remembers from substep to substep; all zero while the pair is apart.
+struct Tangential
+{
+    Vec3<double> force;     ///< N, on the point
+    Vec3<double> normal;    ///< unit, out of the body, when `force` was last updated
+    double       stiffness; ///< N/m, k_t at that time
+};
+
+TREAD_HD Tangential no_tangential() { return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0.0}; }
+
+/// Constants of one point-body pair.
+struct PairConstants
+{
+    double effective_young;  ///< Pa, E*
+    double effective_shear;  ///< Pa, G*
+    double friction;         ///< Coulomb
+    double hertz_factor;     ///< 1, or 1/sqrt(2) for the paper's Eq. 7
+    double point_radius;     ///< m, r_p
+    double effective_radius; ///< m, R*
+};
+
+/// 1/R* = 1/r_p + 1/R_body; an infinite R_body is a plane.
+TREAD_HD double effective_radius(double point_radius, double body_radius)
+{
+    return 1.0 / (1.0 / point_radius + 1.0 / body_radius);
+}
+
+/// Where the point stands relative to the body, and how it moves.
+struct Approach
+{
+    double       distance; ///< m, phi(x_p), negative inside the body
+    Vec3<double> gradient; ///< grad phi in the world frame, not normalised
+    Vec3<double> velocity; ///< m/s, of the point relative to the body's material at x_p
+};
+
+/// What the law says of one contact in one substep; all zero, gradient included, while the pair is apart.
+struct Response
+{
+    Vec3<double> force;           ///< N, on the point; the body gets exactly its opposite
+    double       overlap;         ///< m, d = r_p - phi
+    double       stiffness;       ///< N/m, k_n = dF/dd
+    double       gradient_length; ///< of the SDF; 1 on a smooth face, small on a medial axis
+    double       energy;          ///< J, elastic: normal + tangential
+    double       dissipated;      ///< J, lost to friction in this substep, never negative
+};
+
+TREAD_HD Response no_response() { return {Vec3<double>::Zero(), 0.0, 0.0, 0.0, 0.0, 0.0}; }
+
+/// The history turned by the smallest rotation that takes the old normal to the new one (T. Moeller and J. Hughes,
+/// J. Graphics Tools 4(4), 1999), which keeps its length and leaves it tangential. A normal that flips forgets.
+TREAD_HD Vec3<double> rotate_with_normal(const Vec3<double>& force, const Vec3<double>& from, const Vec3<double>& to)
+{
+    const double     cosine = from.dot(to);
+    constexpr double flip   = -0.99;
+    if (cosine < flip) { return Vec3<double>::Zero(); }
+    const Vec3<double> axis = from.cross(to);
+    return cosine * force + axis.cross(force) + axis * (axis.dot(force) / (1.0 + cosine));
+}
+
+/// Energy that a spring of this stiffness holds at this force.
+TREAD_HD double spring_energy(double squared_force, double stiffness)
+{
+    return stiffness > 0 ? 0.5 * squared_force / stiffness : 0.0;
+}
+
+/// Mindlin's tangential force, incremental (the paper's Eq. 9a): dF_t = -k_t v_t dt, k_t = 8 G* sqrt(R* d). Rescaled by
+/// k_t,new/k_t,old on unloading, else a closed cycle makes energy (verification A9); capped at mu |F_n|. Returns the
+/// energy lost, never negative: by the change of stiffness, and by slip = cap times slipped distance.
+TREAD_HD double update_tangential(Tangential& tangential, const Vec3<double>& normal, const Vec3<double>& velocity,
+                                  double stiffness, double cap, double dt)
+{
+    double       lost  = spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
+    Vec3<double> force = rotate_with_normal(tangential.force, tangential.normal, normal);
+    if (stiffness < tangential.stiffness) { force *= stiffness / tangential.stiffness; }
+    lost -= spring_energy(force.squaredNorm(), stiffness);
+
+    force -= stiffness * dt * (velocity - normal * normal.dot(velocity));
+    const double length = force.norm();
+    if (length > cap)
+    {
+        force *= cap / length;
+        lost += cap * (length - cap) / stiffness;
+    }
+    tangential = {force, normal, stiffness};
+    return lost;
+}
+
+/// Hertz (Eq. 14): F_n = 4/3 E* sqrt(R*) d^1.5 grad phi, un-normalised, so that force and energy come from one
+/// potential 8/15 E* sqrt(R*) d^2.5; plus the tangential force. Updates the history.
+TREAD_HD Response point_body_response(const PairConstants& pair, const Approach& approach, Tangential& tangential,
+                                      double dt)
+{
+    const double overlap = pair.point_radius - approach.distance;
+    if (!(overlap > 0))
+    {
+        const double lost = spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
+        tangential        = no_tangential();
+        Response apart    = no_response();
+        apart.dissipated  = lost;
+        return apart;
+    }
+    const double patch_radius = std::sqrt(pair.effective_radius * overlap);
+    const double stiffness    = 2.0 * pair.hertz_factor * pair.effective_young * patch_radius;
+    const double normal_force = 2.0 / 3.0 * stiffness * overlap;
+
+    Response response;
+    response.force           = normal_force * approach.gradient;
+    response.overlap         = overlap;
+    response.stiffness       = stiffness;
+    response.gradient_length = approach.gradient.norm();
+    response.energy          = 4.0 / 15.0 * stiffness * overlap * overlap;
+    response.dissipated      = 0.0;
+    if (pair.friction > 0 && response.gradient_length > 0)
+    {
+        response.dissipated = update_tangential(tangential, approach.gradient / response.gradient_length,
+                                                approach.velocity, 8.0 * pair.effective_shear * patch_radius,
+                                                pair.friction * normal_force * response.gradient_length, dt);
+        response.force += tangential.force;
+        response.energy += spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
+    }
+    return response;
+}
+
+} // namespace tread::contact

@@ -1,0 +1,150 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/contact/candidates.hpp"
+#include "kernels/contact/summary.hpp"
+
+// Sand against rigid bodies during one MPM step: begin_step, N times substep, finish_step. During the substeps each
+// point in reach moves on a private copy of (x, v); only the accumulated impulse goes back to the sand.
+namespace tread::contact
+{
+
+/// What the private copies do during the substeps.
+enum class PointMotion : std::int32_t
+{
+    supported, ///< feel the contact and are held up by the acceleration that the grid gave them last step
+    ballistic, ///< feel the contact alone
+    frozen,    ///< stay where they are, at their grid velocity (the paper's)
+};
+
+/// Numbers and tables of the law that hold for the whole scene.
+struct PointBodyLaw
+{
+    const dem::TemplateView* templates;
+    dem::PairTable           pairs;
+    double                   hertz_factor; ///< 1, or 1/sqrt(2) for the paper's Eq. 7
+    RadiusRule               radius;
+    PointMotion              motion;
+};
+
+/// Private copies of the points in reach: one for each run of Candidates::by_point.
+struct PrivatePoints
+{
+    std::int64_t   count;
+    Vec3<double>*  position; ///< m
+    Vec3<double>*  velocity; ///< m/s
+    Vec3<double>*  support;  ///< m/s2
+    Vec3<double>*  impulse;  ///< N s, of the step so far
+    double*        mass;     ///< kg
+    double*        radius;   ///< m
+    std::int32_t*  material;
+    std::uint32_t* id;
+};
+
+/// State of the candidates, in their order.
+struct ContactsView
+{
+    CandidatesView candidates;
+    Tangential*    tangential;
+    Response*      response;   ///< of the last substep
+    double*        dissipated; ///< J, friction, of the step so far
+};
+
+/// What a pair remembers from step to step, by key: points change their place in memory, not their id. A checkpoint
+/// stores these two arrays.
+template<class Exec>
+struct History
+{
+    explicit History(const Exec& exec)
+        : key(exec, "contact history keys")
+        , tangential(exec, "contact history")
+    {
+    }
+
+    Array<Exec, std::uint64_t> key; ///< ascending
+    Array<Exec, Tangential>    tangential;
+};
+
+/// Key of a pair in the history.
+TREAD_HD std::uint64_t history_key(std::int32_t body, std::uint32_t point_id)
+{
+    return static_cast<std::uint64_t>(body) << 32 | point_id;
+}
+
+/// Owner of everything that the sand-body contact needs.
+template<class Exec>
+struct PointContact
+{
+    explicit PointContact(const Exec& exec)
+        : candidates(exec)
+        , history(exec)
+        , position(exec, "private point position")
+        , velocity(exec, "private point velocity")
+        , support(exec, "private point support")
+        , impulse(exec, "private point impulse")
+        , mass(exec, "private point mass")
+        , radius(exec, "private point radius")
+        , material(exec, "private point material")
+        , id(exec, "private point id")
+        , tangential(exec, "contact tangential")
+        , response(exec, "contact response")
+        , dissipated(exec, "contact dissipated")
+        , summaries(exec, "contact summaries")
+        , marks(exec, "contact history marks")
+        , order(exec, "contact history order")
+    {
+    }
+
+    PrivatePoints private_points()
+    {
+        return {position.size(), position.data(), velocity.data(), support.data(), impulse.data(),
+                mass.data(),     radius.data(),   material.data(), id.data()};
+    }
+
+    ContactsView contacts() { return {candidates.view(), tangential.data(), response.data(), dissipated.data()}; }
+
+    Candidates<Exec> candidates;
+    History<Exec>    history;
+
+    Array<Exec, Vec3<double>>  position;
+    Array<Exec, Vec3<double>>  velocity;
+    Array<Exec, Vec3<double>>  support;
+    Array<Exec, Vec3<double>>  impulse;
+    Array<Exec, double>        mass;
+    Array<Exec, double>        radius;
+    Array<Exec, std::int32_t>  material;
+    Array<Exec, std::uint32_t> id;
+
+    Array<Exec, Tangential> tangential;
+    Array<Exec, Response>   response;
+    Array<Exec, double>     dissipated;
+
+    Array<Exec, Summary>      summaries; ///< one for each touched body
+    Array<Exec, std::int32_t> marks;
+    Array<Exec, std::int32_t> order;
+};
+
+/// Finds the candidates, copies their points (velocity from grid_velocity, impulse zero) and recalls the history.
+/// The points must be coupled (PointFields) and ordered in `pages`.
+template<class Exec, class Real>
+void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::PointsView<Real>& points,
+                const mpm::PagesView& pages, const dem::BodiesView& bodies, const PointBodyLaw& law,
+                const SearchReach& reach);
+
+/// Forces of all candidates at the present places of points and bodies, added to the bodies' force, torque and
+/// stiffness; then the private points move by dt (s, of the substep). The caller moves the bodies. Allocates nothing.
+template<class Exec>
+void substep(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesView& bodies, const PointBodyLaw& law,
+             double dt);
+
+/// points.contact_force = impulse / dt (s, of the MPM step) for points in reach, zero for the others; keeps the
+/// history of the pairs that carry a tangential force.
+template<class Exec, class Real>
+void finish_step(const Exec& exec, PointContact<Exec>& contact, const mpm::PointsView<Real>& points, double dt);
+
+/// Of the last substep (dissipated: of the step so far). Call before finish_step's points are ordered again.
+template<class Exec>
+Summary summarise(const Exec& exec, PointContact<Exec>& contact);
+
+} // namespace tread::contact

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "backend/launch.hpp"
+#include "kernels/contact/runs.hpp"
+
+namespace tread::contact
+{
+
+/// For every run r: finish(r, sum over its items i of item(i)), in a fixed order. Sum needs operator+ and zero().
+template<class Sum, class Item, class Finish>
+void reduce_runs(const Cpu& cpu, const char* name, const RunsView& runs, Item item, Finish finish)
+{
+    for_each_heavy(cpu, name, runs.count,
+                   [=](std::int64_t run)
+                   {
+                       Sum sum = Sum::zero();
+                       for (std::int64_t i = runs.first[run]; i < runs.first[run + 1]; ++i) { sum = sum + item(i); }
+                       finish(run, sum);
+                   });
+}
+
+} // namespace tread::contact

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "backend/vector.hpp"
+
+// What is summed over contacts. Sums are taken in a fixed order (reduce_runs); of equal extremes the first is kept.
+namespace tread::contact
+{
+
+/// Force and torque that contacts put on one body.
+struct Wrench
+{
+    Vec3<double> force;     ///< N
+    Vec3<double> torque;    ///< N m, about the centre of mass
+    double       stiffness; ///< N/m, sum of k_n
+
+    TREAD_HD static Wrench zero() { return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0.0}; }
+};
+
+TREAD_HD Wrench operator+(const Wrench& a, const Wrench& b)
+{
+    return {a.force + b.force, a.torque + b.torque, a.stiffness + b.stiffness};
+}
+
+/// A value and the pair that it belongs to; body -1 = no contact at all.
+struct Extreme
+{
+    double        value;
+    std::int32_t  body;
+    std::uint32_t point_id;
+};
+
+TREAD_HD Extreme larger(const Extreme& a, const Extreme& b) { return b.value > a.value ? b : a; }
+TREAD_HD Extreme smaller(const Extreme& a, const Extreme& b) { return b.value < a.value ? b : a; }
+
+/// The live contacts of one body, or of all.
+struct Summary
+{
+    std::int64_t live;       ///< contacts with overlap
+    double       energy;     ///< J, elastic, normal and tangential
+    double       dissipated; ///< J, lost to friction
+    Extreme      stiffest;   ///< 1/s2, k_n / m_p: the time step wants k_n dt^2 / m_p <= 0.5
+    Extreme      deepest;    ///< overlap over point radius
+    Extreme      flattest;   ///< least |grad phi|: below 0.5 the point is past a medial axis
+
+    TREAD_HD static Summary zero()
+    {
+        return {0, 0.0, 0.0, {0.0, -1, 0}, {0.0, -1, 0}, {std::numeric_limits<double>::infinity(), -1, 0}};
+    }
+};
+
+TREAD_HD Summary operator+(const Summary& a, const Summary& b)
+{
+    return {a.live + b.live,
+            a.energy + b.energy,
+            a.dissipated + b.dissipated,
+            larger(a.stiffest, b.stiffest),
+            larger(a.deepest, b.deepest),
+            smaller(a.flattest, b.flattest)};
+}
+
+} // namespace tread::contact
