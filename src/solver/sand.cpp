@@ -34,6 +34,21 @@ std::vector<Real> planes(const std::vector<Eigen::Matrix<double, components, 1>>
     return out;
 }
 
+/// The living points' planes of one field as rows on the host.
+template<class Out, class Exec, class Real, class T>
+std::vector<Out> interleaved(const Array<Exec, T>& field, const mpm::Points<Exec, Real>& points, int components)
+{
+    const std::vector<T> planes = field.to_host();
+    const auto           n = static_cast<std::size_t>(points.count), stride = static_cast<std::size_t>(points.stride),
+               width = static_cast<std::size_t>(components);
+    std::vector<Out> rows(n * width);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+        for (std::size_t c = 0; c < width; ++c) { rows[i * width + c] = static_cast<Out>(planes[c * stride + i]); }
+    }
+    return rows;
+}
+
 } // namespace
 
 template<class Exec, class Real>
@@ -149,8 +164,41 @@ SandCensus Sand<Exec, Real>::census()
     sum_rows(exec_, census_rows_.data(), point_pages, mpm::census_count, totals_.data());
     double total[mpm::census_count];
     copy_to_host(exec_, total, totals_.data(), sizeof(total));
+    mass_ = total[mpm::census_mass];
     return {total[mpm::census_mass], total[mpm::census_kinetic], total[mpm::census_strain],
             Vec3<double>(total + mpm::census_momentum), Vec3<double>(total + mpm::census_moment)};
+}
+
+template<class Exec, class Real>
+std::vector<Vec3<double>> Sand<Exec, Real>::positions() const
+{
+    const std::vector<double> rows = interleaved<double>(points_.position, points_, 3);
+    std::vector<Vec3<double>> out;
+    for (std::size_t i = 0; i < rows.size(); i += 3) { out.emplace_back(rows[i], rows[i + 1], rows[i + 2]); }
+    return out;
+}
+
+template<class Exec, class Real>
+io::PointFields Sand<Exec, Real>::fields() const
+{
+    io::PointFields fields;
+    fields.position                 = interleaved<double>(points_.position, points_, 3);
+    const std::vector<double> start = interleaved<double>(points_.start, points_, 3);
+    fields.displacement.resize(start.size());
+    for (std::size_t i = 0; i < start.size(); ++i)
+    {
+        fields.displacement[i] = static_cast<float>(fields.position[i] - start[i]);
+    }
+    fields.velocity = interleaved<float>(points_.velocity, points_, 3);
+    fields.stress   = interleaved<float>(points_.stress, points_, 6);
+    if (points_.plastic_shear.size() > 0)
+    {
+        fields.plastic_shear = interleaved<float>(points_.plastic_shear, points_, 1);
+        fields.plastic_rate  = interleaved<float>(points_.plastic_rate, points_, 1);
+    }
+    fields.material = interleaved<std::int32_t>(points_.material, points_, 1);
+    fields.id       = interleaved<std::uint32_t>(points_.id, points_, 1);
+    return fields;
 }
 
 template class Sand<Cpu, float>;

@@ -7,6 +7,7 @@
 #include "kernels/mpm/gather.hpp"
 #include "kernels/mpm/grid.hpp"
 #include "kernels/mpm/order.hpp"
+#include "io/snapshot.hpp"
 #include "kernels/mpm/scatter.hpp"
 #include "solver/world.hpp"
 
@@ -62,6 +63,15 @@ public:
     /// Of the present state, ordered or not since the last step; waits for it.
     SandCensus census();
 
+    /// Of the last census, kg.
+    double mass() const { return mass_; }
+
+    /// m, in memory order.
+    std::vector<Vec3<double>> positions() const;
+
+    /// What a snapshot shows.
+    io::PointFields fields() const;
+
 private:
     void upload(const World& world, mpm::PointFields fields);
 
@@ -82,6 +92,7 @@ private:
     Array<Exec, double>                        totals_;
     Array<Exec, mpm::MaterialParameters<Real>> materials_;
     Array<Exec, Real>                          pic_rates_;
+    double                                     mass_    = 0;
     bool                                       ordered_ = false;
 };
 

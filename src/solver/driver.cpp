@@ -1,0 +1,200 @@
+#include "solver/driver.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "io/progress.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+constexpr double progress_every = 5; ///< s of wall time
+
+double wall_clock()
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The step, made a little shorter for the last steps before `remaining` runs out, so that none of them is tiny.
+double fitted(double dt, double remaining)
+{
+    constexpr double last_steps = 4;
+    const double     steps      = std::ceil(remaining / dt * (1 - 1e-12));
+    return steps > last_steps ? dt : remaining / std::max(1.0, steps);
+}
+
+std::vector<io::NamedMesh> meshes(const World& world)
+{
+    std::vector<io::NamedMesh> named;
+    for (const auto& form : world.templates) { named.push_back({form.name, form.mesh}); }
+    return named;
+}
+
+} // namespace
+
+template<class Exec, class Real>
+Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const scene::Scene& scene, const World& world,
+                           const io::RunDirectory& directory, const Plan& plan, Simulation<Exec, Real>& simulation)
+    : communicator_(communicator)
+    , log_(log)
+    , scene_(scene)
+    , world_(world)
+    , plan_(plan)
+    , simulation_(simulation)
+    , phases_(scene)
+    , recorder_(directory, scene, world)
+    , wall_start_(wall_clock())
+    , last_said_(wall_start_)
+{
+    if (plan.snapshots)
+    {
+        snapshots_.emplace(communicator, directory.snapshots());
+        if (plan.bodies) { snapshots_->write_shapes(meshes(world)); }
+    }
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::run()
+{
+    begin_phase();
+    write_row();
+    write_snapshot();
+    while (!phases_.finished())
+    {
+        advance();
+        write_due();
+        if (!phases_.over(time_, simulation_.unbalanced())) { continue; }
+        log_.info(fmt::format("phase '{}' ends {}", phases_.phase().name, phases_.ending()));
+        std::vector<double> spins;
+        for (const BodyRow& body : simulation_.named_bodies()) { spins.push_back(body.angular_velocity.dot(body.axle)); }
+        phases_.advance(time_, std::move(spins));
+        if (!phases_.finished()) { begin_phase(); }
+    }
+    write_row();
+    write_snapshot();
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::begin_phase()
+{
+    log_.info(fmt::format("phase '{}' begins at {:.6g} s", phases_.phase().name, time_));
+    recorder_.begin_phase(phases_.index(), time_, simulation_.surface_height());
+    warned_ = false;
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::advance()
+{
+    step_                  = choose_step(scene_.time, simulation_.limits(), simulation_.pace(), step_.dt);
+    TimeStep     step      = step_;
+    step.dt                = fitted(step.dt, phases_.latest_end() - time_);
+    warn_once(step);
+
+    std::vector<BodyCommand> commands;
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) { commands.push_back(phases_.command(b, time_ + step.dt)); }
+    simulation_.command(commands, phases_.phase().damping);
+    clock_.begin_step(steps_);
+    simulation_.step(step, time_, clock_);
+    time_ += step.dt;
+    ++steps_;
+    substeps_ += step.substeps;
+    say_progress();
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::warn_once(const TimeStep& step)
+{
+    const auto excess = over_limit(step, simulation_.limits(), simulation_.pace());
+    if (!excess || warned_) { return; }
+    log_.warning(fmt::format("t = {:.6g} s: {} (said once a phase)", time_, *excess));
+    warned_ = true;
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::write_due()
+{
+    // The first step at or past each time; half a nanosecond forgives the rounding of a sum of steps.
+    const auto due = [&](double every, std::int64_t written)
+    { return every > 0 && time_ + 5e-10 >= every * static_cast<double>(written + 1); };
+    const bool row      = due(scene_.output.every, rows_);
+    const bool snapshot = due(scene_.output.snapshots_every, snapshots_due_);
+    if (row)
+    {
+        rows_ = static_cast<std::int64_t>(std::floor((time_ + 5e-10) / scene_.output.every));
+        write_row();
+    }
+    if (snapshot)
+    {
+        snapshots_due_ = static_cast<std::int64_t>(std::floor((time_ + 5e-10) / scene_.output.snapshots_every));
+        write_snapshot();
+    }
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::write_row()
+{
+    const auto write = [&]
+    {
+        const Census     now     = simulation_.census();
+        const EnergyRow  energy  = simulation_.ledger().energy(now);
+        const BalanceRow balance = simulation_.ledger().balance(now);
+        recorder_.write(time_, simulation_.named_bodies(), energy, balance);
+        simulation_.begin_mean();
+    };
+    clock_.run(simulation_.exec(), stage::output, write);
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::write_snapshot()
+{
+    if (!snapshots_) { return; }
+    clock_.run(simulation_.exec(), stage::snapshots,
+               [&] { snapshots_->write(time_, simulation_.point_fields(), simulation_.body_fields()); });
+}
+
+template<class Exec, class Real>
+double Driver<Exec, Real>::end_time() const
+{
+    double end = phases_.latest_end();
+    for (std::size_t p = phases_.index() + 1; p < scene_.phases.size(); ++p)
+    {
+        const scene::Phase& phase = scene_.phases[p];
+        end += phase.until == scene::StopRule::duration ? phase.duration : phase.max_duration;
+    }
+    return end;
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::say_progress()
+{
+    const double now = wall_clock();
+    if (now - last_said_ < progress_every) { return; }
+    last_said_ = now;
+    log_.info(io::progress_line(
+        {phases_.phase().name, time_, end_time(), steps_, now - wall_start_, step_.dt, step_.limit}));
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<Stage>& stages) const
+{
+    summary.steps    = steps_;
+    summary.substeps = substeps_;
+    summary.time     = time_;
+    summary.wall_s   = wall_clock() - wall_start_;
+    summary.points   = simulation_.points();
+    summary.stages   = clock_.reports(stages);
+    summary.errors   = simulation_.ledger().errors();
+}
+
+template class Driver<Cpu, float>;
+template class Driver<Cpu, double>;
+#ifdef TREAD_WITH_CUDA
+template class Driver<Gpu, float>;
+template class Driver<Gpu, double>;
+#endif
+
+} // namespace tread::solver

@@ -1,0 +1,89 @@
+#include "solver/ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread::solver
+{
+namespace
+{
+
+double mass(const Census& census) { return census.sand.mass + census.rigid.mass; }
+
+Vec3<double> momentum(const Census& census) { return census.sand.momentum + census.rigid.momentum; }
+
+} // namespace
+
+Ledger::Ledger(Vec3<double> gravity, const Census& start)
+    : gravity_(std::move(gravity))
+    , start_(start)
+    , kinetic_points_(start.sand.kinetic)
+{
+    start_energy_ = stored(start);
+}
+
+double Ledger::stored(const Census& now) const
+{
+    return now.sand.kinetic + now.sand.strain + now.rigid.kinetic + now.rigid.contact + now.sand_contact -
+           gravity_.dot(now.sand.moment + now.rigid.moment);
+}
+
+void Ledger::step(double dt, const SandReport& sand, const RigidReport& rigid, double contact_friction,
+                  double moving_mass)
+{
+    time_ += dt;
+    const double kinetic = sand.points[mpm::point_kinetic];
+    transfer_ += kinetic_points_ - kinetic + sand.grid[mpm::grid_kinetic_after] - sand.grid[mpm::grid_kinetic_before];
+    kinetic_points_ = kinetic;
+    plastic_ += sand.points[mpm::point_plastic_work];
+    damping_ += sand.grid[mpm::grid_damped] + rigid.damped;
+    friction_ += contact_friction + rigid.friction + sand.grid[mpm::grid_wall_loss];
+    restitution_ += rigid.restitution;
+    work_in_ += rigid.driver_work;
+    impulse_ += moving_mass * dt * gravity_ + Vec3<double>(sand.grid + mpm::grid_wall_impulse) +
+                Vec3<double>(sand.grid + mpm::grid_damping_impulse) + rigid.wall_impulse + rigid.damping_impulse +
+                rigid.driver_impulse;
+}
+
+EnergyRow Ledger::energy(const Census& now)
+{
+    EnergyRow row;
+    row.kinetic_points = now.sand.kinetic;
+    row.strain         = now.sand.strain;
+    row.kinetic_bodies = now.rigid.kinetic;
+    row.contact        = now.rigid.contact + now.sand_contact;
+    row.gravity        = -gravity_.dot(now.sand.moment + now.rigid.moment);
+    row.plastic        = plastic_;
+    row.friction       = friction_;
+    row.restitution    = restitution_;
+    row.damping        = damping_;
+    row.transfer       = transfer_;
+    row.work_in        = work_in_;
+    row.total          = stored(now) + plastic_ + friction_ + restitution_ + damping_ + transfer_ - work_in_;
+
+    const double fallen = gravity_.dot(now.sand.moment + now.rigid.moment - start_.sand.moment - start_.rigid.moment);
+    for (const double exchange :
+         {row.kinetic_points, row.kinetic_bodies, fallen, plastic_, friction_, damping_, work_in_, row.strain})
+    {
+        largest_exchange_ = std::max(largest_exchange_, std::abs(exchange));
+    }
+    if (largest_exchange_ > 0) { errors_.energy = (row.total - start_energy_) / largest_exchange_; }
+    return row;
+}
+
+BalanceRow Ledger::balance(const Census& now)
+{
+    BalanceRow row;
+    row.mass            = mass(now);
+    row.momentum        = momentum(now);
+    const double weight = mass(start_) * gravity_.norm();
+    if (time_ > 0 && weight > 0)
+    {
+        row.impulse_error = (row.momentum - momentum(start_) - impulse_).norm() / (weight * time_);
+        errors_.momentum  = std::max(errors_.momentum, row.impulse_error);
+    }
+    errors_.mass = std::max(errors_.mass, std::abs(row.mass - mass(start_)) / mass(start_));
+    return row;
+}
+
+} // namespace tread::solver

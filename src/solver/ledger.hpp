@@ -1,0 +1,86 @@
+#pragma once
+
+#include "backend/vector.hpp"
+#include "io/summary.hpp"
+#include "solver/sand.hpp"
+
+namespace tread::solver
+{
+
+/// What the bodies did in one step, summed over them.
+struct RigidReport
+{
+    double       shortest_contact = 0; ///< s, min sqrt(m / sum K); 0 = no contact
+    double       largest_speed    = 0; ///< m/s
+    double       net_force        = 0; ///< N, sum over free bodies of |contact + weight|
+    double       friction         = 0; ///< J, body-body, of the step
+    double       restitution      = 0; ///< J, body-body normal damping, of the step
+    double       damped           = 0; ///< J, taken by local damping in the step
+    double       driver_work      = 0; ///< J, done by what holds and drives bodies, of the step
+    Vec3<double> wall_impulse     = Vec3<double>::Zero(); ///< N s, of the step
+    Vec3<double> damping_impulse  = Vec3<double>::Zero();
+    Vec3<double> driver_impulse   = Vec3<double>::Zero();
+};
+
+/// What the bodies hold.
+struct RigidCensus
+{
+    double       mass     = 0; ///< kg
+    double       kinetic  = 0; ///< J, translation and rotation
+    double       contact  = 0; ///< J, elastic, body-body and body-wall
+    Vec3<double> momentum = Vec3<double>::Zero(); ///< kg m/s
+    Vec3<double> moment   = Vec3<double>::Zero(); ///< kg m
+};
+
+/// Everything that the balances of a time need.
+struct Census
+{
+    SandCensus  sand;
+    RigidCensus rigid;
+    double      sand_contact = 0; ///< J, elastic, sand-body
+};
+
+/// Energy by kind, J: present stores, and what was lost or done since the start.
+struct EnergyRow
+{
+    double kinetic_points = 0, strain = 0, kinetic_bodies = 0, contact = 0, gravity = 0;
+    double plastic = 0, friction = 0, restitution = 0, damping = 0, transfer = 0, work_in = 0;
+    double total = 0; ///< stores and losses less work_in: constant if nothing is unaccounted
+};
+
+struct BalanceRow
+{
+    double       mass = 0;     ///< kg
+    Vec3<double> momentum = Vec3<double>::Zero();
+    double       impulse_error = 0; ///< |momentum change less impulses| over total weight x time
+};
+
+/// Keeps the books of mass, momentum and energy over a run.
+class Ledger
+{
+public:
+    Ledger(Vec3<double> gravity, const Census& start);
+
+    /// Books one step. `contact_friction`: J lost to sand-body friction in the step.
+    void step(double dt, const SandReport& sand, const RigidReport& rigid, double contact_friction,
+              double moving_mass);
+
+    EnergyRow       energy(const Census& now);
+    BalanceRow      balance(const Census& now);
+    io::ErrorReport errors() const { return errors_; }
+
+private:
+    double stored(const Census& now) const;
+
+    Vec3<double>    gravity_;
+    Census          start_;
+    double          start_energy_ = 0;
+    double          time_         = 0;
+    double          kinetic_points_;
+    double          plastic_ = 0, friction_ = 0, restitution_ = 0, damping_ = 0, transfer_ = 0, work_in_ = 0;
+    Vec3<double>    impulse_ = Vec3<double>::Zero();
+    io::ErrorReport errors_;
+    double          largest_exchange_ = 0;
+};
+
+} // namespace tread::solver

@@ -1,0 +1,90 @@
+#include "solver/recorder.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "solver/phases.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+void append(std::vector<double>& row, const Vec3<double>& value) { row.insert(row.end(), value.data(), value.data() + 3); }
+
+std::vector<io::Column> wheel_columns()
+{
+    return {{"time", 1, "s"},         {"position", 3, "m"}, {"velocity", 3, "m/s"}, {"angular_velocity", 3, "rad/s"},
+            {"force", 3, "N"},        {"torque", 3, "N m"}, {"sinkage", 1, "m"},    {"slip", 1, "1"},
+            {"drawbar_pull", 1, "N"}, {"power", 1, "W"}};
+}
+
+std::vector<io::Column> energy_columns()
+{
+    std::vector<io::Column> columns = {{"time", 1, "s"}};
+    for (const char* name : {"kinetic_points", "strain", "kinetic_bodies", "contact", "gravity", "plastic", "friction",
+                             "restitution", "damping", "transfer", "work_in", "total"})
+    {
+        columns.push_back({name, 1, "J"});
+    }
+    return columns;
+}
+
+std::string group(const scene::Body& body) { return "/wheel/" + body.name; }
+
+} // namespace
+
+Recorder::Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world)
+    : scene_(scene)
+    , series_(directory.time_series())
+{
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    {
+        rolling_radii_.push_back(
+            rolling_radius(scene.bodies[b], world.templates[static_cast<std::size_t>(world.bodies.shape[b])]));
+        series_.add_table(group(scene.bodies[b]), wheel_columns());
+    }
+    series_.add_table("/energy", energy_columns());
+    series_.add_table("/balance",
+                      {{"time", 1, "s"}, {"mass", 1, "kg"}, {"momentum", 3, "kg m/s"}, {"impulse_error", 1, "1"}});
+    series_.add_table("/phases", {{"index", 1, "1"}, {"start", 1, "s"}});
+}
+
+void Recorder::begin_phase(std::size_t index, double time, double surface)
+{
+    surface_ = surface;
+    series_.append("/phases", {static_cast<double>(index), time});
+}
+
+void Recorder::write(double time, const std::vector<BodyRow>& bodies, const EnergyRow& energy,
+                     const BalanceRow& balance)
+{
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+    {
+        const BodyRow& body = bodies[b];
+        const double   spin = body.angular_velocity.dot(body.axle), rim = spin * rolling_radii_[b];
+        const double   slip =
+            std::abs(rim) > 1e-9 ? 1 - body.velocity[0] / rim : std::numeric_limits<double>::quiet_NaN();
+        std::vector<double> row = {time};
+        append(row, body.position);
+        append(row, body.velocity);
+        append(row, body.angular_velocity);
+        append(row, body.force);
+        append(row, body.torque);
+        for (const double value : {surface_ - body.lowest, slip, body.force[0], -body.torque.dot(body.axle) * spin})
+        {
+            row.push_back(value);
+        }
+        series_.append(group(scene_.bodies[b]), row);
+    }
+    series_.append("/energy", {time, energy.kinetic_points, energy.strain, energy.kinetic_bodies, energy.contact,
+                               energy.gravity, energy.plastic, energy.friction, energy.restitution, energy.damping,
+                               energy.transfer, energy.work_in, energy.total});
+    std::vector<double> row = {time, balance.mass};
+    append(row, balance.momentum);
+    row.push_back(balance.impulse_error);
+    series_.append("/balance", row);
+    series_.flush();
+}
+
+} // namespace tread::solver

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "io/run_directory.hpp"
+#include "io/snapshot.hpp"
+#include "io/time_series.hpp"
+#include "solver/ledger.hpp"
+#include "solver/world.hpp"
+
+namespace tread::solver
+{
+
+/// One named body at one time. Force and torque are those of all contacts, mean since the last row.
+struct BodyRow
+{
+    Vec3<double> position;         ///< m
+    Vec3<double> velocity;         ///< m/s
+    Vec3<double> angular_velocity; ///< rad/s
+    Vec3<double> force;            ///< N
+    Vec3<double> torque;           ///< N m, about the centre of mass
+    Vec3<double> axle;             ///< unit, world
+    double       lowest;           ///< m, height of the lowest point of the rim
+};
+
+/// timeseries.h5 of a run: /wheel/<name>, /energy, /balance, /phases.
+class Recorder
+{
+public:
+    Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world);
+
+    /// A phase begins; `surface` = height that sinkage is measured from, m.
+    void begin_phase(std::size_t index, double time, double surface);
+
+    void write(double time, const std::vector<BodyRow>& bodies, const EnergyRow& energy, const BalanceRow& balance);
+
+private:
+    const scene::Scene& scene_;
+    std::vector<double> rolling_radii_;
+    io::TimeSeries      series_;
+    double              surface_ = 0;
+};
+
+} // namespace tread::solver

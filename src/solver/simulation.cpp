@@ -1,0 +1,215 @@
+#include "solver/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "solver/materials.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+constexpr double least_gradient = 0.5; ///< |grad phi| in contact under which a point is past the medial axis
+
+Vec3<double> vector(const scene::Vector3& v) { return {v[0], v[1], v[2]}; }
+
+PaceLimits pace_limits(const scene::Scene& scene, const World& world, const Plan& plan)
+{
+    PaceLimits limits;
+    limits.gravity = vector(scene.domain.gravity).norm();
+    limits.longest = scene.output.every;
+    if (plan.bodies)
+    {
+        limits.smallest_body = *std::min_element(world.bodies.radius.begin(), world.bodies.radius.end());
+    }
+    if (!plan.sand) { return limits; }
+    int fewest = 1000;
+    for (const scene::Terrain& terrain : scene.terrain)
+    {
+        fewest             = std::min(fewest, terrain.points_per_cell);
+        const auto& sand   = scene.materials[static_cast<std::size_t>(material_index(scene, terrain.material))];
+        limits.wave_speed  = std::max(limits.wave_speed, compression_wave_speed(sand));
+    }
+    limits.spacing = scene.grid.spacing;
+    limits.courant = fewest >= 8 ? 0.6 : 0.4;
+    return limits;
+}
+
+double free_weight(const scene::Scene& scene, const World& world)
+{
+    const double sand  = std::accumulate(world.points.mass.begin(), world.points.mass.end(), 0.0);
+    const double rocks = std::accumulate(world.bodies.mass.begin() + world.bodies.named, world.bodies.mass.end(), 0.0);
+    return (sand + rocks) * vector(scene.domain.gravity).norm();
+}
+
+} // namespace
+
+template<class Exec, class Real>
+Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan)
+    : exec_(exec)
+    , scene_(scene)
+    , world_(world)
+    , plan_(plan)
+    , limits_(pace_limits(scene, world, plan))
+    , gravity_(vector(scene.domain.gravity))
+    , weight_(free_weight(scene, world))
+{
+    if (plan.sand) { sand_.emplace(exec, scene, world, mpm::PointFields{plan.affine, plan.plasticity, plan.coupling}); }
+    if (plan.bodies) { rigid_.emplace(exec, scene, world, plan); }
+    if (plan.coupling) { coupling_.emplace(exec, scene, world, rigid_->templates(), rigid_->pair_table()); }
+    ledger_.emplace(gravity_, census());
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, double damping)
+{
+    damping_ = damping;
+    if (rigid_) { rigid_->command(commands); }
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::step(const TimeStep& step, double time, StageClock& clock)
+{
+    if (sand_) { clock.run(exec_, stage::order, [&] { sand_->order(); }); }
+    if (plan_.body_contact) { clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs(step.dt); }); }
+    if (coupling_)
+    {
+        clock.run(exec_, stage::candidates,
+                  [&] { coupling_->begin_step(sand_->view(), sand_->pages(), rigid_->view(), step.dt, pace_.largest_speed); });
+    }
+    if (rigid_) { substeps(step, clock); }
+    if (coupling_) { clock.run(exec_, stage::sand_contact, [&] { coupling_->finish_step(sand_->view(), step.dt); }); }
+    if (sand_)
+    {
+        clock.run(exec_, stage::scatter, [&] { sand_->scatter(); });
+        clock.run(exec_, stage::grid, [&] { sand_->update_grid(step.dt, damping_); });
+        clock.run(exec_, stage::gather, [&] { sand_->gather(step.dt); });
+    }
+    clock.run(exec_, stage::measure, [&] { measure(step, time); });
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::substeps(const TimeStep& step, StageClock& clock)
+{
+    const double dt = step.dt / static_cast<double>(step.substeps);
+    rigid_->begin_step();
+    for (std::int64_t substep = 0; substep < step.substeps; ++substep)
+    {
+        rigid_->clear_wrenches();
+        if (coupling_) { clock.run(exec_, stage::sand_contact, [&] { coupling_->substep(rigid_->view(), dt); }); }
+        if (plan_.body_contact) { clock.run(exec_, stage::body_contact, [&] { rigid_->contact(dt); }); }
+        clock.run(exec_, stage::integrate, [&] { rigid_->move(dt, damping_); });
+    }
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::measure(const TimeStep& step, double time)
+{
+    const SandReport  sand  = sand_ ? sand_->report() : SandReport{};
+    const RigidReport rigid = rigid_ ? rigid_->report(step.dt, time) : RigidReport{};
+    if (sand.peaks[mpm::peak_moved] >= 2)
+    {
+        throw NumericalError(fmt::format("t = {:.6g} s: a point of the sand has a velocity or stress that is not a number "
+                                         "(dt = {:.4g} s, limit: {})",
+                                         time, step.dt, step.limit));
+    }
+    pace_.largest_speed    = std::max(sand.peaks[mpm::peak_speed], rigid.largest_speed);
+    pace_.shortest_contact = rigid.shortest_contact;
+    if (sand_ && sand.peaks[mpm::peak_speed] * step.dt > scene_.grid.spacing)
+    {
+        throw NumericalError(fmt::format("t = {:.6g} s: a point moves {:.3g} m/s, more than a cell a step of {:.4g} s",
+                                         time, sand.peaks[mpm::peak_speed], step.dt));
+    }
+    double contact_friction = 0;
+    if (coupling_)
+    {
+        const contact::Summary& contacts = coupling_->summary();
+        pace_.stiffest_point             = contacts.stiffest.value;
+        contact_friction                 = contacts.dissipated;
+        if (contacts.live > 0 && contacts.flattest.value < least_gradient)
+        {
+            throw NumericalError(fmt::format(
+                "t = {:.6g} s: point {} is so deep in body {} that its nearest surface is not unique (|grad phi| = {:.2g}, "
+                "least {}): a smaller dt, or a finer grid beside thin walls",
+                time, contacts.flattest.point_id, rigid_->name(contacts.flattest.body), contacts.flattest.value,
+                least_gradient));
+        }
+    }
+    unbalanced_ = weight_ > 0 ? (sand.grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
+    ledger_->step(step.dt, sand, rigid, contact_friction,
+                  (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
+}
+
+template<class Exec, class Real>
+Census Simulation<Exec, Real>::census()
+{
+    Census now;
+    if (sand_) { now.sand = sand_->census(); }
+    if (rigid_) { now.rigid = rigid_->census(); }
+    if (coupling_) { now.sand_contact = coupling_->summary().energy; }
+    return now;
+}
+
+template<class Exec, class Real>
+std::vector<BodyRow> Simulation<Exec, Real>::named_bodies()
+{
+    return rigid_ ? rigid_->named_bodies() : std::vector<BodyRow>{};
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::begin_mean()
+{
+    if (rigid_) { rigid_->begin_mean(); }
+}
+
+template<class Exec, class Real>
+io::PointFields Simulation<Exec, Real>::point_fields()
+{
+    return sand_ ? sand_->fields() : io::PointFields{};
+}
+
+template<class Exec, class Real>
+io::BodyFields Simulation<Exec, Real>::body_fields()
+{
+    return rigid_ ? rigid_->fields() : io::BodyFields{};
+}
+
+template<class Exec, class Real>
+double Simulation<Exec, Real>::surface_height()
+{
+    if (!sand_) { return 0; }
+    const std::vector<Vec3<double>>         positions = sand_->positions();
+    const std::vector<BodyRow>              bodies    = named_bodies();
+    std::map<std::pair<long, long>, double> highest;
+    for (const Vec3<double>& x : positions)
+    {
+        double& top = highest[{std::lround(x[0] / scene_.grid.spacing), std::lround(x[1] / scene_.grid.spacing)}];
+        top         = std::max(top, x[2]);
+    }
+    std::vector<double> heights;
+    for (const auto& [column, top] : highest)
+    {
+        const bool under = std::any_of(bodies.begin(), bodies.end(), [&, at = column](const BodyRow& body)
+                                       { return std::abs(body.position[0] - scene_.grid.spacing * double(at.first)) <
+                                                1.2 * (body.position[2] - body.lowest); });
+        if (!under) { heights.push_back(top); }
+    }
+    if (heights.empty()) { for (const auto& [column, top] : highest) { heights.push_back(top); } }
+    std::nth_element(heights.begin(), heights.begin() + static_cast<long>(heights.size() / 2), heights.end());
+    return heights[heights.size() / 2] + 0.5 * world_.point_spacing;
+}
+
+template class Simulation<Cpu, float>;
+template class Simulation<Cpu, double>;
+#ifdef TREAD_WITH_CUDA
+template class Simulation<Gpu, float>;
+template class Simulation<Gpu, double>;
+#endif
+
+} // namespace tread::solver

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "io/snapshot.hpp"
+#include "solver/coupling.hpp"
+#include "solver/ledger.hpp"
+#include "solver/phases.hpp"
+#include "solver/plan.hpp"
+#include "solver/recorder.hpp"
+#include "solver/rigid.hpp"
+#include "solver/sand.hpp"
+#include "solver/stage_clock.hpp"
+#include "solver/time_step.hpp"
+#include "solver/world.hpp"
+
+namespace tread::solver
+{
+
+/// The state of a scene on one backend, and one step of it. Parts that the plan leaves out do not exist.
+template<class Exec, class Real>
+class Simulation
+{
+public:
+    Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan);
+
+    const Exec& exec() const { return exec_; }
+
+    /// What bounds the steps of this scene.
+    const PaceLimits& limits() const { return limits_; }
+
+    /// Measured by the last step.
+    const Pace& pace() const { return pace_; }
+
+    /// Share of the weight that was out of balance in the last step.
+    double unbalanced() const { return unbalanced_; }
+
+    std::int64_t points() const { return sand_ ? sand_->count() : 0; }
+
+    /// Tells the named bodies what to do (held, driven, free) until the next call; `damping` of the phase.
+    void command(const std::vector<BodyCommand>& commands, double damping);
+
+    /// One MPM step of `step.dt` with its contact substeps (design: one step). NumericalError, with what, where and
+    /// which limit, when the state cannot be trusted any more; `time` is for that message.
+    void step(const TimeStep& step, double time, StageClock& clock);
+
+    Census census();
+
+    /// The named bodies; force and torque are means since the last begin_mean().
+    std::vector<BodyRow> named_bodies();
+    void                 begin_mean();
+
+    io::PointFields point_fields();
+    io::BodyFields  body_fields();
+
+    /// Height of the terrain's surface away from the named bodies, m: the median over columns of cells of their highest
+    /// point and half a point's size; 0 without sand.
+    double surface_height();
+
+    Ledger&       ledger() { return *ledger_; }
+    const Ledger& ledger() const { return *ledger_; }
+
+private:
+    void substeps(const TimeStep& step, StageClock& clock);
+    void measure(const TimeStep& step, double time);
+
+    Exec                                exec_;
+    const scene::Scene&                 scene_;
+    const World&                        world_;
+    Plan                                plan_;
+    PaceLimits                          limits_;
+    Pace                                pace_;
+    Vec3<double>                        gravity_;
+    double                              weight_; ///< N, of sand and rocks
+    double                              unbalanced_ = 1;
+    double                              damping_    = 0;
+    std::optional<Sand<Exec, Real>>     sand_;
+    std::optional<Rigid<Exec>>          rigid_;
+    std::optional<Coupling<Exec, Real>> coupling_;
+    std::optional<Ledger>               ledger_;
+};
+
+} // namespace tread::solver
