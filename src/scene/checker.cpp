@@ -54,7 +54,10 @@ void Checker::report(const TableAt& at, const std::string& key, std::string what
 void Checker::require_known(const TableAt& at, const std::string& key, const std::string& name,
                             const std::vector<std::string>& known, const std::string& kind)
 {
-    if (!sound(at, {key}) || std::find(known.begin(), known.end(), name) != known.end()) { return; }
+    const auto is_known = [&](const std::string& candidate)
+    { return std::find(known.begin(), known.end(), candidate) != known.end(); };
+    // An empty name is one that could not be read: it may be the one that is looked for.
+    if (!sound(at, {key}) || is_known(name) || is_known("")) { return; }
     report(at, key, fmt::format("there is no {} called \"{}\"{}", kind, name, suggestion(name, known)),
            known.empty() ? "" : fmt::format("{}", fmt::join(known, ", ")));
 }

@@ -29,7 +29,7 @@ struct Checker
     /// A problem at the key, or at its table if the key was not given.
     void report(const TableAt& at, const std::string& key, std::string what, std::string accepted = {});
 
-    /// A problem unless `name` is among `known`; `what` is said of the name: "no [[material]] has this name".
+    /// A problem, naming the `kind` of thing that is looked for, unless `name` is among `known`.
     void require_known(const TableAt& at, const std::string& key, const std::string& name,
                        const std::vector<std::string>& known, const std::string& kind);
 };

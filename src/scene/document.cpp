@@ -2,7 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <optional>
+#include <limits>
 #include <regex>
 #include <sstream>
 
@@ -22,13 +22,22 @@ Location location_of(const toml::value& value, const std::string& file)
     return {fmt::format("{}:{}", file, line), static_cast<std::int64_t>(line)};
 }
 
+/// T or, as toml11 reads what T cannot hold as the largest or lowest T, the news of that.
+template<class T>
+decltype(Node::value) held(T number)
+{
+    using Limits = std::numeric_limits<T>;
+    if (number == Limits::max() || number == Limits::lowest()) { return OtherValue{"a number too large to hold"}; }
+    return number;
+}
+
 /// `locate` maps a toml::value to the Location that its node shall carry.
 template<class Locate>
 Node convert(const toml::value& value, const Locate& locate)
 {
     Node node{OtherValue{"a boolean"}, locate(value)};
-    if (value.is_integer()) { node.value = value.as_integer(); }
-    else if (value.is_floating()) { node.value = value.as_floating(); }
+    if (value.is_integer()) { node.value = held(value.as_integer()); }
+    else if (value.is_floating()) { node.value = held(value.as_floating()); }
     else if (value.is_string()) { node.value = value.as_string().str; }
     else if (value.is_array())
     {

@@ -21,7 +21,7 @@ struct Node;
 using NodeArray = std::vector<Node>;
 using NodeTable = std::map<std::string, Node>;
 
-/// What no key of a scene accepts: a boolean, a date, a time.
+/// What no key of a scene accepts: a boolean, a date, a number too large to hold.
 struct OtherValue
 {
     std::string kind;

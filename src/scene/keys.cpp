@@ -159,7 +159,7 @@ Keys<Rocks> rocks_keys()
         required("material", "", &Rocks::material, name(), "The name of an elastic or rigid [[material]]."),
         required("count", "", &Rocks::count, integer<std::int64_t>(1, 100'000'000), "How many."),
         required("diameter", "m", &Rocks::diameter, number(above(0)), "Of the sphere of equal volume."),
-        region_key<Rocks>("rocks", "Where the centres are; inside the domain."),
+        region_key<Rocks>("rocks", "The rocks lie in it whole; inside the domain."),
         optional(
             "placement", "", &Rocks::placement, word<Placement>({"replace", "rain", "grid"}),
             "\"replace\" puts rocks into the terrain and removes the points in their place; \"rain\" lets them fall "
@@ -174,7 +174,7 @@ Keys<Body> body_keys()
     return {
         required("name", "", &Body::name, name(), "Unique among bodies."),
         required("shape", "", &Body::shape, name(),
-                 "The name of a [[shape]], or a built-in wheel: perseverance, curiosity, spirit, viper."),
+                 fmt::format("The name of a [[shape]], or a built-in wheel: {}.", fmt::join(builtin_wheels, ", "))),
         required("material", "", &Body::material, name(), "The name of an elastic or rigid [[material]]."),
         optional("density", "kg/m3", &Body::density, number_or("", above(0)), "Of the shape's solid volume.", one_of),
         optional("mass", "kg", &Body::mass, number_or("", above(0)), "Spread evenly over the shape's volume.", one_of),

@@ -29,10 +29,11 @@ void require_unique(const std::string& table, const std::vector<T>& items, Check
     }
 }
 
-bool used_by(const Scene& scene, const std::string& material)
+/// Terrain and rocks have their mass from the material; bodies bring their own.
+bool needs_density(const Scene& scene, const Material& material)
 {
-    const auto uses = [&](const auto& item) { return item.material == material; };
-    return std::any_of(scene.terrain.begin(), scene.terrain.end(), uses) ||
+    const auto uses = [&](const auto& item) { return item.material == material.name; };
+    return (std::any_of(scene.terrain.begin(), scene.terrain.end(), uses) && material.model != MaterialModel::rigid) ||
            std::any_of(scene.rocks.begin(), scene.rocks.end(), uses);
 }
 
@@ -49,7 +50,7 @@ void validate_material(const Scene& scene, const Material& material, const Table
     {
         checker.report(at, "young", "missing", "number > 0 (Pa)");
     }
-    if (used_by(scene, material.name) && checker.given(at, "density") == nullptr)
+    if (needs_density(scene, material) && checker.given(at, "density") == nullptr)
     {
         checker.report(at, "density", "missing; terrain or rocks are made of this", "number > 0 (kg/m3)");
     }

@@ -1,0 +1,208 @@
+#include <gmock/gmock.h>
+
+#include "scene/resolved.hpp"
+#include "scene_file.hpp"
+
+namespace tread::scene::test
+{
+namespace
+{
+
+using ::testing::HasSubstr;
+
+/// A scene in which every key that can differ from its default does.
+const std::string full_scene = R"(title = "quotes \" and \\ and \t tab"
+[domain]
+size = [2, 3, 4]
+gravity = [0.1, 0.2, -0.30000000000000004]
+walls = { x = "fixed", y = "open", bottom = "slip", top = "fixed" }
+[grid]
+spacing = 0.1
+[time]
+dt = 1e-5
+substeps = 7
+[numerics]
+precision = "double"
+transfer = "apic"
+pic_rate = 0.125
+shape_functions = "linear"
+point_motion = "frozen"
+hertz = "paper-eq7"
+point_radius = "semi-domain"
+linear_overlap = 1e-2
+[[material]]
+name = "sand"
+model = "mohr-coulomb"
+density = 1600
+young = 1e21
+poisson = 0.1
+friction_angle_deg = 30
+dilation_angle_deg = 5
+cohesion = 100
+family = "ripple"
+[[material]]
+name = "steel"
+model = "rigid"
+density = 7800
+[[contact]]
+between = ["ripple", "steel"]
+friction = 0.7
+restitution = 0.1
+[[contact]]
+between = ["wall", "steel"]
+[[shape]]
+name = "a"
+generate = { kind = "rock", seed = 3, aspect = 0.5, sphericity = 0.8, nodes = 642 }
+sdf_cells = 33
+node_spacing = 0.25
+[[shape]]
+name = "b"
+generate = { kind = "sphere", nodes = 42 }
+[[shape]]
+name = "c"
+generate = { kind = "wheel", radius = 1, width = 2, wall_thickness = 0.1, grousers = 3, grouser_height = 0.2, grouser_width = 0.3 }
+[[shape]]
+name = "d"
+file = "mesh.stl"
+unit = "mm"
+[[shape]]
+name = "e"
+file = "mesh.stl"
+unit = 0.3048
+[[terrain]]
+material = "sand"
+region = { box = [[0, 0.5, 0], [1, 1, 0.3333333333333333]] }
+points_per_cell = 27
+[[rocks]]
+shape = "a"
+material = "steel"
+count = 12
+diameter = 0.1
+region = { box = [[0, 0, 0], [1, 1, 1]] }
+placement = "rain"
+seed = 9007199254740993
+[[body]]
+name = "one"
+shape = "c"
+material = "steel"
+density = 5
+position = [1, 1, 1]
+velocity = [1, 2, 3]
+rolling_radius = 0.9
+lock = ["x", "yaw"]
+[[body]]
+name = "two"
+shape = "perseverance"
+material = "steel"
+mass = 5
+position = [1, 1, 1]
+[[body]]
+name = "three"
+shape = "b"
+material = "steel"
+load = 5
+position = [1, 1, 1]
+[[phase]]
+name = "settle"
+hold = ["one", "two"]
+damping = 0.5
+until = "equilibrium"
+max_duration = 3
+[[phase]]
+name = "drive"
+duration = 2
+drive = { body = "one", angular_velocity = -0.7, ramp = 0.5, slip = -0.3 }
+[[phase]]
+name = "free"
+duration = 2
+drive = { body = "two", angular_velocity = 1 }
+[output]
+every = 0.5
+snapshots_every = 1.5
+)";
+
+Scene load_text(const Directory& directory, const std::string& text)
+{
+    return load_scene(directory.write("scene.toml", text), {});
+}
+
+Scene load_full(const Directory& directory)
+{
+    directory.write("mesh.stl", "");
+    return load_text(directory, full_scene);
+}
+
+TEST(Resolved, round_trips_every_key_from_another_directory)
+{
+    const Directory directory;
+    const auto      scene = load_full(directory);
+    std::filesystem::create_directories(directory.path() / "run");
+    auto again = load_scene(directory.write("run/scene.toml", resolved_toml(scene)), {});
+    EXPECT_NE(again.directory, scene.directory);
+    again.directory = scene.directory;
+    EXPECT_TRUE(again == scene) << resolved_toml(scene) << "\nread back as\n" << resolved_toml(again);
+    EXPECT_EQ(resolved_toml(again), resolved_toml(scene));
+}
+
+TEST(Resolved, what_was_read_is_what_was_written)
+{
+    const Directory directory;
+    const auto      scene = load_full(directory);
+    EXPECT_EQ(scene.title, "quotes \" and \\ and \t tab");
+    EXPECT_EQ(scene.domain.gravity[2], -0.30000000000000004);
+    EXPECT_EQ(scene.domain.walls, (Walls{WallKind::fixed, WallKind::open, WallKind::slip, WallKind::fixed}));
+    EXPECT_EQ(scene.time, (TimeOptions{1e-5, 7}));
+    EXPECT_EQ(scene.numerics, (Numerics{Precision::double_, Transfer::apic, 0.125, ShapeFunctions::linear,
+                                        PointMotion::frozen, HertzFactor::paper_eq7, PointRadius::semi_domain, 1e-2}));
+    EXPECT_EQ(scene.materials[0],
+              (Material{"sand", MaterialModel::mohr_coulomb, 1600, 1e21, 0.1, 30, 5, 100, "ripple"}));
+    EXPECT_EQ(scene.materials[1].family, "steel");
+    EXPECT_EQ(std::get<WheelGenerator>(scene.shapes[2].source), (WheelGenerator{1, 2, 0.1, 3, 0.2, 0.3}));
+    EXPECT_EQ(std::get<MeshFile>(scene.shapes[3].source), (MeshFile{(directory.path() / "mesh.stl").string(), 0.001}));
+    EXPECT_EQ(std::get<MeshFile>(scene.shapes[4].source).unit, 0.3048);
+    EXPECT_EQ(scene.rocks[0].seed, 9007199254740993u);
+    EXPECT_EQ(scene.bodies[0].lock, (std::vector<std::string>{"x", "yaw"}));
+    EXPECT_EQ(scene.phases[1].drive, (Drive{"one", -0.7, 0.5, -0.3}));
+    EXPECT_FALSE(scene.phases[2].drive->slip.has_value());
+}
+
+TEST(Resolved, shows_every_key_that_was_left_to_its_default)
+{
+    const Directory directory;
+    const auto      text = resolved_toml(load_text(directory, good_scene));
+    for (const auto* line : {"dt = \"auto\"", "substeps = \"auto\"", "precision = \"single\"", "pic_rate = \"auto\"",
+                             "linear_overlap = 0.001", "cohesion = 0.0", "family = \"sand\"", "sdf_cells = 64",
+                             "rolling_radius = \"auto\"", "lock = []", "damping = 0.0", "every = 0.02",
+                             "walls = { x = \"slip\", y = \"slip\", bottom = \"fixed\", top = \"open\" }"})
+    {
+        EXPECT_THAT(text, HasSubstr(std::string(line) + "\n"));
+    }
+    EXPECT_THAT(text, HasSubstr("between = [\"rock\", \"wall\"]\nfriction = 0.5\nrestitution = 0.5\n"));
+    EXPECT_THAT(text, HasSubstr("between = [\"rock\", \"wheel\"]\nfriction = 0.3\n"));
+}
+
+TEST(SceneHash, is_that_of_the_run_and_not_of_its_spelling)
+{
+    const Directory directory;
+    const auto      hash     = scene_hash(load_text(directory, good_scene));
+    const auto      spelling = replaced(good_scene, "size = [1, 1.0, 1]", "size = [1.0, 1, 1e0] # the same");
+    const auto      title    = replaced(good_scene, "title = \"good\"", "title = \"another\"");
+    const auto      slip     = replaced(good_scene, "slip = 0.3", "slip = 0.30000000000000004");
+    EXPECT_THAT(hash, ::testing::MatchesRegex("[0-9a-f]{16}"));
+    EXPECT_EQ(scene_hash(load_text(directory, spelling)), hash);
+    EXPECT_EQ(scene_hash(load_text(directory, title)), hash);
+    EXPECT_NE(scene_hash(load_text(directory, slip)), hash);
+}
+
+TEST(SceneHash, of_an_empty_scene_is_fnv1a_of_its_text)
+{
+    std::uint64_t hash = 14695981039346656037u;
+    for (const char letter : resolved_toml(Scene{}))
+    {
+        hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211u;
+    }
+    EXPECT_EQ(std::stoull(scene_hash(Scene{}), nullptr, 16), hash);
+}
+
+} // namespace
+} // namespace tread::scene::test
