@@ -23,7 +23,7 @@ struct SignedDistanceGrid
     std::vector<float>          values;
 };
 
-/// Surface nodes that carry contact traction; areas sum to the mesh's area. Ordered so that each run of
+/// Surface nodes that carry contact traction; areas sum to the surface's area. Ordered so that each run of
 /// cluster_size nodes (the last may be shorter) is close together and lies within its bounding sphere.
 struct SurfaceNodes
 {
@@ -44,20 +44,22 @@ struct WheelGeometry
 };
 
 /// One shape at scale 1, shared by all its instances through scale and rotation. Body frame: centre of mass at the
-/// origin, mesh axes (not principal axes: the inertia tensor is full).
+/// origin, mesh axes (not principal axes: the inertia tensor is full). A generated sphere is the exact one in its mass
+/// properties, areas and SDF: only its mesh has facets.
 struct ShapeTemplate
 {
     std::string        name;
     TriangleMesh       mesh;
-    MassProperties     unit; ///< density 1; unit.centre is zero
+    MassProperties     unit;        ///< density 1; unit.centre is zero
     Eigen::Vector3d    mesh_centre; ///< centre of mass in the frame of the source mesh
     SignedDistanceGrid sdf;
-    SurfaceNodes       nodes;
-    Bounds             box;
-    double             bounding_radius;   ///< m, about the centre of mass
-    double             equivalent_radius; ///< m, of the sphere of equal volume; R of the contact law (wheels: radius)
-    bool               is_wheel;
-    WheelGeometry      wheel; ///< meaningful if is_wheel
+    double        sdf_volume_ratio; ///< volume enclosed by the SDF's interpolant over the true one; warn off 1 by 2 %
+    SurfaceNodes  nodes;
+    Bounds        box;
+    double        bounding_radius;   ///< m, about the centre of mass
+    double        equivalent_radius; ///< m, of the sphere of equal volume; R of the contact law (wheels: radius)
+    bool          is_wheel;
+    WheelGeometry wheel; ///< meaningful if is_wheel
 };
 
 /// The built-in wheels that a scene may name without a [[shape]] table.
@@ -66,13 +68,16 @@ std::vector<std::string> builtin_shape_names();
 /// The scene's shape called `name`, or the built-in; InputError if there is none.
 scene::Shape find_shape(const scene::Scene& scene, const std::string& name);
 
-/// Mesh, checks, mass properties, surface nodes and SDF of one shape. Paths are relative to `directory`.
+/// Mesh, checks, mass properties, surface nodes and SDF of one shape. Paths are relative to `directory`. Generated
+/// rocks and spheres have an equivalent diameter of 1 m at scale 1, so an instance's scale is its diameter in metres.
+/// Throws InputError that names the shape or the file.
 ShapeTemplate make_template(const scene::Shape& shape, const std::string& directory);
 
-/// Distance from `point` (body frame) by trilinear interpolation; outside the box a positive lower bound.
+/// Distance (m) from `point` (body frame) by trilinear interpolation. Outside the grid a positive lower bound: the root
+/// of the squares of the distance to the grid's box and of the value (at least 0) at the box's nearest point.
 double sample(const SignedDistanceGrid& sdf, const Eigen::Vector3d& point);
 
-/// Exact gradient of the same interpolant, not normalised.
+/// Exact gradient of what `sample` returns, inside the grid and outside, not normalised.
 Eigen::Vector3d sample_gradient(const SignedDistanceGrid& sdf, const Eigen::Vector3d& point);
 
 } // namespace tread::shape

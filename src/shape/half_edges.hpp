@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "shape/mesh.hpp"
+
+namespace tread::shape
+{
+
+/// One side of one triangle: from corner `side` to the next corner.
+struct HalfEdge
+{
+    std::int32_t low;  ///< smaller vertex index
+    std::int32_t high; ///< larger vertex index
+    std::int32_t triangle;
+    std::int32_t side;
+
+    bool same_edge(const HalfEdge& other) const { return low == other.low && high == other.high; }
+};
+
+/// All 3 x triangles half edges, sorted so that those of one edge are neighbours, in the order of their triangles.
+std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh);
+
+/// Calls f(first, last) with iterators to the half edges of each edge.
+template<class F>
+void for_each_edge(const std::vector<HalfEdge>& half_edges, F f)
+{
+    for (auto first = half_edges.begin(); first != half_edges.end();)
+    {
+        auto last = first;
+        while (last != half_edges.end() && last->same_edge(*first)) { ++last; }
+        f(first, last);
+        first = last;
+    }
+}
+
+} // namespace tread::shape

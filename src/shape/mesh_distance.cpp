@@ -1,0 +1,86 @@
+#include "shape/mesh_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "shape/half_edges.hpp"
+#include "shape/triangle.hpp"
+
+namespace tread::shape
+{
+namespace
+{
+
+double angle_at(const TriangleMesh& mesh, std::size_t triangle, std::size_t which)
+{
+    const Eigen::Vector3d& apex  = corner(mesh, triangle, which);
+    const Eigen::Vector3d  left  = corner(mesh, triangle, (which + 1) % 3) - apex;
+    const Eigen::Vector3d  right = corner(mesh, triangle, (which + 2) % 3) - apex;
+    return std::atan2(left.cross(right).norm(), left.dot(right));
+}
+
+std::vector<Eigen::Vector3d> face_normals(const TriangleMesh& mesh)
+{
+    std::vector<Eigen::Vector3d> normals;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) { normals.push_back(area_vector(mesh, t).normalized()); }
+    return normals;
+}
+
+std::vector<Eigen::Vector3d> vertex_normals(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& faces)
+{
+    std::vector<Eigen::Vector3d> normals(mesh.vertices.size(), Eigen::Vector3d::Zero());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            normals[static_cast<std::size_t>(mesh.triangles[t][c])] += angle_at(mesh, t, c) * faces[t];
+        }
+    }
+    return normals;
+}
+
+} // namespace
+
+MeshDistance prepare_distance(const TriangleMesh& mesh)
+{
+    const std::vector<Eigen::Vector3d> faces    = face_normals(mesh);
+    const std::vector<Eigen::Vector3d> vertices = vertex_normals(mesh, faces);
+
+    MeshDistance distance{build_tree(mesh), {}};
+    distance.pseudonormals.resize(mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+        distance.pseudonormals[t][0] = faces[t];
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            distance.pseudonormals[t][4 + c] = vertices[static_cast<std::size_t>(mesh.triangles[t][c])];
+        }
+    }
+    for_each_edge(sorted_half_edges(mesh),
+                  [&](auto first, auto last)
+                  {
+                      Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+                      for (auto half = first; half != last; ++half)
+                      {
+                          normal += faces[static_cast<std::size_t>(half->triangle)];
+                      }
+                      for (auto half = first; half != last; ++half)
+                      {
+                          distance.pseudonormals[static_cast<std::size_t>(half->triangle)]
+                                                [static_cast<std::size_t>(1 + half->side)] = normal;
+                      }
+                  });
+    return distance;
+}
+
+double signed_distance(const MeshDistance& distance, const Eigen::Vector3d& point, double within)
+{
+    ClosestPoint closest = closest_point(distance.tree, point, within);
+    if (closest.triangle < 0) { closest = closest_point(distance.tree, point); }
+    const Eigen::Vector3d& pseudonormal =
+        distance.pseudonormals[static_cast<std::size_t>(closest.triangle)][static_cast<std::size_t>(closest.feature)];
+    return std::copysign(std::sqrt(closest.squared_distance), (point - closest.point).dot(pseudonormal));
+}
+
+} // namespace tread::shape

@@ -1,0 +1,122 @@
+#include "shape/mesh_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+
+namespace tread::shape
+{
+namespace
+{
+
+constexpr std::string_view blanks = " \t\r\v\f";
+
+double take_number(std::string_view& line, const LineReader& reader)
+{
+    const std::string_view word   = take_word(line);
+    std::string_view       digits = word;
+    if (!digits.empty() && digits.front() == '+') { digits.remove_prefix(1); }
+    double     value = 0;
+    const auto end   = digits.data() + digits.size();
+    const auto got   = std::from_chars(digits.data(), end, value);
+    if (got.ec != std::errc() || got.ptr != end) { reader.fail(fmt::format("'{}' is not a coordinate", word)); }
+    if (!std::isfinite(value)) { reader.fail(fmt::format("coordinate '{}' is not finite", word)); }
+    return value;
+}
+
+std::string read_bytes(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    if (!file) { throw InputError(fmt::format("{}: the mesh cannot be opened", path)); }
+    std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (file.bad()) { throw InputError(fmt::format("{}: the mesh cannot be read", path)); }
+    if (bytes.empty()) { throw InputError(fmt::format("{}: the mesh file is empty", path)); }
+    return bytes;
+}
+
+std::string lower_extension(const std::string& path)
+{
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& letter : extension) { letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter))); }
+    return extension;
+}
+
+} // namespace
+
+std::optional<std::string_view> LineReader::next()
+{
+    if (text.empty()) { return std::nullopt; }
+    ++number;
+    const std::size_t      end  = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    return line;
+}
+
+void LineReader::fail(const std::string& message) const
+{
+    throw InputError(fmt::format("{}:{}: {}", path, number, message));
+}
+
+std::string_view take_word(std::string_view& line)
+{
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(blanks));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+Eigen::Vector3d take_vector(std::string_view& line, const LineReader& reader)
+{
+    const double x = take_number(line, reader);
+    const double y = take_number(line, reader);
+    const double z = take_number(line, reader);
+    return {x, y, z};
+}
+
+TriangleMesh weld(const TriangleMesh& mesh)
+{
+    std::map<std::array<double, 3>, std::int32_t> known;
+    TriangleMesh                                  welded;
+    for (const auto& corners : mesh.triangles)
+    {
+        std::array<std::int32_t, 3> triangle{};
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            const Eigen::Vector3d& place = mesh.vertices[static_cast<std::size_t>(corners[c])];
+            const auto             next  = static_cast<std::int32_t>(welded.vertices.size());
+            const auto [entry, inserted] = known.try_emplace({place.x(), place.y(), place.z()}, next);
+            if (inserted) { welded.vertices.push_back(place); }
+            triangle[c] = entry->second;
+        }
+        welded.triangles.push_back(triangle);
+    }
+    return welded;
+}
+
+TriangleMesh read_mesh(const std::string& path, double unit)
+{
+    const std::string extension = lower_extension(path);
+    if (extension != ".stl" && extension != ".obj")
+    {
+        throw InputError(fmt::format("{}: unknown mesh format '{}'; accepted are .stl and .obj", path, extension));
+    }
+    const std::string bytes = read_bytes(path);
+    TriangleMesh      mesh  = weld(extension == ".stl" ? read_stl(bytes, path) : read_obj(bytes, path));
+    if (mesh.triangles.empty()) { throw InputError(fmt::format("{}: the mesh has no triangles", path)); }
+    for (Eigen::Vector3d& vertex : mesh.vertices) { vertex *= unit; }
+    return mesh;
+}
+
+} // namespace tread::shape

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "shape/mesh.hpp"
+
+// A tree of axis-aligned boxes over the triangles of a mesh, for exact closest points. Queries may run in parallel.
+namespace tread::shape
+{
+
+struct TriangleTree
+{
+    struct Node
+    {
+        Eigen::Vector3d low;
+        Eigen::Vector3d high;
+        std::int32_t    first; ///< leaf: first entry of corners; else the left child, the right one follows it
+        std::int32_t    count; ///< entries of a leaf; 0 = inner node
+    };
+
+    std::vector<Node>                           nodes;
+    std::vector<std::array<Eigen::Vector3d, 3>> corners;   ///< of the triangles, in the order of the leaves
+    std::vector<std::int32_t>                   triangles; ///< their indices in the mesh
+};
+
+/// Part of a triangle; side i runs from corner i to the next.
+enum class Feature : std::uint8_t
+{
+    face,
+    side_0,
+    side_1,
+    side_2,
+    corner_0,
+    corner_1,
+    corner_2
+};
+
+struct ClosestPoint
+{
+    Eigen::Vector3d point;
+    double          squared_distance; ///< m2
+    std::int32_t    triangle;         ///< -1 if nothing lies within the bound
+    Feature         feature;
+};
+
+TriangleTree build_tree(const TriangleMesh& mesh);
+
+/// The point of the surface closest to `point` among those nearer than `within` (m).
+ClosestPoint closest_point(const TriangleTree& tree, const Eigen::Vector3d& point,
+                           double within = std::numeric_limits<double>::infinity());
+
+} // namespace tread::shape

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "shape/half_edges.hpp"
+#include "shape/mass_properties.hpp"
+#include "shape/mesh.hpp"
+#include "shape/triangle.hpp"
+
+namespace tread::shape
+{
+namespace
+{
+
+/// How many times a defect was seen, and where first.
+struct Defect
+{
+    const char*     what;
+    std::size_t     count = 0;
+    Eigen::Vector3d first = Eigen::Vector3d::Zero();
+
+    void add(const Eigen::Vector3d& place)
+    {
+        if (count == 0) { first = place; }
+        ++count;
+    }
+};
+
+using HalfEdgeIterator = std::vector<HalfEdge>::const_iterator;
+
+bool runs_upwards(const TriangleMesh& mesh, const HalfEdge& half_edge)
+{
+    const auto& corners = mesh.triangles[static_cast<std::size_t>(half_edge.triangle)];
+    return corners[static_cast<std::size_t>(half_edge.side)] == half_edge.low;
+}
+
+std::vector<Defect> edge_defects(const TriangleMesh& mesh)
+{
+    Defect open{"open edges (used by one triangle)"};
+    Defect crowded{"non-manifold edges (used by more than two triangles)"};
+    Defect flipped{"edges between triangles of opposite orientation"};
+    for_each_edge(sorted_half_edges(mesh),
+                  [&](HalfEdgeIterator first, HalfEdgeIterator last)
+                  {
+                      const Eigen::Vector3d middle = 0.5 * (mesh.vertices[static_cast<std::size_t>(first->low)] +
+                                                            mesh.vertices[static_cast<std::size_t>(first->high)]);
+                      const auto            uses   = last - first;
+                      if (uses == 1) { open.add(middle); }
+                      else if (uses > 2) { crowded.add(middle); }
+                      else if (runs_upwards(mesh, *first) == runs_upwards(mesh, *(first + 1))) { flipped.add(middle); }
+                  });
+    return {open, crowded, flipped};
+}
+
+Defect degenerate_triangles(const TriangleMesh& mesh)
+{
+    // Corners in single precision place a sliver's height to some 1e-7 of its length: below this it has no normal.
+    constexpr double least_height = 1e-8;
+
+    Defect degenerate{"degenerate triangles (no area)"};
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+        const Eigen::Vector3d &a = corner(mesh, t, 0), &b = corner(mesh, t, 1), &c = corner(mesh, t, 2);
+        const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+        if (!(area_vector(mesh, t).norm() > least_height * longest)) { degenerate.add((a + b + c) / 3); }
+    }
+    return degenerate;
+}
+
+} // namespace
+
+void require_watertight(const TriangleMesh& mesh, const std::string& origin)
+{
+    if (mesh.triangles.empty()) { throw InputError(fmt::format("{}: the mesh has no triangles", origin)); }
+
+    std::vector<Defect> defects = edge_defects(mesh);
+    defects.push_back(degenerate_triangles(mesh));
+    std::string found;
+    for (const Defect& defect : defects)
+    {
+        if (defect.count == 0) { continue; }
+        found += fmt::format("\n  {} {}, the first at ({:.6g}, {:.6g}, {:.6g}) m", defect.count, defect.what,
+                             defect.first.x(), defect.first.y(), defect.first.z());
+    }
+    if (!found.empty()) { throw InputError(fmt::format("{}: the mesh is not watertight:{}", origin, found)); }
+
+    const double volume = mass_properties(mesh).volume;
+    if (!(volume > 0))
+    {
+        throw InputError(fmt::format("{}: the mesh is inside out: its volume is {:.6g} m3; it must be positive, with "
+                                     "triangles counter-clockwise seen from outside",
+                                     origin, volume));
+    }
+}
+
+} // namespace tread::shape
