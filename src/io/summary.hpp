@@ -21,7 +21,7 @@ struct StageReport
 {
     std::string  name;
     bool         on = true;
-    std::string  why; ///< why it is left out; empty when on
+    std::string  why; ///< why it is on or left out
     std::int64_t calls   = 0;
     double       seconds = 0;
 };

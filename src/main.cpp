@@ -1,0 +1,271 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <new>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/communicator.hpp"
+#include "base/log.hpp"
+#include "base/version.hpp"
+#include "decomp/single_rank.hpp"
+#include "io/describe.hpp"
+#include "scene/load.hpp"
+#include "shape/template.hpp"
+#include "solver/run.hpp"
+
+// The command line: what the user typed, to one call of the room that does it.
+namespace
+{
+
+using namespace tread;
+
+struct SceneArguments
+{
+    std::string              path;
+    std::vector<std::string> overrides;
+    solver::BackendChoice    backend = solver::BackendChoice::automatic;
+};
+
+struct RunArguments
+{
+    SceneArguments scene;
+    std::string    output;
+    io::Existing   existing = io::Existing::refuse;
+    int            threads  = 0;
+    Terminal       terminal = Terminal::shown;
+};
+
+struct SdfArguments
+{
+    std::string                mesh; ///< file, or name of a built-in shape
+    std::optional<int>         cells;
+    double                     unit = 1.0;
+    std::optional<std::string> stl;
+};
+
+ExitCode code_of(const std::exception& error)
+{
+    if (const auto* known = dynamic_cast<const Error*>(&error)) { return known->code(); }
+    const bool machine = dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+                         dynamic_cast<const std::system_error*>(&error) != nullptr;
+    return machine ? ExitCode::environment : ExitCode::numerical;
+}
+
+/// Rank 0 speaks for all: an error is thrown by every rank, or by none.
+template<class Command>
+ExitCode on_ranks(const Command& command)
+{
+    const MpiSession    session;
+    const Communicator& world = session.world();
+    ExitCode            code  = ExitCode::finished;
+    try
+    {
+        decomp::require_single_rank(world);
+        code = command(world);
+    }
+    catch (const std::exception& error)
+    {
+        if (world.rank() == 0) { std::cerr << "tread: error: " << error.what() << std::endl; }
+        code = code_of(error);
+    }
+    return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
+}
+
+ExitCode run(const RunArguments& arguments)
+{
+    return on_ranks(
+        [&](const Communicator& world)
+        {
+            Log                log(world, arguments.terminal);
+            const scene::Scene scene  = scene::load_scene(arguments.scene.path, arguments.scene.overrides);
+            const std::string  stem   = std::filesystem::path(arguments.scene.path).stem().string();
+            const std::string  output = arguments.output.empty() ? "runs/" + stem : arguments.output;
+            return solver::run(world, log, scene,
+                               {output, arguments.existing, arguments.scene.backend, arguments.threads});
+        });
+}
+
+ExitCode check(const SceneArguments& arguments)
+{
+    return on_ranks(
+        [&](const Communicator& world)
+        {
+            const scene::Scene scene = scene::load_scene(arguments.path, arguments.overrides);
+            std::cout << solver::check(world, scene, arguments.backend);
+            return ExitCode::finished;
+        });
+}
+
+std::string vector_text(const Eigen::Vector3d& vector)
+{
+    return fmt::format("{:.6g} {:.6g} {:.6g}", vector.x(), vector.y(), vector.z());
+}
+
+std::string template_text(const shape::ShapeTemplate& shape)
+{
+    double area = 0;
+    for (const double part : shape.nodes.areas) { area += part; }
+    const auto& nodes     = shape.sdf.nodes;
+    const auto  mebibytes = static_cast<double>(shape.sdf.values.size() * sizeof(float)) / (1024.0 * 1024.0);
+
+    std::string text = fmt::format("shape           {}\n", shape.name);
+    text += fmt::format("watertight      yes: {} vertices, {} triangles\n", shape.mesh.vertices.size(),
+                        shape.mesh.triangles.size());
+    text += fmt::format("extent          {} m\n", vector_text(shape.box.extent()));
+    text += fmt::format("centre of mass  {} m\n", vector_text(shape.mesh_centre));
+    text += fmt::format("volume          {:.6g} m3\n", shape.unit.volume);
+    text += fmt::format("area            {:.6g} m2\n", area);
+    for (Eigen::Index row = 0; row < 3; ++row)
+    {
+        text += fmt::format("{:<15} {} m5\n", row == 0 ? "inertia (1)" : "",
+                            vector_text(shape.unit.inertia.row(row).transpose()));
+    }
+    text += fmt::format("surface nodes   {}, {:.4g} m apart\n", shape.nodes.positions.size(), shape.nodes.spacing);
+    text += fmt::format("SDF             {} x {} x {} nodes, {:.4g} m apart, {:.1f} MiB\n", nodes[0], nodes[1],
+                        nodes[2], shape.sdf.spacing, mebibytes);
+    text += fmt::format("SDF volume      {:.4f} of the mesh's\n", shape.sdf_volume_ratio);
+    text += "(1) about the centre of mass, mesh axes, density 1 kg/m3\n";
+    return text;
+}
+
+scene::Shape shape_of(const SdfArguments& arguments)
+{
+    const std::vector<std::string> builtin = shape::builtin_shape_names();
+    scene::Shape                   shape;
+    if (std::find(builtin.begin(), builtin.end(), arguments.mesh) != builtin.end())
+    {
+        shape = shape::find_shape({}, arguments.mesh);
+    }
+    else
+    {
+        shape.name   = arguments.mesh;
+        shape.source = scene::MeshFile{arguments.mesh, arguments.unit};
+    }
+    shape.sdf_cells = arguments.cells.value_or(shape.sdf_cells);
+    return shape;
+}
+
+ExitCode sdf(const SdfArguments& arguments)
+{
+    const shape::ShapeTemplate shape = shape::make_template(shape_of(arguments), ".");
+    std::cout << template_text(shape);
+    if (std::abs(shape.sdf_volume_ratio - 1) > 0.02)
+    {
+        std::cerr << "warning: the SDF's volume is more than 2 % off: raise --cells until the thinnest wall has 1.5\n";
+    }
+    if (arguments.stl) { shape::write_stl(shape.mesh, *arguments.stl); }
+    return ExitCode::finished;
+}
+
+ExitCode info(const std::string& path)
+{
+    std::cout << io::describe_file(path);
+    return ExitCode::finished;
+}
+
+/// An option that takes one of the words of `table`.
+template<class T>
+void add_word_option(CLI::App& command, const std::string& name, T& value, const std::map<std::string, T>& table,
+                     const std::string& meaning)
+{
+    command
+        .add_option_function<std::string>(
+            name, [&value, table](const std::string& word) { value = table.at(word); }, meaning)
+        ->type_name("WORD")
+        ->check(CLI::IsMember(table));
+}
+
+void add_scene_options(CLI::App& command, SceneArguments& arguments)
+{
+    command.add_option("scene", arguments.path, "Scene file (docs/scene.md)")->type_name("SCENE.toml")->required();
+    command.add_option("--set", arguments.overrides, "Replace one value of the scene, as often as needed")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    add_word_option<solver::BackendChoice>(command, "--backend", arguments.backend,
+                                           {{"auto", solver::BackendChoice::automatic},
+                                            {"cpu", solver::BackendChoice::cpu},
+                                            {"cuda", solver::BackendChoice::cuda}},
+                                           "Where to compute; default auto");
+}
+
+void add_run_options(CLI::App& command, RunArguments& arguments)
+{
+    add_scene_options(command, arguments.scene);
+    command.add_option("--output", arguments.output, "Run directory; default runs/<name of the scene file>")
+        ->type_name("DIR");
+    command.add_flag_callback(
+        "--overwrite", [&] { arguments.existing = io::Existing::overwrite; }, "Replace the run that is there");
+    command.add_option("--threads", arguments.threads, "CPU threads; default: what OpenMP finds")
+        ->type_name("N")
+        ->check(CLI::Range(1, 4096));
+    command.add_flag_callback(
+        "--quiet", [&] { arguments.terminal = Terminal::silent; }, "Nothing on the terminal but errors");
+}
+
+void add_sdf_options(CLI::App& command, SdfArguments& arguments)
+{
+    command.add_option("mesh", arguments.mesh, "STL or OBJ file, or a built-in shape")
+        ->type_name("MESH|BUILTIN")
+        ->required();
+    command.add_option("--cells", arguments.cells, "SDF cells along the longest axis")
+        ->type_name("N")
+        ->check(CLI::Range(8, 1024));
+    add_word_option<double>(command, "--unit", arguments.unit,
+                            {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}},
+                            "Length unit of the file; default m");
+    command.add_option("--write-stl", arguments.stl, "Write the surface, centred, in metres")->type_name("FILE");
+}
+
+/// One subcommand is required; CLI::ParseError for --help, --version and everything that is not understood.
+ExitCode dispatch(CLI::App& app, int argc, char** argv)
+{
+    RunArguments   run_arguments;
+    SceneArguments check_arguments;
+    SdfArguments   sdf_arguments;
+    std::string    info_path;
+
+    CLI::App* run_command   = app.add_subcommand("run", "Run a scene");
+    CLI::App* check_command = app.add_subcommand("check", "Check a scene and print the plan of its run");
+    CLI::App* sdf_command   = app.add_subcommand("sdf", "Geometry and signed distance grid of a mesh");
+    CLI::App* info_command  = app.add_subcommand("info", "What an HDF5 file of a run holds");
+    add_run_options(*run_command, run_arguments);
+    add_scene_options(*check_command, check_arguments);
+    add_sdf_options(*sdf_command, sdf_arguments);
+    info_command->add_option("file", info_path, "timeseries.h5, a snapshot ...")->type_name("FILE.h5")->required();
+    app.require_subcommand(1);
+    app.parse(argc, argv);
+
+    if (*run_command) { return run(run_arguments); }
+    if (*check_command) { return check(check_arguments); }
+    if (*sdf_command) { return sdf(sdf_arguments); }
+    return info(info_path);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App app("tread: rover wheels on sand and rock", "tread");
+    app.set_version_flag("--version", fmt::format("tread {}", version));
+    try
+    {
+        return static_cast<int>(dispatch(app, argc, argv));
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+    }
+    catch (const std::exception& error)
+    {
+        std::cerr << "tread: error: " << error.what() << std::endl;
+        return static_cast<int>(code_of(error));
+    }
+}
