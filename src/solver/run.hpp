@@ -33,6 +33,6 @@ struct RunOptions
 ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& scene, const RunOptions& options);
 
 /// What `tread check` prints: the plan of stages with reasons, counts, memory, disk and the limits of the step.
-std::string check(const Communicator& communicator, const scene::Scene& scene, BackendChoice backend);
+std::string check(const scene::Scene& scene);
 
 } // namespace tread::solver

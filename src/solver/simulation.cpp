@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
-#include "solver/materials.hpp"
+#include "solver/pace_limits.hpp"
 
 namespace tread::solver
 {
@@ -18,28 +18,6 @@ namespace
 constexpr double least_gradient = 0.5; ///< |grad phi| in contact under which a point is past the medial axis
 
 Vec3<double> vector(const scene::Vector3& v) { return {v[0], v[1], v[2]}; }
-
-PaceLimits pace_limits(const scene::Scene& scene, const World& world, const Plan& plan)
-{
-    PaceLimits limits;
-    limits.gravity = vector(scene.domain.gravity).norm();
-    limits.longest = scene.output.every;
-    if (plan.bodies)
-    {
-        limits.smallest_body = *std::min_element(world.bodies.radius.begin(), world.bodies.radius.end());
-    }
-    if (!plan.sand) { return limits; }
-    int fewest = 1000;
-    for (const scene::Terrain& terrain : scene.terrain)
-    {
-        fewest             = std::min(fewest, terrain.points_per_cell);
-        const auto& sand   = scene.materials[static_cast<std::size_t>(material_index(scene, terrain.material))];
-        limits.wave_speed  = std::max(limits.wave_speed, compression_wave_speed(sand));
-    }
-    limits.spacing = scene.grid.spacing;
-    limits.courant = fewest >= 8 ? 0.6 : 0.4;
-    return limits;
-}
 
 double free_weight(const scene::Scene& scene, const World& world)
 {

@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+
+#include "solver/estimate.hpp"
+#include "solver/run.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+std::string bytes_text(std::int64_t bytes)
+{
+    const double value = static_cast<double>(bytes);
+    if (value < 1e6) { return fmt::format("{:.1f} kB", value / 1e3); }
+    if (value < 1e9) { return fmt::format("{:.1f} MB", value / 1e6); }
+    return fmt::format("{:.2f} GB", value / 1e9);
+}
+
+std::string shape_lines(const World& world)
+{
+    std::string text;
+    for (const auto& form : world.templates)
+    {
+        const auto extent = form.box.extent();
+        text += fmt::format("  {}: {:.4g} x {:.4g} x {:.4g} m, volume {:.6g} m3, {} triangles, {} surface nodes, SDF "
+                            "{} x {} x {} ({:.2f} % of the volume)\n",
+                            form.name, extent[0], extent[1], extent[2], form.unit.volume, form.mesh.triangles.size(),
+                            form.nodes.positions.size(), form.sdf.nodes[0], form.sdf.nodes[1], form.sdf.nodes[2],
+                            100 * form.sdf_volume_ratio);
+    }
+    return text;
+}
+
+} // namespace
+
+std::string check(const scene::Scene& scene)
+{
+    const World    world = build_world(scene);
+    const Plan     plan  = make_plan(scene, world);
+    const Estimate wants = estimate(scene, world, plan);
+    std::string    text  = fmt::format("{}\n\nstages of a step:\n", scene.title);
+    for (const Stage& stage : stages(scene, plan))
+    {
+        text += fmt::format("  {:<4}{:<28}{}\n", stage.on ? "on" : "off", stage.name, stage.why);
+    }
+    text += fmt::format("\n{} points, {} bodies ({} rocks)\n", world.points.size(), world.bodies.size(),
+                        static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named);
+    if (plan.bodies) { text += "shapes at scale 1:\n" + shape_lines(world); }
+    text += fmt::format("memory about {} on the backend, disk at most {}\n", bytes_text(wants.memory_bytes),
+                        bytes_text(wants.disk_bytes));
+    text += fmt::format("dt {:.4g} s at the start (limit: {}), at most {:.4g} s simulated: {:.3g} steps at that dt\n",
+                        wants.dt, wants.limit, wants.time, wants.steps);
+    text += "partition: one rank\n";
+    return text;
+}
+
+} // namespace tread::solver

@@ -1,0 +1,32 @@
+#include "solver/pace_limits.hpp"
+
+#include <algorithm>
+
+#include "solver/materials.hpp"
+
+namespace tread::solver
+{
+
+PaceLimits pace_limits(const scene::Scene& scene, const World& world, const Plan& plan)
+{
+    PaceLimits limits;
+    limits.gravity = Vec3<double>(scene.domain.gravity.data()).norm();
+    limits.longest = scene.output.every;
+    if (plan.bodies)
+    {
+        limits.smallest_body = *std::min_element(world.bodies.radius.begin(), world.bodies.radius.end());
+    }
+    if (!plan.sand) { return limits; }
+    int fewest = 1000;
+    for (const scene::Terrain& terrain : scene.terrain)
+    {
+        fewest             = std::min(fewest, terrain.points_per_cell);
+        const auto& sand   = scene.materials[static_cast<std::size_t>(material_index(scene, terrain.material))];
+        limits.wave_speed  = std::max(limits.wave_speed, compression_wave_speed(sand));
+    }
+    limits.spacing = scene.grid.spacing;
+    limits.courant = fewest >= 8 ? 0.6 : 0.4;
+    return limits;
+}
+
+} // namespace tread::solver

@@ -1,0 +1,174 @@
+#include "solver/run.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include "base/version.hpp"
+#include "io/progress.hpp"
+#include "scene/resolved.hpp"
+#include "solver/driver.hpp"
+#include "solver/estimate.hpp"
+#ifdef TREAD_WITH_CUDA
+#include "backend/device.hpp"
+#endif
+
+namespace tread::solver
+{
+namespace
+{
+
+/// Threads for this process: asked for, or OMP_NUM_THREADS, or the cores over the ranks of this machine.
+int choose_threads(const Communicator& communicator, int asked)
+{
+    if (asked > 0) { return asked; }
+    if (std::getenv("OMP_NUM_THREADS") != nullptr) { return omp_get_max_threads(); }
+    const int cores = static_cast<int>(std::thread::hardware_concurrency());
+    return std::max(1, cores / communicator.size());
+}
+
+enum class Backend
+{
+    cpu,
+    cuda
+};
+
+#ifdef TREAD_WITH_CUDA
+Backend choose_backend(BackendChoice choice)
+{
+    if (choice == BackendChoice::cpu) { return Backend::cpu; }
+    if (device_count() > 0) { return Backend::cuda; }
+    if (choice == BackendChoice::automatic) { return Backend::cpu; }
+    throw EnvironmentError("--backend cuda: this machine has no CUDA device that this process can use");
+}
+#else
+Backend choose_backend(BackendChoice choice)
+{
+    if (choice != BackendChoice::cuda) { return Backend::cpu; }
+    throw EnvironmentError("--backend cuda: this build has no GPU backend (no CUDA compiler was found when it was made)");
+}
+#endif
+
+void say_plan(Log& log, const World& world, const std::vector<Stage>& stages)
+{
+    log.info(fmt::format("{} points, {} bodies ({} rocks)", world.points.size(), world.bodies.size(),
+                         static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named));
+    for (const auto& form : world.templates)
+    {
+        if (std::abs(form.sdf_volume_ratio - 1) > 0.02)
+        {
+            log.warning(fmt::format("shape '{}': its SDF encloses {:.1f} % of the mesh's volume; raise sdf_cells (now {})",
+                                    form.name, 100 * form.sdf_volume_ratio,
+                                    static_cast<int>(*std::max_element(form.sdf.nodes.begin(), form.sdf.nodes.end())) - 1));
+        }
+    }
+    for (const Stage& stage : stages)
+    {
+        if (!stage.on) { log.info(fmt::format("left out: {} - {}", stage.name, stage.why)); }
+    }
+}
+
+/// What every run of either backend shares.
+struct Job
+{
+    const Communicator&  communicator;
+    Log&                 log;
+    const scene::Scene&  scene;
+    const World&         world;
+    Plan                 plan;
+    std::vector<Stage>   stages;
+    io::RunDirectory     directory;
+    io::Summary          summary;
+};
+
+template<class Exec, class Real>
+ExitCode run_on(const Exec& exec, Job& job)
+{
+    Simulation<Exec, Real> simulation(exec, job.scene, job.world, job.plan);
+    Driver<Exec, Real>     driver(job.communicator, job.log, job.scene, job.world, job.directory, job.plan, simulation);
+    try
+    {
+        driver.run();
+        job.summary.reason = "all phases ran";
+    }
+    catch (const NumericalError& error)
+    {
+        job.log.warning(error.what());
+        job.summary.status    = io::RunStatus::failed;
+        job.summary.exit_code = error.code();
+        job.summary.reason    = error.what();
+    }
+    driver.report(job.summary, job.stages);
+    return job.summary.exit_code;
+}
+
+template<class Exec>
+ExitCode run_precision(const Exec& exec, Job& job)
+{
+    return job.scene.numerics.precision == scene::Precision::single_ ? run_on<Exec, float>(exec, job)
+                                                                    : run_on<Exec, double>(exec, job);
+}
+
+ExitCode run_backend(Backend backend, Job& job)
+{
+    Counters counters;
+    ExitCode code = ExitCode::finished;
+    if (backend == Backend::cpu)
+    {
+        code                        = run_precision(Cpu{&counters}, job);
+        job.summary.peak_host_bytes = counters.peak_bytes();
+    }
+#ifdef TREAD_WITH_CUDA
+    else
+    {
+        const Device device(0, counters);
+        job.summary.devices.push_back(device_facts(0).name);
+        code                          = run_precision(device.gpu(), job);
+        job.summary.peak_device_bytes = counters.peak_bytes();
+    }
+#endif
+    return code;
+}
+
+} // namespace
+
+ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& scene, const RunOptions& options)
+{
+    const Backend backend = choose_backend(options.backend);
+    const int     threads = choose_threads(communicator, options.threads);
+    omp_set_num_threads(threads);
+    const World world = build_world(scene);
+    const Plan  plan  = make_plan(scene, world);
+
+    Job job{communicator,
+            log,
+            scene,
+            world,
+            plan,
+            stages(scene, plan),
+            io::RunDirectory::create(communicator, options.output, options.existing, scene::resolved_toml(scene)),
+            {}};
+    log.open(job.directory.log());
+    log.info(fmt::format("tread {}: {}", version, scene.title));
+    log.info(fmt::format("backend {}, {} rank(s), {} thread(s), {} precision", backend == Backend::cpu ? "cpu" : "cuda",
+                         communicator.size(), threads,
+                         scene.numerics.precision == scene::Precision::single_ ? "single" : "double"));
+    say_plan(log, world, job.stages);
+    job.summary.scene_hash = scene::scene_hash(scene);
+    job.summary.backend    = backend == Backend::cpu ? "cpu" : "cuda";
+    job.summary.ranks      = communicator.size();
+    job.summary.threads    = threads;
+    job.summary.bodies     = static_cast<std::int64_t>(world.bodies.size());
+    const ExitCode code    = run_backend(backend, job);
+    log.info("\n" + io::timing_table(job.summary.stages, job.summary.wall_s));
+    log.info(fmt::format("errors: mass {:.3g}, momentum {:.3g}, energy {:.3g}", job.summary.errors.mass,
+                         job.summary.errors.momentum, job.summary.errors.energy));
+    on_root(communicator, [&] { io::write_summary(job.directory.summary(), job.summary); });
+    return code;
+}
+
+} // namespace tread::solver
