@@ -39,6 +39,7 @@ const Node* Checker::given(const TableAt& at, const std::string& key) const
 bool Checker::sound(const TableAt& at, const std::vector<std::string>& keys) const
 {
     const auto table = label(at);
+    if (mentions(problems, table, "")) { return false; }
     return std::none_of(keys.begin(), keys.end(),
                         [&](const std::string& key)
                         { return mentions(problems, table, key) || mentions(problems, table + "." + key, "box"); });

@@ -55,16 +55,21 @@ Node convert(const toml::value& value, const Locate& locate)
     return node;
 }
 
-/// toml11 answers with a drawing of several lines; this keeps its line number, first sentence and remark.
+/// toml11 answers with a drawing of several lines; this keeps its first sentence and the last place that it points to:
+/// where the second of two keys stands, not the first.
 std::string syntax_message(const std::string& file, const std::string& drawing)
 {
-    std::smatch match;
-    std::string line = "1";
-    if (std::regex_search(drawing, match, std::regex("\n *([0-9]+) \\|"))) { line = match[1]; }
-    std::string sentence = drawing.substr(0, drawing.find('\n'));
-    sentence = std::regex_replace(sentence, std::regex("^\\[error\\] *(toml::[A-Za-z_:]+ *:? *)?"), std::string());
-    if (std::regex_search(drawing, match, std::regex("\\^-+ *([^\n]+)"))) { sentence += " (" + match[1].str() + ")"; }
-    return fmt::format("{}:{}: malformed TOML: {}", file, line, sentence);
+    const std::regex place("\n *([0-9]+) \\|[^\n]*\n *\\| *(?:~+|\\^-+) *([^\n]*)");
+    const std::regex origin("^\\[error\\] *(?:toml::[A-Za-z_:]+ *:? *)?");
+    std::string      line = "1";
+    std::string      remark;
+    for (std::sregex_iterator match(drawing.begin(), drawing.end(), place), end; match != end; ++match)
+    {
+        line   = (*match)[1];
+        remark = (*match)[2];
+    }
+    const auto sentence = std::regex_replace(drawing.substr(0, drawing.find('\n')), origin, std::string());
+    return fmt::format("{}:{}: malformed TOML: {} ({})", file, line, sentence, remark);
 }
 
 std::string read_file(const std::string& path)

@@ -60,7 +60,7 @@ Keys<Domain> domain_keys()
             Presence::optional, "walls", "[domain] walls", &Domain::walls, wall_keys(),
             "What the domain's faces do to sand: \"slip\" stops the normal velocity, \"fixed\" all of it, "
             "\"open\" lets it leave. Rocks and bodies meet every wall that is not open.",
-            "as below"),
+            "see below"),
     };
 }
 
@@ -88,7 +88,8 @@ Keys<Numerics> numerics_keys()
         optional("transfer", "", &Numerics::transfer, word<Transfer>({"flip", "apic"}),
                  "How velocity goes between points and grid."),
         optional("pic_rate", "c_p/h", &Numerics::pic_rate, number_or("auto", at_least(0)),
-                 "PIC part of FLIP per unit time. \"auto\": 0.2 for granular materials, 0.04 for elastic ones."),
+                 "PIC part of FLIP per unit time. \"auto\": 0.2 for granular materials, 0.04 for elastic ones.")
+            .when("transfer = \"flip\"", [](const Numerics& numerics) { return numerics.transfer == Transfer::flip; }),
         optional("shape_functions", "", &Numerics::shape_functions, word<ShapeFunctions>({"quadratic", "linear"}),
                  "B-splines of the grid."),
         optional("point_motion", "", &Numerics::point_motion, word<PointMotion>({"supported", "ballistic", "frozen"}),
@@ -162,8 +163,8 @@ Keys<Rocks> rocks_keys()
         region_key<Rocks>("rocks", "The rocks lie in it whole; inside the domain."),
         optional(
             "placement", "", &Rocks::placement, word<Placement>({"replace", "rain", "grid"}),
-            "\"replace\" puts rocks into the terrain and removes the points in their place; \"rain\" lets them fall "
-            "from random places without overlap; \"grid\" sets them on a lattice."),
+            "Rocks never overlap. \"replace\": at random, in place of the points there; \"rain\": at random, where "
+            "there is no sand, to fall from; \"grid\": on a lattice, where there is no sand."),
         optional("seed", "", &Rocks::seed, integer<std::uint64_t>(0), "Of the random places and orientations."),
     };
 }

@@ -53,7 +53,11 @@ std::string write_tables(const std::string& title, const std::string& meaning, c
     std::string text = write_table(describe(title, meaning, keys), "##");
     for (const auto& key : keys)
     {
-        for (const auto& inner : key.inner) { text += write_table(inner, "###"); }
+        for (auto inner : key.inner)
+        {
+            inner.title = "`" + inner.title + "`";
+            text += write_table(inner, "###");
+        }
     }
     return text;
 }

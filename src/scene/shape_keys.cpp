@@ -125,7 +125,8 @@ Key<Shape> generate_key()
                  "",
                  "or `file`",
                  "table with kind = " + list_words(generator_kinds()),
-                 "Makes the shape; `kind` says how, and the other keys stand below.",
+                 "Makes the shape; `kind` says how. Rocks and spheres have the volume of a sphere of diameter 1 m, and "
+                 "[[rocks]] scales them to its `diameter`.",
                  ""};
     return {text,           Presence::optional, [](const Shape&) { return true; },
             read_generator, write_generator,    describe_generators()};

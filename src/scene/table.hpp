@@ -207,8 +207,8 @@ Key<T> table_key(Presence presence, std::string name, std::string title, Member 
         }
         else { return write_inline(keys, object.*member); }
     };
-    KeyText text{name, "", std::move(fallback), "table " + title, meaning, ""};
-    return {text, presence, [](const T&) { return true; }, read, write, {describe(title, meaning, keys)}};
+    KeyText text{name, "", std::move(fallback), "table, see " + title, meaning, ""};
+    return {text, presence, [](const T&) { return true; }, read, write, {describe(title, "", keys)}};
 }
 
 } // namespace tread::scene

@@ -119,6 +119,32 @@ void validate_drive(const Phase& phase, const TableAt& at, Checker& checker)
     }
 }
 
+void require_terrain_to_replace(const Scene& scene, Checker& checker)
+{
+    for (std::size_t i = 0; i < scene.rocks.size(); ++i)
+    {
+        if (scene.rocks[i].placement == Placement::replace)
+        {
+            checker.report({"rocks", i}, "placement", "\"replace\" needs a [[terrain]] to replace",
+                           "\"rain\" | \"grid\"");
+        }
+    }
+}
+
+void validate_spacing(const Scene& scene, Checker& checker)
+{
+    if (checker.given({"grid"}, "spacing") == nullptr && checker.sound({"grid"}, {}))
+    {
+        checker.report({"grid"}, "spacing", "missing; [[terrain]] needs it", "number > 0 (m)");
+    }
+    const double smallest = *std::min_element(scene.domain.size.begin(), scene.domain.size.end());
+    if (scene.grid.spacing > smallest && checker.sound({"domain"}, {"size"}))
+    {
+        checker.report({"grid"}, "spacing", fmt::format("{} is more than the domain", scene.grid.spacing),
+                       fmt::format("number > 0 and <= {} (m)", smallest));
+    }
+}
+
 } // namespace
 
 void validate(const Scene& scene, const Node& document, Problems& problems)
@@ -222,34 +248,20 @@ void validate_phases(const Scene& scene, Checker& checker)
 
 void validate_contents(const Scene& scene, Checker& checker)
 {
-    const auto absent = [&](const char* table) { return find(checker.document, table) == nullptr; };
+    const auto absent = [&](const char* table)
+    {
+        const Node* node  = find(checker.document, table);
+        const auto* array = node != nullptr ? std::get_if<NodeArray>(&node->value) : nullptr;
+        return node == nullptr || (array != nullptr && array->empty());
+    };
     if (absent("phase")) { checker.report({"phase"}, "", "missing", "at least one [[phase]]"); }
     if (absent("terrain") && absent("rocks") && absent("body"))
     {
         checker.problems.push_back(
             {checker.document.where, "", "", "the scene is empty", "at least one of [[terrain]], [[rocks]], [[body]]"});
     }
-    if (absent("terrain"))
-    {
-        for (std::size_t i = 0; i < scene.rocks.size(); ++i)
-        {
-            if (scene.rocks[i].placement != Placement::replace) { continue; }
-            checker.report({"rocks", i}, "placement", "\"replace\" needs a [[terrain]] to replace",
-                           "\"rain\" | \"grid\"");
-        }
-        return;
-    }
-    if (checker.given({"grid"}, "spacing") == nullptr)
-    {
-        checker.report({"grid"}, "spacing", "missing; [[terrain]] needs it", "number > 0 (m)");
-        return;
-    }
-    const double smallest = *std::min_element(scene.domain.size.begin(), scene.domain.size.end());
-    if (scene.grid.spacing > smallest && checker.sound({"domain"}, {"size"}))
-    {
-        checker.report({"grid"}, "spacing", fmt::format("{} is more than the domain", scene.grid.spacing),
-                       fmt::format("number > 0 and <= {} (m)", smallest));
-    }
+    if (absent("terrain")) { require_terrain_to_replace(scene, checker); }
+    else { validate_spacing(scene, checker); }
 }
 
 } // namespace tread::scene

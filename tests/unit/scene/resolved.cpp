@@ -24,7 +24,6 @@ substeps = 7
 [numerics]
 precision = "double"
 transfer = "apic"
-pic_rate = 0.125
 shape_functions = "linear"
 point_motion = "frozen"
 hertz = "paper-eq7"
@@ -152,7 +151,7 @@ TEST(Resolved, what_was_read_is_what_was_written)
     EXPECT_EQ(scene.domain.gravity[2], -0.30000000000000004);
     EXPECT_EQ(scene.domain.walls, (Walls{WallKind::fixed, WallKind::open, WallKind::slip, WallKind::fixed}));
     EXPECT_EQ(scene.time, (TimeOptions{1e-5, 7}));
-    EXPECT_EQ(scene.numerics, (Numerics{Precision::double_, Transfer::apic, 0.125, ShapeFunctions::linear,
+    EXPECT_EQ(scene.numerics, (Numerics{Precision::double_, Transfer::apic, std::nullopt, ShapeFunctions::linear,
                                         PointMotion::frozen, HertzFactor::paper_eq7, PointRadius::semi_domain, 1e-2}));
     EXPECT_EQ(scene.materials[0],
               (Material{"sand", MaterialModel::mohr_coulomb, 1600, 1e21, 0.1, 30, 5, 100, "ripple"}));
@@ -164,6 +163,14 @@ TEST(Resolved, what_was_read_is_what_was_written)
     EXPECT_EQ(scene.bodies[0].lock, (std::vector<std::string>{"x", "yaw"}));
     EXPECT_EQ(scene.phases[1].drive, (Drive{"one", -0.7, 0.5, -0.3}));
     EXPECT_FALSE(scene.phases[2].drive->slip.has_value());
+}
+
+TEST(Resolved, keeps_a_pic_rate)
+{
+    const Directory directory;
+    const auto      scene = load_scene(directory.write("scene.toml", good_scene), {"numerics.pic_rate=0.125"});
+    EXPECT_EQ(scene.numerics.pic_rate, 0.125);
+    EXPECT_EQ(load_text(directory, resolved_toml(scene)), scene);
 }
 
 TEST(Resolved, shows_every_key_that_was_left_to_its_default)
