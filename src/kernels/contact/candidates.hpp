@@ -78,7 +78,8 @@ struct Candidates
 };
 
 /// Every (body, point) pair that can come into contact within the step. A pair is kept when the point lies in the
-/// body's bounding box and under its signed distance, both grown by r_p and by twice what body and point can move.
+/// body's bounding box and under its signed distance, both grown by r_p and by twice what body and point can move: the
+/// trilinear interpolant of a distance rises by at most sqrt(3) a metre.
 template<class Exec, class Real>
 void find_candidates(const Exec& exec, Candidates<Exec>& candidates, const mpm::PointsView<Real>& points,
                      const mpm::PagesView& pages, const dem::BodiesView& bodies, const dem::TemplateView* templates,

@@ -1,0 +1,12 @@
+#include "backend/launch.hpp"
+#include "kernels/contact/candidates_impl.hpp"
+
+namespace tread::contact
+{
+
+template void find_candidates(const Cpu&, Candidates<Cpu>&, const mpm::PointsView<float>&, const mpm::PagesView&,
+                              const dem::BodiesView&, const dem::TemplateView*, RadiusRule, const SearchReach&);
+template void find_candidates(const Cpu&, Candidates<Cpu>&, const mpm::PointsView<double>&, const mpm::PagesView&,
+                              const dem::BodiesView&, const dem::TemplateView*, RadiusRule, const SearchReach&);
+
+} // namespace tread::contact

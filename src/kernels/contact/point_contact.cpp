@@ -1,0 +1,17 @@
+#include "backend/launch.hpp"
+#include "kernels/contact/point_contact_impl.hpp"
+#include "kernels/contact/reduce_runs.hpp"
+
+namespace tread::contact
+{
+
+template void    begin_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<float>&, const mpm::PagesView&,
+                            const dem::BodiesView&, const PointBodyLaw&, const SearchReach&);
+template void    begin_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<double>&, const mpm::PagesView&,
+                            const dem::BodiesView&, const PointBodyLaw&, const SearchReach&);
+template void    substep(const Cpu&, PointContact<Cpu>&, const dem::BodiesView&, const PointBodyLaw&, double);
+template void    finish_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<float>&, double);
+template void    finish_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<double>&, double);
+template Summary summarise(const Cpu&, PointContact<Cpu>&);
+
+} // namespace tread::contact

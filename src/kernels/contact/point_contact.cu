@@ -1,0 +1,17 @@
+#include "backend/launch.cuh"
+#include "kernels/contact/point_contact_impl.hpp"
+#include "kernels/contact/reduce_runs.cuh"
+
+namespace tread::contact
+{
+
+template void    begin_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<float>&, const mpm::PagesView&,
+                            const dem::BodiesView&, const PointBodyLaw&, const SearchReach&);
+template void    begin_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<double>&, const mpm::PagesView&,
+                            const dem::BodiesView&, const PointBodyLaw&, const SearchReach&);
+template void    substep(const Gpu&, PointContact<Gpu>&, const dem::BodiesView&, const PointBodyLaw&, double);
+template void    finish_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<float>&, double);
+template void    finish_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<double>&, double);
+template Summary summarise(const Gpu&, PointContact<Gpu>&);
+
+} // namespace tread::contact

@@ -1,0 +1,193 @@
+#include "contact_scene.hpp"
+
+#include <cstdio>
+#include <random>
+#include <set>
+
+#include "kernels/contact/candidates_kern.hpp"
+
+// The search against brute force, and what it does where there is nothing to find.
+namespace tread::test
+{
+namespace
+{
+
+template<class Case>
+class ContactCandidates : public ContactTest<Case>
+{
+};
+
+TYPED_TEST_SUITE(ContactCandidates, ContactCases, ContactCaseNames);
+
+std::vector<PointState> random_sand(std::size_t count, const Vec3<double>& low, const Vec3<double>& high)
+{
+    std::mt19937                           random(3);
+    std::uniform_real_distribution<double> share(0, 1);
+    std::vector<PointState>                sand;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        const Vec3<double> at(share(random), share(random), share(random));
+        sand.push_back({low + at.cwiseProduct(high - low)});
+    }
+    return sand;
+}
+
+std::vector<AnalyticShape> two_shapes() { return {box_shape({0.06, 0.03, 0.015}, 0.03, 48), sphere_shape(0.02, 40)}; }
+
+std::vector<BodyState> moving_bodies()
+{
+    const Quat turned(Eigen::AngleAxisd(0.7, Vec3<double>(1, 2, 3).normalized()));
+    return {{{0.5, 0.5, 0.5}, turned, {3, 0, 1}, {0, 20, 0}, 1.7, 0},
+            {{0.62, 0.5, 0.45}, turned, {0, 0, 0}, {0, 0, 0}, 0.5, 1},
+            {{0.1, 0.1, 0.9}, turned, {0, 0, 0}, {0, 0, 0}, 1.0, 1},
+            {{0.42, 0.5, 0.5}, Quat::Identity(), {0, 0, -5}, {0, 0, 0}, 1.0, 1}};
+}
+
+/// Pairs (body, point) whose exact distance is at most r_p + travels * dt * (sum of speeds), from every pair there is.
+template<class Scene>
+std::set<std::pair<int, int>> brute_force(const Scene& scene, const std::vector<AnalyticShape>& shapes,
+                                          const std::vector<BodyState>& bodies, double travels)
+{
+    const std::vector<Vec3<double>> at     = scene.positions();
+    const double                    radius = contact::point_radius(scene.numbers.volume, contact::RadiusRule::sphere);
+    std::set<std::pair<int, int>>   found;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+    {
+        const BodyState&     body  = bodies[b];
+        const AnalyticShape& shape = shapes[static_cast<std::size_t>(body.shape)];
+        const double         speed = body.velocity.norm() + scene.numbers.point_speed +
+                             body.angular_velocity.norm() * shape.half.norm() * body.scale;
+        for (std::size_t p = 0; p < at.size(); ++p)
+        {
+            const Vec3<double> local = body.orientation.conjugate() * Vec3<double>(at[p] - body.position);
+            if (body.scale * shape.distance(local / body.scale) <= radius + travels * scene.numbers.dt * speed)
+            {
+                found.emplace(static_cast<int>(b), static_cast<int>(p));
+            }
+        }
+    }
+    return found;
+}
+
+template<class Set>
+std::size_t missing(const Set& wanted, const Set& found)
+{
+    return static_cast<std::size_t>(
+        std::count_if(wanted.begin(), wanted.end(), [&](const auto& pair) { return found.count(pair) == 0; }));
+}
+
+/// Candidates as pairs, having checked their order and both sets of runs.
+template<class Scene>
+std::set<std::pair<int, int>> checked_candidates(const Scene& scene)
+{
+    const auto& c       = scene.contact.candidates;
+    const auto  body    = c.body.to_host();
+    const auto  point   = c.point.to_host();
+    const auto  touched = c.touched.to_host(), in_order = c.in_order.to_host();
+    const auto  body_key = c.by_body.key.to_host(), body_first = c.by_body.first.to_host();
+    const auto  point_key = c.by_point.key.to_host(), point_first = c.by_point.first.to_host();
+
+    std::set<std::pair<int, int>> found;
+    for (std::size_t i = 0; i < body.size(); ++i)
+    {
+        EXPECT_TRUE(i == 0 || body[i - 1] <= body[i]);
+        EXPECT_TRUE(found.emplace(body[i], point[i]).second) << "twice: body " << body[i] << " point " << point[i];
+        EXPECT_EQ(point_key[static_cast<std::size_t>(touched[i])], point[i]);
+    }
+    const auto covered = [&](const auto& key, const auto& first, auto value)
+    {
+        for (std::size_t run = 0; run < key.size(); ++run)
+        {
+            EXPECT_TRUE(run == 0 || key[run - 1] < key[run]);
+            EXPECT_LT(first[run], first[run + 1]);
+            for (auto i = first[run]; i < first[run + 1]; ++i)
+            {
+                EXPECT_EQ(value(static_cast<std::size_t>(i)), key[run]);
+            }
+        }
+        EXPECT_EQ(static_cast<std::size_t>(first[key.size()]), body.size());
+    };
+    covered(body_key, body_first, [&](std::size_t i) { return body[i]; });
+    covered(point_key, point_first, [&](std::size_t i) { return point[static_cast<std::size_t>(in_order[i])]; });
+    for (std::size_t i = 1; i < in_order.size(); ++i)
+    {
+        const auto a = static_cast<std::size_t>(in_order[i - 1]), b = static_cast<std::size_t>(in_order[i]);
+        EXPECT_TRUE(point[a] < point[b] || body[a] < body[b]) << "bodies of one point in order";
+    }
+    return found;
+}
+
+TYPED_TEST(ContactCandidates, NoneIsMissed)
+{
+    const auto   shapes = two_shapes();
+    const auto   bodies = moving_bodies();
+    const auto   sand   = random_sand(60000, {0.35, 0.35, 0.35}, {0.7, 0.65, 0.65});
+    SceneNumbers numbers;
+    numbers.dt = 5e-4;
+    typename TestFixture::Scene scene(this->exec(), shapes, bodies, sand, numbers);
+    scene.find();
+
+    const auto found    = checked_candidates(scene);
+    const auto expected = brute_force(scene, shapes, bodies, 1);
+    const auto reached  = brute_force(scene, shapes, bodies, 2);
+    std::printf("[ measured ] %zu candidates; %zu can touch in the step, of which %zu missed; %zu within twice that\n",
+                found.size(), expected.size(), missing(expected, found), reached.size());
+    EXPECT_GT(expected.size(), 1000u);
+    EXPECT_EQ(missing(expected, found), 0u);
+    // The search keeps what is within twice the travel; 5 % more for the sampled distance being a little low at edges.
+    EXPECT_LE(found.size(), reached.size() + reached.size() / 20);
+}
+
+TYPED_TEST(ContactCandidates, NoneIsMissedWherePointsHaveLeftTheirCells)
+{
+    const auto   shapes = two_shapes();
+    const auto   bodies = moving_bodies();
+    SceneNumbers numbers;
+    numbers.point_drift = 0.008;
+    typename TestFixture::Scene            scene(this->exec(), shapes, bodies,
+                                                 random_sand(20000, {0.35, 0.35, 0.35}, {0.7, 0.65, 0.65}), numbers);
+    auto                                   moved = scene.points.position.to_host();
+    std::mt19937                           random(4);
+    std::uniform_real_distribution<double> shift(-0.008, 0.008);
+    for (double& x : moved) { x += shift(random); }
+    scene.points.position.assign(moved);
+    scene.find();
+
+    const auto expected = brute_force(scene, shapes, bodies, 1);
+    EXPECT_GT(expected.size(), 300u);
+    EXPECT_EQ(missing(expected, checked_candidates(scene)), 0u);
+}
+
+TYPED_TEST(ContactCandidates, FarBodyCostsOnlyTheCount)
+{
+    typename TestFixture::Scene scene(this->exec(), {sphere_shape(0.02, 20)}, {{{0.5, 0.5, 0.9}}},
+                                      random_sand(2000, {0.1, 0.1, 0.1}, {0.4, 0.4, 0.2}));
+    const auto                  before = this->counters.launches();
+    scene.begin();
+    scene.substep(1e-4);
+    scene.finish();
+    EXPECT_EQ(scene.contact.candidates.body.size(), 0);
+    const std::set<std::string> counting{"count contact pages", "find contact pages", "scan"};
+    for (const auto& [name, launches] : this->counters.launches())
+    {
+        const auto old = before.find(name);
+        if (old == before.end() || old->second != launches) { EXPECT_TRUE(counting.count(name)) << name; }
+    }
+    EXPECT_EQ(scene.summary().live, 0);
+}
+
+TYPED_TEST(ContactCandidates, BodyAnywhereIsSearchedSafely)
+{
+    const double                nan = std::numeric_limits<double>::quiet_NaN();
+    typename TestFixture::Scene scene(
+        this->exec(), {sphere_shape(0.02, 20)},
+        {{{1e12, -1e12, 0.5}}, {{nan, 0, 0}}, {{0.2, 0.2, 0.15}, Quat::Identity(), {1e9, 0, 0}}},
+        random_sand(2000, {0.1, 0.1, 0.1}, {0.4, 0.4, 0.2}));
+    scene.find();
+    const auto bodies = scene.contact.candidates.body.to_host();
+    EXPECT_EQ(std::count(bodies.begin(), bodies.end(), 0), 0);
+    EXPECT_EQ(std::count(bodies.begin(), bodies.end(), 2), 2000) << "a body that fast may touch every point";
+}
+
+} // namespace
+} // namespace tread::test
