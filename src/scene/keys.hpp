@@ -11,7 +11,7 @@ namespace tread::scene
 {
 
 /// Wheels that a body may name as its shape without a [[shape]] table.
-inline constexpr std::array<std::string_view, 1> builtin_wheels{"perseverance"};
+inline constexpr std::array<std::string_view, 4> builtin_wheels{"perseverance", "curiosity", "spirit", "viper"};
 
 /// The contact family of the domain's walls.
 inline constexpr std::string_view wall_family = "wall";

@@ -97,7 +97,7 @@ mass = 5
 position = [1, 1, 1]
 [[body]]
 name = "three"
-shape = "b"
+shape = "spirit"
 material = "steel"
 load = 5
 position = [1, 1, 1]
