@@ -45,6 +45,7 @@ struct Candidates
         , in_order(exec, "candidates by point")
         , by_body(exec, "touched bodies", "touched body first candidate")
         , by_point(exec, "touched points", "touched point first candidate")
+        , body_parts(exec)
         , sort(exec)
         , box_first(exec, "contact page boxes")
         , pair_first(exec, "contact pages found")
@@ -63,8 +64,9 @@ struct Candidates
     Array<Exec, std::int32_t> point;
     Array<Exec, std::int32_t> touched;
     Array<Exec, std::int32_t> in_order;
-    Runs<Exec>                by_body;  ///< over the candidates
-    Runs<Exec>                by_point; ///< over in_order
+    Runs<Exec>                by_body;    ///< over the candidates
+    Runs<Exec>                by_point;   ///< over in_order
+    Parts<Exec>               body_parts; ///< of by_body
 
     SortScratch<Exec>          sort;
     Array<Exec, std::int32_t>  box_first;

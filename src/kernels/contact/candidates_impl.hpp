@@ -179,7 +179,8 @@ void clear(Candidates<Exec>& candidates)
 {
     const auto empty = [](auto&... arrays) { (arrays.resize(0), ...); };
     empty(candidates.body, candidates.point, candidates.touched, candidates.in_order, candidates.by_body.key,
-          candidates.by_body.first, candidates.by_point.key, candidates.by_point.first);
+          candidates.by_body.first, candidates.by_point.key, candidates.by_point.first,
+          candidates.body_parts.of_items.key, candidates.body_parts.of_items.first, candidates.body_parts.first_of_run);
 }
 
 /// (body, page with points) pairs; returns how many.
@@ -219,6 +220,7 @@ void order_by_point(const Exec& exec, Candidates<Exec>& c)
     c.sorted_points.resize(count);
     c.touched.resize(count);
     find_runs(exec, c.body, c.marks, c.by_body, c.sort);
+    split_runs(exec, c.by_body.view(), c.body_parts, c.sort);
     for_each(exec, "candidate sort keys", count, SortKeys{c.point.data(), c.sort_keys.data(), c.in_order.data()});
     sort_by_key(exec, c.sort_keys, c.in_order, c.sort);
     for_each(exec, "candidate sorted points", count, Narrow{c.sort_keys.data(), c.sorted_points.data()});

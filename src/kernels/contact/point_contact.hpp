@@ -90,6 +90,8 @@ struct PointContact
         , tangential(exec, "contact tangential")
         , response(exec, "contact response")
         , dissipated(exec, "contact dissipated")
+        , wrench_sums(exec, "contact wrench sums")
+        , summary_sums(exec, "contact summary sums")
         , summaries(exec, "contact summaries")
         , marks(exec, "contact history marks")
         , order(exec, "contact history order")
@@ -120,7 +122,9 @@ struct PointContact
     Array<Exec, Response>   response;
     Array<Exec, double>     dissipated;
 
-    Array<Exec, Summary>      summaries; ///< one for each touched body
+    Array<Exec, Wrench>       wrench_sums;  ///< one for each part of a touched body's candidates
+    Array<Exec, Summary>      summary_sums; ///< the same
+    Array<Exec, Summary>      summaries;    ///< one for each touched body
     Array<Exec, std::int32_t> marks;
     Array<Exec, std::int32_t> order;
 };

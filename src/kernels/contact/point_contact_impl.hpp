@@ -210,13 +210,6 @@ struct SummaryOf
     }
 };
 
-struct KeepSummary
-{
-    Summary* summaries;
-
-    TREAD_HD void operator()(std::int64_t run, const Summary& sum) const { summaries[run] = sum; }
-};
-
 } // namespace contact_steps
 
 /// Memory for the candidates found.
@@ -227,6 +220,7 @@ void resize_to_candidates(PointContact<Exec>& contact)
     resize(contact.candidates.by_point.key.size(), contact.position, contact.velocity, contact.support, contact.impulse,
            contact.mass, contact.radius, contact.material, contact.id);
     resize(contact.candidates.body.size(), contact.tangential, contact.response, contact.dissipated);
+    resize(contact.candidates.body_parts.of_items.key.size(), contact.wrench_sums, contact.summary_sums);
     contact.summaries.resize(contact.candidates.by_body.key.size());
 }
 
@@ -255,8 +249,8 @@ void substep(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesVie
     const PrivatePoints points   = contact.private_points();
     const RunsView      by_body  = contact.candidates.by_body.view();
     for_each(exec, "point-body forces", contacts.candidates.count, Respond{contacts, points, bodies, law, dt});
-    reduce_runs<Wrench>(exec, "point-body wrenches", by_body, WrenchOf{contacts, points.position, bodies.position},
-                        AddToBody{by_body.key, bodies});
+    reduce_parts(exec, "point-body wrenches", by_body, contact.candidates.body_parts, contact.wrench_sums.data(),
+                 WrenchOf{contacts, points.position, bodies.position}, AddToBody{by_body.key, bodies});
     for_each(exec, "move contact points", points.count,
              MovePoint{contact.candidates.by_point.view(), contacts, points, law.motion, dt});
 }
@@ -300,9 +294,9 @@ template<class Exec>
 Summary summarise(const Exec& exec, PointContact<Exec>& contact)
 {
     using namespace contact_steps;
-    reduce_runs<Summary>(exec, "summarise contacts", contact.candidates.by_body.view(),
-                         SummaryOf{contact.contacts(), contact.private_points()},
-                         KeepSummary{contact.summaries.data()});
+    reduce_parts(exec, "summarise contacts", contact.candidates.by_body.view(), contact.candidates.body_parts,
+                 contact.summary_sums.data(), SummaryOf{contact.contacts(), contact.private_points()},
+                 run_steps::StoreSum<Summary>{contact.summaries.data()});
     Summary total = Summary::zero();
     for (const Summary& body : contact.summaries.to_host()) { total = total + body; }
     return total;

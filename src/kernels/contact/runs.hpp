@@ -90,4 +90,99 @@ void find_runs(const Exec& exec, const Array<Exec, std::int32_t>& keys, Array<Ex
              run_steps::WriteRuns{keys.data(), count, marks.data(), runs.key.data(), runs.first.data()});
 }
 
+/// A long run is summed in parts, so that one body with all the contacts is not one thread's or one block's work.
+constexpr std::int32_t part_items = 512;
+
+/// The parts of runs: a run of the list for each part, and a run of parts for each run.
+template<class Exec>
+struct Parts
+{
+    explicit Parts(const Exec& exec)
+        : of_items(exec, "contact part run", "contact part first item")
+        , first_of_run(exec, "contact run first part")
+    {
+    }
+
+    Runs<Exec>                of_items;
+    Array<Exec, std::int32_t> first_of_run;
+};
+
+namespace run_steps
+{
+
+struct CountParts
+{
+    RunsView      runs;
+    std::int32_t* count; ///< [runs + 1]
+
+    TREAD_HD void operator()(std::int64_t r) const
+    {
+        count[r] = r < runs.count ? (runs.first[r + 1] - runs.first[r] + part_items - 1) / part_items : 0;
+    }
+};
+
+struct WriteParts
+{
+    RunsView            runs;
+    const std::int32_t* first_of_run; ///< [runs + 1]
+    std::int64_t        parts;
+    std::int32_t*       run;
+    std::int32_t*       first; ///< [parts + 1]
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        if (p == parts)
+        {
+            first[p] = runs.first[runs.count];
+            return;
+        }
+        const auto r = static_cast<std::int32_t>(owner_of(first_of_run, runs.count, p));
+        run[p]       = r;
+        first[p]     = runs.first[r] + (static_cast<std::int32_t>(p) - first_of_run[r]) * part_items;
+    }
+};
+
+template<class Sum>
+struct StoreSum
+{
+    Sum* sums;
+
+    TREAD_HD void operator()(std::int64_t i, const Sum& sum) const { sums[i] = sum; }
+};
+
+template<class Sum>
+struct LoadSum
+{
+    const Sum* sums;
+
+    TREAD_HD Sum operator()(std::int64_t i) const { return sums[i]; }
+};
+
+} // namespace run_steps
+
+/// Cuts runs, of which there is at least one, into parts.
+template<class Exec>
+void split_runs(const Exec& exec, const RunsView& runs, Parts<Exec>& parts, SortScratch<Exec>& scratch)
+{
+    parts.first_of_run.resize(runs.count + 1);
+    for_each(exec, "count parts", runs.count + 1, run_steps::CountParts{runs, parts.first_of_run.data()});
+    const std::int64_t count = exclusive_scan(exec, parts.first_of_run, scratch);
+    parts.of_items.key.resize(count);
+    parts.of_items.first.resize(count + 1);
+    for_each(exec, "write parts", count + 1,
+             run_steps::WriteParts{runs, parts.first_of_run.data(), count, parts.of_items.key.data(),
+                                   parts.of_items.first.data()});
+}
+
+/// For every run r: finish(r, sum over its items i of item(i)), by parts, in a fixed order. `sums` holds one value for
+/// each part.
+template<class Sum, class Exec, class Item, class Finish>
+void reduce_parts(const Exec& exec, const char* name, const RunsView& runs, const Parts<Exec>& parts, Sum* sums,
+                  Item item, Finish finish)
+{
+    const RunsView parts_of_run{runs.count, runs.key, parts.first_of_run.data()};
+    reduce_runs<Sum>(exec, name, parts.of_items.view(), item, run_steps::StoreSum<Sum>{sums});
+    reduce_runs<Sum>(exec, name, parts_of_run, run_steps::LoadSum<Sum>{sums}, finish);
+}
+
 } // namespace tread::contact
