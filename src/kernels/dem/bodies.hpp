@@ -69,9 +69,9 @@ struct Bodies
 
     BodiesView view()
     {
-        return {position.size(),  position.data(), orientation.data(),     velocity.data(), angular_velocity.data(),
-                mass.data(),      inertia.data(),  inverse_inertia.data(), scale.data(),    shape.data(),
-                material.data(),  locked.data(),   damped.data(),          force.data(),    torque.data(),
+        return {position.size(), position.data(), orientation.data(),     velocity.data(), angular_velocity.data(),
+                mass.data(),     inertia.data(),  inverse_inertia.data(), scale.data(),    shape.data(),
+                material.data(), locked.data(),   damped.data(),          force.data(),    torque.data(),
                 stiffness.data()};
     }
 

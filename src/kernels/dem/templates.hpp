@@ -14,7 +14,7 @@ struct TemplateView
     Vec3<double>        sdf_origin;
     double              sdf_spacing; ///< m
     std::int32_t        sdf_nodes[3];
-    const float*        sdf_values;  ///< [i + nodes[0] * (j + nodes[1] * k)], m, negative inside
+    const float*        sdf_values; ///< [i + nodes[0] * (j + nodes[1] * k)], m, negative inside
     std::int32_t        node_count;
     std::int32_t        cluster_count;
     const Vec3<double>* node_positions;
@@ -42,7 +42,10 @@ struct PairTable
     const PairProperties* values;
     std::int32_t          materials; ///< walls included
 
-    TREAD_HD const PairProperties& operator()(std::int32_t a, std::int32_t b) const { return values[a * materials + b]; }
+    TREAD_HD const PairProperties& operator()(std::int32_t a, std::int32_t b) const
+    {
+        return values[a * materials + b];
+    }
     TREAD_HD std::int32_t wall() const { return materials - 1; }
 };
 

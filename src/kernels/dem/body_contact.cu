@@ -1,0 +1,40 @@
+#include "kernels/dem/body_contact_impl.hpp"
+#include "kernels/dem/warp_lanes.cuh"
+
+namespace tread::dem
+{
+namespace
+{
+
+/// A thread for an ordinary body, which has a few pairs; a warp for a large one, which may have thousands.
+struct GatherOrdinary
+{
+    body_contact::GatherBody gather;
+    const std::int32_t*      is_large;
+
+    __device__ void operator()(std::int64_t b) const
+    {
+        if (is_large[b] == 0) { gather(b, OneLane{}); }
+    }
+};
+
+struct GatherLarge
+{
+    body_contact::GatherBody gather;
+    const std::int32_t*      large;
+
+    __device__ void operator()(std::int64_t l, const WarpLanes& lanes) const { gather(large[l], lanes); }
+};
+
+} // namespace
+
+void add_body_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
+                       BodyTotal* totals, double dt)
+{
+    for_each_warp(gpu, "body contacts", pairs.key.size(), body_contact::EvaluatePair{bodies, law, pairs.view(), dt});
+    const body_contact::GatherBody gather{bodies, pairs.view(), totals, dt};
+    for_each(gpu, "gather body contacts", bodies.count, GatherOrdinary{gather, pairs.is_large.data()});
+    for_each_warp(gpu, "gather large bodies", pairs.large.size(), GatherLarge{gather, pairs.large.data()});
+}
+
+} // namespace tread::dem

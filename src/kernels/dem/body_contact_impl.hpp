@@ -1,0 +1,159 @@
+#pragma once
+
+#include "kernels/dem/body_contact.hpp"
+#include "kernels/dem/body_contact_kern.hpp"
+#include "kernels/dem/pair_law_kern.hpp"
+
+// The two item functions of a substep's body contacts. Both are written for lanes that share one item: a single one on
+// the CPU, a warp's 32 on the GPU (body_contact.cpp, body_contact.cu).
+namespace tread::dem::body_contact
+{
+
+struct EvaluatePair
+{
+    BodiesView bodies;
+    BodyLaw    law;
+    PairsView  pairs;
+    double     dt;
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
+    {
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        Patch              patch = pairs.patch[p];
+        const PairResponse response =
+            b < bodies.count ? between_bodies(a, b, lanes, patch) : against_plane(a, b - bodies.count, lanes, patch);
+        if (lanes.lane() != 0) { return; }
+        pairs.patch[p]    = patch;
+        pairs.response[p] = response;
+        pairs.peak[p]     = std::fmax(pairs.peak[p], response.overlap);
+    }
+
+    template<class Lanes>
+    TREAD_HD static Stiffness together(const Stiffness& own, const Lanes& lanes)
+    {
+        return {lanes.sum(own.sum), lanes.largest(own.overlap)};
+    }
+
+    template<class Lanes>
+    TREAD_HD PairResponse between_bodies(std::int64_t a, std::int64_t b, const Lanes& lanes, Patch& patch) const
+    {
+        const PairLaw         pair = law_between(bodies, law, a, b);
+        const Instance        of_a = instance_of(bodies, law.templates, a, bodies.position[a]);
+        const Instance        of_b = instance_of(bodies, law.templates, b, bodies.position[a]);
+        const Side<BodyField> side_a{of_a, {of_b}, 0.5, 1.0}, side_b{of_b, {of_a}, 0.5, -1.0};
+
+        Stiffness          found{0, 0};
+        const LiveClusters live_a = find_live(pair, side_a, lanes, found);
+        const LiveClusters live_b = find_live(pair, side_b, lanes, found);
+        if ((live_a | live_b) == 0) { return release(pair, patch); }
+        found = together(found, lanes);
+
+        const Spins          spins{bodies.angular_velocity[a], bodies.angular_velocity[b]};
+        const RelativeMotion motion{bodies.velocity[a] - bodies.velocity[b] + spins.b.cross(of_b.centre),
+                                    spins.a - spins.b};
+        const double         relaxation = relaxation_time(pair, found.sum);
+        PatchSums            sums       = PatchSums::zero();
+        add_nodes(pair, side_a, motion, relaxation, live_a, lanes, sums);
+        add_nodes(pair, side_b, motion, relaxation, live_b, lanes, sums);
+        sums.reduce(lanes);
+        return respond(pair, sums, found, motion, spins, of_b.centre, patch, dt);
+    }
+
+    template<class Lanes>
+    TREAD_HD PairResponse against_plane(std::int64_t a, std::int64_t p, const Lanes& lanes, Patch& patch) const
+    {
+        const Plane&           plane = law.planes[p];
+        const PairLaw          pair  = law_against(bodies, law, a, plane);
+        const Instance         of_a  = instance_of(bodies, law.templates, a, bodies.position[a]);
+        const PlaneField       wall{plane.normal, plane.offset - plane.normal.dot(bodies.position[a])};
+        const Side<PlaneField> side{of_a, wall, 1.0, 1.0};
+
+        Stiffness          found{0, 0};
+        const LiveClusters live = find_live(pair, side, lanes, found);
+        if (live == 0) { return release(pair, patch); }
+        found = together(found, lanes);
+
+        const Spins          spins{bodies.angular_velocity[a], Vec3<double>::Zero()};
+        const RelativeMotion motion{bodies.velocity[a], spins.a};
+        PatchSums            sums = PatchSums::zero();
+        add_nodes(pair, side, motion, relaxation_time(pair, found.sum), live, lanes, sums);
+        sums.reduce(lanes);
+        return respond(pair, sums, found, motion, spins, Vec3<double>::Zero(), patch, dt);
+    }
+};
+
+/// What the contacts do to one body.
+struct BodyShare
+{
+    Vec3<double> force;
+    Vec3<double> torque;
+    double       stiffness;
+    Vec3<double> wall_force;
+    double       friction;
+    double       restitution;
+
+    template<class Lanes>
+    TREAD_HD void reduce(const Lanes& lanes)
+    {
+        for (int c = 0; c < 3; ++c)
+        {
+            force[c]      = lanes.sum(force[c]);
+            torque[c]     = lanes.sum(torque[c]);
+            wall_force[c] = lanes.sum(wall_force[c]);
+        }
+        stiffness   = lanes.sum(stiffness);
+        friction    = lanes.sum(friction);
+        restitution = lanes.sum(restitution);
+    }
+};
+
+/// Adds the pairs of one body in the order of the list: first those in which it comes first.
+struct GatherBody
+{
+    BodiesView bodies;
+    PairsView  pairs;
+    BodyTotal* totals;
+    double     dt;
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
+    {
+        BodyShare share{Vec3<double>::Zero(), Vec3<double>::Zero(), 0, Vec3<double>::Zero(), 0, 0};
+        for (std::int64_t p = pairs.first[b] + lanes.lane(); p < pairs.first[b + 1]; p += lanes.lanes())
+        {
+            add_first(pairs.response[p], second_of(pairs.key[p]) >= bodies.count, share);
+        }
+        for (std::int64_t i = pairs.second[b] + lanes.lane(); i < pairs.second[b + 1]; i += lanes.lanes())
+        {
+            const PairResponse& response = pairs.response[pairs.by_second[i]];
+            share.force -= response.force;
+            share.torque += response.torque_b;
+            share.stiffness += response.stiffness;
+        }
+        share.reduce(lanes);
+        if (lanes.lane() == 0) { store(b, share); }
+    }
+
+    TREAD_HD static void add_first(const PairResponse& response, bool wall, BodyShare& share)
+    {
+        share.force += response.force;
+        share.torque += response.torque_a;
+        share.stiffness += response.stiffness;
+        share.friction += response.friction;
+        share.restitution += response.restitution;
+        if (wall) { share.wall_force += response.force; }
+    }
+
+    TREAD_HD void store(std::int64_t b, const BodyShare& share) const
+    {
+        bodies.force[b] += share.force;
+        bodies.torque[b] += share.torque;
+        bodies.stiffness[b] += share.stiffness;
+        totals[b].wall_impulse += dt * share.wall_force;
+        totals[b].friction += share.friction;
+        totals[b].restitution += share.restitution;
+    }
+};
+
+} // namespace tread::dem::body_contact

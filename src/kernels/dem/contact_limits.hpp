@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/dem/pairs.hpp"
+
+// What the contacts ask of the time step, and the guards of the penalty law.
+namespace tread::dem
+{
+
+/// pairs.expected_stiffness of every body: the sum, over its listed pairs that do not touch yet, of the stiffness that
+/// a first touch has (two nodes in the linear part of the traction), N/m. Once a step, after find_pairs.
+void expect_contacts(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+void expect_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+
+/// The least sqrt(m/K) (s) over the bodies that can move, K = the larger of the body's live stiffness and of what
+/// expect_contacts found; 0 without any contact, live or expected. A substep of 0.2 times that keeps energy
+/// (prototypes 1.7).
+double smallest_contact_time(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies);
+double smallest_contact_time(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies);
+
+struct Overlap
+{
+    double       ratio;  ///< overlap over the smaller equivalent radius of the pair
+    std::int64_t first;  ///< body
+    std::int64_t second; ///< body, or bodies + plane
+};
+
+/// The largest since the pairs were found; ratio 0 if nothing touched. Warn above 0.1, stop above 0.5.
+Overlap largest_overlap(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+Overlap largest_overlap(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+
+} // namespace tread::dem

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "backend/reduce.hpp"
+#include "kernels/dem/contact_limits.hpp"
+#include "kernels/dem/pair_law_kern.hpp"
+
+// The steps of contact_limits.hpp, the same on both backends; contact_limits.cpp and .cu bring in for_each.
+namespace tread::dem::contact_limits
+{
+
+struct ExpectContacts
+{
+    BodiesView    bodies;
+    BodyLaw       law;
+    PairsView     pairs;
+    const double* node_area;
+    double*       expected;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        double sum = 0;
+        for (std::int64_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p) { sum += first_touch(p); }
+        for (std::int64_t i = pairs.second[b]; i < pairs.second[b + 1]; ++i) { sum += first_touch(pairs.by_second[i]); }
+        expected[b] = sum;
+    }
+
+    /// Two nodes, of the coarser side.
+    TREAD_HD double first_touch(std::int64_t p) const
+    {
+        if (pairs.patch[p].stiffness > 0) { return 0; }
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        if (b >= bodies.count)
+        {
+            return 2.0 * node_area[a] *
+                   traction_at(law_against(bodies, law, a, law.planes[b - bodies.count]), 0.0).slope;
+        }
+        return std::fmax(node_area[a], node_area[b]) * traction_at(law_between(bodies, law, a, b), 0.0).slope;
+    }
+};
+
+struct WriteFrequency
+{
+    BodiesView    bodies;
+    const double* expected;
+    double*       squared; ///< 1/s2
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        squared[b] = bodies.locked[b] == lock_all ? 0.0 : std::fmax(bodies.stiffness[b], expected[b]) / bodies.mass[b];
+    }
+};
+
+struct WriteOverlap
+{
+    BodiesView bodies;
+    BodyLaw    law;
+    PairsView  pairs;
+    double*    ratio;
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        double             radius = equivalent_radius(bodies, law.templates, a);
+        if (b < bodies.count) { radius = std::fmin(radius, equivalent_radius(bodies, law.templates, b)); }
+        ratio[p] = pairs.peak[p] / radius;
+    }
+};
+
+template<class Exec>
+void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    pairs.expected_stiffness.resize(bodies.count);
+    for_each(exec, "expected contacts", bodies.count,
+             ExpectContacts{bodies, law, pairs.view(), pairs.node_area.data(), pairs.expected_stiffness.data()});
+}
+
+template<class Exec>
+double contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    pairs.measure.resize(bodies.count + 1);
+    double* largest = pairs.measure.data() + bodies.count;
+    for_each(exec, "contact frequencies", bodies.count,
+             WriteFrequency{bodies, pairs.expected_stiffness.data(), pairs.measure.data()});
+    largest_of_rows(exec, pairs.measure.data(), bodies.count, 1, largest);
+    const double squared = read(exec, largest);
+    return squared > 0 ? 1.0 / std::sqrt(squared) : 0.0;
+}
+
+template<class Exec>
+Overlap overlap(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    const std::int64_t count = pairs.key.size();
+    pairs.measure.resize(count + 1);
+    for_each(exec, "overlap ratios", count, WriteOverlap{bodies, law, pairs.view(), pairs.measure.data()});
+    largest_of_rows(exec, pairs.measure.data(), count, 1, pairs.measure.data() + count);
+    const double largest = read(exec, pairs.measure.data() + count);
+    if (!(largest > 0)) { return {0, -1, -1}; }
+
+    const std::vector<double> ratios = pairs.measure.to_host();
+    const auto                at     = std::find(ratios.begin(), ratios.end(), largest) - ratios.begin();
+    const std::uint64_t       key    = read(exec, pairs.key.data() + at);
+    return {largest, first_of(key), second_of(key)};
+}
+
+} // namespace tread::dem::contact_limits

@@ -1,0 +1,18 @@
+#include "backend/launch.cuh"
+#include "kernels/dem/impulses_impl.hpp"
+
+namespace tread::dem
+{
+
+void add_impulses(const Gpu& exec, const BodiesView& bodies, ContactImpulse* impulses, std::int64_t count, double dt)
+{
+    for_each(exec, "add impulses", count, impulse_steps::Add{bodies, impulses, dt});
+}
+
+void measure_activity(const Gpu& exec, const BodiesView& bodies, const double* bounding_radii,
+                      const Vec3<double>& gravity, BodyActivity* activity)
+{
+    for_each(exec, "measure activity", bodies.count, impulse_steps::Measure{bodies, bounding_radii, gravity, activity});
+}
+
+} // namespace tread::dem

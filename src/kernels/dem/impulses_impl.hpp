@@ -1,0 +1,37 @@
+#pragma once
+
+#include "kernels/dem/impulses.hpp"
+
+// The steps of impulses.hpp, the same on both backends; impulses.cpp and impulses.cu bring in for_each.
+namespace tread::dem::impulse_steps
+{
+
+struct Add
+{
+    BodiesView      bodies;
+    ContactImpulse* impulses;
+    double          dt;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        impulses[b].linear += dt * bodies.force[b];
+        impulses[b].angular += dt * bodies.torque[b];
+    }
+};
+
+struct Measure
+{
+    BodiesView    bodies;
+    const double* bounding_radii;
+    Vec3<double>  gravity;
+    BodyActivity* activity;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        activity[b].speed     = bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * bounding_radii[b];
+        const bool fixed      = (bodies.locked[b] & lock_all) == lock_all;
+        activity[b].net_force = fixed ? 0.0 : (bodies.force[b] + bodies.mass[b] * gravity).norm();
+    }
+};
+
+} // namespace tread::dem::impulse_steps

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "kernels/dem/bodies.hpp"
+#include "kernels/dem/totals.hpp"
+
+// One substep of one rigid body. Translation: symplectic Euler. Rotation: the world angular momentum L is advanced by
+// the torque exactly and the orientation by the exponential map of the angular velocity at mid-step, so that a
+// torque-free body keeps L to rounding and its energy to third order (explicit midpoint of R' = [omega(R, L)] R).
+namespace tread::dem
+{
+
+/// Local damping of the settling phases, off.
+struct NoDamping
+{
+    TREAD_HD double operator()(double, double) const { return 0.0; }
+};
+
+/// On (Cundall 1987): a force against the velocity, in proportion to the force that acts, component by component.
+struct LocalDamping
+{
+    double alpha; ///< 0 to 1
+
+    TREAD_HD double operator()(double force, double velocity) const
+    {
+        const double against = velocity > 0 ? -1.0 : (velocity < 0 ? 1.0 : 0.0);
+        return alpha * std::fabs(force) * against;
+    }
+};
+
+template<class Damping>
+TREAD_HD Vec3<double> damping_of(const Damping& damping, const Vec3<double>& force, const Vec3<double>& velocity)
+{
+    return {damping(force[0], velocity[0]), damping(force[1], velocity[1]), damping(force[2], velocity[2])};
+}
+
+/// exp of a rotation vector (rad).
+TREAD_HD Quat rotation_by(const Vec3<double>& vector)
+{
+    const double       angle  = vector.norm();
+    const double       half   = 0.5 * angle;
+    const double       factor = angle > 1e-6 ? std::sin(half) / angle : 0.5 - angle * angle / 48.0;
+    const Vec3<double> axis   = factor * vector;
+    return {std::cos(half), axis[0], axis[1], axis[2]};
+}
+
+TREAD_HD bool is_locked(std::uint32_t locked, LockedFreedom first, int component)
+{
+    return (locked & (static_cast<std::uint32_t>(first) << component)) != 0;
+}
+
+inline constexpr std::uint32_t locked_rotation = lock_roll | lock_pitch | lock_yaw;
+
+/// omega at orientation `rotation` whose free components of J omega are those of `momentum`, and whose locked
+/// components are those of `present`: J = R I R^T. The reaction that locks acts on locked components alone.
+TREAD_HD Vec3<double> angular_velocity_of(const Mat3<double>& rotation, const Mat3<double>& inertia,
+                                          const Mat3<double>& inverse_inertia, const Vec3<double>& momentum,
+                                          const Vec3<double>& present, std::uint32_t locked)
+{
+    if ((locked & locked_rotation) == 0) { return rotation * (inverse_inertia * (rotation.transpose() * momentum)); }
+    if ((locked & locked_rotation) == locked_rotation) { return present; }
+    Mat3<double> matrix = rotation * inertia * rotation.transpose();
+    Vec3<double> wanted = momentum;
+    for (int c = 0; c < 3; ++c)
+    {
+        if (!is_locked(locked, lock_roll, c)) { continue; }
+        matrix.row(c) = Vec3<double>::Unit(c).transpose();
+        wanted[c]     = present[c];
+    }
+    return matrix.inverse() * wanted;
+}
+
+/// Moves body b by dt (s) under its contact force and torque, gravity (m/s2) and the damping; adds to its row of
+/// totals. A locked component keeps its velocity, whatever the forces.
+template<class Damping>
+TREAD_HD void integrate_translation(const BodiesView& bodies, std::int64_t b, const Vec3<double>& gravity,
+                                    const Damping& damping, double dt, BodyTotal& total)
+{
+    const double       mass   = bodies.mass[b];
+    const Vec3<double> before = bodies.velocity[b];
+    const Vec3<double> acting = bodies.force[b] + mass * gravity;
+    const Vec3<double> damped = damping_of(damping, acting, before);
+    Vec3<double>       after = before, holding = Vec3<double>::Zero();
+    for (int c = 0; c < 3; ++c)
+    {
+        if (is_locked(bodies.locked[b], lock_x, c)) { holding[c] = -dt * (acting[c] + damped[c]); }
+        else { after[c] += dt * (acting[c] + damped[c]) / mass; }
+    }
+    const Vec3<double> mean = 0.5 * (before + after);
+    total.damping_impulse += dt * damped;
+    total.holding_impulse += holding;
+    total.damping -= dt * damped.dot(mean);
+    total.holding_work += holding.dot(mean);
+    bodies.velocity[b] = after;
+    bodies.position[b] += dt * after;
+}
+
+template<class Damping>
+TREAD_HD void integrate_rotation(const BodiesView& bodies, std::int64_t b, const Damping& damping, double dt,
+                                 BodyTotal& total)
+{
+    const Mat3<double>& inertia = bodies.inertia[b];
+    const Mat3<double>& inverse = bodies.inverse_inertia[b];
+    const std::uint32_t locked  = bodies.locked[b];
+    const Quat          start   = bodies.orientation[b];
+    const Vec3<double>  before  = bodies.angular_velocity[b];
+    const Vec3<double>  damped  = damping_of(damping, bodies.torque[b], before);
+
+    const Mat3<double> at_start = start.toRotationMatrix();
+    const Vec3<double> momentum =
+        at_start * (inertia * (at_start.transpose() * before)) + dt * (bodies.torque[b] + damped);
+    const Vec3<double> kicked = angular_velocity_of(at_start, inertia, inverse, momentum, before, locked);
+    const Quat         half   = rotation_by(0.5 * dt * kicked) * start;
+    const Vec3<double> middle =
+        angular_velocity_of(half.toRotationMatrix(), inertia, inverse, momentum, before, locked);
+    const Quat         end    = (rotation_by(dt * middle) * start).normalized();
+    const Mat3<double> at_end = end.toRotationMatrix();
+    const Vec3<double> after  = angular_velocity_of(at_end, inertia, inverse, momentum, before, locked);
+
+    const Vec3<double> mean = 0.5 * (before + kicked);
+    total.damping -= dt * damped.dot(mean);
+    if ((locked & locked_rotation) != 0)
+    {
+        const Vec3<double> reached = at_end * (inertia * (at_end.transpose() * after));
+        total.holding_work += (reached - momentum).dot(0.5 * (kicked + after));
+    }
+    bodies.orientation[b]      = end;
+    bodies.angular_velocity[b] = after;
+}
+
+} // namespace tread::dem

@@ -1,0 +1,10 @@
+#include "backend/launch.hpp"
+#include "kernels/dem/pairs_impl.hpp"
+
+namespace tread::dem
+{
+
+template void classify_bodies(const Cpu&, Pairs<Cpu>&, const BodiesView&, const TemplateView*);
+template void find_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double);
+
+} // namespace tread::dem

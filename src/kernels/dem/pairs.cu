@@ -1,0 +1,10 @@
+#include "backend/launch.cuh"
+#include "kernels/dem/pairs_impl.hpp"
+
+namespace tread::dem
+{
+
+template void classify_bodies(const Gpu&, Pairs<Gpu>&, const BodiesView&, const TemplateView*);
+template void find_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double);
+
+} // namespace tread::dem

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+
+#include "backend/array.hpp"
+#include "backend/sort.hpp"
+#include "kernels/dem/bodies.hpp"
+#include "kernels/dem/body_contact_kern.hpp"
+#include "kernels/dem/templates.hpp"
+
+// Which bodies may touch which, and which walls, during one MPM step: found once, frozen during the substeps.
+namespace tread::dem
+{
+
+/// The body-body law and its tables, in a backend's memory.
+struct BodyLaw
+{
+    const TemplateView* templates;
+    PairTable           pairs;
+    const Plane*        planes;
+    std::int32_t        plane_count;
+    ContactOptions      options;
+};
+
+/// Key of a pair, a < b; the wall `plane` has b = bodies + plane.
+TREAD_HD std::uint64_t pair_key(std::int64_t a, std::int64_t b)
+{
+    return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b);
+}
+TREAD_HD std::int64_t first_of(std::uint64_t key) { return static_cast<std::int64_t>(key >> 32); }
+TREAD_HD std::int64_t second_of(std::uint64_t key) { return static_cast<std::int64_t>(key & 0xffffffffu); }
+
+struct PairsView
+{
+    std::int64_t         count;
+    const std::uint64_t* key; ///< ascending
+    Patch*               patch;
+    PairResponse*        response;  ///< of the last substep
+    double*              peak;      ///< m, largest overlap since the pairs were found
+    const std::int32_t*  first;     ///< [bodies + 1], the run of pairs whose first body is this one
+    const std::int32_t*  by_second; ///< pairs ordered by their second body
+    const std::int32_t*  second;    ///< [bodies + 1], the run in by_second of this body
+};
+
+/// Owner of what PairsView shows, and of the search's scratch. A checkpoint stores key and patch.
+template<class Exec>
+struct Pairs
+{
+    explicit Pairs(const Exec& exec)
+        : key(exec, "pair keys")
+        , patch(exec, "pair patches")
+        , response(exec, "pair responses")
+        , peak(exec, "pair peak overlaps")
+        , first(exec, "pairs of first body")
+        , by_second(exec, "pairs by second body")
+        , second(exec, "pairs of second body")
+        , expected_stiffness(exec, "body expected stiffness")
+        , large(exec, "large bodies")
+        , is_large(exec, "large body marks")
+        , node_area(exec, "body node area")
+        , last_key(exec, "last pair keys")
+        , last_patch(exec, "last pair patches")
+        , reach(exec, "body reach")
+        , cell_key(exec, "body cells")
+        , cell_body(exec, "bodies by cell")
+        , found(exec, "pairs found")
+        , second_key(exec, "pair second bodies")
+        , measure(exec, "pair measures")
+        , sort(exec)
+    {
+    }
+
+    PairsView view()
+    {
+        return {key.size(),  key.data(),   patch.data(),     response.data(),
+                peak.data(), first.data(), by_second.data(), second.data()};
+    }
+
+    Array<Exec, std::uint64_t> key;
+    Array<Exec, Patch>         patch;
+    Array<Exec, PairResponse>  response;
+    Array<Exec, double>        peak;
+    Array<Exec, std::int32_t>  first;
+    Array<Exec, std::int32_t>  by_second;
+    Array<Exec, std::int32_t>  second;
+    Array<Exec, double>        expected_stiffness; ///< N/m, of each body's pairs that do not touch yet
+
+    Array<Exec, std::int32_t> large;     ///< bodies that never enter the cell grid
+    Array<Exec, std::int32_t> is_large;  ///< of every body
+    Array<Exec, double>       node_area; ///< m2, mean of each body's nodes
+
+    Array<Exec, std::uint64_t> last_key;
+    Array<Exec, Patch>         last_patch;
+    Array<Exec, double>        reach;
+    Array<Exec, std::uint64_t> cell_key;
+    Array<Exec, std::int32_t>  cell_body;
+    Array<Exec, std::int32_t>  found;
+    Array<Exec, std::uint64_t> second_key;
+    Array<Exec, double>        measure;
+    SortScratch<Exec>          sort;
+};
+
+/// Once, and again when bodies come, go or change places: sorts them by size. A body more than 4 times larger than the
+/// median is tested against all others instead of entering the cell grid, whose cells would be its size.
+template<class Exec>
+void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates);
+
+/// Every pair of bodies, and of body and wall, that may touch within the next dt (s, of the MPM step): whose bounding
+/// spheres, grown by twice what the body's velocity moves it and a skin of 1 % of its radius, meet; for bodies also by
+/// the distance of each centre from the other's surface. Patches of pairs that stay in the list are kept.
+template<class Exec>
+void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+
+} // namespace tread::dem

@@ -1,0 +1,231 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "backend/reduce.hpp"
+#include "kernels/dem/pairs_kern.hpp"
+
+// The steps of find_pairs, the same on both backends; pairs.cpp and pairs.cu bring in for_each and instantiate.
+namespace tread::dem
+{
+namespace pair_steps
+{
+
+struct MeasureBody
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    double*             radius;
+    double*             node_area;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const TemplateView& shape = templates[bodies.shape[b]];
+        const double        scale = bodies.scale[b];
+        double              area  = 0;
+        for (std::int32_t i = 0; i < shape.node_count; ++i) { area += shape.node_areas[i]; }
+        radius[b]    = scale * shape.bounding_radius;
+        node_area[b] = shape.node_count > 0 ? scale * scale * area / shape.node_count : 0.0;
+    }
+};
+
+struct WriteReach
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    const std::int32_t* is_large;
+    double              dt;
+    double*             reach;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        reach[b] = is_large[b] != 0 ? 0.0 : reach_of(bodies, templates, b, dt).total();
+    }
+};
+
+struct WriteCell
+{
+    BodiesView          bodies;
+    const std::int32_t* is_large;
+    double              cell_size;
+    std::uint64_t*      key;
+    std::int32_t*       body;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const Vec3<double>& x = bodies.position[b];
+        key[b]                = is_large[b] != 0 ? no_cell
+                                                 : cell_key_of(cell_coordinate(x[0], cell_size), cell_coordinate(x[1], cell_size),
+                                                               cell_coordinate(x[2], cell_size));
+        body[b]               = static_cast<std::int32_t>(b);
+    }
+};
+
+struct CountPairs
+{
+    PairSearch    search;
+    std::int32_t* found; ///< [bodies + 1]
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        std::int32_t own = 0;
+        if (b < search.bodies.count)
+        {
+            search(b, [&](std::uint64_t) { ++own; });
+        }
+        found[b] = own;
+    }
+};
+
+struct WritePairs
+{
+    PairSearch          search;
+    const std::int32_t* found; ///< [bodies + 1], after the scan
+    std::uint64_t*      key;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        std::int32_t place = found[b];
+        if (place == found[b + 1]) { return; }
+        search(b, [&](std::uint64_t pair) { key[place++] = pair; });
+    }
+};
+
+struct CountUp
+{
+    std::int32_t* values;
+
+    TREAD_HD void operator()(std::int64_t i) const { values[i] = static_cast<std::int32_t>(i); }
+};
+
+/// The patch of a pair that was in the last list, and its place in the order by second body.
+struct Recall
+{
+    PairsView            pairs;
+    std::int64_t         last_count;
+    const std::uint64_t* last_key;
+    const Patch*         last_patch;
+    std::uint64_t*       second_key;
+    std::int32_t*        by_second;
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        const std::int64_t last = find_sorted(last_key, last_count, pairs.key[p]);
+        pairs.patch[p]          = last < 0 ? no_patch() : last_patch[last];
+        pairs.response[p]       = no_response();
+        pairs.peak[p]           = 0;
+        second_key[p]           = static_cast<std::uint64_t>(second_of(pairs.key[p]));
+        by_second[p]            = static_cast<std::int32_t>(p);
+    }
+};
+
+struct WriteRuns
+{
+    std::int64_t         count;
+    const std::uint64_t* key;
+    const std::uint64_t* second_key;
+    std::int32_t*        first;
+    std::int32_t*        second;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        first[b]  = static_cast<std::int32_t>(lower_bound(key, count, pair_key(b, 0)));
+        second[b] = static_cast<std::int32_t>(lower_bound(second_key, count, static_cast<std::uint64_t>(b)));
+    }
+};
+
+/// Bodies in the cells of a grid as wide as the widest pair; returns the width.
+template<class Exec>
+double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates,
+                  double dt)
+{
+    pairs.reach.resize(bodies.count);
+    pairs.measure.resize(1);
+    for_each(exec, "body reach", bodies.count,
+             WriteReach{bodies, templates, pairs.is_large.data(), dt, pairs.reach.data()});
+    largest_of_rows(exec, pairs.reach.data(), bodies.count, 1, pairs.measure.data());
+    const double cell_size = std::max(2.0 * read(exec, pairs.measure.data()), 1e-12);
+
+    pairs.cell_key.resize(bodies.count);
+    pairs.cell_body.resize(bodies.count);
+    for_each(exec, "body cells", bodies.count,
+             WriteCell{bodies, pairs.is_large.data(), cell_size, pairs.cell_key.data(), pairs.cell_body.data()});
+    sort_by_key(exec, pairs.cell_key, pairs.cell_body, pairs.sort);
+    return cell_size;
+}
+
+template<class Exec>
+void order_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    const std::int64_t count = pairs.key.size();
+    pairs.by_second.resize(count);
+    for_each(exec, "count pairs up", count, CountUp{pairs.by_second.data()});
+    sort_by_key(exec, pairs.key, pairs.by_second, pairs.sort);
+
+    pairs.patch.resize(count);
+    pairs.response.resize(count);
+    pairs.peak.resize(count);
+    pairs.second_key.resize(count);
+    for_each(exec, "recall pairs", count,
+             Recall{pairs.view(), pairs.last_key.size(), pairs.last_key.data(), pairs.last_patch.data(),
+                    pairs.second_key.data(), pairs.by_second.data()});
+    sort_by_key(exec, pairs.second_key, pairs.by_second, pairs.sort);
+
+    pairs.first.resize(bodies.count + 1);
+    pairs.second.resize(bodies.count + 1);
+    for_each(exec, "pairs of bodies", bodies.count + 1,
+             WriteRuns{count, pairs.key.data(), pairs.second_key.data(), pairs.first.data(), pairs.second.data()});
+}
+
+} // namespace pair_steps
+
+template<class Exec>
+void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates)
+{
+    pairs.reach.resize(bodies.count);
+    pairs.node_area.resize(bodies.count);
+    pairs.expected_stiffness.resize(bodies.count);
+    pairs.expected_stiffness.fill_zero();
+    for_each(exec, "body sizes", bodies.count,
+             pair_steps::MeasureBody{bodies, templates, pairs.reach.data(), pairs.node_area.data()});
+
+    const std::vector<double> radii  = pairs.reach.to_host();
+    std::vector<double>       sorted = radii;
+    const auto                middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    if (!sorted.empty()) { std::nth_element(sorted.begin(), middle, sorted.end()); }
+    constexpr double          much_larger = 4;
+    std::vector<std::int32_t> large, marks;
+    for (std::size_t b = 0; b < radii.size(); ++b)
+    {
+        marks.push_back(radii[b] > much_larger * *middle ? 1 : 0);
+        if (marks.back() != 0) { large.push_back(static_cast<std::int32_t>(b)); }
+    }
+    pairs.large.assign(large);
+    pairs.is_large.assign(marks);
+}
+
+template<class Exec>
+void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+{
+    using namespace pair_steps;
+    pairs.key.swap(pairs.last_key);
+    pairs.patch.swap(pairs.last_patch);
+    const double     cell_size = fill_cells(exec, pairs, bodies, law.templates, dt);
+    const PairSearch search{bodies,
+                            law,
+                            dt,
+                            cell_size,
+                            pairs.cell_key.data(),
+                            pairs.cell_body.data(),
+                            pairs.large.data(),
+                            pairs.large.size(),
+                            pairs.is_large.data()};
+    pairs.found.resize(bodies.count + 1);
+    for_each(exec, "count pairs", bodies.count + 1, CountPairs{search, pairs.found.data()});
+    pairs.key.resize(exclusive_scan(exec, pairs.found, pairs.sort));
+    for_each(exec, "write pairs", bodies.count, WritePairs{search, pairs.found.data(), pairs.key.data()});
+    order_pairs(exec, pairs, bodies);
+}
+
+} // namespace tread::dem

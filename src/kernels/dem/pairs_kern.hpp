@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "kernels/dem/pairs.hpp"
+
+namespace tread::dem
+{
+
+/// A body as the search sees it.
+struct Reach
+{
+    double bounding; ///< m, radius of the bounding sphere
+    double travel;   ///< m, twice what the body can move in the step, and the skin
+
+    TREAD_HD double total() const { return bounding + travel; }
+};
+
+TREAD_HD Reach reach_of(const BodiesView& bodies, const TemplateView* templates, std::int64_t b, double dt)
+{
+    constexpr double skin   = 0.01; ///< of the radius: a body at rest may be set going within the step
+    const double     radius = templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
+    const double     speed  = bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius;
+    return {radius, 2.0 * dt * speed + skin * radius};
+}
+
+/// Whether the surface of body b's template can come within the other's grown bounding sphere.
+TREAD_HD bool surface_near(const BodiesView& bodies, const TemplateView* templates, std::int64_t b,
+                           const Vec3<double>& centre, double reach)
+{
+    const TemplateView& shape = templates[bodies.shape[b]];
+    const double        scale = bodies.scale[b];
+    return sample_body_sdf(shape, scale, bodies.position[b], bodies.orientation[b], centre).distance <=
+           reach + sdf_uncertainty(shape, scale);
+}
+
+TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates, std::int64_t a, std::int64_t b,
+                        double dt)
+{
+    const Reach  of_a = reach_of(bodies, templates, a, dt), of_b = reach_of(bodies, templates, b, dt);
+    const double together = of_a.total() + of_b.total();
+    if ((bodies.position[a] - bodies.position[b]).squaredNorm() > together * together) { return false; }
+    return surface_near(bodies, templates, a, bodies.position[b], of_b.total() + of_a.travel) &&
+           surface_near(bodies, templates, b, bodies.position[a], of_a.total() + of_b.travel);
+}
+
+TREAD_HD bool may_touch_plane(const BodiesView& bodies, const TemplateView* templates, std::int64_t b,
+                              const Plane& plane, double dt)
+{
+    return plane.normal.dot(bodies.position[b]) - plane.offset <= reach_of(bodies, templates, b, dt).total();
+}
+
+/// Cells of the search grid: 21 bits an axis, x lowest, so that neighbours along x have consecutive keys.
+inline constexpr std::int32_t  cell_bias = 1 << 20;
+inline constexpr std::uint64_t no_cell   = ~std::uint64_t{0};
+
+/// Held to the range that has keys: a body may be anywhere.
+TREAD_HD std::int64_t cell_coordinate(double position, double size)
+{
+    const double cell = std::floor(position / size), limit = cell_bias - 2;
+    return static_cast<std::int64_t>(std::fmin(std::fmax(cell, -limit), limit)) + cell_bias;
+}
+
+TREAD_HD std::uint64_t cell_key_of(std::int64_t x, std::int64_t y, std::int64_t z)
+{
+    return static_cast<std::uint64_t>(z << 42 | y << 21 | x);
+}
+
+/// Finds the pairs of one body, each pair with one of its two bodies only.
+struct PairSearch
+{
+    BodiesView           bodies;
+    BodyLaw              law;
+    double               dt;
+    double               cell_size; ///< m, at least twice the largest reach in the grid
+    const std::uint64_t* cell_key;  ///< ascending
+    const std::int32_t*  cell_body;
+    const std::int32_t*  large;
+    std::int64_t         large_count;
+    const std::int32_t*  is_large;
+
+    template<class Visit>
+    TREAD_HD void in_cells(std::int64_t a, Visit visit) const
+    {
+        const Vec3<double>& x  = bodies.position[a];
+        const std::int64_t  cx = cell_coordinate(x[0], cell_size), cy = cell_coordinate(x[1], cell_size),
+                           cz      = cell_coordinate(x[2], cell_size);
+        const std::int64_t gridded = bodies.count - large_count;
+        for (int row = 0; row < 9; ++row)
+        {
+            const std::int64_t  y = cy + row % 3 - 1, z = cz + row / 3 - 1;
+            const std::uint64_t last = cell_key_of(cx + 1, y, z);
+            for (std::int64_t i = lower_bound(cell_key, gridded, cell_key_of(cx - 1, y, z));
+                 i < gridded && cell_key[i] <= last; ++i)
+            {
+                const std::int64_t b = cell_body[i];
+                if (b > a && may_touch(bodies, law.templates, a, b, dt)) { visit(pair_key(a, b)); }
+            }
+        }
+    }
+
+    template<class Visit>
+    TREAD_HD void operator()(std::int64_t a, Visit visit) const
+    {
+        if (is_large[a] == 0) { in_cells(a, visit); }
+        for (std::int64_t l = 0; l < large_count; ++l)
+        {
+            const std::int64_t b = large[l];
+            if ((is_large[a] != 0 && b <= a) || !may_touch(bodies, law.templates, a, b, dt)) { continue; }
+            visit(a < b ? pair_key(a, b) : pair_key(b, a));
+        }
+        for (std::int32_t p = 0; p < law.plane_count; ++p)
+        {
+            if (may_touch_plane(bodies, law.templates, a, law.planes[p], dt)) { visit(pair_key(a, bodies.count + p)); }
+        }
+    }
+};
+
+} // namespace tread::dem

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cmath>
+
+#include "kernels/dem/traction_kern.hpp"
+
+// What a pair of bodies remembers and how friction follows from it: prototypes 1, one record a patch.
+namespace tread::dem
+{
+
+/// All zero while the pair is apart. "On a" = on the pair's first body.
+struct Patch
+{
+    Vec3<double> tangential;      ///< N, on a
+    Vec3<double> normal;          ///< unit, towards a, when the record was last updated
+    double       torsion;         ///< N m, on a, about the normal
+    double       stiffness;       ///< N/m, K; k_t = (4 G*/E*) K
+    double       twist_stiffness; ///< N m/rad, k_theta
+};
+
+TREAD_HD Patch no_patch() { return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0.0, 0.0, 0.0}; }
+
+/// What the normal law found, and how the two sides move at the patch.
+struct PatchState
+{
+    Vec3<double> normal;      ///< unit, towards a
+    double       load;        ///< N, |F|
+    double       stiffness;   ///< N/m, K
+    double       spread;      ///< m2, sum f |x - x_c|_t^2 / sum f
+    Vec3<double> velocity;    ///< m/s, of a relative to b at x_c
+    double       spin;        ///< rad/s, of a relative to b about the normal
+    double       common_spin; ///< rad/s, mean of both about the normal
+};
+
+struct Friction
+{
+    Vec3<double> force;  ///< N, on a at x_c
+    double       moment; ///< N m, on a about the normal
+    double       energy; ///< J, held by the springs
+    double       lost;   ///< J, in this substep
+};
+
+TREAD_HD double spring_energy(double squared_force, double stiffness)
+{
+    return stiffness > 0 ? 0.5 * squared_force / stiffness : 0.0;
+}
+
+/// Energy held by the springs of a patch of the pair.
+TREAD_HD double held_energy(const PairLaw& law, const Patch& patch)
+{
+    return spring_energy(patch.tangential.squaredNorm(), law.shear_ratio * patch.stiffness) +
+           spring_energy(patch.torsion * patch.torsion, patch.twist_stiffness);
+}
+
+/// `force` (tangential to the unit vector `from`) turned with the normal by the smallest rotation that takes `from` to
+/// `to` (T. Moeller and J. Hughes, J. Graphics Tools 4(4), 1999): it keeps its length and stays tangential. A normal
+/// that flips forgets.
+TREAD_HD Vec3<double> turn_with_normal(const Vec3<double>& force, const Vec3<double>& from, const Vec3<double>& to)
+{
+    const double     cosine = from.dot(to);
+    constexpr double flip   = -0.99;
+    if (cosine < flip) { return Vec3<double>::Zero(); }
+    const Vec3<double> axis = from.cross(to);
+    return cosine * force + axis.cross(force) + axis * (axis.dot(force) / (1.0 + cosine));
+}
+
+/// Turned about the unit normal by a small angle (rad), length kept.
+TREAD_HD Vec3<double> turn_about(const Vec3<double>& force, const Vec3<double>& normal, double angle)
+{
+    return std::cos(angle) * force + std::sin(angle) * normal.cross(force);
+}
+
+/// 1, or what brings `value` down to `cap`.
+TREAD_HD double cap_factor(double value, double cap) { return value > cap ? cap / value : 1.0; }
+
+/// Advances the record by dt (s): springs turned with the patch and loaded by its motion, shrunk when their stiffness
+/// falls (else a closed cycle makes energy, verification A9), capped by Coulomb; the damping acts inside the caps and
+/// is not stored. The torsion shrinks with its own stiffness. Its cap is that of a Hertz patch of radius a in full
+/// slip, 3 pi/16 mu F a = 0.94 mu F r with r^2 = 0.4 a^2 = 0.4 R* d.
+TREAD_HD Friction update_patch(const PairLaw& law, const PatchState& state, Patch& patch, double dt)
+{
+    const double held = held_energy(law, patch);
+    const double depth =
+        std::pow(0.75 * state.load / (law.effective_young * std::sqrt(law.effective_radius)), 2.0 / 3.0);
+    const double       arm_squared  = state.spread + 0.4 * law.effective_radius * depth;
+    const double       k_tangential = law.shear_ratio * state.stiffness;
+    const double       k_twist      = k_tangential * arm_squared;
+    const double       cap          = law.friction * state.load;
+    const double       twist_cap    = 0.94 * cap * std::sqrt(arm_squared);
+    const double       viscosity    = 2.0 * law.damping_ratio * std::sqrt(k_tangential * law.reduced_mass);
+    const Vec3<double> sliding      = state.velocity - state.normal * state.normal.dot(state.velocity);
+
+    Vec3<double> force   = turn_with_normal(patch.tangential, patch.normal, state.normal);
+    double       torsion = patch.torsion;
+    force                = turn_about(force, state.normal, state.common_spin * dt);
+    if (state.stiffness < patch.stiffness) { force *= state.stiffness / patch.stiffness; }
+    if (k_twist < patch.twist_stiffness) { torsion *= k_twist / patch.twist_stiffness; }
+    const double turned = spring_energy(force.squaredNorm(), k_tangential) + spring_energy(torsion * torsion, k_twist);
+
+    force -= k_tangential * dt * sliding;
+    torsion -= k_twist * dt * state.spin;
+    const double length = force.norm(), twist = std::fabs(torsion);
+    const double slid        = length > cap ? cap * (length - cap) / k_tangential : 0.0;
+    const double turned_past = twist > twist_cap ? twist_cap * (twist - twist_cap) / k_twist : 0.0;
+    force *= cap_factor(length, cap);
+    torsion *= cap_factor(twist, twist_cap);
+
+    Vec3<double> total        = force - viscosity * sliding;
+    double       total_moment = torsion - viscosity * arm_squared * state.spin;
+    total *= cap_factor(total.norm(), cap);
+    total_moment *= cap_factor(std::fabs(total_moment), twist_cap);
+    const double damped = -dt * ((total - force).dot(sliding) + (total_moment - torsion) * state.spin);
+
+    patch = {force, state.normal, torsion, state.stiffness, k_twist};
+    return {total, total_moment, held_energy(law, patch), held - turned + slid + turned_past + damped};
+}
+
+} // namespace tread::dem

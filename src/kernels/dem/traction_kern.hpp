@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cmath>
+
+#include "backend/vector.hpp"
+#include "kernels/dem/templates.hpp"
+
+// Constants of a pair and the traction p(d) between two rigid surfaces: dem.md 1.4, law A. With d(r) = delta - r^2/(2
+// R*) its integral is Hertz's force 4/3 E* sqrt(R*) delta^1.5 (the paper's Eq. 14).
+namespace tread::dem
+{
+
+struct PairLaw
+{
+    double effective_young;  ///< Pa, E* times the Hertz factor
+    double effective_radius; ///< m, R*
+    double traction;         ///< Pa/sqrt(m), E*/(pi sqrt(R*)): p = traction sqrt(d)
+    double linear_overlap;   ///< m, d0: below it the traction is linear
+    double shear_ratio;      ///< k_t/K = 4 G*/E*: Mindlin's 8 G* sqrt(R* d) where the patch is resolved
+    double friction;         ///< Coulomb
+    double damping_ratio;    ///< zeta, normal and tangential
+    double reduced_mass;     ///< kg, m*; 0 if neither side can move
+};
+
+/// inverse_radii = 1/R_a + 1/R_b, inverse_masses = 1/m_a + 1/m_b.
+TREAD_HD PairLaw pair_law(const PairProperties& pair, const ContactOptions& options, double inverse_radii,
+                          double inverse_masses)
+{
+    constexpr double pi     = 3.14159265358979323846;
+    const double     radius = 1.0 / inverse_radii;
+    const double     young  = options.hertz_factor * pair.effective_young;
+    return {young,
+            radius,
+            young / (pi * std::sqrt(radius)),
+            options.linear_overlap * radius,
+            4.0 * pair.effective_shear / pair.effective_young,
+            pair.friction,
+            pair.damping_ratio,
+            inverse_masses > 0 ? 1.0 / inverse_masses : 0.0};
+}
+
+/// p(d), Pa; p'(d), Pa/m; and the potential psi with psi' = p, J/m2.
+struct Traction
+{
+    double pressure;
+    double slope;
+    double energy;
+};
+
+TREAD_HD Traction traction_at(const PairLaw& law, double overlap)
+{
+    const double knee = law.linear_overlap;
+    if (overlap < knee)
+    {
+        const double slope = law.traction / std::sqrt(knee);
+        return {slope * overlap, slope, 0.5 * slope * overlap * overlap};
+    }
+    // psi of the linear part is d0^1.5/2 at the knee, where that of the square root would be 2/3 d0^1.5
+    const double root = std::sqrt(overlap);
+    return {law.traction * root, 0.5 * law.traction / root,
+            law.traction * (2.0 / 3.0 * overlap * root - knee * std::sqrt(knee) / 6.0)};
+}
+
+} // namespace tread::dem
