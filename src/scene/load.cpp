@@ -1,6 +1,7 @@
 #include "scene/load.hpp"
 
 #include <filesystem>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -62,11 +63,13 @@ Scene read_scene(const Node& document, Problems& problems)
     return scene;
 }
 
-void complete_families(Scene& scene)
+void complete_materials(Scene& scene)
 {
     for (auto& material : scene.materials)
     {
         if (material.family.empty()) { material.family = material.name; }
+        const bool stiff = material.model == MaterialModel::rigid && material.young == 0;
+        if (stiff) { material.young = std::numeric_limits<double>::infinity(); }
     }
 }
 
@@ -110,7 +113,7 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
     apply_overrides(document, overrides, problems);
     Scene scene     = read_scene(document, problems);
     scene.directory = std::filesystem::absolute(path).parent_path().string();
-    complete_families(scene);
+    complete_materials(scene);
     complete_wall_friction(scene, document);
     complete_paths(scene, document, problems);
     validate(scene, document, problems);

@@ -120,10 +120,10 @@ struct Numerics
 struct Material
 {
     std::string   name;
-    MaterialModel model              = MaterialModel::elastic;
-    double        density            = 0; ///< kg/m3
-    double        young              = 0; ///< Pa
-    double        poisson            = 0.3;
+    MaterialModel model   = MaterialModel::elastic;
+    double        density = 0; ///< kg/m3
+    double        young   = 0; ///< Pa; infinity: perfectly stiff, for a rigid material whose scene gives none
+    double        poisson = 0.3;
     double        friction_angle_deg = 0; ///< Mohr-Coulomb
     double        dilation_angle_deg = 0;
     double        cohesion           = 0; ///< Pa

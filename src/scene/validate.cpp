@@ -56,6 +56,34 @@ void validate_material(const Scene& scene, const Material& material, const Table
     }
 }
 
+bool has_wall(const Walls& walls)
+{
+    const auto kinds = {walls.x, walls.y, walls.bottom, walls.top};
+    return std::any_of(kinds.begin(), kinds.end(), [](WallKind kind) { return kind != WallKind::open; });
+}
+
+/// Hertz's law takes its stiffness from what deforms: of two that meet, walls included, one must.
+void validate_stiffness(const Scene& scene, Checker& checker)
+{
+    std::int64_t stiff = 0;
+    const auto   check = [&](const std::string& material, std::int64_t count)
+    {
+        const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                        [&](const Material& candidate) { return candidate.name == material; });
+        if (found == scene.materials.end() || !std::isinf(found->young)) { return; }
+        stiff += count;
+        const TableAt at{"material", static_cast<std::size_t>(found - scene.materials.begin())};
+        if ((stiff > 1 || has_wall(scene.domain.walls)) && checker.sound(at, {"model", "young"}))
+        {
+            checker.report(at, "young",
+                           "missing; perfectly stiff, it would meet another perfectly stiff body or the walls",
+                           "number > 0 (Pa), or one such body in a domain of open walls");
+        }
+    };
+    for (const auto& rocks : scene.rocks) { check(rocks.material, rocks.count); }
+    for (const auto& body : scene.bodies) { check(body.material, 1); }
+}
+
 void validate_wheel(const WheelGenerator& wheel, const TableAt& at, Checker& checker)
 {
     const auto table = checker.label(at) + ".generate";
@@ -174,6 +202,7 @@ void validate_materials(const Scene& scene, Checker& checker)
     {
         validate_material(scene, scene.materials[i], {"material", i}, checker);
     }
+    validate_stiffness(scene, checker);
 }
 
 void validate_shapes(const Scene& scene, Checker& checker)

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "scene/resolved.hpp"
@@ -42,6 +44,7 @@ family = "ripple"
 [[material]]
 name = "steel"
 model = "rigid"
+young = 2e11
 density = 7800
 [[contact]]
 between = ["ripple", "steel"]
@@ -170,6 +173,17 @@ TEST(Resolved, keeps_a_pic_rate)
     const Directory directory;
     const auto      scene = load_scene(directory.write("scene.toml", good_scene), {"numerics.pic_rate=0.125"});
     EXPECT_EQ(scene.numerics.pic_rate, 0.125);
+    EXPECT_EQ(load_text(directory, resolved_toml(scene)), scene);
+}
+
+TEST(Resolved, keeps_a_body_perfectly_stiff)
+{
+    const Directory directory;
+    auto            text = replaced(good_scene, "young = 7e10\n", "");
+    text                 = replaced(text, "size = [1, 1.0, 1]",
+                                    "size = [1, 1.0, 1]\nwalls = { x = \"open\", y = \"open\", bottom = \"open\" }");
+    const auto scene     = load_text(directory, text);
+    EXPECT_TRUE(std::isinf(scene.materials[2].young));
     EXPECT_EQ(load_text(directory, resolved_toml(scene)), scene);
 }
 

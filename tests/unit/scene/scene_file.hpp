@@ -62,6 +62,7 @@ poisson = 0.2
 [[material]]
 name = "steel"
 model = "rigid"
+young = 7e10
 family = "wheel"
 [[contact]]
 between = ["wheel", "sand"]
