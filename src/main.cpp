@@ -31,16 +31,13 @@ struct SceneArguments
 {
     std::string              path;
     std::vector<std::string> overrides;
-    solver::BackendChoice    backend = solver::BackendChoice::automatic;
 };
 
 struct RunArguments
 {
-    SceneArguments scene;
-    std::string    output;
-    io::Existing   existing = io::Existing::refuse;
-    int            threads  = 0;
-    Terminal       terminal = Terminal::shown;
+    SceneArguments     scene;
+    solver::RunOptions options;
+    Terminal           terminal = Terminal::shown;
 };
 
 struct SdfArguments
@@ -85,21 +82,23 @@ ExitCode run(const RunArguments& arguments)
         [&](const Communicator& world)
         {
             Log                log(world, arguments.terminal);
-            const scene::Scene scene  = scene::load_scene(arguments.scene.path, arguments.scene.overrides);
-            const std::string  stem   = std::filesystem::path(arguments.scene.path).stem().string();
-            const std::string  output = arguments.output.empty() ? "runs/" + stem : arguments.output;
-            return solver::run(world, log, scene,
-                               {output, arguments.existing, arguments.scene.backend, arguments.threads});
+            const scene::Scene scene   = scene::load_scene(arguments.scene.path, arguments.scene.overrides);
+            solver::RunOptions options = arguments.options;
+            if (options.output.empty())
+            {
+                options.output = "runs/" + std::filesystem::path(arguments.scene.path).stem().string();
+            }
+            return solver::run(world, log, scene, options);
         });
 }
 
 ExitCode check(const SceneArguments& arguments)
 {
     return on_ranks(
-        [&](const Communicator& world)
+        [&](const Communicator&)
         {
             const scene::Scene scene = scene::load_scene(arguments.path, arguments.overrides);
-            std::cout << solver::check(world, scene, arguments.backend);
+            std::cout << solver::check(scene);
             return ExitCode::finished;
         });
 }
@@ -189,21 +188,21 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments)
     command.add_option("--set", arguments.overrides, "Replace one value of the scene, as often as needed")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
-    add_word_option<solver::BackendChoice>(command, "--backend", arguments.backend,
-                                           {{"auto", solver::BackendChoice::automatic},
-                                            {"cpu", solver::BackendChoice::cpu},
-                                            {"cuda", solver::BackendChoice::cuda}},
-                                           "Where to compute; default auto");
 }
 
 void add_run_options(CLI::App& command, RunArguments& arguments)
 {
     add_scene_options(command, arguments.scene);
-    command.add_option("--output", arguments.output, "Run directory; default runs/<name of the scene file>")
+    add_word_option<solver::BackendChoice>(command, "--backend", arguments.options.backend,
+                                           {{"auto", solver::BackendChoice::automatic},
+                                            {"cpu", solver::BackendChoice::cpu},
+                                            {"cuda", solver::BackendChoice::cuda}},
+                                           "Where to compute; default auto");
+    command.add_option("--output", arguments.options.output, "Run directory; default runs/<name of the scene file>")
         ->type_name("DIR");
     command.add_flag_callback(
-        "--overwrite", [&] { arguments.existing = io::Existing::overwrite; }, "Replace the run that is there");
-    command.add_option("--threads", arguments.threads, "CPU threads; default: what OpenMP finds")
+        "--overwrite", [&] { arguments.options.existing = io::Existing::overwrite; }, "Replace the run that is there");
+    command.add_option("--threads", arguments.options.threads, "CPU threads; default: what OpenMP finds")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));
     command.add_flag_callback(
