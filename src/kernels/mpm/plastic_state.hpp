@@ -1,0 +1,27 @@
+#pragma once
+
+#include "backend/vector.hpp"
+
+namespace tread::mpm
+{
+
+/// What a plastic point remembers besides its stress.
+template<class Real>
+struct PlasticState
+{
+    Real
+        plastic_shear; ///< sum of sqrt(2/3 e:e), e = deviatoric plastic strain increment (gamma/sqrt 3 in simple shear)
+    Real plastic_rate; ///< 1/s, of plastic_shear in the last step
+    Real volume_gap;   ///< log volume opened at the apex that must close before compression, >= 0
+};
+
+/// A point after a step of its law.
+template<class Real>
+struct StressUpdate
+{
+    Sym3<Real>         stress; ///< Pa, Cauchy, tension positive
+    PlasticState<Real> state;
+    Real               plastic_work; ///< J/m3 of current volume, of the step
+};
+
+} // namespace tread::mpm

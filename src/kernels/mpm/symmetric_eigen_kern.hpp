@@ -1,0 +1,145 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "backend/vector.hpp"
+
+namespace tread::mpm
+{
+
+/// Principal values, descending, and the orthonormal axes that belong to them, one a column.
+template<class Real>
+struct SymmetricEigen
+{
+    Vec3<Real> values;
+    Mat3<Real> axes;
+};
+
+/// Largest root, in [sqrt 3, 2], of x^3 - 3 x = 2 r for r in [0, 1]: x = 2 cos(acos(r)/3). Newton from a parabola 3e-3
+/// off squares the error: 7e-6, 4e-11, 1e-21. The root is simple there, so rounding of r is not amplified.
+template<class Real>
+TREAD_HD Real isolated_root(Real r)
+{
+    constexpr int iterations = sizeof(Real) == sizeof(float) ? 2 : 3;
+    Real          x          = Real(1.7320508075688772) + r * (Real(0.33333333333333333) - Real(0.065384140902210) * r);
+    for (int i = 0; i < iterations; ++i) { x = Real(2) * (x * x * x + r) / (Real(3) * (x * x - Real(1))); }
+    return x;
+}
+
+/// Unit null vector of a symmetric matrix of rank 2: the largest column of its adjugate.
+template<class Real>
+TREAD_HD Vec3<Real> null_vector(const Sym3<Real>& m)
+{
+    const Real xx = m[1] * m[2] - m[3] * m[3], yy = m[0] * m[2] - m[4] * m[4], zz = m[0] * m[1] - m[5] * m[5];
+    const Real yz = m[4] * m[5] - m[0] * m[3], xz = m[5] * m[3] - m[1] * m[4], xy = m[4] * m[3] - m[2] * m[5];
+    Vec3<Real> column(xx, xy, xz);
+    Real       largest = std::abs(xx);
+    if (std::abs(yy) > largest)
+    {
+        column  = Vec3<Real>(xy, yy, yz);
+        largest = std::abs(yy);
+    }
+    if (std::abs(zz) > largest) { column = Vec3<Real>(xz, yz, zz); }
+    return column / std::sqrt(column.squaredNorm());
+}
+
+template<class Real>
+TREAD_HD Vec3<Real> times(const Sym3<Real>& m, const Vec3<Real>& v)
+{
+    return {m[0] * v[0] + m[5] * v[1] + m[4] * v[2], m[5] * v[0] + m[1] * v[1] + m[3] * v[2],
+            m[4] * v[0] + m[3] * v[1] + m[2] * v[2]};
+}
+
+/// Larger and smaller principal value and axes of the deviator in the plane normal to the unit vector `normal`.
+template<class Real>
+struct PlaneEigen
+{
+    Real       high, low;
+    Vec3<Real> high_axis, low_axis;
+};
+
+template<class Real>
+TREAD_HD PlaneEigen<Real> plane_eigen(const Sym3<Real>& m, const Vec3<Real>& normal)
+{
+    // Basis of the plane: Duff et al. 2017, J. Comput. Graph. Tech. 6(1).
+    const Real       sign = std::copysign(Real(1), normal[2]);
+    const Real       k    = Real(-1) / (sign + normal[2]);
+    const Real       b    = normal[0] * normal[1] * k;
+    const Vec3<Real> u(Real(1) + sign * normal[0] * normal[0] * k, sign * b, -sign * normal[0]);
+    const Vec3<Real> w(b, sign + normal[1] * normal[1] * k, -normal[1]);
+
+    const Vec3<Real> mu = times(m, u), mw = times(m, w);
+    const Real       uu = u.dot(mu), ww = w.dot(mw), uw = u.dot(mw);
+    const Real       half   = Real(0.5) * (uu - ww);
+    const Real       radius = std::sqrt(half * half + uw * uw);
+    const Real       large  = radius + std::abs(half);
+    const Real       norm   = std::sqrt(large * large + uw * uw);
+    Real             x = 1, y = 0;
+    if (norm > std::numeric_limits<Real>::epsilon() * std::numeric_limits<Real>::epsilon())
+    {
+        x = (half >= 0 ? large : uw) / norm;
+        y = (half >= 0 ? uw : large) / norm;
+    }
+    const Real mean = Real(0.5) * (uu + ww);
+    return {mean + radius, mean - radius, x * u + y * w, x * w - y * u};
+}
+
+/// Eigen-decomposition of a symmetric 3 x 3 tensor without iteration over rotations: the most isolated principal value
+/// first, from the characteristic cubic of the deviator, where its root is simple; its axis; then the plane problem,
+/// which is exact for close and equal values (Scherzinger and Dohrmann 2008, Comput. Methods Appl. Mech. Eng.
+/// 197:4007). A deviator whose square underflows counts as zero. NaN in, NaN out.
+template<class Real>
+TREAD_HD SymmetricEigen<Real> symmetric_eigen(const Sym3<Real>& tensor)
+{
+    // Twice: the first difference of an almost spherical tensor has a trace as large as itself, from rounding.
+    const Real rounded  = (tensor[0] + tensor[1] + tensor[2]) / Real(3);
+    Sym3<Real> deviator = tensor;
+    for (int i = 0; i < 3; ++i) { deviator[i] -= rounded; }
+    const Real rest = (deviator[0] + deviator[1] + deviator[2]) / Real(3), mean = rounded + rest;
+    for (int i = 0; i < 3; ++i) { deviator[i] -= rest; }
+    Real third_j2 = 0; // J2/3
+    for (int i = 0; i < 3; ++i)
+    {
+        third_j2 += deviator[i] * deviator[i] / Real(6) + deviator[3 + i] * deviator[3 + i] / Real(3);
+    }
+    if (third_j2 <= std::numeric_limits<Real>::min()) { return {Vec3<Real>::Constant(mean), Mat3<Real>::Identity()}; }
+
+    const Real       size = std::sqrt(third_j2);
+    const Sym3<Real> s    = deviator / size;
+    const Real       determinant =
+        s[0] * (s[1] * s[2] - s[3] * s[3]) - s[5] * (s[5] * s[2] - s[3] * s[4]) + s[4] * (s[5] * s[3] - s[1] * s[4]);
+    const Real r        = Real(0.5) * std::abs(determinant);
+    const Real root     = std::copysign(isolated_root(r > Real(1) ? Real(1) : r), determinant);
+    Sym3<Real> singular = s;
+    for (int i = 0; i < 3; ++i) { singular[i] -= root; }
+    const Vec3<Real>       axis  = null_vector(singular);
+    const PlaneEigen<Real> plane = plane_eigen(s, axis);
+
+    SymmetricEigen<Real> eigen;
+    const Real           isolated = mean + size * root, high = mean + size * plane.high, low = mean + size * plane.low;
+    if (root > 0)
+    {
+        eigen.values << isolated, high, low;
+        eigen.axes << axis, plane.high_axis, plane.low_axis;
+    }
+    else
+    {
+        eigen.values << high, low, isolated;
+        eigen.axes << plane.high_axis, plane.low_axis, axis;
+    }
+    return eigen;
+}
+
+/// Sum of values[i] axes_i axes_i^T. The mean is added apart, so that the axes' rounding acts on the deviator alone.
+template<class Real>
+TREAD_HD Sym3<Real> from_principal(const Vec3<Real>& values, const Mat3<Real>& axes)
+{
+    const Real       mean = values.sum() / Real(3);
+    const Mat3<Real> m    = axes * Vec3<Real>(values.array() - mean).asDiagonal() * axes.transpose();
+    Sym3<Real>       tensor;
+    tensor << mean + m(0, 0), mean + m(1, 1), mean + m(2, 2), m(1, 2), m(0, 2), m(0, 1);
+    return tensor;
+}
+
+} // namespace tread::mpm

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "base/random.hpp"
+#include "kernels/mpm/law_kern.hpp"
+
+// What the tests of the laws share.
+namespace tread::test
+{
+
+/// Prints and checks one number of a law against its closed form.
+inline void expect_law(const std::string& what, double measured, double expected, double tolerance, const char* why)
+{
+    std::printf("  %-46s measured %.9g expected %.9g tolerance %.2g (%s)\n", what.c_str(), measured, expected,
+                tolerance, why);
+    EXPECT_NEAR(measured, expected, tolerance) << what;
+}
+
+/// Prints and checks the largest of many errors.
+inline void expect_below(const std::string& what, double measured, double limit, const char* why)
+{
+    std::printf("  %-46s measured %.3g limit %.3g (%s)\n", what.c_str(), measured, limit, why);
+    EXPECT_LE(measured, limit) << what;
+}
+
+inline Mat3<double> random_rotation(Random& random)
+{
+    const Vec3<double> axis(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    return Eigen::AngleAxisd(random.uniform(0, 3.14), axis.normalized()).toRotationMatrix();
+}
+
+inline Sym3<double> symmetric(const Mat3<double>& m)
+{
+    Sym3<double> s;
+    s << m(0, 0), m(1, 1), m(2, 2), m(1, 2), m(0, 2), m(0, 1);
+    return s;
+}
+
+inline Sym3<double> diagonal(double xx, double yy, double zz)
+{
+    Sym3<double> s;
+    s << xx, yy, zz, 0, 0, 0;
+    return s;
+}
+
+/// A point of sand that is strained without spin.
+struct Element
+{
+    mpm::MaterialParameters<double> material;
+    Sym3<double>                    stress = Sym3<double>::Zero();
+    mpm::PlasticState<double>       state{};
+    double                          plastic_work = 0; ///< J/m3
+
+    /// Strains by the increment, tensor components.
+    void strain(const Sym3<double>& increment)
+    {
+        const auto update = mpm::update_stress(material, stress, state, mpm::full_matrix(increment), 1.0);
+        stress            = update.stress;
+        state             = update.state;
+        plastic_work += update.plastic_work;
+    }
+
+    /// Strains by `increment` + x `free`, x in [-reach, reach] such that stress component `held` keeps `value`. Gives
+    /// x.
+    double strain_holding(const Sym3<double>& increment, const Sym3<double>& free, int held, double value, double reach)
+    {
+        double low = -reach, high = reach;
+        for (int bisection = 0; bisection < 80; ++bisection)
+        {
+            const double middle = 0.5 * (low + high);
+            Element      copy   = *this;
+            copy.strain(increment + middle * free);
+            (copy.stress[held] > value ? high : low) = middle;
+        }
+        strain(increment + low * free);
+        return low;
+    }
+};
+
+} // namespace tread::test
