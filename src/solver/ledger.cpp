@@ -24,9 +24,11 @@ Ledger::Ledger(Vec3<double> gravity, const Census& start)
 
 double Ledger::stored(const Census& now) const
 {
-    return now.sand.kinetic + now.sand.strain + now.rigid.kinetic + now.rigid.contact + now.sand_contact -
-           gravity_.dot(now.sand.moment + now.rigid.moment);
+    return now.sand.kinetic + now.sand.strain + now.rigid.kinetic + now.rigid.contact + now.sand_contact +
+           gravity_energy(now);
 }
+
+double Ledger::gravity_energy(const Census& now) const { return now.rigid.gravity - gravity_.dot(now.sand.moment); }
 
 void Ledger::step(double dt, const SandReport& sand, const RigidReport& rigid, double contact_friction,
                   double moving_mass)
@@ -52,7 +54,7 @@ EnergyRow Ledger::energy(const Census& now)
     row.strain         = now.sand.strain;
     row.kinetic_bodies = now.rigid.kinetic;
     row.contact        = now.rigid.contact + now.sand_contact;
-    row.gravity        = -gravity_.dot(now.sand.moment + now.rigid.moment);
+    row.gravity        = gravity_energy(now);
     row.plastic        = plastic_;
     row.friction       = friction_;
     row.restitution    = restitution_;
@@ -61,7 +63,7 @@ EnergyRow Ledger::energy(const Census& now)
     row.work_in        = work_in_;
     row.total          = stored(now) + plastic_ + friction_ + restitution_ + damping_ + transfer_ - work_in_;
 
-    const double fallen = gravity_.dot(now.sand.moment + now.rigid.moment - start_.sand.moment - start_.rigid.moment);
+    const double fallen = gravity_energy(start_) - row.gravity;
     for (const double exchange :
          {row.kinetic_points, row.kinetic_bodies, fallen, plastic_, friction_, damping_, work_in_, row.strain})
     {

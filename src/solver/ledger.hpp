@@ -28,8 +28,8 @@ struct RigidCensus
     double       mass     = 0; ///< kg
     double       kinetic  = 0; ///< J, translation and rotation
     double       contact  = 0; ///< J, elastic, body-body and body-wall
+    double       gravity  = 0; ///< J, -m g . x
     Vec3<double> momentum = Vec3<double>::Zero(); ///< kg m/s
-    Vec3<double> moment   = Vec3<double>::Zero(); ///< kg m
 };
 
 /// Everything that the balances of a time need.
@@ -70,6 +70,7 @@ public:
     io::ErrorReport errors() const { return errors_; }
 
 private:
+    double gravity_energy(const Census& now) const;
     double stored(const Census& now) const;
 
     Vec3<double>    gravity_;

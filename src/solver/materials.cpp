@@ -51,6 +51,23 @@ double hertz_factor(scene::HertzFactor factor)
     return factor == scene::HertzFactor::standard ? 1.0 : 1.0 / std::numbers::sqrt2;
 }
 
+template<class Real>
+std::vector<mpm::MaterialParameters<Real>> law_parameters(const scene::Scene& scene)
+{
+    std::vector<mpm::MaterialParameters<Real>> parameters;
+    for (const scene::Material& m : scene.materials)
+    {
+        const auto law = m.model == scene::MaterialModel::mohr_coulomb ? mpm::LawKind::mohr_coulomb
+                                                                       : mpm::LawKind::elastic;
+        parameters.push_back(mpm::make_parameters<Real>(m.young, m.poisson, m.density, m.friction_angle_deg,
+                                                        m.dilation_angle_deg, m.cohesion, law));
+    }
+    return parameters;
+}
+
+template std::vector<mpm::MaterialParameters<float>>  law_parameters(const scene::Scene&);
+template std::vector<mpm::MaterialParameters<double>> law_parameters(const scene::Scene&);
+
 double damping_ratio(double restitution)
 {
     const auto gives = [](double zeta)

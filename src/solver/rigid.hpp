@@ -1,11 +1,17 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "io/snapshot.hpp"
 #include "kernels/dem/bodies.hpp"
+#include "kernels/dem/impulses.hpp"
+#include "kernels/dem/pairs.hpp"
+#include "kernels/dem/totals.hpp"
 #include "solver/device_templates.hpp"
 #include "solver/ledger.hpp"
 #include "solver/phases.hpp"
+#include "solver/plan.hpp"
 #include "solver/recorder.hpp"
 #include "solver/world.hpp"
 
@@ -17,8 +23,67 @@ template<class Exec>
 class Rigid
 {
 public:
-    Rigid(const Exec& exec, const scene::Scene& scene, const World& world);
-    ~Rigid();
+    Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan);
+
+    dem::BodiesView          view() { return bodies_.view(); }
+    const dem::TemplateView* templates() const { return templates_.views(); }
+    dem::PairTable           pair_table() const { return law_.pairs; }
+
+    /// Total mass, kg.
+    double mass() const { return mass_; }
+
+    /// For messages: a named body's name, or "rock 17".
+    std::string name(std::int64_t body) const;
+
+    /// Sets what the named bodies are held or driven to. A body that is freed for the first time starts with its
+    /// scene's velocity.
+    void command(const std::vector<BodyCommand>& commands);
+
+    /// 2. Pairs of bodies, and of bodies and walls, that may touch in the step.
+    void find_pairs(double dt);
+
+    // 3. A substep.
+    void clear_wrenches();
+    void contact(double dt);
+    void move(double dt, double damping);
+
+    /// Of the step; waits for it. NumericalError when a contact is deeper than the law can carry, or a body is not at a
+    /// finite place: `time` (s) is for that message.
+    RigidReport report(double time);
+
+    RigidCensus          census();
+    std::vector<BodyRow> named_bodies();
+    void                 begin_mean();
+    io::BodyFields       fields() const;
+
+private:
+    void upload(const World& world);
+    void take_totals(RigidReport& report);
+    void guard(double time);
+
+    Exec                               exec_;
+    const scene::Scene&                scene_;
+    const World&                       world_;
+    Vec3<double>                       gravity_;
+    double                             mass_ = 0;
+    std::int64_t                       named_;
+    bool                               contacts_; ///< some body may meet another or a wall
+    DeviceTemplates<Exec>              templates_;
+    dem::Bodies<Exec>                  bodies_;
+    dem::Pairs<Exec>                   pairs_;
+    Array<Exec, dem::PairProperties>   properties_;
+    Array<Exec, dem::Plane>            planes_;
+    dem::BodyTotals<Exec>              totals_;
+    Array<Exec, dem::ContactImpulse>   impulses_; ///< of the named bodies, since begin_mean()
+    Array<Exec, double>                bounding_radii_;
+    Array<Exec, dem::BodyActivity>     activity_;
+    Array<Exec, double>                sums_;
+    dem::BodyLaw                       law_{};
+    std::vector<bool>                  released_; ///< named bodies that were free once
+    double                             mean_time_      = 0; ///< s, since begin_mean()
+    double                             command_work_   = 0; ///< J, of commands since the last report
+    Vec3<double>                       command_impulse_ = Vec3<double>::Zero();
+    dem::BodyTotal                     taken_{}; ///< totals at the last report
 };
 
 } // namespace tread::solver

@@ -12,6 +12,10 @@ namespace
 /// Lighter nodes stand still: this share of the lightest point's mass is far below what moves anything.
 constexpr double mass_floor_share = 1e-7;
 
+/// Room for a census, or for the sums and peaks of a step.
+constexpr std::int64_t totals_size =
+    std::int64_t{mpm::census_count} + std::int64_t{mpm::grid_sums} + std::int64_t{mpm::point_sums} + std::int64_t{mpm::point_peaks};
+
 template<class Real>
 std::vector<Real> cast(const std::vector<double>& values)
 {
@@ -68,7 +72,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     , point_rows_(exec, "point sums")
     , peak_rows_(exec, "point peaks")
     , census_rows_(exec, "point census")
-    , totals_(exec, "sand totals", mpm::census_count + mpm::grid_sums + mpm::point_sums + mpm::point_peaks)
+    , totals_(exec, "sand totals", totals_size)
     , materials_(exec, "materials")
     , pic_rates_(exec, "pic rates")
 {

@@ -76,7 +76,6 @@ template<class Exec, class Real>
 void Simulation<Exec, Real>::substeps(const TimeStep& step, StageClock& clock)
 {
     const double dt = step.dt / static_cast<double>(step.substeps);
-    rigid_->begin_step();
     for (std::int64_t substep = 0; substep < step.substeps; ++substep)
     {
         rigid_->clear_wrenches();
@@ -90,7 +89,7 @@ template<class Exec, class Real>
 void Simulation<Exec, Real>::measure(const TimeStep& step, double time)
 {
     const SandReport  sand  = sand_ ? sand_->report() : SandReport{};
-    const RigidReport rigid = rigid_ ? rigid_->report(step.dt, time) : RigidReport{};
+    const RigidReport rigid = rigid_ ? rigid_->report(time) : RigidReport{};
     if (sand.peaks[mpm::peak_moved] >= 2)
     {
         throw NumericalError(fmt::format("t = {:.6g} s: a point of the sand has a velocity or stress that is not a number "

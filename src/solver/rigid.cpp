@@ -1,0 +1,307 @@
+#include "solver/rigid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "backend/reduce.hpp"
+#include "base/errors.hpp"
+#include "kernels/dem/body_contact.hpp"
+#include "kernels/dem/contact_limits.hpp"
+#include "kernels/dem/integrate.hpp"
+#include "kernels/dem/sums.hpp"
+#include "solver/materials.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+constexpr double deepest_overlap = 0.5; ///< of a radius: beyond it a contact's direction means nothing
+
+std::vector<double> bounding_radii(const World& world)
+{
+    std::vector<double> radii;
+    for (std::size_t b = 0; b < world.bodies.size(); ++b)
+    {
+        const auto shape = static_cast<std::size_t>(world.bodies.shape[b]);
+        radii.push_back(world.templates[shape].bounding_radius * world.bodies.scale[b]);
+    }
+    return radii;
+}
+
+template<class T>
+std::vector<double> rows(const std::vector<T>& vectors)
+{
+    std::vector<double> out;
+    for (const T& v : vectors) { out.insert(out.end(), v.data(), v.data() + v.size()); }
+    return out;
+}
+
+} // namespace
+
+template<class Exec>
+Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan)
+    : exec_(exec)
+    , scene_(scene)
+    , world_(world)
+    , gravity_(scene.domain.gravity.data())
+    , named_(world.bodies.named)
+    , contacts_(plan.body_contact)
+    , templates_(exec, world.templates)
+    , bodies_(exec)
+    , pairs_(exec)
+    , properties_(exec, "pair properties")
+    , planes_(exec, "walls")
+    , totals_(exec, "body totals")
+    , impulses_(exec, "contact impulses")
+    , bounding_radii_(exec, "body bounding radii")
+    , activity_(exec, "body activity")
+    , sums_(exec, "body sums", dem::body_total_width)
+    , released_(static_cast<std::size_t>(named_), false)
+{
+    upload(world);
+    properties_.assign(pair_properties(scene));
+    planes_.assign(world.planes);
+    law_ = {templates_.views(),
+            {properties_.data(), static_cast<std::int32_t>(scene.materials.size() + 1)},
+            planes_.data(),
+            static_cast<std::int32_t>(world.planes.size()),
+            {hertz_factor(scene.numerics.hertz), scene.numerics.linear_overlap}};
+    const auto count = static_cast<std::int64_t>(world.bodies.size());
+    totals_.resize(count);
+    totals_.fill_zero();
+    activity_.resize(count);
+    bounding_radii_.assign(bounding_radii(world));
+    impulses_.resize(named_);
+    if (contacts_) { dem::classify_bodies(exec_, pairs_, bodies_.view(), templates_.views()); }
+    dem::clear_wrenches(exec_, bodies_.view());
+    begin_mean();
+}
+
+template<class Exec>
+void Rigid<Exec>::upload(const World& world)
+{
+    const HostBodies&          host = world.bodies;
+    const std::size_t          n    = host.size();
+    std::vector<Mat3<double>>  inertia, inverse;
+    std::vector<std::uint32_t> locked(n, 0);
+    std::vector<std::int32_t>  damped(n, 1);
+    for (std::size_t b = 0; b < n; ++b)
+    {
+        const auto& unit = world.templates[static_cast<std::size_t>(host.shape[b])].unit;
+        // At scale s a mass m has the inertia of density m / (s^3 V): m / V times s^2 times that of density 1.
+        inertia.push_back(unit.inertia * (host.mass[b] / unit.volume * host.scale[b] * host.scale[b]));
+        inverse.push_back(inertia.back().inverse());
+        mass_ += host.mass[b];
+        if (b < static_cast<std::size_t>(named_))
+        {
+            locked[b] = dem::lock_all;
+            damped[b] = 0;
+        }
+    }
+    bodies_.position.assign(host.position);
+    bodies_.orientation.assign(host.orientation);
+    bodies_.velocity.assign(std::vector<Vec3<double>>(n, Vec3<double>::Zero()));
+    bodies_.angular_velocity.assign(std::vector<Vec3<double>>(n, Vec3<double>::Zero()));
+    bodies_.mass.assign(host.mass);
+    bodies_.inertia.assign(inertia);
+    bodies_.inverse_inertia.assign(inverse);
+    bodies_.scale.assign(host.scale);
+    bodies_.shape.assign(host.shape);
+    bodies_.material.assign(host.material);
+    bodies_.locked.assign(locked);
+    bodies_.damped.assign(damped);
+    const auto count = static_cast<std::int64_t>(n);
+    bodies_.force.resize(count);
+    bodies_.torque.resize(count);
+    bodies_.stiffness.resize(count);
+}
+
+template<class Exec>
+std::string Rigid<Exec>::name(std::int64_t body) const
+{
+    return body < named_ ? "'" + scene_.bodies[static_cast<std::size_t>(body)].name + "'"
+                         : fmt::format("rock {}", body - named_);
+}
+
+template<class Exec>
+void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
+{
+    for (std::size_t b = 0; b < commands.size(); ++b)
+    {
+        const BodyCommand&  command = commands[b];
+        Vec3<double>        velocity = read(exec_, bodies_.velocity.data() + b);
+        Vec3<double>        spin     = read(exec_, bodies_.angular_velocity.data() + b);
+        const std::uint32_t locked   = read(exec_, bodies_.locked.data() + b);
+        const Vec3<double>  velocity_before = velocity, spin_before = spin;
+        const Mat3<double>  rotation = read(exec_, bodies_.orientation.data() + b).toRotationMatrix();
+        const bool          held     = command.locked == dem::lock_all;
+        if (held) { velocity.setZero(); }
+        else if (!released_[b])
+        {
+            velocity     = world_.bodies.velocity[b];
+            released_[b] = true;
+        }
+        for (int c = 0; c < 3; ++c)
+        {
+            if ((command.locked & (static_cast<unsigned>(dem::lock_x) << c)) != 0) { velocity[c] = 0; }
+            if ((command.locked & (static_cast<unsigned>(dem::lock_roll) << c)) != 0) { spin[c] = 0; }
+        }
+        const auto& form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[b])];
+        if (command.spin) { spin = *command.spin * (rotation * Vec3<double>::UnitY()); }
+        if (command.forward) { velocity[0] = *command.forward * rolling_radius(scene_.bodies[b], form); }
+        if (velocity == velocity_before && spin == spin_before && locked == command.locked) { continue; }
+
+        const Mat3<double> inertia = rotation * read(exec_, bodies_.inertia.data() + b) * rotation.transpose();
+        const double       mass    = world_.bodies.mass[b];
+        command_impulse_ += mass * (velocity - velocity_before);
+        command_work_ += 0.5 * mass * (velocity.squaredNorm() - velocity_before.squaredNorm()) +
+                         0.5 * (spin.dot(inertia * spin) - spin_before.dot(inertia * spin_before));
+        copy_from_host(exec_, bodies_.velocity.data() + b, &velocity, sizeof(velocity));
+        copy_from_host(exec_, bodies_.angular_velocity.data() + b, &spin, sizeof(spin));
+        copy_from_host(exec_, bodies_.locked.data() + b, &command.locked, sizeof(command.locked));
+    }
+}
+
+template<class Exec>
+void Rigid<Exec>::find_pairs(double dt)
+{
+    dem::find_pairs(exec_, pairs_, bodies_.view(), law_, dt);
+    dem::expect_contacts(exec_, pairs_, bodies_.view(), law_);
+}
+
+template<class Exec>
+void Rigid<Exec>::clear_wrenches()
+{
+    dem::clear_wrenches(exec_, bodies_.view());
+}
+
+template<class Exec>
+void Rigid<Exec>::contact(double dt)
+{
+    dem::add_body_contacts(exec_, pairs_, bodies_.view(), law_, totals_.data(), dt);
+}
+
+template<class Exec>
+void Rigid<Exec>::move(double dt, double damping)
+{
+    if (named_ > 0) { dem::add_impulses(exec_, bodies_.view(), impulses_.data(), named_, dt); }
+    mean_time_ += dt;
+    if (damping > 0) { dem::integrate_damped(exec_, bodies_.view(), totals_.data(), gravity_, damping, dt); }
+    else { dem::integrate(exec_, bodies_.view(), totals_.data(), gravity_, dt); }
+}
+
+template<class Exec>
+void Rigid<Exec>::guard(double time)
+{
+    const dem::Overlap worst = dem::largest_overlap(exec_, pairs_, bodies_.view(), law_);
+    if (worst.ratio <= deepest_overlap) { return; }
+    const bool wall = worst.second >= bodies_.position.size();
+    throw NumericalError(fmt::format("t = {:.6g} s: body {} overlaps {} by {:.3g} of its radius, over the {} that the contact "
+                                     "law can carry: stiffer bodies, or a smaller dt",
+                                     time, name(worst.first), wall ? "a wall" : name(worst.second), worst.ratio,
+                                     deepest_overlap));
+}
+
+template<class Exec>
+RigidReport Rigid<Exec>::report(double time)
+{
+    RigidReport report;
+    if (contacts_)
+    {
+        guard(time);
+        report.shortest_contact = dem::smallest_contact_time(exec_, pairs_, bodies_.view());
+    }
+    take_totals(report);
+    dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity_.data());
+    const double* activity = reinterpret_cast<const double*>(activity_.data());
+    double        values[2];
+    largest_of_rows(exec_, activity, activity_.size(), 2, sums_.data());
+    copy_to_host(exec_, values, sums_.data(), sizeof(values));
+    report.largest_speed = values[0];
+    sum_rows(exec_, activity, activity_.size(), 2, sums_.data());
+    copy_to_host(exec_, values, sums_.data(), sizeof(values));
+    report.net_force = values[1];
+    if (!std::isfinite(report.net_force) || !std::isfinite(values[0]))
+    {
+        throw NumericalError(fmt::format("t = {:.6g} s: a body's velocity or force is not a number", time));
+    }
+    return report;
+}
+
+template<class Exec>
+void Rigid<Exec>::take_totals(RigidReport& report)
+{
+    sum_rows(exec_, reinterpret_cast<const double*>(totals_.data()), totals_.size(), dem::body_total_width, sums_.data());
+    dem::BodyTotal now;
+    copy_to_host(exec_, &now, sums_.data(), sizeof(now));
+    report.wall_impulse    = now.wall_impulse - taken_.wall_impulse;
+    report.damping_impulse = now.damping_impulse - taken_.damping_impulse;
+    report.driver_impulse  = now.holding_impulse - taken_.holding_impulse + command_impulse_;
+    report.friction        = now.friction - taken_.friction;
+    report.restitution     = now.restitution - taken_.restitution;
+    report.damped          = now.damping - taken_.damping;
+    report.driver_work     = now.holding_work - taken_.holding_work + command_work_;
+    taken_                 = now;
+    command_impulse_.setZero();
+    command_work_ = 0;
+}
+
+template<class Exec>
+RigidCensus Rigid<Exec>::census()
+{
+    const dem::BodySums sums = dem::sum_bodies(exec_, pairs_, bodies_.view(), totals_, gravity_);
+    return {mass_, sums.kinetic, sums.contact, sums.potential, sums.momentum};
+}
+
+template<class Exec>
+std::vector<BodyRow> Rigid<Exec>::named_bodies()
+{
+    std::vector<BodyRow>             bodies;
+    const std::vector<Quat>          orientation = bodies_.orientation.to_host();
+    const std::vector<Vec3<double>>  position = bodies_.position.to_host(), velocity = bodies_.velocity.to_host(),
+                                     spin = bodies_.angular_velocity.to_host();
+    const std::vector<dem::ContactImpulse> impulses = impulses_.to_host();
+    for (std::size_t b = 0; b < static_cast<std::size_t>(named_); ++b)
+    {
+        const auto&        form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[b])];
+        const double       over = mean_time_ > 0 ? 1 / mean_time_ : 0;
+        const Vec3<double> axle = orientation[b] * Vec3<double>::UnitY();
+        const double       drop = form.is_wheel ? form.wheel.radius : form.bounding_radius;
+        bodies.push_back({position[b], velocity[b], spin[b], over * impulses[b].linear, over * impulses[b].angular, axle,
+                          position[b][2] - drop});
+    }
+    return bodies;
+}
+
+template<class Exec>
+void Rigid<Exec>::begin_mean()
+{
+    impulses_.fill_zero();
+    mean_time_ = 0;
+}
+
+template<class Exec>
+io::BodyFields Rigid<Exec>::fields() const
+{
+    io::BodyFields fields;
+    fields.position = rows(bodies_.position.to_host());
+    for (const Quat& q : bodies_.orientation.to_host())
+    {
+        for (const double value : {q.w(), q.x(), q.y(), q.z()}) { fields.orientation.push_back(value); }
+    }
+    fields.velocity         = rows(bodies_.velocity.to_host());
+    fields.angular_velocity = rows(bodies_.angular_velocity.to_host());
+    fields.scale            = bodies_.scale.to_host();
+    fields.shape            = bodies_.shape.to_host();
+    return fields;
+}
+
+template class Rigid<Cpu>;
+#ifdef TREAD_WITH_CUDA
+template class Rigid<Gpu>;
+#endif
+
+} // namespace tread::solver
