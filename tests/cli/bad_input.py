@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+"""Every way to ask for the impossible: exit code 2 or 4, a message that helps, and no file written."""
+
+import re
+import shutil
+import struct
+import unittest
+
+from command import BODY, SCENE, CommandTest, line_of
+
+
+class GoodScene(CommandTest):
+    """What the cases below spoil is right as it stands."""
+
+    def test_base_is_valid(self):
+        for text in (SCENE, SCENE + BODY):
+            result = self.tread("check", self.write("scene.toml", text))
+            self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_mesh_is_valid(self):
+        (self.directory / "mesh.stl").write_bytes(binary_stl(cube(0.1)))
+        result = self.tread("check", self.write("scene.toml", with_mesh("mesh.stl")))
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+
+class BadScene(CommandTest):
+    """Each case spoils one line of a valid scene; exit 2, and the message names file, line and key."""
+
+    def refuse(self, text, mentions, code=2):
+        scene = self.write("scene.toml", text)
+        before = self.files()
+        result = self.tread("run", scene, "--output", self.output)
+        self.assertEqual(result.returncode, code, result.stderr)
+        for part in mentions:
+            self.assertIn(part, result.stderr)
+        self.assertEqual(self.files(), before, "files were written")
+        return result.stderr
+
+    def refuse_value(self, old, new, mentions, text=SCENE):
+        self.assertIn(old, text)
+        spoiled = text.replace(old, new, 1)
+        return self.refuse(spoiled, [f"scene.toml:{line_of(spoiled, new)}", *mentions])
+
+    def test_malformed_toml(self):
+        self.refuse_value("spacing = 0.05", "spacing = = 0.05", [])
+
+    def test_wrong_type(self):
+        self.refuse_value("spacing = 0.05", 'spacing = "coarse"', ["spacing", "number"])
+
+    def test_not_a_number(self):
+        self.refuse_value("young              = 1.0e6", "young              = nan", ["young"])
+
+    def test_negative_density(self):
+        self.refuse_value("density            = 1600.0", "density            = -1600.0", ["density", "> 0"])
+
+    def test_incompressible(self):
+        self.refuse_value("poisson            = 0.3", "poisson            = 0.5", ["poisson", "0.5"])
+
+    def test_dilation_above_friction(self):
+        self.refuse_value("dilation_angle_deg = 0.0", "dilation_angle_deg = 31.0", ["dilation_angle_deg", "30"])
+
+    def test_misspelt_key(self):
+        self.refuse_value("cohesion           = 0.0", "cohession          = 0.0", ["cohession", "cohesion"])
+
+    def test_body_outside_the_domain(self):
+        self.refuse_value("[0.2, 0.2, 0.3]", "[0.2, 0.2, 1.3]", ["position"], SCENE + BODY)
+
+    def test_body_that_reaches_through_a_wall(self):
+        self.refuse((SCENE + BODY).replace("[0.2, 0.2, 0.3]", "[0.399, 0.2, 0.3]"), ["roller", "position"])
+
+    def test_every_error_at_once(self):
+        text = SCENE.replace("spacing = 0.05", "spacing = -1").replace("duration = 0.02", "duration = -2")
+        self.refuse(text, ["spacing", "duration"])
+
+    def test_override_names_itself(self):
+        scene = self.write("scene.toml", SCENE)
+        result = self.tread("run", scene, "--output", self.output, "--set", "material.sand.densitty=1")
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("--set", result.stderr)
+        self.assertIn("densitty", result.stderr)
+        self.assertEqual(self.files(), ["scene.toml"])
+
+
+class BadMesh(CommandTest):
+    """Meshes are read before the run directory is made."""
+
+    def refuse(self, mesh, mentions):
+        (self.directory / "mesh.stl").write_bytes(mesh)
+        scene = self.write("scene.toml", with_mesh("mesh.stl"))
+        result = self.tread("run", scene, "--output", self.output)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        for part in mentions:
+            self.assertIn(part, result.stderr)
+        self.assertEqual(self.files(), ["mesh.stl", "scene.toml"], "files were written")
+
+    def test_no_triangles(self):
+        self.refuse(binary_stl([]), ["mesh.stl", "no triangles"])
+
+    def test_truncated(self):
+        self.refuse(binary_stl(cube(0.1))[:-7], ["mesh.stl"])
+
+    def test_open_surface(self):
+        self.refuse(binary_stl(cube(0.1)[:-1]), ["mesh.stl"])
+
+    def test_millimetres_read_as_metres(self):
+        self.refuse(binary_stl(cube(100.0)), ["roller", "unit"])
+
+    def test_missing_mesh(self):
+        scene = self.write("scene.toml", with_mesh("nowhere.stl"))
+        result = self.tread("run", scene, "--output", self.output)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("nowhere.stl", result.stderr)
+        self.assertEqual(self.files(), ["scene.toml"])
+
+
+class BadPlace(CommandTest):
+    """The scene is right; where it should run is not."""
+
+    def run_into(self, output, *more):
+        scene = self.write("scene.toml", SCENE)
+        return self.tread("run", scene, "--output", output, *more)
+
+    def test_missing_scene(self):
+        result = self.tread("run", self.directory / "nowhere.toml", "--output", self.output)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("nowhere.toml", result.stderr)
+        self.assertEqual(self.files(), [])
+
+    def test_output_below_a_file(self):
+        (self.directory / "taken").write_text("a file\n")
+        result = self.run_into(self.directory / "taken" / "run")
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertIn("taken/run", result.stderr)
+        self.assertEqual(self.files(), ["scene.toml", "taken"])
+
+    def test_output_that_nobody_can_write(self):
+        # /proc refuses new directories to root too, whom permissions do not stop
+        result = self.run_into("/proc/tread/run")
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertIn("/proc/tread", result.stderr)
+        self.assertEqual(self.files(), ["scene.toml"])
+
+    def test_run_that_is_there_already(self):
+        self.output.mkdir()
+        (self.output / "scene.toml").write_text("of an earlier run\n")
+        result = self.run_into(self.output)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("--overwrite", result.stderr)
+        self.assertIn(str(self.output), result.stderr)
+        self.assertEqual((self.output / "scene.toml").read_text(), "of an earlier run\n")
+        self.assertEqual(self.files(), ["run", "run/scene.toml", "scene.toml"])
+
+
+class BadLaunch(CommandTest):
+    """How the program was started."""
+
+    def test_two_ranks(self):
+        scene = self.write("scene.toml", SCENE)
+        launcher = (shutil.which("mpirun"), "--allow-run-as-root", "--oversubscribe", "-n", "2")
+        result = self.tread("run", scene, "--output", self.output, launcher=launcher)
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertIn("2 MPI ranks", result.stderr)
+        self.assertEqual(self.files(), ["scene.toml"])
+
+    def test_tasks_that_mpi_does_not_know(self):
+        scene = self.write("scene.toml", SCENE)
+        launcher = ("env", "SLURM_STEP_NUM_TASKS=4")
+        result = self.tread("run", scene, "--output", self.output, launcher=launcher)
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertIn("--mpi=pmix", result.stderr)
+        self.assertEqual(self.files(), ["scene.toml"])
+
+    def test_arguments(self):
+        for arguments in (["frobnicate"], ["run"], ["run", "a.toml", "--bogus"], ["run", "a.toml", "--backend", "tpu"],
+                          ["run", "a.toml", "--threads", "0"], []):
+            with self.subTest(arguments):
+                result = self.tread(*arguments)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertIn("--help", result.stderr)
+        self.assertEqual(self.files(), [])
+
+
+def with_mesh(name):
+    """The scene with a body whose shape is a mesh file."""
+    return re.sub("^generate .*$", f'file = "{name}"', SCENE + BODY, flags=re.MULTILINE)
+
+
+def cube(edge):
+    """Twelve triangles, counter-clockwise from outside."""
+    corners = [(x * edge, y * edge, z * edge) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    return [tuple(corners[i] for i in triangle) for a, b, c, d in quads for triangle in ((a, b, c), (a, c, d))]
+
+
+def binary_stl(triangles):
+    data = b" " * 80 + struct.pack("<I", len(triangles))
+    for triangle in triangles:
+        data += struct.pack("<12fH", 0, 0, 0, *(value for corner in triangle for value in corner), 0)
+    return data
+
+
+if __name__ == "__main__":
+    unittest.main()

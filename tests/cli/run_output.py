@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""What a run leaves behind, read the way users read it: h5py, VTK, JSON; and that its scene runs again."""
+
+import json
+import unittest
+
+import h5py
+import vtk
+
+from command import BODY, SCENE, CommandTest
+
+
+def datasets(file):
+    found = {}
+    file.visititems(lambda name, item: found.update({name: item}) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+class RunOutput(CommandTest):
+    def setUp(self):
+        super().setUp()
+        scene = self.write("scene.toml", SCENE + BODY)
+        result = self.tread("run", scene, "--output", self.output, "--backend", "cpu")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_run_directory(self):
+        self.check_summary()
+        self.check_time_series()
+        self.check_snapshots()
+        self.check_resolved_scene_runs_to_the_same_result()
+
+    def check_summary(self):
+        summary = json.loads((self.output / "summary.json").read_text())
+        self.assertEqual((summary["status"], summary["exit_code"]), ("finished", 0))
+        self.assertEqual(summary["points"], 8 * 8 * 2 * 8)
+        self.assertEqual(summary["bodies"], 1)
+        self.assertGreaterEqual(summary["time"], 0.02)
+        self.assertTrue((self.output / "log.txt").read_text())
+
+    def check_time_series(self):
+        with h5py.File(self.output / "timeseries.h5", "r") as file:
+            found = datasets(file)
+            self.assertTrue(any(name.endswith("/time") for name in found))
+            for name, dataset in found.items():
+                self.assertIn("units", dataset.attrs, name)
+                self.assertEqual(len(dataset), len(file[name.rsplit("/", 1)[0] + "/time"]), name)
+        info = self.tread("info", self.output / "timeseries.h5")
+        self.assertIn("units = s", info.stdout)
+
+    def check_snapshots(self):
+        snapshots = self.output / "snapshots"
+        series = json.loads((snapshots / "points.hdf.series").read_text())["files"]
+        self.assertGreaterEqual(len(series), 2)
+        for entry in series:
+            reader = vtk.vtkHDFReader()
+            reader.SetFileName(str(snapshots / entry["name"]))
+            reader.Update()
+            grid = reader.GetOutput()
+            self.assertEqual(grid.GetNumberOfPoints(), 8 * 8 * 2 * 8)
+            self.assertEqual(grid.GetNumberOfCells(), grid.GetNumberOfPoints())
+            self.assertEqual(grid.GetPointData().GetArray("velocity").GetNumberOfComponents(), 3)
+            self.assertEqual(grid.GetPointData().GetArray("stress").GetNumberOfComponents(), 6)
+        with h5py.File(snapshots / "bodies_0000.h5", "r") as bodies, h5py.File(snapshots / "shapes.h5", "r") as shapes:
+            self.assertEqual(bodies["orientation"].shape, (1, 4))
+            self.assertEqual(shapes[str(bodies["shape"][0])].attrs["name"], "roller")
+
+    def check_resolved_scene_runs_to_the_same_result(self):
+        again = self.directory / "again"
+        result = self.tread("run", self.output / "scene.toml", "--output", again, "--backend", "cpu", "--quiet")
+        self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
+        self.assertEqual((again / "scene.toml").read_text(), (self.output / "scene.toml").read_text())
+        with h5py.File(self.output / "timeseries.h5", "r") as first, h5py.File(again / "timeseries.h5", "r") as second:
+            ours, theirs = datasets(first), datasets(second)
+            self.assertEqual(ours.keys(), theirs.keys())
+            for name, dataset in ours.items():
+                self.assertEqual(dataset[:].tobytes(), theirs[name][:].tobytes(), name)
+
+
+if __name__ == "__main__":
+    unittest.main()
