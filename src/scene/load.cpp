@@ -45,21 +45,14 @@ void read_member(const Node& document, const std::string& table, const Keys<T>& 
 Scene read_scene(const Node& document, Problems& problems)
 {
     Scene scene;
-    // At the top level a key may also be a table; what is neither is reported with all of them as suggestions.
-    Node top   = document;
-    auto known = scene_keys();
+    auto  known = names_of(scene_keys());
     for_each_table(
         [&](const std::string& table, const char*, auto member, const auto& keys)
         {
             read_member(document, table, keys, scene.*member, problems);
-            known.push_back({{table, "", "", "", "", ""},
-                             Presence::optional,
-                             [](const Scene&) { return true; },
-                             [](const Node&, const std::string&, Scene&, Problems&) {},
-                             [](const Scene&) { return std::string(); },
-                             {}});
+            known.push_back(table);
         });
-    read_table(top, "", known, scene, problems);
+    read_keys(document, "", scene_keys(), known, scene, problems);
     return scene;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <type_traits>
@@ -109,16 +110,16 @@ Key<T> optional(std::string name, std::string unit, M T::*member, Value<M> value
     return make_key<T>(Presence::optional, std::move(text), member, std::move(value));
 }
 
-template<class T>
-void check_unknown(const Node& node, const std::string& table, const Keys<T>& keys, Problems& problems)
+/// A problem for each member of a table that is not among `known`.
+inline void check_unknown(const Node& node, const std::string& table, const std::vector<std::string>& known,
+                          Problems& problems)
 {
-    const auto names = names_of(keys);
     for (const auto& [name, value] : std::get<NodeTable>(node.value))
     {
-        if (std::find(names.begin(), names.end(), name) == names.end())
+        if (std::find(known.begin(), known.end(), name) == known.end())
         {
-            problems.push_back({value.where, table, name, "unknown key" + suggestion(name, names),
-                                fmt::format("{}", fmt::join(names, ", "))});
+            problems.push_back({value.where, table, name, "unknown key" + suggestion(name, known),
+                                fmt::format("{}", fmt::join(known, ", "))});
         }
     }
 }
@@ -138,7 +139,26 @@ void check_presence(const Node& node, const std::string& table, const Key<T>& ke
     }
 }
 
-/// Fills `object` from a table; `table` names it in messages.
+/// Fills `object` from the members of a table that `keys` name; `known` adds to them what is read elsewhere.
+template<class T>
+void read_keys(const Node& node, const std::string& table, const Keys<T>& keys, const std::vector<std::string>& known,
+               T& object, Problems& problems)
+{
+    const auto before = problems.size();
+    check_unknown(node, table, known, problems);
+    for (const auto& key : keys)
+    {
+        if (const Node* value = find(node, key.text.name)) { key.read(*value, table, object, problems); }
+    }
+    // A key that could not be read, or was misspelt, leaves conditions that hang on it undecided.
+    const bool decided = problems.size() == before;
+    for (const auto& key : keys)
+    {
+        if (decided || key.text.condition.empty()) { check_presence(node, table, key, object, problems); }
+    }
+}
+
+/// Fills `object` from a table that holds `keys` and no others; `table` names it in messages.
 template<class T>
 void read_table(const Node& node, const std::string& table, const Keys<T>& keys, T& object, Problems& problems)
 {
@@ -147,18 +167,7 @@ void read_table(const Node& node, const std::string& table, const Keys<T>& keys,
         problems.push_back({node.where, table, "", "wrong type: " + kind_of(node), "table"});
         return;
     }
-    const auto before = problems.size();
-    check_unknown(node, table, keys, problems);
-    for (const auto& key : keys)
-    {
-        if (const Node* value = find(node, key.text.name)) { key.read(*value, table, object, problems); }
-    }
-    // A key that could not be read leaves conditions that hang on it undecided.
-    const bool decided = problems.size() == before;
-    for (const auto& key : keys)
-    {
-        if (decided || key.text.condition.empty()) { check_presence(node, table, key, object, problems); }
-    }
+    read_keys(node, table, keys, names_of(keys), object, problems);
 }
 
 /// The keys given, each `name = value`, joined by `separator`.

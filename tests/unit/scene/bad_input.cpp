@@ -40,6 +40,8 @@ TEST_P(BadInput, is_refused_with_file_line_and_key)
 const std::vector<BadCase> key_cases{
     {"unknown_key", "spacing = 0.05", "spacing = 0.05\nspacin = 1", 7,
      "[grid] spacin: unknown key; did you mean \"spacing\"?; accepted: spacing"},
+    {"misspelt_key_on_which_others_hang", "until = \"equi", "untill = \"equi", 52,
+     "[phase.settle] untill: unknown key"},
     {"unknown_table", "[grid]", "[checkpoint]\nkeep = 2\n[grid]", 5, " checkpoint: unknown key"},
     {"misspelt_table", "[grid]", "[numeric]\nhertz = \"standard\"\n[grid]", 5, "did you mean \"numerics\"?"},
     {"later_key_of_the_design", "[grid]", "[numerics]\nnarrow_phase = \"rays\"\n[grid]", 6,
