@@ -12,13 +12,12 @@ namespace tread::shape
 namespace
 {
 
-// Radii are over the grousers. The real skins of about 1 mm are far below any grid's reach, so each wall is thickened
-// inwards, where it changes neither the ground's view of the wheel nor the volume enclosed by the drum's outside much;
-// a body's mass is given apart from it. "Assumed" marks what no source gives. The cells resolve the thinnest feature by
-// about 1.3 to 1.5 cells; the SDF's volume is within 1 % of the mesh's (tests/unit/shape).
+// Radii are over the grousers. Real skins are about 1 mm thick, far below any grid's reach: walls are thickened
+// inwards, where the ground does not see them. "Assumed" marks what no source gives. With these cells the SDF encloses
+// the mesh's volume within 1 % (measured by the unit tests); the sizes are those of the SDF.
 std::vector<scene::Shape> builtin_wheels()
 {
-    // NASA's Perseverance wheel as the reference study has it: radius 0.26 m, volume 0.0058 m3, from which the wall
+    // As in the paper: radius 0.26 m and volume 0.0058 m3, from which the wall
     // follows; width 0.33 m from NASA/JPL's public m2020 robot description; 48 grousers (mars.nasa.gov). Grousers of
     // 12.5 x 4 mm: assumed. 21 MB.
     const scene::WheelGenerator perseverance{0.26, 0.33, 0.00996, 48, 0.0125, 0.004};

@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <map>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -37,11 +37,16 @@ double take_number(std::string_view& line, const LineReader& reader)
 
 std::string read_bytes(const std::string& path)
 {
+    std::error_code error;
+    const auto      size = std::filesystem::file_size(path, error);
+    if (error) { throw InputError(fmt::format("{}: the mesh cannot be read: {}", path, error.message())); }
+    if (size == 0) { throw InputError(fmt::format("{}: the mesh file is empty", path)); }
+    std::string   bytes(size, ' ');
     std::ifstream file(path, std::ios::binary);
-    if (!file) { throw InputError(fmt::format("{}: the mesh cannot be opened", path)); }
-    std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (file.bad()) { throw InputError(fmt::format("{}: the mesh cannot be read", path)); }
-    if (bytes.empty()) { throw InputError(fmt::format("{}: the mesh file is empty", path)); }
+    if (!file.read(bytes.data(), static_cast<std::streamsize>(size)))
+    {
+        throw InputError(fmt::format("{}: the mesh cannot be read", path));
+    }
     return bytes;
 }
 

@@ -116,7 +116,7 @@ double slab_volume(const SignedDistanceGrid& sdf, std::int32_t k)
 
 SignedDistanceGrid grid_over(const Bounds& box, int cells)
 {
-    constexpr int least = 12, most = 1024;
+    constexpr int least = 8, most = 1024;
     if (cells < least || cells > most)
     {
         throw InputError(fmt::format("sdf_cells = {}: accepted are {} to {}", cells, least, most));
@@ -129,7 +129,7 @@ SignedDistanceGrid grid_over(const Bounds& box, int cells)
     {
         const auto   a      = static_cast<Eigen::Index>(axis);
         const double length = std::max(1.2 * box.extent()[a], box.extent()[a] + 2 * sdf.spacing);
-        // The longest axis is a whole number of cells but for rounding, which must not add one.
+        // 120 % of the longest axis is a whole number of cells but for rounding, which must not add one.
         const auto across = static_cast<std::int32_t>(std::ceil(length / sdf.spacing - 1e-6));
         sdf.nodes[axis]   = across + 1;
         sdf.origin[a]     = middle[a] - 0.5 * sdf.spacing * across;

@@ -12,7 +12,8 @@ namespace tread::shape
 {
 
 /// The nodes over 120 % of `box` about its middle, `cells` cubic cells along the longest axis, values still to be set.
-/// Short axes keep at least one cell on each side of the box. Throws InputError unless 12 <= cells <= 1024.
+/// Every axis has at least one cell beyond the box at each end (which adds a cell where `cells` is under 12). Throws
+/// InputError unless 8 <= cells <= 1024.
 SignedDistanceGrid grid_over(const Bounds& box, int cells);
 
 /// m3, where the interpolant is negative: exact along x, by 4 x 4 lines a cell in y and z.

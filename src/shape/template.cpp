@@ -35,13 +35,13 @@ struct MakeMesh
 };
 
 /// Volume pi/6 and moment of inertia 2/5 V r^2, r = 1/2 m.
-const MassProperties exact_sphere{pi / 6, Eigen::Vector3d::Zero(), pi / 60 * Eigen::Matrix3d::Identity()};
+MassProperties exact_sphere() { return {pi / 6, Eigen::Vector3d::Zero(), pi / 60 * Eigen::Matrix3d::Identity()}; }
 
 struct MakeMassProperties
 {
     const TriangleMesh& mesh;
 
-    MassProperties operator()(const scene::SphereGenerator&) const { return exact_sphere; }
+    MassProperties operator()(const scene::SphereGenerator&) const { return exact_sphere(); }
     template<class Source>
     MassProperties operator()(const Source&) const
     {
