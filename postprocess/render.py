@@ -1,0 +1,62 @@
+#!/usr/bin/python3
+"""A picture of one snapshot: wheels, rocks, and sand coloured by how far it moved.
+
+Needs Debian's python3-h5py, python3-numpy and python3-vtk9, and xvfb where there is no display.
+"""
+
+import argparse
+import os
+import shutil
+import sys
+from pathlib import Path
+
+from tread_post import Run, RunError
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("run", type=Path, metavar="RUN", help="output directory of a run")
+    parser.add_argument("--snapshot", default="last", metavar="K|last", help="number of the snapshot; default: last")
+    parser.add_argument("--output", type=Path, metavar="FILE.png", help="default: RUN/render.png")
+    parser.add_argument("--size", type=int, nargs=2, default=(1600, 1000), metavar=("W", "H"), help="pixels")
+    return parser.parse_args()
+
+
+def snapshot_number(run, wanted):
+    numbers = run.snapshots
+    if not numbers:
+        raise RunError(f"{run.path / 'snapshots'}: no snapshots")
+    if wanted == "last":
+        return numbers[-1]
+    if not wanted.isdecimal() or int(wanted) not in numbers:
+        raise RunError(f"--snapshot {wanted}: this run has {numbers[0]} to {numbers[-1]}, or last")
+    return int(wanted)
+
+
+def ensure_display():
+    """VTK of Debian draws into a window: without a display this process starts again inside a virtual one."""
+    if os.environ.get("DISPLAY"):
+        return
+    xvfb = shutil.which("xvfb-run")
+    if xvfb is None:
+        raise RunError("no display; install xvfb (apt-get install xvfb) or set DISPLAY")
+    os.execv(xvfb, [xvfb, "--auto-servernum", "--server-args=-screen 0 2048x1536x24", sys.executable, *sys.argv])
+
+
+def main():
+    options = arguments()
+    run = Run(options.run)
+    number = snapshot_number(run, options.snapshot)
+    ensure_display()
+    from tread_post.picture import draw
+
+    output = options.output or options.run / "render.png"
+    draw(run, number, output, tuple(options.size))
+    print(output)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except RunError as error:
+        sys.exit(f"render: {error}")

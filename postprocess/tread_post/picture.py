@@ -1,0 +1,265 @@
+"""Draws a snapshot with VTK. Needs a display."""
+
+import numpy as np
+import vtk
+from matplotlib import colormaps
+from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+
+from tread_post.run import RunError
+
+# Pale where nothing moved, as sand is; tells apart without red and green.
+COLOURS = "YlGnBu"
+WHEEL_COLOUR = (0.78, 0.79, 0.82)
+ROCK_COLOUR = (0.62, 0.47, 0.38)
+TEXT_COLOUR = (0.15, 0.15, 0.15)
+# The largest displacements are those of single grains thrown about: they do not stretch the scale.
+SCALE_PERCENTILE = 99.5
+# Edges of a mesh sharper than this stay sharp.
+FEATURE_ANGLE = 35.0
+# From behind, from the right-hand side and from above, for a wheel that drives along +x: its rut lies open.
+VIEW_DIRECTION = (-0.62, -1.0, 0.72)
+VIEW_ANGLE = 24.0
+# Of the picture's width and height, left free for the drawing: right of it stands the scale, over it the title.
+FRAME = ((0.03, 0.87), (0.03, 0.90))
+# Drawn larger by this factor and averaged: Mesa's software renderer shows black through VTK's own FXAA.
+SMOOTHING = 2
+
+
+def draw(run, snapshot, output, size):
+    """Writes the picture of a snapshot to `output` (.png), `size` pixels wide and high."""
+    points, bodies = run.points(snapshot), run.bodies(snapshot)
+    if points is None and bodies is None:
+        raise RunError(f"{run.path / 'snapshots'}: snapshot {snapshot} has neither points nor bodies")
+    renderer = vtk.vtkRenderer()
+    renderer.SetBackground(1.0, 1.0, 1.0)
+    renderer.SetBackground2(0.80, 0.86, 0.93)
+    renderer.GradientBackgroundOn()
+    add_lights(renderer)
+    if points is not None:
+        add_sand(renderer, points, point_spacing(run.scene, points))
+    shapes = run.shapes if bodies is not None else []
+    if bodies is not None:
+        add_bodies(renderer, bodies, shapes, len(run.scene.get("body", [])))
+    time = (points or bodies).time
+    add_title(renderer, f"{run.title}\nt = {time:.3f} s")
+    aim(renderer, outline(points, bodies, shapes), size)
+    write(renderer, output, size)
+
+
+def add_lights(renderer):
+    kit = vtk.vtkLightKit()
+    kit.SetKeyLightIntensity(0.85)
+    kit.SetKeyToFillRatio(2.5)
+    kit.AddLightsToRenderer(renderer)
+
+
+def point_spacing(scene, points):
+    """Of neighbouring points at the start, m: from the scene, or from the room that the points take."""
+    spacing = scene.get("grid", {}).get("spacing")
+    for terrain in scene.get("terrain", []):
+        if "spacing" in terrain:
+            return terrain["spacing"]
+        if spacing and "points_per_cell" in terrain:
+            return spacing / terrain["points_per_cell"] ** (1 / 3)
+    return (np.prod(np.ptp(points.position, axis=0)) / len(points.position)) ** (1 / 3)
+
+
+def add_sand(renderer, points, spacing):
+    """Every point as a sphere as wide as its share of the sand."""
+    moved = np.linalg.norm(points.fields["displacement"], axis=1)
+    largest = float(np.percentile(moved, SCALE_PERCENTILE)) or float(moved.max()) or 1e-3
+    factor, unit = (1e3, "mm") if largest < 0.5 else (1.0, points.units["displacement"])
+    end = round_end(largest * factor)
+
+    data = vtk.vtkPolyData()
+    data.SetPoints(vtk_points(points.position))
+    scalars = numpy_to_vtk(np.ascontiguousarray(moved * factor, dtype=np.float32), deep=True)
+    scalars.SetName("displacement")
+    data.GetPointData().SetScalars(scalars)
+    cells = vtk.vtkCellArray()
+    count = len(moved)
+    cells.SetData(id_array(np.arange(count + 1)), id_array(np.arange(count)))
+    data.SetVerts(cells)
+
+    mapper = vtk.vtkOpenGLSphereMapper()
+    mapper.SetInputData(data)
+    mapper.SetRadius(0.62 * spacing)
+    mapper.SetLookupTable(lookup_table(end))
+    mapper.SetScalarRange(0.0, end)
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    renderer.AddActor(actor)
+    add_scale(renderer, mapper.GetLookupTable(), f"displacement\n[{unit}]")
+
+
+def round_end(value):
+    """The next number whose quarters are short to write."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return next(step * power for step in (1, 1.2, 1.6, 2, 2.4, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-9))
+
+
+def lookup_table(largest):
+    table = vtk.vtkLookupTable()
+    table.SetNumberOfTableValues(256)
+    table.SetRange(0.0, largest)
+    for index, colour in enumerate(colormaps[COLOURS](np.linspace(0.0, 1.0, 256))):
+        table.SetTableValue(index, *colour)
+    return table
+
+
+def add_bodies(renderer, bodies, shapes, named):
+    """Instances of every shape; the first `named` bodies are wheels, the others rocks."""
+    is_rock = np.arange(len(bodies.shape)) >= named
+    for index, shape in enumerate(shapes):
+        for rocks, colour in ((False, WHEEL_COLOUR), (True, ROCK_COLOUR)):
+            chosen = (bodies.shape == index) & (is_rock == rocks)
+            if chosen.any():
+                add_instances(renderer, shape, bodies, chosen, colour)
+
+
+def add_instances(renderer, shape, bodies, chosen, colour):
+    data = vtk.vtkPolyData()
+    data.SetPoints(vtk_points(bodies.position[chosen]))
+    for name, values in (("orientation", bodies.orientation[chosen]), ("scale", bodies.scale[chosen])):
+        array = numpy_to_vtk(np.ascontiguousarray(values, dtype=np.float64), deep=True)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+
+    mapper = vtk.vtkGlyph3DMapper()
+    mapper.SetInputData(data)
+    mapper.SetSourceData(surface(shape))
+    mapper.SetOrientationArray("orientation")
+    mapper.SetOrientationModeToQuaternion()
+    mapper.SetScaleArray("scale")
+    mapper.SetScaleModeToScaleByMagnitude()
+    mapper.ScalarVisibilityOff()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(*colour)
+    actor.GetProperty().SetSpecular(0.25)
+    actor.GetProperty().SetSpecularPower(20)
+    renderer.AddActor(actor)
+
+
+def surface(shape):
+    """Mesh with normals, smooth but for its sharp edges."""
+    data = vtk.vtkPolyData()
+    data.SetPoints(vtk_points(shape.vertices))
+    cells = vtk.vtkCellArray()
+    count = len(shape.triangles)
+    cells.SetData(id_array(3 * np.arange(count + 1)), id_array(shape.triangles.ravel()))
+    data.SetPolys(cells)
+    normals = vtk.vtkPolyDataNormals()
+    normals.SetInputData(data)
+    normals.SetFeatureAngle(FEATURE_ANGLE)
+    normals.Update()
+    return normals.GetOutput()
+
+
+def vtk_points(positions):
+    points = vtk.vtkPoints()
+    points.SetDataTypeToDouble()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(positions, dtype=np.float64), deep=True))
+    return points
+
+
+def id_array(values):
+    return numpy_to_vtkIdTypeArray(np.ascontiguousarray(values, dtype=np.int64), deep=True)
+
+
+def add_scale(renderer, table, title):
+    bar = vtk.vtkScalarBarActor()
+    bar.SetLookupTable(table)
+    bar.SetTitle(title)
+    bar.SetNumberOfLabels(5)
+    bar.SetLabelFormat("  %-.3g")
+    bar.SetPosition(0.88, 0.18)
+    bar.SetPosition2(0.10, 0.55)
+    bar.SetBarRatio(0.25)
+    bar.SetVerticalTitleSeparation(14)
+    bar.UnconstrainedFontSizeOn()
+    for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
+        plain(text, 22)
+    renderer.AddActor2D(bar)
+
+
+def add_title(renderer, text):
+    actor = vtk.vtkTextActor()
+    actor.SetInput(text)
+    plain(actor.GetTextProperty(), 26)
+    actor.GetTextProperty().SetVerticalJustificationToTop()
+    actor.GetTextProperty().SetLineSpacing(1.3)
+    actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+    actor.SetPosition(0.015, 0.98)
+    renderer.AddActor2D(actor)
+
+
+def plain(text, size):
+    text.SetFontFamilyToArial()
+    text.SetFontSize(SMOOTHING * size)
+    text.SetColor(*TEXT_COLOUR)
+    text.BoldOff()
+    text.ItalicOff()
+    text.ShadowOff()
+
+
+def outline(points, bodies, shapes):
+    """Points, [n, 3], that the picture has to hold: corners of the sand's box and of every body's."""
+    corner = np.array([(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+    parts = []
+    if points is not None:
+        low, high = points.position.min(axis=0), points.position.max(axis=0)
+        parts.append(low + corner * (high - low))
+    if bodies is not None:
+        boxes = np.array([(shape.vertices.min(axis=0), shape.vertices.max(axis=0)) for shape in shapes])[bodies.shape]
+        local = boxes[:, None, 0] + corner * (boxes[:, None, 1] - boxes[:, None, 0])
+        turned = rotated(bodies.orientation, local * bodies.scale[:, None, None])
+        parts.append((bodies.position[:, None] + turned).reshape(-1, 3))
+    return np.concatenate(parts)
+
+
+def rotated(orientation, vectors):
+    """Vectors [n, k, 3] turned by unit quaternions [n, 4], w x y z: v + 2 q x (q x v + w v)."""
+    w, q = orientation[:, None, :1], orientation[:, None, 1:]
+    return vectors + 2 * np.cross(q, np.cross(q, vectors) + w * vectors)
+
+
+def aim(renderer, content, size):
+    """Turns the camera to the drawing and fits the points `content` into FRAME."""
+    camera = renderer.GetActiveCamera()
+    camera.SetPosition(*VIEW_DIRECTION)
+    camera.SetFocalPoint(0.0, 0.0, 0.0)
+    camera.SetViewUp(0.0, 0.0, 1.0)
+    camera.SetViewAngle(VIEW_ANGLE)
+    renderer.ResetCamera()
+
+    matrix = camera.GetCompositeProjectionTransformMatrix(size[0] / size[1], -1.0, 1.0)
+    projection = np.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
+    seen = np.column_stack((content, np.ones(len(content)))) @ projection.T
+    seen = seen[:, :2] / seen[:, 3:]  # -1 to 1 over the picture
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    frame = 2 * np.array(FRAME) - 1
+    zoom = ((frame[:, 1] - frame[:, 0]) / (high - low)).min()
+    camera.Zoom(zoom)
+    camera.SetWindowCenter(*(zoom * 0.5 * (low + high) - frame.mean(axis=1)))
+    renderer.ResetCameraClippingRange()
+
+
+def write(renderer, output, size):
+    window = vtk.vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(0)
+    window.SetSize(SMOOTHING * size[0], SMOOTHING * size[1])
+    window.AddRenderer(renderer)
+    window.Render()
+    image = vtk.vtkWindowToImageFilter()
+    image.SetInput(window)
+    image.ReadFrontBufferOff()
+    mean = vtk.vtkImageShrink3D()
+    mean.SetInputConnection(image.GetOutputPort())
+    mean.SetShrinkFactors(SMOOTHING, SMOOTHING, 1)
+    mean.MeanOn()
+    writer = vtk.vtkPNGWriter()
+    writer.SetFileName(str(output))
+    writer.SetInputConnection(mean.GetOutputPort())
+    writer.Write()

@@ -1,0 +1,190 @@
+"""A run directory: scene, summary, time series and snapshots. Lengths in metres, SI throughout."""
+
+import json
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+
+class RunError(Exception):
+    """A file of the run is missing or does not hold what it should; the message names it."""
+
+
+@dataclass(frozen=True)
+class Series:
+    """A table of timeseries.h5: columns by name, one row a time, and the unit of each."""
+
+    columns: dict[str, np.ndarray]
+    units: dict[str, str]
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+
+@dataclass(frozen=True)
+class Phase:
+    name: str
+    start: float  # s
+
+
+@dataclass(frozen=True)
+class Points:
+    """Material points of a snapshot: fields by name, each [n] or [n, components]."""
+
+    time: float
+    position: np.ndarray  # [n, 3]
+    fields: dict[str, np.ndarray]
+    units: dict[str, str]
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """Rigid bodies of a snapshot; those of [[body]] tables come first."""
+
+    time: float
+    position: np.ndarray  # [n, 3]
+    orientation: np.ndarray  # [n, 4], w x y z, body to world
+    scale: np.ndarray  # [n]
+    shape: np.ndarray  # [n], index into Run.shapes
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A surface at scale 1 in the body's frame."""
+
+    name: str
+    vertices: np.ndarray  # [v, 3]
+    triangles: np.ndarray  # [t, 3]
+
+
+class Run:
+    """A run directory. Files are read when they are asked for; RunError says what is wrong with one."""
+
+    def __init__(self, path):
+        self.path = Path(path)
+        if not (self.path / "scene.toml").is_file():
+            raise RunError(f"{self.path}: not a run directory: it has no scene.toml")
+
+    @property
+    def scene_text(self):
+        return (self.path / "scene.toml").read_text(encoding="utf-8")
+
+    @property
+    def scene(self):
+        try:
+            return tomllib.loads(self.scene_text)
+        except tomllib.TOMLDecodeError as error:
+            raise RunError(f"{self.path / 'scene.toml'}: {error}") from error
+
+    @property
+    def title(self):
+        return self.scene.get("title", self.path.name)
+
+    @property
+    def summary(self):
+        """Of a run that has ended; None while it goes on."""
+        path = self.path / "summary.json"
+        return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+
+    @property
+    def wheels(self):
+        """Names of the bodies with a history, in the scene's order as far as it names them."""
+        with _open(self.path / "timeseries.h5") as file:
+            names = list(file["wheel"]) if "wheel" in file else []
+        order = [body.get("name") for body in self.scene.get("body", [])]
+        return sorted(names, key=lambda name: order.index(name) if name in order else len(order))
+
+    def wheel(self, name):
+        return self._table(f"/wheel/{name}")
+
+    @property
+    def energy(self):
+        return self._table("/energy")
+
+    @property
+    def balance(self):
+        return self._table("/balance")
+
+    @property
+    def phases(self):
+        """Phases that began, by time."""
+        names = [phase.get("name", "") for phase in self.scene.get("phase", [])]
+        with _open(self.path / "timeseries.h5") as file:
+            if "phases" not in file:
+                return []
+            indices, starts = file["phases/index"][:], file["phases/start"][:]
+        return [
+            Phase(names[int(index)] if int(index) < len(names) else f"phase {int(index)}", float(start))
+            for index, start in zip(indices, starts)
+        ]
+
+    @property
+    def snapshots(self):
+        """Numbers of the snapshots, ascending."""
+        files = (self.path / "snapshots").glob("*_[0-9]*.h*")
+        return sorted({int(file.stem.rpartition("_")[2]) for file in files if file.suffix in (".hdf", ".h5")})
+
+    def points(self, snapshot):
+        """None if the scene has no sand."""
+        path = self.path / "snapshots" / f"points_{snapshot:04}.hdf"
+        if not path.is_file():
+            return None
+        with _open(path) as file:
+            data = file["VTKHDF/PointData"]
+            return Points(
+                float(file.attrs["time"]),
+                file["VTKHDF/Points"][:],
+                {name: field[:] for name, field in data.items()},
+                {name: _unit(field) for name, field in data.items()},
+            )
+
+    def bodies(self, snapshot):
+        """None if the scene has no bodies."""
+        path = self.path / "snapshots" / f"bodies_{snapshot:04}.h5"
+        if not path.is_file():
+            return None
+        with _open(path) as file:
+            columns = (file[name][:] for name in ("position", "orientation", "scale", "shape"))
+            return Bodies(float(file.attrs["time"]), *columns)
+
+    @property
+    def shapes(self):
+        """By the index that Bodies.shape holds."""
+        with _open(self.path / "snapshots" / "shapes.h5") as file:
+            return [
+                Shape(_text(group.attrs["name"]), group["vertices"][:], group["triangles"][:])
+                for group in (file[str(index)] for index in range(len(file)))
+            ]
+
+    def _table(self, group):
+        with _open(self.path / "timeseries.h5") as file:
+            if group not in file:
+                raise RunError(f"{file.filename}: no table {group}")
+            table = file[group]
+            # A run that goes on may have written a row to some columns only.
+            rows = min((column.shape[0] for column in table.values()), default=0)
+            return Series(
+                {name: column[:rows] for name, column in table.items()},
+                {name: _unit(column) for name, column in table.items()},
+            )
+
+
+def _open(path):
+    if not path.is_file():
+        raise RunError(f"{path}: no such file")
+    try:
+        # Without a lock: the run may be writing.
+        return h5py.File(path, "r", locking=False)
+    except OSError as error:
+        raise RunError(f"{path}: {error}") from error
+
+
+def _text(value):
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def _unit(dataset):
+    return _text(dataset.attrs.get("units", "1"))
