@@ -35,13 +35,14 @@ std::string text_value(const h5::Handle& attribute, const h5::Handle& type)
     {
         char* text = nullptr;
         if (H5Aread(attribute.id(), type.id(), &text) < 0 || text == nullptr) { return "?"; }
-        const std::string value = text;
+        std::string value = text;
         H5free_memory(text);
         return value;
     }
     std::string value(H5Tget_size(type.id()), '\0');
     if (H5Aread(attribute.id(), type.id(), value.data()) < 0) { return "?"; }
-    return value.c_str();
+    value.erase(value.find_last_not_of('\0') + 1); // padding of a fixed-length string
+    return value;
 }
 
 std::string attribute_value(const h5::Handle& attribute)
