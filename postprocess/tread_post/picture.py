@@ -21,6 +21,8 @@ VIEW_DIRECTION = (-0.62, -1.0, 0.72)
 VIEW_ANGLE = 24.0
 # Of the picture's width and height, left free for the drawing: right of it stands the scale, over it the title.
 FRAME = ((0.03, 0.87), (0.03, 0.90))
+# Heights of letters in pictures of 1600 x 1000 pixels.
+TITLE_LETTERS, SCALE_LETTERS = 26, 22
 # Drawn larger by this factor and averaged: Mesa's software renderer shows black through VTK's own FXAA.
 SMOOTHING = 2
 
@@ -36,12 +38,12 @@ def draw(run, snapshot, output, size):
     renderer.GradientBackgroundOn()
     add_lights(renderer)
     if points is not None:
-        add_sand(renderer, points, point_spacing(run.scene, points))
+        add_sand(renderer, points, point_spacing(run.scene, points), size)
     shapes = run.shapes if bodies is not None else []
     if bodies is not None:
         add_bodies(renderer, bodies, shapes, len(run.scene.get("body", [])))
     time = (points or bodies).time
-    add_title(renderer, f"{run.title}\nt = {time:.3f} s")
+    add_title(renderer, f"{run.title}\nt = {time:.3f} s", size)
     aim(renderer, outline(points, bodies, shapes), size)
     write(renderer, output, size)
 
@@ -64,7 +66,7 @@ def point_spacing(scene, points):
     return (np.prod(np.ptp(points.position, axis=0)) / len(points.position)) ** (1 / 3)
 
 
-def add_sand(renderer, points, spacing):
+def add_sand(renderer, points, spacing, size):
     """Every point as a sphere as wide as its share of the sand."""
     moved = np.linalg.norm(points.fields["displacement"], axis=1)
     largest = float(np.percentile(moved, SCALE_PERCENTILE)) or float(moved.max()) or 1e-3
@@ -89,7 +91,7 @@ def add_sand(renderer, points, spacing):
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
     renderer.AddActor(actor)
-    add_scale(renderer, mapper.GetLookupTable(), f"displacement\n[{unit}]")
+    add_scale(renderer, mapper.GetLookupTable(), f"displacement\n[{unit}]", size)
 
 
 def round_end(value):
@@ -167,7 +169,7 @@ def id_array(values):
     return numpy_to_vtkIdTypeArray(np.ascontiguousarray(values, dtype=np.int64), deep=True)
 
 
-def add_scale(renderer, table, title):
+def add_scale(renderer, table, title, size):
     bar = vtk.vtkScalarBarActor()
     bar.SetLookupTable(table)
     bar.SetTitle(title)
@@ -176,17 +178,17 @@ def add_scale(renderer, table, title):
     bar.SetPosition(0.88, 0.18)
     bar.SetPosition2(0.10, 0.55)
     bar.SetBarRatio(0.25)
-    bar.SetVerticalTitleSeparation(14)
+    bar.SetVerticalTitleSeparation(round(14 * size[1] / 1000))
     bar.UnconstrainedFontSizeOn()
     for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
-        plain(text, 22)
+        plain(text, SCALE_LETTERS, size)
     renderer.AddActor2D(bar)
 
 
-def add_title(renderer, text):
+def add_title(renderer, text, size):
     actor = vtk.vtkTextActor()
     actor.SetInput(text)
-    plain(actor.GetTextProperty(), 26)
+    plain(actor.GetTextProperty(), TITLE_LETTERS, size)
     actor.GetTextProperty().SetVerticalJustificationToTop()
     actor.GetTextProperty().SetLineSpacing(1.3)
     actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
@@ -194,9 +196,9 @@ def add_title(renderer, text):
     renderer.AddActor2D(actor)
 
 
-def plain(text, size):
+def plain(text, letters, size):
     text.SetFontFamilyToArial()
-    text.SetFontSize(SMOOTHING * size)
+    text.SetFontSize(round(SMOOTHING * letters * min(size[1] / 1000, size[0] / 1600)))
     text.SetColor(*TEXT_COLOUR)
     text.BoldOff()
     text.ItalicOff()
