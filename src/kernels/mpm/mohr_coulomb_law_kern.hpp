@@ -36,8 +36,7 @@ TREAD_HD bool inside_inscribed_cone(const MaterialParameters<Real>& material, Re
     return limit >= 0 && j2 * (Real(1) + s * s / Real(3)) <= limit * limit;
 }
 
-/// Stress pair on the yield surface after flow that lowers (major, minor) at the rates (major_flow, minor_flow). The
-/// larger coefficient of f divides, so that f vanishes to rounding whatever the length of the way.
+/// Largest and smallest principal stress on the yield surface, Pa.
 template<class Real>
 struct YieldPair
 {
@@ -45,6 +44,8 @@ struct YieldPair
     Real multiplier; ///< length of the way, in rates
 };
 
+/// Where the yield surface is met by flow that lowers (major, minor) at the rates (major_flow, minor_flow). The
+/// larger coefficient of f divides, so that f vanishes to rounding whatever the length of the way.
 template<class Real>
 TREAD_HD YieldPair<Real> flow_to_surface(const MaterialParameters<Real>& material, Real major, Real minor,
                                          Real major_flow, Real minor_flow)
