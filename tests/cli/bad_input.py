@@ -100,7 +100,7 @@ class BadMesh(CommandTest):
         self.refuse(binary_stl(cube(0.1))[:-7], ["mesh.stl"])
 
     def test_open_surface(self):
-        self.refuse(binary_stl(cube(0.1)[:-1]), ["mesh.stl"])
+        self.refuse(binary_stl(cube(0.1)[:-1]), ["roller", "not watertight", "open edges"])
 
     def test_millimetres_read_as_metres(self):
         self.refuse(binary_stl(cube(100.0)), ["roller", "unit"])
