@@ -14,6 +14,7 @@ target_compile_options(
     -ffp-contract=off
     -fno-math-errno
     -fno-trapping-math
+    -march=${TREAD_CPU}
     -fopenmp>
     $<$<COMPILE_LANGUAGE:CUDA>:-Werror=all-warnings
     -diag-suppress=20012,20014

@@ -114,7 +114,7 @@ double slab_volume(const SignedDistanceGrid& sdf, std::int32_t k)
 
 } // namespace
 
-SignedDistanceGrid grid_over(const Bounds& box, int cells)
+SignedDistanceGrid grid_over(const Bounds& box, int cells, double reach)
 {
     constexpr int least = 8, most = 1024;
     if (cells < least || cells > most)
@@ -128,7 +128,7 @@ SignedDistanceGrid grid_over(const Bounds& box, int cells)
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
         const auto   a      = static_cast<Eigen::Index>(axis);
-        const double length = std::max(1.2 * box.extent()[a], box.extent()[a] + 2 * sdf.spacing);
+        const double length = std::max(1.2 * box.extent()[a], box.extent()[a] + 2 * (reach + sdf.spacing));
         // 120 % of the longest axis is a whole number of cells but for rounding, which must not add one.
         const auto across = static_cast<std::int32_t>(std::ceil(length / sdf.spacing - 1e-6));
         sdf.nodes[axis]   = across + 1;

@@ -12,9 +12,9 @@ namespace tread::shape
 {
 
 /// The nodes over 120 % of `box` about its middle, `cells` cubic cells along the longest axis, values still to be set.
-/// Every axis has at least one cell beyond the box at each end (which adds a cell where `cells` is under 12). Throws
-/// InputError unless 8 <= cells <= 1024.
-SignedDistanceGrid grid_over(const Bounds& box, int cells);
+/// Every axis has at least one cell beyond the box, and beyond `reach` (m) outside it, at each end: that adds cells where
+/// 10 % of the box is less. Throws InputError unless 8 <= cells <= 1024.
+SignedDistanceGrid grid_over(const Bounds& box, int cells, double reach = 0);
 
 /// m3, where the interpolant is negative: exact along x, by 4 x 4 lines a cell in y and z.
 double enclosed_volume(const SignedDistanceGrid& sdf);
@@ -34,9 +34,9 @@ inline std::size_t node_index(const SignedDistanceGrid& sdf, std::int32_t i, std
 /// Samples a signed distance at every node, rows in parallel. `distance(point, within)` returns metres, negative
 /// inside; `within` is an upper bound of its magnitude, known from the node before because a distance is 1-Lipschitz.
 template<class Distance>
-SignedDistanceGrid build_sdf(const Bounds& box, int cells, const Distance& distance)
+SignedDistanceGrid build_sdf(const Bounds& box, int cells, const Distance& distance, double reach = 0)
 {
-    SignedDistanceGrid sdf = grid_over(box, cells);
+    SignedDistanceGrid sdf = grid_over(box, cells, reach);
     // A little over the spacing: the bound must survive rounding.
     const double step = 1.001 * sdf.spacing;
 #pragma omp parallel for collapse(2) schedule(dynamic, 4)

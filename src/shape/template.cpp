@@ -76,18 +76,20 @@ struct MakeSdf
 {
     const TriangleMesh& mesh;
     int                 cells;
+    double              reach; ///< m
 
     SignedDistanceGrid operator()(const scene::SphereGenerator&) const
     {
-        return build_sdf(bounds(mesh), cells, [](const Eigen::Vector3d& point, double) { return point.norm() - 0.5; });
+        return build_sdf(
+            bounds(mesh), cells, [](const Eigen::Vector3d& point, double) { return point.norm() - 0.5; }, reach);
     }
     template<class Source>
     SignedDistanceGrid operator()(const Source&) const
     {
         const MeshDistance distance = prepare_distance(mesh);
-        return build_sdf(bounds(mesh), cells,
-                         [&](const Eigen::Vector3d& point, double within)
-                         { return signed_distance(distance, point, within); });
+        return build_sdf(
+            bounds(mesh), cells, [&](const Eigen::Vector3d& point, double within)
+            { return signed_distance(distance, point, within); }, reach);
     }
 };
 
@@ -100,7 +102,7 @@ double bounding_radius(const TriangleMesh& mesh)
 
 } // namespace
 
-ShapeTemplate make_template(const scene::Shape& shape, const std::string& directory)
+ShapeTemplate make_template(const scene::Shape& shape, const std::string& directory, const Reach& reach)
 {
     const std::string origin = fmt::format("shape '{}'", shape.name);
 
@@ -114,12 +116,12 @@ ShapeTemplate make_template(const scene::Shape& shape, const std::string& direct
     for (Eigen::Vector3d& vertex : result.mesh.vertices) { vertex -= result.mesh_centre; }
     result.unit.centre.setZero();
 
-    result.sdf               = std::visit(MakeSdf{result.mesh, shape.sdf_cells}, shape.source);
+    result.equivalent_radius = std::cbrt(3 * result.unit.volume / (4 * pi));
+    result.sdf = std::visit(MakeSdf{result.mesh, shape.sdf_cells, reach(result.equivalent_radius)}, shape.source);
     result.sdf_volume_ratio  = enclosed_volume(result.sdf) / result.unit.volume;
     result.nodes             = std::visit(MakeNodes{result.mesh, shape.node_spacing}, shape.source);
     result.box               = bounds(result.mesh);
     result.bounding_radius   = bounding_radius(result.mesh);
-    result.equivalent_radius = std::cbrt(3 * result.unit.volume / (4 * pi));
     if (const auto* wheel = std::get_if<scene::WheelGenerator>(&shape.source))
     {
         result.is_wheel          = true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -68,10 +69,16 @@ std::vector<std::string> builtin_shape_names();
 /// The scene's shape called `name`, or the built-in; InputError if there is none.
 scene::Shape find_shape(const scene::Scene& scene, const std::string& name);
 
+/// How far outside a template its distance is asked for, m at scale 1, given its equivalent radius.
+using Reach = std::function<double(double equivalent_radius)>;
+
 /// Mesh, checks, mass properties, surface nodes and SDF of one shape. Paths are relative to `directory`. Generated
 /// rocks and spheres have an equivalent diameter of 1 m at scale 1, so an instance's scale is its diameter in metres.
 /// Throws InputError that names the shape or the file.
-ShapeTemplate make_template(const scene::Shape& shape, const std::string& directory);
+/// The SDF covers 120 % of the box, and `reach` beyond the mesh: further out there is only a lower bound, which no
+/// contact may use.
+ShapeTemplate make_template(const scene::Shape& shape, const std::string& directory,
+                            const Reach& reach = [](double) { return 0.0; });
 
 /// Distance (m) from `point` (body frame) by trilinear interpolation. Outside the grid a positive lower bound: the root
 /// of the squares of the distance to the grid's box and of the value (at least 0) at the box's nearest point.

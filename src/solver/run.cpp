@@ -164,7 +164,7 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
     job.summary.threads    = threads;
     job.summary.bodies     = static_cast<std::int64_t>(world.bodies.size());
     const ExitCode code    = run_backend(backend, job);
-    log.info("\n" + io::timing_table(job.summary.stages, job.summary.wall_s));
+    log.info(fmt::format("\n{}", io::timing_table(job.summary.stages, job.summary.wall_s)));
     log.info(fmt::format("errors: mass {:.3g}, momentum {:.3g}, energy {:.3g}", job.summary.errors.mass,
                          job.summary.errors.momentum, job.summary.errors.energy));
     on_root(communicator, [&] { io::write_summary(job.directory.summary(), job.summary); });

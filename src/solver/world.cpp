@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "solver/materials.hpp"
 #include "solver/rocks.hpp"
 #include "solver/terrain.hpp"
 
@@ -62,6 +63,24 @@ std::vector<dem::Plane> body_planes(const scene::Scene& scene)
     return planes;
 }
 
+/// The largest radius of a point beside the smallest instance of a shape, m at the shape's scale 1: sand is in contact
+/// from that distance on.
+double contact_reach(const scene::Scene& scene, const std::string& shape, double equivalent_radius)
+{
+    double largest = 0;
+    for (const scene::Terrain& terrain : scene.terrain)
+    {
+        const double volume = std::pow(scene.grid.spacing, 3) / terrain.points_per_cell;
+        largest = std::max(largest, contact::point_radius(volume, radius_rule(scene.numerics.point_radius)));
+    }
+    double smallest_scale = 1;
+    for (const scene::Rocks& rocks : scene.rocks)
+    {
+        if (rocks.shape == shape) { smallest_scale = std::min(smallest_scale, 0.5 * rocks.diameter / equivalent_radius); }
+    }
+    return largest / smallest_scale;
+}
+
 /// The templates that bodies and rocks name, each once, in order of first use.
 std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene)
 {
@@ -76,7 +95,8 @@ std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene)
     const auto&                       size = scene.domain.size;
     for (const std::string& name : names)
     {
-        templates.push_back(shape::make_template(shape::find_shape(scene, name), scene.directory));
+        const auto reach = [&](double equivalent_radius) { return contact_reach(scene, name, equivalent_radius); };
+        templates.push_back(shape::make_template(shape::find_shape(scene, name), scene.directory, reach));
         const double extent = templates.back().box.extent().maxCoeff();
         if (std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const auto& b) { return b.shape == name; }) !=
                 scene.bodies.end() &&

@@ -10,13 +10,13 @@ namespace tread::contact
 template<class Sum, class Item, class Finish>
 void reduce_runs(const Cpu& cpu, const char* name, const RunsView& runs, Item item, Finish finish)
 {
-    for_each_heavy(cpu, name, runs.count,
-                   [=](std::int64_t run)
-                   {
-                       Sum sum = Sum::zero();
-                       for (std::int64_t i = runs.first[run]; i < runs.first[run + 1]; ++i) { sum = sum + item(i); }
-                       finish(run, sum);
-                   });
+    for_each(cpu, name, runs.count,
+             [=](std::int64_t run)
+             {
+                 Sum sum = Sum::zero();
+                 for (std::int64_t i = runs.first[run]; i < runs.first[run + 1]; ++i) { sum = sum + item(i); }
+                 finish(run, sum);
+             });
 }
 
 } // namespace tread::contact

@@ -74,7 +74,7 @@ template<class Real>
 void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
             const GatherStep<Real>& step, double* sums, double* peaks)
 {
-    static_assert(point_peaks <= point_sums);
+    static_assert(int{point_peaks} <= int{point_sums});
     for_each_block<gather_threads>(gpu, "gather", pages.point_pages,
                                    GatherPage<Real>{points, pages, motion, step, sums, peaks});
 }

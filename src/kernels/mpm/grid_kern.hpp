@@ -72,8 +72,9 @@ TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* c
         const double m = double(mass);
         sums[grid_kinetic_before] += 0.5 * m * double(before.squaredNorm());
         sums[grid_kinetic_after] += 0.5 * m * double(after.squaredNorm());
-        sums[grid_damped] -= double(step.dt) * double(damping.dot((before + moved) * Real(0.5)));
-        sums[grid_wall_loss] += 0.5 * m * double(moved.squaredNorm() - after.squaredNorm());
+        const Vec3<Real> middle = Real(0.5) * (before + after);
+        sums[grid_damped] -= double(step.dt * damping.dot(middle));
+        sums[grid_wall_loss] -= m * double((after - moved).dot(middle));
         sums[grid_net_force] += double(mass * change.norm() / step.dt);
         for (int c = 0; c < 3; ++c)
         {

@@ -1,0 +1,169 @@
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include "dem_scene.hpp"
+
+namespace tread::test
+{
+namespace
+{
+
+template<class Exec>
+class RigidBody : public DemTest<Exec>
+{
+};
+TYPED_TEST_SUITE(RigidBody, Backends, BackendNames);
+
+/// The box of verification A6.
+Solid asymmetric_box()
+{
+    Solid box;
+    box.inertia = Vec3<double>(0.13 / 12, 0.10 / 12, 0.05 / 12).asDiagonal();
+    return box;
+}
+
+const std::vector<SolidShape>& any_shape()
+{
+    static const std::vector<SolidShape> shapes = {unit_sphere(0, 12)};
+    return shapes;
+}
+
+Quat some_orientation() { return Quat(Eigen::AngleAxisd(0.7, Vec3<double>(1, 2, -2).normalized())); }
+
+TYPED_TEST(RigidBody, TorqueFreeBoxFlipsOnTimeAndKeepsItsMomentum)
+{
+    constexpr double dt = 1e-4, length = 10, expected_interval = 1.378374; // 2 K(k)/lambda, verification A6
+    Solid            box = asymmetric_box();
+    box.orientation      = some_orientation();
+    box.spin             = box.orientation * Vec3<double>(1, 10, 0);
+    typename TestFixture::Scene scene(this->exec(), any_shape(), {box}, {});
+    const dem::BodySums         start = scene.sums();
+
+    std::vector<double> flips;
+    double              last = 10;
+    for (int step = 1; step <= static_cast<int>(length / dt); ++step)
+    {
+        integrate(this->exec(), scene.bodies.view(), scene.totals.data(), scene.numbers.gravity, dt);
+        const Quat   q    = read(this->exec(), scene.bodies.orientation.data());
+        const double next = (q.conjugate() * read(this->exec(), scene.bodies.angular_velocity.data()))[1];
+        if (last * next < 0) { flips.push_back(dt * (step - 1 + last / (last - next))); }
+        last = next;
+    }
+    const dem::BodySums end          = scene.sums();
+    const double        drift        = end.kinetic / start.kinetic - 1;
+    const double        turned       = (end.spin - start.spin).norm() / start.spin.norm();
+    const double        length_error = std::abs(read(this->exec(), scene.bodies.orientation.data()).norm() - 1);
+    std::printf("energy drift %.2e, momentum error %.2e (tolerance 1e-6, verification A6), |q| - 1 %.1e\n", drift,
+                turned, length_error);
+    EXPECT_NEAR(start.kinetic, 0.422083333, 1e-8);
+    EXPECT_LT(std::abs(drift), 1e-6);
+    EXPECT_LT(turned, 1e-6);
+    EXPECT_LT(length_error, 1e-12);
+    ASSERT_EQ(flips.size(), 7u);
+    for (std::size_t i = 1; i < flips.size(); ++i)
+    {
+        std::printf("flip %zu after %.6f s, expected %.6f, tolerance 1e-4 of it (second-order scheme)\n", i,
+                    flips[i] - flips[i - 1], expected_interval);
+        EXPECT_NEAR(flips[i] - flips[i - 1], expected_interval, 1e-4 * expected_interval);
+    }
+}
+
+TYPED_TEST(RigidBody, FliesAParabola)
+{
+    constexpr double dt    = 1e-3;
+    constexpr int    steps = 500;
+    SolidNumbers     numbers;
+    numbers.gravity = {0.5, 0, -9.81};
+    Solid body;
+    body.mass     = 3;
+    body.velocity = {2, -1, 4};
+    typename TestFixture::Scene scene(this->exec(), any_shape(), {body}, numbers);
+    scene.run(dt, steps);
+    // symplectic Euler's own parabola: v t + g t (t + dt)/2; what is left is rounding
+    const double       t        = dt * steps;
+    const Vec3<double> expected = body.velocity * t + 0.5 * t * (t + dt) * numbers.gravity;
+    const Vec3<double> found    = read(this->exec(), scene.bodies.position.data());
+    EXPECT_LT((found - expected).norm(), 1e-12);
+}
+
+TYPED_TEST(RigidBody, LockedFreedomsKeepTheirVelocity)
+{
+    constexpr double dt     = 1e-3;
+    constexpr int    steps  = 1000;
+    Solid            driven = asymmetric_box();
+    driven.orientation      = some_orientation();
+    driven.locked           = dem::lock_x | dem::lock_roll | dem::lock_pitch | dem::lock_yaw;
+    driven.velocity         = {0.3, 0, 0};
+    driven.spin             = {0, 2.5, 0};
+    Solid held              = asymmetric_box();
+    held.locked             = dem::lock_all;
+    Solid rolling           = driven;
+    rolling.locked          = dem::lock_roll | dem::lock_yaw;
+    rolling.spin            = Vec3<double>::Zero();
+    typename TestFixture::Scene scene(this->exec(), any_shape(), {driven, held, rolling}, {});
+    const Vec3<double>          force(1, 2, 3), torque(0.01, 0.02, -0.03);
+    scene.bodies.force.assign({force, force, force});
+    scene.bodies.torque.assign({torque, torque, torque});
+    for (int step = 0; step < steps; ++step)
+    {
+        integrate(this->exec(), scene.bodies.view(), scene.totals.data(), scene.numbers.gravity, dt);
+    }
+    const auto position = scene.bodies.position.to_host(), velocity = scene.bodies.velocity.to_host();
+    const auto spin        = scene.bodies.angular_velocity.to_host();
+    const auto orientation = scene.bodies.orientation.to_host();
+    const auto totals      = scene.totals.to_host();
+
+    EXPECT_EQ(velocity[0][0], 0.3);
+    EXPECT_NEAR(velocity[0][2], 3.0, 1e-12);
+    EXPECT_EQ(spin[0], Vec3<double>(0, 2.5, 0));
+    const Quat turned = Quat(Eigen::AngleAxisd(2.5, Vec3<double>::UnitY())) * driven.orientation;
+    EXPECT_LT(turned.angularDistance(orientation[0]), 1e-12);
+    EXPECT_EQ(position[1], Vec3<double>::Zero());
+    EXPECT_EQ(velocity[1], Vec3<double>::Zero());
+    EXPECT_LT(orientation[1].angularDistance(Quat::Identity()), 1e-15);
+    EXPECT_LT((totals[1].holding_impulse + force).norm(), 1e-12);
+
+    // about a fixed world axis J_yy stays what it is: omega_y = T_y t / J_yy
+    const Mat3<double> rotation = driven.orientation.toRotationMatrix();
+    const double       about_y  = (rotation * driven.inertia * rotation.transpose())(1, 1);
+    EXPECT_EQ(spin[2][0], 0);
+    EXPECT_EQ(spin[2][2], 0);
+    EXPECT_NEAR(spin[2][1], torque[1] / about_y, 1e-10);
+}
+
+TYPED_TEST(RigidBody, LocalDampingActsOnWhoTakesPartAndIsCounted)
+{
+    constexpr double dt = 1e-3, alpha = 0.3;
+    constexpr int    steps = 200;
+    SolidNumbers     numbers;
+    numbers.gravity = {0, 0, -10};
+    Solid damped;
+    damped.mass     = 2;
+    damped.velocity = {0, 0, -1};
+    damped.damped   = 1;
+    Solid other     = damped;
+    other.damped    = 0;
+    typename TestFixture::Scene scene(this->exec(), any_shape(), {damped, other}, numbers);
+    const dem::BodySums         start = scene.sums();
+    for (int step = 0; step < steps; ++step)
+    {
+        integrate_damped(this->exec(), scene.bodies.view(), scene.totals.data(), numbers.gravity, alpha, dt);
+    }
+    const double t = dt * steps;
+    EXPECT_NEAR(read(this->exec(), scene.bodies.velocity.data())[2], -1 - 10 * (1 - alpha) * t, 1e-12);
+    EXPECT_NEAR(read(this->exec(), scene.bodies.velocity.data() + 1)[2], -1 - 10 * t, 1e-12);
+
+    const dem::BodySums end = scene.sums();
+    EXPECT_NEAR(end.total.damping_impulse[2], alpha * 10 * 2 * t, 1e-12);
+    // gravity's work differs from m g dz by the half step of symplectic Euler: m g^2 (1 - alpha) t dt/2 and alike
+    const double lost = start.kinetic + start.potential - end.kinetic - end.potential;
+    std::printf("energy lost %.6f J, counted %.6f J, tolerance %.6f J (m g^2 t dt)\n", lost, end.total.damping,
+                2 * 100 * t * dt * 2);
+    EXPECT_NEAR(lost, end.total.damping, 2 * 100 * t * dt * 2);
+    EXPECT_GT(end.total.damping, 1.0);
+}
+
+} // namespace
+} // namespace tread::test

@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/random.hpp"
+#include "dem_scene.hpp"
+
+namespace tread::test
+{
+namespace
+{
+
+template<class Exec>
+class BodyPairs : public DemTest<Exec>
+{
+};
+TYPED_TEST_SUITE(BodyPairs, Backends, BackendNames);
+
+constexpr double step = 1e-3;
+
+/// Spheres of 1 to 3 cm in a box of half a metre, a few much larger, some fast, some outside the domain.
+std::vector<Solid> crowd(int count)
+{
+    Random     random(5);
+    const auto anywhere = [&]
+    { return Vec3<double>(random.uniform(-0.1, 0.5), random.uniform(-0.1, 0.5), random.uniform(0, 0.4)); };
+    std::vector<Solid> solids;
+    for (int i = 0; i < count; ++i)
+    {
+        const bool large = i % 150 == 149;
+        Solid solid = solid_sphere(large ? random.uniform(0.12, 0.2) : random.uniform(0.005, 0.015), 1000, anywhere());
+        if (i % 10 == 0) { solid.velocity = 20 * anywhere(); }
+        if (i % 17 == 0) { solid.spin = 300 * anywhere(); }
+        solids.push_back(solid);
+    }
+    solids[0].position = {1e9, 0, 0};
+    solids[1].position = {1e9 + 0.01, 0, 0};
+    return solids;
+}
+
+/// What find_pairs promises for spheres, whose bounding sphere is their surface.
+double grown(const Solid& solid)
+{
+    const double r = solid.scale;
+    return r + 2 * step * (solid.velocity.norm() + solid.spin.norm() * r) + 0.01 * r;
+}
+
+std::vector<std::uint64_t> brute_force(const std::vector<Solid>& solids, const std::vector<dem::Plane>& planes)
+{
+    std::vector<std::uint64_t> keys;
+    const auto                 count = static_cast<std::int64_t>(solids.size());
+    for (std::int64_t a = 0; a < count; ++a)
+    {
+        const Solid& first = solids[static_cast<std::size_t>(a)];
+        for (std::int64_t b = a + 1; b < count; ++b)
+        {
+            const Solid& second = solids[static_cast<std::size_t>(b)];
+            if ((first.position - second.position).norm() <= grown(first) + grown(second))
+            {
+                keys.push_back(dem::pair_key(a, b));
+            }
+        }
+        for (std::size_t p = 0; p < planes.size(); ++p)
+        {
+            if (planes[p].normal.dot(first.position) - planes[p].offset <= grown(first))
+            {
+                keys.push_back(dem::pair_key(a, count + static_cast<std::int64_t>(p)));
+            }
+        }
+    }
+    return keys;
+}
+
+TYPED_TEST(BodyPairs, AreThoseOfBruteForce)
+{
+    const std::vector<Solid> solids = crowd(900);
+    SolidNumbers             numbers;
+    numbers.planes = {{{0, 0, 1}, 0.0, false}, {{-1, 0, 0}, -0.5, true}};
+    typename TestFixture::Scene scene(this->exec(), {unit_sphere(0, 20)}, solids, numbers);
+    scene.find(step);
+    const std::vector<std::uint64_t> expected = brute_force(solids, numbers.planes);
+    EXPECT_GT(expected.size(), 500u);
+    EXPECT_EQ(scene.pairs.large.size(), 6);
+    EXPECT_EQ(scene.pairs.key.to_host(), expected);
+}
+
+TYPED_TEST(BodyPairs, KnowThePairsOfEachBody)
+{
+    const std::vector<Solid>    solids = crowd(300);
+    typename TestFixture::Scene scene(this->exec(), {unit_sphere(0, 20)}, solids, {});
+    scene.find(step);
+    const auto                keys  = scene.pairs.key.to_host();
+    const auto                first = scene.pairs.first.to_host(), second = scene.pairs.second.to_host();
+    const auto                by_second = scene.pairs.by_second.to_host();
+    std::vector<std::int32_t> expected;
+    for (std::size_t b = 0; b < solids.size(); ++b)
+    {
+        expected.clear();
+        for (std::size_t p = 0; p < keys.size(); ++p)
+        {
+            if (dem::second_of(keys[p]) == static_cast<std::int64_t>(b))
+            {
+                expected.push_back(static_cast<std::int32_t>(p));
+            }
+        }
+        const std::vector<std::int32_t> found(by_second.begin() + second[b], by_second.begin() + second[b + 1]);
+        EXPECT_EQ(found, expected);
+        for (std::int32_t p = first[b]; p < first[b + 1]; ++p)
+        {
+            EXPECT_EQ(dem::first_of(keys[static_cast<std::size_t>(p)]), static_cast<std::int64_t>(b));
+        }
+    }
+}
+
+TYPED_TEST(BodyPairs, KeepTheirPatchWhileListed)
+{
+    std::vector<Solid>          solids = crowd(300);
+    typename TestFixture::Scene scene(this->exec(), {unit_sphere(0, 20)}, solids, {});
+    scene.find(step);
+    const auto              before = scene.pairs.key.to_host();
+    std::vector<dem::Patch> patches(before.size(), dem::no_patch());
+    for (std::size_t p = 0; p < before.size(); ++p) { patches[p].torsion = static_cast<double>(p + 1); }
+    scene.pairs.patch.assign(patches);
+
+    for (Solid& solid : solids) { solid.position[0] += 0.02 * std::sin(100 * solid.position[1]); }
+    std::vector<Vec3<double>> moved;
+    for (const Solid& solid : solids) { moved.push_back(solid.position); }
+    scene.bodies.position.assign(moved);
+    scene.find(step);
+
+    const auto after = scene.pairs.key.to_host();
+    patches          = scene.pairs.patch.to_host();
+    std::size_t kept = 0, fresh = 0;
+    for (std::size_t p = 0; p < after.size(); ++p)
+    {
+        const auto at  = std::lower_bound(before.begin(), before.end(), after[p]);
+        const bool old = at != before.end() && *at == after[p];
+        EXPECT_EQ(patches[p].torsion, old ? static_cast<double>(at - before.begin() + 1) : 0.0);
+        ++(old ? kept : fresh);
+    }
+    EXPECT_GT(kept, 50u);
+    EXPECT_GT(fresh, 10u);
+    EXPECT_GT(before.size() - kept, 10u);
+}
+
+} // namespace
+} // namespace tread::test

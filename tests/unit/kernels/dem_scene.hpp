@@ -1,0 +1,365 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "backend.hpp"
+#include "kernels/dem/body_contact.hpp"
+#include "kernels/dem/contact_limits.hpp"
+#include "kernels/dem/integrate.hpp"
+#include "kernels/dem/sums.hpp"
+
+// A few rigid bodies with analytic shapes and walls, for the tests of the body-body contact.
+namespace tread::test
+{
+
+/// One shape at scale 1: signed distance on a grid over 120 % of the box, and surface nodes.
+struct SolidShape
+{
+    double                      spacing = 0;
+    Vec3<double>                origin  = Vec3<double>::Zero();
+    std::array<std::int32_t, 3> nodes{};
+    std::vector<float>          values;
+    std::vector<Vec3<double>>   positions;
+    std::vector<double>         areas;
+    std::vector<Vec3<double>>   centres; ///< of clusters
+    std::vector<double>         radii;
+    Vec3<double>                half              = Vec3<double>::Zero();
+    double                      bounding_radius   = 0;
+    double                      equivalent_radius = 0;
+};
+
+template<class Distance>
+void sample_on_grid(SolidShape& shape, int cells, Distance distance)
+{
+    shape.spacing = 2.4 * shape.half.maxCoeff() / cells;
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+        const auto axis    = static_cast<Eigen::Index>(c);
+        shape.nodes[c]     = static_cast<std::int32_t>(std::ceil(2.4 * shape.half[axis] / shape.spacing - 1e-9)) + 1;
+        shape.origin[axis] = -0.5 * shape.spacing * (shape.nodes[c] - 1);
+    }
+    for (int k = 0; k < shape.nodes[2]; ++k)
+    {
+        for (int j = 0; j < shape.nodes[1]; ++j)
+        {
+            for (int i = 0; i < shape.nodes[0]; ++i)
+            {
+                const Vec3<double> x = shape.origin + shape.spacing * Vec3<double>(i, j, k);
+                shape.values.push_back(static_cast<float>(distance(x)));
+            }
+        }
+    }
+}
+
+/// Runs of 32 nodes in the order given, which the caller made a local one.
+inline void make_clusters(SolidShape& shape)
+{
+    constexpr std::size_t size = 32;
+    for (std::size_t first = 0; first < shape.positions.size(); first += size)
+    {
+        const std::size_t last   = std::min(first + size, shape.positions.size());
+        Vec3<double>      centre = Vec3<double>::Zero();
+        for (std::size_t i = first; i < last; ++i) { centre += shape.positions[i]; }
+        centre /= static_cast<double>(last - first);
+        double radius = 0;
+        for (std::size_t i = first; i < last; ++i) { radius = std::max(radius, (shape.positions[i] - centre).norm()); }
+        shape.centres.push_back(centre);
+        shape.radii.push_back(radius);
+    }
+}
+
+/// Vertices of the unit icosahedron with its triangles quartered `level` times, each with a third of the area of its
+/// triangles; the areas are made to sum to 4 pi.
+inline std::vector<std::pair<Vec3<double>, double>> icosphere_nodes(int level)
+{
+    using Triangle              = std::array<std::size_t, 3>;
+    const double              g = std::numbers::phi;
+    std::vector<Vec3<double>> v = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+    std::vector<Triangle> faces = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                                   {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                                   {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+    for (Vec3<double>& x : v) { x.normalize(); }
+    for (int l = 0; l < level; ++l)
+    {
+        std::map<std::pair<std::size_t, std::size_t>, std::size_t> middles;
+        const auto                                                 middle = [&](std::size_t a, std::size_t b)
+        {
+            const auto [at, fresh] = middles.try_emplace(std::minmax(a, b), v.size());
+            if (fresh) { v.push_back((v[a] + v[b]).normalized()); }
+            return at->second;
+        };
+        std::vector<Triangle> finer;
+        for (const Triangle& f : faces)
+        {
+            const std::size_t a = middle(f[0], f[1]), b = middle(f[1], f[2]), c = middle(f[2], f[0]);
+            for (const Triangle& part :
+                 {Triangle{f[0], a, c}, Triangle{f[1], b, a}, Triangle{f[2], c, b}, Triangle{a, b, c}})
+            {
+                finer.push_back(part);
+            }
+        }
+        faces = finer;
+    }
+    std::vector<std::pair<Vec3<double>, double>> found;
+    for (const Vec3<double>& x : v) { found.emplace_back(x, 0.0); }
+    double total = 0;
+    for (const Triangle& f : faces)
+    {
+        const double area = 0.5 * (v[f[1]] - v[f[0]]).cross(v[f[2]] - v[f[0]]).norm();
+        for (const std::size_t i : f) { found[i].second += area / 3; }
+        total += area;
+    }
+    for (auto& node : found) { node.second *= 4 * std::numbers::pi / total; }
+    return found;
+}
+
+/// A sphere of radius 1 m with 10 * 4^level + 2 nodes.
+inline SolidShape unit_sphere(int level, int cells)
+{
+    SolidShape shape;
+    shape.half            = Vec3<double>::Ones();
+    shape.bounding_radius = shape.equivalent_radius = 1;
+    sample_on_grid(shape, cells, [](const Vec3<double>& x) { return x.norm() - 1; });
+    auto nodes = icosphere_nodes(level);
+    std::sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.first[2] < b.first[2]; });
+    for (const auto& [position, area] : nodes)
+    {
+        shape.positions.push_back(position);
+        shape.areas.push_back(area);
+    }
+    make_clusters(shape);
+    return shape;
+}
+
+/// A box with a lattice of nodes on its faces, corners and edges included once; n intervals along each edge.
+inline SolidShape box_solid(const Vec3<double>& half, int n, int cells)
+{
+    SolidShape shape;
+    shape.half              = half;
+    shape.bounding_radius   = half.norm();
+    shape.equivalent_radius = std::cbrt(8 * half.prod() * 0.75 / std::numbers::pi);
+    sample_on_grid(shape, cells,
+                   [=](const Vec3<double>& x)
+                   {
+                       const Vec3<double> q = x.cwiseAbs() - half;
+                       return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
+                   });
+    const double area = 8 * (half[0] * half[1] + half[1] * half[2] + half[2] * half[0]);
+    for (int k = 0; k <= n; ++k)
+    {
+        for (int j = 0; j <= n; ++j)
+        {
+            for (int i = 0; i <= n; ++i)
+            {
+                if (i % n != 0 && j % n != 0 && k % n != 0) { continue; }
+                shape.positions.push_back(half.cwiseProduct(Vec3<double>(i, j, k) * (2.0 / n) - Vec3<double>::Ones()));
+            }
+        }
+    }
+    shape.areas.assign(shape.positions.size(), area / static_cast<double>(shape.positions.size()));
+    make_clusters(shape);
+    return shape;
+}
+
+struct Solid
+{
+    std::int32_t  shape       = 0;
+    double        scale       = 1;
+    double        mass        = 1;
+    Mat3<double>  inertia     = Mat3<double>::Identity();
+    Vec3<double>  position    = Vec3<double>::Zero();
+    Vec3<double>  velocity    = Vec3<double>::Zero();
+    Vec3<double>  spin        = Vec3<double>::Zero(); ///< rad/s
+    Quat          orientation = Quat::Identity();
+    std::uint32_t locked      = 0;
+    std::int32_t  damped      = 0;
+};
+
+/// A homogeneous sphere of radius r, of unit_sphere.
+inline Solid solid_sphere(double radius, double density, const Vec3<double>& position)
+{
+    Solid solid;
+    solid.scale    = radius;
+    solid.mass     = density * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+    solid.inertia  = Mat3<double>::Identity() * (0.4 * solid.mass * radius * radius);
+    solid.position = position;
+    return solid;
+}
+
+/// E* and G* of equal materials in contact (the paper's Eqs. 8, 10), or of one against a rigid wall.
+inline dem::PairProperties properties(double young, double poisson, double sides, double friction, double zeta)
+{
+    const double shear = young / (2 * (1 + poisson));
+    return {young / (1 - poisson * poisson) / sides, shear / (2 - poisson) / sides, friction, zeta};
+}
+
+/// zeta of a restitution (prototypes 1), by bisection.
+inline double damping_ratio(double restitution)
+{
+    double low = 0, high = 0.9999;
+    for (int step = 0; step < 60; ++step)
+    {
+        const double zeta = 0.5 * (low + high), w = std::sqrt(1 - zeta * zeta);
+        const double e = std::exp(-zeta / w * (std::numbers::pi - std::atan2(2 * zeta * w, 1 - 2 * zeta * zeta)));
+        (e > restitution ? low : high) = zeta;
+    }
+    return low;
+}
+
+/// One material; walls are rigid.
+struct SolidNumbers
+{
+    double                  young = 1e7, poisson = 0.3, friction = 0, zeta = 0;
+    Vec3<double>            gravity = Vec3<double>::Zero();
+    dem::ContactOptions     options = {1.0, 1e-3};
+    std::vector<dem::Plane> planes;
+};
+
+template<class Exec>
+class SolidScene
+{
+public:
+    SolidScene(const Exec& exec, const std::vector<SolidShape>& shapes, const std::vector<Solid>& solids,
+               SolidNumbers scene_numbers)
+        : numbers(std::move(scene_numbers))
+        , bodies(exec)
+        , pairs(exec)
+        , totals(exec, "test totals")
+        , exec_(exec)
+        , templates_(exec, "test templates")
+        , properties_(exec, "test properties")
+        , planes_(exec, "test planes")
+    {
+        make_shapes(shapes);
+        make_bodies(solids);
+        const auto own  = properties(numbers.young, numbers.poisson, 2, numbers.friction, numbers.zeta);
+        const auto wall = properties(numbers.young, numbers.poisson, 1, numbers.friction, numbers.zeta);
+        properties_.assign({own, wall, wall, wall});
+        planes_.assign(numbers.planes);
+        classify_bodies(exec_, pairs, bodies.view(), templates_.data());
+        dem::clear_wrenches(exec_, bodies.view());
+    }
+
+    dem::BodyLaw law() const
+    {
+        return {templates_.data(),
+                {properties_.data(), 2},
+                planes_.data(),
+                static_cast<std::int32_t>(numbers.planes.size()),
+                numbers.options};
+    }
+
+    /// `count` substeps of dt, pairs found anew every `every` of them.
+    void run(double dt, int count, int every = 20)
+    {
+        for (int step = 0; step < count; ++step)
+        {
+            if (substeps_++ % every == 0) { find_pairs(exec_, pairs, bodies.view(), law(), dt * every); }
+            contact(dt);
+            integrate(exec_, bodies.view(), totals.data(), numbers.gravity, dt);
+        }
+    }
+
+    void find(double dt) { find_pairs(exec_, pairs, bodies.view(), law(), dt); }
+
+    void contact(double dt)
+    {
+        clear_wrenches(exec_, bodies.view());
+        add_body_contacts(exec_, pairs, bodies.view(), law(), totals.data(), dt);
+    }
+
+    dem::BodySums sums() { return sum_bodies(exec_, pairs, bodies.view(), totals, numbers.gravity); }
+
+    SolidNumbers          numbers;
+    dem::Bodies<Exec>     bodies;
+    dem::Pairs<Exec>      pairs;
+    dem::BodyTotals<Exec> totals;
+
+private:
+    void make_shapes(const std::vector<SolidShape>& shapes)
+    {
+        std::vector<dem::TemplateView> views;
+        const auto                     keep = [&](auto& arrays, const auto& values)
+        {
+            arrays.emplace_back(exec_, "test shape");
+            arrays.back().assign(values);
+            return arrays.back().data();
+        };
+        for (const SolidShape& shape : shapes)
+        {
+            dem::TemplateView view{};
+            view.sdf_origin  = shape.origin;
+            view.sdf_spacing = shape.spacing;
+            std::copy(shape.nodes.begin(), shape.nodes.end(), view.sdf_nodes);
+            view.sdf_values        = keep(floats_, shape.values);
+            view.node_count        = static_cast<std::int32_t>(shape.positions.size());
+            view.cluster_count     = static_cast<std::int32_t>(shape.centres.size());
+            view.node_positions    = keep(vectors_, shape.positions);
+            view.node_areas        = keep(doubles_, shape.areas);
+            view.cluster_centres   = keep(vectors_, shape.centres);
+            view.cluster_radii     = keep(doubles_, shape.radii);
+            view.low               = -shape.half;
+            view.high              = shape.half;
+            view.bounding_radius   = shape.bounding_radius;
+            view.equivalent_radius = shape.equivalent_radius;
+            views.push_back(view);
+        }
+        templates_.assign(views);
+    }
+
+    void make_bodies(const std::vector<Solid>& solids)
+    {
+        const auto gather = [&](auto& array, auto member)
+        {
+            std::vector<std::remove_cvref_t<decltype(solids[0].*member)>> values;
+            for (const Solid& solid : solids) { values.push_back(solid.*member); }
+            array.assign(values);
+        };
+        gather(bodies.position, &Solid::position);
+        gather(bodies.orientation, &Solid::orientation);
+        gather(bodies.velocity, &Solid::velocity);
+        gather(bodies.angular_velocity, &Solid::spin);
+        gather(bodies.mass, &Solid::mass);
+        gather(bodies.inertia, &Solid::inertia);
+        gather(bodies.scale, &Solid::scale);
+        gather(bodies.shape, &Solid::shape);
+        gather(bodies.locked, &Solid::locked);
+        gather(bodies.damped, &Solid::damped);
+        std::vector<Mat3<double>> inverse;
+        for (const Solid& solid : solids) { inverse.push_back(solid.inertia.inverse()); }
+        bodies.inverse_inertia.assign(inverse);
+        const auto count = static_cast<std::int64_t>(solids.size());
+        bodies.material.assign(std::vector<std::int32_t>(solids.size(), 0));
+        bodies.force.resize(count);
+        bodies.torque.resize(count);
+        bodies.stiffness.resize(count);
+        totals.resize(count);
+        totals.fill_zero();
+    }
+
+    Exec                                   exec_;
+    std::vector<Array<Exec, float>>        floats_;
+    std::vector<Array<Exec, double>>       doubles_;
+    std::vector<Array<Exec, Vec3<double>>> vectors_;
+    Array<Exec, dem::TemplateView>         templates_;
+    Array<Exec, dem::PairProperties>       properties_;
+    Array<Exec, dem::Plane>                planes_;
+    int                                    substeps_ = 0;
+};
+
+template<class Exec>
+class DemTest : public BackendTest<Exec>
+{
+protected:
+    using Scene = SolidScene<Exec>;
+};
+
+} // namespace tread::test
