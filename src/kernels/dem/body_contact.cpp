@@ -8,7 +8,7 @@ void add_body_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodi
                        BodyTotal* totals, double dt)
 {
     const body_contact::EvaluatePair evaluate{bodies, law, pairs.view(), dt};
-    constexpr std::int64_t worth_threads = 512; // most listed pairs are apart and cost little
+    constexpr std::int64_t           worth_threads = 512; // most listed pairs are apart and cost little
     for_each_heavy(
         cpu, "body contacts", pairs.key.size(), [=](std::int64_t p) { evaluate(p, OneLane{}); }, worth_threads);
     const body_contact::GatherBody gather{bodies, pairs.view(), totals, dt};
