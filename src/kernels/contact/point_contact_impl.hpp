@@ -205,7 +205,7 @@ struct SummaryOf
         summary.energy         = response.energy;
         summary.stiffest       = {response.stiffness / points.mass[t], b, id};
         summary.deepest        = {response.overlap / points.radius[t], b, id};
-        summary.flattest       = {response.gradient_length, b, id};
+        if (response.overlap > points.radius[t]) { summary.flattest = {response.gradient_length, b, id}; }
         return summary;
     }
 };

@@ -43,7 +43,9 @@ struct Summary
     double       dissipated; ///< J, lost to friction
     Extreme      stiffest;   ///< 1/s2, k_n / m_p: the time step wants k_n dt^2 / m_p <= 0.5
     Extreme      deepest;    ///< overlap over point radius
-    Extreme      flattest;   ///< least |grad phi|: below 0.5 the point is past a medial axis
+    /// Least |grad phi| of points whose centre is inside the body: below 0.5 the point is at a medial axis. Outside, a
+    /// small one says nothing: an interpolated distance is flat along a concave edge.
+    Extreme flattest;
 
     TREAD_HD static Summary zero()
     {

@@ -126,7 +126,16 @@ TYPED_TEST(ContactStep, ForceOnAFlatFaceIsHertz)
     EXPECT_NEAR(summary.deepest.value, overlap / radius, 3e-5 * overlap / radius);
     EXPECT_NEAR(summary.energy, 0.4 * expected * overlap, 1e-4 * 0.4 * expected * overlap);
     EXPECT_NEAR(summary.stiffest.value, 1.5 * expected / overlap / 1e-3, 3e-5 * summary.stiffest.value);
-    EXPECT_NEAR(summary.flattest.value, 1.0, 1e-6);
+    EXPECT_EQ(summary.flattest.body, -1); // no centre is inside
+}
+
+TYPED_TEST(ContactStep, TheFlattestGradientIsThatOfACentreInside)
+{
+    typename TestFixture::Scene scene(this->exec(), {slab()}, {slab_below()}, {{point_over_slab(1.5 * radius)}});
+    scene.begin();
+    scene.substep(1e-4);
+    EXPECT_EQ(scene.summary().flattest.point_id, 1000u);
+    EXPECT_NEAR(scene.summary().flattest.value, 1.0, 1e-5); // a flat face
 }
 
 TYPED_TEST(ContactStep, SupportedPointAtRestStays)
