@@ -44,6 +44,8 @@ std::vector<Stage> stages(const scene::Scene&, const Plan& plan)
               plan.sand ? "elastic terrain" : no_sand),
         needs(stage::damping, plan.damping, "a phase with damping; part of grid and move bodies",
               "no phase with damping"),
+        needs(stage::measure, true, "the next time step and the balances", ""),
+        needs(stage::output, true, "time series", ""),
         needs(stage::snapshots, plan.snapshots, "snapshots_every", "output.snapshots_every = 0"),
         needs(stage::halo, false, "", "one rank"),
     };

@@ -10,13 +10,15 @@ std::vector<io::StageReport> StageClock::reports(const std::vector<Stage>& stage
     {
         io::StageReport report{stage.name, stage.on, stage.on ? "" : stage.why, 0, 0};
         const auto      at = rows_.find(stage.name);
-        if (at != rows_.end())
+        if (at == rows_.end())
         {
-            const Row& row = at->second;
-            report.calls   = row.calls;
-            report.seconds =
-                row.timed > 0 ? row.seconds * static_cast<double>(row.calls) / static_cast<double>(row.timed) : 0;
+            if (!stage.on) { reports.push_back(report); } // the others are timed within another stage
+            continue;
         }
+        const Row& row = at->second;
+        report.calls   = row.calls;
+        report.seconds =
+            row.timed > 0 ? row.seconds * static_cast<double>(row.calls) / static_cast<double>(row.timed) : 0;
         reports.push_back(report);
     }
     return reports;

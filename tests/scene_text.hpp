@@ -1,0 +1,67 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "scene/load.hpp"
+#include "temporary_directory.hpp"
+
+// Scenes of tests, written as a user would and read by the same loader.
+namespace tread::test
+{
+
+inline scene::Scene load_text(const std::string& text, const std::vector<std::string>& overrides = {})
+{
+    const TemporaryDirectory folder;
+    const std::string        path = folder.path("scene.toml");
+    std::ofstream(path) << text;
+    return scene::load_scene(path, overrides);
+}
+
+/// A box of sand with a fixed floor; small enough for a test of a second.
+inline const std::string sand_text = R"(
+title = "sand"
+[domain]
+size    = [0.4, 0.4, 0.6]
+gravity = [0.0, 0.0, -9.81]
+[grid]
+spacing = 0.05
+[[material]]
+name               = "sand"
+model              = "mohr-coulomb"
+density            = 1600.0
+young              = 1.0e6
+poisson            = 0.3
+friction_angle_deg = 30.0
+[[terrain]]
+material = "sand"
+region   = { box = [[0.0, 0.0, 0.0], [0.4, 0.4, 0.2]] }
+[[phase]]
+name     = "rest"
+duration = 0.05
+[output]
+every = 0.01
+)";
+
+/// To be appended: rocks of 6 cm.
+inline const std::string rocks_text = R"(
+[[material]]
+name    = "rock"
+model   = "elastic"
+density = 2700.0
+young   = 1.0e7
+poisson = 0.25
+[[shape]]
+name      = "clast"
+generate  = { kind = "rock", seed = 3, aspect = 0.7, sphericity = 0.9, nodes = 162 }
+sdf_cells = 24
+[[rocks]]
+shape    = "clast"
+material = "rock"
+count    = 8
+diameter = 0.06
+region   = { box = [[0.0, 0.0, 0.02], [0.4, 0.4, 0.2]] }
+)";
+
+} // namespace tread::test

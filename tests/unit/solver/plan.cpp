@@ -1,0 +1,105 @@
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "scene_text.hpp"
+#include "solver/plan.hpp"
+#include "solver/simulation.hpp"
+
+// "Leave out what a given scene does not need": what a scene allocates and launches is counted by name.
+namespace
+{
+
+using namespace tread;
+using namespace tread::solver;
+using test::load_text;
+
+struct Used
+{
+    std::set<std::string> arrays; ///< that ever held memory
+    std::set<std::string> kernels;
+};
+
+Used run_steps(const scene::Scene& scene)
+{
+    const World              world = build_world(scene);
+    Counters                 counters;
+    Simulation<Cpu, float>   simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
+    StageClock               clock;
+    std::vector<BodyCommand> commands(scene.bodies.size());
+    TimeStep                 step;
+    for (int i = 0; i < 5; ++i)
+    {
+        step = choose_step(scene.time, simulation.limits(), simulation.pace(), step.dt);
+        simulation.command(commands, 0);
+        simulation.step(step, 0, clock);
+    }
+    Used used;
+    for (const auto& [name, bytes] : counters.bytes()) { used.arrays.insert(name); }
+    for (const auto& [name, launches] : counters.launches()) { used.kernels.insert(name); }
+    return used;
+}
+
+std::string without(std::string text, const std::string& table)
+{
+    const auto begin = text.find(table);
+    const auto end   = text.find("\n[", begin + 1);
+    return text.erase(begin, end - begin + 1);
+}
+
+bool any_with(const std::set<std::string>& names, const std::vector<std::string>& words)
+{
+    for (const std::string& name : names)
+    {
+        for (const std::string& word : words)
+        {
+            if (name.find(word) != std::string::npos)
+            {
+                ADD_FAILURE() << "not needed: " << name;
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+TEST(LeftOut, SandAloneKnowsNoBodies)
+{
+    const Used used = run_steps(load_text(test::sand_text));
+    EXPECT_FALSE(any_with(used.arrays, {"body", "bodies", "pair", "contact", "candidate", "template", "private", "support",
+                                        "affine"}));
+    EXPECT_FALSE(any_with(used.kernels, {"body", "bodies", "pair", "contact", "candidate", "integrate"}));
+    EXPECT_TRUE(used.kernels.count("scatter"));
+}
+
+TEST(LeftOut, RocksAloneKnowNoGrid)
+{
+    std::string text = without(test::sand_text, "[[terrain]]") + test::rocks_text + "placement = \"grid\"\n";
+    const Used  used = run_steps(load_text(text));
+    EXPECT_FALSE(any_with(used.arrays, {"point", "page", "tile", "grid", "cell first", "order", "candidate"}));
+    EXPECT_FALSE(any_with(used.kernels, {"scatter", "gather points", "update grid", "point", "page", "candidate"}));
+    EXPECT_TRUE(used.kernels.count("body contacts"));
+}
+
+TEST(LeftOut, ElasticSandHasNoPlasticState)
+{
+    const Used used = run_steps(load_text(test::sand_text, {"material.sand.model=elastic"}));
+    EXPECT_FALSE(any_with(used.arrays, {"plastic", "volume gap"}));
+}
+
+TEST(Plan, SaysWhyAStageIsLeftOut)
+{
+    const scene::Scene scene = load_text(test::sand_text);
+    const World        world = build_world(scene);
+    for (const Stage& stage : stages(scene, make_plan(scene, world)))
+    {
+        EXPECT_FALSE(stage.why.empty()) << stage.name;
+        EXPECT_EQ(stage.on, stage.name == stage::order || stage.name == stage::scatter || stage.name == stage::grid ||
+                                stage.name == stage::gather || stage.name == stage::plasticity || stage.name == stage::measure ||
+                                stage.name == stage::output)
+            << stage.name;
+    }
+}
+
+} // namespace
