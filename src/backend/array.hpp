@@ -27,7 +27,7 @@ public:
         resize(size);
     }
 
-    Array(const Array&) = delete;
+    Array(const Array&)            = delete;
     Array& operator=(const Array&) = delete;
 
     Array(Array&& other) noexcept

@@ -14,7 +14,10 @@ __device__ void block_sum(const double* values, double* shared, double* out)
     {
         if (threadIdx.x < half)
         {
-            for (int w = 0; w < width; ++w) { shared[w * threads + threadIdx.x] += shared[w * threads + threadIdx.x + half]; }
+            for (int w = 0; w < width; ++w)
+            {
+                shared[w * threads + threadIdx.x] += shared[w * threads + threadIdx.x + half];
+            }
         }
         __syncthreads();
     }

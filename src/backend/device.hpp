@@ -27,7 +27,7 @@ class Device
 public:
     Device(int device, Counters& counters);
     ~Device();
-    Device(const Device&) = delete;
+    Device(const Device&)            = delete;
     Device& operator=(const Device&) = delete;
 
     const Gpu& gpu() const { return gpu_; }

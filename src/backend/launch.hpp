@@ -14,7 +14,8 @@ void for_each(const Cpu& cpu, const char* name, std::int64_t n, F f)
 {
     if (n == 0) { return; }
     cpu.counters->launched(name);
-    constexpr std::int64_t worth_threads = 16384; // about a millisecond of work: a barrier may cost that on a busy machine
+    constexpr std::int64_t worth_threads =
+        16384; // about a millisecond of work: a barrier may cost that on a busy machine
 #pragma omp parallel for schedule(static) if (n >= worth_threads)
     for (std::int64_t i = 0; i < n; ++i) { f(i); }
 }

@@ -40,7 +40,10 @@ struct FoldColumn
         __syncthreads();
         for (unsigned half = fold_threads / 2; half > 0; half /= 2)
         {
-            if (threadIdx.x < half) { partial[threadIdx.x] = combine(partial[threadIdx.x], partial[threadIdx.x + half]); }
+            if (threadIdx.x < half)
+            {
+                partial[threadIdx.x] = combine(partial[threadIdx.x], partial[threadIdx.x + half]);
+            }
             __syncthreads();
         }
         if (threadIdx.x == 0) { out[column] = partial[0]; }

@@ -21,7 +21,10 @@ void sort_by_key(const Cpu& cpu, Array<Cpu, std::uint64_t>& keys, Array<Cpu, std
     };
     scratch.bytes.resize(n * static_cast<std::int64_t>(sizeof(Entry)));
     auto* entries = reinterpret_cast<Entry*>(scratch.bytes.data());
-    for (std::int64_t i = 0; i < n; ++i) { entries[i] = {keys.data()[i], static_cast<std::int32_t>(i), values.data()[i]}; }
+    for (std::int64_t i = 0; i < n; ++i)
+    {
+        entries[i] = {keys.data()[i], static_cast<std::int32_t>(i), values.data()[i]};
+    }
     std::sort(entries, entries + n,
               [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.order < b.order; });
     for (std::int64_t i = 0; i < n; ++i)

@@ -32,7 +32,7 @@ std::int64_t exclusive_scan(const Gpu& gpu, Array<Gpu, std::int32_t>& values, So
     const std::int64_t n = values.size();
     if (n == 0) { return 0; }
     gpu.counters->launched("scan");
-    const std::int32_t last = read(gpu, values.data() + n - 1);
+    const std::int32_t last  = read(gpu, values.data() + n - 1);
     const int          count = static_cast<int>(n);
     std::size_t        bytes = 0;
     check_cuda(cub::DeviceScan::ExclusiveSum(nullptr, bytes, values.data(), values.data(), count, gpu.stream), "scan");

@@ -7,7 +7,8 @@
 
 #include "backend/execution.hpp"
 
-// Small vectors of item functions. EIGEN_MAX_STATIC_ALIGN_BYTES=0 (CMakeLists.txt) gives them one layout in both compilers.
+// Small vectors of item functions. EIGEN_MAX_STATIC_ALIGN_BYTES=0 (CMakeLists.txt) gives them one layout in both
+// compilers.
 namespace tread
 {
 

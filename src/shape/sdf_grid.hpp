@@ -12,8 +12,8 @@ namespace tread::shape
 {
 
 /// The nodes over 120 % of `box` about its middle, `cells` cubic cells along the longest axis, values still to be set.
-/// Every axis has at least one cell beyond the box, and beyond `reach` (m) outside it, at each end: that adds cells where
-/// 10 % of the box is less. Throws InputError unless 8 <= cells <= 1024.
+/// Every axis has at least one cell beyond the box, and beyond `reach` (m) outside it, at each end: that adds cells
+/// where 10 % of the box is less. Throws InputError unless 8 <= cells <= 1024.
 SignedDistanceGrid grid_over(const Bounds& box, int cells, double reach = 0);
 
 /// m3, where the interpolant is negative: exact along x, by 4 x 4 lines a cell in y and z.

@@ -88,8 +88,9 @@ struct MakeSdf
     {
         const MeshDistance distance = prepare_distance(mesh);
         return build_sdf(
-            bounds(mesh), cells, [&](const Eigen::Vector3d& point, double within)
-            { return signed_distance(distance, point, within); }, reach);
+            bounds(mesh), cells,
+            [&](const Eigen::Vector3d& point, double within) { return signed_distance(distance, point, within); },
+            reach);
     }
 };
 
@@ -118,10 +119,10 @@ ShapeTemplate make_template(const scene::Shape& shape, const std::string& direct
 
     result.equivalent_radius = std::cbrt(3 * result.unit.volume / (4 * pi));
     result.sdf = std::visit(MakeSdf{result.mesh, shape.sdf_cells, reach(result.equivalent_radius)}, shape.source);
-    result.sdf_volume_ratio  = enclosed_volume(result.sdf) / result.unit.volume;
-    result.nodes             = std::visit(MakeNodes{result.mesh, shape.node_spacing}, shape.source);
-    result.box               = bounds(result.mesh);
-    result.bounding_radius   = bounding_radius(result.mesh);
+    result.sdf_volume_ratio = enclosed_volume(result.sdf) / result.unit.volume;
+    result.nodes            = std::visit(MakeNodes{result.mesh, shape.node_spacing}, shape.source);
+    result.box              = bounds(result.mesh);
+    result.bounding_radius  = bounding_radius(result.mesh);
     if (const auto* wheel = std::get_if<scene::WheelGenerator>(&shape.source))
     {
         result.is_wheel          = true;

@@ -77,8 +77,8 @@ using Reach = std::function<double(double equivalent_radius)>;
 /// Throws InputError that names the shape or the file.
 /// The SDF covers 120 % of the box, and `reach` beyond the mesh: further out there is only a lower bound, which no
 /// contact may use.
-ShapeTemplate make_template(const scene::Shape& shape, const std::string& directory,
-                            const Reach& reach = [](double) { return 0.0; });
+ShapeTemplate make_template(
+    const scene::Shape& shape, const std::string& directory, const Reach& reach = [](double) { return 0.0; });
 
 /// Distance (m) from `point` (body frame) by trilinear interpolation. Outside the grid a positive lower bound: the root
 /// of the squares of the distance to the grid's box and of the value (at least 0) at the box's nearest point.

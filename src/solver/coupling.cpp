@@ -14,8 +14,8 @@ Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, cons
     , contact_(exec)
     , law_{templates, pairs, hertz_factor(scene.numerics.hertz), radius_rule(scene.numerics.point_radius),
            point_motion(scene.numerics.point_motion)}
-    , largest_radius_(contact::point_radius(
-          *std::max_element(world.points.volume.begin(), world.points.volume.end()), law_.radius))
+    , largest_radius_(
+          contact::point_radius(*std::max_element(world.points.volume.begin(), world.points.volume.end()), law_.radius))
 {
 }
 

@@ -19,14 +19,6 @@ double wall_clock()
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// The step, made a little shorter for the last steps before `remaining` runs out, so that none of them is tiny.
-double fitted(double dt, double remaining)
-{
-    constexpr double last_steps = 4;
-    const double     steps      = std::ceil(remaining / dt * (1 - 1e-12));
-    return steps > last_steps ? dt : remaining / std::max(1.0, steps);
-}
-
 std::vector<io::NamedMesh> meshes(const World& world)
 {
     std::vector<io::NamedMesh> named;
@@ -70,7 +62,10 @@ void Driver<Exec, Real>::run()
         if (!phases_.over(time_, simulation_.unbalanced())) { continue; }
         log_.info(fmt::format("phase '{}' ends {}", phases_.phase().name, phases_.ending()));
         std::vector<double> spins;
-        for (const BodyRow& body : simulation_.named_bodies()) { spins.push_back(body.angular_velocity.dot(body.axle)); }
+        for (const BodyRow& body : simulation_.named_bodies())
+        {
+            spins.push_back(body.angular_velocity.dot(body.axle));
+        }
         phases_.advance(time_, std::move(spins));
         if (!phases_.finished()) { begin_phase(); }
     }
@@ -89,9 +84,9 @@ void Driver<Exec, Real>::begin_phase()
 template<class Exec, class Real>
 void Driver<Exec, Real>::advance()
 {
-    step_                  = choose_step(scene_.time, simulation_.limits(), simulation_.pace(), step_.dt);
-    TimeStep     step      = step_;
-    step.dt                = fitted(step.dt, phases_.latest_end() - time_);
+    step_         = choose_step(scene_.time, simulation_.limits(), simulation_.pace(), step_.dt);
+    TimeStep step = step_;
+    step.dt       = fitted(step.dt, phases_.latest_end() - time_);
     warn_once(step);
 
     std::vector<BodyCommand> commands;
@@ -174,8 +169,8 @@ void Driver<Exec, Real>::say_progress()
     const double now = wall_clock();
     if (now - last_said_ < progress_every) { return; }
     last_said_ = now;
-    log_.info(io::progress_line(
-        {phases_.phase().name, time_, end_time(), steps_, now - wall_start_, step_.dt, step_.limit}));
+    log_.info(
+        io::progress_line({phases_.phase().name, time_, end_time(), steps_, now - wall_start_, step_.dt, step_.limit}));
 }
 
 template<class Exec, class Real>

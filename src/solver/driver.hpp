@@ -23,34 +23,34 @@ public:
     void report(io::Summary& summary, const std::vector<Stage>& stages) const;
 
 private:
-    void begin_phase();
-    void advance();
-    void write_due();
-    void write_row();
-    void write_snapshot();
-    void say_progress();
-    void warn_once(const TimeStep& step);
+    void   begin_phase();
+    void   advance();
+    void   write_due();
+    void   write_row();
+    void   write_snapshot();
+    void   say_progress();
+    void   warn_once(const TimeStep& step);
     double end_time() const;
 
-    const Communicator&     communicator_;
-    Log&                    log_;
-    const scene::Scene&     scene_;
-    const World&            world_;
-    Plan                    plan_;
-    Simulation<Exec, Real>& simulation_;
-    PhaseClock              phases_;
-    Recorder                recorder_;
+    const Communicator&               communicator_;
+    Log&                              log_;
+    const scene::Scene&               scene_;
+    const World&                      world_;
+    Plan                              plan_;
+    Simulation<Exec, Real>&           simulation_;
+    PhaseClock                        phases_;
+    Recorder                          recorder_;
     std::optional<io::SnapshotWriter> snapshots_; ///< only if the scene wants snapshots
-    StageClock              clock_;
-    TimeStep                step_;
-    double                  time_          = 0;
-    std::int64_t            steps_         = 0;
-    std::int64_t            substeps_      = 0;
-    std::int64_t            rows_          = 0; ///< time-series rows that were due so far
-    std::int64_t            snapshots_due_ = 0;
-    bool                    warned_        = false;
-    double                  wall_start_;
-    double                  last_said_;
+    StageClock                        clock_;
+    TimeStep                          step_;
+    double                            time_          = 0;
+    std::int64_t                      steps_         = 0;
+    std::int64_t                      substeps_      = 0;
+    std::int64_t                      rows_          = 0; ///< time-series rows that were due so far
+    std::int64_t                      snapshots_due_ = 0;
+    bool                              warned_        = false;
+    double                            wall_start_;
+    double                            last_said_;
 };
 
 } // namespace tread::solver

@@ -15,7 +15,7 @@ namespace
 /// Bytes of a point's fields (kernels/mpm/points.hpp) and of its share of the ordering's scratch.
 std::int64_t bytes_per_point(const scene::Scene& scene, const Plan& plan)
 {
-    const std::int64_t real = scene.numerics.precision == scene::Precision::single_ ? 4 : 8;
+    const std::int64_t real  = scene.numerics.precision == scene::Precision::single_ ? 4 : 8;
     std::int64_t       bytes = 2 * 3 * 8 + (3 + 6 + 3) * real + 4 + 1;
     if (plan.affine) { bytes += 9 * real; }
     if (plan.plasticity) { bytes += 3 * real; }
@@ -30,7 +30,8 @@ std::int64_t count_pages(const World& world)
     std::set<std::uint64_t> pages;
     for (const Vec3<double>& x : world.points.position)
     {
-        pages.insert(mpm::page_key(mpm::page_of(mpm::cell_of(x, world.geometry.spacing, world.geometry.stencil_shift))));
+        pages.insert(
+            mpm::page_key(mpm::page_of(mpm::cell_of(x, world.geometry.spacing, world.geometry.stencil_shift))));
     }
     return static_cast<std::int64_t>(pages.size());
 }
@@ -68,8 +69,8 @@ Estimate estimate(const scene::Scene& scene, const World& world, const Plan& pla
 {
     constexpr std::int64_t bytes_per_body = 800, snapshot_bytes_per_point = 100, snapshot_bytes_per_body = 140;
     constexpr std::int64_t bytes_per_row = 200;
-    const auto             points = static_cast<std::int64_t>(world.points.size());
-    const auto             bodies = static_cast<std::int64_t>(world.bodies.size());
+    const auto             points        = static_cast<std::int64_t>(world.points.size());
+    const auto             bodies        = static_cast<std::int64_t>(world.bodies.size());
     Estimate               wants{};
     wants.time         = longest_time(scene);
     wants.memory_bytes = bodies * bytes_per_body + template_bytes(world);

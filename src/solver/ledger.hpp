@@ -10,13 +10,13 @@ namespace tread::solver
 /// What the bodies did in one step, summed over them.
 struct RigidReport
 {
-    double       shortest_contact = 0; ///< s, min sqrt(m / sum K); 0 = no contact
-    double       largest_speed    = 0; ///< m/s
-    double       net_force        = 0; ///< N, sum over free bodies of |contact + weight|
-    double       friction         = 0; ///< J, body-body, of the step
-    double       restitution      = 0; ///< J, body-body normal damping, of the step
-    double       damped           = 0; ///< J, taken by local damping in the step
-    double       driver_work      = 0; ///< J, done by what holds and drives bodies, of the step
+    double       shortest_contact = 0;                    ///< s, min sqrt(m / sum K); 0 = no contact
+    double       largest_speed    = 0;                    ///< m/s
+    double       net_force        = 0;                    ///< N, sum over free bodies of |contact + weight|
+    double       friction         = 0;                    ///< J, body-body, of the step
+    double       restitution      = 0;                    ///< J, body-body normal damping, of the step
+    double       damped           = 0;                    ///< J, taken by local damping in the step
+    double       driver_work      = 0;                    ///< J, done by what holds and drives bodies, of the step
     Vec3<double> wall_impulse     = Vec3<double>::Zero(); ///< N s, of the step
     Vec3<double> damping_impulse  = Vec3<double>::Zero();
     Vec3<double> driver_impulse   = Vec3<double>::Zero();
@@ -25,10 +25,10 @@ struct RigidReport
 /// What the bodies hold.
 struct RigidCensus
 {
-    double       mass     = 0; ///< kg
-    double       kinetic  = 0; ///< J, translation and rotation
-    double       contact  = 0; ///< J, elastic, body-body and body-wall
-    double       gravity  = 0; ///< J, -m g . x
+    double       mass     = 0;                    ///< kg
+    double       kinetic  = 0;                    ///< J, translation and rotation
+    double       contact  = 0;                    ///< J, elastic, body-body and body-wall
+    double       gravity  = 0;                    ///< J, -m g . x
     Vec3<double> momentum = Vec3<double>::Zero(); ///< kg m/s
 };
 
@@ -50,8 +50,8 @@ struct EnergyRow
 
 struct BalanceRow
 {
-    double       mass = 0;     ///< kg
-    Vec3<double> momentum = Vec3<double>::Zero();
+    double       mass          = 0; ///< kg
+    Vec3<double> momentum      = Vec3<double>::Zero();
     double       impulse_error = 0; ///< |momentum change less impulses| over total weight x time
 };
 
@@ -62,8 +62,7 @@ public:
     Ledger(Vec3<double> gravity, const Census& start);
 
     /// Books one step. `contact_friction`: J lost to sand-body friction in the step.
-    void step(double dt, const SandReport& sand, const RigidReport& rigid, double contact_friction,
-              double moving_mass);
+    void step(double dt, const SandReport& sand, const RigidReport& rigid, double contact_friction, double moving_mass);
 
     EnergyRow       energy(const Census& now);
     BalanceRow      balance(const Census& now);

@@ -39,9 +39,12 @@ contact::PointMotion point_motion(scene::PointMotion motion)
 {
     switch (motion)
     {
-    case scene::PointMotion::supported: return contact::PointMotion::supported;
-    case scene::PointMotion::ballistic: return contact::PointMotion::ballistic;
-    case scene::PointMotion::frozen: return contact::PointMotion::frozen;
+    case scene::PointMotion::supported:
+        return contact::PointMotion::supported;
+    case scene::PointMotion::ballistic:
+        return contact::PointMotion::ballistic;
+    case scene::PointMotion::frozen:
+        return contact::PointMotion::frozen;
     }
     return contact::PointMotion::supported;
 }
@@ -57,8 +60,8 @@ std::vector<mpm::MaterialParameters<Real>> law_parameters(const scene::Scene& sc
     std::vector<mpm::MaterialParameters<Real>> parameters;
     for (const scene::Material& m : scene.materials)
     {
-        const auto law = m.model == scene::MaterialModel::mohr_coulomb ? mpm::LawKind::mohr_coulomb
-                                                                       : mpm::LawKind::elastic;
+        const auto law =
+            m.model == scene::MaterialModel::mohr_coulomb ? mpm::LawKind::mohr_coulomb : mpm::LawKind::elastic;
         parameters.push_back(mpm::make_parameters<Real>(m.young, m.poisson, m.density, m.friction_angle_deg,
                                                         m.dilation_angle_deg, m.cohesion, law));
     }
@@ -78,7 +81,7 @@ double damping_ratio(double restitution)
     double low = 0, high = 0.9999;
     for (int bisection = 0; bisection < 60; ++bisection)
     {
-        const double middle = 0.5 * (low + high);
+        const double middle                        = 0.5 * (low + high);
         (gives(middle) > restitution ? low : high) = middle;
     }
     return restitution >= 1 ? 0 : low;
@@ -95,8 +98,8 @@ std::vector<dem::PairProperties> pair_properties(const scene::Scene& scene)
         for (std::size_t b = 0; b < count; ++b)
         {
             const scene::Material& second = scene.materials[b];
-            table[a * (count + 1) + b]    = pair(scene::contact_of(scene, first.family, second.family),
-                                                 compliance(first), compliance(second));
+            table[a * (count + 1) + b] =
+                pair(scene::contact_of(scene, first.family, second.family), compliance(first), compliance(second));
         }
         const auto against_wall        = pair(scene::contact_of(scene, first.family, "wall"), compliance(first), wall);
         table[a * (count + 1) + count] = against_wall;

@@ -20,9 +20,9 @@ PaceLimits pace_limits(const scene::Scene& scene, const World& world, const Plan
     int fewest = 1000;
     for (const scene::Terrain& terrain : scene.terrain)
     {
-        fewest             = std::min(fewest, terrain.points_per_cell);
-        const auto& sand   = scene.materials[static_cast<std::size_t>(material_index(scene, terrain.material))];
-        limits.wave_speed  = std::max(limits.wave_speed, compression_wave_speed(sand));
+        fewest            = std::min(fewest, terrain.points_per_cell);
+        const auto& sand  = scene.materials[static_cast<std::size_t>(material_index(scene, terrain.material))];
+        limits.wave_speed = std::max(limits.wave_speed, compression_wave_speed(sand));
     }
     limits.spacing = scene.grid.spacing;
     limits.courant = fewest >= 8 ? 0.6 : 0.4;

@@ -43,9 +43,10 @@ bool PhaseClock::over(double time, double unbalanced)
                               unbalanced);
         return true;
     }
-    ending_ = fmt::format("NOT in equilibrium after its max_duration of {:.4g} s: unbalanced force {:.2g} of the weight, "
-                          "wanted {:.2g}",
-                          time - start_, unbalanced, equilibrium_ratio);
+    ending_ =
+        fmt::format("NOT in equilibrium after its max_duration of {:.4g} s: unbalanced force {:.2g} of the weight, "
+                    "wanted {:.2g}",
+                    time - start_, unbalanced, equilibrium_ratio);
     return late;
 }
 
@@ -61,10 +62,7 @@ BodyCommand PhaseClock::command(std::size_t body, double time) const
 {
     const scene::Phase& now  = phase();
     const scene::Body&  self = scene_.bodies[body];
-    if (std::find(now.hold.begin(), now.hold.end(), self.name) != now.hold.end())
-    {
-        return {dem::lock_all, 0.0, 0.0};
-    }
+    if (std::find(now.hold.begin(), now.hold.end(), self.name) != now.hold.end()) { return {dem::lock_all, 0.0, 0.0}; }
     BodyCommand command{locked_freedoms(self.lock), std::nullopt, std::nullopt};
     if (!now.drive || now.drive->body != self.name) { return command; }
     const scene::Drive& drive = *now.drive;
@@ -81,13 +79,13 @@ BodyCommand PhaseClock::command(std::size_t body, double time) const
 
 std::uint32_t locked_freedoms(const std::vector<std::string>& words)
 {
-    static const std::array<std::pair<const char*, std::uint32_t>, 6> bits = {{{"x", dem::lock_x},
-                                                                               {"y", dem::lock_y},
-                                                                               {"z", dem::lock_z},
-                                                                               {"roll", dem::lock_roll},
-                                                                               {"pitch", dem::lock_pitch},
-                                                                               {"yaw", dem::lock_yaw}}};
-    std::uint32_t locked = 0;
+    static const std::array<std::pair<const char*, std::uint32_t>, 6> bits   = {{{"x", dem::lock_x},
+                                                                                 {"y", dem::lock_y},
+                                                                                 {"z", dem::lock_z},
+                                                                                 {"roll", dem::lock_roll},
+                                                                                 {"pitch", dem::lock_pitch},
+                                                                                 {"yaw", dem::lock_yaw}}};
+    std::uint32_t                                                     locked = 0;
     for (const std::string& word : words)
     {
         for (const auto& [name, bit] : bits)

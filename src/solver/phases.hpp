@@ -33,8 +33,8 @@ public:
     /// Simulated time at which the phase ends at the latest.
     double latest_end() const;
 
-    /// True when the phase is over at `time`; `unbalanced` = the share of the weight that is out of balance. Equilibrium
-    /// wants it under equilibrium_ratio during equilibrium_hold of the phase's time without a break.
+    /// True when the phase is over at `time`; `unbalanced` = the share of the weight that is out of balance.
+    /// Equilibrium wants it under equilibrium_ratio during equilibrium_hold of the phase's time without a break.
     bool over(double time, double unbalanced);
 
     /// Enters the next phase; `spins` = the named bodies' present angular velocity about their axle, rad/s.

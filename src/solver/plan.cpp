@@ -25,8 +25,9 @@ Plan make_plan(const scene::Scene& scene, const World& world)
 
 std::vector<Stage> stages(const scene::Scene&, const Plan& plan)
 {
-    const auto needs = [](const char* name, bool on, const char* yes, const char* no)
-    { return Stage{name, on, on ? yes : no}; };
+    const auto needs = [](const char* name, bool on, const char* yes, const char* no) {
+        return Stage{name, on, on ? yes : no};
+    };
     const char* no_sand   = "no terrain of material points";
     const char* no_bodies = "no wheel and no rocks";
     return {

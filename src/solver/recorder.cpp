@@ -10,7 +10,10 @@ namespace tread::solver
 namespace
 {
 
-void append(std::vector<double>& row, const Vec3<double>& value) { row.insert(row.end(), value.data(), value.data() + 3); }
+void append(std::vector<double>& row, const Vec3<double>& value)
+{
+    row.insert(row.end(), value.data(), value.data() + 3);
+}
 
 std::vector<io::Column> wheel_columns()
 {

@@ -64,11 +64,11 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     upload(world);
     properties_.assign(pair_properties(scene));
     planes_.assign(world.planes);
-    law_ = {templates_.views(),
-            {properties_.data(), static_cast<std::int32_t>(scene.materials.size() + 1)},
-            planes_.data(),
-            static_cast<std::int32_t>(world.planes.size()),
-            {hertz_factor(scene.numerics.hertz), scene.numerics.linear_overlap}};
+    law_             = {templates_.views(),
+                        {properties_.data(), static_cast<std::int32_t>(scene.materials.size() + 1)},
+                        planes_.data(),
+                        static_cast<std::int32_t>(world.planes.size()),
+                        {hertz_factor(scene.numerics.hertz), scene.numerics.linear_overlap}};
     const auto count = static_cast<std::int64_t>(world.bodies.size());
     totals_.resize(count);
     totals_.fill_zero();
@@ -131,10 +131,10 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
 {
     for (std::size_t b = 0; b < commands.size(); ++b)
     {
-        const BodyCommand&  command = commands[b];
-        Vec3<double>        velocity = read(exec_, bodies_.velocity.data() + b);
-        Vec3<double>        spin     = read(exec_, bodies_.angular_velocity.data() + b);
-        const std::uint32_t locked   = read(exec_, bodies_.locked.data() + b);
+        const BodyCommand&  command         = commands[b];
+        Vec3<double>        velocity        = read(exec_, bodies_.velocity.data() + b);
+        Vec3<double>        spin            = read(exec_, bodies_.angular_velocity.data() + b);
+        const std::uint32_t locked          = read(exec_, bodies_.locked.data() + b);
         const Vec3<double>  velocity_before = velocity, spin_before = spin;
         const Mat3<double>  rotation = read(exec_, bodies_.orientation.data() + b).toRotationMatrix();
         const bool          held     = command.locked == dem::lock_all;
@@ -199,10 +199,10 @@ void Rigid<Exec>::guard(double time)
     const dem::Overlap worst = dem::largest_overlap(exec_, pairs_, bodies_.view(), law_);
     if (worst.ratio <= deepest_overlap) { return; }
     const bool wall = worst.second >= bodies_.position.size();
-    throw NumericalError(fmt::format("t = {:.6g} s: body {} overlaps {} by {:.3g} of its radius, over the {} that the contact "
-                                     "law can carry: stiffer bodies, or a smaller dt",
-                                     time, name(worst.first), wall ? "a wall" : name(worst.second), worst.ratio,
-                                     deepest_overlap));
+    throw NumericalError(
+        fmt::format("t = {:.6g} s: body {} overlaps {} by {:.3g} of its radius, over the {} that the contact "
+                    "law can carry: stiffer bodies, or a smaller dt",
+                    time, name(worst.first), wall ? "a wall" : name(worst.second), worst.ratio, deepest_overlap));
 }
 
 template<class Exec>
@@ -234,7 +234,8 @@ RigidReport Rigid<Exec>::report(double time)
 template<class Exec>
 void Rigid<Exec>::take_totals(RigidReport& report)
 {
-    sum_rows(exec_, reinterpret_cast<const double*>(totals_.data()), totals_.size(), dem::body_total_width, sums_.data());
+    sum_rows(exec_, reinterpret_cast<const double*>(totals_.data()), totals_.size(), dem::body_total_width,
+             sums_.data());
     dem::BodyTotal now;
     copy_to_host(exec_, &now, sums_.data(), sizeof(now));
     report.wall_impulse    = now.wall_impulse - taken_.wall_impulse;
@@ -259,10 +260,10 @@ RigidCensus Rigid<Exec>::census()
 template<class Exec>
 std::vector<BodyRow> Rigid<Exec>::named_bodies()
 {
-    std::vector<BodyRow>             bodies;
-    const std::vector<Quat>          orientation = bodies_.orientation.to_host();
-    const std::vector<Vec3<double>>  position = bodies_.position.to_host(), velocity = bodies_.velocity.to_host(),
-                                     spin = bodies_.angular_velocity.to_host();
+    std::vector<BodyRow>            bodies;
+    const std::vector<Quat>         orientation = bodies_.orientation.to_host();
+    const std::vector<Vec3<double>> position = bodies_.position.to_host(), velocity = bodies_.velocity.to_host(),
+                                    spin            = bodies_.angular_velocity.to_host();
     const std::vector<dem::ContactImpulse> impulses = impulses_.to_host();
     for (std::size_t b = 0; b < static_cast<std::size_t>(named_); ++b)
     {
@@ -270,8 +271,8 @@ std::vector<BodyRow> Rigid<Exec>::named_bodies()
         const double       over = mean_time_ > 0 ? 1 / mean_time_ : 0;
         const Vec3<double> axle = orientation[b] * Vec3<double>::UnitY();
         const double       drop = form.is_wheel ? form.wheel.radius : form.bounding_radius;
-        bodies.push_back({position[b], velocity[b], spin[b], over * impulses[b].linear, over * impulses[b].angular, axle,
-                          position[b][2] - drop});
+        bodies.push_back({position[b], velocity[b], spin[b], over * impulses[b].linear, over * impulses[b].angular,
+                          axle, position[b][2] - drop});
     }
     return bodies;
 }

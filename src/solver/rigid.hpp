@@ -61,29 +61,29 @@ private:
     void take_totals(RigidReport& report);
     void guard(double time);
 
-    Exec                               exec_;
-    const scene::Scene&                scene_;
-    const World&                       world_;
-    Vec3<double>                       gravity_;
-    double                             mass_ = 0;
-    std::int64_t                       named_;
-    bool                               contacts_; ///< some body may meet another or a wall
-    DeviceTemplates<Exec>              templates_;
-    dem::Bodies<Exec>                  bodies_;
-    dem::Pairs<Exec>                   pairs_;
-    Array<Exec, dem::PairProperties>   properties_;
-    Array<Exec, dem::Plane>            planes_;
-    dem::BodyTotals<Exec>              totals_;
-    Array<Exec, dem::ContactImpulse>   impulses_; ///< of the named bodies, since begin_mean()
-    Array<Exec, double>                bounding_radii_;
-    Array<Exec, dem::BodyActivity>     activity_;
-    Array<Exec, double>                sums_;
-    dem::BodyLaw                       law_{};
-    std::vector<bool>                  released_; ///< named bodies that were free once
-    double                             mean_time_      = 0; ///< s, since begin_mean()
-    double                             command_work_   = 0; ///< J, of commands since the last report
-    Vec3<double>                       command_impulse_ = Vec3<double>::Zero();
-    dem::BodyTotal                     taken_{}; ///< totals at the last report
+    Exec                             exec_;
+    const scene::Scene&              scene_;
+    const World&                     world_;
+    Vec3<double>                     gravity_;
+    double                           mass_ = 0;
+    std::int64_t                     named_;
+    bool                             contacts_; ///< some body may meet another or a wall
+    DeviceTemplates<Exec>            templates_;
+    dem::Bodies<Exec>                bodies_;
+    dem::Pairs<Exec>                 pairs_;
+    Array<Exec, dem::PairProperties> properties_;
+    Array<Exec, dem::Plane>          planes_;
+    dem::BodyTotals<Exec>            totals_;
+    Array<Exec, dem::ContactImpulse> impulses_; ///< of the named bodies, since begin_mean()
+    Array<Exec, double>              bounding_radii_;
+    Array<Exec, dem::BodyActivity>   activity_;
+    Array<Exec, double>              sums_;
+    dem::BodyLaw                     law_{};
+    std::vector<bool>                released_;            ///< named bodies that were free once
+    double                           mean_time_       = 0; ///< s, since begin_mean()
+    double                           command_work_    = 0; ///< J, of commands since the last report
+    Vec3<double>                     command_impulse_ = Vec3<double>::Zero();
+    dem::BodyTotal                   taken_{}; ///< totals at the last report
 };
 
 } // namespace tread::solver

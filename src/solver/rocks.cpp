@@ -52,7 +52,10 @@ public:
         for (int n = 0; n < 27; ++n)
         {
             const auto found = cells_.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
-            if (found != cells_.end() && std::any_of(found->second.begin(), found->second.end(), meets)) { return false; }
+            if (found != cells_.end() && std::any_of(found->second.begin(), found->second.end(), meets))
+            {
+                return false;
+            }
         }
         return true;
     }
@@ -114,7 +117,8 @@ scene::Box centres(const scene::Rocks& rocks, double radius)
 std::vector<Vec3<double>> lattice(const scene::Box& box, double spacing)
 {
     std::vector<Vec3<double>> sites;
-    const auto along = [&](std::size_t c) { return static_cast<long>((box.high[c] - box.low[c]) / spacing + 1e-9) + 1; };
+    const auto                along = [&](std::size_t c)
+    { return static_cast<long>((box.high[c] - box.low[c]) / spacing + 1e-9) + 1; };
     for (long k = 0; k < along(2); ++k)
     {
         for (long j = 0; j < along(1); ++j)
@@ -132,10 +136,10 @@ std::vector<Vec3<double>> lattice(const scene::Box& box, double spacing)
 void add_rock(const scene::Scene& scene, const scene::Rocks& rocks, int shape_index, const Vec3<double>& x,
               const Quat& rotation, World& world)
 {
-    const auto& shape    = world.templates[static_cast<std::size_t>(shape_index)];
-    const int   material = material_index(scene, rocks.material);
-    const double scale   = 0.5 * rocks.diameter / shape.equivalent_radius;
-    HostBodies&  bodies  = world.bodies;
+    const auto&  shape    = world.templates[static_cast<std::size_t>(shape_index)];
+    const int    material = material_index(scene, rocks.material);
+    const double scale    = 0.5 * rocks.diameter / shape.equivalent_radius;
+    HostBodies&  bodies   = world.bodies;
     bodies.position.push_back(x);
     bodies.orientation.push_back(rotation);
     bodies.velocity.push_back(Vec3<double>::Zero());
@@ -158,13 +162,13 @@ int template_index(const World& world, const std::string& name)
 
 std::int64_t remove_points_in_body(const scene::Scene& scene, World& world, std::size_t body)
 {
-    const auto&        shape    = world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
-    const double       scale    = world.bodies.scale[body];
-    const Vec3<double> centre   = world.bodies.position[body];
-    const Mat3<double> to_body  = world.bodies.orientation[body].toRotationMatrix().transpose();
-    HostPoints&        points   = world.points;
-    const auto         rule     = radius_rule(scene.numerics.point_radius);
-    std::size_t        kept     = 0;
+    const auto&        shape   = world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
+    const double       scale   = world.bodies.scale[body];
+    const Vec3<double> centre  = world.bodies.position[body];
+    const Mat3<double> to_body = world.bodies.orientation[body].toRotationMatrix().transpose();
+    HostPoints&        points  = world.points;
+    const auto         rule    = radius_rule(scene.numerics.point_radius);
+    std::size_t        kept    = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
     {
         const Vec3<double> offset = points.position[i] - centre;
@@ -202,17 +206,17 @@ void place_rocks(const scene::Scene& scene, const scene::Rocks& rocks, World& wo
 
     std::vector<Vec3<double>> sites;
     if (rocks.placement == scene::Placement::grid) { sites = lattice(box, 2 * radius); }
-    const std::int64_t tries = rocks.placement == scene::Placement::grid ? static_cast<std::int64_t>(sites.size())
-                                                                         : 10000 + 200 * rocks.count;
+    const std::int64_t tries =
+        rocks.placement == scene::Placement::grid ? static_cast<std::int64_t>(sites.size()) : 10000 + 200 * rocks.count;
     std::int64_t placed = 0;
     for (std::int64_t attempt = 0; placed < rocks.count; ++attempt)
     {
         if (attempt == tries) { refuse(rocks, placed, radius); }
-        const Vec3<double> x = rocks.placement == scene::Placement::grid
-                                   ? sites[static_cast<std::size_t>(attempt)]
-                                   : Vec3<double>(random.uniform(box.low[0], box.high[0]),
-                                                  random.uniform(box.low[1], box.high[1]),
-                                                  random.uniform(box.low[2], box.high[2]));
+        const Vec3<double> x =
+            rocks.placement == scene::Placement::grid
+                ? sites[static_cast<std::size_t>(attempt)]
+                : Vec3<double>(random.uniform(box.low[0], box.high[0]), random.uniform(box.low[1], box.high[1]),
+                               random.uniform(box.low[2], box.high[2]));
         const Quat rotation = random_rotation(random);
         if (!near.free(x)) { continue; }
         add_rock(scene, rocks, shape, x, rotation, world);
@@ -224,9 +228,10 @@ void place_rocks(const scene::Scene& scene, const scene::Rocks& rocks, World& wo
         const std::int64_t removed = remove_points_in_body(scene, world, body);
         if (removed > 0 && rocks.placement != scene::Placement::replace)
         {
-            throw InputError(fmt::format("[[rocks]] of shape '{}': {} points of sand stand where rock {} is placed; use "
-                                         "placement = \"replace\" or another region",
-                                         rocks.shape, removed, body - first));
+            throw InputError(
+                fmt::format("[[rocks]] of shape '{}': {} points of sand stand where rock {} is placed; use "
+                            "placement = \"replace\" or another region",
+                            rocks.shape, removed, body - first));
         }
     }
 }

@@ -49,7 +49,8 @@ Backend choose_backend(BackendChoice choice)
 Backend choose_backend(BackendChoice choice)
 {
     if (choice != BackendChoice::cuda) { return Backend::cpu; }
-    throw EnvironmentError("--backend cuda: this build has no GPU backend (no CUDA compiler was found when it was made)");
+    throw EnvironmentError(
+        "--backend cuda: this build has no GPU backend (no CUDA compiler was found when it was made)");
 }
 #endif
 
@@ -61,9 +62,10 @@ void say_plan(Log& log, const World& world, const std::vector<Stage>& stages)
     {
         if (std::abs(form.sdf_volume_ratio - 1) > 0.02)
         {
-            log.warning(fmt::format("shape '{}': its SDF encloses {:.1f} % of the mesh's volume; raise sdf_cells (now {})",
-                                    form.name, 100 * form.sdf_volume_ratio,
-                                    static_cast<int>(*std::max_element(form.sdf.nodes.begin(), form.sdf.nodes.end())) - 1));
+            log.warning(
+                fmt::format("shape '{}': its SDF encloses {:.1f} % of the mesh's volume; raise sdf_cells (now {})",
+                            form.name, 100 * form.sdf_volume_ratio,
+                            static_cast<int>(*std::max_element(form.sdf.nodes.begin(), form.sdf.nodes.end())) - 1));
         }
     }
     for (const Stage& stage : stages)
@@ -75,14 +77,14 @@ void say_plan(Log& log, const World& world, const std::vector<Stage>& stages)
 /// What every run of either backend shares.
 struct Job
 {
-    const Communicator&  communicator;
-    Log&                 log;
-    const scene::Scene&  scene;
-    const World&         world;
-    Plan                 plan;
-    std::vector<Stage>   stages;
-    io::RunDirectory     directory;
-    io::Summary          summary;
+    const Communicator& communicator;
+    Log&                log;
+    const scene::Scene& scene;
+    const World&        world;
+    Plan                plan;
+    std::vector<Stage>  stages;
+    io::RunDirectory    directory;
+    io::Summary         summary;
 };
 
 template<class Exec, class Real>
@@ -110,7 +112,7 @@ template<class Exec>
 ExitCode run_precision(const Exec& exec, Job& job)
 {
     return job.scene.numerics.precision == scene::Precision::single_ ? run_on<Exec, float>(exec, job)
-                                                                    : run_on<Exec, double>(exec, job);
+                                                                     : run_on<Exec, double>(exec, job);
 }
 
 ExitCode run_backend(Backend backend, Job& job)

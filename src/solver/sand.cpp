@@ -9,12 +9,13 @@ namespace tread::solver
 namespace
 {
 
-/// Lighter nodes stand still: this share of the lightest point's mass is far below what moves anything.
-constexpr double mass_floor_share = 1e-7;
+/// Lighter nodes stand still. The share of the lightest point's mass is only there to keep products of weights clear of
+/// underflow in fp32: a larger one would hold nodes back that move with the sand, and strain what falls freely.
+constexpr double mass_floor_share = 1e-20;
 
 /// Room for a census, or for the sums and peaks of a step.
-constexpr std::int64_t totals_size =
-    std::int64_t{mpm::census_count} + std::int64_t{mpm::grid_sums} + std::int64_t{mpm::point_sums} + std::int64_t{mpm::point_peaks};
+constexpr std::int64_t totals_size = std::int64_t{mpm::census_count} + std::int64_t{mpm::grid_sums} +
+                                     std::int64_t{mpm::point_sums} + std::int64_t{mpm::point_peaks};
 
 template<class Real>
 std::vector<Real> cast(const std::vector<double>& values)
@@ -61,8 +62,8 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     , geometry_(world.geometry)
     , walls_(world.grid_walls)
     , gravity_(Vec3<double>(scene.domain.gravity[0], scene.domain.gravity[1], scene.domain.gravity[2]).cast<Real>())
-    , mass_floor_(static_cast<Real>(mass_floor_share *
-                                    *std::min_element(world.points.mass.begin(), world.points.mass.end())))
+    , mass_floor_(
+          static_cast<Real>(mass_floor_share * *std::min_element(world.points.mass.begin(), world.points.mass.end())))
     , points_(exec)
     , pages_(exec)
     , order_scratch_(exec)
@@ -110,7 +111,7 @@ void Sand<Exec, Real>::order()
 {
     if (ordered_) { return; }
     mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_);
-    ordered_ = true;
+    ordered_                       = true;
     const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
     tiles_.resize(point_pages * mpm::node_channels * mpm::tile_nodes);
     motion_.resize(node_pages * mpm::motion_channels * mpm::page_cells);

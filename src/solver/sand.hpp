@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "backend/reduce.hpp"
+#include "io/snapshot.hpp"
 #include "kernels/mpm/census.hpp"
 #include "kernels/mpm/gather.hpp"
 #include "kernels/mpm/grid.hpp"
 #include "kernels/mpm/order.hpp"
-#include "io/snapshot.hpp"
 #include "kernels/mpm/scatter.hpp"
 #include "solver/world.hpp"
 
@@ -17,17 +17,17 @@ namespace tread::solver
 /// What one step did to the sand, summed over its pages.
 struct SandReport
 {
-    double grid[mpm::grid_sums]     = {}; ///< by mpm::GridSum
-    double points[mpm::point_sums]  = {}; ///< by mpm::PointSum
-    double peaks[mpm::point_peaks]  = {}; ///< by mpm::PointPeak
+    double grid[mpm::grid_sums]    = {}; ///< by mpm::GridSum
+    double points[mpm::point_sums] = {}; ///< by mpm::PointSum
+    double peaks[mpm::point_peaks] = {}; ///< by mpm::PointPeak
 };
 
 /// What the sand holds.
 struct SandCensus
 {
-    double       mass     = 0; ///< kg
-    double       kinetic  = 0; ///< J
-    double       strain   = 0; ///< J
+    double       mass     = 0;                    ///< kg
+    double       kinetic  = 0;                    ///< J
+    double       strain   = 0;                    ///< J
     Vec3<double> momentum = Vec3<double>::Zero(); ///< kg m/s
     Vec3<double> moment   = Vec3<double>::Zero(); ///< kg m, mass times position
 };
@@ -39,11 +39,11 @@ class Sand
 public:
     Sand(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields);
 
-    std::int64_t                     count() const { return points_.count; }
-    mpm::PointsView<Real>            view() { return points_.view(); }
-    mpm::Points<Exec, Real>&         points() { return points_; }
-    mpm::PagesView                   pages() const;
-    const mpm::GridGeometry&         geometry() const { return geometry_; }
+    std::int64_t             count() const { return points_.count; }
+    mpm::PointsView<Real>    view() { return points_.view(); }
+    mpm::Points<Exec, Real>& points() { return points_; }
+    mpm::PagesView           pages() const;
+    const mpm::GridGeometry& geometry() const { return geometry_; }
 
     /// 1. Orders points by page and cell, if one has left its cell since.
     void order();

@@ -54,15 +54,26 @@ void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, d
 template<class Exec, class Real>
 void Simulation<Exec, Real>::step(const TimeStep& step, double time, StageClock& clock)
 {
-    if (sand_) { clock.run(exec_, stage::order, [&] { sand_->order(); }); }
-    if (plan_.body_contact) { clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs(step.dt); }); }
+    if (sand_)
+    {
+        clock.run(exec_, stage::order, [&] { sand_->order(); });
+    }
+    if (plan_.body_contact)
+    {
+        clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs(step.dt); });
+    }
     if (coupling_)
     {
-        clock.run(exec_, stage::candidates,
-                  [&] { coupling_->begin_step(sand_->view(), sand_->pages(), rigid_->view(), step.dt, pace_.largest_speed); });
+        clock.run(
+            exec_, stage::candidates,
+            [&]
+            { coupling_->begin_step(sand_->view(), sand_->pages(), rigid_->view(), step.dt, pace_.largest_speed); });
     }
     if (rigid_) { substeps(step, clock); }
-    if (coupling_) { clock.run(exec_, stage::sand_contact, [&] { coupling_->finish_step(sand_->view(), step.dt); }); }
+    if (coupling_)
+    {
+        clock.run(exec_, stage::sand_contact, [&] { coupling_->finish_step(sand_->view(), step.dt); });
+    }
     if (sand_)
     {
         clock.run(exec_, stage::scatter, [&] { sand_->scatter(); });
@@ -79,8 +90,14 @@ void Simulation<Exec, Real>::substeps(const TimeStep& step, StageClock& clock)
     for (std::int64_t substep = 0; substep < step.substeps; ++substep)
     {
         rigid_->clear_wrenches();
-        if (coupling_) { clock.run(exec_, stage::sand_contact, [&] { coupling_->substep(rigid_->view(), dt); }); }
-        if (plan_.body_contact) { clock.run(exec_, stage::body_contact, [&] { rigid_->contact(dt); }); }
+        if (coupling_)
+        {
+            clock.run(exec_, stage::sand_contact, [&] { coupling_->substep(rigid_->view(), dt); });
+        }
+        if (plan_.body_contact)
+        {
+            clock.run(exec_, stage::body_contact, [&] { rigid_->contact(dt); });
+        }
         clock.run(exec_, stage::integrate, [&] { rigid_->move(dt, damping_); });
     }
 }
@@ -92,9 +109,10 @@ void Simulation<Exec, Real>::measure(const TimeStep& step, double time)
     const RigidReport rigid = rigid_ ? rigid_->report(time) : RigidReport{};
     if (sand.peaks[mpm::peak_moved] >= 2)
     {
-        throw NumericalError(fmt::format("t = {:.6g} s: a point of the sand has a velocity or stress that is not a number "
-                                         "(dt = {:.4g} s, limit: {})",
-                                         time, step.dt, step.limit));
+        throw NumericalError(
+            fmt::format("t = {:.6g} s: a point of the sand has a velocity or stress that is not a number "
+                        "(dt = {:.4g} s, limit: {})",
+                        time, step.dt, step.limit));
     }
     pace_.largest_speed    = std::max(sand.peaks[mpm::peak_speed], rigid.largest_speed);
     pace_.shortest_contact = rigid.shortest_contact;
@@ -111,16 +129,15 @@ void Simulation<Exec, Real>::measure(const TimeStep& step, double time)
         contact_friction                 = contacts.dissipated;
         if (contacts.live > 0 && contacts.flattest.value < least_gradient)
         {
-            throw NumericalError(fmt::format(
-                "t = {:.6g} s: point {} is so deep in body {} that its nearest surface is not unique (|grad phi| = {:.2g}, "
-                "least {}): a smaller dt, or a finer grid beside thin walls",
-                time, contacts.flattest.point_id, rigid_->name(contacts.flattest.body), contacts.flattest.value,
-                least_gradient));
+            throw NumericalError(fmt::format("t = {:.6g} s: point {} is so deep in body {} that its nearest surface is "
+                                             "not unique (|grad phi| = {:.2g}, "
+                                             "least {}): a smaller dt, or a finer grid beside thin walls",
+                                             time, contacts.flattest.point_id, rigid_->name(contacts.flattest.body),
+                                             contacts.flattest.value, least_gradient));
         }
     }
     unbalanced_ = weight_ > 0 ? (sand.grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
-    ledger_->step(step.dt, sand, rigid, contact_friction,
-                  (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
+    ledger_->step(step.dt, sand, rigid, contact_friction, (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
 }
 
 template<class Exec, class Real>
@@ -172,12 +189,18 @@ double Simulation<Exec, Real>::surface_height()
     std::vector<double> heights;
     for (const auto& [column, top] : highest)
     {
-        const bool under = std::any_of(bodies.begin(), bodies.end(), [&, at = column](const BodyRow& body)
-                                       { return std::abs(body.position[0] - scene_.grid.spacing * double(at.first)) <
-                                                1.2 * (body.position[2] - body.lowest); });
+        const bool under = std::any_of(bodies.begin(), bodies.end(),
+                                       [&, at = column](const BodyRow& body)
+                                       {
+                                           return std::abs(body.position[0] - scene_.grid.spacing * double(at.first)) <
+                                                  1.2 * (body.position[2] - body.lowest);
+                                       });
         if (!under) { heights.push_back(top); }
     }
-    if (heights.empty()) { for (const auto& [column, top] : highest) { heights.push_back(top); } }
+    if (heights.empty())
+    {
+        for (const auto& [column, top] : highest) { heights.push_back(top); }
+    }
     std::nth_element(heights.begin(), heights.begin() + static_cast<long>(heights.size() / 2), heights.end());
     return heights[heights.size() / 2] + 0.5 * world_.point_spacing;
 }

@@ -36,6 +36,9 @@ public:
     /// Share of the weight that was out of balance in the last step.
     double unbalanced() const { return unbalanced_; }
 
+    /// The scene must have sand.
+    Sand<Exec, Real>& sand() { return *sand_; }
+
     std::int64_t points() const { return sand_ ? sand_->count() : 0; }
 
     /// Tells the named bodies what to do (held, driven, free) until the next call; `damping` of the phase.

@@ -54,7 +54,7 @@ private:
     bool sampled(const Cpu&) const { return true; }
     bool sampled(const Gpu&) const { return step_ % gpu_sample == 0; }
 
-    std::int64_t                          step_ = 0;
+    std::int64_t                            step_ = 0;
     std::map<std::string, Row, std::less<>> rows_;
 };
 

@@ -90,10 +90,10 @@ void add_rock_weights(const HostBodies& bodies, double width, Plan& plan)
 {
     for (std::size_t b = static_cast<std::size_t>(bodies.named); b < bodies.size(); ++b)
     {
-        const Vec3<double> x      = bodies.position[b];
-        const double       radius = bodies.radius[b];
-        const auto         low = column_of(x[0] - radius, x[1] - radius, width);
-        const auto         high = column_of(x[0] + radius, x[1] + radius, width);
+        const Vec3<double> x       = bodies.position[b];
+        const double       radius  = bodies.radius[b];
+        const auto         low     = column_of(x[0] - radius, x[1] - radius, width);
+        const auto         high    = column_of(x[0] + radius, x[1] + radius, width);
         const double       columns = double((high.first - low.first + 1) * (high.second - low.second + 1));
         for (long i = low.first; i <= high.first; ++i)
         {
@@ -150,8 +150,8 @@ void set_geostatic_stress(const scene::Scene& scene, const HostBodies& bodies, H
     for (auto& [place, column] : plan)
     {
         std::sort(column.height_and_mass.begin(), column.height_and_mass.end(), std::greater<>());
-        std::sort(column.points.begin(), column.points.end(), [&](std::size_t a, std::size_t b)
-                  { return points.position[a][2] > points.position[b][2]; });
+        std::sort(column.points.begin(), column.points.end(),
+                  [&](std::size_t a, std::size_t b) { return points.position[a][2] > points.position[b][2]; });
         double      above = 0;
         std::size_t next  = 0;
         for (std::size_t at = 0; at < column.points.size();)
@@ -170,9 +170,9 @@ void set_geostatic_stress(const scene::Scene& scene, const HostBodies& bodies, H
             above += level;
             for (; at < column.points.size() && points.position[column.points[at]][2] >= height; ++at)
             {
-                const std::size_t point = column.points[at];
-                const double horizontal = horizontal_stress(scene.materials[points.material[point]], vertical);
-                points.stress[point]    = Sym3<double>(-horizontal, -horizontal, -vertical, 0, 0, 0);
+                const std::size_t point      = column.points[at];
+                const double      horizontal = horizontal_stress(scene.materials[points.material[point]], vertical);
+                points.stress[point]         = Sym3<double>(-horizontal, -horizontal, -vertical, 0, 0, 0);
             }
         }
     }

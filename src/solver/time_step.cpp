@@ -16,7 +16,7 @@ constexpr double point_contact_bound = 0.5; ///< of k dt^2 / m_p, prototypes 2
 constexpr double point_contact_warn  = 2.0;
 constexpr double travel_bound        = 0.3; ///< of the spacing, or of the smallest body
 constexpr double growth              = 1.05;
-constexpr double substeps_alone      = 10;  ///< substeps a step where no sand sets the step
+constexpr double substeps_alone      = 10; ///< substeps a step where no sand sets the step
 
 struct Bound
 {
@@ -47,7 +47,8 @@ Bound smallest_bound(const PaceLimits& limits, const Pace& pace)
 std::int64_t needed_substeps(double dt, const Pace& pace)
 {
     if (pace.shortest_contact <= 0) { return 1; }
-    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(dt / (contact_safety * pace.shortest_contact))));
+    return std::max<std::int64_t>(1,
+                                  static_cast<std::int64_t>(std::ceil(dt / (contact_safety * pace.shortest_contact))));
 }
 
 } // namespace
@@ -64,6 +65,13 @@ TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits
     }
     step.substeps = options.substeps ? *options.substeps : needed_substeps(step.dt, pace);
     return step;
+}
+
+double fitted(double dt, double remaining)
+{
+    constexpr double last_steps = 4;
+    const double     steps      = std::ceil(remaining / dt * (1 - 1e-12));
+    return steps > last_steps ? dt : remaining / std::max(1.0, steps);
 }
 
 std::optional<std::string> over_limit(const TimeStep& step, const PaceLimits& limits, const Pace& pace)

@@ -12,9 +12,9 @@ namespace tread::solver
 /// What the last step measured, for the choice of the next.
 struct Pace
 {
-    double largest_speed      = 0; ///< m/s, of points and bodies
-    double stiffest_point     = 0; ///< 1/s2, k/m_p of the stiffest live sand-body contact
-    double shortest_contact   = 0; ///< s, min over bodies of sqrt(m / sum of K); 0 = no body contact
+    double largest_speed    = 0; ///< m/s, of points and bodies
+    double stiffest_point   = 0; ///< 1/s2, k/m_p of the stiffest live sand-body contact
+    double shortest_contact = 0; ///< s, min over bodies of sqrt(m / sum of K); 0 = no body contact
 };
 
 /// Bounds that hold for the whole run.
@@ -32,13 +32,17 @@ struct TimeStep
 {
     double       dt       = 0; ///< s
     std::int64_t substeps = 1;
-    std::string  limit;        ///< which bound the step is at
+    std::string  limit; ///< which bound the step is at
 };
 
 /// The step that the limits of the design allow: c_p dt/h <= courant, v dt <= 0.3 h, k dt^2/m_p <= 0.5 at the stiffest
 /// sand-body contact, dt/N <= 0.2 sqrt(m / sum K). Grows by at most 5 % a step. Fixed values of the scene are taken as
 /// they are.
 TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace, double last_dt);
+
+/// The step, made a little shorter for the last steps before `remaining` (s) runs out, so that none of them is tiny:
+/// the support acceleration of points in contact is a change of velocity over dt.
+double fitted(double dt, double remaining);
 
 /// How far a step is over its limits: a sentence for a warning, or nothing.
 std::optional<std::string> over_limit(const TimeStep& step, const PaceLimits& limits, const Pace& pace);

@@ -19,9 +19,12 @@ mpm::WallRule wall_rule(scene::WallKind kind)
 {
     switch (kind)
     {
-    case scene::WallKind::slip: return mpm::WallRule::slip;
-    case scene::WallKind::fixed: return mpm::WallRule::fixed;
-    case scene::WallKind::open: return mpm::WallRule::open;
+    case scene::WallKind::slip:
+        return mpm::WallRule::slip;
+    case scene::WallKind::fixed:
+        return mpm::WallRule::fixed;
+    case scene::WallKind::open:
+        return mpm::WallRule::open;
     }
     return mpm::WallRule::open;
 }
@@ -35,7 +38,8 @@ struct Side
 
 std::vector<Side> sides(const scene::Walls& walls)
 {
-    return {{0, 0, walls.x}, {0, 1, walls.x}, {1, 0, walls.y}, {1, 1, walls.y}, {2, 0, walls.bottom}, {2, 1, walls.top}};
+    return {{0, 0, walls.x}, {0, 1, walls.x},      {1, 0, walls.y},
+            {1, 1, walls.y}, {2, 0, walls.bottom}, {2, 1, walls.top}};
 }
 
 mpm::GridWalls grid_walls(const scene::Scene& scene)
@@ -76,7 +80,10 @@ double contact_reach(const scene::Scene& scene, const std::string& shape, double
     double smallest_scale = 1;
     for (const scene::Rocks& rocks : scene.rocks)
     {
-        if (rocks.shape == shape) { smallest_scale = std::min(smallest_scale, 0.5 * rocks.diameter / equivalent_radius); }
+        if (rocks.shape == shape)
+        {
+            smallest_scale = std::min(smallest_scale, 0.5 * rocks.diameter / equivalent_radius);
+        }
     }
     return largest / smallest_scale;
 }
@@ -102,9 +109,10 @@ std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene)
                 scene.bodies.end() &&
             extent > 100 * *std::max_element(size.begin(), size.end()))
         {
-            throw InputError(fmt::format("[[shape]] '{}': its extent of {:.4g} m is over 100 times the domain; a mesh in "
-                                         "millimetres? then give unit = \"mm\" or unit = 0.001",
-                                         name, extent));
+            throw InputError(
+                fmt::format("[[shape]] '{}': its extent of {:.4g} m is over 100 times the domain; a mesh in "
+                            "millimetres? then give unit = \"mm\" or unit = 0.001",
+                            name, extent));
         }
     }
     return templates;
@@ -136,9 +144,9 @@ void require_clear_of_walls(const scene::Body& body, const shape::ShapeTemplate&
         for (int c = 0; c < 3; ++c) { nearest += plane.normal[c] * (plane.normal[c] > 0 ? box.low[c] : box.high[c]); }
         if (nearest < plane.offset)
         {
-            throw InputError(fmt::format("[[body]] '{}': position [{}, {}, {}] puts it {:.4g} m into a wall of the domain",
-                                         body.name, body.position[0], body.position[1], body.position[2],
-                                         plane.offset - nearest));
+            throw InputError(
+                fmt::format("[[body]] '{}': position [{}, {}, {}] puts it {:.4g} m into a wall of the domain",
+                            body.name, body.position[0], body.position[1], body.position[2], plane.offset - nearest));
         }
     }
 }
@@ -168,9 +176,10 @@ void require_clear_of_sand(const scene::Scene& scene, World& world)
         const std::int64_t inside = remove_points_in_body(scene, world, b);
         if (inside > 0)
         {
-            throw InputError(fmt::format("[[body]] '{}': {} points of sand stand inside it or within their radius of it; "
-                                         "raise position[2] or lower the terrain",
-                                         scene.bodies[b].name, inside));
+            throw InputError(
+                fmt::format("[[body]] '{}': {} points of sand stand inside it or within their radius of it; "
+                            "raise position[2] or lower the terrain",
+                            scene.bodies[b].name, inside));
         }
     }
 }
@@ -186,16 +195,15 @@ int material_index(const scene::Scene& scene, const std::string& name)
 
 World build_world(const scene::Scene& scene)
 {
-    World world{};
-    const bool linear    = scene.numerics.shape_functions == scene::ShapeFunctions::linear;
-    world.geometry       = {scene.grid.spacing,
-                            linear ? 0.0 : 0.5,
-                            {scene.domain.size[0], scene.domain.size[1], scene.domain.size[2]}};
-    world.grid_walls     = grid_walls(scene);
-    world.planes         = body_planes(scene);
-    world.templates      = make_templates(scene);
-    world.points         = make_terrain(scene);
-    world.point_spacing  = terrain_spacing(scene);
+    World      world{};
+    const bool linear = scene.numerics.shape_functions == scene::ShapeFunctions::linear;
+    world.geometry    = {
+           scene.grid.spacing, linear ? 0.0 : 0.5, {scene.domain.size[0], scene.domain.size[1], scene.domain.size[2]}};
+    world.grid_walls    = grid_walls(scene);
+    world.planes        = body_planes(scene);
+    world.templates     = make_templates(scene);
+    world.points        = make_terrain(scene);
+    world.point_spacing = terrain_spacing(scene);
     for (const scene::Body& body : scene.bodies) { add_body(scene, body, world); }
     require_clear_of_sand(scene, world);
     for (const scene::Rocks& rocks : scene.rocks) { place_rocks(scene, rocks, world); }

@@ -30,15 +30,15 @@ struct HostPoints
 /// Rigid bodies: first the scene's [[body]] tables in their order, then the rocks.
 struct HostBodies
 {
-    std::vector<Vec3<double>>  position;         ///< m, centre of mass
-    std::vector<Quat>          orientation;      ///< body to world
-    std::vector<Vec3<double>>  velocity;         ///< m/s
-    std::vector<double>        mass;             ///< kg
-    std::vector<double>        scale;            ///< of the template
-    std::vector<double>        radius;           ///< m, of the sphere of equal volume
-    std::vector<std::int32_t>  shape;            ///< of World::templates
-    std::vector<std::int32_t>  material;         ///< of Scene::materials
-    std::int64_t               named = 0;        ///< bodies of [[body]] tables
+    std::vector<Vec3<double>> position;    ///< m, centre of mass
+    std::vector<Quat>         orientation; ///< body to world
+    std::vector<Vec3<double>> velocity;    ///< m/s
+    std::vector<double>       mass;        ///< kg
+    std::vector<double>       scale;       ///< of the template
+    std::vector<double>       radius;      ///< m, of the sphere of equal volume
+    std::vector<std::int32_t> shape;       ///< of World::templates
+    std::vector<std::int32_t> material;    ///< of Scene::materials
+    std::int64_t              named = 0;   ///< bodies of [[body]] tables
 
     std::size_t size() const { return position.size(); }
 };

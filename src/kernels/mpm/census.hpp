@@ -10,12 +10,12 @@ namespace tread::mpm
 /// What a census of the points counts, fp64.
 enum PointCensus : int
 {
-    census_mass,     ///< kg
-    census_kinetic,  ///< J, 1/2 m v^2
-    census_strain,   ///< J, elastic, V (p^2/(2K) + s:s/(4G))
-    census_momentum, ///< kg m/s (3)
-    census_moment    = census_momentum + 3, ///< kg m, mass times position (3)
-    census_count     = census_moment + 3
+    census_mass,                         ///< kg
+    census_kinetic,                      ///< J, 1/2 m v^2
+    census_strain,                       ///< J, elastic, V (p^2/(2K) + s:s/(4G))
+    census_momentum,                     ///< kg m/s (3)
+    census_moment = census_momentum + 3, ///< kg m, mass times position (3)
+    census_count  = census_moment + 3
 };
 
 /// rows[point page][PointCensus]: sums over the page's points in their order.

@@ -34,8 +34,9 @@ enum PointPeak : int
     point_peaks
 };
 
-/// G2P: velocity (FLIP with PIC part, or APIC), position, stress and plastic state of every point; for coupled scenes also
-/// the interpolated grid velocity and the support acceleration. sums[point page][PointSum], peaks[point page][PointPeak].
+/// G2P: velocity (FLIP with PIC part, or APIC), position, stress and plastic state of every point; for coupled scenes
+/// also the interpolated grid velocity and the support acceleration. sums[point page][PointSum], peaks[point
+/// page][PointPeak].
 template<class Real>
 void gather(const Cpu&, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
             const GatherStep<Real>& step, double* sums, double* peaks);

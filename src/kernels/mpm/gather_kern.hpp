@@ -148,8 +148,7 @@ TREAD_HD void update_point(const PointsView<Real>& points, std::int64_t i, const
     if (points.contact_force.data != nullptr) { keep_for_contact(points, i, seen, step.dt, sums); }
     update_material(points, i, seen.gradient, step, sums);
 
-    const Vec3<double> position =
-        points.position.get(i) + double(step.dt) * seen.velocity.template cast<double>();
+    const Vec3<double> position = points.position.get(i) + double(step.dt) * seen.velocity.template cast<double>();
     points.position.set(i, position);
 
     const double speed = std::sqrt(double(velocity.squaredNorm()));

@@ -38,12 +38,12 @@ constexpr int motion_channels = 6;
 /// Per page, fp64: what the grid did to energy and momentum in the step.
 enum GridSum : int
 {
-    grid_kinetic_before, ///< J, after P2G
-    grid_kinetic_after,  ///< J, before G2P
-    grid_damped,         ///< J, taken by local damping
-    grid_wall_loss,      ///< J, taken by walls
-    grid_net_force,      ///< N, sum of |m dv/dt|: what is out of balance
-    grid_wall_impulse,   ///< N s (3)
+    grid_kinetic_before,                          ///< J, after P2G
+    grid_kinetic_after,                           ///< J, before G2P
+    grid_damped,                                  ///< J, taken by local damping
+    grid_wall_loss,                               ///< J, taken by walls
+    grid_net_force,                               ///< N, sum of |m dv/dt|: what is out of balance
+    grid_wall_impulse,                            ///< N s (3)
     grid_damping_impulse = grid_wall_impulse + 3, ///< N s (3)
     grid_sums            = grid_damping_impulse + 3
 };

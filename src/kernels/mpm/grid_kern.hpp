@@ -61,8 +61,8 @@ TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* c
     const Real mass = channels[0];
     if (mass > step.mass_floor)
     {
-        const Vec3<Real> before = Vec3<Real>(channels[1], channels[2], channels[3]) / mass;
-        const Vec3<Real> force  = Vec3<Real>(channels[4], channels[5], channels[6]) + mass * step.gravity;
+        const Vec3<Real> before  = Vec3<Real>(channels[1], channels[2], channels[3]) / mass;
+        const Vec3<Real> force   = Vec3<Real>(channels[4], channels[5], channels[6]) + mass * step.gravity;
         Vec3<Real>       damping = Vec3<Real>::Zero();
         if (step.damping > 0) { damping = local_damping(step.damping, force, before); }
         const Vec3<Real> moved = before + (step.dt / mass) * (force + damping);

@@ -4,7 +4,8 @@
 namespace tread::mpm
 {
 
-template void order_points(const Cpu&, Points<Cpu, float>&, Pages<Cpu>&, const GridGeometry&, OrderScratch<Cpu, float>&);
+template void order_points(const Cpu&, Points<Cpu, float>&, Pages<Cpu>&, const GridGeometry&,
+                           OrderScratch<Cpu, float>&);
 template void order_points(const Cpu&, Points<Cpu, double>&, Pages<Cpu>&, const GridGeometry&,
                            OrderScratch<Cpu, double>&);
 

@@ -4,7 +4,8 @@
 namespace tread::mpm
 {
 
-template void order_points(const Gpu&, Points<Gpu, float>&, Pages<Gpu>&, const GridGeometry&, OrderScratch<Gpu, float>&);
+template void order_points(const Gpu&, Points<Gpu, float>&, Pages<Gpu>&, const GridGeometry&,
+                           OrderScratch<Gpu, float>&);
 template void order_points(const Gpu&, Points<Gpu, double>&, Pages<Gpu>&, const GridGeometry&,
                            OrderScratch<Gpu, double>&);
 

@@ -46,7 +46,8 @@ struct OrderScratch
 };
 
 /// Orders points by page and cell, stably, and rebuilds the page tables. Points more than two cells outside the domain
-/// are dropped from the end (points.count shrinks). Post: every point stands in the range of its cell; page keys ascend.
+/// are dropped from the end (points.count shrinks). Post: every point stands in the range of its cell; page keys
+/// ascend.
 template<class Exec, class Real>
 void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, const GridGeometry& geometry,
                   OrderScratch<Exec, Real>& scratch);

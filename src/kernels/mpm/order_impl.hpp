@@ -21,7 +21,10 @@ struct MakeKeys
         const Vec3<double> x      = points.position.get(i);
         const double       margin = 2 * geometry.spacing;
         bool               inside = true;
-        for (int c = 0; c < 3; ++c) { inside = inside && x[c] >= -margin && (c == 2 || x[c] <= geometry.size[c] + margin); }
+        for (int c = 0; c < 3; ++c)
+        {
+            inside = inside && x[c] >= -margin && (c == 2 || x[c] <= geometry.size[c] + margin);
+        }
         keys[i]  = inside ? cell_key(cell_of(x, geometry.spacing, geometry.stencil_shift)) : no_page;
         order[i] = static_cast<std::int32_t>(i);
     }
@@ -78,7 +81,10 @@ struct CloseRanges
     std::int64_t         points;
     std::int32_t*        end;
 
-    TREAD_HD void operator()(std::int64_t) const { *end = static_cast<std::int32_t>(lower_bound(keys, points, no_page)); }
+    TREAD_HD void operator()(std::int64_t) const
+    {
+        *end = static_cast<std::int32_t>(lower_bound(keys, points, no_page));
+    }
 };
 
 struct FirstOfCell
@@ -191,8 +197,8 @@ void build_point_pages(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>
     points.count = read(exec, pages.first_point.data() + count);
     pages.cell_first_point.resize(count * page_cells + 1);
     for_each(exec, "write cells", count * page_cells + 1,
-             FirstOfCell{scratch.keys.data(), points.count, count, pages.point_page_key.data(), pages.first_point.data(),
-                         pages.cell_first_point.data()});
+             FirstOfCell{scratch.keys.data(), points.count, count, pages.point_page_key.data(),
+                         pages.first_point.data(), pages.cell_first_point.data()});
 }
 
 /// Node pages = point pages and their upper neighbours; tables both ways.

@@ -12,7 +12,7 @@ namespace tread::mpm
 /// Points are ordered by page key, then by place in the page.
 struct PagesView
 {
-    double               spacing; ///< m, of the grid
+    double               spacing;       ///< m, of the grid
     double               stencil_shift; ///< cell = floor(x / spacing - stencil_shift): 0.5 quadratic, 0 linear
     std::int64_t         point_pages;
     std::int64_t         node_pages;

@@ -13,27 +13,27 @@ template<class Real>
 struct PointsView
 {
     std::int64_t      count;
-    Planes<double, 3> position;      ///< m
-    Planes<double, 3> start;         ///< m, position that displacement is measured from
-    Planes<Real, 3>   velocity;      ///< m/s
-    Planes<Real, 6>   stress;        ///< Pa, Cauchy, tension positive
-    Real*             mass;          ///< kg
-    Real*             volume;        ///< m3, initial
-    Real*             volume_ratio;  ///< current over initial volume
-    std::uint32_t*    id;            ///< unique, for ever
+    Planes<double, 3> position;     ///< m
+    Planes<double, 3> start;        ///< m, position that displacement is measured from
+    Planes<Real, 3>   velocity;     ///< m/s
+    Planes<Real, 6>   stress;       ///< Pa, Cauchy, tension positive
+    Real*             mass;         ///< kg
+    Real*             volume;       ///< m3, initial
+    Real*             volume_ratio; ///< current over initial volume
+    std::uint32_t*    id;           ///< unique, for ever
     std::uint8_t*     material;
 
-    Planes<Real, 9>   affine;        ///< 1/s, row-major; APIC only, else null
+    Planes<Real, 9> affine; ///< 1/s, row-major; APIC only, else null
 
     // Plastic materials only, else null.
-    Real*             plastic_shear; ///< equivalent plastic shear strain
-    Real*             plastic_rate;  ///< 1/s, its rate in the last step
-    Real*             volume_gap;    ///< log volume opened at the apex that must close before compression
+    Real* plastic_shear; ///< equivalent plastic shear strain
+    Real* plastic_rate;  ///< 1/s, its rate in the last step
+    Real* volume_gap;    ///< log volume opened at the apex that must close before compression
 
     // Coupling with bodies only, else null.
-    Planes<Real, 3>   contact_force; ///< N, impulse of the step's contacts over dt
-    Planes<Real, 3>   grid_velocity; ///< m/s, interpolated at the end of the last step
-    Planes<Real, 3>   support;       ///< m/s2, grid acceleration of the last step without its contact force
+    Planes<Real, 3> contact_force; ///< N, impulse of the step's contacts over dt
+    Planes<Real, 3> grid_velocity; ///< m/s, interpolated at the end of the last step
+    Planes<Real, 3> support;       ///< m/s2, grid acceleration of the last step without its contact force
 };
 
 /// What a scene needs of a point's state beyond the fields that every scene has.
@@ -71,8 +71,8 @@ struct Points
     /// Memory for `points`; values are zero.
     void allocate(std::int64_t points, PointFields fields)
     {
-        count  = points;
-        stride = points;
+        count           = points;
+        stride          = points;
         const auto take = [&](auto& array, int components, bool wanted)
         {
             array.resize(wanted ? components * points : 0);

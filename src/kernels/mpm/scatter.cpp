@@ -43,7 +43,8 @@ void scatter_page(const PointsView<Real>& points, const PagesView& pages, std::i
 template<class Real>
 void scatter(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, Real* tiles)
 {
-    for_each_heavy(cpu, "scatter", pages.point_pages, [=](std::int64_t page)
+    for_each_heavy(cpu, "scatter", pages.point_pages,
+                   [=](std::int64_t page)
                    { scatter_page(points, pages, page, tiles + page * node_channels * tile_nodes); });
 }
 

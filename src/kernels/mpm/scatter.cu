@@ -54,7 +54,10 @@ struct ScatterPage
             {
                 Real share[lanes];
                 node_share(load, stencil, spacing, a, b, c, share);
-                for (int l = 0; l < node_channels; ++l) { tile[l * tile_nodes + base + tile_offset(a, b, c)] += share[l]; }
+                for (int l = 0; l < node_channels; ++l)
+                {
+                    tile[l * tile_nodes + base + tile_offset(a, b, c)] += share[l];
+                }
             }
             __syncthreads();
         }

@@ -24,12 +24,12 @@ template<class Real>
 TREAD_HD PointLoad<Real> point_load(const PointsView<Real>& points, std::int64_t i)
 {
     PointLoad<Real>  load{};
-    const Real       mass     = points.mass[i];
-    const Vec3<Real> velocity = points.velocity.get(i);
-    const Real       volume   = points.volume[i] * points.volume_ratio[i];
-    const Sym3<Real> s        = points.stress.get(i);
+    const Real       mass      = points.mass[i];
+    const Vec3<Real> velocity  = points.velocity.get(i);
+    const Real       volume    = points.volume[i] * points.volume_ratio[i];
+    const Sym3<Real> s         = points.stress.get(i);
     const int        row[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}}; // of Sym3
-    load.value[0]             = mass;
+    load.value[0]              = mass;
     for (int a = 0; a < 3; ++a)
     {
         load.value[1 + a] = mass * velocity[a];

@@ -44,9 +44,9 @@ template<class Real>
 TREAD_HD Stencil<Real> stencil_at(const Vec3<double>& position, double spacing, double stencil_shift)
 {
     Stencil<Real> stencil;
-    stencil.base          = cell_of(position, spacing, stencil_shift);
-    const double base[3]  = {double(stencil.base.x), double(stencil.base.y), double(stencil.base.z)};
-    const Real   inverse  = static_cast<Real>(1 / spacing);
+    stencil.base         = cell_of(position, spacing, stencil_shift);
+    const double base[3] = {double(stencil.base.x), double(stencil.base.y), double(stencil.base.z)};
+    const Real   inverse = static_cast<Real>(1 / spacing);
     for (int axis = 0; axis < 3; ++axis)
     {
         const Real f           = static_cast<Real>(position[axis] / spacing - base[axis]);

@@ -137,8 +137,8 @@ TYPED_TEST(PagesTest, NeighbourTablesAgreeBothWays)
     Pages<TypeParam>                pages(this->exec());
     OrderScratch<TypeParam, double> scratch(this->exec());
     order_points(this->exec(), points, pages, this->geometry, scratch);
-    const auto point_key = pages.point_page_key.to_host(), node_key = pages.node_page_key.to_host();
-    const auto node_of = pages.node_page_of.to_host(), point_of = pages.point_page_of.to_host();
+    const auto              point_key = pages.point_page_key.to_host(), node_key = pages.node_page_key.to_host();
+    const auto              node_of = pages.node_page_of.to_host(), point_of = pages.point_page_of.to_host();
     std::set<std::uint64_t> wanted;
     for (std::size_t p = 0; p < point_key.size(); ++p)
     {
@@ -183,8 +183,8 @@ TYPED_TEST(PagesTest, ScatterKeepsMassMomentumAndForceFree)
     const std::int64_t       page_count = pages.point_page_key.size();
     Array<TypeParam, double> tiles(this->exec(), "tiles", page_count * node_channels * tile_nodes);
     scatter(this->exec(), points.view(), pages.view(this->spacing, 0.5), tiles.data());
-    const auto values                 = tiles.to_host();
-    double     totals[node_channels]  = {};
+    const auto values                = tiles.to_host();
+    double     totals[node_channels] = {};
     for (std::size_t i = 0; i < values.size(); ++i) { totals[i / tile_nodes % node_channels] += values[i]; }
     double     mass = 0, momentum[3] = {}, largest_force = 0;
     const auto m = points.mass.to_host(), v = points.velocity.to_host();
@@ -197,8 +197,8 @@ TYPED_TEST(PagesTest, ScatterKeepsMassMomentumAndForceFree)
     {
         if (i / tile_nodes % node_channels >= 4) { largest_force = std::max(largest_force, std::abs(values[i])); }
     }
-    std::cout << "scatter: mass error " << std::abs(totals[0] / mass - 1) << ", internal force sum " << totals[4] << " of nodes up to "
-              << largest_force << "; tolerance 1e-12 (rounding of 54,000 shares)\n";
+    std::cout << "scatter: mass error " << std::abs(totals[0] / mass - 1) << ", internal force sum " << totals[4]
+              << " of nodes up to " << largest_force << "; tolerance 1e-12 (rounding of 54,000 shares)\n";
     EXPECT_NEAR(totals[0] / mass, 1, 1e-12);
     for (int c = 0; c < 3; ++c)
     {

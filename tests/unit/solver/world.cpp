@@ -27,7 +27,8 @@ TEST(World, ReplacedRocksOverlapNeitherSandNorEachOther)
     for (std::size_t b = 0; b < bodies.size(); ++b)
     {
         const Mat3<double> rotation = bodies.orientation[b].toRotationMatrix();
-        const auto         distance = [&](const Vec3<double>& x) {
+        const auto         distance = [&](const Vec3<double>& x)
+        {
             return bodies.scale[b] *
                    shape::sample(form.sdf, rotation.transpose() * (x - bodies.position[b]) / bodies.scale[b]);
         };
@@ -37,8 +38,8 @@ TEST(World, ReplacedRocksOverlapNeitherSandNorEachOther)
             if (other == b) { continue; }
             for (const auto& node : form.nodes.positions)
             {
-                nearest_node = std::min(nearest_node, distance(bodies.position[other] + bodies.orientation[other] *
-                                                                                             node * bodies.scale[other]));
+                nearest_node = std::min(nearest_node, distance(bodies.position[other] +
+                                                               bodies.orientation[other] * node * bodies.scale[other]));
             }
         }
     }
@@ -94,8 +95,8 @@ TEST(World, TheBedStartsGeostatic)
     for (std::size_t i = 0; i < world.points.size(); ++i)
     {
         const double vertical = 1600 * 9.81 * (0.2 - world.points.position[i][2]);
-        worst = std::max({worst, std::abs(-world.points.stress[i][2] - vertical),
-                          std::abs(-world.points.stress[i][0] - 0.3 / 0.7 * vertical)});
+        worst                 = std::max({worst, std::abs(-world.points.stress[i][2] - vertical),
+                                          std::abs(-world.points.stress[i][0] - 0.3 / 0.7 * vertical)});
     }
     std::cout << "geostatic start: worst error " << worst << " Pa of " << 1600 * 9.81 * 0.2 << ", tolerance 1e-8 Pa\n";
     EXPECT_LT(worst, 1e-8);

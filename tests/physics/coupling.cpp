@@ -1,0 +1,77 @@
+#include <cmath>
+
+#include "harness.hpp"
+
+namespace
+{
+
+using namespace tread;
+
+template<class Exec>
+class Coupling : public test::BackendTest<Exec>
+{
+};
+TYPED_TEST_SUITE(Coupling, test::Backends, test::BackendNames);
+
+const std::string roller_text = test::sand_text + R"(
+[[material]]
+name    = "steel"
+model   = "elastic"
+density = 7800.0
+young   = 1.0e9
+poisson = 0.3
+[[shape]]
+name      = "roller"
+generate  = { kind = "wheel", radius = 0.1, width = 0.15, wall_thickness = 0.04, grousers = 0, grouser_height = 0.0 }
+sdf_cells = 48
+[[body]]
+name     = "roller"
+shape    = "roller"
+material = "steel"
+mass     = 4.0
+position = [0.2, 0.2, 0.33]
+lock     = ["x", "y", "roll", "pitch", "yaw"]
+)";
+
+/// verification D3, D4: at rest the contact carries the weight; impulses balance to rounding in fp64.
+TYPED_TEST(Coupling, SandCarriesTheWeightOfARoller)
+{
+    std::string text = roller_text;
+    text.replace(text.find("duration = 0.05"), 15, "duration = 0.6\ndamping = 0.5");
+    test::Experiment<TypeParam> rest(this->exec(), text);
+    bool                        started = false;
+    rest.run(
+        [&](double time)
+        {
+            if (time > 0.4 && !started)
+            {
+                rest.simulation().begin_mean();
+                started = true;
+            }
+        });
+    const double force = rest.simulation().named_bodies().at(0).force[2], weight = 4.0 * 9.81;
+    test::report("mean contact force in N", force, weight, 0.01 * weight, "1 % of the weight, time mean (D3)");
+    EXPECT_NEAR(force, weight, 0.01 * weight);
+    const double error = rest.simulation().ledger().balance(rest.simulation().census()).impulse_error;
+    test::report("impulse error over weight x time", error, 0, 1e-10, "fp64 rounding (D4)");
+    EXPECT_LT(error, 1e-10);
+}
+
+/// The count of substeps does not change what a body on sand feels (D3): frozen in all else, N = 1 and 20 agree.
+TYPED_TEST(Coupling, SubstepsDoNotChangeTheImpact)
+{
+    const auto depth = [&](const std::string& substeps)
+    {
+        test::Experiment<TypeParam> drop(this->exec(),
+                                         roller_text + "[time]\ndt = 2.0e-4\nsubsteps = " + substeps + "\n");
+        double                      lowest = 1;
+        drop.run([&](double) { lowest = std::min(lowest, drop.simulation().named_bodies().at(0).position[2]); });
+        return 0.33 - lowest;
+    };
+    const double one = depth("1"), twenty = depth("20");
+    test::report("fall after 0.05 s, N = 20 over N = 1", twenty / one, 1, 0.01,
+                 "prototypes 2: N changes depth by at most 0.6 % at fixed dt");
+    EXPECT_NEAR(twenty / one, 1, 0.01);
+}
+
+} // namespace

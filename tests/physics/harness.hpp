@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "backend.hpp"
+#include "scene_text.hpp"
+#include "solver/simulation.hpp"
+
+// A scene carried through its phases by the solver's own pieces, on either backend, with a look at every step.
+namespace tread::test
+{
+
+template<class Exec, class Real = double>
+class Experiment
+{
+public:
+    using Simulation = solver::Simulation<Exec, Real>;
+
+    Experiment(const Exec& exec, const std::string& text)
+        : scene_(load_text(text))
+        , world_(solver::build_world(scene_))
+        , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_))
+        , phases_(scene_)
+    {
+    }
+
+    Simulation&          simulation() { return simulation_; }
+    const solver::World& world() const { return world_; }
+    double               time() const { return time_; }
+    double               dt() const { return step_.dt; }
+
+    /// All phases; look(time) after every step.
+    void run(const std::function<void(double)>& look = [](double) {})
+    {
+        while (!phases_.finished())
+        {
+            advance();
+            look(time_);
+            if (!phases_.over(time_, simulation_.unbalanced())) { continue; }
+            phases_.advance(time_, std::vector<double>(scene_.bodies.size(), 0.0));
+        }
+    }
+
+private:
+    void advance()
+    {
+        step_    = solver::choose_step(scene_.time, simulation_.limits(), simulation_.pace(), step_.dt);
+        step_.dt = solver::fitted(step_.dt, phases_.latest_end() - time_);
+        std::vector<solver::BodyCommand> commands;
+        for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
+        {
+            commands.push_back(phases_.command(b, time_ + step_.dt));
+        }
+        simulation_.command(commands, phases_.phase().damping);
+        simulation_.step(step_, time_, clock_);
+        time_ += step_.dt;
+    }
+
+    scene::Scene       scene_;
+    solver::World      world_;
+    Simulation         simulation_;
+    solver::PhaseClock phases_;
+    solver::StageClock clock_;
+    solver::TimeStep   step_;
+    double             time_ = 0;
+};
+
+/// One line of a physics test's report.
+inline void report(const std::string& what, double measured, double expected, double tolerance, const std::string& why)
+{
+    std::cout << "[ physics  ] " << what << ": measured " << measured << ", expected " << expected << ", tolerance "
+              << tolerance << " (" << why << ")\n";
+}
+
+} // namespace tread::test
