@@ -11,6 +11,7 @@ namespace tread::solver
 struct RigidReport
 {
     double       shortest_contact = 0;                    ///< s, min sqrt(m / sum K); 0 = no contact
+    double       overlap          = 0;                    ///< largest, over the smaller radius of the pair
     double       largest_speed    = 0;                    ///< m/s
     double       net_force        = 0;                    ///< N, sum over free bodies of |contact + weight|
     double       friction         = 0;                    ///< J, body-body, of the step

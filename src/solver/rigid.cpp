@@ -173,6 +173,12 @@ void Rigid<Exec>::find_pairs(double dt)
 }
 
 template<class Exec>
+double Rigid<Exec>::shortest_contact()
+{
+    return dem::smallest_contact_time(exec_, pairs_, bodies_.view());
+}
+
+template<class Exec>
 void Rigid<Exec>::clear_wrenches()
 {
     dem::clear_wrenches(exec_, bodies_.view());
@@ -193,11 +199,12 @@ void Rigid<Exec>::move(double dt, double damping)
     else { dem::integrate(exec_, bodies_.view(), totals_.data(), gravity_, dt); }
 }
 
+/// Largest overlap over radius, if the law can carry it.
 template<class Exec>
-void Rigid<Exec>::guard(double time)
+double Rigid<Exec>::guard(double time)
 {
     const dem::Overlap worst = dem::largest_overlap(exec_, pairs_, bodies_.view(), law_);
-    if (worst.ratio <= deepest_overlap) { return; }
+    if (worst.ratio <= deepest_overlap) { return worst.ratio; }
     const bool wall = worst.second >= bodies_.position.size();
     throw NumericalError(
         fmt::format("t = {:.6g} s: body {} overlaps {} by {:.3g} of its radius, over the {} that the contact "
@@ -211,8 +218,8 @@ RigidReport Rigid<Exec>::report(double time)
     RigidReport report;
     if (contacts_)
     {
-        guard(time);
-        report.shortest_contact = dem::smallest_contact_time(exec_, pairs_, bodies_.view());
+        report.overlap          = guard(time);
+        report.shortest_contact = shortest_contact();
     }
     take_totals(report);
     dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity_.data());

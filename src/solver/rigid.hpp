@@ -42,6 +42,9 @@ public:
     /// 2. Pairs of bodies, and of bodies and walls, that may touch in the step.
     void find_pairs(double dt);
 
+    /// The least sqrt(m / sum K) over bodies, of contacts that are live or may come in the step, s; 0 = none.
+    double shortest_contact();
+
     // 3. A substep.
     void clear_wrenches();
     void contact(double dt);
@@ -57,9 +60,9 @@ public:
     io::BodyFields       fields() const;
 
 private:
-    void upload(const World& world);
-    void take_totals(RigidReport& report);
-    void guard(double time);
+    void   upload(const World& world);
+    void   take_totals(RigidReport& report);
+    double guard(double time);
 
     Exec                             exec_;
     const scene::Scene&              scene_;

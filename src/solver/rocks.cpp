@@ -26,7 +26,7 @@ Quat random_rotation(Random& random)
 }
 
 /// Which bodies are near: bounding spheres on a hash grid of cells as wide as the rocks to be placed; bodies larger
-/// than that are kept apart and always asked.
+/// than that are kept apart and always asked, by the distance from their surface.
 class Neighbourhood
 {
 public:
@@ -47,7 +47,8 @@ public:
     {
         const auto meets = [&](std::size_t body)
         { return (world_.bodies.position[body] - x).norm() < bounding_radius(body) + radius_; };
-        if (std::any_of(large_.begin(), large_.end(), meets)) { return false; }
+        const auto touches = [&](std::size_t body) { return meets(body) && distance(body, x) < radius_; };
+        if (std::any_of(large_.begin(), large_.end(), touches)) { return false; }
         const Cell at = cell(x);
         for (int n = 0; n < 27; ++n)
         {
@@ -67,6 +68,14 @@ private:
     {
         const auto shape = static_cast<std::size_t>(world_.bodies.shape[body]);
         return world_.templates[shape].bounding_radius * world_.bodies.scale[body];
+    }
+
+    double distance(std::size_t body, const Vec3<double>& x) const
+    {
+        const auto&        form   = world_.templates[static_cast<std::size_t>(world_.bodies.shape[body])];
+        const double       scale  = world_.bodies.scale[body];
+        const Vec3<double> offset = world_.bodies.orientation[body].conjugate() * (x - world_.bodies.position[body]);
+        return scale * shape::sample(form.sdf, offset / scale);
     }
 
     Cell cell(const Vec3<double>& x) const

@@ -15,7 +15,8 @@ namespace tread::solver
 namespace
 {
 
-constexpr double least_gradient = 0.5; ///< |grad phi| in contact under which a point is past the medial axis
+constexpr double longest_substep = 0.8; ///< of sqrt(m / sum K): beyond it a contact gains energy (prototypes 1.7)
+constexpr double least_gradient  = 0.5; ///< |grad phi| in contact under which a point is past the medial axis
 
 Vec3<double> vector(const scene::Vector3& v) { return {v[0], v[1], v[2]}; }
 
@@ -41,6 +42,11 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     if (plan.sand) { sand_.emplace(exec, scene, world, mpm::PointFields{plan.affine, plan.plasticity, plan.coupling}); }
     if (plan.bodies) { rigid_.emplace(exec, scene, world, plan); }
     if (plan.coupling) { coupling_.emplace(exec, scene, world, rigid_->templates(), rigid_->pair_table()); }
+    if (plan.body_contact)
+    {
+        rigid_->find_pairs(choose_step(scene.time, limits_, pace_, 0).dt);
+        pace_.shortest_contact = rigid_->shortest_contact();
+    }
     ledger_.emplace(gravity_, census());
 }
 
@@ -116,6 +122,16 @@ void Simulation<Exec, Real>::measure(const TimeStep& step, double time)
     }
     pace_.largest_speed    = std::max(sand.peaks[mpm::peak_speed], rigid.largest_speed);
     pace_.shortest_contact = rigid.shortest_contact;
+    pace_.overlap          = rigid.overlap;
+    // Substeps that the code chooses are right again in the next step; those of the scene stay wrong.
+    const double substep = step.dt / static_cast<double>(step.substeps);
+    if (scene_.time.substeps && pace_.shortest_contact > 0 && substep > longest_substep * pace_.shortest_contact)
+    {
+        throw NumericalError(
+            fmt::format("t = {:.6g} s: a substep of {:.4g} s is {:.3g} of a body's sqrt(m / sum K), over the "
+                        "{} at which its contacts gain energy: more substeps, or a smaller dt",
+                        time, substep, substep / pace_.shortest_contact, longest_substep));
+    }
     if (sand_ && sand.peaks[mpm::peak_speed] * step.dt > scene_.grid.spacing)
     {
         throw NumericalError(fmt::format("t = {:.6g} s: a point moves {:.3g} m/s, more than a cell a step of {:.4g} s",

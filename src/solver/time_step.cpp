@@ -15,6 +15,7 @@ constexpr double contact_warning     = 0.4;
 constexpr double point_contact_bound = 0.5; ///< of k dt^2 / m_p, prototypes 2
 constexpr double point_contact_warn  = 2.0;
 constexpr double travel_bound        = 0.3; ///< of the spacing, or of the smallest body
+constexpr double overlap_warning     = 0.1; ///< of a radius: the head-on case itself reaches 0.11
 constexpr double growth              = 1.05;
 constexpr double substeps_alone      = 10; ///< substeps a step where no sand sets the step
 
@@ -96,6 +97,10 @@ std::optional<std::string> over_limit(const TimeStep& step, const PaceLimits& li
     {
         return fmt::format("substep = {:.4g} s is {:.3g} of sqrt(m / sum K) = {:.4g} s, over {}", substep,
                            substep / pace.shortest_contact, pace.shortest_contact, contact_warning);
+    }
+    if (pace.overlap > overlap_warning)
+    {
+        return fmt::format("bodies overlap by {:.3g} of a radius, over {}", pace.overlap, overlap_warning);
     }
     return std::nullopt;
 }

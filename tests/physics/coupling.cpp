@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "base/errors.hpp"
 #include "harness.hpp"
 
 namespace
@@ -72,6 +73,23 @@ TYPED_TEST(Coupling, SubstepsDoNotChangeTheImpact)
     test::report("fall after 0.05 s, N = 20 over N = 1", twenty / one, 1, 0.01,
                  "prototypes 2: N changes depth by at most 0.6 % at fixed dt");
     EXPECT_NEAR(twenty / one, 1, 0.01);
+}
+
+/// Too few substeps, fixed by the scene, are refused when the contact comes, not computed.
+TYPED_TEST(Coupling, TooFewFixedSubstepsAreStopped)
+{
+    std::string text = test::sand_text + test::rocks_text + "[time]\ndt = 1.0e-3\nsubsteps = 1\n";
+    text.replace(text.find("1.0e7"), 5, "1.0e9");
+    test::Experiment<TypeParam> stiff(this->exec(), text);
+    try
+    {
+        stiff.run();
+        FAIL() << "one substep of 1 ms cannot carry rocks of 1e9 Pa";
+    }
+    catch (const NumericalError& error)
+    {
+        EXPECT_NE(std::string(error.what()).find("substep"), std::string::npos) << error.what();
+    }
 }
 
 } // namespace
