@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "base/random.hpp"
 #include "shape/generators.hpp"
 #include "shape/mass_properties.hpp"
 #include "shape/triangle.hpp"
@@ -19,42 +20,25 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-/// SplitMix64 (Steele, Lea & Flood 2014, OOPSLA): the standard library's distributions differ between machines.
-struct Random
+/// Uniform on the unit sphere.
+Eigen::Vector3d direction(Random& random)
 {
-    std::uint64_t state;
-
-    /// In [0, 1).
-    double uniform()
-    {
-        state += 0x9e3779b97f4a7c15;
-        std::uint64_t z = state;
-        z               = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-        z               = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-        z ^= z >> 31;
-        return static_cast<double>(z >> 11) * 0x1p-53;
-    }
-
-    /// Uniform on the unit sphere.
-    Eigen::Vector3d direction()
-    {
-        const double height = 2 * uniform() - 1;
-        const double turn   = 2 * pi * uniform();
-        const double reach  = std::sqrt(1 - height * height);
-        return {reach * std::cos(turn), reach * std::sin(turn), height};
-    }
-};
+    const double height = 2 * random.uniform() - 1;
+    const double turn   = 2 * pi * random.uniform();
+    const double reach  = std::sqrt(1 - height * height);
+    return {reach * std::cos(turn), reach * std::sin(turn), height};
+}
 
 /// A function on the unit sphere: a few plane waves of 2 to 6 rad a radius, scaled to a largest magnitude of 1.
 std::vector<double> bumps(const std::vector<Eigen::Vector3d>& directions, std::uint64_t seed)
 {
     constexpr int       waves = 10;
-    Random              random{seed};
+    Random              random(seed);
     std::vector<double> heights(directions.size(), 0.0);
     for (int wave = 0; wave < waves; ++wave)
     {
         const double          number = 2 + 4 * random.uniform();
-        const Eigen::Vector3d along  = number * random.direction();
+        const Eigen::Vector3d along  = number * direction(random);
         const double          phase  = 2 * pi * random.uniform();
         for (std::size_t i = 0; i < directions.size(); ++i)
         {

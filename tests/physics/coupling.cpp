@@ -14,25 +14,7 @@ class Coupling : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(Coupling, test::Backends, test::BackendNames);
 
-const std::string roller_text = test::sand_text + R"(
-[[material]]
-name    = "steel"
-model   = "elastic"
-density = 7800.0
-young   = 1.0e9
-poisson = 0.3
-[[shape]]
-name      = "roller"
-generate  = { kind = "wheel", radius = 0.1, width = 0.15, wall_thickness = 0.04, grousers = 0, grouser_height = 0.0 }
-sdf_cells = 48
-[[body]]
-name     = "roller"
-shape    = "roller"
-material = "steel"
-mass     = 4.0
-position = [0.2, 0.2, 0.33]
-lock     = ["x", "y", "roll", "pitch", "yaw"]
-)";
+using test::roller_text;
 
 /// verification D3, D4: at rest the contact carries the weight; impulses balance to rounding in fp64.
 TYPED_TEST(Coupling, SandCarriesTheWeightOfARoller)

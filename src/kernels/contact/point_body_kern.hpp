@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "backend/vector.hpp"
+#include "kernels/dem/spring_kern.hpp"
 
 // The contact law of one sand point against one rigid body; everything acts at the point's position x_p.
 namespace tread::contact
@@ -71,33 +72,16 @@ struct Response
 
 TREAD_HD Response no_response() { return {Vec3<double>::Zero(), 0.0, 0.0, 0.0, 0.0, 0.0}; }
 
-/// The history turned by the smallest rotation that takes the old normal to the new one (T. Moeller and J. Hughes,
-/// J. Graphics Tools 4(4), 1999), which keeps its length and leaves it tangential. A normal that flips forgets.
-TREAD_HD Vec3<double> rotate_with_normal(const Vec3<double>& force, const Vec3<double>& from, const Vec3<double>& to)
-{
-    const double     cosine = from.dot(to);
-    constexpr double flip   = -0.99;
-    if (cosine < flip) { return Vec3<double>::Zero(); }
-    const Vec3<double> axis = from.cross(to);
-    return cosine * force + axis.cross(force) + axis * (axis.dot(force) / (1.0 + cosine));
-}
-
-/// Energy that a spring of this stiffness holds at this force.
-TREAD_HD double spring_energy(double squared_force, double stiffness)
-{
-    return stiffness > 0 ? 0.5 * squared_force / stiffness : 0.0;
-}
-
 /// Mindlin's tangential force, incremental (the paper's Eq. 9a): dF_t = -k_t v_t dt, k_t = 8 G* sqrt(R* d). Rescaled by
 /// k_t,new/k_t,old on unloading, else a closed cycle makes energy (verification A9); capped at mu |F_n|. Returns the
 /// energy lost, never negative: by the change of stiffness, and by slip = cap times slipped distance.
 TREAD_HD double update_tangential(Tangential& tangential, const Vec3<double>& normal, const Vec3<double>& velocity,
                                   double stiffness, double cap, double dt)
 {
-    double       lost  = spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
-    Vec3<double> force = rotate_with_normal(tangential.force, tangential.normal, normal);
+    double       lost  = dem::spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
+    Vec3<double> force = dem::turn_with_normal(tangential.force, tangential.normal, normal);
     if (stiffness < tangential.stiffness) { force *= stiffness / tangential.stiffness; }
-    lost -= spring_energy(force.squaredNorm(), stiffness);
+    lost -= dem::spring_energy(force.squaredNorm(), stiffness);
 
     force -= stiffness * dt * (velocity - normal * normal.dot(velocity));
     const double length = force.norm();
@@ -118,7 +102,7 @@ TREAD_HD Response point_body_response(const PairConstants& pair, const Approach&
     const double overlap = pair.point_radius - approach.distance;
     if (!(overlap > 0))
     {
-        const double lost = spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
+        const double lost = dem::spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
         tangential        = no_tangential();
         Response apart    = no_response();
         apart.dissipated  = lost;
@@ -141,7 +125,7 @@ TREAD_HD Response point_body_response(const PairConstants& pair, const Approach&
                                                 approach.velocity, 8.0 * pair.effective_shear * patch_radius,
                                                 pair.friction * normal_force * response.gradient_length, dt);
         response.force += tangential.force;
-        response.energy += spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
+        response.energy += dem::spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
     }
     return response;
 }

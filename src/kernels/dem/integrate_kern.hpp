@@ -5,6 +5,7 @@
 
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/totals.hpp"
+#include "kernels/local_damping_kern.hpp"
 
 // One substep of one rigid body. Translation: symplectic Euler. Rotation: the world angular momentum L is advanced by
 // the torque exactly and the orientation by the exponential map of the angular velocity at mid-step, so that a
@@ -18,16 +19,12 @@ struct NoDamping
     TREAD_HD double operator()(double, double) const { return 0.0; }
 };
 
-/// On (Cundall 1987): a force against the velocity, in proportion to the force that acts, component by component.
+/// On.
 struct LocalDamping
 {
     double alpha; ///< 0 to 1
 
-    TREAD_HD double operator()(double force, double velocity) const
-    {
-        const double against = velocity > 0 ? -1.0 : (velocity < 0 ? 1.0 : 0.0);
-        return alpha * std::fabs(force) * against;
-    }
+    TREAD_HD double operator()(double force, double velocity) const { return local_damping(alpha, force, velocity); }
 };
 
 template<class Damping>

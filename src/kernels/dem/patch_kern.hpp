@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "kernels/dem/spring_kern.hpp"
 #include "kernels/dem/traction_kern.hpp"
 
 // What a pair of bodies remembers and how friction follows from it: prototypes 1, one record a patch.
@@ -40,28 +41,11 @@ struct Friction
     double       lost;   ///< J, in this substep
 };
 
-TREAD_HD double spring_energy(double squared_force, double stiffness)
-{
-    return stiffness > 0 ? 0.5 * squared_force / stiffness : 0.0;
-}
-
 /// Energy held by the springs of a patch of the pair.
 TREAD_HD double held_energy(const PairLaw& law, const Patch& patch)
 {
     return spring_energy(patch.tangential.squaredNorm(), law.shear_ratio * patch.stiffness) +
            spring_energy(patch.torsion * patch.torsion, patch.twist_stiffness);
-}
-
-/// `force` (tangential to the unit vector `from`) turned with the normal by the smallest rotation that takes `from` to
-/// `to` (T. Moeller and J. Hughes, J. Graphics Tools 4(4), 1999): it keeps its length and stays tangential. A normal
-/// that flips forgets.
-TREAD_HD Vec3<double> turn_with_normal(const Vec3<double>& force, const Vec3<double>& from, const Vec3<double>& to)
-{
-    const double     cosine = from.dot(to);
-    constexpr double flip   = -0.99;
-    if (cosine < flip) { return Vec3<double>::Zero(); }
-    const Vec3<double> axis = from.cross(to);
-    return cosine * force + axis.cross(force) + axis * (axis.dot(force) / (1.0 + cosine));
 }
 
 /// Turned about the unit normal by a small angle (rad), length kept.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/local_damping_kern.hpp"
 #include "kernels/mpm/grid.hpp"
 
 namespace tread::mpm
@@ -40,19 +41,6 @@ TREAD_HD Vec3<Real> apply_walls(const GridWalls& walls, Index3 node, Vec3<Real> 
     return velocity;
 }
 
-/// Cundall (1987): against the motion, in proportion to the unbalanced force, component by component.
-template<class Real>
-TREAD_HD Vec3<Real> local_damping(Real coefficient, const Vec3<Real>& force, const Vec3<Real>& velocity)
-{
-    Vec3<Real> damping;
-    for (int c = 0; c < 3; ++c)
-    {
-        const Real against = velocity[c] > 0 ? Real(-1) : velocity[c] < 0 ? Real(1) : Real(0);
-        damping[c]         = coefficient * std::abs(force[c]) * against;
-    }
-    return damping;
-}
-
 /// One node's step. `channels`: what sum_tiles gave. Writes velocity and change to motion[c * 64], adds to `sums`.
 template<class Real>
 TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* channels, Real* motion, double* sums)
@@ -64,7 +52,10 @@ TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* c
         const Vec3<Real> before  = Vec3<Real>(channels[1], channels[2], channels[3]) / mass;
         const Vec3<Real> force   = Vec3<Real>(channels[4], channels[5], channels[6]) + mass * step.gravity;
         Vec3<Real>       damping = Vec3<Real>::Zero();
-        if (step.damping > 0) { damping = local_damping(step.damping, force, before); }
+        if (step.damping > 0)
+        {
+            for (int c = 0; c < 3; ++c) { damping[c] = local_damping(step.damping, force[c], before[c]); }
+        }
         const Vec3<Real> moved = before + (step.dt / mass) * (force + damping);
         after                  = apply_walls(step.walls, node, moved);
         change                 = after - before;

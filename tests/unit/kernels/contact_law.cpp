@@ -50,7 +50,7 @@ TEST(PointBodyLaw, PairsApartFeelNothingAndForget)
     Tangential tangential = no_tangential();
     point_body_response(pair, at_overlap(1e-4, {0.1, 0, 0}), tangential, 1e-5);
     ASSERT_GT(tangential.force.norm(), 0);
-    const double   stored = spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
+    const double   stored = dem::spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
     const Response apart  = point_body_response(pair, at_overlap(0), tangential, 1e-5);
     EXPECT_EQ(apart.force.norm(), 0);
     EXPECT_EQ(apart.energy, 0);
@@ -80,7 +80,7 @@ double shear(Tangential& tangential, double overlap, double distance)
 {
     const PairConstants sticky{pair.effective_young, pair.effective_shear, 1e6,
                                pair.hertz_factor,    pair.point_radius,    pair.effective_radius};
-    const double        before = spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
+    const double        before = dem::spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
     const double normal = 8.0 / 15.0 * pair.effective_young * std::sqrt(pair.effective_radius) * std::pow(overlap, 2.5);
     const Response after = point_body_response(sticky, at_overlap(overlap, {distance, 0, 0}), tangential, 1.0);
     return after.energy - normal - before + after.dissipated;
@@ -159,8 +159,8 @@ TEST(PointBodyLaw, HistoryTurnsWithTheContact) // verification A9: whole system 
 
 TEST(PointBodyLaw, FlippedNormalForgets)
 {
-    EXPECT_EQ(rotate_with_normal({1, 0, 0}, up, -up).norm(), 0);
-    EXPECT_LE((rotate_with_normal({1, 0, 0}, up, {1, 0, 0}) - Vec3<double>(0, 0, -1)).norm(), 1e-15);
+    EXPECT_EQ(dem::turn_with_normal({1, 0, 0}, up, -up).norm(), 0);
+    EXPECT_LE((dem::turn_with_normal({1, 0, 0}, up, {1, 0, 0}) - Vec3<double>(0, 0, -1)).norm(), 1e-15);
 }
 
 } // namespace

@@ -87,32 +87,17 @@ TEST(DampingRatio, IsTheOneOfTheRestitution)
     EXPECT_GT(damping_ratio(0.1), damping_ratio(0.9));
 }
 
-const std::string wheel_text = test::sand_text + R"(
+const std::string drive_text = test::roller_text + R"(
 [[phase]]
 name  = "drive"
 duration = 1.0
 drive = { body = "roller", angular_velocity = 2.0, ramp = 0.5, slip = 0.25 }
-[[material]]
-name    = "steel"
-model   = "elastic"
-density = 7800.0
-young   = 1.0e9
-poisson = 0.3
-[[shape]]
-name     = "roller"
-generate = { kind = "wheel", radius = 0.1, width = 0.15, wall_thickness = 0.04, grousers = 0, grouser_height = 0.0 }
-[[body]]
-name     = "roller"
-shape    = "roller"
-material = "steel"
-mass     = 4.0
-position = [0.2, 0.2, 0.33]
-lock     = ["y"]
 )";
 
 TEST(Phases, DriveRampsTheSpinAndLocksWhatItPrescribes)
 {
-    std::string text = wheel_text;
+    std::string text = drive_text;
+    text.replace(text.find("lock     ="), 45, "lock     = [\"y\"]\n");
     text.replace(text.find("name     = \"rest\""), 17, "name     = \"rest\"\nhold = [\"roller\"]");
     const scene::Scene scene = test::load_text(text);
     PhaseClock         clock(scene);

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "backend/vector.hpp"
+
+// What every tangential spring of a contact shares, between bodies and between sand and bodies.
+namespace tread::dem
+{
+
+/// `force` (tangential to the unit vector `from`) turned with the normal by the smallest rotation that takes `from` to
+/// `to` (T. Moeller and J. Hughes, J. Graphics Tools 4(4), 1999): it keeps its length and stays tangential. A normal
+/// that flips forgets.
+TREAD_HD Vec3<double> turn_with_normal(const Vec3<double>& force, const Vec3<double>& from, const Vec3<double>& to)
+{
+    const double     cosine = from.dot(to);
+    constexpr double flip   = -0.99;
+    if (cosine < flip) { return Vec3<double>::Zero(); }
+    const Vec3<double> axis = from.cross(to);
+    return cosine * force + axis.cross(force) + axis * (axis.dot(force) / (1.0 + cosine));
+}
+
+/// Energy (J) that a spring of this stiffness (N/m) holds at this force.
+TREAD_HD double spring_energy(double squared_force, double stiffness)
+{
+    return stiffness > 0 ? 0.5 * squared_force / stiffness : 0.0;
+}
+
+} // namespace tread::dem
