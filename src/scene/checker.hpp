@@ -47,6 +47,7 @@ template<class T>
 std::vector<std::string> names_in(const std::vector<T>& items)
 {
     std::vector<std::string> names;
+    names.reserve(items.size());
     for (const auto& item : items) { names.push_back(item.name); }
     return names;
 }

@@ -199,8 +199,8 @@ TableText describe(std::string title, std::string meaning, const Keys<T>& keys)
 
 /// A key whose value is itself a table, held in a member; `title` heads its keys in docs/scene.md.
 template<class T, class Member, class M>
-Key<T> table_key(Presence presence, std::string name, std::string title, Member member, Keys<M> keys,
-                 std::string meaning, std::string fallback)
+Key<T> table_key(Presence presence, const std::string& name, const std::string& title, Member member,
+                 const Keys<M>& keys, const std::string& meaning, std::string fallback)
 {
     auto read = [=](const Node& node, const std::string& table, T& object, Problems& problems)
     {

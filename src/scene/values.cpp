@@ -256,7 +256,7 @@ Value<std::vector<std::string>> names()
             [](const std::vector<std::string>& value) { return write_array(value, write_string); }};
 }
 
-Value<std::vector<std::string>> words_of(std::vector<std::string> words)
+Value<std::vector<std::string>> words_of(const std::vector<std::string>& words)
 {
     const auto read = [words](const Node& node) { return words[read_word(node, words)]; };
     return {"array of distinct words out of " + list_words(words),
@@ -296,6 +296,7 @@ Value<Box> box()
 Value<double> length_unit()
 {
     std::vector<std::string> words;
+    words.reserve(length_units.size());
     for (const auto& unit : length_units) { words.emplace_back(unit.first); }
     return {list_words(words) + ", or number > 0 of metres",
             [words](const Node& node)

@@ -89,7 +89,7 @@ Value<std::string> name();
 Value<std::vector<std::string>> names();
 
 /// An array of distinct words out of `words`.
-Value<std::vector<std::string>> words_of(std::vector<std::string> words);
+Value<std::vector<std::string>> words_of(const std::vector<std::string>& words);
 
 /// Two names.
 Value<std::array<std::string, 2>> pair_of_names();
@@ -121,7 +121,7 @@ std::string list_words(const std::vector<std::string>& words);
 
 /// An enumeration whose enumerators, in order, are spelt as `words`.
 template<class E>
-Value<E> word(std::vector<std::string> words)
+Value<E> word(const std::vector<std::string>& words)
 {
     return {list_words(words), [words](const Node& node) { return static_cast<E>(read_word(node, words)); },
             [words](const E& value) { return write_string(words.at(static_cast<std::size_t>(value))); }};

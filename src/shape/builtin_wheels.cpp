@@ -58,6 +58,7 @@ scene::Shape find_shape(const scene::Scene& scene, const std::string& name)
     if (found != known.end()) { return *found; }
 
     std::vector<std::string> names;
+    names.reserve(known.size());
     for (const scene::Shape& shape : known) { names.push_back(shape.name); }
     throw InputError(fmt::format("shape '{}' is unknown; known are {}", name, fmt::join(names, ", ")));
 }

@@ -165,7 +165,7 @@ Eigen::Vector3d sample_gradient(const SignedDistanceGrid& sdf, const Eigen::Vect
 {
     const Place           place    = locate(sdf, point);
     const Eigen::Vector3d leg      = point - place.point;
-    const Eigen::Vector3d gradient = interpolate_gradient(place, sdf.spacing);
+    Eigen::Vector3d       gradient = interpolate_gradient(place, sdf.spacing);
     if (leg.isZero(0)) { return gradient; }
     const double          value = std::max(interpolate(place), 0.0);
     const Eigen::Vector3d along = (leg.array() == 0).select(gradient, 0.0);
