@@ -25,7 +25,7 @@ if(TREAD_SANITIZE)
   target_compile_options(
     tread_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${TREAD_SANITIZE} -fno-omit-frame-pointer
                           -fno-sanitize-recover=all -Wno-maybe-uninitialized>)
-  target_link_options(tread_flags INTERFACE -fsanitize=${TREAD_SANITIZE})
+  target_link_options(tread_flags INTERFACE -fsanitize=${TREAD_SANITIZE} -rdynamic)
 endif()
 
 # tread_room(NAME [LINK targets...]): one folder, one target. Takes every .cpp of the folder and, with CUDA, every .cu.
