@@ -50,7 +50,6 @@ struct WriteFrequency
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): the array has the bodies' size
         squared[b] = bodies.locked[b] == lock_all ? 0.0 : std::fmax(bodies.stiffness[b], expected[b]) / bodies.mass[b];
     }
 };
@@ -67,7 +66,6 @@ struct WriteOverlap
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
         double             radius = equivalent_radius(bodies, law.templates, a);
         if (b < bodies.count) { radius = std::fmin(radius, equivalent_radius(bodies, law.templates, b)); }
-        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): the array has the pairs' size
         ratio[p] = pairs.peak[p] / radius;
     }
 };
