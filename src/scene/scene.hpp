@@ -159,7 +159,14 @@ struct SphereGenerator
     bool operator==(const SphereGenerator&) const = default;
 };
 
-/// A rigid wheel: drum with grousers; axle along the mesh's y. Lengths in metres.
+enum class GrouserShape
+{
+    straight,
+    chevron,
+    curved
+};
+
+/// A rigid wheel: drum with grousers, open or with flanges, web and hub; axle along the mesh's y. Lengths in metres.
 struct WheelGenerator
 {
     double radius         = 0.26; ///< over the grousers
@@ -168,6 +175,15 @@ struct WheelGenerator
     int    grousers       = 48;
     double grouser_height = 0.0125;
     double grouser_width  = 0.004;
+
+    GrouserShape grouser_shape     = GrouserShape::straight;
+    double       grouser_sweep_deg = 0; ///< from a grouser's middle to its ends, about the axle, degrees
+    double       crown             = 0; ///< the drum's radius at its edges is smaller by this; parabolic
+    double       rim_height        = 0; ///< of the flanges inside the drum's edges; 0 = none
+    double       rim_thickness     = 0;
+    double       hub_radius        = 0; ///< 0 = open rim
+    double       hub_width         = 0;
+    double       web_thickness     = 0;
 
     bool operator==(const WheelGenerator&) const = default;
 };

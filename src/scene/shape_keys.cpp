@@ -27,9 +27,27 @@ Keys<WheelGenerator> wheel_keys()
         optional("radius", "m", &WheelGenerator::radius, number(above(0)), "Over the grousers."),
         optional("width", "m", &WheelGenerator::width, number(above(0)), "Along the axle, which is the mesh's y axis."),
         optional("wall_thickness", "m", &WheelGenerator::wall_thickness, number(above(0)), "Of the drum."),
+        optional("crown", "m", &WheelGenerator::crown, number(at_least(0)),
+                 "By how much the drum's radius is smaller at its edges than in the middle; parabolic between."),
         optional("grousers", "", &WheelGenerator::grousers, integer<int>(0, 1000), "How many."),
         optional("grouser_height", "m", &WheelGenerator::grouser_height, number(at_least(0)), "Above the drum."),
         optional("grouser_width", "m", &WheelGenerator::grouser_width, number(above(0)), "Along the circumference."),
+        optional("grouser_shape", "", &WheelGenerator::grouser_shape,
+                 word<GrouserShape>({"straight", "chevron", "curved"}),
+                 "Seen from outside: along the axle, a V, or a parabola."),
+        optional("grouser_sweep_deg", "deg", &WheelGenerator::grouser_sweep_deg, number(between(-60, 60)),
+                 "From a grouser's middle to its ends, about the axle; positive, and rolling towards +x, the ends meet "
+                 "the ground first. Needed by chevron and curved grousers, 0 for straight ones."),
+        optional("rim_height", "m", &WheelGenerator::rim_height, number(at_least(0)),
+                 "Of the flanges inside both edges of the drum; 0 is none."),
+        optional("rim_thickness", "m", &WheelGenerator::rim_thickness, number(at_least(0)),
+                 "Of the flanges, along the axle; with `rim_height` alone."),
+        optional("hub_radius", "m", &WheelGenerator::hub_radius, number(at_least(0)),
+                 "Of a solid hub in the middle, carried by a disc; 0 is an open rim."),
+        optional("hub_width", "m", &WheelGenerator::hub_width, number(at_least(0)),
+                 "Of the hub, along the axle; with `hub_radius` alone."),
+        optional("web_thickness", "m", &WheelGenerator::web_thickness, number(at_least(0)),
+                 "Of the disc from hub to drum; with `hub_radius` alone."),
     };
 }
 

@@ -1,15 +1,14 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "base/errors.hpp"
 #include "shape/generators.hpp"
+#include "shape/rings.hpp"
+#include "shape/wheel_form.hpp"
 
+// The tread is a grid of columns, which follow the grousers, and rows across the axle. Caps, flanges and the drum's
+// inside take over its columns, so that the wall is evenly thick; web and hub are turned discs.
 namespace tread::shape
 {
 namespace
@@ -17,152 +16,220 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-/// A vertex of the profile, twice: on the cap at +width/2 and on the one at -width/2.
-struct Station
+int steps_over(double way, double longest) { return std::max(1, static_cast<int>(std::ceil(way / longest - 1e-9))); }
+
+/// Which end of the axle a surface lies towards.
+enum class Side
 {
-    std::int32_t front;
-    std::int32_t back;
+    left,
+    right
 };
-
-/// A corner of the wall's section; a grouser may stand on the way to the next.
-struct RingCorner
-{
-    double angle;
-    bool   grouser_follows;
-};
-
-double drum_radius(const scene::WheelGenerator& g) { return g.radius - (g.grousers > 0 ? g.grouser_height : 0.0); }
-
-void require(const std::string& origin, const char* key, double value, double least, double most)
-{
-    if (value >= least && value <= most) { return; }
-    throw InputError(fmt::format("{}: {} = {}: accepted are {:.6g} to {:.6g}", origin, key, value, least, most));
-}
-
-void check(const scene::WheelGenerator& g, const std::string& origin)
-{
-    require(origin, "radius", g.radius, 1e-3, 100);
-    require(origin, "width", g.width, 1e-3 * g.radius, 100);
-    require(origin, "grousers", g.grousers, 0, 1000);
-    if (g.grousers > 0)
-    {
-        require(origin, "grouser_height", g.grouser_height, 1e-3 * g.radius, 0.5 * g.radius);
-        const double pitch = 2 * drum_radius(g) * std::sin(pi / std::max(g.grousers, 2));
-        require(origin, "grouser_width", g.grouser_width, 1e-3 * g.radius, 0.9 * pitch);
-    }
-    require(origin, "wall_thickness", g.wall_thickness, 1e-3 * g.radius, 0.95 * drum_radius(g));
-}
-
-std::vector<RingCorner> ring_corners(const scene::WheelGenerator& g)
-{
-    // Chords of at most 2 degrees stay within 0.02 % of the radius.
-    constexpr double        longest = pi / 90;
-    std::vector<RingCorner> ring;
-    const int               pitches = std::max(g.grousers, 1);
-    const double            foot    = g.grousers > 0 ? 2 * std::asin(0.5 * g.grouser_width / drum_radius(g)) : 0.0;
-    const double            gap     = 2 * pi / pitches - foot;
-    const int               chords  = static_cast<int>(std::ceil(gap / longest));
-    for (int pitch = 0; pitch < pitches; ++pitch)
-    {
-        const double start = 2 * pi * pitch / pitches;
-        if (g.grousers > 0) { ring.push_back({start - 0.5 * foot, true}); }
-        for (int chord = 0; chord < chords; ++chord)
-        {
-            ring.push_back({start + 0.5 * foot + gap * chord / chords, false});
-        }
-    }
-    return ring;
-}
 
 class WheelBuilder
 {
 public:
-    explicit WheelBuilder(const scene::WheelGenerator& generator)
-        : generator_(generator)
+    explicit WheelBuilder(const scene::WheelGenerator& wheel)
+        : wheel_(wheel)
+        , rows_(wheel_rows(wheel))
+        , chord_(longest_wheel_chord * drum_radius(wheel, 0))
+        , pitch_(2 * pi / std::max(wheel.grousers, 1))
+        , columns_(steps_over(pitch_ - 2 * half_angle(wheel, drum_radius(wheel, 0)), longest_wheel_chord))
     {
-        const std::vector<RingCorner> ring = ring_corners(generator);
-        std::vector<Station>          outer, inner;
-        for (const RingCorner& ring_corner : ring)
+        tread();
+        const Ring right = inside(Side::right), left = inside(Side::left);
+        if (wheel_.hub_radius > 0)
         {
-            outer.push_back(on_circle(drum_radius(generator), ring_corner.angle));
-            inner.push_back(on_circle(drum_radius(generator) - generator.wall_thickness, ring_corner.angle));
+            web_and_hub(Side::right, right);
+            web_and_hub(Side::left, left);
+            return;
         }
-        for (std::size_t i = 0; i < ring.size(); ++i)
-        {
-            const std::size_t next = (i + 1) % ring.size();
-            caps(outer[i], outer[next], inner[next], inner[i]);
-            side(inner[next], inner[i]);
-            if (ring[i].grouser_follows) { grouser(outer[i], outer[next]); }
-            else { side(outer[i], outer[next]); }
-        }
+        const Ring middle = drum_ring(0, inner_radius(wheel_, 0));
+        face(Side::right, band(right, middle));
+        face(Side::left, band(left, middle));
     }
 
     TriangleMesh mesh;
 
 private:
-    /// The profile lies in the z-x plane and turns from z to x, which is counter-clockwise seen from +y.
-    Station station(double z, double x)
+    /// Columns of the drum at y: both feet of each grouser, then the chords up to the next.
+    std::vector<double> drum_angles(double y) const
     {
-        const auto first = static_cast<std::int32_t>(mesh.vertices.size());
-        mesh.vertices.emplace_back(x, 0.5 * generator_.width, z);
-        mesh.vertices.emplace_back(x, -0.5 * generator_.width, z);
-        return {first, first + 1};
+        const double        foot = half_angle(wheel_, drum_radius(wheel_, y));
+        std::vector<double> angles;
+        for (int pitch = 0; pitch < std::max(wheel_.grousers, 1); ++pitch)
+        {
+            const double middle = pitch * pitch_ + sweep(wheel_, y);
+            if (wheel_.grousers > 0) { angles.push_back(middle - foot); }
+            for (int column = 0; column < columns_; ++column)
+            {
+                angles.push_back(middle + foot + (pitch_ - 2 * foot) * column / columns_);
+            }
+        }
+        return angles;
     }
 
-    Station on_circle(double radius, double angle)
+    Ring drum_ring(double y, double radius)
     {
-        return station(radius * std::cos(angle), radius * std::sin(angle));
+        Ring ring;
+        ring.angles = drum_angles(y);
+        for (const double angle : ring.angles) { ring.vertices.push_back(add_vertex(mesh, angle, radius, y)); }
+        return ring;
     }
 
-    /// Tip corner above a foot corner: moved along the grouser's middle line to the outer radius.
-    Station above(const Station& foot, const Eigen::Vector3d& outwards)
+    /// The drum's ring with the tips of the grousers between their feet.
+    Ring with_tips(const Ring& drum, double y)
     {
-        const Eigen::Vector3d corner = mesh.vertices[static_cast<std::size_t>(foot.front)];
-        const Eigen::Vector3d flat(corner.x(), 0, corner.z());
-        const double          height = flat.dot(outwards);
-        const double          across = flat.squaredNorm() - height * height;
-        const double          tip    = std::sqrt(generator_.radius * generator_.radius - across);
-        const Eigen::Vector3d moved  = flat + (tip - height) * outwards;
-        return station(moved.z(), moved.x());
+        const double      tip  = tip_radius(wheel_, y);
+        const double      half = half_angle(wheel_, tip);
+        const std::size_t each = static_cast<std::size_t>(columns_ + 1);
+        Ring              ring;
+        for (std::size_t i = 0; i < drum.vertices.size(); ++i)
+        {
+            ring.vertices.push_back(drum.vertices[i]);
+            ring.angles.push_back(drum.angles[i]);
+            if (i % each != 0) { continue; }
+            const double middle = static_cast<double>(i / each) * pitch_ + sweep(wheel_, y);
+            for (const double angle : {middle - half, middle + half})
+            {
+                ring.vertices.push_back(add_vertex(mesh, angle, tip, y));
+                ring.angles.push_back(angle);
+            }
+        }
+        return ring;
     }
 
-    void grouser(const Station& left, const Station& right)
+    void tread()
     {
-        Eigen::Vector3d outwards =
-            mesh.vertices[static_cast<std::size_t>(left.front)] + mesh.vertices[static_cast<std::size_t>(right.front)];
-        outwards.y() = 0;
-        outwards.normalize();
-        const Station left_tip = above(left, outwards), right_tip = above(right, outwards);
-        caps(left, left_tip, right_tip, right);
-        side(left, left_tip);
-        side(left_tip, right_tip);
-        side(right_tip, right);
+        Ring below;
+        for (const double y : rows_)
+        {
+            const Ring drum = drum_ring(y, drum_radius(wheel_, y));
+            const Ring row  = wheel_.grousers > 0 ? with_tips(drum, y) : drum;
+            if (y == rows_.front())
+            {
+                left_edge_ = drum;
+                grouser_ends(Side::left, row);
+            }
+            else { append(mesh, band(below, row)); }
+            below       = row;
+            right_edge_ = drum;
+        }
+        grouser_ends(Side::right, below);
     }
 
-    /// Surface over the side a-b of the profile, which has its inside on the left.
-    void side(const Station& a, const Station& b)
+    void grouser_ends(Side side, const Ring& row)
     {
-        mesh.triangles.push_back({a.front, a.back, b.back});
-        mesh.triangles.push_back({a.front, b.back, b.front});
+        if (wheel_.grousers == 0) { return; }
+        const auto each = static_cast<std::size_t>(columns_ + 3);
+        for (std::size_t first = 0; first < row.vertices.size(); first += each)
+        {
+            const auto at = [&](std::size_t i) { return row.vertices[(first + i) % row.vertices.size()]; };
+            face(side, {{at(0), at(1), at(2)}, {at(0), at(2), at(3)}});
+        }
     }
 
-    /// Both caps over a quadrangle of the profile, counter-clockwise seen from +y.
-    void caps(const Station& a, const Station& b, const Station& c, const Station& d)
+    /// From the drum's edge round the flange to where the web, or the other half of the open drum, begins.
+    Ring inside(Side side)
     {
-        mesh.triangles.push_back({a.front, b.front, c.front});
-        mesh.triangles.push_back({a.front, c.front, d.front});
-        mesh.triangles.push_back({a.back, c.back, b.back});
-        mesh.triangles.push_back({a.back, d.back, c.back});
+        const double edge = 0.5 * wheel_.width;
+        Ring         last = side == Side::right ? right_edge_ : left_edge_;
+        last              = face_inwards(side, last, edge, drum_radius(wheel_, edge), rim_radius(wheel_));
+
+        const double flange = edge - wheel_.rim_thickness;
+        const double stop   = 0.5 * wheel_.web_thickness;
+        for (auto y = rows_.rbegin() + 1; *y > 0 && *y >= stop; ++y)
+        {
+            const bool on_flange = wheel_.rim_height > 0 && *y >= flange;
+            last                 = go_on(side, last, *y, on_flange ? rim_radius(wheel_) : inner_radius(wheel_, *y));
+            if (on_flange && *y == flange)
+            {
+                last = face_inwards(side, last, *y, rim_radius(wheel_), inner_radius(wheel_, *y));
+            }
+        }
+        return last;
     }
 
-    scene::WheelGenerator generator_;
+    /// Plane face, with the drum's columns, from one radius to the other.
+    Ring face_inwards(Side side, Ring last, double y, double from, double to)
+    {
+        const int steps = steps_over(std::abs(to - from), 2 * chord_);
+        for (int step = 1; step <= steps; ++step)
+        {
+            last = go_on(side, last, y, step == steps ? to : from + (to - from) * step / steps);
+        }
+        return last;
+    }
+
+    Ring go_on(Side side, const Ring& last, double y, double radius)
+    {
+        Ring next = drum_ring(side == Side::right ? y : -y, radius);
+        face(side, band(last, next));
+        return next;
+    }
+
+    /// Disc from the drum to the hub, the hub's side and its face.
+    void web_and_hub(Side side, Ring last)
+    {
+        const double sign   = side == Side::right ? 1 : -1;
+        const double outer  = inner_radius(wheel_, 0.5 * wheel_.web_thickness);
+        const double height = 0.5 * wheel_.web_thickness;
+        const double way    = outer - wheel_.hub_radius;
+        const int    steps  = steps_over(way, chord_);
+        const auto   count  = [&](double radius) { return std::max(60, steps_over(2 * pi * radius, chord_)); };
+        for (int step = 1; step <= steps; ++step)
+        {
+            const double radius = step == steps ? wheel_.hub_radius : outer - way * step / steps;
+            const Ring   next   = even_ring(mesh, count(radius), last.angles.front(), radius, sign * height);
+            face(side, zipped_band(last, next));
+            last = next;
+        }
+        hub(side, last, sign);
+    }
+
+    void hub(Side side, Ring last, double sign)
+    {
+        const int    count = static_cast<int>(last.vertices.size());
+        const double start = last.angles.front();
+        const double foot = 0.5 * wheel_.web_thickness, top = 0.5 * wheel_.hub_width;
+        const int    rises = steps_over(top - foot, 4 * pi * wheel_.hub_radius / count);
+        for (int rise = 1; rise <= rises; ++rise)
+        {
+            const double y    = rise == rises ? top : foot + (top - foot) * rise / rises;
+            const Ring   next = even_ring(mesh, count, start, wheel_.hub_radius, sign * y);
+            face(side, band(last, next));
+            last = next;
+        }
+        const int steps = std::max(3, steps_over(wheel_.hub_radius, 2 * chord_));
+        for (int step = steps - 1; step > 0; --step)
+        {
+            const double part       = static_cast<double>(step) / steps;
+            const int    next_count = std::max(6, static_cast<int>(std::lround(count * part)));
+            const Ring   next       = even_ring(mesh, next_count, start, part * wheel_.hub_radius, sign * top);
+            face(side, zipped_band(last, next));
+            last = next;
+        }
+        face(side, fan(last, add_vertex(mesh, 0, 0, sign * top)));
+    }
+
+    /// Both sides of a wheel are made as the right one; the left one is its mirror image.
+    void face(Side side, const Triangles& triangles)
+    {
+        append(mesh, side == Side::right ? triangles : reversed(triangles));
+    }
+
+    scene::WheelGenerator wheel_;
+    std::vector<double>   rows_;    ///< y, m
+    double                chord_;   ///< m
+    double                pitch_;   ///< angle from grouser to grouser
+    int                   columns_; ///< from one grouser's foot to the next grouser's
+    Ring                  left_edge_, right_edge_;
 };
 
 } // namespace
 
 TriangleMesh wheel_mesh(const scene::WheelGenerator& generator, const std::string& origin)
 {
-    check(generator, origin);
+    check_wheel(generator, origin);
     return WheelBuilder(generator).mesh;
 }
 

@@ -7,8 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "shape/mass_properties.hpp"
-#include "shape/mesh_distance.hpp"
-#include "shape/template.hpp"
 #include "unit/shape/meshes.hpp"
 
 namespace tread::shape
@@ -17,11 +15,6 @@ namespace
 {
 
 using ::testing::HasSubstr;
-
-scene::WheelGenerator builtin_wheel(const std::string& name)
-{
-    return std::get<scene::WheelGenerator>(find_shape(scene::Scene{}, name).source);
-}
 
 TEST(Icosphere, HasItsVerticesOnTheSphere)
 {
@@ -74,99 +67,6 @@ TEST(Rock, SaysWhatSphericityCanBeReached)
     test::input_error([] { rock_mesh({1, 0.1, 0.9, 162}, "rock"); });
     test::input_error([] { rock_mesh({1, 0.5, 1.1, 162}, "rock"); });
     test::input_error([] { rock_mesh({1, 0.5, 0.9, 100}, "rock"); });
-}
-
-TEST(Wheel, IsWatertightWithTheVolumeOfItsProfile)
-{
-    for (const std::string& name : builtin_shape_names())
-    {
-        const scene::WheelGenerator g    = builtin_wheel(name);
-        const TriangleMesh          mesh = wheel_mesh(g, name);
-        ASSERT_NO_THROW(require_watertight(mesh, name));
-        const double drum  = g.radius - g.grouser_height;
-        const double inner = drum - g.wall_thickness;
-        const double expected =
-            (test::pi * (drum * drum - inner * inner) + g.grousers * g.grouser_height * g.grouser_width) * g.width;
-        const double measured = mass_properties(mesh).volume;
-        std::printf("%s: volume measured %.6g m3, expected %.6g, tolerance 1 %%\n", name.c_str(), measured, expected);
-        // Chords of 2 degrees take 0.02 % of the wall; a grouser's sides are shorter at its tip and foot than h by
-        // the chords' sagittas, w^2/8R over h: under 0.2 %.
-        EXPECT_NEAR(measured, expected, 0.01 * expected);
-        EXPECT_LT(mass_properties(mesh).centre.norm(), 1e-12);
-    }
-}
-
-TEST(Wheel, PerseveranceIsThatOfThePaper)
-{
-    const scene::WheelGenerator g = builtin_wheel("perseverance");
-    EXPECT_EQ(g.grousers, 48);
-    EXPECT_EQ(g.radius, 0.26);
-    // 0.0058 m3 in two digits of the paper.
-    EXPECT_NEAR(mass_properties(wheel_mesh(g, "wheel")).volume, 0.0058, 0.01 * 0.0058);
-}
-
-/// Times that a circle about the axle enters the wheel.
-int entries(const MeshDistance& wheel, double radius, double y)
-{
-    constexpr int steps  = 7200;
-    int           count  = 0;
-    const auto    inside = [&](int step)
-    {
-        const double angle = 2 * test::pi * (step + 0.5) / steps;
-        return signed_distance(wheel, {radius * std::sin(angle), y, radius * std::cos(angle)}) < 0;
-    };
-    for (int step = 0; step < steps; ++step) { count += !inside(step) && inside(step + 1) ? 1 : 0; }
-    return count;
-}
-
-TEST(Wheel, HasItsGrousersAndIsOpenInside)
-{
-    const scene::WheelGenerator g     = builtin_wheel("perseverance");
-    const MeshDistance          wheel = prepare_distance(wheel_mesh(g, "wheel"));
-    const double                drum  = g.radius - g.grouser_height;
-    for (const double y : {-0.16, 0.0, 0.1})
-    {
-        EXPECT_EQ(entries(wheel, g.radius - 0.5 * g.grouser_height, y), 48);
-        EXPECT_EQ(entries(wheel, 1.001 * g.radius, y), 0);
-        EXPECT_EQ(entries(wheel, drum - g.wall_thickness - 1e-4, y), 0);
-        EXPECT_LT(signed_distance(wheel, {0, y, drum - 0.5 * g.wall_thickness}), 0);
-    }
-    // On the axle the nearest wall is the inner one; its chords of 1.7 degrees lie 0.01 % inside.
-    EXPECT_NEAR(signed_distance(wheel, {0, 0, 0}), drum - g.wall_thickness, 2e-4 * g.radius);
-    EXPECT_GT(signed_distance(wheel, {0, 0, 0}), 0);
-}
-
-TEST(Wheel, ReachesItsRadiusAndWidth)
-{
-    const scene::WheelGenerator g       = builtin_wheel("viper");
-    double                      largest = 0;
-    const TriangleMesh          mesh    = wheel_mesh(g, "wheel");
-    for (const auto& vertex : mesh.vertices) { largest = std::max(largest, std::hypot(vertex.x(), vertex.z())); }
-    EXPECT_NEAR(largest, g.radius, 1e-15);
-    EXPECT_DOUBLE_EQ(bounds(mesh).extent().y(), g.width);
-}
-
-TEST(Wheel, MayHaveNoGrousers)
-{
-    const TriangleMesh mesh = wheel_mesh({0.2, 0.1, 0.02, 0, 0.01, 0.01}, "drum");
-    EXPECT_NO_THROW(require_watertight(mesh, "drum"));
-    const double expected = test::pi * (0.2 * 0.2 - 0.18 * 0.18) * 0.1;
-    // Chords of 2 degrees: the regular 180-gon has 1 - (2 pi/180)^2/6 = 0.9998 of the circle.
-    EXPECT_NEAR(mass_properties(mesh).volume, expected * (1 - std::pow(test::pi / 90, 2) / 6), 1e-6 * expected);
-}
-
-TEST(Wheel, RejectsLengthsThatDoNotFit)
-{
-    scene::WheelGenerator thick;
-    thick.wall_thickness = 0.25;
-    EXPECT_THAT(test::input_error([&] { wheel_mesh(thick, "shape 'w'"); }),
-                HasSubstr("shape 'w': wall_thickness = 0.25"));
-    scene::WheelGenerator crowded;
-    crowded.grouser_width = 0.04;
-    EXPECT_THAT(test::input_error([&] { wheel_mesh(crowded, "w"); }), HasSubstr("grouser_width = 0.04"));
-    scene::WheelGenerator flat;
-    flat.width = 0;
-    EXPECT_THAT(test::input_error([&] { wheel_mesh(flat, "w"); }), HasSubstr("width = 0"));
 }
 
 } // namespace
