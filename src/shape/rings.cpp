@@ -70,22 +70,34 @@ Ring even_ring(TriangleMesh& mesh, int count, double start, double radius, doubl
     return ring;
 }
 
+Diagonal diagonal_along(const Ring& from, const Ring& to, std::size_t column)
+{
+    const std::size_t next = (column + 1) % from.angles.size();
+    const double      lean = to.angles[column] + to.angles[next] - from.angles[column] - from.angles[next];
+    return lean > tie ? Diagonal::next_to_first : Diagonal::first_to_next;
+}
+
 Triangles band(const Ring& from, const Ring& to)
 {
-    const Ring a = closed(from), b = closed(to);
-    Triangles  triangles;
-    for (std::size_t i = 0; i + 1 < a.vertices.size(); ++i)
+    return band(from, to, [&](std::size_t column) { return diagonal_along(from, to, column); });
+}
+
+Triangles band(const Ring& from, const Ring& to, const std::function<Diagonal(std::size_t column)>& diagonal)
+{
+    const auto &a = from.vertices, &b = to.vertices;
+    Triangles   triangles;
+    for (std::size_t i = 0; i < a.size(); ++i)
     {
-        const std::size_t next = i + 1;
-        if (b.angles[i] + b.angles[next] > a.angles[i] + a.angles[next] + tie)
+        const std::size_t next = (i + 1) % a.size();
+        if (diagonal(i) == Diagonal::next_to_first)
         {
-            triangles.push_back({a.vertices[i], a.vertices[next], b.vertices[i]});
-            triangles.push_back({a.vertices[next], b.vertices[next], b.vertices[i]});
+            triangles.push_back({a[i], a[next], b[i]});
+            triangles.push_back({a[next], b[next], b[i]});
         }
         else
         {
-            triangles.push_back({a.vertices[i], a.vertices[next], b.vertices[next]});
-            triangles.push_back({a.vertices[i], b.vertices[next], b.vertices[i]});
+            triangles.push_back({a[i], a[next], b[next]});
+            triangles.push_back({a[i], b[next], b[i]});
         }
     }
     return triangles;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "shape/mesh.hpp"
@@ -27,9 +29,19 @@ std::int32_t add_vertex(TriangleMesh& mesh, double angle, double radius, double 
 /// Ring of `count` vertices, evenly spread from `start` on.
 Ring even_ring(TriangleMesh& mesh, int count, double start, double radius, double y);
 
-/// Band between two rings of equally many vertices, column by column. Its diagonals lean with the columns, so that no
-/// edge spans a wider angle than the wider of a column and its lean.
+/// Which diagonal halves the quadrangle of a column: first and next vertex of the ring `from`, then those of `to`.
+enum class Diagonal
+{
+    first_to_next,
+    next_to_first
+};
+
+/// Leans with the column, so that no edge spans a wider angle than the wider of a column and its lean.
+Diagonal diagonal_along(const Ring& from, const Ring& to, std::size_t column);
+
+/// Band between two rings of equally many vertices, column by column; by default with `diagonal_along`.
 Triangles band(const Ring& from, const Ring& to);
+Triangles band(const Ring& from, const Ring& to, const std::function<Diagonal(std::size_t column)>& diagonal);
 
 /// Band between two rings that need not have equally many vertices: the ring that lags in angle advances.
 Triangles zipped_band(const Ring& from, const Ring& to);

@@ -1,14 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <vector>
 
 #include "shape/generators.hpp"
-#include "shape/rings.hpp"
-#include "shape/wheel_form.hpp"
+#include "shape/wheel_tread.hpp"
 
-// The tread is a grid of columns, which follow the grousers, and rows across the axle. Caps, flanges and the drum's
-// inside take over its columns, so that the wall is evenly thick; web and hub are turned discs.
+// The drum's inside takes over the columns of the tread, so that the wall is evenly thick. Flanges, web and hub are
+// turned.
 namespace tread::shape
 {
 namespace
@@ -16,213 +13,127 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-int steps_over(double way, double longest) { return std::max(1, static_cast<int>(std::ceil(way / longest - 1e-9))); }
-
-/// Which end of the axle a surface lies towards.
-enum class Side
-{
-    left,
-    right
-};
-
-class WheelBuilder
+/// The inside of one half of a wheel, from the drum's edge inwards.
+class HalfInside
 {
 public:
-    explicit WheelBuilder(const scene::WheelGenerator& wheel)
-        : wheel_(wheel)
-        , rows_(wheel_rows(wheel))
-        , chord_(longest_wheel_chord * drum_radius(wheel, 0))
-        , pitch_(2 * pi / std::max(wheel.grousers, 1))
-        , columns_(steps_over(pitch_ - 2 * half_angle(wheel, drum_radius(wheel, 0)), longest_wheel_chord))
+    HalfInside(TriangleMesh& mesh, const WheelGrid& grid, Side side, const Ring& edge)
+        : mesh_(mesh)
+        , grid_(grid)
+        , wheel_(grid.wheel)
+        , side_(side)
+        , last_(edge)
     {
-        tread();
-        const Ring right = inside(Side::right), left = inside(Side::left);
-        if (wheel_.hub_radius > 0)
-        {
-            web_and_hub(Side::right, right);
-            web_and_hub(Side::left, left);
-            return;
-        }
-        const Ring middle = drum_ring(0, inner_radius(wheel_, 0));
-        face(Side::right, band(right, middle));
-        face(Side::left, band(left, middle));
     }
 
-    TriangleMesh mesh;
-
-private:
-    /// Columns of the drum at y: both feet of each grouser, then the chords up to the next.
-    std::vector<double> drum_angles(double y) const
+    /// From the drum's edge to where the web, or the other half of the open drum, begins.
+    void drum()
     {
-        const double        foot = half_angle(wheel_, drum_radius(wheel_, y));
-        std::vector<double> angles;
-        for (int pitch = 0; pitch < std::max(wheel_.grousers, 1); ++pitch)
+        const double edge = 0.5 * wheel_.width, stop = 0.5 * wheel_.web_thickness, flange = edge - wheel_.rim_thickness;
+        cap(edge);
+        const bool has_flange = wheel_.rim_height > 0;
+        if (has_flange) { turn_flange(edge, flange); }
+        for (auto y = grid_.rows.rbegin() + 1; *y > 0 && *y >= stop; ++y)
         {
-            const double middle = pitch * pitch_ + sweep(wheel_, y);
-            if (wheel_.grousers > 0) { angles.push_back(middle - foot); }
-            for (int column = 0; column < columns_; ++column)
-            {
-                angles.push_back(middle + foot + (pitch_ - 2 * foot) * column / columns_);
-            }
-        }
-        return angles;
-    }
-
-    Ring drum_ring(double y, double radius)
-    {
-        Ring ring;
-        ring.angles = drum_angles(y);
-        for (const double angle : ring.angles) { ring.vertices.push_back(add_vertex(mesh, angle, radius, y)); }
-        return ring;
-    }
-
-    /// The drum's ring with the tips of the grousers between their feet.
-    Ring with_tips(const Ring& drum, double y)
-    {
-        const double      tip  = tip_radius(wheel_, y);
-        const double      half = half_angle(wheel_, tip);
-        const std::size_t each = static_cast<std::size_t>(columns_ + 1);
-        Ring              ring;
-        for (std::size_t i = 0; i < drum.vertices.size(); ++i)
-        {
-            ring.vertices.push_back(drum.vertices[i]);
-            ring.angles.push_back(drum.angles[i]);
-            if (i % each != 0) { continue; }
-            const double middle = static_cast<double>(i / each) * pitch_ + sweep(wheel_, y);
-            for (const double angle : {middle - half, middle + half})
-            {
-                ring.vertices.push_back(add_vertex(mesh, angle, tip, y));
-                ring.angles.push_back(angle);
-            }
-        }
-        return ring;
-    }
-
-    void tread()
-    {
-        Ring below;
-        for (const double y : rows_)
-        {
-            const Ring drum = drum_ring(y, drum_radius(wheel_, y));
-            const Ring row  = wheel_.grousers > 0 ? with_tips(drum, y) : drum;
-            if (y == rows_.front())
-            {
-                left_edge_ = drum;
-                grouser_ends(Side::left, row);
-            }
-            else { append(mesh, band(below, row)); }
-            below       = row;
-            right_edge_ = drum;
-        }
-        grouser_ends(Side::right, below);
-    }
-
-    void grouser_ends(Side side, const Ring& row)
-    {
-        if (wheel_.grousers == 0) { return; }
-        const auto each = static_cast<std::size_t>(columns_ + 3);
-        for (std::size_t first = 0; first < row.vertices.size(); first += each)
-        {
-            const auto at = [&](std::size_t i) { return row.vertices[(first + i) % row.vertices.size()]; };
-            face(side, {{at(0), at(1), at(2)}, {at(0), at(2), at(3)}});
+            if (!has_flange || *y < flange) { join(band(last_, at_drum(*y))); }
+            else if (*y == flange) { join(zipped_band(last_, at_drum(*y))); }
         }
     }
 
-    /// From the drum's edge round the flange to where the web, or the other half of the open drum, begins.
-    Ring inside(Side side)
+    void web_and_hub()
     {
-        const double edge = 0.5 * wheel_.width;
-        Ring         last = side == Side::right ? right_edge_ : left_edge_;
-        last              = face_inwards(side, last, edge, drum_radius(wheel_, edge), rim_radius(wheel_));
-
-        const double flange = edge - wheel_.rim_thickness;
-        const double stop   = 0.5 * wheel_.web_thickness;
-        for (auto y = rows_.rbegin() + 1; *y > 0 && *y >= stop; ++y)
-        {
-            const bool on_flange = wheel_.rim_height > 0 && *y >= flange;
-            last                 = go_on(side, last, *y, on_flange ? rim_radius(wheel_) : inner_radius(wheel_, *y));
-            if (on_flange && *y == flange)
-            {
-                last = face_inwards(side, last, *y, rim_radius(wheel_), inner_radius(wheel_, *y));
-            }
-        }
-        return last;
-    }
-
-    /// Plane face, with the drum's columns, from one radius to the other.
-    Ring face_inwards(Side side, Ring last, double y, double from, double to)
-    {
-        const int steps = steps_over(std::abs(to - from), 2 * chord_);
-        for (int step = 1; step <= steps; ++step)
-        {
-            last = go_on(side, last, y, step == steps ? to : from + (to - from) * step / steps);
-        }
-        return last;
-    }
-
-    Ring go_on(Side side, const Ring& last, double y, double radius)
-    {
-        Ring next = drum_ring(side == Side::right ? y : -y, radius);
-        face(side, band(last, next));
-        return next;
-    }
-
-    /// Disc from the drum to the hub, the hub's side and its face.
-    void web_and_hub(Side side, Ring last)
-    {
-        const double sign   = side == Side::right ? 1 : -1;
-        const double outer  = inner_radius(wheel_, 0.5 * wheel_.web_thickness);
-        const double height = 0.5 * wheel_.web_thickness;
-        const double way    = outer - wheel_.hub_radius;
-        const int    steps  = steps_over(way, chord_);
-        const auto   count  = [&](double radius) { return std::max(60, steps_over(2 * pi * radius, chord_)); };
-        for (int step = 1; step <= steps; ++step)
-        {
-            const double radius = step == steps ? wheel_.hub_radius : outer - way * step / steps;
-            const Ring   next   = even_ring(mesh, count(radius), last.angles.front(), radius, sign * height);
-            face(side, zipped_band(last, next));
-            last = next;
-        }
-        hub(side, last, sign);
-    }
-
-    void hub(Side side, Ring last, double sign)
-    {
-        const int    count = static_cast<int>(last.vertices.size());
-        const double start = last.angles.front();
         const double foot = 0.5 * wheel_.web_thickness, top = 0.5 * wheel_.hub_width;
-        const int    rises = steps_over(top - foot, 4 * pi * wheel_.hub_radius / count);
-        for (int rise = 1; rise <= rises; ++rise)
-        {
-            const double y    = rise == rises ? top : foot + (top - foot) * rise / rises;
-            const Ring   next = even_ring(mesh, count, start, wheel_.hub_radius, sign * y);
-            face(side, band(last, next));
-            last = next;
-        }
-        const int steps = std::max(3, steps_over(wheel_.hub_radius, 2 * chord_));
+        turn_face(foot, inner_radius(wheel_, foot), wheel_.hub_radius);
+        turn_side(foot, top, wheel_.hub_radius);
+
+        const int count = static_cast<int>(last_.vertices.size());
+        const int steps = std::max(3, steps_over(wheel_.hub_radius, 2 * grid_.chord));
         for (int step = steps - 1; step > 0; --step)
         {
-            const double part       = static_cast<double>(step) / steps;
-            const int    next_count = std::max(6, static_cast<int>(std::lround(count * part)));
-            const Ring   next       = even_ring(mesh, next_count, start, part * wheel_.hub_radius, sign * top);
-            face(side, zipped_band(last, next));
-            last = next;
+            const double part   = static_cast<double>(step) / steps;
+            const int    fewer  = std::max(6, static_cast<int>(std::lround(count * part)));
+            const double radius = part * wheel_.hub_radius;
+            join(zipped_band(last_, turned(fewer, radius, top)));
         }
-        face(side, fan(last, add_vertex(mesh, 0, 0, sign * top)));
+        append(mesh_, side_, fan(last_, add_vertex(mesh_, 0, 0, at_side(top))));
     }
 
-    /// Both sides of a wheel are made as the right one; the left one is its mirror image.
-    void face(Side side, const Triangles& triangles)
+    /// To a ring that both halves share.
+    void meet(const Ring& middle) { append(mesh_, side_, band(last_, middle)); }
+
+private:
+    double at_side(double y) const { return side_ == Side::right ? y : -y; }
+
+    Ring& at_drum(double y) { return next_ = drum_ring(mesh_, grid_, at_side(y), inner_radius(wheel_, y)); }
+
+    Ring& turned(int count, double radius, double y)
     {
-        append(mesh, side == Side::right ? triangles : reversed(triangles));
+        return next_ = even_ring(mesh_, count, last_.angles.front(), radius, at_side(y));
     }
 
-    scene::WheelGenerator wheel_;
-    std::vector<double>   rows_;    ///< y, m
-    double                chord_;   ///< m
-    double                pitch_;   ///< angle from grouser to grouser
-    int                   columns_; ///< from one grouser's foot to the next grouser's
-    Ring                  left_edge_, right_edge_;
+    /// Takes the band that ends at the next ring, which then is the last one.
+    void join(const Triangles& triangles)
+    {
+        append(mesh_, side_, triangles);
+        last_ = next_;
+    }
+
+    /// Across the wall, with the columns of the tread.
+    void cap(double edge)
+    {
+        const int steps = steps_over(wheel_.wall_thickness, 2 * grid_.chord);
+        for (int step = 1; step <= steps; ++step)
+        {
+            const double radius = drum_radius(wheel_, edge) - wheel_.wall_thickness * step / steps;
+            next_               = drum_ring(mesh_, grid_, at_side(edge), radius);
+            join(band(last_, next_));
+        }
+    }
+
+    /// In along the cap, back along the flange's bore, and out again as far as the ring before the drum's.
+    void turn_flange(double edge, double flange)
+    {
+        turn_face(edge, inner_radius(wheel_, edge), rim_radius(wheel_));
+        turn_side(edge, flange, rim_radius(wheel_));
+        const double way   = inner_radius(wheel_, flange) - rim_radius(wheel_);
+        const int    steps = steps_over(way, grid_.chord);
+        for (int step = 1; step < steps; ++step)
+        {
+            const double radius = rim_radius(wheel_) + way * step / steps;
+            join(zipped_band(last_, turned(corners(radius), radius, flange)));
+        }
+    }
+
+    /// A plane at y, from one radius in to the other.
+    void turn_face(double y, double from, double to)
+    {
+        const int steps = steps_over(from - to, grid_.chord);
+        for (int step = 1; step <= steps; ++step)
+        {
+            const double radius = step == steps ? to : from - (from - to) * step / steps;
+            join(zipped_band(last_, turned(corners(radius), radius, y)));
+        }
+    }
+
+    /// A cylinder from one y to the other.
+    void turn_side(double from, double to, double radius)
+    {
+        const int count = static_cast<int>(last_.vertices.size());
+        const int steps = steps_over(std::abs(to - from), 4 * pi * radius / count);
+        for (int step = 1; step <= steps; ++step)
+        {
+            join(band(last_, turned(count, radius, step == steps ? to : from + (to - from) * step / steps)));
+        }
+    }
+
+    /// Of a turned ring: 60 lose 0.2 % of their disc.
+    int corners(double radius) const { return std::max(60, steps_over(2 * pi * radius, grid_.chord)); }
+
+    TriangleMesh&                mesh_;
+    const WheelGrid&             grid_;
+    const scene::WheelGenerator& wheel_;
+    Side                         side_;
+    Ring                         last_, next_;
 };
 
 } // namespace
@@ -230,7 +141,22 @@ private:
 TriangleMesh wheel_mesh(const scene::WheelGenerator& generator, const std::string& origin)
 {
     check_wheel(generator, origin);
-    return WheelBuilder(generator).mesh;
+    const WheelGrid  grid = wheel_grid(generator);
+    TriangleMesh     mesh;
+    const TreadEdges edges = add_tread(mesh, grid);
+    HalfInside       left(mesh, grid, Side::left, edges.left), right(mesh, grid, Side::right, edges.right);
+    left.drum();
+    right.drum();
+    if (generator.hub_radius > 0)
+    {
+        left.web_and_hub();
+        right.web_and_hub();
+        return mesh;
+    }
+    const Ring middle = drum_ring(mesh, grid, 0, inner_radius(generator, 0));
+    left.meet(middle);
+    right.meet(middle);
+    return mesh;
 }
 
 } // namespace tread::shape

@@ -23,6 +23,30 @@ double row_step(const scene::WheelGenerator& wheel)
     return step;
 }
 
+std::vector<double> wheel_rows(const scene::WheelGenerator& wheel)
+{
+    std::vector<double> stops{0.0};
+    if (wheel.hub_radius > 0) { stops.push_back(0.5 * wheel.web_thickness); }
+    if (wheel.rim_height > 0) { stops.push_back(0.5 * wheel.width - wheel.rim_thickness); }
+    stops.push_back(0.5 * wheel.width);
+
+    const double        longest = row_step(wheel);
+    std::vector<double> upper;
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i)
+    {
+        const double way   = stops[i + 1] - stops[i];
+        const int    steps = steps_over(way, longest);
+        for (int step = 1; step < steps; ++step) { upper.push_back(stops[i] + way * step / steps); }
+        upper.push_back(stops[i + 1]);
+    }
+
+    std::vector<double> rows;
+    for (auto y = upper.rbegin(); y != upper.rend(); ++y) { rows.push_back(-*y); }
+    rows.push_back(0);
+    rows.insert(rows.end(), upper.begin(), upper.end());
+    return rows;
+}
+
 } // namespace
 
 double drum_radius(const scene::WheelGenerator& wheel, double y)
@@ -64,28 +88,22 @@ double half_angle(const scene::WheelGenerator& wheel, double radius)
     return wheel.grousers > 0 ? std::asin(0.5 * wheel.grouser_width / radius) : 0.0;
 }
 
-std::vector<double> wheel_rows(const scene::WheelGenerator& wheel)
+int steps_over(double way, double longest) { return std::max(1, static_cast<int>(std::ceil(way / longest - 1e-9))); }
+
+WheelGrid wheel_grid(const scene::WheelGenerator& wheel)
 {
-    std::vector<double> stops{0.0};
-    if (wheel.hub_radius > 0) { stops.push_back(0.5 * wheel.web_thickness); }
-    if (wheel.rim_height > 0) { stops.push_back(0.5 * wheel.width - wheel.rim_thickness); }
-    stops.push_back(0.5 * wheel.width);
-
-    const double        longest = row_step(wheel);
-    std::vector<double> upper;
-    for (std::size_t i = 0; i + 1 < stops.size(); ++i)
-    {
-        const double way   = stops[i + 1] - stops[i];
-        const int    steps = std::max(1, static_cast<int>(std::ceil(way / longest - 1e-9)));
-        for (int step = 1; step < steps; ++step) { upper.push_back(stops[i] + way * step / steps); }
-        upper.push_back(stops[i + 1]);
-    }
-
-    std::vector<double> rows;
-    for (auto y = upper.rbegin(); y != upper.rend(); ++y) { rows.push_back(-*y); }
-    rows.push_back(0);
-    rows.insert(rows.end(), upper.begin(), upper.end());
-    return rows;
+    WheelGrid grid{};
+    grid.wheel        = wheel;
+    grid.rows         = wheel_rows(wheel);
+    grid.chord        = longest_wheel_chord * drum_radius(wheel, 0);
+    grid.pitches      = std::max(wheel.grousers, 1);
+    grid.pitch        = 2 * pi / grid.pitches;
+    const double foot = 2 * half_angle(wheel, drum_radius(wheel, 0));
+    grid.gap_columns  = steps_over(grid.pitch - foot, longest_wheel_chord);
+    grid.foot_columns = wheel.grousers > 0 ? steps_over(foot, longest_wheel_chord) : 0;
+    // Steeply swept grousers have narrow rows: lower levels keep the triangles of their sides stout.
+    grid.levels = steps_over(wheel.grouser_height, 1.5 * grid.chord);
+    return grid;
 }
 
 } // namespace tread::shape

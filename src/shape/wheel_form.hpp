@@ -35,8 +35,24 @@ double sweep(const scene::WheelGenerator& wheel, double y);
 /// Half the angle that a grouser, as wide as at its foot, takes at a radius.
 double half_angle(const scene::WheelGenerator& wheel, double radius);
 
-/// Ascending y of the mesh's rows, symmetric about 0, which is one of them, as are the faces of flanges and web. Dense
-/// enough that no step turns or curves more than a chord does.
-std::vector<double> wheel_rows(const scene::WheelGenerator& wheel);
+/// How a wheel is divided into columns, which follow the grousers, and rows across the axle.
+struct WheelGrid
+{
+    scene::WheelGenerator wheel;
+    std::vector<double>
+           rows;  ///< ascending y, m: symmetric about 0, which is one of them, as are flanges' and web's faces
+    double chord; ///< m, of `longest_wheel_chord` on the drum
+    double pitch; ///< angle from grouser to grouser; the full turn if there are none
+    int    pitches;
+    int    gap_columns;  ///< from one grouser's foot to the next grouser
+    int    foot_columns; ///< across a grouser; 0 without grousers
+    int    levels;       ///< from a grouser's foot to its tip
+};
+
+/// The grid of a wheel that passed `check_wheel`. No step turns or curves more than a chord does.
+WheelGrid wheel_grid(const scene::WheelGenerator& wheel);
+
+/// Steps, each at most `longest` but for rounding, that make up `way`; at least one.
+int steps_over(double way, double longest);
 
 } // namespace tread::shape
