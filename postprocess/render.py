@@ -5,12 +5,11 @@ Needs Debian's python3-h5py, python3-numpy and python3-vtk9, and xvfb where ther
 """
 
 import argparse
-import os
-import shutil
 import sys
 from pathlib import Path
 
 from tread_post import Run, RunError
+from tread_post.display import ensure_display
 
 
 def arguments():
@@ -31,16 +30,6 @@ def snapshot_number(run, wanted):
     if not wanted.isdecimal() or int(wanted) not in numbers:
         raise RunError(f"--snapshot {wanted}: this run has {numbers[0]} to {numbers[-1]}, or last")
     return int(wanted)
-
-
-def ensure_display():
-    """VTK of Debian draws into a window: without a display this process starts again inside a virtual one."""
-    if os.environ.get("DISPLAY"):
-        return
-    xvfb = shutil.which("xvfb-run")
-    if xvfb is None:
-        raise RunError("no display; install xvfb (apt-get install xvfb) or set DISPLAY")
-    os.execv(xvfb, [xvfb, "--auto-servernum", "--server-args=-screen 0 2048x1536x24", sys.executable, *sys.argv])
 
 
 def main():

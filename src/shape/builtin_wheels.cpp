@@ -13,7 +13,7 @@ namespace
 {
 
 // Radii are over the grousers. Real skins are about 1 mm thick, far below any grid's reach: walls are thickened
-// inwards, where the ground does not see them. Spokes are left out: the rims are open. "Assumed" marks what no source
+// inwards, where the ground does not see them. Spokes are left out. "Assumed" marks what no source
 // gives. With these cells the SDF encloses the mesh's volume within 1 % (measured by the unit tests); the sizes are
 // those of the SDF.
 
@@ -29,8 +29,8 @@ scene::WheelGenerator perseverance()
 }
 
 /// Diameter 0.50 m, width 0.40 m, 24 chevrons 15 degrees apart and 7.5 mm high (JPL 2016, Mars Science Laboratory
-/// wheels). One V across the width, its ends 10 degrees ahead; grouser width 5 mm and wall 10 mm: assumed. The marker
-/// of visual odometry, where five chevrons differ, is left out.
+/// wheels). One V across the width with its ends 10 degrees ahead, grouser width 5 mm and wall 10 mm: assumed. The
+/// marker of visual odometry, where five chevrons differ, is left out.
 scene::WheelGenerator curiosity()
 {
     scene::WheelGenerator wheel{0.25, 0.40, 0.01, 24, 0.0075, 0.005};

@@ -226,8 +226,25 @@ class PostprocessTest(unittest.TestCase):
         self.picture("render.py")
         self.picture("render.py", "--snapshot", "0")
 
+    def test_shapes(self):
+        mesh = self.run_path.parent / "spindle.obj"
+        angles = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+        corners = [(0, 0, -0.5), (0, 0, 0.5), *((np.cos(a), np.sin(a), 0) for a in angles)]
+        sides = [(3 + i, 3 + (i + 1) % 24) for i in range(24)]
+        faces = [(one, other, 2) for one, other in sides] + [(other, one, 1) for one, other in sides]
+        lines = ["v {} {} {}".format(*c) for c in corners] + ["f {} {} {}".format(*f) for f in faces]
+        mesh.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        output = self.run_path.parent / "shapes.png"
+        done = self.command("shapes.py", mesh, mesh, "--output", output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.strip(), str(output))
+        self.assertGreater(colours_of(output), 40, "a picture of something")
+
     def test_errors_name_what_is_wrong(self):
+        absent = self.run_path.parent / "absent.stl"
         for name, options, words in (
+            ("shapes.py", (absent, "--output", absent.with_suffix(".png")), "absent.stl: no such file"),
+            ("shapes.py", (self.run_path, "--output", absent.with_suffix(".png")), "accepted are .stl, .obj"),
             ("render.py", (self.run_path / "absent",), "no scene.toml"),
             ("render.py", (self.run_path, "--snapshot", "3"), "this run has 0 to 7"),
             ("wheel_history.py", (self.run_path, "--wheel", "rear"), "/wheel/rear"),
