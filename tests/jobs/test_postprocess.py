@@ -238,7 +238,8 @@ class PostprocessTest(unittest.TestCase):
         done = self.command("shapes.py", mesh, mesh, "--output", output)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.strip(), str(output))
-        self.assertGreater(colours_of(output), 40, "a picture of something")
+        # Letters alone are at most 16 greys.
+        self.assertGreater(colours_of(output), 24, "a picture of something")
 
     def test_errors_name_what_is_wrong(self):
         absent = self.run_path.parent / "absent.stl"

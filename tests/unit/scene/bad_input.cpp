@@ -141,6 +141,8 @@ const std::vector<BadCase> cross_cases{
     {"wheel_without_room", "kind = \"rock\", seed = 3", "kind = \"wheel\", wall_thickness = 0.3", 31,
      "leave no room in the wheel"},
     {"grousers_overlap", "kind = \"rock\", seed = 3", "kind = \"wheel\", grousers = 900", 31, "the grousers overlap"},
+    {"grouser_shape", "kind = \"rock\", seed = 3", "kind = \"wheel\", grouser_shape = \"zigzag\"", 31,
+     "accepted: \"straight\" | \"chevron\" | \"curved\""},
     {"coarse_grid", "spacing = 0.05", "spacing = 2", 6, "2 is more than the domain; accepted: number > 0 and <= 1 (m)"},
     {"no_spacing", "[grid]\nspacing = 0.05\n", "", 1, "[grid] spacing: missing; [[terrain]] needs it"},
     {"replace_without_terrain",

@@ -62,7 +62,7 @@ name = "b"
 generate = { kind = "sphere", nodes = 42 }
 [[shape]]
 name = "c"
-generate = { kind = "wheel", radius = 1, width = 2, wall_thickness = 0.1, grousers = 3, grouser_height = 0.2, grouser_width = 0.3 }
+generate = { kind = "wheel", radius = 1, width = 2, wall_thickness = 0.1, grousers = 3, grouser_height = 0.2, grouser_width = 0.3, grouser_shape = "chevron", grouser_sweep_deg = -5, crown = 0.05, rim_height = 0.06, rim_thickness = 0.07, hub_radius = 0.3, hub_width = 0.4, web_thickness = 0.08 }
 [[shape]]
 name = "d"
 file = "mesh.stl"
@@ -159,7 +159,8 @@ TEST(Resolved, what_was_read_is_what_was_written)
     EXPECT_EQ(scene.materials[0],
               (Material{"sand", MaterialModel::mohr_coulomb, 1600, 1e21, 0.1, 30, 5, 100, "ripple"}));
     EXPECT_EQ(scene.materials[1].family, "steel");
-    EXPECT_EQ(std::get<WheelGenerator>(scene.shapes[2].source), (WheelGenerator{1, 2, 0.1, 3, 0.2, 0.3}));
+    EXPECT_EQ(std::get<WheelGenerator>(scene.shapes[2].source),
+              (WheelGenerator{1, 2, 0.1, 3, 0.2, 0.3, GrouserShape::chevron, -5, 0.05, 0.06, 0.07, 0.3, 0.4, 0.08}));
     EXPECT_EQ(std::get<MeshFile>(scene.shapes[3].source), (MeshFile{(directory.path() / "mesh.stl").string(), 0.001}));
     EXPECT_EQ(std::get<MeshFile>(scene.shapes[4].source).unit, 0.3048);
     EXPECT_EQ(scene.rocks[0].seed, 9007199254740993u);

@@ -158,7 +158,7 @@ TEST(Wheel, IsClosedStoutAndOfItsSectionsVolumeForAnyParameters)
 {
     Random random(20240611);
     double worst_volume = 0, stretched = 0, centre = 0;
-    for (int i = 0; i < 300; ++i)
+    for (int i = 0; i < 200; ++i)
     {
         const WheelGenerator g    = random_wheel(random);
         const TriangleMesh   mesh = wheel_mesh(g, "wheel");
@@ -173,7 +173,7 @@ TEST(Wheel, IsClosedStoutAndOfItsSectionsVolumeForAnyParameters)
         ASSERT_DOUBLE_EQ(bounds(mesh).extent().y(), g.width);
     }
     std::printf(
-        "300 wheels: volume off by at most %.2g (tolerance %.2g), triangles at most %.1f as long as high (15)\n",
+        "200 wheels: volume off by at most %.2g (tolerance %.2g), triangles at most %.1f as long as high (15)\n",
         worst_volume, volume_tolerance, stretched);
     EXPECT_LT(worst_volume, volume_tolerance);
     EXPECT_LT(stretched, 15);
