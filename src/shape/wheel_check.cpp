@@ -30,7 +30,7 @@ public:
     void drum() const
     {
         require("radius", wheel_.radius, 1e-3, 100);
-        require("width", wheel_.width, least_, 20 * wheel_.radius);
+        require("width", wheel_.width, 0.05 * wheel_.radius, 20 * wheel_.radius);
         require("grousers", wheel_.grousers, 0, 1000);
         if (wheel_.grousers > 0) { require("grouser_height", wheel_.grouser_height, least_, 0.5 * wheel_.radius); }
         require("crown", wheel_.crown, 0, 0.5 * drum_radius(wheel_, 0));
@@ -63,7 +63,7 @@ public:
                 " (or 0: an open rim)");
         require("hub_width", wheel_.hub_width, 3 * least_, wheel_.width);
         require("web_thickness", wheel_.web_thickness, least_,
-                std::min(wheel_.hub_width - 2 * least_, 0.9 * wheel_.width));
+                std::min(wheel_.hub_width - 2 * least_, 0.75 * wheel_.width));
     }
 
     void rim() const
@@ -84,6 +84,7 @@ private:
     void require(const char* key, double value, double least, double most, const char* when = "") const
     {
         if (value >= least && value <= most) { return; }
+        if (least > most) { fail(key, value, "is none: the other lengths leave no room"); }
         if (least == most) { fail(key, value, fmt::format("is {:.6g}{}", least, when)); }
         fail(key, value, fmt::format("are {:.6g} to {:.6g}{}", least, most, when));
     }

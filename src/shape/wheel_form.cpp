@@ -19,7 +19,7 @@ double row_step(const scene::WheelGenerator& wheel)
     // A tenth of half the width leaves 1/400 of a parabola's height between it and its chords.
     if (wheel.crown > 0 || wheel.grouser_shape == scene::GrouserShape::curved) { step = std::min(step, 0.1 * half); }
     const double steepest = std::abs(sweep(wheel, half)) * (wheel.grouser_shape == scene::GrouserShape::curved ? 2 : 1);
-    if (wheel.grousers > 0 && steepest > 0) { step = std::min(step, half * longest_wheel_chord / steepest); }
+    if (steepest > 0) { step = std::min(step, half * longest_wheel_chord / steepest); }
     return step;
 }
 
@@ -69,6 +69,7 @@ double rim_radius(const scene::WheelGenerator& wheel)
 
 double sweep(const scene::WheelGenerator& wheel, double y)
 {
+    if (wheel.grousers == 0) { return 0; }
     const double ends = wheel.grouser_sweep_deg / 180 * pi;
     const double edge = std::abs(2 * y / wheel.width);
     switch (wheel.grouser_shape)

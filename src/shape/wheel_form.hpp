@@ -29,7 +29,7 @@ double tip_radius(const scene::WheelGenerator& wheel, double y);
 /// Inner radius of the flanges; without any, of the drum at its edges.
 double rim_radius(const scene::WheelGenerator& wheel);
 
-/// Angle of the grousers' middle lines at y, from where they are at y = 0.
+/// Angle of the grousers' middle lines at y, from where they are at y = 0; 0 without grousers.
 double sweep(const scene::WheelGenerator& wheel, double y);
 
 /// Half the angle that a grouser, as wide as at its foot, takes at a radius.

@@ -300,6 +300,16 @@ TEST(Wheel, MayHaveNoGrousers)
     EXPECT_NEAR(mass_properties(mesh).volume, expected * (1 - std::pow(test::pi / 90, 2) / 6), 1e-6 * expected);
 }
 
+TEST(Wheel, TakesNoTwistFromGrousersThatItDoesNotHave)
+{
+    WheelGenerator g;
+    g.grousers              = 0;
+    const TriangleMesh even = wheel_mesh(g, "drum");
+    g.grouser_shape         = GrouserShape::chevron;
+    g.grouser_sweep_deg     = 50;
+    EXPECT_EQ(wheel_mesh(g, "drum").vertices, even.vertices);
+}
+
 TEST(Wheel, NodesShareTheAreaEvenlyAndStandOnTheGrousersTips)
 {
     for (const std::string& name : builtin_shape_names())
@@ -355,6 +365,22 @@ TEST(Wheel, RejectsWhatDoesNotFit)
     EXPECT_THAT(message([](auto& g) { g.rim_thickness = 0.01; }), HasSubstr("rim_thickness = 0.01: accepted is 0"));
     EXPECT_THAT(message([](auto& g) { g.rim_height = 0.01; }), HasSubstr("rim_thickness = 0: accepted are 0.00026"));
     EXPECT_THAT(message([](auto& g) { g.rim_height = g.rim_thickness = 0.24; }), HasSubstr("rim_height = 0.24"));
+    EXPECT_THAT(message(
+                    [](auto& g)
+                    {
+                        g.hub_radius = g.hub_width = 0.02;
+                        g.web_thickness            = 0.01;
+                        g.wall_thickness           = 0.227;
+                        g.rim_height               = 0.01;
+                    }),
+                HasSubstr("hub_radius = 0.02: accepted are 0.0026 to 0.01845"));
+    EXPECT_THAT(message(
+                    [](auto& g)
+                    {
+                        g.wall_thickness = 0.235;
+                        g.rim_height     = 0.2;
+                    }),
+                HasSubstr("rim_height = 0.2"));
     EXPECT_THAT(message([](auto& g) { g.web_thickness = 0.01; }), HasSubstr("web_thickness = 0.01: accepted is 0"));
     EXPECT_THAT(message([](auto& g) { g.hub_radius = 0.23; }), HasSubstr("hub_radius = 0.23"));
     const auto with_hub = [&](double width, double web)
