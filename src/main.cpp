@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -13,11 +12,14 @@
 #include <fmt/format.h>
 
 #include "base/communicator.hpp"
+#include "base/errors.hpp"
 #include "base/log.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
 #include "io/describe.hpp"
+#include "io/sdf_report.hpp"
 #include "scene/load.hpp"
+#include "shape/report.hpp"
 #include "shape/template.hpp"
 #include "solver/run.hpp"
 
@@ -40,12 +42,21 @@ struct RunArguments
     Terminal           terminal = Terminal::shown;
 };
 
+enum class Report
+{
+    none,
+    printed
+};
+
 struct SdfArguments
 {
-    std::string                mesh; ///< file, or name of a built-in shape
+    std::string                mesh;  ///< file, name of a built-in shape, or scene
+    std::optional<std::string> shape; ///< of the scene
     std::optional<int>         cells;
     double                     unit = 1.0;
     std::optional<std::string> stl;
+    Report                     report = Report::none;
+    std::string                report_file; ///< empty = none
 };
 
 ExitCode code_of(const std::exception& error)
@@ -103,64 +114,48 @@ ExitCode check(const SceneArguments& arguments)
         });
 }
 
-std::string vector_text(const Eigen::Vector3d& vector)
+/// The shape of a scene that is asked for, or its only one.
+scene::Shape shape_in_scene(const SdfArguments& arguments)
 {
-    return fmt::format("{:.6g} {:.6g} {:.6g}", vector.x(), vector.y(), vector.z());
-}
-
-std::string template_text(const shape::ShapeTemplate& shape)
-{
-    double area = 0;
-    for (const double part : shape.nodes.areas) { area += part; }
-    const auto& nodes     = shape.sdf.nodes;
-    const auto  mebibytes = static_cast<double>(shape.sdf.values.size() * sizeof(float)) / (1024.0 * 1024.0);
-
-    std::string text = fmt::format("shape           {}\n", shape.name);
-    text += fmt::format("watertight      yes: {} vertices, {} triangles\n", shape.mesh.vertices.size(),
-                        shape.mesh.triangles.size());
-    text += fmt::format("extent          {} m\n", vector_text(shape.box.extent()));
-    text += fmt::format("centre of mass  {} m\n", vector_text(shape.mesh_centre));
-    text += fmt::format("volume          {:.6g} m3\n", shape.unit.volume);
-    text += fmt::format("area            {:.6g} m2\n", area);
-    for (Eigen::Index row = 0; row < 3; ++row)
+    const scene::Scene scene = scene::load_scene(arguments.mesh, {});
+    if (arguments.shape) { return shape::find_shape(scene, *arguments.shape); }
+    if (scene.shapes.size() != 1)
     {
-        text += fmt::format("{:<15} {} m5\n", row == 0 ? "inertia (1)" : "",
-                            vector_text(shape.unit.inertia.row(row).transpose()));
+        throw InputError(
+            fmt::format("{} has {} [[shape]] tables: --shape NAME says which", arguments.mesh, scene.shapes.size()));
     }
-    text += fmt::format("surface nodes   {}, {:.4g} m apart\n", shape.nodes.positions.size(), shape.nodes.spacing);
-    text += fmt::format("SDF             {} x {} x {} nodes, {:.4g} m apart, {:.1f} MiB\n", nodes[0], nodes[1],
-                        nodes[2], shape.sdf.spacing, mebibytes);
-    text += fmt::format("SDF volume      {:.4f} of the mesh's\n", shape.sdf_volume_ratio);
-    text += "(1) about the centre of mass, mesh axes, density 1 kg/m3\n";
-    return text;
+    return scene.shapes.front();
 }
 
-scene::Shape shape_of(const SdfArguments& arguments)
+scene::Shape mesh_or_builtin(const SdfArguments& arguments)
 {
+    if (arguments.shape) { throw InputError("--shape NAME is for a SCENE.toml"); }
     const std::vector<std::string> builtin = shape::builtin_shape_names();
-    scene::Shape                   shape;
     if (std::find(builtin.begin(), builtin.end(), arguments.mesh) != builtin.end())
     {
-        shape = shape::find_shape({}, arguments.mesh);
+        return shape::find_shape({}, arguments.mesh);
     }
-    else
-    {
-        shape.name   = arguments.mesh;
-        shape.source = scene::MeshFile{arguments.mesh, arguments.unit};
-    }
-    shape.sdf_cells = arguments.cells.value_or(shape.sdf_cells);
+    scene::Shape shape;
+    shape.name   = arguments.mesh;
+    shape.source = scene::MeshFile{arguments.mesh, arguments.unit};
     return shape;
 }
 
 ExitCode sdf(const SdfArguments& arguments)
 {
-    const shape::ShapeTemplate shape = shape::make_template(shape_of(arguments), ".");
-    std::cout << template_text(shape);
-    if (std::abs(shape.sdf_volume_ratio - 1) > 0.02)
-    {
-        std::cerr << "warning: the SDF's volume is more than 2 % off: raise --cells until the thinnest wall has 1.5\n";
-    }
-    if (arguments.stl) { shape::write_stl(shape.mesh, *arguments.stl); }
+    const bool   in_scene = std::filesystem::path(arguments.mesh).extension() == ".toml";
+    scene::Shape asked    = in_scene ? shape_in_scene(arguments) : mesh_or_builtin(arguments);
+    if (arguments.cells) { asked.sdf_cells = *arguments.cells; }
+
+    const shape::ShapeTemplate form = shape::make_template(asked, ".");
+    std::cout << shape::template_text(form);
+    for (const std::string& remark : form.remarks) { std::cerr << "warning: " << remark << '\n'; }
+    if (arguments.stl) { shape::write_stl(form.mesh, *arguments.stl); }
+    if (arguments.report == Report::none) { return ExitCode::finished; }
+
+    const auto qualities = shape::sdf_convergence(asked, form, shape::report_cells());
+    std::cout << shape::convergence_text(qualities);
+    if (!arguments.report_file.empty()) { io::write_sdf_report(arguments.report_file, form, qualities); }
     return ExitCode::finished;
 }
 
@@ -211,15 +206,28 @@ void add_run_options(CLI::App& command, RunArguments& arguments)
 
 void add_sdf_options(CLI::App& command, SdfArguments& arguments)
 {
-    command.add_option("mesh", arguments.mesh, "STL or OBJ file, or a built-in shape")
-        ->type_name("MESH|BUILTIN")
+    command.add_option("mesh", arguments.mesh, "STL or OBJ file, a built-in shape, or a scene with the shape")
+        ->type_name("MESH|BUILTIN|SCENE.toml")
         ->required();
-    command.add_option("--cells", arguments.cells, "SDF cells along the longest axis")
+    command.add_option("--shape", arguments.shape, "Which [[shape]] of the scene; its only one needs no name")
+        ->type_name("NAME");
+    command.add_option("--cells", arguments.cells, "SDF cells along the longest axis; default: the shape's, or auto")
         ->type_name("N")
         ->check(CLI::Range(8, 1024));
     add_word_option<double>(command, "--unit", arguments.unit,
                             {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}},
                             "Length unit of the file; default m");
+    command
+        .add_option_function<std::string>(
+            "--report",
+            [&](const std::string& file)
+            {
+                arguments.report      = Report::printed;
+                arguments.report_file = file;
+            },
+            "Print how the field converges with its cells, and write that to the file, if given")
+        ->type_name("[FILE.h5]")
+        ->expected(0, 1);
     command.add_option("--write-stl", arguments.stl, "Write the surface, centred, in metres")->type_name("FILE");
 }
 

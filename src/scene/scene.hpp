@@ -200,10 +200,10 @@ using ShapeSource = std::variant<RockGenerator, SphereGenerator, WheelGenerator,
 
 struct Shape
 {
-    std::string name;
-    ShapeSource source;
-    int         sdf_cells    = 64; ///< cells along the longest axis of the 120 % box
-    double      node_spacing = 0;  ///< m; surface nodes; 0 = by the generator, or a 40th of the extent
+    std::string                 name;
+    ShapeSource                 source;
+    std::optional<std::int64_t> sdf_cells; ///< along the longest axis of the 120 % box; nothing = by the thinnest wall
+    double                      node_spacing = 0; ///< m; surface nodes; 0 = by the generator, or a 40th of the extent
 
     bool operator==(const Shape&) const = default;
 };

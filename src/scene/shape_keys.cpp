@@ -176,8 +176,10 @@ Keys<Shape> shape_keys()
                  &MeshFile::path, text()),
         mesh_key({"unit", "", "", "", "Length of one unit of the file; only with `file`.", ""}, &MeshFile::unit,
                  length_unit()),
-        optional("sdf_cells", "", &Shape::sdf_cells, integer<int>(8, 1024),
-                 "Cells of the signed distance field along the longest axis of its box (1.2 times the shape's)."),
+        optional(
+            "sdf_cells", "", &Shape::sdf_cells, integer_or("auto", 8, 1024),
+            "Cells of the signed distance field along the longest axis of its box (1.2 times the shape's). "
+            "\"auto\": 1.5 across the thinnest wall, 40 to 512; one a surface node of a rock or sphere, 40 to 64."),
         optional("node_spacing", "m", &Shape::node_spacing, number(at_least(0)),
                  "Of the surface nodes; 0 leaves it to the generator, or takes a 40th of a mesh file's extent."),
     };

@@ -204,15 +204,15 @@ Value<std::optional<double>> number_or(const std::string& word, Range range)
             [=](const std::optional<double>& value) { return value ? write_number(*value) : quoted; }};
 }
 
-Value<std::optional<std::int64_t>> integer_or(const std::string& word, std::int64_t low)
+Value<std::optional<std::int64_t>> integer_or(const std::string& word, std::int64_t low, std::int64_t high)
 {
     const auto quoted = write_string(word);
-    return {fmt::format("integer >= {}, or {}", low, quoted),
+    return {fmt::format("{}, or {}", integer<std::int64_t>(low, high).accepted, quoted),
             [=](const Node& node) -> std::optional<std::int64_t>
             {
                 const auto* text = std::get_if<std::string>(&node.value);
                 if (text != nullptr && *text == word) { return std::nullopt; }
-                return read_integer(node, low, std::numeric_limits<std::int64_t>::max());
+                return read_integer(node, low, high);
             },
             [=](const std::optional<std::int64_t>& value) { return value ? fmt::format("{}", *value) : quoted; }};
 }

@@ -74,7 +74,8 @@ Value<double> number(Range range);
 
 /// `word` stands for "nothing"; with an empty word, absence does.
 Value<std::optional<double>>       number_or(const std::string& word, Range range);
-Value<std::optional<std::int64_t>> integer_or(const std::string& word, std::int64_t low);
+Value<std::optional<std::int64_t>> integer_or(const std::string& word, std::int64_t low,
+                                              std::int64_t high = std::numeric_limits<std::int64_t>::max());
 
 /// Three numbers, each in range.
 Value<Vector3> vector3(Range range);

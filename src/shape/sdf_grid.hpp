@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cmath>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <functional>
 
 #include "shape/template.hpp"
 
@@ -24,6 +24,7 @@ inline Eigen::Vector3d node_position(const SignedDistanceGrid& sdf, std::int32_t
     return sdf.origin + sdf.spacing * Eigen::Vector3d(i, j, k);
 }
 
+/// Into the values of a dense grid.
 inline std::size_t node_index(const SignedDistanceGrid& sdf, std::int32_t i, std::int32_t j, std::int32_t k)
 {
     return static_cast<std::size_t>(i) +
@@ -31,29 +32,30 @@ inline std::size_t node_index(const SignedDistanceGrid& sdf, std::int32_t i, std
                (static_cast<std::size_t>(j) + static_cast<std::size_t>(sdf.nodes[1]) * static_cast<std::size_t>(k));
 }
 
-/// Samples a signed distance at every node, rows in parallel. `distance(point, within)` returns metres, negative
-/// inside; `within` is an upper bound of its magnitude, known from the node before because a distance is 1-Lipschitz.
-template<class Distance>
-SignedDistanceGrid build_sdf(const Bounds& box, int cells, const Distance& distance, double reach = 0)
+/// metres, negative inside; `within` is an upper bound of its magnitude, known from another node because a distance is
+/// 1-Lipschitz. Called from several threads.
+using SignedDistance = std::function<double(const Eigen::Vector3d& point, double within)>;
+
+/// Dense up to this many nodes (8 MiB), in bricks above.
+inline constexpr std::size_t most_dense_nodes = std::size_t{1} << 21;
+
+/// How a grid is stored.
+enum class Storage
 {
-    SignedDistanceGrid sdf = grid_over(box, cells, reach);
-    // A little over the spacing: the bound must survive rounding.
-    const double step = 1.001 * sdf.spacing;
-#pragma omp parallel for collapse(2) schedule(dynamic, 4)
-    for (std::int32_t k = 0; k < sdf.nodes[2]; ++k)
-    {
-        for (std::int32_t j = 0; j < sdf.nodes[1]; ++j)
-        {
-            double within = std::numeric_limits<double>::infinity();
-            for (std::int32_t i = 0; i < sdf.nodes[0]; ++i)
-            {
-                const double value                   = distance(node_position(sdf, i, j, k), within);
-                sdf.values[node_index(sdf, i, j, k)] = static_cast<float>(value);
-                within                               = std::abs(value) + step;
-            }
-        }
-    }
-    return sdf;
-}
+    by_size, ///< dense up to most_dense_nodes
+    dense,
+    bricks
+};
+
+/// Samples a signed distance on grid_over(box, cells, reach). In bricks, those with any point nearer to the surface
+/// than `reach` and four cells are fine.
+SignedDistanceGrid build_sdf(const Bounds& box, int cells, const SignedDistance& distance, double reach = 0,
+                             Storage storage = Storage::by_size);
+
+/// m3, what enclosed_volume would give with that many cells; keeps no grid.
+double enclosed_volume_with(const Bounds& box, int cells, const SignedDistance& distance);
+
+/// Part of a cell in which the trilinear interpolant of its eight corners, x fastest, is negative.
+double cell_inside(const std::array<double, 8>& corners);
 
 } // namespace tread::shape

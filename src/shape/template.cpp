@@ -8,9 +8,8 @@
 #include <fmt/format.h>
 
 #include "shape/generators.hpp"
-#include "shape/mesh_distance.hpp"
-#include "shape/sdf_grid.hpp"
 #include "shape/surface_nodes.hpp"
+#include "shape/template_sdf.hpp"
 #include "shape/triangle.hpp"
 
 namespace tread::shape
@@ -72,28 +71,6 @@ struct MakeNodes
     SurfaceNodes resampled(double usual) const { return resample(mesh, spacing > 0 ? spacing : usual); }
 };
 
-struct MakeSdf
-{
-    const TriangleMesh& mesh;
-    int                 cells;
-    double              reach; ///< m
-
-    SignedDistanceGrid operator()(const scene::SphereGenerator&) const
-    {
-        return build_sdf(
-            bounds(mesh), cells, [](const Eigen::Vector3d& point, double) { return point.norm() - 0.5; }, reach);
-    }
-    template<class Source>
-    SignedDistanceGrid operator()(const Source&) const
-    {
-        const MeshDistance distance = prepare_distance(mesh);
-        return build_sdf(
-            bounds(mesh), cells,
-            [&](const Eigen::Vector3d& point, double within) { return signed_distance(distance, point, within); },
-            reach);
-    }
-};
-
 double bounding_radius(const TriangleMesh& mesh)
 {
     double squared = 0;
@@ -118,11 +95,10 @@ ShapeTemplate make_template(const scene::Shape& shape, const std::string& direct
     result.unit.centre.setZero();
 
     result.equivalent_radius = std::cbrt(3 * result.unit.volume / (4 * pi));
-    result.sdf = std::visit(MakeSdf{result.mesh, shape.sdf_cells, reach(result.equivalent_radius)}, shape.source);
-    result.sdf_volume_ratio = enclosed_volume(result.sdf) / result.unit.volume;
-    result.nodes            = std::visit(MakeNodes{result.mesh, shape.node_spacing}, shape.source);
-    result.box              = bounds(result.mesh);
-    result.bounding_radius  = bounding_radius(result.mesh);
+    add_sdf(shape, reach(result.equivalent_radius), result);
+    result.nodes           = std::visit(MakeNodes{result.mesh, shape.node_spacing}, shape.source);
+    result.box             = bounds(result.mesh);
+    result.bounding_radius = bounding_radius(result.mesh);
     if (const auto* wheel = std::get_if<scene::WheelGenerator>(&shape.source))
     {
         result.is_wheel          = true;

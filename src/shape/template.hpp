@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,13 +18,29 @@ namespace tread::shape
 {
 
 /// Signed distance on a uniform grid, negative inside. Body frame (centre of mass at the origin, mesh axes), metres.
-/// Node (i, j, k) stands at origin + spacing * (i, j, k); values[i + nodes[0] * (j + nodes[1] * k)].
+/// Node (i, j, k) stands at origin + spacing * (i, j, k). Stored in one of two ways:
+/// Dense (slots empty): values[i + nodes[0] * (j + nodes[1] * k)].
+/// Bricks of 8^3 cells, those near the surface with all their 9^3 nodes, x fastest, from 729 * slot on in `values`; the
+/// others (slot -1) with the nodes at their corners alone, in `corners`, whose trilinear interpolant then holds in the
+/// whole brick. Nodes of a fine brick on a coarse one carry that interpolant, so that the field is continuous.
 struct SignedDistanceGrid
 {
+    static constexpr std::int32_t brick_cells = 8;
+    static constexpr std::int32_t brick_nodes = brick_cells + 1;
+
     Eigen::Vector3d             origin;
     double                      spacing;
     std::array<std::int32_t, 3> nodes;
     std::vector<float>          values;
+    std::array<std::int32_t, 3> bricks{}; ///< along each axis; they may reach beyond `nodes`
+    std::vector<std::int32_t>   slots;    ///< of the bricks, x fastest
+    std::vector<float>          corners;  ///< of the bricks: bricks + 1 along each axis, x fastest
+    double fine_reach = std::numeric_limits<double>::infinity(); ///< m: nearer to the surface every node is exact
+
+    std::size_t bytes() const
+    {
+        return sizeof(float) * (values.size() + corners.size()) + sizeof(std::int32_t) * slots.size();
+    }
 };
 
 /// Surface nodes that carry contact traction; areas sum to the surface's area. Ordered so that each run of
@@ -54,13 +73,16 @@ struct ShapeTemplate
     MassProperties     unit;        ///< density 1; unit.centre is zero
     Eigen::Vector3d    mesh_centre; ///< centre of mass in the frame of the source mesh
     SignedDistanceGrid sdf;
-    double        sdf_volume_ratio; ///< volume enclosed by the SDF's interpolant over the true one; warn off 1 by 2 %
-    SurfaceNodes  nodes;
-    Bounds        box;
-    double        bounding_radius;   ///< m, about the centre of mass
-    double        equivalent_radius; ///< m, of the sphere of equal volume; R of the contact law (wheels: radius)
-    bool          is_wheel;
-    WheelGeometry wheel; ///< meaningful if is_wheel
+    int                sdf_cells;        ///< along the longest axis of the 120 % box
+    double             sdf_volume_ratio; ///< volume enclosed by the SDF's interpolant over the true one
+    SurfaceNodes       nodes;
+    Bounds             box;
+    double             bounding_radius;   ///< m, about the centre of mass
+    double             equivalent_radius; ///< m, of the sphere of equal volume; R of the contact law (wheels: radius)
+    bool               is_wheel;
+    WheelGeometry      wheel; ///< meaningful if is_wheel
+
+    std::vector<std::string> remarks; ///< what the user should know of how it was made, a sentence each
 };
 
 /// The built-in wheels that a scene may name without a [[shape]] table.

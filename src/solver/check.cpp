@@ -22,11 +22,16 @@ std::string shape_lines(const World& world)
     for (const auto& form : world.templates)
     {
         const auto extent = form.box.extent();
-        text += fmt::format("  {}: {:.4g} x {:.4g} x {:.4g} m, volume {:.6g} m3, {} triangles, {} surface nodes, SDF "
-                            "{} x {} x {} ({:.2f} % of the volume)\n",
-                            form.name, extent[0], extent[1], extent[2], form.unit.volume, form.mesh.triangles.size(),
-                            form.nodes.positions.size(), form.sdf.nodes[0], form.sdf.nodes[1], form.sdf.nodes[2],
-                            100 * form.sdf_volume_ratio);
+        text +=
+            fmt::format("  {}: {:.4g} x {:.4g} x {:.4g} m, volume {:.6g} m3, {} triangles, {} surface nodes, SDF of "
+                        "{} cells, {} ({:.2f} % of the volume)\n",
+                        form.name, extent[0], extent[1], extent[2], form.unit.volume, form.mesh.triangles.size(),
+                        form.nodes.positions.size(), form.sdf_cells,
+                        bytes_text(static_cast<std::int64_t>(form.sdf.bytes())), 100 * form.sdf_volume_ratio);
+        for (const std::string& remark : form.remarks)
+        {
+            text += fmt::format("  {}: warning: {}\n", form.name, remark);
+        }
     }
     return text;
 }

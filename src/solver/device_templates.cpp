@@ -22,6 +22,10 @@ dem::TemplateView measures(const shape::ShapeTemplate& form)
     view.sdf_nodes[0]      = form.sdf.nodes[0];
     view.sdf_nodes[1]      = form.sdf.nodes[1];
     view.sdf_nodes[2]      = form.sdf.nodes[2];
+    view.sdf_bricks[0]     = form.sdf.bricks[0];
+    view.sdf_bricks[1]     = form.sdf.bricks[1];
+    view.sdf_bricks[2]     = form.sdf.bricks[2];
+    view.sdf_fine_reach    = form.sdf.fine_reach;
     view.node_count        = static_cast<std::int32_t>(form.nodes.positions.size());
     view.cluster_count     = static_cast<std::int32_t>(form.nodes.cluster_centres.size());
     view.low               = form.box.low;
@@ -36,6 +40,8 @@ dem::TemplateView measures(const shape::ShapeTemplate& form)
 template<class Exec>
 DeviceTemplates<Exec>::DeviceTemplates(const Exec& exec, const std::vector<shape::ShapeTemplate>& templates)
     : sdf_values_(exec, "template sdf")
+    , sdf_slots_(exec, "template sdf bricks")
+    , sdf_corners_(exec, "template sdf corners")
     , node_positions_(exec, "template nodes")
     , node_areas_(exec, "template node areas")
     , cluster_centres_(exec, "template clusters")
@@ -44,20 +50,24 @@ DeviceTemplates<Exec>::DeviceTemplates(const Exec& exec, const std::vector<shape
 {
     struct Start
     {
-        std::size_t sdf, node, cluster;
+        std::size_t sdf, slot, corner, node, cluster;
     };
-    std::vector<float>        sdf;
+    std::vector<float>        sdf, corners;
+    std::vector<std::int32_t> slots;
     std::vector<Vec3<double>> positions, centres;
     std::vector<double>       areas, radii;
     std::vector<Start>        starts;
     for (const auto& form : templates)
     {
-        starts.push_back({append(sdf, form.sdf.values), append(positions, form.nodes.positions),
+        starts.push_back({append(sdf, form.sdf.values), append(slots, form.sdf.slots),
+                          append(corners, form.sdf.corners), append(positions, form.nodes.positions),
                           append(centres, form.nodes.cluster_centres)});
         append(areas, form.nodes.areas);
         append(radii, form.nodes.cluster_radii);
     }
     sdf_values_.assign(sdf);
+    sdf_slots_.assign(slots);
+    sdf_corners_.assign(corners);
     node_positions_.assign(positions);
     node_areas_.assign(areas);
     cluster_centres_.assign(centres);
@@ -68,6 +78,8 @@ DeviceTemplates<Exec>::DeviceTemplates(const Exec& exec, const std::vector<shape
     {
         dem::TemplateView view = measures(templates[t]);
         view.sdf_values        = sdf_values_.data() + starts[t].sdf;
+        view.sdf_slots         = templates[t].sdf.slots.empty() ? nullptr : sdf_slots_.data() + starts[t].slot;
+        view.sdf_corners       = sdf_corners_.data() + starts[t].corner;
         view.node_positions    = node_positions_.data() + starts[t].node;
         view.node_areas        = node_areas_.data() + starts[t].node;
         view.cluster_centres   = cluster_centres_.data() + starts[t].cluster;

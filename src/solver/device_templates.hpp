@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "backend/array.hpp"
@@ -20,6 +21,8 @@ public:
 
 private:
     Array<Exec, float>             sdf_values_;
+    Array<Exec, std::int32_t>      sdf_slots_;
+    Array<Exec, float>             sdf_corners_;
     Array<Exec, Vec3<double>>      node_positions_;
     Array<Exec, double>            node_areas_;
     Array<Exec, Vec3<double>>      cluster_centres_;

@@ -48,7 +48,7 @@ std::int64_t template_bytes(const World& world)
     std::int64_t bytes = 0;
     for (const auto& form : world.templates)
     {
-        bytes += static_cast<std::int64_t>(4 * form.sdf.values.size() + 32 * form.nodes.positions.size());
+        bytes += static_cast<std::int64_t>(form.sdf.bytes() + 32 * form.nodes.positions.size());
     }
     return bytes;
 }

@@ -60,12 +60,9 @@ void say_plan(Log& log, const World& world, const std::vector<Stage>& stages)
                          static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named));
     for (const auto& form : world.templates)
     {
-        if (std::abs(form.sdf_volume_ratio - 1) > 0.02)
+        for (const std::string& remark : form.remarks)
         {
-            log.warning(
-                fmt::format("shape '{}': its SDF encloses {:.1f} % of the mesh's volume; raise sdf_cells (now {})",
-                            form.name, 100 * form.sdf_volume_ratio,
-                            static_cast<int>(*std::max_element(form.sdf.nodes.begin(), form.sdf.nodes.end())) - 1));
+            log.warning(fmt::format("shape '{}': {}", form.name, remark));
         }
     }
     for (const Stage& stage : stages)

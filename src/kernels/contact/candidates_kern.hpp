@@ -127,9 +127,9 @@ TREAD_HD bool cell_may_touch(const SearchBody& body, const mpm::PagesView& pages
 /// Whether a point of radius r_p at x can touch the body within the step.
 TREAD_HD bool may_touch(const SearchBody& body, const Vec3<double>& x, double radius)
 {
-    const double margin = radius + body.travel;
-    return in_grown_box(body, x, margin) &&
-           dem::sample_body_sdf(*body.shape, body.scale, body.position, body.orientation, x).distance <= margin;
+    return in_grown_box(body, x, radius + body.travel) &&
+           dem::sample_body_sdf(*body.shape, body.scale, body.position, body.orientation, x).distance <=
+               dem::search_bound(*body.shape, body.scale, radius, body.travel);
 }
 
 } // namespace tread::contact

@@ -35,7 +35,13 @@ struct BodyField
 
     TREAD_HD double distance_from_centre(const Vec3<double>& y) const { return (y - body.centre).norm(); }
     TREAD_HD double reach() const { return body.shape->bounding_radius * body.scale; }
-    TREAD_HD double uncertainty() const { return sdf_uncertainty(*body.shape, body.scale); }
+
+    /// m, on the field at places from which the inside is no further than r.
+    TREAD_HD double bound(double r) const
+    {
+        const double furthest = r + surface_uncertainty(*body.shape, body.scale);
+        return furthest + sdf_uncertainty(*body.shape, body.scale, furthest);
+    }
 
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const
     {
@@ -53,7 +59,7 @@ struct PlaneField
 
     TREAD_HD double distance_from_centre(const Vec3<double>&) const { return 0; }
     TREAD_HD double reach() const { return 0; }
-    TREAD_HD double uncertainty() const { return 0; }
+    TREAD_HD double bound(double r) const { return r; }
 
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const { return {normal.dot(y) - offset, normal}; }
 };
@@ -83,7 +89,7 @@ struct Side
         const Vec3<double> y = owner.centre + owner.rotation * (owner.scale * owner.shape->cluster_centres[cluster]);
         const double       r = owner.scale * owner.shape->cluster_radii[cluster];
         if (field.distance_from_centre(y) > r + field.reach()) { return false; }
-        return field(y).distance <= r + 2.0 * field.uncertainty();
+        return field(y).distance <= field.bound(r);
     }
 };
 

@@ -25,14 +25,16 @@ TREAD_HD Reach reach_of(const BodiesView& bodies, const TemplateView* templates,
     return {radius, 2.0 * dt * speed + skin * radius};
 }
 
-/// Whether the surface of body b's template can come within the other's grown bounding sphere.
+/// Whether the surface of body b's template can come within the other's grown bounding sphere. What is inside the
+/// interpolated surface is within its uncertainty of the true one.
 TREAD_HD bool surface_near(const BodiesView& bodies, const TemplateView* templates, std::int64_t b,
                            const Vec3<double>& centre, double reach)
 {
-    const TemplateView& shape = templates[bodies.shape[b]];
-    const double        scale = bodies.scale[b];
+    const TemplateView& shape    = templates[bodies.shape[b]];
+    const double        scale    = bodies.scale[b];
+    const double        furthest = reach + surface_uncertainty(shape, scale);
     return sample_body_sdf(shape, scale, bodies.position[b], bodies.orientation[b], centre).distance <=
-           reach + sdf_uncertainty(shape, scale);
+           furthest + sdf_uncertainty(shape, scale, furthest);
 }
 
 TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates, std::int64_t a, std::int64_t b,

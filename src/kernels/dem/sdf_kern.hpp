@@ -17,35 +17,92 @@ struct SdfSample
     Vec3<double> gradient; ///< not normalised
 };
 
-/// The interpolant at `cell` spacings from the grid's origin, each component in [0, nodes - 1]; gradient by metres.
-TREAD_HD SdfSample interpolate_sdf(const TemplateView& shape, const Vec3<double>& cell)
+inline constexpr std::int32_t brick_shift = 3; ///< a brick has 8 cells along each axis
+inline constexpr std::int32_t brick_cells = 1 << brick_shift, brick_nodes = brick_cells + 1;
+
+/// The cell that interpolates at a place.
+struct SdfCell
 {
-    std::int64_t low[3];
-    Vec3<double> t;
+    const float* low;   ///< its lowest corner; x neighbours are next to each other
+    std::int64_t row;   ///< to the neighbour along y
+    std::int64_t layer; ///< along z
+    Vec3<double> fraction;
+    double       spacing; ///< m
+};
+
+/// The cell of a grid in bricks; `index` = its lowest node, `at` = the place, both in fine cells.
+TREAD_HD SdfCell brick_cell(const TemplateView& shape, const std::int32_t* index, const Vec3<double>& at)
+{
+    std::int64_t brick[3], inner[3];
+    for (int c = 0; c < 3; ++c)
+    {
+        brick[c] = index[c] >> brick_shift;
+        inner[c] = index[c] & (brick_cells - 1);
+    }
+    const std::int64_t nx = shape.sdf_bricks[0], ny = shape.sdf_bricks[1];
+    const std::int64_t slot = shape.sdf_slots[brick[0] + nx * (brick[1] + ny * brick[2])];
+    SdfCell            cell;
+    if (slot >= 0)
+    {
+        cell.row   = brick_nodes;
+        cell.layer = brick_nodes * brick_nodes;
+        cell.low =
+            shape.sdf_values + brick_nodes * cell.layer * slot + inner[0] + cell.row * inner[1] + cell.layer * inner[2];
+        for (int c = 0; c < 3; ++c) { cell.fraction[c] = at[c] - static_cast<double>(index[c]); }
+        cell.spacing = shape.sdf_spacing;
+        return cell;
+    }
+    cell.row   = nx + 1;
+    cell.layer = cell.row * (ny + 1);
+    cell.low   = shape.sdf_corners + brick[0] + cell.row * brick[1] + cell.layer * brick[2];
+    for (int c = 0; c < 3; ++c)
+    {
+        cell.fraction[c] = (at[c] - static_cast<double>(brick_cells * brick[c])) / brick_cells;
+    }
+    cell.spacing = brick_cells * shape.sdf_spacing;
+    return cell;
+}
+
+/// The cell at `at` spacings from the grid's origin, each component in [0, nodes - 1].
+TREAD_HD SdfCell find_cell(const TemplateView& shape, const Vec3<double>& at)
+{
+    std::int32_t index[3];
     for (int c = 0; c < 3; ++c)
     {
         const std::int32_t last = shape.sdf_nodes[c] - 2;
-        const auto         i    = static_cast<std::int32_t>(cell[c]);
-        low[c]                  = i < last ? i : last;
-        t[c]                    = cell[c] - static_cast<double>(low[c]);
+        const auto         i    = static_cast<std::int32_t>(at[c]);
+        index[c]                = i < last ? i : last;
     }
-    const std::int64_t row = shape.sdf_nodes[0], layer = row * shape.sdf_nodes[1];
-    const float*       at      = shape.sdf_values + low[0] + row * low[1] + layer * low[2];
-    const auto         along_x = [&](std::int64_t line, double& slope)
+    if (shape.sdf_slots != nullptr) { return brick_cell(shape, index, at); }
+    SdfCell cell;
+    cell.row   = shape.sdf_nodes[0];
+    cell.layer = cell.row * shape.sdf_nodes[1];
+    cell.low   = shape.sdf_values + index[0] + cell.row * index[1] + cell.layer * index[2];
+    for (int c = 0; c < 3; ++c) { cell.fraction[c] = at[c] - static_cast<double>(index[c]); }
+    cell.spacing = shape.sdf_spacing;
+    return cell;
+}
+
+/// The interpolant at `at` spacings from the grid's origin, each component in [0, nodes - 1]; gradient by metres.
+TREAD_HD SdfSample interpolate_sdf(const TemplateView& shape, const Vec3<double>& at)
+{
+    const SdfCell       cell    = find_cell(shape, at);
+    const Vec3<double>& t       = cell.fraction;
+    const auto          along_x = [&](std::int64_t line, double& slope)
     {
-        const double first = static_cast<double>(at[line]);
-        slope              = static_cast<double>(at[line + 1]) - first;
+        const double first = static_cast<double>(cell.low[line]);
+        slope              = static_cast<double>(cell.low[line + 1]) - first;
         return first + t[0] * slope;
     };
     double       slope00, slope10, slope01, slope11;
-    const double value00 = along_x(0, slope00), value10 = along_x(row, slope10);
-    const double value01 = along_x(layer, slope01), value11 = along_x(layer + row, slope11);
+    const double value00 = along_x(0, slope00), value10 = along_x(cell.row, slope10);
+    const double value01 = along_x(cell.layer, slope01), value11 = along_x(cell.layer + cell.row, slope11);
     const double low_z = value00 + t[1] * (value10 - value00), high_z = value01 + t[1] * (value11 - value01);
 
     const double by_x =
         (1 - t[2]) * (slope00 + t[1] * (slope10 - slope00)) + t[2] * (slope01 + t[1] * (slope11 - slope01));
     const double by_y = (value10 - value00) + t[2] * ((value11 - value01) - (value10 - value00));
-    return {low_z + t[2] * (high_z - low_z), Vec3<double>(by_x, by_y, high_z - low_z) / shape.sdf_spacing};
+    return {low_z + t[2] * (high_z - low_z), Vec3<double>(by_x, by_y, high_z - low_z) / cell.spacing};
 }
 
 /// Distance and gradient at a point of the template's frame (m, scale 1). Outside the grid a lower bound of the
@@ -85,11 +142,36 @@ TREAD_HD SdfSample sample_body_sdf(const TemplateView& shape, double scale, cons
     return {scale * sample.distance, rotation * sample.gradient};
 }
 
-/// How far the interpolant of a body may be from the distance that it interpolates: a weighted mean of values at most
-/// a cell's diagonal away, of a function with slope 1.
-TREAD_HD double sdf_uncertainty(const TemplateView& shape, double scale)
+/// How far the interpolant of a body may be from the distance that it interpolates, in a cell of the given edge: at
+/// most the mean distance to the cell's corners, weighted as they are, of a function with slope 1; and that is at most
+/// the root of sum t (1 - t) along the axes, half the diagonal in the middle.
+TREAD_HD double cell_uncertainty(double edge) { return 0.5 * std::sqrt(3.0) * edge; }
+
+/// That at the surface, where every cell is fine.
+TREAD_HD double surface_uncertainty(const TemplateView& shape, double scale)
 {
-    return std::sqrt(3.0) * shape.sdf_spacing * scale;
+    return cell_uncertainty(shape.sdf_spacing) * scale;
+}
+
+/// That at any place no further than `distance` (m, true) outside the surface. Nearer than sdf_fine_reach all corners
+/// of a cell are exact. Beyond, a cell may be a whole brick, or have corners on the face of one: these are off by half
+/// the face's diagonal, and with a fine cell's own uncertainty still by less than a brick's.
+TREAD_HD double sdf_uncertainty(const TemplateView& shape, double scale, double distance)
+{
+    const bool fine = shape.sdf_slots == nullptr || distance <= scale * shape.sdf_fine_reach;
+    return cell_uncertainty((fine ? 1 : brick_cells) * shape.sdf_spacing) * scale;
+}
+
+/// Bound on the interpolant at every place from which, or from nearer, a point can come within `radius` of the
+/// interpolated surface when it moves by at most half of `travel`, m.
+/// The interpolant's slope is at most sqrt(3) where cells are exact: radius + travel does. A way that leaves those
+/// places comes from sdf_fine_reach or beyond; for it to end within `radius`, that must lie within the sum below.
+/// Where it does, the distance at the start (at most radius + uncertainty + travel/2) and its uncertainty count.
+TREAD_HD double search_bound(const TemplateView& shape, double scale, double radius, double travel)
+{
+    const double bound = radius + travel, at_surface = surface_uncertainty(shape, scale);
+    if (shape.sdf_slots == nullptr || bound + at_surface <= scale * shape.sdf_fine_reach) { return bound; }
+    return bound + at_surface + cell_uncertainty(brick_cells * shape.sdf_spacing) * scale;
 }
 
 } // namespace tread::dem

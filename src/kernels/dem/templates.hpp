@@ -14,7 +14,11 @@ struct TemplateView
     Vec3<double>        sdf_origin;
     double              sdf_spacing; ///< m
     std::int32_t        sdf_nodes[3];
-    const float*        sdf_values; ///< [i + nodes[0] * (j + nodes[1] * k)], m, negative inside
+    const float*        sdf_values; ///< m, negative inside; laid out as in shape::SignedDistanceGrid
+    const std::int32_t* sdf_slots;  ///< of the bricks; null = dense, and the four below mean nothing
+    const float*        sdf_corners;
+    std::int32_t        sdf_bricks[3];
+    double              sdf_fine_reach; ///< m
     std::int32_t        node_count;
     std::int32_t        cluster_count;
     const Vec3<double>* node_positions;

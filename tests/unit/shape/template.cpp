@@ -107,7 +107,7 @@ TEST(Template, FindShapePrefersTheSceneAndListsWhatItKnows)
     scene::Scene scene;
     scene.shapes.push_back({"ball", scene::SphereGenerator{}, 32, 0.0});
     scene.shapes.push_back({"spirit", scene::SphereGenerator{}, 32, 0.0});
-    EXPECT_EQ(find_shape(scene, "ball").sdf_cells, 32);
+    EXPECT_EQ(find_shape(scene, "ball").sdf_cells.value(), 32);
     EXPECT_TRUE(std::holds_alternative<scene::SphereGenerator>(find_shape(scene, "spirit").source));
     EXPECT_TRUE(std::holds_alternative<scene::WheelGenerator>(find_shape(scene, "viper").source));
     EXPECT_THAT(test::input_error([&] { find_shape(scene, "bal"); }),

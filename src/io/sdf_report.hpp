@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shape/sdf_report.hpp"
+
+namespace tread::io
+{
+
+/// A new HDF5 file, or one emptied: attributes `shape` and `extent` (m) and a data set for each member of SdfQuality.
+/// Throws EnvironmentError that names the file.
+void write_sdf_report(const std::string& path, const shape::ShapeTemplate& form,
+                      const std::vector<shape::SdfQuality>& qualities);
+
+} // namespace tread::io
