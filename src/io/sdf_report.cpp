@@ -15,7 +15,7 @@ void write_column(const h5::File& file, const std::string& name, const std::stri
     column.reserve(qualities.size());
     for (const shape::SdfQuality& quality : qualities) { column.push_back(static_cast<double>(quality.*member)); }
     h5::write(file, name, column, 1);
-    h5::write_attribute(file, name, "unit", unit);
+    h5::write_attribute(file, name, "units", unit);
 }
 
 } // namespace

@@ -46,6 +46,40 @@ class Commands(CommandTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("watertight      yes", result.stdout)
 
+    def test_sdf_of_a_shape_in_a_scene(self):
+        scene = self.write("scene.toml", SCENE + BODY)
+        only = self.tread("sdf", scene)
+        self.assertEqual(only.returncode, 0, only.stderr)
+        self.assertRegex(only.stdout, r"shape +roller\n")
+        self.assertIn("sdf_cells = 24:", only.stdout)
+        self.assertRegex(self.tread("sdf", scene, "--shape", "roller").stdout, r"shape +roller\n")
+        absent = self.tread("sdf", scene, "--shape", "rolle")
+        self.assertEqual(absent.returncode, 2)
+        self.assertIn("shape 'rolle' is unknown", absent.stderr)
+        two = self.write("two.toml", SCENE + '[[shape]]\nname = "ball"\ngenerate = { kind = "sphere" }\n' + BODY)
+        self.assertEqual(self.tread("sdf", two).returncode, 2)
+        self.assertIn("has 2 [[shape]] tables: --shape NAME says which", self.tread("sdf", two).stderr)
+        self.assertRegex(self.tread("sdf", two, "--shape", "ball").stdout, r"shape +ball\n")
+        self.assertEqual(self.tread("sdf", "perseverance", "--shape", "ball").returncode, 2)
+
+    def test_sdf_warns_of_a_lost_volume(self):
+        result = self.tread("sdf", "perseverance", "--cells", "60")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, r"warning: its SDF of sdf_cells = 60 encloses 8\d\.\d % .* = 1\d\d would be")
+        scene = self.write("scene.toml", SCENE.replace("sdf_cells = 24", "sdf_cells = 8") + BODY)
+        self.assertRegex(self.tread("check", scene).stdout, r"roller: warning: its SDF of sdf_cells = 8 encloses")
+
+    def test_sdf_reports_its_convergence(self):
+        (self.directory / "cube.stl").write_bytes(binary_stl(cube(20.0)))
+        result = self.tread("sdf", "cube.stl", "--unit", "mm", "--report", "report.h5")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = [line.split()[0] for line in result.stdout.partition("|phi|/extent")[2].splitlines()[1:]]
+        self.assertEqual(rows, ["10", "15", "20", "30", "40", "60", "80", "100", "150", "200"])
+        self.assertIn("volume_ratio", self.tread("info", "report.h5").stdout)
+        printed = self.tread("sdf", "cube.stl", "--report")
+        self.assertEqual(printed.returncode, 0, printed.stderr)
+        self.assertIn("|phi|/extent", printed.stdout)
+
     def test_info_needs_an_hdf5_file(self):
         scene = self.write("scene.toml", SCENE)
         self.assertEqual(self.tread("info", scene).returncode, 2)

@@ -222,6 +222,20 @@ class PostprocessTest(unittest.TestCase):
     def test_wheel_history(self):
         self.picture("wheel_history.py")
 
+    def test_sdf_convergence(self):
+        cells = np.array([10.0, 15, 20, 30, 40, 60, 80, 100, 150, 200])
+        report = self.run_path.parent / "report.h5"
+        with h5py.File(report, "w") as file:
+            file.attrs["shape"] = "clast"
+            for name, power in (("cells", -1), ("mean_surface", 2), ("worst_surface", 1.5), ("mean_normal", 1),
+                                ("worst_normal", 0.5), ("seconds", -2.5), ("bytes", -3)):
+                file[name] = cells**-power
+            file["volume_ratio"] = 1 - 5 / cells**2
+        output = report.with_suffix(".png")
+        done = self.command("sdf_convergence.py", report, report, "--output", output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(colours_of(output), 40, "a picture of something")
+
     def test_render(self):
         self.picture("render.py")
         self.picture("render.py", "--snapshot", "0")
@@ -249,6 +263,7 @@ class PostprocessTest(unittest.TestCase):
             ("render.py", (self.run_path / "absent",), "no scene.toml"),
             ("render.py", (self.run_path, "--snapshot", "3"), "this run has 0 to 7"),
             ("wheel_history.py", (self.run_path, "--wheel", "rear"), "/wheel/rear"),
+            ("sdf_convergence.py", (self.run_path / "timeseries.h5",), "no report of tread sdf"),
         ):
             done = self.command(name, *options)
             self.assertEqual(done.returncode, 1)

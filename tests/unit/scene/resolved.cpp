@@ -193,7 +193,7 @@ TEST(Resolved, shows_every_key_that_was_left_to_its_default)
     const Directory directory;
     const auto      text = resolved_toml(load_text(directory, good_scene));
     for (const auto* line : {"dt = \"auto\"", "substeps = \"auto\"", "precision = \"single\"", "pic_rate = \"auto\"",
-                             "linear_overlap = 0.001", "cohesion = 0.0", "family = \"sand\"", "sdf_cells = 64",
+                             "linear_overlap = 0.001", "cohesion = 0.0", "family = \"sand\"", "sdf_cells = \"auto\"",
                              "rolling_radius = \"auto\"", "lock = []", "damping = 0.0", "every = 0.02",
                              "walls = { x = \"slip\", y = \"slip\", bottom = \"fixed\", top = \"open\" }"})
     {
