@@ -97,7 +97,7 @@ TEST(Template, BuiltinWheelsKeepTheirVolumeInTheSdf)
 
 TEST(Template, TooCoarseAnSdfShowsInItsVolumeAndSaysWhatWouldDo)
 {
-    scene::Shape shape{"drum", scene::WheelGenerator{0.26, 0.33, 0.02, 0, 0, 0.004}, 20, 0.0};
+    scene::Shape shape{"drum", scene::WheelGenerator{0.26, 0.33, 0.02, 0, 0, 0.004}, 20, 0.03};
     // A spacing of 31 mm on walls of 20 mm: most of the wheel is lost between the nodes.
     const ShapeTemplate coarse = make_template(shape, "");
     EXPECT_LT(coarse.sdf_volume_ratio, 0.8);
@@ -118,7 +118,7 @@ TEST(Template, TooCoarseAnSdfShowsInItsVolumeAndSaysWhatWouldDo)
 TEST(Template, CellsFollowTheThinnestWall)
 {
     const auto cells = [](const scene::ShapeSource& source) {
-        return make_template({"shape", source, std::nullopt, 0.0}, "").sdf_cells;
+        return make_template({"shape", source, std::nullopt, 0.03}, "").sdf_cells;
     };
     // 1.2 x 0.52 x 1.5 over the wall; chords between facets are up to 2 % short.
     EXPECT_NEAR(cells(scene::WheelGenerator{0.26, 0.33, 0.02, 0, 0, 0.004}), 47, 1);
