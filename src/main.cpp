@@ -147,13 +147,14 @@ ExitCode sdf(const SdfArguments& arguments)
     scene::Shape asked    = in_scene ? shape_in_scene(arguments) : mesh_or_builtin(arguments);
     if (arguments.cells) { asked.sdf_cells = *arguments.cells; }
 
-    const shape::ShapeTemplate form = shape::make_template(asked, ".");
+    const auto  measured = shape::make_measured_template(asked, ".", [](double) { return 0.0; });
+    const auto& form     = measured.form;
     std::cout << shape::template_text(form);
     for (const std::string& remark : form.remarks) { std::cerr << "warning: " << remark << '\n'; }
     if (arguments.stl) { shape::write_stl(form.mesh, *arguments.stl); }
     if (arguments.report == Report::none) { return ExitCode::finished; }
 
-    const auto qualities = shape::sdf_convergence(asked, form, shape::report_cells());
+    const auto qualities = shape::sdf_convergence(measured, shape::report_cells());
     std::cout << shape::convergence_text(qualities);
     if (!arguments.report_file.empty()) { io::write_sdf_report(arguments.report_file, form, qualities); }
     return ExitCode::finished;

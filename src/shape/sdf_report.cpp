@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 
 #include "shape/surface_points.hpp"
-#include "shape/template_sdf.hpp"
 
 namespace tread::shape
 {
@@ -49,13 +48,12 @@ void measure(const SignedDistanceGrid& sdf, const std::vector<SurfacePoint>& poi
 
 std::vector<int> report_cells() { return {10, 15, 20, 30, 40, 60, 80, 100, 150, 200}; }
 
-std::vector<SdfQuality> sdf_convergence(const scene::Shape& shape, const ShapeTemplate& form,
-                                        const std::vector<int>& cells)
+std::vector<SdfQuality> sdf_convergence(const MeasuredTemplate& measured, const std::vector<int>& cells)
 {
-    using Clock                     = std::chrono::steady_clock;
-    const TemplateDistance distance = distance_of(shape, form.mesh);
-    const auto             points   = surface_of(distance, form.mesh);
-    const double           extent   = form.box.extent().maxCoeff();
+    using Clock                  = std::chrono::steady_clock;
+    const auto& [form, distance] = measured;
+    const auto   points          = surface_of(distance, form.mesh);
+    const double extent          = form.box.extent().maxCoeff();
 
     std::vector<SdfQuality> qualities;
     for (const int n : cells)

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "shape/template.hpp"
+#include "shape/template_sdf.hpp"
 
 // How a template's signed distance field converges with its cells: the paper's Fig. 3 (2.1), and the normals.
 namespace tread::shape
@@ -26,8 +26,7 @@ struct SdfQuality
 /// 10 to 200, as in the paper's figure.
 std::vector<int> report_cells();
 
-/// Builds and measures a field for each number of `cells`. `form` = make_template(shape, ...).
-std::vector<SdfQuality> sdf_convergence(const scene::Shape& shape, const ShapeTemplate& form,
-                                        const std::vector<int>& cells);
+/// Builds and measures a field for each number of `cells`.
+std::vector<SdfQuality> sdf_convergence(const MeasuredTemplate& measured, const std::vector<int>& cells);
 
 } // namespace tread::shape

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
@@ -82,6 +83,11 @@ double bounding_radius(const TriangleMesh& mesh)
 
 ShapeTemplate make_template(const scene::Shape& shape, const std::string& directory, const Reach& reach)
 {
+    return make_measured_template(shape, directory, reach).form;
+}
+
+MeasuredTemplate make_measured_template(const scene::Shape& shape, const std::string& directory, const Reach& reach)
+{
     const std::string origin = fmt::format("shape '{}'", shape.name);
 
     ShapeTemplate result{};
@@ -94,8 +100,9 @@ ShapeTemplate make_template(const scene::Shape& shape, const std::string& direct
     for (Eigen::Vector3d& vertex : result.mesh.vertices) { vertex -= result.mesh_centre; }
     result.unit.centre.setZero();
 
-    result.equivalent_radius = std::cbrt(3 * result.unit.volume / (4 * pi));
-    add_sdf(shape, reach(result.equivalent_radius), result);
+    result.equivalent_radius        = std::cbrt(3 * result.unit.volume / (4 * pi));
+    const TemplateDistance distance = distance_of(shape, result.mesh);
+    add_sdf(shape, distance, reach(result.equivalent_radius), result);
     result.nodes           = std::visit(MakeNodes{result.mesh, shape.node_spacing}, shape.source);
     result.box             = bounds(result.mesh);
     result.bounding_radius = bounding_radius(result.mesh);
@@ -105,7 +112,7 @@ ShapeTemplate make_template(const scene::Shape& shape, const std::string& direct
         result.wheel             = {wheel->radius, wheel->width};
         result.equivalent_radius = wheel->radius;
     }
-    return result;
+    return {std::move(result), distance};
 }
 
 } // namespace tread::shape

@@ -93,9 +93,8 @@ TemplateDistance distance_of(const scene::Shape& shape, const TriangleMesh& mesh
             { return signed_distance(of, point, within); }};
 }
 
-void add_sdf(const scene::Shape& shape, double reach, ShapeTemplate& form)
+void add_sdf(const scene::Shape& shape, const TemplateDistance& distance, double reach, ShapeTemplate& form)
 {
-    const TemplateDistance distance = distance_of(shape, form.mesh);
     if (shape.sdf_cells) { form.sdf_cells = static_cast<int>(*shape.sdf_cells); }
     else { form.sdf_cells = is_stone(shape) ? stone_cells(form) : wall_cells(*distance.mesh, form); }
     form.sdf              = build_sdf(bounds(form.mesh), form.sdf_cells, distance.function, reach);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "shape/mesh_distance.hpp"
 #include "shape/sdf_grid.hpp"
@@ -23,9 +24,19 @@ struct TemplateDistance
 
 TemplateDistance distance_of(const scene::Shape& shape, const TriangleMesh& mesh);
 
+/// A template with what its field was sampled from.
+struct MeasuredTemplate
+{
+    ShapeTemplate    form;
+    TemplateDistance distance;
+};
+
+/// make_template, with the distance.
+MeasuredTemplate make_measured_template(const scene::Shape& shape, const std::string& directory, const Reach& reach);
+
 /// Fills sdf, sdf_cells, sdf_volume_ratio, and remarks about them, of a template whose mesh and unit are made: the
 /// shape's sdf_cells, or as many as its thinnest wall wants (at most 512), or as a stone's nodes want (40 to 64). Where
 /// the volume is off by more than 2 %, the remark names the cells that would do, up to 512, found by trying.
-void add_sdf(const scene::Shape& shape, double reach, ShapeTemplate& form);
+void add_sdf(const scene::Shape& shape, const TemplateDistance& distance, double reach, ShapeTemplate& form);
 
 } // namespace tread::shape

@@ -139,9 +139,8 @@ TEST(Template, WallsTooThinForAnyGridAreRemarkedOn)
 
 TEST(Template, ConvergesWithItsCells)
 {
-    const scene::Shape  shape{"clast", scene::RockGenerator{7, 0.55, 0.90, 162}, std::nullopt, 0.0};
-    const ShapeTemplate form      = make_template(shape, "");
-    const auto          qualities = sdf_convergence(shape, form, {20, 40, 80});
+    const scene::Shape shape{"clast", scene::RockGenerator{7, 0.55, 0.90, 162}, std::nullopt, 0.0};
+    const auto qualities = sdf_convergence(make_measured_template(shape, "", [](double) { return 0.0; }), {20, 40, 80});
     for (const SdfQuality& q : qualities)
     {
         std::printf("rock, N = %d: mean |phi| %.2e of the extent, volume ratio %.4f, mean normal error %.2f degrees\n",
