@@ -65,7 +65,7 @@ class Commands(CommandTest):
     def test_sdf_warns_of_a_lost_volume(self):
         result = self.tread("sdf", "perseverance", "--cells", "60")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertRegex(result.stderr, r"warning: its SDF of sdf_cells = 60 encloses 8\d\.\d % .* = 1\d\d would be")
+        self.assertRegex(result.stderr, r"warning: its SDF of sdf_cells = 60 encloses [78]\d\.\d % .* = 1\d\d would be")
         scene = self.write("scene.toml", SCENE.replace("sdf_cells = 24", "sdf_cells = 8") + BODY)
         self.assertRegex(self.tread("check", scene).stdout, r"roller: warning: its SDF of sdf_cells = 8 encloses")
 
