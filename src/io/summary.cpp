@@ -43,6 +43,34 @@ Json stages_of(const Summary& summary)
     return stages;
 }
 
+Json terrain_of(const BedReport& bed)
+{
+    Json tables = Json::array();
+    for (const TerrainReport& table : bed.terrain)
+    {
+        tables.push_back(
+            {{"material", table.material}, {"points", table.points}, {"volume", table.volume}, {"mass", table.mass}});
+    }
+    return tables;
+}
+
+Json rocks_of(const BedReport& bed)
+{
+    Json tables = Json::array();
+    for (const RocksReport& table : bed.rocks)
+    {
+        tables.push_back({{"shape", table.shape},
+                          {"count", table.count},
+                          {"volume", table.volume},
+                          {"mass", table.mass},
+                          {"solid_fraction", table.solid_fraction},
+                          {"smallest_diameter", table.smallest_diameter},
+                          {"mean_diameter", table.mean_diameter},
+                          {"largest_diameter", table.largest_diameter}});
+    }
+    return tables;
+}
+
 } // namespace
 
 std::string to_json(const Summary& summary)
@@ -68,6 +96,9 @@ std::string to_json(const Summary& summary)
     json["sim_per_wall"]      = per_wall_second(summary.time, summary.wall_s);
     json["peak_device_bytes"] = summary.peak_device_bytes;
     json["peak_host_bytes"]   = summary.peak_host_bytes;
+    json["terrain"]           = terrain_of(summary.bed);
+    json["rocks"]             = rocks_of(summary.bed);
+    json["rock_share"]        = summary.bed.rock_share;
     json["stages"]            = stages_of(summary);
     json["errors"]            = {
                    {"mass", summary.errors.mass}, {"momentum", summary.errors.momentum}, {"energy", summary.errors.energy}};

@@ -34,6 +34,36 @@ struct ErrorReport
     double energy   = 0; ///< unaccounted over the largest energy that changed hands
 };
 
+/// What a [[terrain]] table holds at the start, after later tables and rocks took their place.
+struct TerrainReport
+{
+    std::string  material;
+    std::int64_t points = 0;
+    double       volume = 0; ///< m3
+    double       mass   = 0; ///< kg
+};
+
+/// What a [[rocks]] table placed.
+struct RocksReport
+{
+    std::string  shape;
+    std::int64_t count             = 0;
+    double       volume            = 0; ///< m3, of the rocks
+    double       mass              = 0; ///< kg
+    double       solid_fraction    = 0; ///< of their region between floor and height
+    double       smallest_diameter = 0; ///< m
+    double       mean_diameter     = 0;
+    double       largest_diameter  = 0;
+};
+
+/// The bed at the start.
+struct BedReport
+{
+    std::vector<TerrainReport> terrain;
+    std::vector<RocksReport>   rocks;
+    double                     rock_share = 0; ///< volume of rocks over that of rocks and points
+};
+
 /// What a run did; summary.json holds these fields by these names, with schema and version.
 struct Summary
 {
@@ -55,6 +85,7 @@ struct Summary
     std::int64_t             peak_host_bytes   = 0;
     std::vector<StageReport> stages;
     ErrorReport              errors;
+    BedReport                bed; ///< in summary.json: terrain, rocks, rock_share
 };
 
 /// The text of summary.json. steps_per_s and sim_per_wall follow from the fields; numbers that are not finite are null.

@@ -42,7 +42,7 @@ bool Checker::sound(const TableAt& at, const std::vector<std::string>& keys) con
     if (mentions(problems, table, "")) { return false; }
     return std::none_of(keys.begin(), keys.end(),
                         [&](const std::string& key)
-                        { return mentions(problems, table, key) || mentions(problems, table + "." + key, "box"); });
+                        { return mentions(problems, table, key) || mentions_inside(problems, table + "." + key); });
 }
 
 void Checker::report(const TableAt& at, const std::string& key, std::string what, std::string accepted)

@@ -16,12 +16,6 @@ Keys<Walls> wall_keys()
     };
 }
 
-Keys<Box> region_keys()
-{
-    auto access = [](auto& object) -> auto& { return object; };
-    return {make_key<Box>(Presence::required, {"box", "m", "", "", "Lower and upper corner.", ""}, access, box())};
-}
-
 Keys<Drive> drive_keys()
 {
     return {
@@ -33,13 +27,6 @@ Keys<Drive> drive_keys()
         optional("slip", "", &Drive::slip, number_or("free", between(-1, 1)),
                  "Slip ratio s: the wheel is moved at v_x = (1 - s) omega r. \"free\" leaves v_x to the forces."),
     };
-}
-
-template<class T>
-Key<T> region_key(const std::string& table, const std::string& meaning)
-{
-    return table_key<T>(Presence::required, "region", "[[" + table + "]] region", &T::region, region_keys(), meaning,
-                        "required");
 }
 
 bool is_mohr_coulomb(const Material& material) { return material.model == MaterialModel::mohr_coulomb; }
@@ -146,27 +133,46 @@ Keys<Contact> contact_keys()
 
 Keys<Terrain> terrain_keys()
 {
+    const auto on_the_grid = [](const Terrain& terrain) { return !terrain.spacing; };
     return {
         required("material", "", &Terrain::material, name(), "The name of an elastic or Mohr-Coulomb [[material]]."),
-        region_key<Terrain>("terrain", "Where the points are; inside the domain."),
+        terrain_region_key(),
+        terrain_height_key(),
+        terrain_floor_key(),
         optional("points_per_cell", "", &Terrain::points_per_cell, integer_of({1, 8, 27, 64}),
-                 "Points in a grid cell: 1, 2, 3 or 4 each way."),
+                 "Points in a grid cell: 1, 2, 3 or 4 each way.")
+            .when("spacing left out", on_the_grid),
+        optional("spacing", "m", &Terrain::spacing, number_or("", above(0)),
+                 "Distance of the points instead of `points_per_cell`: a lattice that begins half a spacing inside the "
+                 "region's low corner.",
+                 "by `points_per_cell`"),
+        optional("velocity", "m/s", &Terrain::velocity, vector3(any_number()), "Of the points at the start."),
     };
 }
 
 Keys<Rocks> rocks_keys()
 {
+    const std::string one_of = "exactly one of count, solid_fraction";
     return {
-        required("shape", "", &Rocks::shape, name(), "The name of a [[shape]]."),
+        required("shape", "", &Rocks::shape, name(),
+                 "The name of a [[shape]]. Each rock draws its form from the shape's `variants`."),
         required("material", "", &Rocks::material, name(), "The name of an elastic or rigid [[material]]."),
-        required("count", "", &Rocks::count, integer<std::int64_t>(1, 100'000'000), "How many."),
-        required("diameter", "m", &Rocks::diameter, number(above(0)), "Of the sphere of equal volume."),
-        region_key<Rocks>("rocks", "The rocks lie in it whole; inside the domain."),
+        optional("count", "", &Rocks::count, integer_given(1, 100'000'000), "How many.", one_of),
+        optional(
+            "solid_fraction", "", &Rocks::solid_fraction, number_or("", above_up_to(0, 1)),
+            "Volume of the rocks over the volume of the region between `floor` and `height`; the drawn rocks whose "
+            "volume comes nearest. Random places jam at about 0.35.",
+            one_of),
+        rocks_diameter_key(),
+        rocks_region_key(),
+        rocks_height_key(),
+        rocks_floor_key(),
         optional(
             "placement", "", &Rocks::placement, word<Placement>({"replace", "rain", "grid"}),
             "Rocks never overlap. \"replace\": at random, in place of the points there; \"rain\": at random, where "
             "there is no sand, to fall from; \"grid\": on a lattice, where there is no sand."),
-        optional("seed", "", &Rocks::seed, integer<std::uint64_t>(0), "Of the random places and orientations."),
+        optional("seed", "", &Rocks::seed, integer<std::uint64_t>(0),
+                 "Of the random sizes, forms, places and orientations."),
     };
 }
 
@@ -178,6 +184,9 @@ Keys<Body> body_keys()
         required("shape", "", &Body::shape, name(),
                  fmt::format("The name of a [[shape]], or a built-in wheel: {}.", fmt::join(builtin_wheels, ", "))),
         required("material", "", &Body::material, name(), "The name of an elastic or rigid [[material]]."),
+        optional("diameter", "m", &Body::diameter, number_or("", above(0)),
+                 "Of the sphere of equal volume: scales the shape. Required for generated rocks and spheres.",
+                 "the shape's own size"),
         optional("density", "kg/m3", &Body::density, number_or("", above(0)), "Of the shape's solid volume.", one_of),
         optional("mass", "kg", &Body::mass, number_or("", above(0)), "Spread evenly over the shape's volume.", one_of),
         optional("load", "N", &Body::load, number_or("", above(0)), "Weight under the scene's gravity.", one_of),

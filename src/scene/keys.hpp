@@ -30,6 +30,15 @@ Keys<Body>        body_keys();
 Keys<Phase>       phase_keys();
 Keys<Output>      output_keys();
 
+/// Keys of places and sizes, which [[terrain]] and [[rocks]] share (bed_keys.cpp).
+Key<Terrain> terrain_region_key();
+Key<Terrain> terrain_height_key();
+Key<Terrain> terrain_floor_key();
+Key<Rocks>   rocks_region_key();
+Key<Rocks>   rocks_height_key();
+Key<Rocks>   rocks_floor_key();
+Key<Rocks>   rocks_diameter_key();
+
 /// Calls visit(name, meaning, member pointer, keys) for each table of a scene, in the order in which they are written.
 /// A member that is a vector is an array of tables.
 template<class Visit>

@@ -79,21 +79,54 @@ void complete_wall_friction(Scene& scene, const Node& document)
     }
 }
 
-void complete_paths(Scene& scene, const Node& document, Problems& problems)
+/// Makes a path absolute; a problem at `file` if there is no such file.
+void complete_path(const Scene& scene, std::string& path, const Node& file, const std::string& label,
+                   const std::string& accepted, Problems& problems)
+{
+    const auto absolute = (std::filesystem::path(scene.directory) / path).lexically_normal();
+    path                = absolute.string();
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(absolute, error))
+    {
+        problems.push_back({file.where, label, "file", fmt::format("there is no file {}", path), accepted});
+    }
+}
+
+void complete_meshes(Scene& scene, const Node& document, Problems& problems)
 {
     for (std::size_t i = 0; i < scene.shapes.size(); ++i)
     {
         auto*       mesh = std::get_if<MeshFile>(&scene.shapes[i].source);
         const Node* file = find(std::get<NodeArray>(find(document, "shape")->value)[i], "file");
         if (mesh == nullptr || file == nullptr) { continue; }
-        const auto path = (std::filesystem::path(scene.directory) / mesh->path).lexically_normal();
-        mesh->path      = path.string();
-        std::error_code error;
-        if (!std::filesystem::is_regular_file(path, error))
-        {
-            problems.push_back({file->where, table_label(document, "shape", i), "file",
-                                fmt::format("there is no file {}", mesh->path), "STL or OBJ"});
-        }
+        complete_path(scene, mesh->path, *file, table_label(document, "shape", i), "STL or OBJ", problems);
+    }
+}
+
+/// A height from a file: its path, and an extent that is left out is the domain's plan.
+void complete_height(const Scene& scene, std::optional<Height>& height, const Node& table, const std::string& label,
+                     const std::string& key, Problems& problems)
+{
+    auto*       raster = height ? std::get_if<RasterFile>(&*height) : nullptr;
+    const Node* given  = find(table, key);
+    const Node* file   = given != nullptr ? find(*given, "file") : nullptr;
+    if (raster == nullptr || file == nullptr) { return; }
+    complete_path(scene, raster->path, *file, label + "." + key, "PGM or CSV", problems);
+    if (!raster->extent) { raster->extent = PlanExtent{{{0, 0}, {scene.domain.size[0], scene.domain.size[1]}}}; }
+}
+
+template<class T>
+void complete_places(Scene& scene, std::vector<T>& items, const Node& document, const std::string& table,
+                     Problems& problems)
+{
+    for (std::size_t i = 0; i < items.size(); ++i)
+    {
+        const Node& node  = std::get<NodeArray>(find(document, table)->value)[i];
+        const auto  label = table_label(document, table, i);
+        auto&       item  = items[i];
+        if (!item.region.box && !item.region.sphere) { item.region.box = Box{{}, scene.domain.size}; }
+        complete_height(scene, item.height, node, label, "height", problems);
+        complete_height(scene, item.floor, node, label, "floor", problems);
     }
 }
 
@@ -108,7 +141,9 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
     scene.directory = std::filesystem::absolute(path).parent_path().string();
     complete_materials(scene);
     complete_wall_friction(scene, document);
-    complete_paths(scene, document, problems);
+    complete_meshes(scene, document, problems);
+    complete_places(scene, scene.terrain, document, "terrain", problems);
+    complete_places(scene, scene.rocks, document, "rocks", problems);
     validate(scene, document, problems);
     throw_if_any(problems);
     complete_contacts(scene);

@@ -50,6 +50,13 @@ bool mentions(const Problems& problems, const std::string& table, const std::str
                        [&](const Problem& problem) { return problem.table == table && problem.key == key; });
 }
 
+bool mentions_inside(const Problems& problems, const std::string& table)
+{
+    return std::any_of(problems.begin(), problems.end(),
+                       [&](const Problem& problem)
+                       { return problem.table == table || problem.table.rfind(table + ".", 0) == 0; });
+}
+
 void throw_if_any(Problems problems)
 {
     if (problems.empty()) { return; }

@@ -27,6 +27,9 @@ std::string to_string(const Problem& problem);
 /// Whether a problem with this key was found already: what follows from it is not worth a second message.
 bool mentions(const Problems& problems, const std::string& table, const std::string& key);
 
+/// Whether a problem was found in this inner table or deeper.
+bool mentions_inside(const Problems& problems, const std::string& table);
+
 /// InputError with every problem, one a line in the order of the file; returns if there is none.
 void throw_if_any(Problems problems);
 

@@ -216,24 +216,105 @@ struct Box
     bool operator==(const Box&) const = default;
 };
 
+struct Sphere
+{
+    Vector3 centre{};
+    double  radius = 0; ///< m
+
+    bool operator==(const Sphere&) const = default;
+};
+
+/// Exactly one of box and sphere is set in a loaded scene: the domain's box where the scene names neither.
+struct Region
+{
+    std::optional<Box>    box;
+    std::optional<Sphere> sphere;
+    std::vector<Box>      except; ///< cut out
+
+    bool operator==(const Region&) const = default;
+};
+
+/// A height (m) as a function of x and y (m).
+struct Formula
+{
+    std::string text;
+
+    bool operator==(const Formula&) const = default;
+};
+
+using PlanExtent = std::array<std::array<double, 2>, 2>;
+
+/// Heights on a rectangular lattice: the grey values of a PGM, or the numbers of a CSV. The first row is at high y.
+struct RasterFile
+{
+    std::string               path;       ///< absolute, or relative to the scene file
+    double                    low  = 0;   ///< m, of black; PGM only
+    double                    high = 0;   ///< m, of white; PGM only
+    double                    unit = 1.0; ///< metres a CSV's unit
+    std::optional<PlanExtent> extent;     ///< m, where the outermost samples stand; in a loaded scene always set
+
+    bool operator==(const RasterFile&) const = default;
+};
+
+using Height = std::variant<Formula, RasterFile>;
+
 struct Terrain
 {
-    std::string material;
-    Box         region;
-    int         points_per_cell = 8; ///< a cube number: 1, 8, 27, 64
+    std::string           material;
+    Region                region;
+    std::optional<Height> height;              ///< upper surface
+    std::optional<Height> floor;               ///< lower surface
+    int                   points_per_cell = 8; ///< a cube number: 1, 8, 27, 64
+    std::optional<double> spacing;             ///< m, of a lattice from the region's low corner; instead of the above
+    Vector3               velocity{};          ///< m/s, at the start
 
     bool operator==(const Terrain&) const = default;
 };
 
+struct UniformDiameters
+{
+    double low  = 0; ///< m
+    double high = 0;
+
+    bool operator==(const UniformDiameters&) const = default;
+};
+
+/// ln d is normal with this deviation about ln(median), d truncated to [low, high].
+struct LogNormalDiameters
+{
+    double median    = 0; ///< m
+    double deviation = 0; ///< of ln d
+    double low       = 0; ///< m
+    double high      = 0;
+
+    bool operator==(const LogNormalDiameters&) const = default;
+};
+
+/// Number density ~ d^-exponent in [low, high].
+struct PowerLawDiameters
+{
+    double exponent = 0;
+    double low      = 0; ///< m
+    double high     = 0;
+
+    bool operator==(const PowerLawDiameters&) const = default;
+};
+
+/// m, of spheres of equal volume: one for all, or a distribution by number.
+using Diameter = std::variant<double, UniformDiameters, LogNormalDiameters, PowerLawDiameters>;
+
 struct Rocks
 {
-    std::string   shape;
-    std::string   material;
-    std::int64_t  count    = 0;
-    double        diameter = 0; ///< m, of the sphere of equal volume
-    Box           region;
-    Placement     placement = Placement::replace;
-    std::uint64_t seed      = 1;
+    std::string                 shape;
+    std::string                 material;
+    std::optional<std::int64_t> count;          ///< exactly one of count, solid_fraction
+    std::optional<double>       solid_fraction; ///< volume of the rocks over that of the region
+    Diameter                    diameter = 0.0;
+    Region                      region;
+    std::optional<Height>       height; ///< surfaces between which the rocks lie
+    std::optional<Height>       floor;
+    Placement                   placement = Placement::replace;
+    std::uint64_t               seed      = 1;
 
     bool operator==(const Rocks&) const = default;
 };
@@ -243,6 +324,7 @@ struct Body
     std::string              name;
     std::string              shape; ///< a [[shape]], or a built-in wheel
     std::string              material;
+    std::optional<double>    diameter;       ///< m, of the sphere of equal volume; default: the shape's own size
     std::optional<double>    density;        ///< kg/m3; exactly one of density, mass, load
     std::optional<double>    mass;           ///< kg
     std::optional<double>    load;           ///< N under the scene's gravity

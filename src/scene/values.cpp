@@ -51,6 +51,33 @@ Vector3 read_vector3(const Node& node, const Range& range)
 
 std::string write_vector3(const Vector3& value) { return write_array(value, write_number); }
 
+Box read_box(const Node& node)
+{
+    const auto corners =
+        read_each(read_array(node, 2), [](const Node& item) { return read_vector3(item, any_number()); });
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+        if (!(corners[0][axis] < corners[1][axis])) { throw BadValue{"the box is empty"}; }
+    }
+    return Box{corners[0], corners[1]};
+}
+
+std::string write_box(const Box& value)
+{
+    return fmt::format("[{}, {}]", write_vector3(value.low), write_vector3(value.high));
+}
+
+constexpr const char* accepted_box = "[[x, y, z], [x, y, z]], the second above the first in each component";
+
+PlanExtent read_extent(const Node& node)
+{
+    const auto read_corner = [](const Node& item)
+    { return read_each(read_array(item, 2), [](const Node& number) { return read_number(number, any_number()); }); };
+    const auto corners = read_each(read_array(node, 2), read_corner);
+    if (!(corners[0][0] < corners[1][0] && corners[0][1] < corners[1][1])) { throw BadValue{"the extent is empty"}; }
+    return {{{corners[0][0], corners[0][1]}, {corners[1][0], corners[1][1]}}};
+}
+
 const std::string& read_name(const Node& node)
 {
     const auto& text = read_string(node);
@@ -217,6 +244,13 @@ Value<std::optional<std::int64_t>> integer_or(const std::string& word, std::int6
             [=](const std::optional<std::int64_t>& value) { return value ? fmt::format("{}", *value) : quoted; }};
 }
 
+Value<std::optional<std::int64_t>> integer_given(std::int64_t low, std::int64_t high)
+{
+    return {fmt::format("integer {} to {}", low, high),
+            [=](const Node& node) -> std::optional<std::int64_t> { return read_integer(node, low, high); },
+            [](const std::optional<std::int64_t>& value) { return value ? fmt::format("{}", *value) : std::string(); }};
+}
+
 Value<int> integer_of(std::vector<int> choices)
 {
     const auto accepted = fmt::format("{}", fmt::join(choices, " | "));
@@ -276,21 +310,28 @@ Value<std::array<std::string, 2>> pair_of_names()
             { return value[0].empty() ? std::string() : write_array(value, write_string); }};
 }
 
-Value<Box> box()
+Value<std::optional<Box>> box_given()
 {
-    return {"[[x, y, z], [x, y, z]], the second above the first in each component",
-            [](const Node& node)
-            {
-                const auto corners =
-                    read_each(read_array(node, 2), [](const Node& item) { return read_vector3(item, any_number()); });
-                for (std::size_t axis = 0; axis < 3; ++axis)
-                {
-                    if (!(corners[0][axis] < corners[1][axis])) { throw BadValue{"the box is empty"}; }
-                }
-                return Box{corners[0], corners[1]};
-            },
-            [](const Box& value)
-            { return fmt::format("[{}, {}]", write_vector3(value.low), write_vector3(value.high)); }};
+    return {accepted_box, [](const Node& node) -> std::optional<Box> { return read_box(node); },
+            [](const std::optional<Box>& value) { return value ? write_box(*value) : std::string(); }};
+}
+
+Value<std::vector<Box>> boxes()
+{
+    return {std::string("array of boxes ") + accepted_box,
+            [](const Node& node) { return read_each(read_list(node), read_box); },
+            [](const std::vector<Box>& value) { return write_array(value, write_box); }};
+}
+
+Value<std::optional<PlanExtent>> extent_given()
+{
+    const auto write = [](const std::optional<PlanExtent>& value)
+    {
+        const auto corner = [](const std::array<double, 2>& at) { return write_array(at, write_number); };
+        return value ? write_array(*value, corner) : std::string();
+    };
+    return {"[[x, y], [x, y]], the second above the first in both",
+            [](const Node& node) -> std::optional<PlanExtent> { return read_extent(node); }, write};
 }
 
 Value<double> length_unit()

@@ -77,6 +77,9 @@ Value<std::optional<double>>       number_or(const std::string& word, Range rang
 Value<std::optional<std::int64_t>> integer_or(const std::string& word, std::int64_t low,
                                               std::int64_t high = std::numeric_limits<std::int64_t>::max());
 
+/// An integer in [low, high]; absence stands for "nothing".
+Value<std::optional<std::int64_t>> integer_given(std::int64_t low, std::int64_t high);
+
 /// Three numbers, each in range.
 Value<Vector3> vector3(Range range);
 
@@ -95,8 +98,14 @@ Value<std::vector<std::string>> words_of(const std::vector<std::string>& words);
 /// Two names.
 Value<std::array<std::string, 2>> pair_of_names();
 
-/// [[x, y, z], [x, y, z]], the second above the first in each component.
-Value<Box> box();
+/// [[x, y, z], [x, y, z]], the second above the first in each component; absence stands for "nothing".
+Value<std::optional<Box>> box_given();
+
+/// An array of boxes.
+Value<std::vector<Box>> boxes();
+
+/// [[x, y], [x, y]], the second above the first in both; absence stands for "nothing".
+Value<std::optional<PlanExtent>> extent_given();
 
 /// Metres a mesh unit: a word of length or a number.
 Value<double> length_unit();

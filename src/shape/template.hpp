@@ -91,6 +91,9 @@ std::vector<std::string> builtin_shape_names();
 /// The scene's shape called `name`, or the built-in; InputError if there is none.
 scene::Shape find_shape(const scene::Scene& scene, const std::string& name);
 
+/// The shapes of a family of rocks, one a variant; of any other shape, the shape itself.
+std::vector<scene::Shape> members(const scene::Shape& shape);
+
 /// How far outside a template its distance is asked for, m at scale 1, given its equivalent radius.
 using Reach = std::function<double(double equivalent_radius)>;
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "solver/bed.hpp"
 #include "solver/estimate.hpp"
 #include "solver/run.hpp"
 
@@ -50,6 +51,7 @@ std::string check(const scene::Scene& scene)
     }
     text += fmt::format("\n{} points, {} bodies ({} rocks)\n", world.points.size(), world.bodies.size(),
                         static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named);
+    for (const std::string& line : bed_lines(describe_bed(scene, world))) { text += "  " + line + "\n"; }
     if (plan.bodies) { text += "shapes at scale 1:\n" + shape_lines(world); }
     text += fmt::format("memory about {} on the backend, disk at most {}\n", bytes_text(wants.memory_bytes),
                         bytes_text(wants.disk_bytes));

@@ -1,8 +1,10 @@
 #include "solver/pace_limits.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/materials.hpp"
+#include "solver/terrain.hpp"
 
 namespace tread::solver
 {
@@ -17,15 +19,15 @@ PaceLimits pace_limits(const scene::Scene& scene, const World& world, const Plan
         limits.smallest_body = *std::min_element(world.bodies.radius.begin(), world.bodies.radius.end());
     }
     if (!plan.sand) { return limits; }
-    int fewest = 1000;
+    double fewest = 1000; // points in a cell
     for (const scene::Terrain& terrain : scene.terrain)
     {
-        fewest            = std::min(fewest, terrain.points_per_cell);
+        fewest            = std::min(fewest, std::pow(scene.grid.spacing / lattice_spacing(scene, terrain), 3));
         const auto& sand  = scene.materials[static_cast<std::size_t>(material_index(scene, terrain.material))];
         limits.wave_speed = std::max(limits.wave_speed, compression_wave_speed(sand));
     }
     limits.spacing = scene.grid.spacing;
-    limits.courant = fewest >= 8 ? 0.6 : 0.4;
+    limits.courant = fewest > 7.99 ? 0.6 : 0.4;
     return limits;
 }
 

@@ -96,9 +96,9 @@ std::uint32_t locked_freedoms(const std::vector<std::string>& words)
     return locked;
 }
 
-double rolling_radius(const scene::Body& body, const shape::ShapeTemplate& form)
+double rolling_radius(const scene::Body& body, const shape::ShapeTemplate& form, double scale)
 {
-    return body.rolling_radius.value_or(form.is_wheel ? form.wheel.radius : form.equivalent_radius);
+    return body.rolling_radius.value_or(scale * (form.is_wheel ? form.wheel.radius : form.equivalent_radius));
 }
 
 } // namespace tread::solver

@@ -61,7 +61,8 @@ private:
 /// Bits of dem::LockedFreedom for the words x y z roll pitch yaw.
 std::uint32_t locked_freedoms(const std::vector<std::string>& words);
 
-/// Radius that slip is measured with: the body's rolling_radius, or the wheel's over its grousers.
-double rolling_radius(const scene::Body& body, const shape::ShapeTemplate& form);
+/// Radius (m) that slip is measured with: the body's rolling_radius, or the wheel's over its grousers. `scale` is that
+/// of the body.
+double rolling_radius(const scene::Body& body, const shape::ShapeTemplate& form, double scale);
 
 } // namespace tread::solver

@@ -43,8 +43,8 @@ Recorder::Recorder(const io::RunDirectory& directory, const scene::Scene& scene,
 {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     {
-        rolling_radii_.push_back(
-            rolling_radius(scene.bodies[b], world.templates[static_cast<std::size_t>(world.bodies.shape[b])]));
+        const auto& form = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
+        rolling_radii_.push_back(rolling_radius(scene.bodies[b], form, world.bodies.scale[b]));
         series_.add_table(group(scene.bodies[b]), wheel_columns());
     }
     series_.add_table("/energy", energy_columns());

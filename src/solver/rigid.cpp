@@ -151,7 +151,10 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
         }
         const auto& form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[b])];
         if (command.spin) { spin = *command.spin * (rotation * Vec3<double>::UnitY()); }
-        if (command.forward) { velocity[0] = *command.forward * rolling_radius(scene_.bodies[b], form); }
+        if (command.forward)
+        {
+            velocity[0] = *command.forward * rolling_radius(scene_.bodies[b], form, world_.bodies.scale[b]);
+        }
         if (velocity == velocity_before && spin == spin_before && locked == command.locked) { continue; }
 
         const Mat3<double> inertia = rotation * read(exec_, bodies_.inertia.data() + b) * rotation.transpose();
@@ -277,7 +280,7 @@ std::vector<BodyRow> Rigid<Exec>::named_bodies()
         const auto&        form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[b])];
         const double       over = mean_time_ > 0 ? 1 / mean_time_ : 0;
         const Vec3<double> axle = orientation[b] * Vec3<double>::UnitY();
-        const double       drop = form.is_wheel ? form.wheel.radius : form.bounding_radius;
+        const double       drop = world_.bodies.scale[b] * (form.is_wheel ? form.wheel.radius : form.bounding_radius);
         bodies.push_back({position[b], velocity[b], spin[b], over * impulses[b].linear, over * impulses[b].angular,
                           axle, position[b][2] - drop});
     }

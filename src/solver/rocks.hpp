@@ -1,16 +1,20 @@
 #pragma once
 
+#include "solver/grading.hpp"
+#include "solver/region.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
 {
 
-/// Adds the rocks of one [[rocks]] table to the world: at random or on a lattice in the region, with random
-/// orientations, the same for a seed on every machine. No two bodies' bounding spheres overlap, nor a wall. With
-/// placement "replace" the points with phi < r_p are removed; otherwise sand in the way is an InputError.
-void place_rocks(const scene::Scene& scene, const scene::Rocks& rocks, World& world);
+/// Where the rocks of a table may be.
+Space rocks_space(const scene::Scene& scene, std::size_t table);
 
-/// Removes points with phi < r_p of the world's body `body`; returns how many.
-std::int64_t remove_points_in_body(const scene::Scene& scene, World& world, std::size_t body);
+/// Adds the drawn rocks of a [[rocks]] table to the world: at random or on a lattice in the table's space, with random
+/// orientations, the same for a seed on every machine. A rock lies whole in the space by its surface nodes, and keeps
+/// 1 % of the smaller radius from every other body, by the surface nodes of both. With placement "replace" the points
+/// with phi < r_p are removed; otherwise sand in the way is an InputError. InputError, with how many were placed, if
+/// not all find room.
+void place_rocks(const scene::Scene& scene, std::size_t table, const std::vector<RockDraw>& rocks, World& world);
 
 } // namespace tread::solver

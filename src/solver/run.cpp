@@ -11,6 +11,7 @@
 #include "base/version.hpp"
 #include "io/progress.hpp"
 #include "scene/resolved.hpp"
+#include "solver/bed.hpp"
 #include "solver/driver.hpp"
 #include "solver/estimate.hpp"
 #ifdef TREAD_WITH_CUDA
@@ -156,7 +157,9 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
     log.info(fmt::format("backend {}, {} rank(s), {} thread(s), {} precision", backend == Backend::cpu ? "cpu" : "cuda",
                          communicator.size(), threads,
                          scene.numerics.precision == scene::Precision::single_ ? "single" : "double"));
+    job.summary.bed = describe_bed(scene, world);
     say_plan(log, world, job.stages);
+    for (const std::string& line : bed_lines(job.summary.bed)) { log.info(line); }
     job.summary.scene_hash = scene::scene_hash(scene);
     job.summary.backend    = backend == Backend::cpu ? "cpu" : "cuda";
     job.summary.ranks      = communicator.size();

@@ -95,6 +95,8 @@ void Sand<Exec, Real>::upload(const World& world, mpm::PointFields fields)
     points_.volume.assign(cast<Real>(host.volume));
     points_.volume_ratio.assign(std::vector<Real>(n, Real(1)));
     points_.material.assign(host.material);
+    if (!host.velocity.empty()) { points_.velocity.assign(planes<Real, 3>(host.velocity)); }
+    if (!host.velocity.empty() && fields.coupled) { points_.grid_velocity.assign(planes<Real, 3>(host.velocity)); }
     std::vector<std::uint32_t> ids(n);
     for (std::size_t i = 0; i < n; ++i) { ids[i] = static_cast<std::uint32_t>(i); }
     points_.id.assign(ids);

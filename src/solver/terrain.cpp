@@ -2,116 +2,130 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <numbers>
-#include <numeric>
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "solver/region.hpp"
 
 namespace tread::solver
 {
 namespace
 {
 
-bool inside(const scene::Box& box, const Vec3<double>& x)
+/// Sites (first + i + 0.5) * spacing + origin, i from 0 to count, along one axis.
+struct Sites
 {
-    for (std::size_t c = 0; c < 3; ++c)
-    {
-        const auto k = static_cast<Eigen::Index>(c);
-        if (x[k] < box.low[c] || x[k] >= box.high[c]) { return false; }
-    }
-    return true;
-}
+    double origin;
+    double spacing;
+    long   first;
+    long   end;
 
-double lattice_spacing(const scene::Scene& scene, const scene::Terrain& terrain)
-{
-    return scene.grid.spacing / std::round(std::cbrt(terrain.points_per_cell));
-}
-
-void append(HostPoints& points, const Vec3<double>& x, double volume, double density, std::uint8_t material)
-{
-    points.position.push_back(x);
-    points.volume.push_back(volume);
-    points.mass.push_back(density * volume);
-    points.stress.push_back(Sym3<double>::Zero());
-    points.material.push_back(material);
-}
-
-void remove_inside(HostPoints& points, const scene::Box& box)
-{
-    HostPoints kept;
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-        if (inside(box, points.position[i])) { continue; }
-        append(kept, points.position[i], points.volume[i], points.mass[i] / points.volume[i], points.material[i]);
-    }
-    points = std::move(kept);
-}
-
-void add_box(const scene::Scene& scene, const scene::Terrain& terrain, HostPoints& points)
-{
-    remove_inside(points, terrain.region);
-    const double spacing  = lattice_spacing(scene, terrain);
-    const int    material = material_index(scene, terrain.material);
-    const double density  = scene.materials[static_cast<std::size_t>(material)].density;
-    const auto   first    = [&](std::size_t c)
-    { return static_cast<long>(std::ceil(terrain.region.low[c] / spacing - 0.5 - 1e-9)); };
-    const auto end = [&](std::size_t c)
-    { return static_cast<long>(std::ceil(terrain.region.high[c] / spacing - 0.5 - 1e-9)); };
-    for (long k = first(2); k < end(2); ++k)
-    {
-        for (long j = first(1); j < end(1); ++j)
-        {
-            for (long i = first(0); i < end(0); ++i)
-            {
-                const Vec3<double> lattice(double(i) + 0.5, double(j) + 0.5, double(k) + 0.5);
-                append(points, spacing * lattice, spacing * spacing * spacing, density,
-                       static_cast<std::uint8_t>(material));
-            }
-        }
-    }
-}
-
-/// Weights standing in one column of the plan, by height.
-struct Column
-{
-    std::vector<std::pair<double, double>> height_and_mass;
-    std::vector<std::size_t>               points;
+    double at(long i) const { return origin + spacing * (double(i) + 0.5); }
 };
 
-using Plan = std::map<std::pair<long, long>, Column>;
-
-std::pair<long, long> column_of(double x, double y, double width)
+/// Those whose site is inside [low, high), rounding forgiven.
+Sites sites_between(double low, double high, double spacing, double origin)
 {
-    return {static_cast<long>(std::floor(x / width)), static_cast<long>(std::floor(y / width))};
+    const auto index = [&](double at) { return static_cast<long>(std::ceil((at - origin) / spacing - 0.5 - 1e-9)); };
+    return {origin, spacing, index(low), index(high)};
 }
 
-/// A rock's weight rests on all columns that its sphere of equal volume covers.
-void add_rock_weights(const HostBodies& bodies, double width, Plan& plan)
+std::array<Sites, 3> lattice(const scene::Terrain& terrain, double spacing)
 {
-    for (std::size_t b = static_cast<std::size_t>(bodies.named); b < bodies.size(); ++b)
+    const auto           box = bounds(terrain.region);
+    std::array<Sites, 3> axes{};
+    for (std::size_t c = 0; c < 3; ++c)
     {
-        const Vec3<double> x       = bodies.position[b];
-        const double       radius  = bodies.radius[b];
-        const auto         low     = column_of(x[0] - radius, x[1] - radius, width);
-        const auto         high    = column_of(x[0] + radius, x[1] + radius, width);
-        const double       columns = double((high.first - low.first + 1) * (high.second - low.second + 1));
-        for (long i = low.first; i <= high.first; ++i)
+        axes[c] = sites_between(box.low[c], box.high[c], spacing, terrain.spacing ? box.low[c] : 0.0);
+    }
+    return axes;
+}
+
+bool moves(const scene::Terrain& terrain) { return terrain.velocity != scene::Vector3{}; }
+
+/// What a table gives each of its points.
+struct PointKind
+{
+    double       volume;
+    double       mass;
+    std::uint8_t material;
+    std::int32_t table;
+};
+
+void append(HostPoints& points, const Vec3<double>& x, const PointKind& kind)
+{
+    points.position.push_back(x);
+    points.volume.push_back(kind.volume);
+    points.mass.push_back(kind.mass);
+    points.stress.push_back(Sym3<double>::Zero());
+    points.material.push_back(kind.material);
+    points.terrain.push_back(kind.table);
+}
+
+void remove_inside(HostPoints& points, const Space& space)
+{
+    std::vector<std::uint8_t> kept(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) { kept[i] = contains(space, points.position[i]) ? 0 : 1; }
+    keep_points(points, kept);
+}
+
+void fill(const Space& space, const std::array<Sites, 3>& axes, const PointKind& kind, HostPoints& points)
+{
+    // Points go layer by layer, the surfaces' levels are asked for once a column.
+    const auto [along_x, along_y, along_z] = axes;
+    const auto columns_x                   = static_cast<std::size_t>(std::max(0L, along_x.end - along_x.first)),
+               columns_y                   = static_cast<std::size_t>(std::max(0L, along_y.end - along_y.first));
+    std::vector<std::pair<double, double>> level(columns_x * columns_y);
+    for (std::size_t j = 0; j < columns_y; ++j)
+    {
+        for (std::size_t i = 0; i < columns_x; ++i)
         {
-            for (long j = low.second; j <= high.second; ++j)
-            {
-                plan[{i, j}].height_and_mass.emplace_back(x[2], bodies.mass[b] / columns);
-            }
+            level[j * columns_x + i] = levels(space, along_x.at(along_x.first + static_cast<long>(i)),
+                                              along_y.at(along_y.first + static_cast<long>(j)));
+        }
+    }
+    for (long k = along_z.first; k < along_z.end; ++k)
+    {
+        for (std::size_t column = 0; column < level.size(); ++column)
+        {
+            const Vec3<double> x(along_x.at(along_x.first + static_cast<long>(column % columns_x)),
+                                 along_y.at(along_y.first + static_cast<long>(column / columns_x)), along_z.at(k));
+            const auto& [low, high] = level[column];
+            if (low <= x[2] && x[2] < high && contains(space.region, x)) { append(points, x, kind); }
         }
     }
 }
 
-double horizontal_stress(const scene::Material& material, double vertical)
+void add_table(const scene::Scene& scene, std::size_t table, HostPoints& points)
 {
-    const double at_rest = material.poisson / (1 - material.poisson) * vertical;
-    if (material.model != scene::MaterialModel::mohr_coulomb) { return at_rest; }
-    const double sine   = std::sin(material.friction_angle_deg * std::numbers::pi / 180);
-    const double active = (1 - sine) / (1 + sine);
-    return std::max(at_rest, active * vertical - 2 * material.cohesion * std::sqrt(active));
+    const scene::Terrain& terrain = scene.terrain[table];
+    const auto            owner   = fmt::format("[[terrain]] {}", table);
+    const Space           space   = make_space(terrain.region, terrain.height, terrain.floor, owner);
+    remove_inside(points, space);
+    const double spacing  = lattice_spacing(scene, terrain);
+    const double volume   = spacing * spacing * spacing;
+    const int    material = material_index(scene, terrain.material);
+    const double density  = scene.materials[static_cast<std::size_t>(material)].density;
+    const auto   before   = points.size();
+    fill(space, lattice(terrain, spacing),
+         {volume, density * volume, static_cast<std::uint8_t>(material), static_cast<std::int32_t>(table)}, points);
+    if (points.size() == before)
+    {
+        throw InputError(fmt::format("{}: no point of its lattice (spacing {:.4g} m) lies in its region {} between "
+                                     "floor and height; enlarge them, or refine the grid",
+                                     owner, spacing, text_of(terrain.region)));
+    }
+}
+
+void set_velocities(const scene::Scene& scene, HostPoints& points)
+{
+    if (std::none_of(scene.terrain.begin(), scene.terrain.end(), moves)) { return; }
+    points.velocity.reserve(points.size());
+    for (const std::int32_t table : points.terrain)
+    {
+        points.velocity.emplace_back(scene.terrain[static_cast<std::size_t>(table)].velocity.data());
+    }
 }
 
 } // namespace
@@ -119,8 +133,14 @@ double horizontal_stress(const scene::Material& material, double vertical)
 HostPoints make_terrain(const scene::Scene& scene)
 {
     HostPoints points;
-    for (const scene::Terrain& terrain : scene.terrain) { add_box(scene, terrain, points); }
+    for (std::size_t table = 0; table < scene.terrain.size(); ++table) { add_table(scene, table, points); }
+    set_velocities(scene, points);
     return points;
+}
+
+double lattice_spacing(const scene::Scene& scene, const scene::Terrain& terrain)
+{
+    return terrain.spacing.value_or(scene.grid.spacing / std::round(std::cbrt(terrain.points_per_cell)));
 }
 
 double terrain_spacing(const scene::Scene& scene)
@@ -134,48 +154,27 @@ double terrain_spacing(const scene::Scene& scene)
     return smallest;
 }
 
-void set_geostatic_stress(const scene::Scene& scene, const HostBodies& bodies, HostPoints& points)
+std::int64_t keep_points(HostPoints& points, const std::vector<std::uint8_t>& kept)
 {
-    const double width   = scene.grid.spacing;
-    const double gravity = -scene.domain.gravity[2];
-    if (gravity <= 0) { return; }
-    Plan plan;
-    for (std::size_t i = 0; i < points.size(); ++i)
+    const std::size_t before  = points.size();
+    const auto        compact = [&](auto& values)
     {
-        Column& column = plan[column_of(points.position[i][0], points.position[i][1], width)];
-        column.points.push_back(i);
-        column.height_and_mass.emplace_back(points.position[i][2], points.mass[i]);
-    }
-    add_rock_weights(bodies, width, plan);
-    for (auto& [place, column] : plan)
-    {
-        std::sort(column.height_and_mass.begin(), column.height_and_mass.end(), std::greater<>());
-        std::sort(column.points.begin(), column.points.end(),
-                  [&](std::size_t a, std::size_t b) { return points.position[a][2] > points.position[b][2]; });
-        double      above = 0;
-        std::size_t next  = 0;
-        for (std::size_t at = 0; at < column.points.size();)
+        if (values.empty()) { return; }
+        std::size_t end = 0;
+        for (std::size_t i = 0; i < before; ++i)
         {
-            const double height = points.position[column.points[at]][2];
-            while (next < column.height_and_mass.size() && column.height_and_mass[next].first > height)
-            {
-                above += column.height_and_mass[next++].second;
-            }
-            double level = 0; // masses at this very height: their centres are here, so half of each is above
-            while (next < column.height_and_mass.size() && column.height_and_mass[next].first >= height)
-            {
-                level += column.height_and_mass[next++].second;
-            }
-            const double vertical = (above + 0.5 * level) * gravity / (width * width);
-            above += level;
-            for (; at < column.points.size() && points.position[column.points[at]][2] >= height; ++at)
-            {
-                const std::size_t point      = column.points[at];
-                const double      horizontal = horizontal_stress(scene.materials[points.material[point]], vertical);
-                points.stress[point]         = Sym3<double>(-horizontal, -horizontal, -vertical, 0, 0, 0);
-            }
+            if (kept[i] != 0) { values[end++] = values[i]; }
         }
-    }
+        values.resize(end);
+    };
+    compact(points.volume);
+    compact(points.mass);
+    compact(points.stress);
+    compact(points.material);
+    compact(points.terrain);
+    compact(points.velocity);
+    compact(points.position);
+    return static_cast<std::int64_t>(before - points.size());
 }
 
 } // namespace tread::solver

@@ -5,16 +5,16 @@
 namespace tread::solver
 {
 
-/// Points of all [[terrain]] tables: a lattice of cube-root(points_per_cell) a cell and axis, cell-centred, each point
-/// with an equal share of its cell. A later table replaces the points of an earlier one inside its region.
+/// Points of all [[terrain]] tables where their regions are, from floor to height. With points_per_cell a lattice of
+/// its cube root a cell and axis, cell-centred; with spacing a lattice from half a spacing inside the low corner of the
+/// region's bounds. Each point has the volume of its share of the lattice. A later table replaces the points of an
+/// earlier one inside what it fills. InputError if a table has no point.
 HostPoints make_terrain(const scene::Scene& scene);
 
-/// Distance of neighbouring points, m: the smallest of all terrain tables; 0 without one.
-double terrain_spacing(const scene::Scene& scene);
+/// Distance of neighbouring points of a table, m.
+double lattice_spacing(const scene::Scene& scene, const scene::Terrain& terrain);
 
-/// Stress at rest under gravity along z: sigma_v is the weight above (sand and bodies after the first `named`),
-/// sigma_h = max(K0 sigma_v, Ka sigma_v - 2 c sqrt(Ka)), K0 = nu/(1 - nu), Ka = (1 - sin phi)/(1 + sin phi)
-/// (verification C2). Exact for level beds, a first guess for others.
-void set_geostatic_stress(const scene::Scene& scene, const HostBodies& bodies, HostPoints& points);
+/// The smallest of all terrain tables, m; 0 without one.
+double terrain_spacing(const scene::Scene& scene);
 
 } // namespace tread::solver

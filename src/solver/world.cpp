@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "solver/cover.hpp"
+#include "solver/geostatic.hpp"
+#include "solver/grading.hpp"
 #include "solver/materials.hpp"
+#include "solver/region.hpp"
 #include "solver/rocks.hpp"
 #include "solver/terrain.hpp"
 
@@ -67,55 +74,107 @@ std::vector<dem::Plane> body_planes(const scene::Scene& scene)
     return planes;
 }
 
+/// A body of a family of rocks takes its first member.
+scene::Shape body_shape(const scene::Scene& scene, const scene::Body& body)
+{
+    return shape::members(shape::find_shape(scene, body.shape)).front();
+}
+
+std::vector<std::vector<RockDraw>> draw_all_rocks(const scene::Scene& scene)
+{
+    std::vector<std::vector<RockDraw>> draws;
+    for (std::size_t table = 0; table < scene.rocks.size(); ++table)
+    {
+        const scene::Rocks& rocks   = scene.rocks[table];
+        const auto          members = shape::members(shape::find_shape(scene, rocks.shape)).size();
+        draws.push_back(draw_rocks(rocks, volume(rocks_space(scene, table)), members));
+    }
+    return draws;
+}
+
+/// A template that some bodies or rocks need.
+struct Wanted
+{
+    scene::Shape shape;
+    double       smallest; ///< m, diameter of the smallest instance; infinite if all are at scale 1
+    bool         named;    ///< by a [[body]]
+};
+
+/// The shapes that bodies and drawn rocks take, each once, in order of first use.
+class WantedShapes
+{
+public:
+    void add(const scene::Shape& shape, double diameter, bool named)
+    {
+        const auto [at, is_new] = index_.try_emplace(shape.name, wanted.size());
+        if (is_new) { wanted.push_back({shape, diameter, named}); }
+        Wanted& one  = wanted[at->second];
+        one.smallest = std::min(one.smallest, diameter);
+        one.named    = one.named || named;
+    }
+
+    std::vector<Wanted> wanted;
+
+private:
+    std::map<std::string, std::size_t> index_;
+};
+
+std::vector<Wanted> wanted_shapes(const scene::Scene& scene, const std::vector<std::vector<RockDraw>>& draws)
+{
+    WantedShapes shapes;
+    for (const scene::Body& body : scene.bodies)
+    {
+        const auto own_size = std::numeric_limits<double>::infinity();
+        shapes.add(body_shape(scene, body), body.diameter.value_or(own_size), true);
+    }
+    for (std::size_t table = 0; table < scene.rocks.size(); ++table)
+    {
+        const auto family = shape::members(shape::find_shape(scene, scene.rocks[table].shape));
+        for (const RockDraw& rock : draws[table])
+        {
+            shapes.add(family[static_cast<std::size_t>(rock.member)], rock.diameter, false);
+        }
+    }
+    return shapes.wanted;
+}
+
 /// The largest radius of a point beside the smallest instance of a shape, m at the shape's scale 1: sand is in contact
 /// from that distance on.
-double contact_reach(const scene::Scene& scene, const std::string& shape, double equivalent_radius)
+double contact_reach(const scene::Scene& scene, double smallest, double equivalent_radius)
 {
     double largest = 0;
     for (const scene::Terrain& terrain : scene.terrain)
     {
-        const double volume = std::pow(scene.grid.spacing, 3) / terrain.points_per_cell;
+        const double volume = std::pow(lattice_spacing(scene, terrain), 3);
         largest = std::max(largest, contact::point_radius(volume, radius_rule(scene.numerics.point_radius)));
     }
-    double smallest_scale = 1;
-    for (const scene::Rocks& rocks : scene.rocks)
-    {
-        if (rocks.shape == shape)
-        {
-            smallest_scale = std::min(smallest_scale, 0.5 * rocks.diameter / equivalent_radius);
-        }
-    }
-    return largest / smallest_scale;
+    return largest / std::min(1.0, 0.5 * smallest / equivalent_radius);
 }
 
-/// The templates that bodies and rocks name, each once, in order of first use.
-std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene)
+std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene, const std::vector<Wanted>& wanted)
 {
-    std::vector<std::string> names;
-    const auto               use = [&](const std::string& name)
-    {
-        if (std::find(names.begin(), names.end(), name) == names.end()) { names.push_back(name); }
-    };
-    for (const auto& body : scene.bodies) { use(body.shape); }
-    for (const auto& rocks : scene.rocks) { use(rocks.shape); }
     std::vector<shape::ShapeTemplate> templates;
     const auto&                       size = scene.domain.size;
-    for (const std::string& name : names)
+    for (const Wanted& one : wanted)
     {
-        const auto reach = [&](double equivalent_radius) { return contact_reach(scene, name, equivalent_radius); };
-        templates.push_back(shape::make_template(shape::find_shape(scene, name), scene.directory, reach));
+        const auto reach = [&](double equivalent_radius)
+        { return contact_reach(scene, one.smallest, equivalent_radius); };
+        templates.push_back(shape::make_template(one.shape, scene.directory, reach));
         const double extent = templates.back().box.extent().maxCoeff();
-        if (std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const auto& b) { return b.shape == name; }) !=
-                scene.bodies.end() &&
-            extent > 100 * *std::max_element(size.begin(), size.end()))
+        if (one.named && std::isinf(one.smallest) && extent > 100 * *std::max_element(size.begin(), size.end()))
         {
             throw InputError(
                 fmt::format("[[shape]] '{}': its extent of {:.4g} m is over 100 times the domain; a mesh in "
                             "millimetres? then give unit = \"mm\" or unit = 0.001",
-                            name, extent));
+                            one.shape.name, extent));
         }
     }
     return templates;
+}
+
+double body_scale(const scene::Body& body, const shape::ShapeTemplate& form)
+{
+    return body.diameter ? *body.diameter / volume_diameter(form) : 1;
 }
 
 double body_mass(const scene::Scene& scene, const scene::Body& body, const shape::ShapeTemplate& form)
@@ -126,18 +185,20 @@ double body_mass(const scene::Scene& scene, const scene::Body& body, const shape
         const auto& g = scene.domain.gravity;
         return *body.load / Vec3<double>(g[0], g[1], g[2]).norm();
     }
-    return *body.density * form.unit.volume;
+    return *body.density * form.unit.volume * std::pow(body_scale(body, form), 3);
 }
 
 /// Lowest and highest corner of a body in the world, from its mesh.
-shape::Bounds world_bounds(const shape::ShapeTemplate& form, const Vec3<double>& at)
+shape::Bounds world_bounds(const scene::Body& body, const shape::ShapeTemplate& form)
 {
-    return {form.box.low + at, form.box.high + at};
+    const double       scale = body_scale(body, form);
+    const Vec3<double> at(body.position.data());
+    return {scale * form.box.low + at, scale * form.box.high + at};
 }
 
 void require_clear_of_walls(const scene::Body& body, const shape::ShapeTemplate& form, const World& world)
 {
-    const auto box = world_bounds(form, {body.position[0], body.position[1], body.position[2]});
+    const auto box = world_bounds(body, form);
     for (const dem::Plane& plane : world.planes)
     {
         double nearest = 0;
@@ -153,33 +214,38 @@ void require_clear_of_walls(const scene::Body& body, const shape::ShapeTemplate&
 
 void add_body(const scene::Scene& scene, const scene::Body& body, World& world)
 {
-    const auto at    = std::find_if(world.templates.begin(), world.templates.end(),
-                                    [&](const auto& form) { return form.name == body.shape; });
-    const auto shape = static_cast<std::int32_t>(at - world.templates.begin());
-    require_clear_of_walls(body, *at, world);
+    const std::int32_t shape = template_index(world, body_shape(scene, body).name);
+    const auto&        form  = world.templates[static_cast<std::size_t>(shape)];
+    const double       scale = body_scale(body, form);
+    require_clear_of_walls(body, form, world);
     HostBodies& bodies = world.bodies;
     bodies.position.emplace_back(body.position[0], body.position[1], body.position[2]);
     bodies.orientation.push_back(Quat::Identity());
     bodies.velocity.emplace_back(body.velocity[0], body.velocity[1], body.velocity[2]);
-    bodies.mass.push_back(body_mass(scene, body, *at));
-    bodies.scale.push_back(1);
-    bodies.radius.push_back(at->equivalent_radius);
+    bodies.mass.push_back(body_mass(scene, body, form));
+    bodies.scale.push_back(scale);
+    bodies.radius.push_back(scale * form.equivalent_radius);
     bodies.shape.push_back(shape);
     bodies.material.push_back(material_index(scene, body.material));
     bodies.named = static_cast<std::int64_t>(bodies.size());
 }
 
-void require_clear_of_sand(const scene::Scene& scene, World& world)
+void require_clear_of_sand(const scene::Scene& scene, const World& world)
 {
-    for (std::size_t b = 0; b < static_cast<std::size_t>(world.bodies.named); ++b)
+    const auto               covering = covering_bodies(scene, world, 0, world.bodies.size());
+    std::vector<std::size_t> inside(world.bodies.size(), 0);
+    for (const std::int32_t body : covering)
     {
-        const std::int64_t inside = remove_points_in_body(scene, world, b);
-        if (inside > 0)
+        if (body >= 0) { ++inside[static_cast<std::size_t>(body)]; }
+    }
+    for (std::size_t b = 0; b < inside.size(); ++b)
+    {
+        if (inside[b] > 0)
         {
             throw InputError(
                 fmt::format("[[body]] '{}': {} points of sand stand inside it or within their radius of it; "
                             "raise position[2] or lower the terrain",
-                            scene.bodies[b].name, inside));
+                            scene.bodies[b].name, inside[b]));
         }
     }
 }
@@ -193,6 +259,15 @@ int material_index(const scene::Scene& scene, const std::string& name)
     return static_cast<int>(at - scene.materials.begin());
 }
 
+double volume_diameter(const shape::ShapeTemplate& form) { return std::cbrt(6 * form.unit.volume / std::numbers::pi); }
+
+std::int32_t template_index(const World& world, const std::string& name)
+{
+    const auto at = std::find_if(world.templates.begin(), world.templates.end(),
+                                 [&](const auto& form) { return form.name == name; });
+    return static_cast<std::int32_t>(at - world.templates.begin());
+}
+
 World build_world(const scene::Scene& scene)
 {
     World      world{};
@@ -201,12 +276,13 @@ World build_world(const scene::Scene& scene)
            scene.grid.spacing, linear ? 0.0 : 0.5, {scene.domain.size[0], scene.domain.size[1], scene.domain.size[2]}};
     world.grid_walls    = grid_walls(scene);
     world.planes        = body_planes(scene);
-    world.templates     = make_templates(scene);
+    const auto draws    = draw_all_rocks(scene);
+    world.templates     = make_templates(scene, wanted_shapes(scene, draws));
     world.points        = make_terrain(scene);
     world.point_spacing = terrain_spacing(scene);
     for (const scene::Body& body : scene.bodies) { add_body(scene, body, world); }
     require_clear_of_sand(scene, world);
-    for (const scene::Rocks& rocks : scene.rocks) { place_rocks(scene, rocks, world); }
+    for (std::size_t table = 0; table < scene.rocks.size(); ++table) { place_rocks(scene, table, draws[table], world); }
     set_geostatic_stress(scene, world.bodies, world.points);
     return world;
 }

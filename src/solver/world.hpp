@@ -23,9 +23,14 @@ struct HostPoints
     std::vector<double>       mass;     ///< kg
     std::vector<Sym3<double>> stress;   ///< Pa
     std::vector<std::uint8_t> material;
+    std::vector<std::int32_t> terrain;  ///< index of the [[terrain]] table that made it
+    std::vector<Vec3<double>> velocity; ///< m/s; empty if all points are at rest
 
     std::size_t size() const { return position.size(); }
 };
+
+/// Keeps the points for which kept[i] is not 0, in their order; returns how many went.
+std::int64_t keep_points(HostPoints& points, const std::vector<std::uint8_t>& kept);
 
 /// Rigid bodies: first the scene's [[body]] tables in their order, then the rocks.
 struct HostBodies
@@ -39,6 +44,7 @@ struct HostBodies
     std::vector<std::int32_t> shape;       ///< of World::templates
     std::vector<std::int32_t> material;    ///< of Scene::materials
     std::int64_t              named = 0;   ///< bodies of [[body]] tables
+    std::vector<std::size_t>  rocks_end;   ///< of each [[rocks]] table: one past its last body
 
     std::size_t size() const { return position.size(); }
 };
@@ -60,5 +66,11 @@ World build_world(const scene::Scene& scene);
 
 /// Index of a material by its name.
 int material_index(const scene::Scene& scene, const std::string& name);
+
+/// Diameter of the sphere of equal volume, m at scale 1 (a wheel's equivalent_radius is that of its rim).
+double volume_diameter(const shape::ShapeTemplate& form);
+
+/// Index of a template of the world by its name.
+std::int32_t template_index(const World& world, const std::string& name);
 
 } // namespace tread::solver

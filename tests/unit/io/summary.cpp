@@ -32,6 +32,8 @@ TEST(Summary, json_holds_every_field)
     summary.stages    = some_stages();
     summary.errors    = {1e-9, 2e-3, std::numeric_limits<double>::quiet_NaN()};
 
+    summary.bed = {{{"sand", 8, 0.5, 800}}, {{"clast", 5, 0.1, 270, 0.2, 0.01, 0.02, 0.04}}, 1.0 / 6};
+
     const auto json = nlohmann::json::parse(to_json(summary));
     for (const char* key : {"schema",
                             "status",
@@ -53,6 +55,9 @@ TEST(Summary, json_holds_every_field)
                             "sim_per_wall",
                             "peak_device_bytes",
                             "peak_host_bytes",
+                            "terrain",
+                            "rocks",
+                            "rock_share",
                             "stages",
                             "errors"})
     {
@@ -66,6 +71,9 @@ TEST(Summary, json_holds_every_field)
     EXPECT_EQ(json["stages"][2]["on"], false);
     EXPECT_EQ(json["stages"][2]["why"], "no rocks");
     EXPECT_EQ(json["errors"]["momentum"], 2e-3);
+    EXPECT_EQ(json["terrain"][0]["volume"], 0.5);
+    EXPECT_EQ(json["rocks"][0]["count"], 5);
+    EXPECT_EQ(json["rocks"][0]["largest_diameter"], 0.04);
     EXPECT_TRUE(json["errors"]["energy"].is_null());
 }
 

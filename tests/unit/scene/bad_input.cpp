@@ -76,7 +76,7 @@ const std::vector<BadCase> key_cases{
     {"slip_out_of_range", "slip = 0.3", "slip = 1.5", 57, "[phase.drive.drive] slip: 1.5 is out of range"},
     {"generator_kind", "kind = \"rock\"", "kind = \"rok\"", 31, "[shape.clast.generate] kind: unknown word \"rok\""},
     {"generator_key", "seed = 3", "sede = 3", 31, "[shape.clast.generate] sede: unknown key; did you mean \"seed\"?"},
-    {"missing_key", "diameter = 0.05\n", "", 36, "[rocks[0]] diameter: missing; accepted: number > 0 (m)"},
+    {"missing_key", "diameter = 0.05\n", "", 36, "[rocks[0]] diameter: missing; accepted: number > 0 (m), or table"},
     {"missing_name", "name = \"sand\"\nmodel", "model", 7, "[material[0]] name: missing"},
     {"value_for_a_table", "[domain]\nsize = [1, 1.0, 1]\ngravity = [0, 0, -9.81]\n", "domain = 3\n", 2,
      "[domain]: wrong type: an integer; accepted: table"},

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/world.hpp"
+
+namespace tread::solver
+{
+
+/// For each point of sand a body of [first, last) that it lies in or within its contact radius of (phi < r_p); -1 where
+/// there is none. Sand that starts in such contact would fly.
+std::vector<std::int32_t> covering_bodies(const scene::Scene& scene, const World& world, std::size_t first,
+                                          std::size_t last);
+
+} // namespace tread::solver

@@ -1,0 +1,109 @@
+#include "solver/grading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "base/random.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+constexpr std::size_t most_rocks = 100'000'000;
+
+/// Share of the standard normal distribution between two scores, from the tail that keeps its digits.
+double normal_share(double low, double high)
+{
+    const double root = std::numbers::sqrt2;
+    return low > 0 ? 0.5 * (std::erfc(low / root) - std::erfc(high / root))
+                   : 0.5 * (std::erfc(-high / root) - std::erfc(-low / root));
+}
+
+/// The score in [low, high] below which a share `u` of what lies there is: bisection down to neighbouring doubles, so
+/// that it rises with u.
+double truncated_normal_quantile(double low, double high, double u)
+{
+    const double share = u * normal_share(low, high);
+    double       below = low, above = high;
+    for (int i = 0; i < 80; ++i)
+    {
+        const double middle                                 = 0.5 * (below + above);
+        (normal_share(low, middle) < share ? below : above) = middle;
+    }
+    return 0.5 * (below + above);
+}
+
+struct Quantile
+{
+    double u;
+
+    double operator()(double diameter) const { return diameter; }
+
+    double operator()(const scene::UniformDiameters& spread) const { return std::lerp(spread.low, spread.high, u); }
+
+    double operator()(const scene::LogNormalDiameters& spread) const
+    {
+        const auto   score = [&](double d) { return std::log(d / spread.median) / spread.deviation; };
+        const double at    = truncated_normal_quantile(score(spread.low), score(spread.high), u);
+        return std::clamp(spread.median * std::exp(spread.deviation * at), spread.low, spread.high);
+    }
+
+    /// Of density ~ d^-n: with m = 1 - n, d = low [1 + u ((high/low)^m - 1)]^(1/m); the limit at m = 0 is geometric.
+    double operator()(const scene::PowerLawDiameters& spread) const
+    {
+        const double m = 1 - spread.exponent, ratio = std::log(spread.high / spread.low);
+        const double growth = std::abs(m * ratio) < 1e-9 ? u * ratio : std::log1p(u * std::expm1(m * ratio)) / m;
+        return std::clamp(spread.low * std::exp(growth), spread.low, spread.high);
+    }
+};
+
+/// Whether the rocks so far are nearer to the volume that is wanted than with one more.
+bool enough(const scene::Rocks& rocks, std::size_t drawn, double filled, double next, double wanted)
+{
+    if (rocks.count) { return drawn == static_cast<std::size_t>(*rocks.count); }
+    return filled + 0.5 * sphere_volume(next) > wanted;
+}
+
+} // namespace
+
+double quantile(const scene::Diameter& diameter, double u) { return std::visit(Quantile{u}, diameter); }
+
+double sphere_volume(double diameter) { return std::numbers::pi / 6 * diameter * diameter * diameter; }
+
+double smallest_diameter(const scene::Diameter& diameter) { return quantile(diameter, 0); }
+double largest_diameter(const scene::Diameter& diameter) { return quantile(diameter, 1); }
+
+std::vector<RockDraw> draw_rocks(const scene::Rocks& rocks, double volume, std::size_t members)
+{
+    const double          wanted = rocks.solid_fraction.value_or(0) * volume;
+    Random                random(rocks.seed);
+    std::vector<RockDraw> drawn;
+    for (double filled = 0;;)
+    {
+        const double diameter = quantile(rocks.diameter, random.uniform());
+        const auto   member   = static_cast<std::int32_t>(random.uniform() * static_cast<double>(members));
+        if (enough(rocks, drawn.size(), filled, diameter, wanted)) { break; }
+        drawn.push_back({diameter, member});
+        filled += sphere_volume(diameter);
+        if (drawn.size() > most_rocks)
+        {
+            throw InputError(fmt::format("[[rocks]] of shape '{}': solid_fraction = {} of {:.4g} m3 is over {} rocks",
+                                         rocks.shape, *rocks.solid_fraction, volume, most_rocks));
+        }
+    }
+    if (drawn.empty())
+    {
+        throw InputError(fmt::format("[[rocks]] of shape '{}': solid_fraction = {} of {:.4g} m3 is less than one rock",
+                                     rocks.shape, rocks.solid_fraction.value_or(0), volume));
+    }
+    std::stable_sort(drawn.begin(), drawn.end(),
+                     [](const RockDraw& a, const RockDraw& b) { return a.diameter > b.diameter; });
+    return drawn;
+}
+
+} // namespace tread::solver

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "solver/grading.hpp"
+#include "solver/region.hpp"
+#include "solver/world.hpp"
+
+// Finding room for rocks. Both ways add rocks to the world in the order given, until one finds none, and return how
+// many.
+namespace tread::solver
+{
+
+/// Random sequential adsorption: a rock is put at random places until it touches nothing. A rock is given up after 1e5
+/// places that it cannot take, a table after 1e6 + 300 a rock.
+std::size_t place_at_random(const scene::Scene& scene, std::size_t table, const Space& space,
+                            const std::vector<RockDraw>& rocks, World& world);
+
+/// On a cubic lattice that begins at the region's low corner, x fastest, each rock turned at random: as wide as the
+/// largest bounding sphere if all find room, else narrowed by steps of 3 % down to 60 % of it. There a rock is turned
+/// up to 20 times until it touches nothing; after that its site stays empty.
+std::size_t place_on_lattice(const scene::Scene& scene, std::size_t table, const Space& space,
+                             const std::vector<RockDraw>& rocks, World& world);
+
+} // namespace tread::solver
