@@ -161,7 +161,7 @@ Keys<Rocks> rocks_keys()
         optional(
             "solid_fraction", "", &Rocks::solid_fraction, number_or("", above_up_to(0, 1)),
             "Volume of the rocks over the volume of the region between `floor` and `height`; the drawn rocks whose "
-            "volume comes nearest. Random places jam at about 0.35.",
+            "volume comes nearest. Random places jam at about 0.3 for one size, higher for graded ones.",
             one_of),
         rocks_diameter_key(),
         rocks_region_key(),

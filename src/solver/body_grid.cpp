@@ -1,6 +1,7 @@
 #include "solver/body_grid.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tread::solver
 {
@@ -24,16 +25,21 @@ bool nodes_clear(const World& world, std::size_t one, std::size_t other, double 
     const Mat3<double> turn   = (scale * inverse) * (to_other * bodies.orientation[one].toRotationMatrix());
     const Vec3<double> shift  = inverse * (to_other * (bodies.position[one] - bodies.position[other]));
     const double       needed = margin * inverse;
+    // Nothing of `other` is farther from its centre than this: most nodes need no look at the grid.
+    const double beyond = form_of(world, other).bounding_radius + needed;
     for (std::size_t cluster = 0; cluster < nodes.cluster_centres.size(); ++cluster)
     {
+        const Vec3<double> centre = turn * nodes.cluster_centres[cluster] + shift;
+        const double       radius = nodes.cluster_radii[cluster] * scale * inverse;
+        if (centre.squaredNorm() > std::pow(beyond + radius, 2)) { continue; }
         // The interpolated distance may be off by a share of a cell of the grid.
-        const double reach = needed + nodes.cluster_radii[cluster] * scale * inverse + sdf.spacing;
-        if (shape::sample(sdf, turn * nodes.cluster_centres[cluster] + shift) > reach) { continue; }
+        if (shape::sample(sdf, centre) > needed + radius + sdf.spacing) { continue; }
         const std::size_t first = cluster * shape::SurfaceNodes::cluster_size;
         const std::size_t end   = std::min(first + shape::SurfaceNodes::cluster_size, nodes.positions.size());
         for (std::size_t node = first; node < end; ++node)
         {
-            if (shape::sample(sdf, turn * nodes.positions[node] + shift) < needed) { return false; }
+            const Vec3<double> x = turn * nodes.positions[node] + shift;
+            if (x.squaredNorm() < beyond * beyond && shape::sample(sdf, x) < needed) { return false; }
         }
     }
     return true;

@@ -24,16 +24,18 @@ double normal_share(double low, double high)
                    : 0.5 * (std::erfc(-high / root) - std::erfc(-low / root));
 }
 
-/// The score in [low, high] below which a share `u` of what lies there is: bisection down to neighbouring doubles, so
-/// that it rises with u.
+/// The score in [low, high] below which a share `u` of what lies there is: by bisection, counted from the nearer end so
+/// that the thin tail keeps its digits.
 double truncated_normal_quantile(double low, double high, double u)
 {
-    const double share = u * normal_share(low, high);
-    double       below = low, above = high;
-    for (int i = 0; i < 80; ++i)
+    const double total    = normal_share(low, high);
+    const auto   short_of = [&](double score)
+    { return u < 0.5 ? normal_share(low, score) < u * total : normal_share(score, high) > (1 - u) * total; };
+    double below = low, above = high;
+    for (int i = 0; i < 60; ++i)
     {
-        const double middle                                 = 0.5 * (below + above);
-        (normal_share(low, middle) < share ? below : above) = middle;
+        const double middle                = 0.5 * (below + above);
+        (short_of(middle) ? below : above) = middle;
     }
     return 0.5 * (below + above);
 }

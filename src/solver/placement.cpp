@@ -180,7 +180,7 @@ bool find_place(Placer& placer, Random& random, Patience& patience)
 {
     const scene::Box box = placer.centres();
     if (empty(box)) { return false; }
-    patience.for_rock = 100'000;
+    patience.for_rock = 50'000;
     patience.outside  = 10'000'000;
     while (patience.for_table > 0 && patience.for_rock > 0 && patience.outside > 0)
     {
@@ -277,7 +277,7 @@ std::size_t place_at_random(const scene::Scene& scene, std::size_t table, const 
 {
     Placer   placer(scene, table, space, world);
     Random   random = random_places(scene.rocks[table]);
-    Patience patience{1'000'000 + 300 * static_cast<std::int64_t>(rocks.size())};
+    Patience patience{100'000 + 1000 * static_cast<std::int64_t>(rocks.size())};
     for (std::size_t rock = 0; rock < rocks.size(); ++rock)
     {
         placer.begin(rocks[rock]);

@@ -9,8 +9,8 @@
 namespace tread::solver
 {
 
-/// Random sequential adsorption: a rock is put at random places until it touches nothing. A rock is given up after 1e5
-/// places that it cannot take, a table after 1e6 + 300 a rock.
+/// Random sequential adsorption: a rock is put at random places until it touches nothing. A rock is given up after 5e4
+/// places that it cannot take, a table after 1e5 + 1000 a rock.
 std::size_t place_at_random(const scene::Scene& scene, std::size_t table, const Space& space,
                             const std::vector<RockDraw>& rocks, World& world);
 

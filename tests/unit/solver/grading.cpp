@@ -13,11 +13,11 @@ namespace
 using namespace tread;
 using namespace tread::solver;
 
-/// Mean and mean square of a distribution, by 2e5 draws, against closed forms. The mean of n draws is off by a standard
+/// Mean and mean square of a distribution, by 5e4 draws, against closed forms. The mean of n draws is off by a standard
 /// normal number of sigma/sqrt(n); 4 of them happen once in 16,000 tests, and the seed is fixed.
 void check_moments(const char* name, const scene::Diameter& diameter, double mean, double square, double fourth)
 {
-    constexpr int draws = 200000;
+    constexpr int draws = 50000;
     Random        random(7);
     double        sum = 0, sum_of_squares = 0;
     for (int i = 0; i < draws; ++i)
@@ -79,7 +79,7 @@ TEST(Grading, QuantilesRiseFromSmallestToLargest)
     for (const scene::Diameter& diameter :
          {scene::Diameter{scene::UniformDiameters{1, 3}}, scene::Diameter{scene::PowerLawDiameters{1 + 1e-12, 1, 3}},
           scene::Diameter{scene::LogNormalDiameters{2, 0.2, 1, 3}},
-          scene::Diameter{scene::LogNormalDiameters{1, 0.2, 2, 3}}})
+          scene::Diameter{scene::LogNormalDiameters{0.5, 0.2, 1, 3}}})
     {
         double before = 0;
         for (double u = 0; u <= 1; u += 1.0 / 128)
@@ -87,7 +87,7 @@ TEST(Grading, QuantilesRiseFromSmallestToLargest)
             EXPECT_GT(quantile(diameter, u), before);
             before = quantile(diameter, u);
         }
-        EXPECT_NEAR(smallest_diameter(diameter), diameter.index() == 3 && std::get<3>(diameter).high == 3 ? 1 : 1, 1);
+        EXPECT_NEAR(smallest_diameter(diameter), 1, 1e-9);
         EXPECT_NEAR(largest_diameter(diameter), 3, 1e-9);
     }
 }
