@@ -144,10 +144,13 @@ struct Contact
 
 struct RockGenerator
 {
-    std::uint64_t seed       = 1;
-    double        aspect     = 0.75; ///< minor over major extent
-    double        sphericity = 0.90;
-    int           nodes      = 162; ///< surface nodes: 42, 162, 642 or 2562
+    std::uint64_t         seed       = 1;
+    double                aspect     = 0.75; ///< smallest over largest extent
+    double                sphericity = 0.90;
+    int                   nodes      = 162; ///< surface nodes
+    std::optional<double> elongation;       ///< middle over largest extent; default: (1 + aspect)/2
+    double                solidity = 0.98;  ///< volume over that of the convex hull
+    int                   variants = 1;     ///< rocks in the family
 
     bool operator==(const RockGenerator&) const = default;
 };

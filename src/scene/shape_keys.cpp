@@ -9,10 +9,17 @@ Keys<RockGenerator> rock_keys()
 {
     return {
         optional("seed", "", &RockGenerator::seed, integer<std::uint64_t>(0), "Of the random shape."),
-        optional("aspect", "", &RockGenerator::aspect, number(above_up_to(0, 1)), "Smallest over largest extent."),
-        optional("sphericity", "", &RockGenerator::sphericity, number(above_up_to(0, 1)),
+        optional("aspect", "", &RockGenerator::aspect, number(between(0.2, 1)), "Smallest over largest extent."),
+        optional("elongation", "", &RockGenerator::elongation, number_or("auto", between(0.2, 1)),
+                 "Middle over largest extent; \"auto\" = (1 + aspect)/2."),
+        optional("sphericity", "", &RockGenerator::sphericity, number(between(0.3, 1)),
                  "Surface of the sphere of equal volume over the rock's."),
-        optional("nodes", "", &RockGenerator::nodes, integer_of({42, 162, 642, 2562}), "Surface nodes."),
+        optional("solidity", "", &RockGenerator::solidity, number(between(0.5, 1)),
+                 "Volume over that of the convex hull."),
+        optional("nodes", "", &RockGenerator::nodes, integer<int>(20, 20000),
+                 "Surface nodes, evenly spread, on sharp edges too."),
+        optional("variants", "", &RockGenerator::variants, integer<int>(1, 1000),
+                 "A family of that many rocks, all of this form; a [[rocks]] table of the shape draws from all."),
     };
 }
 

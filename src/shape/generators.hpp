@@ -17,11 +17,11 @@ TriangleMesh icosphere(int nodes, const std::string& origin);
 /// Sphere of diameter 1 m, its vertices exactly on it.
 TriangleMesh sphere_mesh(const scene::SphereGenerator& generator, const std::string& origin);
 
-/// An irregular rock, star-shaped about a point inside: an ellipsoid with low-order bumps. Extents 1 : (1 + aspect)/2 :
-/// aspect along x, y, z exactly; sphericity pi^(1/3) (6 V)^(2/3) / A (Wadell 1932) within 3 % of the request. Its
-/// volume is that of a sphere of DIAMETER 1 m: an instance's scale is its equivalent diameter in metres. Equal
-/// parameters give equal rocks on every machine. InputError, naming `origin`, if the sphericity cannot be reached, with
-/// what can.
+/// An irregular rock: a ball that planes have cut and waves have dented, stretched, star-shaped about a point inside.
+/// Aspect, elongation, sphericity and solidity as `form_of` measures them on the mesh are within 3 % of the request.
+/// The largest extent lies along x, the smallest along z. Its volume is that of a sphere of DIAMETER 1 m: an instance's
+/// scale is its equivalent diameter in metres. Equal parameters give equal rocks on every machine. InputError, naming
+/// `origin`, if the form cannot be reached, with what can. The mesh is finer than the surface nodes need it.
 TriangleMesh rock_mesh(const scene::RockGenerator& generator, const std::string& origin);
 
 /// A wheel about the y axis, centred at the origin: a drum with grousers flush with its width, open inside or with
@@ -30,7 +30,5 @@ TriangleMesh rock_mesh(const scene::RockGenerator& generator, const std::string&
 /// as high where walls, grousers and flanges measure 1.5 % of the radius or more. InputError, naming `origin`, if the
 /// lengths do not fit together.
 TriangleMesh wheel_mesh(const scene::WheelGenerator& generator, const std::string& origin);
-
-double sphericity(const TriangleMesh& mesh);
 
 } // namespace tread::shape

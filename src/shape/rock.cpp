@@ -2,16 +2,18 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <optional>
 #include <vector>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
-#include "base/random.hpp"
+#include "shape/convex_hull.hpp"
+#include "shape/form.hpp"
 #include "shape/generators.hpp"
 #include "shape/mass_properties.hpp"
-#include "shape/triangle.hpp"
+#include "shape/rock_body.hpp"
 
 namespace tread::shape
 {
@@ -20,97 +22,197 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Uniform on the unit sphere.
-Eigen::Vector3d direction(Random& random)
+constexpr double tolerance = 0.03;  ///< relative, of what is promised
+constexpr double sought    = 0.005; ///< relative, at which the search rests
+
+Form asked_form(const scene::RockGenerator& generator)
 {
-    const double height = 2 * random.uniform() - 1;
-    const double turn   = 2 * pi * random.uniform();
-    const double reach  = std::sqrt(1 - height * height);
-    return {reach * std::cos(turn), reach * std::sin(turn), height};
+    return {generator.aspect, generator.elongation.value_or(0.5 * (1 + generator.aspect)), generator.sphericity,
+            generator.solidity};
 }
 
-/// A function on the unit sphere: a few plane waves of 2 to 6 rad a radius, scaled to a largest magnitude of 1.
-std::vector<double> bumps(const std::vector<Eigen::Vector3d>& directions, std::uint64_t seed)
+void require_within(const std::string& origin, const char* key, double value, double low, double high)
 {
-    constexpr int       waves = 10;
-    Random              random(seed);
-    std::vector<double> heights(directions.size(), 0.0);
-    for (int wave = 0; wave < waves; ++wave)
-    {
-        const double          number = 2 + 4 * random.uniform();
-        const Eigen::Vector3d along  = number * direction(random);
-        const double          phase  = 2 * pi * random.uniform();
-        for (std::size_t i = 0; i < directions.size(); ++i)
-        {
-            heights[i] += std::cos(along.dot(directions[i]) + phase);
-        }
-    }
-    double largest = 0;
-    for (const double height : heights) { largest = std::max(largest, std::abs(height)); }
-    for (double& height : heights) { height /= largest; }
-    return heights;
-}
-
-/// The sphere with bumps of the given amplitude, stretched to the extents.
-TriangleMesh bumpy_ellipsoid(const TriangleMesh& sphere, const std::vector<double>& heights, double amplitude,
-                             const Eigen::Vector3d& extents)
-{
-    TriangleMesh mesh = sphere;
-    for (std::size_t i = 0; i < heights.size(); ++i) { mesh.vertices[i] *= 1 + amplitude * heights[i]; }
-    const Eigen::Vector3d stretch = extents.cwiseQuotient(bounds(mesh).extent());
-    for (Eigen::Vector3d& vertex : mesh.vertices) { vertex = vertex.cwiseProduct(stretch); }
-    return mesh;
+    if (value >= low && value <= high) { return; }
+    throw InputError(fmt::format("{}: {} = {}: accepted are {:.4g} to {:.4g}", origin, key, value, low, high));
 }
 
 void check(const scene::RockGenerator& generator, const std::string& origin)
 {
-    if (!(generator.aspect >= 0.2 && generator.aspect <= 1))
+    require_within(origin, "aspect", generator.aspect, 0.2, 1);
+    if (generator.elongation) { require_within(origin, "elongation", *generator.elongation, generator.aspect, 1); }
+    require_within(origin, "sphericity", generator.sphericity, 0.3, 1);
+    require_within(origin, "solidity", generator.solidity, 0.5, 1);
+    require_within(origin, "nodes", generator.nodes, 20, 20000);
+}
+
+double largest_error(const Form& form, const Form& wanted)
+{
+    double largest = 0;
+    for (double Form::*factor : {&Form::aspect, &Form::elongation, &Form::sphericity, &Form::solidity})
     {
-        throw InputError(fmt::format("{}: aspect = {}: accepted are 0.2 to 1", origin, generator.aspect));
+        largest = std::max(largest, std::abs(form.*factor / wanted.*factor - 1));
     }
-    if (!(generator.sphericity > 0 && generator.sphericity <= 1))
+    return largest;
+}
+
+struct Rock
+{
+    RockHandles     handles;
+    TriangleMesh    mesh;
+    Eigen::Matrix3d axes; ///< of its extents, one a column
+    Form            form;
+};
+
+/// Rocks of one character and one extent ratio, with as many vertices as `sphere`.
+struct Quarry
+{
+    const RockCharacter& character;
+    const TriangleMesh&  sphere;
+    double               aspect;
+    double               elongation;
+
+    /// The rock with these handles, but stretched further until it has the extents.
+    Rock rock(RockHandles handles, const TriangleMesh& directions) const
     {
-        throw InputError(fmt::format("{}: sphericity = {}: accepted are above 0 to 1", origin, generator.sphericity));
+        constexpr int    rounds = 12;
+        constexpr double enough = 1e-3;
+
+        Rock               rock{handles, rock_surface(character, handles, directions), {}, {}};
+        const TriangleMesh hull  = convex_hull(rock.mesh.vertices);
+        const double       solid = mass_properties(rock.mesh).volume / mass_properties(hull).volume;
+        auto               shell = hull.vertices;
+        for (int round = 0;; ++round)
+        {
+            const Extents         found = extents(shell);
+            const Eigen::Vector3d ratios(1, elongation * found.lengths[0] / found.lengths[1],
+                                         aspect * found.lengths[0] / found.lengths[2]);
+            rock.axes = found.axes;
+            rock.form = {found.lengths[2] / found.lengths[0], found.lengths[1] / found.lengths[0],
+                         sphericity(rock.mesh), solid};
+            if (round == rounds || (ratios.array() - 1).abs().maxCoeff() < enough) { return rock; }
+
+            Eigen::Matrix3d stretch = found.axes * ratios.asDiagonal() * found.axes.transpose();
+            stretch /= std::cbrt(stretch.determinant());
+            rock.handles.stretch = stretch * rock.handles.stretch;
+            for (Eigen::Vector3d& vertex : shell) { vertex = stretch * vertex; }
+            for (Eigen::Vector3d& vertex : rock.mesh.vertices) { vertex = stretch * vertex; }
+        }
     }
+
+    double solidity(const RockHandles& handles, const TriangleMesh& directions) const
+    {
+        const TriangleMesh mesh = rock_surface(character, handles, directions);
+        return mass_properties(mesh).volume / mass_properties(convex_hull(mesh.vertices)).volume;
+    }
+
+    /// The cut and the stretch as given, the dent such that the solidity is met, as nearly as can be.
+    double dent(RockHandles handles, const TriangleMesh& directions, double wanted) const
+    {
+        constexpr double enough = 5e-4;
+        double           low = 0, high = most_dent;
+        for (double next = handles.dent > 0 ? handles.dent : 0.1; high - low > 1e-4; next = 0.5 * (low + high))
+        {
+            handles.dent       = next;
+            const double found = solidity(handles, directions);
+            if (std::abs(found - wanted) < enough) { return next; }
+            (found > wanted ? low : high) = next;
+        }
+        return 0.5 * (low + high);
+    }
+
+    /// The rock with this cut and the solidity, from handles that are near.
+    Rock rock_of_solidity(RockHandles handles, double wanted) const
+    {
+        const TriangleMesh directions = rock_directions(character, handles.cut, handles.stretch, sphere);
+        handles.dent                  = dent(handles, directions, wanted);
+        return rock(handles, directions);
+    }
+
+    /// The more is cut, the less the sphericity.
+    Rock rock_of_form(double sphericity, double solidity) const
+    {
+        constexpr int    halvings = 14;
+        constexpr double enough   = 1e-3;
+
+        Rock   best = rock_of_solidity({}, solidity);
+        double low = 0, high = most_cut;
+        for (int halving = 0; halving < halvings && std::abs(best.form.sphericity - sphericity) > enough; ++halving)
+        {
+            RockHandles handles                              = best.handles;
+            handles.cut                                      = 0.5 * (low + high);
+            best                                             = rock_of_solidity(handles, solidity);
+            (best.form.sphericity > sphericity ? low : high) = handles.cut;
+        }
+        return best;
+    }
+};
+
+void require_feasible(const Quarry& quarry, const Form& wanted, const std::string& origin)
+{
+    const Rock  roundest = quarry.rock_of_solidity({}, wanted.solidity);
+    RockHandles handles  = roundest.handles;
+    handles.cut          = most_cut;
+    const Rock edgiest   = quarry.rock_of_solidity(handles, wanted.solidity);
+
+    const double ball = sphericity(quarry.rock({}, quarry.sphere).mesh);
+    if (std::max(roundest.form.solidity, edgiest.form.solidity) > wanted.solidity * (1 + tolerance))
+    {
+        throw InputError(fmt::format("{}: solidity = {}: down to {:.3f} can be reached", origin, wanted.solidity,
+                                     std::max(roundest.form.solidity, edgiest.form.solidity)));
+    }
+    if (wanted.sphericity > roundest.form.sphericity * (1 + tolerance) ||
+        wanted.sphericity < edgiest.form.sphericity * (1 - tolerance))
+    {
+        throw InputError(
+            fmt::format("{}: sphericity = {}: with aspect {}, elongation {} and solidity {}, {:.3f} to {:.3f} can be "
+                        "reached; the ellipsoid has {:.3f}",
+                        origin, wanted.sphericity, wanted.aspect, wanted.elongation, wanted.solidity,
+                        edgiest.form.sphericity, roundest.form.sphericity, ball));
+    }
+}
+
+/// Searched for among rocks of few vertices; what those of many differ by is added to what is searched for.
+Rock search(const RockCharacter& character, const Form& wanted, const std::string& origin)
+{
+    constexpr int      rounds = 4;
+    const TriangleMesh few = icosphere(642, origin), many = icosphere(2562, origin);
+    const Quarry       coarse{character, few, wanted.aspect, wanted.elongation};
+    const Quarry       fine{character, many, wanted.aspect, wanted.elongation};
+    require_feasible(coarse, wanted, origin);
+
+    double              sphericity = wanted.sphericity, solidity = wanted.solidity;
+    std::optional<Rock> best;
+    for (int round = 0; round < rounds; ++round)
+    {
+        const RockHandles handles = coarse.rock_of_form(sphericity, solidity).handles;
+        const Rock        rock    = fine.rock(handles, rock_directions(character, handles.cut, handles.stretch, many));
+        if (!best || largest_error(rock.form, wanted) < largest_error(best->form, wanted)) { best = rock; }
+        if (largest_error(best->form, wanted) < sought) { break; }
+        sphericity += wanted.sphericity - rock.form.sphericity;
+        solidity += wanted.solidity - rock.form.solidity;
+    }
+    return *best;
 }
 
 } // namespace
 
-double sphericity(const TriangleMesh& mesh)
-{
-    return std::cbrt(pi) * std::pow(6 * mass_properties(mesh).volume, 2.0 / 3.0) / surface_area(mesh);
-}
-
 TriangleMesh rock_mesh(const scene::RockGenerator& generator, const std::string& origin)
 {
     check(generator, origin);
-    // Radii from 0.35 to 1.65 of the ellipsoid's: beyond are spikes, which are no rocks and need more nodes than there
-    // are.
-    constexpr double most_amplitude = 0.65, tolerance = 0.03;
-
-    const TriangleMesh        sphere  = icosphere(generator.nodes, origin);
-    const std::vector<double> heights = bumps(sphere.vertices, generator.seed);
-    const Eigen::Vector3d     extents(1, 0.5 * (1 + generator.aspect), generator.aspect);
-    const auto make = [&](double amplitude) { return bumpy_ellipsoid(sphere, heights, amplitude, extents); };
-
-    const double wanted = generator.sphericity;
-    const double most = sphericity(make(0)), least = sphericity(make(most_amplitude));
-    if (wanted > most * (1 + tolerance) || wanted < least * (1 - tolerance))
+    const Form wanted = asked_form(generator);
+    const Rock rock   = search(rock_character(generator.seed), wanted, origin);
+    if (largest_error(rock.form, wanted) > tolerance)
     {
-        throw InputError(
-            fmt::format("{}: sphericity = {}: with seed {}, aspect {} and {} nodes, {:.3f} to {:.3f} can be "
-                        "reached",
-                        origin, wanted, generator.seed, generator.aspect, generator.nodes, least, most));
+        throw InputError(fmt::format(
+            "{}: no rock of seed {} has aspect {}, elongation {}, sphericity {} and solidity {} within {} "
+            "%; the nearest found has {:.3f}, {:.3f}, {:.3f} and {:.3f}",
+            origin, generator.seed, wanted.aspect, wanted.elongation, wanted.sphericity, wanted.solidity,
+            100 * tolerance, rock.form.aspect, rock.form.elongation, rock.form.sphericity, rock.form.solidity));
     }
-    double low = 0, high = most_amplitude;
-    for (int halving = 0; halving < 30; ++halving)
-    {
-        const double middle                              = 0.5 * (low + high);
-        (sphericity(make(middle)) > wanted ? low : high) = middle;
-    }
-    TriangleMesh mesh  = make(low);
+    TriangleMesh mesh  = rock.mesh;
     const double scale = std::cbrt(pi / 6 / mass_properties(mesh).volume);
-    for (Eigen::Vector3d& vertex : mesh.vertices) { vertex *= scale; }
+    for (Eigen::Vector3d& vertex : mesh.vertices) { vertex = scale * (rock.axes.transpose() * vertex); }
     return mesh;
 }
 

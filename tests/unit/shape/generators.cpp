@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "shape/form.hpp"
 #include "shape/mass_properties.hpp"
 #include "unit/shape/meshes.hpp"
 
