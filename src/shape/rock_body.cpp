@@ -56,7 +56,7 @@ public:
         for (const auto& plane : character.planes)
         {
             normals_.push_back(plane.normal);
-            distances_.push_back(1 - cut * plane.bite);
+            distances_.push_back(1 - cut * plane.bite * (1 - plane.tiring * cut));
         }
     }
 
@@ -229,16 +229,16 @@ private:
 
 RockCharacter rock_character(std::uint64_t seed)
 {
-    // The first planes bite deep and leave a body of large faces; the rest chip its corners.
-    constexpr int large = 6, small = 10, waves = 10;
+    // The first planes bite deepest and leave a body of few large faces; the rest chip its corners.
+    constexpr int large = 4, small = 12, waves = 10;
 
     Random        random(seed);
     RockCharacter character;
     for (int i = 0; i < large + small; ++i)
     {
         const Eigen::Vector3d normal = lonely_direction(random, character.planes);
-        const double          bite   = i < large ? random.uniform(0.7, 1) : random.uniform(0.15, 0.7);
-        character.planes.push_back({normal, bite});
+        if (i < large) { character.planes.push_back({normal, random.uniform(0.85, 1), 0}); }
+        else { character.planes.push_back({normal, random.uniform(0.3, 1), 1 / (2 * most_cut)}); }
     }
     for (int i = 0; i < waves; ++i)
     {
@@ -262,14 +262,20 @@ TriangleMesh rock_directions(const RockCharacter& character, double cut, const E
 
 TriangleMesh rock_surface(const RockCharacter& character, const RockHandles& handles, const TriangleMesh& directions)
 {
-    const Cuts   cuts(character, handles.cut);
-    const double scale = handles.dent / static_cast<double>(character.waves.size());
-    TriangleMesh mesh  = directions;
-    for (Eigen::Vector3d& vertex : mesh.vertices)
+    const Cuts          cuts(character, handles.cut);
+    std::vector<double> heights;
+    double              largest = 0;
+    for (const Eigen::Vector3d& vertex : directions.vertices)
     {
-        double height = 0;
-        for (const auto& wave : character.waves) { height += std::cos(wave.number.dot(vertex) + wave.phase); }
-        vertex = handles.stretch * (cuts.face(vertex).radius * (1 + scale * height) * vertex);
+        heights.push_back(0);
+        for (const auto& wave : character.waves) { heights.back() += std::cos(wave.number.dot(vertex) + wave.phase); }
+        largest = std::max(largest, std::abs(heights.back()));
+    }
+    TriangleMesh mesh = directions;
+    for (std::size_t v = 0; v < heights.size(); ++v)
+    {
+        const double radius = cuts.face(mesh.vertices[v]).radius * (1 + handles.dent * heights[v] / largest);
+        mesh.vertices[v]    = handles.stretch * (radius * mesh.vertices[v]);
     }
     return mesh;
 }

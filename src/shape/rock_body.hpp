@@ -17,7 +17,8 @@ struct RockCharacter
     struct Plane
     {
         Eigen::Vector3d normal;
-        double          bite; ///< how fast it moves in, 0 to 1
+        double          bite;   ///< how fast it moves in with the cut, 0 to 1
+        double          tiring; ///< by how much slower for every unit of cut
     };
     struct Wave
     {
@@ -40,7 +41,7 @@ struct RockHandles
 };
 
 // Deeper cuts come so near the centre that faces are seen at grazing angles; larger dents make spikes.
-inline constexpr double most_cut = 0.72, most_dent = 0.9;
+inline constexpr double most_cut = 0.72, most_dent = 0.7;
 
 /// The triangles of a rock before it is stretched: directions from its centre, with vertices on the edges and corners
 /// that the cuts make.
