@@ -58,13 +58,15 @@ SurfaceNodes sphere_nodes(const TriangleMesh& mesh)
     return nodes;
 }
 
-/// Generated stones have near-uniform triangles already.
 struct MakeNodes
 {
     const TriangleMesh& mesh;
     double              spacing; ///< m, 0 = default
 
-    SurfaceNodes operator()(const scene::RockGenerator&) const { return nodes_at_vertices(mesh); }
+    SurfaceNodes operator()(const scene::RockGenerator& rock) const
+    {
+        return spacing > 0 ? resample(mesh, spacing) : resample_to_count(mesh, rock.nodes);
+    }
     SurfaceNodes operator()(const scene::SphereGenerator&) const { return sphere_nodes(mesh); }
     SurfaceNodes operator()(const scene::WheelGenerator& wheel) const { return resampled(wheel.radius / 32); }
     SurfaceNodes operator()(const scene::MeshFile&) const { return resampled(bounds(mesh).extent().maxCoeff() / 40); }

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace tread::shape
+{
+
+/// Points of a surface with their normals, found again by place.
+class PointDirectory
+{
+public:
+    /// Cosine beyond 120 degrees: across a thin wall, not around an edge of it.
+    static constexpr double facing_away = -0.5;
+
+    explicit PointDirectory(double radius)
+        : squared_radius_(radius * radius)
+        , cell_(2 * radius)
+    {
+    }
+
+    void add(const Eigen::Vector3d& position, const Eigen::Vector3d& normal)
+    {
+        cells_[key(cell_of(position))].push_back(positions_.size());
+        positions_.push_back(position);
+        normals_.push_back(normal);
+    }
+
+    /// Calls visit(index, squared distance) for the points within the radius on the same side of the body: those that
+    /// do not face away.
+    template<class Visit>
+    void for_each_near(const Eigen::Vector3d& position, const Eigen::Vector3d& normal, Visit visit) const
+    {
+        const Cell low = cell_of(position - Eigen::Vector3d::Constant(0.5 * cell_));
+        for (int c = 0; c < 8; ++c)
+        {
+            const auto found = cells_.find(key(low + Cell(c & 1, (c >> 1) & 1, c >> 2)));
+            if (found == cells_.end()) { continue; }
+            for (const std::size_t at : found->second)
+            {
+                const double squared = (positions_[at] - position).squaredNorm();
+                if (squared < squared_radius_ && normals_[at].dot(normal) >= facing_away) { visit(at, squared); }
+            }
+        }
+    }
+
+    std::optional<std::size_t> nearest(const Eigen::Vector3d& position, const Eigen::Vector3d& normal) const
+    {
+        std::optional<std::size_t> best;
+        double                     least = squared_radius_;
+        for_each_near(position, normal,
+                      [&](std::size_t at, double squared)
+                      {
+                          if (squared >= least) { return; }
+                          least = squared;
+                          best  = at;
+                      });
+        return best;
+    }
+
+private:
+    using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
+
+    Cell cell_of(const Eigen::Vector3d& position) const
+    {
+        return (position / cell_).array().floor().cast<std::int64_t>();
+    }
+
+    static std::uint64_t key(const Cell& cell)
+    {
+        constexpr std::int64_t half = 1 << 20; // cells to either side of the origin
+        const auto low = [&](std::int64_t c) { return static_cast<std::uint64_t>(c + half) & (2 * half - 1); };
+        return low(cell.x()) | low(cell.y()) << 21 | low(cell.z()) << 42;
+    }
+
+    double                                                      squared_radius_;
+    double                                                      cell_;
+    std::vector<Eigen::Vector3d>                                positions_;
+    std::vector<Eigen::Vector3d>                                normals_;
+    std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
+};
+
+} // namespace tread::shape
