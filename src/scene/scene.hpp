@@ -147,10 +147,10 @@ struct RockGenerator
     std::uint64_t         seed       = 1;
     double                aspect     = 0.75; ///< smallest over largest extent
     double                sphericity = 0.90;
-    int                   nodes      = 162; ///< surface nodes
-    std::optional<double> elongation;       ///< middle over largest extent; default: (1 + aspect)/2
-    double                solidity = 0.98;  ///< volume over that of the convex hull
-    int                   variants = 1;     ///< rocks in the family
+    int                   nodes      = 162;          ///< surface nodes
+    std::optional<double> elongation = std::nullopt; ///< middle over largest extent; default: (1 + aspect)/2
+    double                solidity   = 0.98;         ///< volume over that of the convex hull
+    int                   variants   = 1;            ///< rocks in the family
 
     bool operator==(const RockGenerator&) const = default;
 };

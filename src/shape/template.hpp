@@ -91,7 +91,8 @@ std::vector<std::string> builtin_shape_names();
 /// The scene's shape called `name`, or the built-in; InputError if there is none.
 scene::Shape find_shape(const scene::Scene& scene, const std::string& name);
 
-/// The shapes of a family of rocks, one a variant; of any other shape, the shape itself.
+/// One shape for each rock of a family, named "clast-0", "clast-1" ..., of seeds that follow from the family's; the
+/// first is the rock that the family's seed makes alone. Just {shape} if it is no rock, or one.
 std::vector<scene::Shape> members(const scene::Shape& shape);
 
 /// How far outside a template its distance is asked for, m at scale 1, given its equivalent radius.

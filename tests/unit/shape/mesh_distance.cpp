@@ -58,9 +58,7 @@ void expect_sign_of_winding(const TriangleMesh& mesh, int count)
     EXPECT_LT(inside, 9 * count / 10);
 }
 
-TEST(MeshDistance, SignOfARock) { expect_sign_of_winding(rock_mesh({11, 0.5, 0.85, 162}, "rock"), 20000); }
-
-TEST(MeshDistance, SignOfAFineRock) { expect_sign_of_winding(rock_mesh({12, 0.7, 0.88, 642}, "rock"), 10000); }
+TEST(MeshDistance, SignOfARock) { expect_sign_of_winding(rock_mesh({11, 0.5, 0.85}, "rock"), 5000); }
 
 TEST(MeshDistance, SignOfAWheel) { expect_sign_of_winding(wheel_mesh({}, "wheel"), 20000); }
 
@@ -87,15 +85,19 @@ TEST(MeshDistance, CubeIsExactEverywhere)
 
 TEST(MeshDistance, TreeFindsWhatASearchOfAllTrianglesFinds)
 {
-    const TriangleMesh mesh = rock_mesh({13, 0.6, 0.88, 642}, "rock");
-    const TriangleTree tree = build_tree(mesh);
+    const TriangleMesh        mesh = rock_mesh({13, 0.6, 0.88}, "rock");
+    const TriangleTree        tree = build_tree(mesh);
+    std::vector<TriangleTree> singles;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+        singles.push_back(build_tree({{corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2)}, {{0, 1, 2}}}));
+    }
     for (const Vector3d& point : probes(mesh, 600))
     {
         double least = std::numeric_limits<double>::infinity();
-        for (const auto& triangle : mesh.triangles)
+        for (const TriangleTree& single : singles)
         {
-            const TriangleMesh single{mesh.vertices, {triangle}};
-            least = std::min(least, closest_point(build_tree(single), point).squared_distance);
+            least = std::min(least, closest_point(single, point).squared_distance);
         }
         ASSERT_DOUBLE_EQ(closest_point(tree, point).squared_distance, least);
         // A bound changes nothing as long as it is one.
@@ -113,7 +115,7 @@ SignedDistanceGrid grid_of(const TriangleMesh& mesh, int cells)
 
 TEST(MeshDistance, GridDoesNotDependOnThreads)
 {
-    const TriangleMesh mesh    = rock_mesh({14, 0.6, 0.88, 162}, "rock");
+    const TriangleMesh mesh    = rock_mesh({14, 0.6, 0.88}, "rock");
     const int          threads = omp_get_max_threads();
     omp_set_num_threads(1);
     const SignedDistanceGrid one = grid_of(mesh, 24);
@@ -126,7 +128,7 @@ TEST(MeshDistance, GridDoesNotDependOnThreads)
 
 TEST(MeshDistance, GridNodesAreExactDistances)
 {
-    const TriangleMesh       mesh     = rock_mesh({15, 0.6, 0.88, 162}, "rock");
+    const TriangleMesh       mesh     = rock_mesh({15, 0.6, 0.88}, "rock");
     const MeshDistance       distance = prepare_distance(mesh);
     const SignedDistanceGrid sdf      = grid_of(mesh, 20);
     for (std::int32_t k = 0; k < sdf.nodes[2]; ++k)

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "shape/half_edges.hpp"
 #include "unit/shape/meshes.hpp"
 
 namespace tread::shape
@@ -59,30 +60,100 @@ TEST(SurfaceNodes, ClustersAreCompact)
     EXPECT_LT(mean, 5 * nodes.spacing);
 }
 
-TEST(SurfaceNodes, ResamplingKeepsTheAreaAndIsNearUniform)
+double coefficient_of_variation(const std::vector<double>& values)
 {
+    const double mean   = total(values) / static_cast<double>(values.size());
+    double       square = 0;
+    for (const double value : values) { square += (value - mean) * (value - mean); }
+    return std::sqrt(square / static_cast<double>(values.size())) / mean;
+}
+
+std::vector<double> neighbour_distances(const SurfaceNodes& nodes)
+{
+    std::vector<double> distances(nodes.positions.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < distances.size(); ++i)
+    {
+        for (std::size_t j = 0; j < i; ++j)
+        {
+            const double distance = (nodes.positions[i] - nodes.positions[j]).norm();
+            distances[i]          = std::min(distances[i], distance);
+            distances[j]          = std::min(distances[j], distance);
+        }
+    }
+    return distances;
+}
+
+TEST(SurfaceNodes, AreAsManyAsAskedAndNearUniform)
+{
+    scene::WheelGenerator wheel{};
+    wheel.grousers = 12;
+    scene::RockGenerator angular{};
+    angular.sphericity = 0.8;
     struct Case
     {
         const char*  name;
         TriangleMesh mesh;
-        double       spacing;
+        int          nodes;
     };
-    for (const Case& c : {Case{"cube", test::cube(1), 0.04}, Case{"sphere", icosphere(10242, "sphere"), 0.08},
-                          Case{"wheel", wheel_mesh({}, "wheel"), 0.008}})
+    for (const Case& c :
+         {Case{"cube", test::cube(1), 162}, Case{"cube", test::cube(1), 1000},
+          Case{"wheel", wheel_mesh(wheel, "wheel"), 3000}, Case{"sphere", icosphere(2562, "sphere"), 300},
+          Case{"rock", rock_mesh({}, "rock"), 20}, Case{"rock", rock_mesh({}, "rock"), 162},
+          Case{"angular rock", rock_mesh(angular, "rock"), 777}})
     {
-        const SurfaceNodes nodes = resample(c.mesh, c.spacing);
-        const auto [least, most] = std::minmax_element(nodes.areas.begin(), nodes.areas.end());
-        const double mean        = total(nodes.areas) / static_cast<double>(nodes.areas.size());
-        std::printf("%s: %zu nodes, spacing %.4f of the asked, areas %.2f to %.2f of the mean\n", c.name,
-                    nodes.areas.size(), nodes.spacing / c.spacing, *least / mean, *most / mean);
+        const SurfaceNodes nodes     = resample_to_count(c.mesh, c.nodes);
+        const auto         distances = neighbour_distances(nodes);
+        const double       mean      = total(distances) / static_cast<double>(distances.size());
+        const double       least     = *std::min_element(distances.begin(), distances.end());
+        std::printf("%s, %d nodes: areas vary by %.2f (bound 0.3; thinning alone leaves 0.4, random places 0.53), "
+                    "nearest neighbours %.2f of the spacing apart (hexagons 1.07, random 0.5), at least %.2f (bound "
+                    "0.3)\n",
+                    c.name, c.nodes, coefficient_of_variation(nodes.areas), mean / nodes.spacing,
+                    least / nodes.spacing);
+        EXPECT_EQ(nodes.positions.size(), static_cast<std::size_t>(c.nodes));
         // Area sums differ by rounding of 1e5 terms alone.
         EXPECT_NEAR(total(nodes.areas), surface_area(c.mesh), 1e-11 * surface_area(c.mesh));
-        // Thinning packs between the densest (0.79 of what is asked) and the loosest that covers (1.37).
-        EXPECT_NEAR(nodes.spacing, c.spacing, 0.25 * c.spacing);
-        EXPECT_GT(*least, 0.2 * mean);
-        EXPECT_LT(*most, 3 * mean);
+        // Areas of cells of random points vary by 0.53 (Voronoi cells of a Poisson process in the plane).
+        EXPECT_LT(coefficient_of_variation(nodes.areas), 0.3);
+        EXPECT_GT(mean, 0.65 * nodes.spacing);
+        EXPECT_GT(least, 0.3 * nodes.spacing);
         expect_clusters_enclose(nodes);
     }
+}
+
+TEST(SurfaceNodes, SharpEdgesOfARockCarryNodes)
+{
+    scene::RockGenerator angular{};
+    angular.sphericity        = 0.8;
+    angular.solidity          = 1;
+    const TriangleMesh mesh   = rock_mesh(angular, "rock");
+    const SurfaceNodes nodes  = resample_to_count(mesh, 300);
+    double             length = 0, bare = 0;
+    for_each_edge(sorted_half_edges(mesh),
+                  [&](auto first, auto last)
+                  {
+                      const auto triangle  = [](const auto& half) { return static_cast<std::size_t>(half->triangle); };
+                      const Vector3d one   = area_vector(mesh, triangle(first)),
+                                     other = area_vector(mesh, triangle(last - 1));
+                      if (one.normalized().dot(other.normalized()) > std::cos(45 * test::pi / 180)) { return; }
+                      const Vector3d& low  = mesh.vertices[static_cast<std::size_t>(first->low)];
+                      const Vector3d& high = mesh.vertices[static_cast<std::size_t>(first->high)];
+                      const double    side = (high - low).norm();
+                      length += side;
+                      bare += nearest_distance(nodes, 0.5 * (low + high)) > nodes.spacing ? side : 0;
+                  });
+    std::printf("rock: %.2f m of sharp edges, %.3f of that further than a spacing from a node, bound 0.02\n", length,
+                bare / length);
+    // Evenly spaced nodes along an edge leave none of it further than half a spacing away; at corners, edges share.
+    EXPECT_GT(length, 1);
+    EXPECT_LT(bare, 0.02 * length);
+}
+
+TEST(SurfaceNodes, ResamplingMakesOneNodeASpacingSquared)
+{
+    const SurfaceNodes nodes = resample(test::cube(1), 0.05);
+    EXPECT_EQ(nodes.positions.size(), 2400u); // 6 m2 / 0.0025 m2
+    EXPECT_NEAR(nodes.spacing, 0.05, 1e-12);
 }
 
 TEST(SurfaceNodes, ResamplingHasNodesOnCornersAndEdges)
@@ -95,7 +166,7 @@ TEST(SurfaceNodes, ResamplingHasNodesOnCornersAndEdges)
             EXPECT_EQ(nearest_distance(nodes, {x, y, 0.5}), 0);
             int on_edge = 0;
             for (const Vector3d& node : nodes.positions) { on_edge += node.x() == x && node.y() == y ? 1 : 0; }
-            // Thinning by halves leaves neighbours on an edge between 0.85 and 1.7 spacings apart.
+            // As far apart as on the faces, or closer.
             EXPECT_GE(on_edge, static_cast<int>(1 / (1.7 * 0.05)));
         }
     }
