@@ -86,7 +86,8 @@ std::vector<double> neighbour_distances(const SurfaceNodes& nodes)
 TEST(SurfaceNodes, AreAsManyAsAskedAndNearUniform)
 {
     scene::WheelGenerator wheel{};
-    wheel.grousers = 12;
+    wheel.grousers      = 12; // with sides of more than a spacing: nearer edges would carry nodes that near
+    wheel.grouser_width = wheel.grouser_height = 0.025;
     scene::RockGenerator angular{};
     angular.sphericity = 0.8;
     struct Case
