@@ -83,8 +83,6 @@ double bounding_radius(const TriangleMesh& mesh)
 
 } // namespace
 
-std::vector<scene::Shape> members(const scene::Shape& shape) { return {shape}; }
-
 ShapeTemplate make_template(const scene::Shape& shape, const std::string& directory, const Reach& reach)
 {
     return make_measured_template(shape, directory, reach).form;
