@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,13 @@ struct HalfEdge
 
     bool same_edge(const HalfEdge& other) const { return low == other.low && high == other.high; }
 };
+
+/// Whether the half edge runs from its low to its high vertex.
+inline bool runs_upwards(const TriangleMesh& mesh, const HalfEdge& half_edge)
+{
+    const auto& corners = mesh.triangles[static_cast<std::size_t>(half_edge.triangle)];
+    return corners[static_cast<std::size_t>(half_edge.side)] == half_edge.low;
+}
 
 /// All 3 x triangles half edges, sorted so that those of one edge are neighbours, in the order of their triangles.
 std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh);

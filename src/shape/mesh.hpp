@@ -28,6 +28,10 @@ struct Bounds
 
 Bounds bounds(const TriangleMesh& mesh);
 
+/// What keeps the mesh from being a closed surface, one line for each kind of defect: how many, and the place of the
+/// first. Empty if nothing does.
+std::string describe_defects(const TriangleMesh& mesh);
+
 /// Throws InputError, naming `origin`, unless the mesh is closed, consistently oriented outwards, non-degenerate and
 /// of positive volume; the message counts the bad edges or triangles and gives the place of the first.
 void require_watertight(const TriangleMesh& mesh, const std::string& origin);

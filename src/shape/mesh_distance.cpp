@@ -47,7 +47,7 @@ MeshDistance prepare_distance(const TriangleMesh& mesh)
     const std::vector<Eigen::Vector3d> faces    = face_normals(mesh);
     const std::vector<Eigen::Vector3d> vertices = vertex_normals(mesh, faces);
 
-    MeshDistance distance{build_tree(mesh), {}};
+    MeshDistance distance{SignRule::pseudonormal, build_tree(mesh), {}, {}};
     distance.pseudonormals.resize(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     {
@@ -74,13 +74,23 @@ MeshDistance prepare_distance(const TriangleMesh& mesh)
     return distance;
 }
 
+MeshDistance prepare_distance(const TriangleMesh& surface, const TriangleMesh& parts)
+{
+    return {SignRule::winding_number, build_tree(surface), {}, build_winding_tree(parts)};
+}
+
 double signed_distance(const MeshDistance& distance, const Eigen::Vector3d& point, double within)
 {
     ClosestPoint closest = closest_point(distance.tree, point, within);
     if (closest.triangle < 0) { closest = closest_point(distance.tree, point); }
+    const double length = std::sqrt(closest.squared_distance);
+    if (distance.sign == SignRule::winding_number)
+    {
+        return winding_number(distance.winding, point) > 0.5 ? -length : length;
+    }
     const Eigen::Vector3d& pseudonormal =
         distance.pseudonormals[static_cast<std::size_t>(closest.triangle)][static_cast<std::size_t>(closest.feature)];
-    return std::copysign(std::sqrt(closest.squared_distance), (point - closest.point).dot(pseudonormal));
+    return std::copysign(length, (point - closest.point).dot(pseudonormal));
 }
 
 } // namespace tread::shape

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include <Eigen/Core>
@@ -21,6 +22,17 @@ inline Eigen::Vector3d area_vector(const TriangleMesh& mesh, std::size_t triangl
 {
     const Eigen::Vector3d& a = corner(mesh, triangle, 0);
     return (corner(mesh, triangle, 1) - a).cross(corner(mesh, triangle, 2) - a);
+}
+
+/// Whether the triangle has no normal: corners in single precision place the height of a sliver to some 1e-7 of its
+/// length, and below 1e-8 of it there is nothing.
+inline bool is_degenerate(const TriangleMesh& mesh, std::size_t triangle)
+{
+    constexpr double       least_height = 1e-8;
+    const Eigen::Vector3d &a = corner(mesh, triangle, 0), &b = corner(mesh, triangle, 1),
+                          &c = corner(mesh, triangle, 2);
+    const double longest     = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    return !(area_vector(mesh, triangle).norm() > least_height * longest);
 }
 
 /// m2, of the whole surface.

@@ -187,4 +187,29 @@ ClosestPoint closest_point(const TriangleTree& tree, const Eigen::Vector3d& poin
     return best;
 }
 
+std::vector<std::int32_t> triangles_touching(const TriangleTree& tree, const Bounds& box, std::size_t most)
+{
+    const auto meets = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high)
+    { return (low.array() <= box.high.array()).all() && (high.array() >= box.low.array()).all(); };
+    std::vector<std::int32_t> found, pending{0};
+    while (!pending.empty() && found.size() < most)
+    {
+        const TriangleTree::Node& node = tree.nodes[static_cast<std::size_t>(pending.back())];
+        pending.pop_back();
+        if (!meets(node.low, node.high)) { continue; }
+        if (node.count == 0)
+        {
+            pending.push_back(node.first);
+            pending.push_back(node.first + 1);
+        }
+        for (std::int32_t i = node.first; i < node.first + node.count && found.size() < most; ++i)
+        {
+            const auto& [a, b, c] = tree.corners[static_cast<std::size_t>(i)];
+            if (!meets(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c))) { continue; }
+            found.push_back(tree.triangles[static_cast<std::size_t>(i)]);
+        }
+    }
+    return found;
+}
+
 } // namespace tread::shape

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -53,5 +54,8 @@ TriangleTree build_tree(const TriangleMesh& mesh);
 /// The point of the surface closest to `point` among those nearer than `within` (m).
 ClosestPoint closest_point(const TriangleTree& tree, const Eigen::Vector3d& point,
                            double within = std::numeric_limits<double>::infinity());
+
+/// Triangles of the mesh whose boxes meet `box`; at most `most` of them.
+std::vector<std::int32_t> triangles_touching(const TriangleTree& tree, const Bounds& box, std::size_t most);
 
 } // namespace tread::shape

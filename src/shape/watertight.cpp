@@ -32,12 +32,6 @@ struct Defect
 
 using HalfEdgeIterator = std::vector<HalfEdge>::const_iterator;
 
-bool runs_upwards(const TriangleMesh& mesh, const HalfEdge& half_edge)
-{
-    const auto& corners = mesh.triangles[static_cast<std::size_t>(half_edge.triangle)];
-    return corners[static_cast<std::size_t>(half_edge.side)] == half_edge.low;
-}
-
 std::vector<Defect> edge_defects(const TriangleMesh& mesh)
 {
     Defect open{"open edges (used by one triangle)"};
@@ -58,25 +52,19 @@ std::vector<Defect> edge_defects(const TriangleMesh& mesh)
 
 Defect degenerate_triangles(const TriangleMesh& mesh)
 {
-    // Corners in single precision place a sliver's height to some 1e-7 of its length: below this it has no normal.
-    constexpr double least_height = 1e-8;
-
     Defect degenerate{"degenerate triangles (no area)"};
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     {
-        const Eigen::Vector3d &a = corner(mesh, t, 0), &b = corner(mesh, t, 1), &c = corner(mesh, t, 2);
-        const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-        if (!(area_vector(mesh, t).norm() > least_height * longest)) { degenerate.add((a + b + c) / 3); }
+        if (!is_degenerate(mesh, t)) { continue; }
+        degenerate.add((corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3);
     }
     return degenerate;
 }
 
 } // namespace
 
-void require_watertight(const TriangleMesh& mesh, const std::string& origin)
+std::string describe_defects(const TriangleMesh& mesh)
 {
-    if (mesh.triangles.empty()) { throw InputError(fmt::format("{}: the mesh has no triangles", origin)); }
-
     std::vector<Defect> defects = edge_defects(mesh);
     defects.push_back(degenerate_triangles(mesh));
     std::string found;
@@ -86,6 +74,13 @@ void require_watertight(const TriangleMesh& mesh, const std::string& origin)
         found += fmt::format("\n  {} {}, the first at ({:.6g}, {:.6g}, {:.6g}) m", defect.count, defect.what,
                              defect.first.x(), defect.first.y(), defect.first.z());
     }
+    return found;
+}
+
+void require_watertight(const TriangleMesh& mesh, const std::string& origin)
+{
+    if (mesh.triangles.empty()) { throw InputError(fmt::format("{}: the mesh has no triangles", origin)); }
+    const std::string found = describe_defects(mesh);
     if (!found.empty()) { throw InputError(fmt::format("{}: the mesh is not watertight:{}", origin, found)); }
 
     const double volume = mass_properties(mesh).volume;

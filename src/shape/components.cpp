@@ -1,0 +1,121 @@
+#include "shape/components.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "shape/half_edges.hpp"
+#include "shape/triangle.hpp"
+
+namespace tread::shape
+{
+namespace
+{
+
+/// A neighbour across an edge of two triangles.
+struct Neighbour
+{
+    std::int32_t triangle = -1;
+    bool         opposed  = false; ///< the two run along their edge in the same direction
+};
+
+using Neighbours = std::vector<std::array<Neighbour, 3>>;
+
+Neighbours find_neighbours(const TriangleMesh& mesh)
+{
+    Neighbours neighbours(mesh.triangles.size());
+    for_each_edge(sorted_half_edges(mesh),
+                  [&](auto first, auto last)
+                  {
+                      if (last - first != 2) { return; }
+                      const HalfEdge &one = *first, &other = *(first + 1);
+                      const bool      opposed = runs_upwards(mesh, one) == runs_upwards(mesh, other);
+                      const auto a = static_cast<std::size_t>(one.triangle), i = static_cast<std::size_t>(one.side);
+                      const auto b = static_cast<std::size_t>(other.triangle), j = static_cast<std::size_t>(other.side);
+                      neighbours[a][i] = {other.triangle, opposed};
+                      neighbours[b][j] = {one.triangle, opposed};
+                  });
+    return neighbours;
+}
+
+constexpr std::size_t unknown = static_cast<std::size_t>(-1);
+
+void flood(const Neighbours& neighbours, std::size_t seed, Components& components)
+{
+    std::vector<std::size_t> pending{seed};
+    components.of[seed] = components.count;
+    while (!pending.empty())
+    {
+        const std::size_t at = pending.back();
+        pending.pop_back();
+        for (const Neighbour& neighbour : neighbours[at])
+        {
+            if (neighbour.triangle < 0) { continue; }
+            const auto next   = static_cast<std::size_t>(neighbour.triangle);
+            const auto turned = static_cast<std::uint8_t>(components.turned[at] ^ (neighbour.opposed ? 1 : 0));
+            if (components.of[next] == unknown)
+            {
+                components.of[next]     = components.count;
+                components.turned[next] = turned;
+                pending.push_back(next);
+            }
+            else if (components.turned[next] != turned) { ++components.one_sided; }
+        }
+    }
+    ++components.count;
+}
+
+} // namespace
+
+Components find_components(const TriangleMesh& mesh)
+{
+    const Neighbours neighbours = find_neighbours(mesh);
+    Components       components;
+    components.of.assign(mesh.triangles.size(), unknown);
+    components.turned.assign(mesh.triangles.size(), 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+        if (components.of[t] == unknown) { flood(neighbours, t, components); }
+    }
+    components.one_sided /= 2; // seen from both sides
+    return components;
+}
+
+std::vector<double> signed_volumes(const TriangleMesh& mesh, const Components& components)
+{
+    std::vector<Eigen::Vector3d> middles(components.count, Eigen::Vector3d::Zero());
+    std::vector<double>          counts(components.count, 0.0), volumes(components.count, 0.0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+        middles[components.of[t]] += corner(mesh, t, 0);
+        counts[components.of[t]] += 1;
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+        const std::size_t     of     = components.of[t];
+        const Eigen::Vector3d middle = middles[of] / counts[of];
+        const Eigen::Vector3d a = corner(mesh, t, 0) - middle, b = corner(mesh, t, 1) - middle;
+        const double          volume = a.dot(b.cross(corner(mesh, t, 2) - middle)) / 6;
+        volumes[of] += components.turned[t] != 0 ? -volume : volume;
+    }
+    return volumes;
+}
+
+std::vector<std::vector<std::size_t>> sample_triangles(const Components& components, std::size_t most)
+{
+    std::vector<std::size_t> sizes(components.count, 0), seen(components.count, 0);
+    for (const std::size_t of : components.of) { ++sizes[of]; }
+    std::vector<std::vector<std::size_t>> samples(components.count);
+    for (std::size_t t = 0; t < components.of.size(); ++t)
+    {
+        const std::size_t of = components.of[t];
+        // Every sizes/most-th triangle, counted without fractions.
+        if (seen[of] * most / sizes[of] >= samples[of].size() && samples[of].size() < most)
+        {
+            samples[of].push_back(t);
+        }
+        ++seen[of];
+    }
+    return samples;
+}
+
+} // namespace tread::shape

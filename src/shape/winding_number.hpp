@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "shape/triangle_tree.hpp"
+
+// How often a surface winds round a point: 1 inside a closed mesh and 0 outside, and something in between near the
+// holes of an open one (generalized winding number, Jacobson, Kavan & Sorkine-Hornung 2013, ACM TOG 32:33).
+namespace tread::shape
+{
+
+/// The triangles of a tree node as one dipole.
+struct Dipole
+{
+    Eigen::Vector3d area;   ///< m2, sum of the area vectors
+    Eigen::Vector3d centre; ///< m, weighted by area
+    double          radius; ///< m, about the centre, of a sphere round the triangles
+};
+
+struct WindingTree
+{
+    TriangleTree        tree;
+    std::vector<Dipole> dipoles; ///< of each node of the tree
+};
+
+WindingTree build_winding_tree(const TriangleMesh& mesh);
+
+/// Exact for triangles nearby; of a node further off than four times its radius the dipole counts, as in the fast
+/// winding number of Barill et al. 2018, ACM TOG 37:43. Off by at most 0.01 for the meshes of the tests.
+double winding_number(const WindingTree& winding, const Eigen::Vector3d& point);
+
+/// Part of the full sphere, -1/2 to 1/2, that a triangle covers seen from the point; positive from the side that its
+/// normal points away from (Van Oosterom & Strackee 1983, IEEE Trans. Biomed. Eng. 30:125). 0 in the triangle's plane.
+double covered_part(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& point);
+
+} // namespace tread::shape
