@@ -33,6 +33,7 @@ void turn_parts(TriangleMesh& mesh, const Components& parts, const std::vector<s
 std::vector<int> depths(const TriangleMesh& mesh, const Components& parts)
 {
     constexpr std::size_t samples = 8;
+    if (parts.count == 1) { return {0}; }
 
     const WindingTree winding = build_winding_tree(mesh);
     const auto        chosen  = sample_triangles(parts, samples);
@@ -109,11 +110,7 @@ void orient_parts(TriangleMesh& mesh, Winding winding, RepairReport& report)
     std::vector<std::uint8_t> inwards(parts.count);
     for (std::size_t p = 0; p < parts.count; ++p) { inwards[p] = volumes[p] < 0 ? 1 : 0; }
     turn_parts(mesh, parts, inwards);
-    if (parts.count == 1)
-    {
-        report.turned_parts += inwards[0];
-        return;
-    }
+    if (parts.count == 0) { return; }
     const std::vector<std::uint8_t> cavity = find_cavities(depths(mesh, parts), inwards, winding);
     turn_parts(mesh, parts, cavity);
     for (std::size_t p = 0; p < parts.count; ++p)

@@ -49,6 +49,7 @@ struct ClosestPoint
     Feature         feature;
 };
 
+/// The mesh must have triangles.
 TriangleTree build_tree(const TriangleMesh& mesh);
 
 /// The point of the surface closest to `point` among those nearer than `within` (m).
