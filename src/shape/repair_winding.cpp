@@ -35,6 +35,7 @@ std::vector<int> depths(const TriangleMesh& mesh, const Components& parts)
     constexpr std::size_t samples = 8;
     if (parts.count == 1) { return {0}; }
 
+    const double      step    = 1e-6 * bounds(mesh).extent().maxCoeff();
     const WindingTree winding = build_winding_tree(mesh);
     const auto        chosen  = sample_triangles(parts, samples);
     std::vector<int>  depth(parts.count, 0);
@@ -43,8 +44,7 @@ std::vector<int> depths(const TriangleMesh& mesh, const Components& parts)
         double least = static_cast<double>(parts.count);
         for (const std::size_t t : chosen[p])
         {
-            const Eigen::Vector3d middle = (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3;
-            least                        = std::min(least, winding_number(winding, middle) - 0.5);
+            least = std::min(least, winding_number_on(winding, corners(mesh, t), step) - 0.5);
         }
         depth[p] = std::max(0, static_cast<int>(std::lround(least)));
     }

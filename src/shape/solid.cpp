@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -11,44 +13,80 @@
 #include "shape/components.hpp"
 #include "shape/repair.hpp"
 #include "shape/sampled_mass.hpp"
-#include "shape/triangle.hpp"
+#include "shape/triangle_crossing.hpp"
 
 namespace tread::shape
 {
 namespace
 {
 
-/// What samples of a closed surface see: in the middle of a triangle the winding number is 1/2, the mean of 0 and 1.
+/// Where parts of a closed surface are in each other's way.
 struct Meeting
 {
-    std::size_t     parts      = 0;           ///< of the mesh
-    std::size_t     inside     = 0;           ///< parts seen within others, or touching them
-    std::size_t     inside_out = 0;           ///< parts that face inwards where there is nothing to be hollow
-    Eigen::Vector3d inner_place, outer_place; ///< of the first of each
+    std::size_t                    parts        = 0; ///< of the mesh
+    std::size_t                    inside_out   = 0; ///< parts that face inwards where there is nothing to be hollow
+    Eigen::Vector3d                turned_place = Eigen::Vector3d::Zero(); ///< on the first of them
+    std::optional<Eigen::Vector3d> place; ///< where the surface crosses, touches or encloses itself
 };
 
+Eigen::Vector3d middle_of(const Corners& triangle) { return (triangle[0] + triangle[1] + triangle[2]) / 3; }
+
+/// How far from the surface its sides are looked at, and how deep triangles overlap at least.
+double step_for(const TriangleMesh& mesh) { return 1e-6 * bounds(mesh).extent().maxCoeff(); }
+
+bool share_a_corner(const TriangleMesh& mesh, std::size_t one, std::size_t other)
+{
+    const auto& theirs = mesh.triangles[other];
+    return std::any_of(mesh.triangles[one].begin(), mesh.triangles[one].end(),
+                       [&](std::int32_t vertex)
+                       { return std::find(theirs.begin(), theirs.end(), vertex) != theirs.end(); });
+}
+
+/// The first triangle that another one without a common corner crosses.
+std::optional<std::size_t> find_crossing(const TriangleMesh& mesh, const TriangleTree& tree, double step)
+{
+    std::size_t first = mesh.triangles.size();
+#pragma omp parallel for schedule(dynamic, 256) reduction(min : first)
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+        if (t > first) { continue; }
+        const Corners own = corners(mesh, t);
+        for (const std::int32_t entry : triangles_touching(tree, bounds(own), mesh.triangles.size()))
+        {
+            const auto other = static_cast<std::size_t>(entry);
+            if (other <= t || share_a_corner(mesh, t, other)) { continue; }
+            if (crosses(own, corners(mesh, other), step)) { first = std::min(first, t); }
+        }
+    }
+    return first < mesh.triangles.size() ? std::optional(first) : std::nullopt;
+}
+
+/// Without crossings all of a part has the same number of others round it: a few samples tell. In the middle of a
+/// triangle the winding number is 1/2 if the part bounds the solid, 1 more inside another part.
 Meeting find_meeting(const TriangleMesh& mesh)
 {
-    constexpr std::size_t all = 4096, least = 8;
+    constexpr std::size_t samples = 8;
 
     const Components  parts   = find_components(mesh);
-    const auto        samples = sample_triangles(parts, std::max(least, all / parts.count));
     const WindingTree winding = build_winding_tree(mesh);
-    Meeting           meeting{parts.count, 0, 0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-    for (const auto& of_part : samples)
+    const double      step    = step_for(mesh);
+    Meeting           meeting;
+    meeting.parts = parts.count;
+    if (const auto crossed = find_crossing(mesh, winding.tree, step))
     {
-        bool inside = false, inside_out = false;
+        meeting.place = middle_of(corners(mesh, *crossed));
+    }
+    for (const auto& of_part : sample_triangles(parts, samples))
+    {
+        bool inside_out = false;
         for (const std::size_t t : of_part)
         {
-            const Eigen::Vector3d middle = (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3;
-            const double          beyond = winding_number(winding, middle) - 0.5;
-            if (beyond > 0.25 && !inside && meeting.inside == 0) { meeting.inner_place = middle; }
-            if (beyond < -0.25 && !inside_out && meeting.inside_out == 0) { meeting.outer_place = middle; }
-            inside     = inside || beyond > 0.25;
-            inside_out = inside_out || beyond < -0.25;
+            const double beyond = winding_number_on(winding, corners(mesh, t), step) - 0.5;
+            if (beyond > 0.25 && !meeting.place) { meeting.place = middle_of(corners(mesh, t)); }
+            if (beyond > -0.25 || inside_out) { continue; }
+            inside_out = true;
+            if (meeting.inside_out++ == 0) { meeting.turned_place = middle_of(corners(mesh, t)); }
         }
-        meeting.inside += inside ? 1 : 0;
-        meeting.inside_out += inside_out ? 1 : 0;
     }
     return meeting;
 }
@@ -84,9 +122,9 @@ void take_closed(Solid& solid, Repair repair, const std::string& origin)
         require_watertight(solid.surface, origin); // says it better if all of it is inside out
         throw InputError(fmt::format("{}: {} of its {} parts are inside out, the first at {}; they must be wound "
                                      "counter-clockwise seen from outside (repair = true would turn them)",
-                                     origin, meeting.inside_out, meeting.parts, place_text(meeting.outer_place)));
+                                     origin, meeting.inside_out, meeting.parts, place_text(meeting.turned_place)));
     }
-    if (meeting.inside == 0 && meeting.inside_out == 0)
+    if (!meeting.place && meeting.inside_out == 0)
     {
         solid.unit = mass_properties(solid.surface);
         if (meeting.parts > 1)
@@ -95,10 +133,9 @@ void take_closed(Solid& solid, Repair repair, const std::string& origin)
         }
         return;
     }
-    solid.remarks.push_back(fmt::format("its surface meets or encloses itself ({} parts, seen first at {}): the solid "
-                                        "is what any of them holds",
-                                        meeting.parts,
-                                        place_text(meeting.inside > 0 ? meeting.inner_place : meeting.outer_place)));
+    solid.remarks.push_back(fmt::format("its surface crosses, touches or encloses itself ({} parts, first seen at {}): "
+                                        "the solid is what any part holds",
+                                        meeting.parts, place_text(meeting.place.value_or(meeting.turned_place))));
     sign_by_winding(solid, origin);
 }
 

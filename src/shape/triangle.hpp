@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include <Eigen/Core>
@@ -15,6 +16,19 @@ namespace tread::shape
 inline const Eigen::Vector3d& corner(const TriangleMesh& mesh, std::size_t triangle, std::size_t which)
 {
     return mesh.vertices[static_cast<std::size_t>(mesh.triangles[triangle][which])];
+}
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+inline Corners corners(const TriangleMesh& mesh, std::size_t triangle)
+{
+    return {corner(mesh, triangle, 0), corner(mesh, triangle, 1), corner(mesh, triangle, 2)};
+}
+
+inline Bounds bounds(const Corners& triangle)
+{
+    return {triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]),
+            triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2])};
 }
 
 /// Normal times twice the area, m2.

@@ -118,4 +118,12 @@ double winding_number(const WindingTree& winding, const Eigen::Vector3d& point)
     return sum;
 }
 
+double winding_number_on(const WindingTree& winding, const std::array<Eigen::Vector3d, 3>& triangle, double step)
+{
+    const auto& [a, b, c]        = triangle;
+    const Eigen::Vector3d middle = (a + b + c) / 3;
+    const Eigen::Vector3d way    = step * (b - a).cross(c - a).normalized();
+    return 0.5 * (winding_number(winding, middle + way) + winding_number(winding, middle - way));
+}
+
 } // namespace tread::shape

@@ -32,6 +32,10 @@ WindingTree build_winding_tree(const TriangleMesh& mesh);
 /// winding number of Barill et al. 2018, ACM TOG 37:43. Off by at most 0.01 for the meshes of the tests.
 double winding_number(const WindingTree& winding, const Eigen::Vector3d& point);
 
+/// The mean of both sides of a triangle of the surface, `step` (m) off its middle: 1/2 if it bounds a solid that
+/// nothing else of the surface meets there.
+double winding_number_on(const WindingTree& winding, const std::array<Eigen::Vector3d, 3>& triangle, double step);
+
 /// Part of the full sphere, -1/2 to 1/2, that a triangle covers seen from the point; positive from the side that its
 /// normal points away from (Van Oosterom & Strackee 1983, IEEE Trans. Biomed. Eng. 30:125). 0 in the triangle's plane.
 double covered_part(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& point);
