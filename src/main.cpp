@@ -53,7 +53,8 @@ struct SdfArguments
     std::string                mesh;  ///< file, name of a built-in shape, or scene
     std::optional<std::string> shape; ///< of the scene
     std::optional<int>         cells;
-    double                     unit = 1.0;
+    double                     unit   = 1.0;
+    bool                       repair = false;
     std::optional<std::string> stl;
     Report                     report = Report::none;
     std::string                report_file; ///< empty = none
@@ -114,43 +115,49 @@ ExitCode check(const SceneArguments& arguments)
         });
 }
 
+struct AskedShape
+{
+    scene::Shape shape;
+    std::string  directory; ///< that its files are relative to
+};
+
 /// The shape of a scene that is asked for, or its only one.
-scene::Shape shape_in_scene(const SdfArguments& arguments)
+AskedShape shape_in_scene(const SdfArguments& arguments)
 {
     const scene::Scene scene = scene::load_scene(arguments.mesh, {});
-    if (arguments.shape) { return shape::find_shape(scene, *arguments.shape); }
+    if (arguments.shape) { return {shape::find_shape(scene, *arguments.shape), scene.directory}; }
     if (scene.shapes.size() != 1)
     {
         throw InputError(
             fmt::format("{} has {} [[shape]] tables: --shape NAME says which", arguments.mesh, scene.shapes.size()));
     }
-    return scene.shapes.front();
+    return {scene.shapes.front(), scene.directory};
 }
 
-scene::Shape mesh_or_builtin(const SdfArguments& arguments)
+AskedShape mesh_or_builtin(const SdfArguments& arguments)
 {
     if (arguments.shape) { throw InputError("--shape NAME is for a SCENE.toml"); }
     const std::vector<std::string> builtin = shape::builtin_shape_names();
     if (std::find(builtin.begin(), builtin.end(), arguments.mesh) != builtin.end())
     {
-        return shape::find_shape({}, arguments.mesh);
+        return {shape::find_shape({}, arguments.mesh), "."};
     }
     scene::Shape shape;
     shape.name   = arguments.mesh;
-    shape.source = scene::MeshFile{arguments.mesh, arguments.unit};
-    return shape;
+    shape.source = scene::MeshFile{arguments.mesh, arguments.unit, arguments.repair};
+    return {shape, "."};
 }
 
 ExitCode sdf(const SdfArguments& arguments)
 {
-    const bool   in_scene = std::filesystem::path(arguments.mesh).extension() == ".toml";
-    scene::Shape asked    = in_scene ? shape_in_scene(arguments) : mesh_or_builtin(arguments);
+    const bool in_scene     = std::filesystem::path(arguments.mesh).extension() == ".toml";
+    auto [asked, directory] = in_scene ? shape_in_scene(arguments) : mesh_or_builtin(arguments);
     if (arguments.cells) { asked.sdf_cells = *arguments.cells; }
 
-    const auto  measured = shape::make_measured_template(asked, ".", [](double) { return 0.0; });
+    const auto  measured = shape::make_measured_template(asked, directory, [](double) { return 0.0; });
     const auto& form     = measured.form;
     std::cout << shape::template_text(form);
-    for (const std::string& remark : form.remarks) { std::cerr << "warning: " << remark << '\n'; }
+    for (const std::string& warning : form.warnings) { std::cerr << "warning: " << warning << '\n'; }
     if (arguments.stl) { shape::write_stl(form.mesh, *arguments.stl); }
     if (arguments.report == Report::none) { return ExitCode::finished; }
 
@@ -218,6 +225,7 @@ void add_sdf_options(CLI::App& command, SdfArguments& arguments)
     add_word_option<double>(command, "--unit", arguments.unit,
                             {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}},
                             "Length unit of the file; default m");
+    command.add_flag("--repair", arguments.repair, "Mend a mesh that is not watertight");
     command
         .add_option_function<std::string>(
             "--report",

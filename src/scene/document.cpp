@@ -35,8 +35,9 @@ decltype(Node::value) held(T number)
 template<class Locate>
 Node convert(const toml::value& value, const Locate& locate)
 {
-    Node node{OtherValue{"a boolean"}, locate(value)};
-    if (value.is_integer()) { node.value = held(value.as_integer()); }
+    Node node{OtherValue{"a date or time"}, locate(value)};
+    if (value.is_boolean()) { node.value = value.as_boolean(); }
+    else if (value.is_integer()) { node.value = held(value.as_integer()); }
     else if (value.is_floating()) { node.value = held(value.as_floating()); }
     else if (value.is_string()) { node.value = value.as_string().str; }
     else if (value.is_array())
@@ -51,7 +52,6 @@ Node convert(const toml::value& value, const Locate& locate)
         for (const auto& [key, item] : value.as_table()) { table.emplace(key, convert(item, locate)); }
         node.value = std::move(table);
     }
-    else if (!value.is_boolean()) { node.value = OtherValue{"a date or time"}; }
     return node;
 }
 
@@ -91,6 +91,7 @@ std::string kind_of(const Node& node)
     struct Names
     {
         std::string operator()(const OtherValue& other) const { return other.kind; }
+        std::string operator()(bool) const { return "a boolean"; }
         std::string operator()(std::int64_t) const { return "an integer"; }
         std::string operator()(double) const { return "a floating-point number"; }
         std::string operator()(const std::string& text) const { return fmt::format("the string \"{}\"", text); }

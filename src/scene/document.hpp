@@ -21,7 +21,7 @@ struct Node;
 using NodeArray = std::vector<Node>;
 using NodeTable = std::map<std::string, Node>;
 
-/// What no key of a scene accepts: a boolean, a date, a number too large to hold.
+/// What no key of a scene accepts: a date, a number too large to hold.
 struct OtherValue
 {
     std::string kind;
@@ -29,8 +29,8 @@ struct OtherValue
 
 struct Node
 {
-    std::variant<OtherValue, std::int64_t, double, std::string, NodeArray, NodeTable> value;
-    Location                                                                          where;
+    std::variant<OtherValue, bool, std::int64_t, double, std::string, NodeArray, NodeTable> value;
+    Location                                                                                where;
 };
 
 /// "an integer", "a string" ..., for messages.

@@ -193,8 +193,9 @@ struct WheelGenerator
 
 struct MeshFile
 {
-    std::string path;       ///< absolute, or relative to the scene file
-    double      unit = 1.0; ///< metres a mesh unit
+    std::string path;           ///< absolute, or relative to the scene file
+    double      unit   = 1.0;   ///< metres a mesh unit
+    bool        repair = false; ///< mend the mesh, and take winding numbers where that does not close it
 
     bool operator==(const MeshFile&) const = default;
 };

@@ -183,6 +183,12 @@ Keys<Shape> shape_keys()
                  &MeshFile::path, text()),
         mesh_key({"unit", "", "", "", "Length of one unit of the file; only with `file`.", ""}, &MeshFile::unit,
                  length_unit()),
+        mesh_key({"repair", "", "", "",
+                  "Mends a mesh that is not watertight and says how: welds vertices, drops degenerate and duplicate "
+                  "triangles, divides seams, winds triangles alike, closes small holes; what is still open is signed "
+                  "by winding number. Without it such a mesh is an error. Only with `file`.",
+                  ""},
+                 &MeshFile::repair, boolean()),
         optional(
             "sdf_cells", "", &Shape::sdf_cells, integer_or("auto", 8, 1024),
             "Cells of the signed distance field along the longest axis of its box (1.2 times the shape's). "

@@ -187,7 +187,10 @@ void validate_shapes(const Scene& scene, Checker& checker)
         const bool    file     = checker.given(at, "file") != nullptr;
         const bool    generate = checker.given(at, "generate") != nullptr;
         if (file == generate) { checker.report(at, "", file ? "both" : "neither", "exactly one of file, generate"); }
-        if (!file && checker.given(at, "unit") != nullptr) { checker.report(at, "unit", "may stand only with `file`"); }
+        for (const char* key : {"unit", "repair"})
+        {
+            if (!file && checker.given(at, key) != nullptr) { checker.report(at, key, "may stand only with `file`"); }
+        }
         if (const auto* wheel = std::get_if<WheelGenerator>(&scene.shapes[i].source))
         {
             validate_wheel(*wheel, at, checker);

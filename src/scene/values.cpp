@@ -273,6 +273,17 @@ Value<Vector3> vector3(Range range)
             write_vector3};
 }
 
+Value<bool> boolean()
+{
+    const auto read = [](const Node& node)
+    {
+        const auto* value = std::get_if<bool>(&node.value);
+        if (value == nullptr) { throw BadValue{"wrong type: " + kind_of(node)}; }
+        return *value;
+    };
+    return {"true | false", read, [](const bool& value) { return std::string(value ? "true" : "false"); }};
+}
+
 Value<std::string> text()
 {
     return {"string", [](const Node& node) { return read_string(node); }, write_string};

@@ -83,6 +83,9 @@ Value<std::optional<std::int64_t>> integer_given(std::int64_t low, std::int64_t 
 /// Three numbers, each in range.
 Value<Vector3> vector3(Range range);
 
+/// true or false.
+Value<bool> boolean();
+
 /// Any string.
 Value<std::string> text();
 

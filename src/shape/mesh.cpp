@@ -1,6 +1,8 @@
 #include "shape/mesh.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <numeric>
 #include <tuple>
 
 #include "shape/half_edges.hpp"
@@ -21,22 +23,36 @@ Bounds bounds(const TriangleMesh& mesh)
 
 std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh)
 {
-    std::vector<HalfEdge> half_edges;
-    half_edges.reserve(3 * mesh.triangles.size());
-    std::int32_t triangle = 0;
-    for (const auto& corners : mesh.triangles)
+    // By counting the edges of each low vertex; what has to be compared are the few of one vertex.
+    const auto each_half_edge = [&](const auto& f)
     {
-        for (std::int32_t side = 0; side < 3; ++side)
+        std::int32_t triangle = 0;
+        for (const auto& corners : mesh.triangles)
         {
-            const std::int32_t from = corners[static_cast<std::size_t>(side)];
-            const std::int32_t to   = corners[static_cast<std::size_t>((side + 1) % 3)];
-            half_edges.push_back({std::min(from, to), std::max(from, to), triangle, side});
+            for (std::int32_t side = 0; side < 3; ++side)
+            {
+                const std::int32_t from = corners[static_cast<std::size_t>(side)];
+                const std::int32_t to   = corners[static_cast<std::size_t>((side + 1) % 3)];
+                f(HalfEdge{std::min(from, to), std::max(from, to), triangle, side});
+            }
+            ++triangle;
         }
-        ++triangle;
+    };
+    std::vector<std::size_t> next(mesh.vertices.size() + 1, 0);
+    each_half_edge([&](const HalfEdge& half) { ++next[static_cast<std::size_t>(half.low) + 1]; });
+    std::partial_sum(next.begin(), next.end(), next.begin());
+
+    std::vector<HalfEdge> half_edges(3 * mesh.triangles.size());
+    each_half_edge([&](const HalfEdge& half) { half_edges[next[static_cast<std::size_t>(half.low)]++] = half; });
+    std::size_t first = 0;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    {
+        std::sort(half_edges.begin() + static_cast<std::ptrdiff_t>(first),
+                  half_edges.begin() + static_cast<std::ptrdiff_t>(next[v]),
+                  [](const HalfEdge& a, const HalfEdge& b)
+                  { return std::tie(a.high, a.triangle, a.side) < std::tie(b.high, b.triangle, b.side); });
+        first = next[v];
     }
-    std::sort(half_edges.begin(), half_edges.end(),
-              [](const HalfEdge& a, const HalfEdge& b)
-              { return std::tie(a.low, a.high, a.triangle, a.side) < std::tie(b.low, b.high, b.triangle, b.side); });
     return half_edges;
 }
 

@@ -8,19 +8,23 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <system_error>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "shape/triple_hash.hpp"
 
 namespace tread::shape
 {
 namespace
 {
 
-constexpr std::string_view blanks = " \t\r\v\f";
+bool is_blank(char letter)
+{
+    return letter == ' ' || letter == '\t' || letter == '\r' || letter == '\v' || letter == '\f';
+}
 
 double take_number(std::string_view& line, const LineReader& reader)
 {
@@ -50,6 +54,12 @@ std::string read_bytes(const std::string& path)
     return bytes;
 }
 
+/// Adding 0.0 makes 0.0 of -0.0.
+std::array<double, 3> key_of(const Eigen::Vector3d& place)
+{
+    return {place.x() + 0.0, place.y() + 0.0, place.z() + 0.0};
+}
+
 std::string lower_extension(const std::string& path)
 {
     std::string extension = std::filesystem::path(path).extension().string();
@@ -76,10 +86,10 @@ void LineReader::fail(const std::string& message) const
 
 std::string_view take_word(std::string_view& line)
 {
-    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-    const std::string_view word = line.substr(0, line.find_first_of(blanks));
-    line.remove_prefix(word.size());
-    return word;
+    const auto first = std::find_if_not(line.begin(), line.end(), is_blank);
+    const auto last  = std::find_if(first, line.end(), is_blank);
+    line             = {last, line.end()};
+    return {first, last};
 }
 
 Eigen::Vector3d take_vector(std::string_view& line, const LineReader& reader)
@@ -92,8 +102,10 @@ Eigen::Vector3d take_vector(std::string_view& line, const LineReader& reader)
 
 TriangleMesh weld(const TriangleMesh& mesh)
 {
-    std::map<std::array<double, 3>, std::int32_t> known;
-    TriangleMesh                                  welded;
+    std::unordered_map<std::array<double, 3>, std::int32_t, TripleHash> known;
+    TriangleMesh                                                        welded;
+    known.reserve(std::min(mesh.vertices.size(), mesh.triangles.size()));
+    welded.triangles.reserve(mesh.triangles.size());
     for (const auto& corners : mesh.triangles)
     {
         std::array<std::int32_t, 3> triangle{};
@@ -101,13 +113,25 @@ TriangleMesh weld(const TriangleMesh& mesh)
         {
             const Eigen::Vector3d& place = mesh.vertices[static_cast<std::size_t>(corners[c])];
             const auto             next  = static_cast<std::int32_t>(welded.vertices.size());
-            const auto [entry, inserted] = known.try_emplace({place.x(), place.y(), place.z()}, next);
+            const auto [entry, inserted] = known.try_emplace(key_of(place), next);
             if (inserted) { welded.vertices.push_back(place); }
             triangle[c] = entry->second;
         }
         welded.triangles.push_back(triangle);
     }
     return welded;
+}
+
+void require_sane_size(const TriangleMesh& mesh, const std::string& path)
+{
+    constexpr double most = 1e9; // m
+    for (const Eigen::Vector3d& vertex : mesh.vertices)
+    {
+        const double coordinate = vertex.cwiseAbs().maxCoeff();
+        if (coordinate <= most) { continue; }
+        throw InputError(fmt::format("{}: a coordinate is {:.6g} m; accepted are up to {:.0g} m: is `unit` right?",
+                                     path, coordinate, most));
+    }
 }
 
 TriangleMesh read_mesh(const std::string& path, double unit)
@@ -121,6 +145,7 @@ TriangleMesh read_mesh(const std::string& path, double unit)
     TriangleMesh      mesh  = weld(extension == ".stl" ? read_stl(bytes, path) : read_obj(bytes, path));
     if (mesh.triangles.empty()) { throw InputError(fmt::format("{}: the mesh has no triangles", path)); }
     for (Eigen::Vector3d& vertex : mesh.vertices) { vertex *= unit; }
+    require_sane_size(mesh, path);
     return mesh;
 }
 

@@ -40,4 +40,7 @@ TriangleMesh read_obj(std::string_view bytes, const std::string& path);
 /// Makes equal corners one vertex and drops vertices that no triangle uses; the order of first use stays.
 TriangleMesh weld(const TriangleMesh& mesh);
 
+/// InputError unless all coordinates are at most 1e9 m: beyond, areas and volumes would leave the range of numbers.
+void require_sane_size(const TriangleMesh& mesh, const std::string& path);
+
 } // namespace tread::shape

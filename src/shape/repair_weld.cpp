@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shape/repair_steps.hpp"
+#include "shape/triple_hash.hpp"
 
 namespace tread::shape
 {
@@ -22,20 +23,6 @@ double weld_tolerance(const Bounds& box)
 }
 
 using Cell = std::array<std::int64_t, 3>;
-
-struct CellHash
-{
-    std::size_t operator()(const Cell& cell) const
-    {
-        std::uint64_t mixed = 0;
-        for (const std::int64_t part : cell)
-        {
-            mixed = (mixed ^ static_cast<std::uint64_t>(part)) * 0x9e3779b97f4a7c15u;
-            mixed ^= mixed >> 29;
-        }
-        return mixed;
-    }
-};
 
 /// Vertices that stand for all others within the tolerance, by cells several tolerances wide.
 class Representatives
@@ -100,11 +87,11 @@ private:
         return index;
     }
 
-    Eigen::Vector3d                                  low_;
-    double                                           tolerance_;
-    double                                           width_;
-    std::unordered_map<Cell, std::int32_t, CellHash> first_; ///< of a cell's representatives
-    std::vector<std::int32_t>                        next_;  ///< in the same cell, -1 = none
+    Eigen::Vector3d                                    low_;
+    double                                             tolerance_;
+    double                                             width_;
+    std::unordered_map<Cell, std::int32_t, TripleHash> first_; ///< of a cell's representatives
+    std::vector<std::int32_t>                          next_;  ///< in the same cell, -1 = none
 };
 
 } // namespace

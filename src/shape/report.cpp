@@ -31,8 +31,10 @@ std::string template_text(const ShapeTemplate& form)
     const auto& nodes = form.sdf.nodes;
 
     std::string text = fmt::format("shape           {}\n", form.name);
-    text += fmt::format("watertight      yes: {} vertices, {} triangles\n", form.mesh.vertices.size(),
-                        form.mesh.triangles.size());
+    text += fmt::format("watertight      {}: {} vertices, {} triangles\n",
+                        form.sign == SignRule::pseudonormal ? "yes" : "no, signed by winding number",
+                        form.mesh.vertices.size(), form.mesh.triangles.size());
+    for (const std::string& remark : form.remarks) { text += fmt::format("remark          {}\n", remark); }
     text += fmt::format("extent          {} m\n", vector_text(form.box.extent()));
     text += fmt::format("centre of mass  {} m\n", vector_text(form.mesh_centre));
     text += fmt::format("volume          {:.6g} m3\n", form.unit.volume);

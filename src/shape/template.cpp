@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "shape/generators.hpp"
+#include "shape/solid.hpp"
 #include "shape/surface_nodes.hpp"
 #include "shape/template_sdf.hpp"
 #include "shape/triangle.hpp"
@@ -20,32 +21,34 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-struct MakeMesh
+/// Volume pi/6 and moment of inertia 2/5 V r^2, r = 1/2 m.
+MassProperties exact_sphere() { return {pi / 6, Eigen::Vector3d::Zero(), pi / 60 * Eigen::Matrix3d::Identity()}; }
+
+struct MakeSolid
 {
     std::string origin;
     std::string directory;
 
-    TriangleMesh operator()(const scene::RockGenerator& rock) const { return rock_mesh(rock, origin); }
-    TriangleMesh operator()(const scene::SphereGenerator& sphere) const { return sphere_mesh(sphere, origin); }
-    TriangleMesh operator()(const scene::WheelGenerator& wheel) const { return wheel_mesh(wheel, origin); }
-    TriangleMesh operator()(const scene::MeshFile& file) const
+    Solid operator()(const scene::RockGenerator& rock) const { return closed(rock_mesh(rock, origin)); }
+    Solid operator()(const scene::SphereGenerator& sphere) const
     {
-        return read_mesh((std::filesystem::path(directory) / file.path).string(), file.unit);
+        Solid solid = closed(sphere_mesh(sphere, origin));
+        solid.unit  = exact_sphere();
+        return solid;
     }
-};
-
-/// Volume pi/6 and moment of inertia 2/5 V r^2, r = 1/2 m.
-MassProperties exact_sphere() { return {pi / 6, Eigen::Vector3d::Zero(), pi / 60 * Eigen::Matrix3d::Identity()}; }
-
-struct MakeMassProperties
-{
-    const TriangleMesh& mesh;
-
-    MassProperties operator()(const scene::SphereGenerator&) const { return exact_sphere(); }
-    template<class Source>
-    MassProperties operator()(const Source&) const
+    Solid operator()(const scene::WheelGenerator& wheel) const { return closed(wheel_mesh(wheel, origin)); }
+    Solid operator()(const scene::MeshFile& file) const
     {
-        return mass_properties(mesh);
+        const std::string path = (std::filesystem::path(directory) / file.path).string();
+        return make_solid(read_mesh(path, file.unit), file.repair ? Repair::tried : Repair::none,
+                          fmt::format("{}, file {}", origin, path));
+    }
+
+    Solid closed(TriangleMesh mesh) const
+    {
+        require_watertight(mesh, origin);
+        const MassProperties unit = mass_properties(mesh);
+        return {std::move(mesh), {}, SignRule::pseudonormal, unit, {}};
     }
 };
 
@@ -94,16 +97,19 @@ MeasuredTemplate make_measured_template(const scene::Shape& shape, const std::st
 
     ShapeTemplate result{};
     result.name = shape.name;
-    result.mesh = std::visit(MakeMesh{origin, directory}, shape.source);
-    require_watertight(result.mesh, origin);
+    Solid solid = std::visit(MakeSolid{origin, directory}, shape.source);
 
-    result.unit        = std::visit(MakeMassProperties{result.mesh}, shape.source);
+    result.unit        = solid.unit;
     result.mesh_centre = result.unit.centre;
-    for (Eigen::Vector3d& vertex : result.mesh.vertices) { vertex -= result.mesh_centre; }
     result.unit.centre.setZero();
+    for (Eigen::Vector3d& vertex : solid.surface.vertices) { vertex -= result.mesh_centre; }
+    for (Eigen::Vector3d& vertex : solid.parts.vertices) { vertex -= result.mesh_centre; }
 
+    result.mesh                     = solid.surface;
+    result.sign                     = solid.sign;
+    result.remarks                  = solid.remarks;
     result.equivalent_radius        = std::cbrt(3 * result.unit.volume / (4 * pi));
-    const TemplateDistance distance = distance_of(shape, result.mesh);
+    const TemplateDistance distance = distance_of(shape, solid);
     add_sdf(shape, distance, reach(result.equivalent_radius), result);
     result.nodes           = std::visit(MakeNodes{result.mesh, shape.node_spacing}, shape.source);
     result.box             = bounds(result.mesh);

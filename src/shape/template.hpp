@@ -13,6 +13,7 @@
 #include "scene/scene.hpp"
 #include "shape/mass_properties.hpp"
 #include "shape/mesh.hpp"
+#include "shape/mesh_distance.hpp"
 
 namespace tread::shape
 {
@@ -81,8 +82,10 @@ struct ShapeTemplate
     double             equivalent_radius; ///< m, of the sphere of equal volume; R of the contact law (wheels: radius)
     bool               is_wheel;
     WheelGeometry      wheel; ///< meaningful if is_wheel
+    SignRule           sign;  ///< how inside was told from outside
 
-    std::vector<std::string> remarks; ///< what the user should know of how it was made, a sentence each
+    std::vector<std::string> remarks;  ///< what was done to a mesh file and what that means, a line each
+    std::vector<std::string> warnings; ///< where the SDF falls short and what would help, a line each
 };
 
 /// The built-in wheels that a scene may name without a [[shape]] table.

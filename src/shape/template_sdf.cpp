@@ -25,9 +25,10 @@ bool is_stone(const scene::Shape& shape)
 }
 
 /// At most a cell a node of the surface: finer than that there is nothing to see.
-int stone_cells(const ShapeTemplate& form)
+int stone_cells(const scene::Shape& shape, const ShapeTemplate& form)
 {
-    const auto   nodes   = static_cast<double>(form.mesh.vertices.size());
+    const auto*  rock    = std::get_if<scene::RockGenerator>(&shape.source);
+    const double nodes   = rock != nullptr ? rock->nodes : static_cast<double>(form.mesh.vertices.size());
     const double spacing = std::sqrt(surface_area(form.mesh) / nodes);
     const double wanted  = 1.2 * bounds(form.mesh).extent().maxCoeff() / spacing;
     return std::clamp(static_cast<int>(std::ceil(wanted)), least_cells, most_stone_cells);
@@ -39,7 +40,7 @@ int wall_cells(const MeshDistance& of_mesh, ShapeTemplate& form)
     const int    wanted    = cells_for_wall(bounds(form.mesh), thickness);
     if (wanted > most_cells)
     {
-        form.remarks.push_back(
+        form.warnings.push_back(
             fmt::format("its walls, {:.3g} m thin, want sdf_cells = {}; it has {}, the most that \"auto\" takes",
                         thickness, wanted, most_cells));
     }
@@ -63,14 +64,14 @@ int cells_that_do(const ShapeTemplate& form, const SignedDistance& distance)
     return 0;
 }
 
-void remark_on_volume(const SignedDistance& distance, ShapeTemplate& form)
+void warn_of_volume(const SignedDistance& distance, ShapeTemplate& form)
 {
     if (std::abs(form.sdf_volume_ratio - 1) <= volume_tolerance) { return; }
     const int         enough = cells_that_do(form, distance);
     const std::string advice = enough > 0 ? fmt::format("sdf_cells = {} would be within 2 %", enough)
                                           : fmt::format("no sdf_cells up to {} is within 2 %", most_cells);
-    form.remarks.push_back(fmt::format("its SDF of sdf_cells = {} encloses {:.1f} % of the mesh's volume; {}",
-                                       form.sdf_cells, 100 * form.sdf_volume_ratio, advice));
+    form.warnings.push_back(fmt::format("its SDF of sdf_cells = {} encloses {:.1f} % of the mesh's volume; {}",
+                                        form.sdf_cells, 100 * form.sdf_volume_ratio, advice));
 }
 
 } // namespace
@@ -82,13 +83,13 @@ int cells_for_wall(const Bounds& box, double thickness)
     return static_cast<int>(std::clamp(wanted, double{least_cells}, 1e9));
 }
 
-TemplateDistance distance_of(const scene::Shape& shape, const TriangleMesh& mesh)
+TemplateDistance distance_of(const scene::Shape& shape, const Solid& solid)
 {
     if (is_sphere(shape))
     {
         return {nullptr, [](const Eigen::Vector3d& point, double) { return point.norm() - 0.5; }};
     }
-    auto prepared = std::make_shared<const MeshDistance>(prepare_distance(mesh));
+    auto prepared = std::make_shared<const MeshDistance>(prepare_distance(solid));
     return {prepared, [&of = *prepared](const Eigen::Vector3d& point, double within)
             { return signed_distance(of, point, within); }};
 }
@@ -96,10 +97,10 @@ TemplateDistance distance_of(const scene::Shape& shape, const TriangleMesh& mesh
 void add_sdf(const scene::Shape& shape, const TemplateDistance& distance, double reach, ShapeTemplate& form)
 {
     if (shape.sdf_cells) { form.sdf_cells = static_cast<int>(*shape.sdf_cells); }
-    else { form.sdf_cells = is_stone(shape) ? stone_cells(form) : wall_cells(*distance.mesh, form); }
+    else { form.sdf_cells = is_stone(shape) ? stone_cells(shape, form) : wall_cells(*distance.mesh, form); }
     form.sdf              = build_sdf(bounds(form.mesh), form.sdf_cells, distance.function, reach);
     form.sdf_volume_ratio = enclosed_volume(form.sdf) / form.unit.volume;
-    remark_on_volume(distance.function, form);
+    warn_of_volume(distance.function, form);
 }
 
 } // namespace tread::shape

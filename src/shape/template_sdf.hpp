@@ -5,6 +5,7 @@
 
 #include "shape/mesh_distance.hpp"
 #include "shape/sdf_grid.hpp"
+#include "shape/solid.hpp"
 #include "shape/template.hpp"
 
 // The signed distance field of a template: how fine, how good.
@@ -22,7 +23,7 @@ struct TemplateDistance
     SignedDistance                      function;
 };
 
-TemplateDistance distance_of(const scene::Shape& shape, const TriangleMesh& mesh);
+TemplateDistance distance_of(const scene::Shape& shape, const Solid& solid);
 
 /// A template with what its field was sampled from.
 struct MeasuredTemplate
@@ -34,9 +35,9 @@ struct MeasuredTemplate
 /// make_template, with the distance.
 MeasuredTemplate make_measured_template(const scene::Shape& shape, const std::string& directory, const Reach& reach);
 
-/// Fills sdf, sdf_cells, sdf_volume_ratio, and remarks about them, of a template whose mesh and unit are made: the
+/// Fills sdf, sdf_cells, sdf_volume_ratio, and warnings about them, of a template whose mesh and unit are made: the
 /// shape's sdf_cells, or as many as its thinnest wall wants (at most 512), or as a stone's nodes want (40 to 64). Where
-/// the volume is off by more than 2 %, the remark names the cells that would do, up to 512, found by trying.
+/// the volume is off by more than 2 %, the warning names the cells that would do, up to 512, found by trying.
 void add_sdf(const scene::Shape& shape, const TemplateDistance& distance, double reach, ShapeTemplate& form);
 
 } // namespace tread::shape

@@ -29,9 +29,10 @@ std::string shape_lines(const World& world)
                         form.name, extent[0], extent[1], extent[2], form.unit.volume, form.mesh.triangles.size(),
                         form.nodes.positions.size(), form.sdf_cells,
                         bytes_text(static_cast<std::int64_t>(form.sdf.bytes())), 100 * form.sdf_volume_ratio);
-        for (const std::string& remark : form.remarks)
+        for (const std::string& remark : form.remarks) { text += fmt::format("    {}\n", remark); }
+        for (const std::string& warning : form.warnings)
         {
-            text += fmt::format("  {}: warning: {}\n", form.name, remark);
+            text += fmt::format("  {}: warning: {}\n", form.name, warning);
         }
     }
     return text;

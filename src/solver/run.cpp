@@ -61,9 +61,10 @@ void say_plan(Log& log, const World& world, const std::vector<Stage>& stages)
                          static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named));
     for (const auto& form : world.templates)
     {
-        for (const std::string& remark : form.remarks)
+        for (const std::string& remark : form.remarks) { log.info(fmt::format("shape '{}': {}", form.name, remark)); }
+        for (const std::string& warning : form.warnings)
         {
-            log.warning(fmt::format("shape '{}': {}", form.name, remark));
+            log.warning(fmt::format("shape '{}': {}", form.name, warning));
         }
     }
     for (const Stage& stage : stages)

@@ -67,6 +67,7 @@ generate = { kind = "wheel", radius = 1, width = 2, wall_thickness = 0.1, grouse
 name = "d"
 file = "mesh.stl"
 unit = "mm"
+repair = true
 [[shape]]
 name = "e"
 file = "mesh.stl"
@@ -161,7 +162,8 @@ TEST(Resolved, what_was_read_is_what_was_written)
     EXPECT_EQ(scene.materials[1].family, "steel");
     EXPECT_EQ(std::get<WheelGenerator>(scene.shapes[2].source),
               (WheelGenerator{1, 2, 0.1, 3, 0.2, 0.3, GrouserShape::chevron, -5, 0.05, 0.06, 0.07, 0.3, 0.4, 0.08}));
-    EXPECT_EQ(std::get<MeshFile>(scene.shapes[3].source), (MeshFile{(directory.path() / "mesh.stl").string(), 0.001}));
+    EXPECT_EQ(std::get<MeshFile>(scene.shapes[3].source),
+              (MeshFile{(directory.path() / "mesh.stl").string(), 0.001, true}));
     EXPECT_EQ(std::get<MeshFile>(scene.shapes[4].source).unit, 0.3048);
     EXPECT_EQ(scene.rocks[0].seed, 9007199254740993u);
     EXPECT_EQ(scene.bodies[0].lock, (std::vector<std::string>{"x", "yaw"}));

@@ -179,6 +179,12 @@ TEST_F(MeshFiles, BadObj)
     EXPECT_THAT(complaint("none.obj", obj_vertices), HasSubstr("no triangles"));
 }
 
+TEST_F(MeshFiles, CoordinatesBeyondReason)
+{
+    EXPECT_THAT(complaint("far.obj", "v 0 0 0\nv 1e200 0 0\nv 0 1 0\nf 1 2 3\n"),
+                AllOf(HasSubstr("1e+200 m"), HasSubstr("unit")));
+}
+
 TEST_F(MeshFiles, FilesThatAreNone)
 {
     EXPECT_THAT(complaint("cube.ply", "ply\n"), HasSubstr(".stl and .obj"));

@@ -154,8 +154,9 @@ TEST(SdfStorage, GoesBySize)
 
 TEST(SdfStorage, ThreadsDoNotMatter)
 {
-    const auto mesh    = test::ellipsoid(Vector3d(1, 0.7, 0.5), 642);
-    const auto source  = distance_of({"stone", scene::MeshFile{"", 1}, 64, 0.0}, mesh);
+    const auto mesh = test::ellipsoid(Vector3d(1, 0.7, 0.5), 642);
+    const auto source =
+        distance_of({"stone", scene::MeshFile{"", 1}, 64, 0.0}, make_solid(mesh, Repair::none, "stone"));
     const int  threads = omp_get_max_threads();
     const auto with    = [&](int count)
     {

@@ -169,7 +169,11 @@ TEST(Solid, RefusesDefectsAndSaysWhatWouldHelp)
         test::input_error([] { make_solid(test::doubled_faces(), Repair::none, "shape 'part', file part.stl"); });
     EXPECT_THAT(message, AllOf(HasSubstr("part.stl"), HasSubstr("non-manifold edges"), HasSubstr("the first at"),
                                HasSubstr("repair = true")));
-    EXPECT_EQ(make_solid(test::doubled_faces(), Repair::tried, "part").sign, SignRule::pseudonormal);
+    const Solid repaired = make_solid(test::doubled_faces(), Repair::tried, "part");
+    EXPECT_EQ(repaired.sign, SignRule::pseudonormal);
+    const Vector3d one = Vector3d::Ones();
+    expect_distance(
+        repaired, [&](const Vector3d& p) { return box_distance(p, -one, one); }, 1e-12);
 }
 
 TEST(Solid, RefusesAPartThatIsInsideOut)

@@ -24,7 +24,8 @@ TEST(Template, OfAFileIsRecentredAndScaled)
     const std::string folder = ::testing::TempDir();
     const auto        box    = test::box_mesh({100, 200, 300}, {300, 300, 350});
     write_stl(box, (std::filesystem::path(folder) / "template_box.stl").string());
-    const ShapeTemplate made = make_template({"box", scene::MeshFile{"template_box.stl", 1e-3}, 40, 0.0}, folder);
+    const ShapeTemplate made =
+        make_template({"box", scene::MeshFile{"template_box.stl", 1e-3, false}, 40, 0.0}, folder);
 
     EXPECT_LT((made.mesh_centre - Eigen::Vector3d(0.2, 0.25, 0.325)).norm(), 1e-12);
     EXPECT_LT((made.box.low + made.box.high).norm(), 1e-12);
@@ -101,18 +102,18 @@ TEST(Template, TooCoarseAnSdfShowsInItsVolumeAndSaysWhatWouldDo)
     // A spacing of 31 mm on walls of 20 mm: most of the wheel is lost between the nodes.
     const ShapeTemplate coarse = make_template(shape, "");
     EXPECT_LT(coarse.sdf_volume_ratio, 0.8);
-    ASSERT_EQ(coarse.remarks.size(), 1u);
-    std::printf("%s\n", coarse.remarks.front().c_str());
+    ASSERT_EQ(coarse.warnings.size(), 1u);
+    std::printf("%s\n", coarse.warnings.front().c_str());
 
     int enough = 0;
-    EXPECT_THAT(coarse.remarks.front(), HasSubstr("its SDF of sdf_cells = 20 encloses"));
-    const std::size_t at = coarse.remarks.front().find("; sdf_cells = ");
+    EXPECT_THAT(coarse.warnings.front(), HasSubstr("its SDF of sdf_cells = 20 encloses"));
+    const std::size_t at = coarse.warnings.front().find("; sdf_cells = ");
     ASSERT_NE(at, std::string::npos);
-    ASSERT_EQ(std::sscanf(coarse.remarks.front().c_str() + at, "; sdf_cells = %d would", &enough), 1);
+    ASSERT_EQ(std::sscanf(coarse.warnings.front().c_str() + at, "; sdf_cells = %d would", &enough), 1);
     shape.sdf_cells          = enough;
     const ShapeTemplate fine = make_template(shape, "");
     EXPECT_NEAR(fine.sdf_volume_ratio, 1, 0.02);
-    EXPECT_TRUE(fine.remarks.empty());
+    EXPECT_TRUE(fine.warnings.empty());
 }
 
 TEST(Template, CellsFollowTheThinnestWall)
@@ -132,9 +133,9 @@ TEST(Template, WallsTooThinForAnyGridAreRemarkedOn)
     const ShapeTemplate sheet =
         make_template({"sheet", scene::WheelGenerator{0.26, 0.02, 0.001, 0, 0, 0.004}, std::nullopt, 0.02}, "");
     EXPECT_EQ(sheet.sdf_cells, 512);
-    ASSERT_FALSE(sheet.remarks.empty());
-    std::printf("%s\n", sheet.remarks.front().c_str());
-    EXPECT_THAT(sheet.remarks.front(), HasSubstr("it has 512, the most that \"auto\" takes"));
+    ASSERT_FALSE(sheet.warnings.empty());
+    std::printf("%s\n", sheet.warnings.front().c_str());
+    EXPECT_THAT(sheet.warnings.front(), HasSubstr("it has 512, the most that \"auto\" takes"));
 }
 
 TEST(Template, ConvergesWithItsCells)
@@ -169,11 +170,50 @@ TEST(Template, FindShapePrefersTheSceneAndListsWhatItKnows)
                 HasSubstr("shape 'bal' is unknown; known are ball, spirit, perseverance"));
 }
 
+TEST(Template, OfABrokenFileNeedsRepair)
+{
+    const std::string folder = ::testing::TempDir();
+    TriangleMesh      box    = test::box_mesh({0, 0, 0}, {2, 1, 1});
+    box.triangles.pop_back();
+    write_stl(box, (std::filesystem::path(folder) / "broken_box.stl").string());
+    EXPECT_THAT(test::input_error(
+                    [&] {
+                        make_template({"box", scene::MeshFile{"broken_box.stl", 1, false}, 16, 0.0}, folder);
+                    }),
+                testing::AllOf(HasSubstr("shape 'box', file"), HasSubstr("broken_box.stl"), HasSubstr("3 open edges"),
+                               HasSubstr("repair = true")));
+    const ShapeTemplate made = make_template({"box", scene::MeshFile{"broken_box.stl", 1, true}, 16, 0.0}, folder);
+    EXPECT_NEAR(made.unit.volume, 2, 1e-12);
+    EXPECT_EQ(made.sign, SignRule::pseudonormal);
+    EXPECT_THAT(made.remarks, testing::ElementsAre("repair: 1 holes closed by 1 triangles"));
+    std::filesystem::remove(std::filesystem::path(folder) / "broken_box.stl");
+}
+
+TEST(Template, OfOverlappingPartsIsTheirUnion)
+{
+    const std::string folder = ::testing::TempDir();
+    TriangleMesh      two    = test::box_mesh({0, 0, 0}, {2, 1, 1});
+    for (const auto& t : test::cube(1).triangles) { two.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8}); }
+    for (const auto& v : test::box_mesh({1, 0.25, 0.25}, {3, 0.75, 0.75}).vertices) { two.vertices.push_back(v); }
+    write_stl(two, (std::filesystem::path(folder) / "overlap.stl").string());
+    const ShapeTemplate made = make_template({"peg", scene::MeshFile{"overlap.stl", 1, false}, 64, 0.0}, folder);
+    std::filesystem::remove(std::filesystem::path(folder) / "overlap.stl");
+    EXPECT_EQ(made.sign, SignRule::winding_number);
+    EXPECT_NEAR(made.unit.volume, 2.25, 2.25e-3);
+    // 2 x 1 x 1 has 10, the peg adds its four sides of 1 x 1/2. The rim is jagged to pieces of 3/256.
+    const double rim = 2.0 * 3 / 256;
+    std::printf("area: measured %.4f, expected 12, tolerance %.4f\n", total(made.nodes.areas), rim);
+    EXPECT_NEAR(total(made.nodes.areas), 12, rim);
+    EXPECT_NEAR(made.sdf_volume_ratio, 1, 0.02);
+    // The end of the peg in the middle of the box is no surface: the box's side is 1/2 away.
+    EXPECT_NEAR(sample(made.sdf, Eigen::Vector3d(1, 0.5, 0.5) - made.mesh_centre), -0.5, made.sdf.spacing);
+}
+
 TEST(Template, NamesTheFileThatIsWrong)
 {
     EXPECT_THAT(test::input_error(
                     [] {
-                        make_template({"clast", scene::MeshFile{"no.stl", 1}, 64, 0.0}, "/nowhere");
+                        make_template({"clast", scene::MeshFile{"no.stl", 1, false}, 64, 0.0}, "/nowhere");
                     }),
                 HasSubstr("/nowhere/no.stl"));
 }
