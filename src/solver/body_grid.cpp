@@ -27,13 +27,14 @@ bool nodes_clear(const World& world, std::size_t one, std::size_t other, double 
     const double       needed = margin * inverse;
     // Nothing of `other` is farther from its centre than this: most nodes need no look at the grid.
     const double beyond = form_of(world, other).bounding_radius + needed;
+    // Far from the surface the interpolant of a 1-Lipschitz distance may be off by a share of its cell, or brick.
+    const double slack = sdf.spacing * (sdf.slots.empty() ? 1 : shape::SignedDistanceGrid::brick_cells);
     for (std::size_t cluster = 0; cluster < nodes.cluster_centres.size(); ++cluster)
     {
         const Vec3<double> centre = turn * nodes.cluster_centres[cluster] + shift;
         const double       radius = nodes.cluster_radii[cluster] * scale * inverse;
         if (centre.squaredNorm() > std::pow(beyond + radius, 2)) { continue; }
-        // The interpolated distance may be off by a share of a cell of the grid.
-        if (shape::sample(sdf, centre) > needed + radius + sdf.spacing) { continue; }
+        if (shape::sample(sdf, centre) > needed + radius + slack) { continue; }
         const std::size_t first = cluster * shape::SurfaceNodes::cluster_size;
         const std::size_t end   = std::min(first + shape::SurfaceNodes::cluster_size, nodes.positions.size());
         for (std::size_t node = first; node < end; ++node)
