@@ -19,6 +19,7 @@
 #include "io/describe.hpp"
 #include "io/sdf_report.hpp"
 #include "scene/load.hpp"
+#include "shape/form.hpp"
 #include "shape/report.hpp"
 #include "shape/template.hpp"
 #include "solver/run.hpp"
@@ -125,7 +126,17 @@ struct AskedShape
 AskedShape shape_in_scene(const SdfArguments& arguments)
 {
     const scene::Scene scene = scene::load_scene(arguments.mesh, {});
-    if (arguments.shape) { return {shape::find_shape(scene, *arguments.shape), scene.directory}; }
+    if (arguments.shape)
+    {
+        for (const scene::Shape& family : scene.shapes)
+        {
+            for (const scene::Shape& rock : shape::members(family))
+            {
+                if (rock.name == *arguments.shape) { return {rock, scene.directory}; }
+            }
+        }
+        return {shape::find_shape(scene, *arguments.shape), scene.directory};
+    }
     if (scene.shapes.size() != 1)
     {
         throw InputError(
@@ -148,11 +159,24 @@ AskedShape mesh_or_builtin(const SdfArguments& arguments)
     return {shape, "."};
 }
 
+/// A family is too many for one grid: its forms alone.
+ExitCode sdf_of_family(const SdfArguments& arguments, const scene::Shape& family)
+{
+    if (arguments.stl || arguments.report != Report::none)
+    {
+        throw InputError(fmt::format("'{}' is a family: --write-stl and --report are for one rock, as in --shape {}",
+                                     family.name, shape::members(family).front().name));
+    }
+    std::cout << shape::form_table(shape::family_forms(family));
+    return ExitCode::finished;
+}
+
 ExitCode sdf(const SdfArguments& arguments)
 {
     const bool in_scene     = std::filesystem::path(arguments.mesh).extension() == ".toml";
     auto [asked, directory] = in_scene ? shape_in_scene(arguments) : mesh_or_builtin(arguments);
     if (arguments.cells) { asked.sdf_cells = *arguments.cells; }
+    if (shape::members(asked).size() > 1) { return sdf_of_family(arguments, asked); }
 
     const auto  measured = shape::make_measured_template(asked, directory, [](double) { return 0.0; });
     const auto& form     = measured.form;

@@ -163,7 +163,7 @@ std::string form_table(const std::vector<NamedForm>& forms)
                            form.sphericity, form.solidity);
     };
     std::string text =
-        fmt::format("{:<15} {:>7} {:>10} {:>10} {:>8}\n", "form (2)", "aspect", "elongation", "sphericity", "solidity");
+        fmt::format("{:<15} {:>7} {:>10} {:>10} {:>8}\n", "", "aspect", "elongation", "sphericity", "solidity");
     for (const NamedForm& named : forms) { text += line(named.name, named.form); }
     if (forms.size() < 2) { return text; }
 

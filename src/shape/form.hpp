@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "scene/scene.hpp"
 #include "shape/mesh.hpp"
 
 // What a stone looks like, in numbers that do not depend on how it lies or how large it is.
@@ -37,12 +38,16 @@ Form form_of(const TriangleMesh& mesh);
 
 double sphericity(const TriangleMesh& mesh);
 
-/// One line of text a mesh, under a heading; then mean, least and most of each column if there are several.
 struct NamedForm
 {
     std::string name;
     Form        form;
 };
+
+/// One line of text a mesh, under a heading; then mean, least and most of each column if there are several.
 std::string form_table(const std::vector<NamedForm>& forms);
+
+/// Of each member of a family of rocks. InputError if one cannot be made.
+std::vector<NamedForm> family_forms(const scene::Shape& shape);
 
 } // namespace tread::shape

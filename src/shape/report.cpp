@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "shape/form.hpp"
+
 namespace tread::shape
 {
 namespace
@@ -49,7 +51,9 @@ std::string template_text(const ShapeTemplate& form)
                         form.sdf_cells, nodes[0], nodes[1], nodes[2], form.sdf.spacing, storage_text(form.sdf),
                         static_cast<double>(form.sdf.bytes()) / mebibyte);
     text += fmt::format("SDF volume      {:.4f} of the mesh's\n", form.sdf_volume_ratio);
+    text += form_table({{"form (2)", form_of(form.mesh)}});
     text += "(1) about the centre of mass, mesh axes, density 1 kg/m3\n";
+    text += "(2) by callipers, surface and convex hull: docs/shapes.md\n";
     return text;
 }
 

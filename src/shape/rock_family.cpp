@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
+#include "shape/form.hpp"
+#include "shape/generators.hpp"
 #include "shape/template.hpp"
 
 namespace tread::shape
@@ -23,6 +25,18 @@ std::vector<scene::Shape> members(const scene::Shape& shape)
         rocks.back().source = rock;
     }
     return rocks;
+}
+
+std::vector<NamedForm> family_forms(const scene::Shape& shape)
+{
+    std::vector<NamedForm> forms;
+    for (const scene::Shape& rock : members(shape))
+    {
+        const TriangleMesh mesh =
+            rock_mesh(std::get<scene::RockGenerator>(rock.source), fmt::format("shape '{}'", rock.name));
+        forms.push_back({rock.name, form_of(mesh)});
+    }
+    return forms;
 }
 
 } // namespace tread::shape

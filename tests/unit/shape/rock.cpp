@@ -143,11 +143,19 @@ TEST(Rock, SaysWhatCanBeReached)
     EXPECT_THAT(test::input_error([&] { rock_mesh(rock, "rock"); }), HasSubstr("nodes = 10"));
 }
 
+scene::Shape shape_of(const std::string& name, const scene::ShapeSource& source)
+{
+    scene::Shape shape;
+    shape.name   = name;
+    shape.source = source;
+    return shape;
+}
+
 TEST(Family, HasAsManyDifferentRocksAsVariants)
 {
     scene::RockGenerator generator = recipe(0.7, 0.9, 0.98, 3);
     generator.variants             = 50;
-    const auto              rocks  = members({"clast", generator});
+    const auto              rocks  = members(shape_of("clast", generator));
     std::set<std::uint64_t> seeds;
     ASSERT_EQ(rocks.size(), 50u);
     for (const auto& rock : rocks)
@@ -165,7 +173,8 @@ TEST(Family, HasAsManyDifferentRocksAsVariants)
 
 TEST(Family, OfOneIsTheShape)
 {
-    const scene::Shape rock{"clast", recipe(0.7, 0.9, 0.98)}, ball{"ball", scene::SphereGenerator{}};
+    const scene::Shape rock = shape_of("clast", recipe(0.7, 0.9, 0.98)),
+                       ball = shape_of("ball", scene::SphereGenerator{});
     EXPECT_EQ(members(rock), std::vector{rock});
     EXPECT_EQ(members(ball), std::vector{ball});
 }
