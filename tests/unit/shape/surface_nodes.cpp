@@ -96,27 +96,29 @@ TEST(SurfaceNodes, AreAsManyAsAskedAndNearUniform)
         const char*  name;
         TriangleMesh mesh;
         int          nodes;
+        double       variation; ///< bound
     };
     for (const Case& c :
-         {Case{"cube", test::cube(1), 162}, Case{"cube", test::cube(1), 1000},
-          Case{"wheel", wheel_mesh(wheel, "wheel"), 3000}, Case{"sphere", icosphere(2562, "sphere"), 300},
-          Case{"rock", rock_mesh({}, "rock"), 20}, Case{"rock", rock_mesh({}, "rock"), 162},
-          Case{"angular rock", rock_mesh(angular, "rock"), 777}})
+         {Case{"cube", test::cube(1), 162, 0.3}, Case{"cube", test::cube(1), 1000, 0.3},
+          Case{"wheel", wheel_mesh(wheel, "wheel"), 3000, 0.4}, Case{"sphere", icosphere(2562, "sphere"), 300, 0.3},
+          Case{"rock", rock_mesh({}, "rock"), 20, 0.3}, Case{"rock", rock_mesh({}, "rock"), 162, 0.3},
+          Case{"angular rock", rock_mesh(angular, "rock"), 777, 0.3}})
     {
         const SurfaceNodes nodes     = resample_to_count(c.mesh, c.nodes);
         const auto         distances = neighbour_distances(nodes);
         const double       mean      = total(distances) / static_cast<double>(distances.size());
         const double       least     = *std::min_element(distances.begin(), distances.end());
-        std::printf("%s, %d nodes: areas vary by %.2f (bound 0.3; random places 0.53), "
+        std::printf("%s, %d nodes: areas vary by %.2f (bound %.1f; random places 0.53), "
                     "nearest neighbours %.2f of the spacing apart (hexagons 1.07, random 0.5), at least %.2f (bound "
                     "0.3)\n",
-                    c.name, c.nodes, coefficient_of_variation(nodes.areas), mean / nodes.spacing,
+                    c.name, c.nodes, coefficient_of_variation(nodes.areas), c.variation, mean / nodes.spacing,
                     least / nodes.spacing);
         EXPECT_EQ(nodes.positions.size(), static_cast<std::size_t>(c.nodes));
         // Area sums differ by rounding of 1e5 terms alone.
         EXPECT_NEAR(total(nodes.areas), surface_area(c.mesh), 1e-11 * surface_area(c.mesh));
-        // Areas of cells of random points vary by 0.53 (Voronoi cells of a Poisson process in the plane).
-        EXPECT_LT(coefficient_of_variation(nodes.areas), 0.3);
+        // Areas of cells of random points vary by 0.53 (Voronoi cells of a Poisson process in the plane). Strips of two
+        // spacings between the edges of a wheel hold one row of nodes or two, never the right number.
+        EXPECT_LT(coefficient_of_variation(nodes.areas), c.variation);
         EXPECT_GT(mean, 0.65 * nodes.spacing);
         EXPECT_GT(least, 0.3 * nodes.spacing);
         expect_clusters_enclose(nodes);
