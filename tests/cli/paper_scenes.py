@@ -22,6 +22,7 @@ class Run:
         self.summary = json.loads((directory / "summary.json").read_text())
         with h5py.File(directory / "timeseries.h5", "r") as file:
             self.rows = {name: item[:] for name, item in file["wheel"][body].items()}
+            self.momentum = file["balance"]["momentum"][:]
 
     def last(self, name, span):
         """Rows of the run's last `span` seconds."""
@@ -30,7 +31,7 @@ class Run:
 
 
 class PaperScenes(CommandTest):
-    def run_twin(self, name, body="wheel"):
+    def run_twin(self, name, body="wheel", momentum_error=1e-5):
         scene = TWINS / f"{name}.toml"
         result = self.tread("run", scene, "--output", self.output, "--backend", "cpu", "--quiet")
         self.assertEqual(result.returncode, 0, f"{name}: {result.stdout}{result.stderr}")
@@ -38,7 +39,7 @@ class PaperScenes(CommandTest):
         self.assertEqual(run.summary["status"], "finished", name)
         self.assertEqual(run.summary["errors"]["mass"], 0, name)
         # Single precision rounds an impulse to 1e-7; a few thousand steps of random sign stay far below 1e-5.
-        self.expect("momentum error", run.summary["errors"]["momentum"], 0, 1e-5)
+        self.expect("momentum error", run.summary["errors"]["momentum"], 0, momentum_error)
         return run
 
     def expect(self, what, measured, expected, tolerance):
@@ -57,21 +58,24 @@ class PaperScenes(CommandTest):
 
     # 3.1 ------------------------------------------------------------------------------------------------------------
 
-    def head_on(self, name):
+    def head_on(self, name, slowest):
         run = self.run_twin(name, "ball")
-        # The elastic sphere keeps up to 2 % of the energy as vibration, and cells of a fifth of the radius lose some more.
-        self.expect_within("final speed of the body (m/s)", run.rows["velocity"][-1, 0], -1.0, -0.9)
+        # Nothing acts from outside (the body is let go after the first row); single precision rounds the 67 kg m/s that change sides to 1e-7 a step.
+        self.expect("change of momentum (kg m/s)", numpy.abs(run.momentum[1:] - run.momentum[1]).max(), 0, 1e-3)
+        self.expect_within("final speed of the body (m/s)", run.rows["velocity"][-1, 0], -1.0, slowest)
         # Rigid on elastic Hertz gives 10.02 kN; the layer of points and the coarse cells soften or stiffen by a tenth.
         self.expect("peak force (N)", abs(run.rows["force"][:, 0]).max(), 10020, 1500)
 
+    # The elastic sphere keeps 1 to 2 % of the energy as vibration. Here a cell is a fifth of its radius, and at one point
+    # a cell the motion that the grid does not carry, which is damped, is that of a few points: speed 0.84.
     def test_head_on_1(self):
-        self.head_on("head_on_1")
+        self.head_on("head_on_1", slowest=-0.8)
 
     def test_head_on_8(self):
-        self.head_on("head_on_8")
+        self.head_on("head_on_8", slowest=-0.96)
 
     def test_head_on_27(self):
-        self.head_on("head_on_27")
+        self.head_on("head_on_27", slowest=-0.96)
 
     # 3.2 ------------------------------------------------------------------------------------------------------------
 
@@ -107,13 +111,14 @@ class PaperScenes(CommandTest):
 
     # 3.3, 4, 5 ------------------------------------------------------------------------------------------------------
 
-    def driven(self, name, pull_along, weight, omega, radius=0.26):
+    def driven(self, name, weight, omega, radius=0.26, **limits):
         """A wheel free to slip: it goes ahead, no faster than it rolls, and the bed brakes its spin."""
-        run = self.run_twin(name)
-        advance = run.rows["position"][-1, 0] - run.rows["position"][0, 0]
-        rolled = omega * radius * pull_along
-        # It may be thrown about by a tenth of the way it would roll when it drops or climbs a rock.
-        self.expect_within("advance (m)", advance, 0.02 * rolled, 1.3 * rolled)
+        run = self.run_twin(name, **limits)
+        phase = tomllib.loads((TWINS / f"{name}.toml").read_text())["phase"][-1]
+        path = run.last("position", phase["duration"])[:, 0]
+        rolled = omega * radius * (phase["duration"] - 0.5 * phase["drive"]["ramp"])
+        # Rocks a third as large as the wheel may throw it ahead by half of the little way that it rolls here.
+        self.expect_within("advance (m)", path[-1] - path[0], 0.02 * rolled, 1.5 * rolled)
         self.expect("spin (rad/s)", run.rows["angular_velocity"][-1, 1], omega, 1e-6 * omega + 1e-7)
         torque, force = run.last("torque", 0.5)[:, 1].mean(), run.last("force", 0.5)[:, 2].mean()
         # Against the spin, and no more than full friction at twice the radius under the weight.
@@ -122,7 +127,7 @@ class PaperScenes(CommandTest):
 
     def rolling(self, name):
         weight = 170.8 * 9.8
-        run, force = self.driven(name, 0.9, weight, 0.5)
+        run, force = self.driven(name, weight, 0.5)
         # The wheel neither falls nor rises by more than it sinks: its mean acceleration over half a second is below
         # 0.1 g, on rocks as on sand.
         self.expect("mean force of the bed (N)", force, weight, 0.1 * weight)
@@ -143,18 +148,20 @@ class PaperScenes(CommandTest):
         self.rolling("rolling_mixed")
 
     def test_spirit(self):
-        run, _ = self.driven("spirit", 1.9, 170.8 * 3.72, 0.16)
+        run, _ = self.driven("spirit", 170.8 * 3.72, 0.16)
         self.assertGreater(run.rows["sinkage"][-1], 0, "the wheel did not sink")
 
     def test_spirit_mer(self):
-        run, _ = self.driven("spirit_mer", 1.9, 115.0, 0.32, radius=0.13)
+        run, _ = self.driven("spirit_mer", 115.0, 0.32, radius=0.13)
         self.assertGreater(run.rows["sinkage"][-1], 0, "the wheel did not sink")
 
     def test_curiosity_rock(self):
-        self.driven("curiosity_rock", 0.9, 170.8 * 3.72, 0.16)
+        self.driven("curiosity_rock", 170.8 * 3.72, 0.16)
 
     def test_curiosity_core(self):
-        self.driven("curiosity_core", 0.9, 170.8 * 3.72, 0.16)
+        # Base and core have different wave speeds and so different rates of the transfer's PIC part; where they share
+        # nodes that does not conserve momentum: 1e-4 of weight and time.
+        self.driven("curiosity_core", 170.8 * 3.72, 0.16, momentum_error=5e-4)
 
     # 3.4 ------------------------------------------------------------------------------------------------------------
 
