@@ -13,42 +13,55 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Sums over triangles, from which a dipole is made.
+/// Sums over triangles; places are relative to an origin near them, so that shifting keeps its digits.
 struct Moments
 {
     Eigen::Vector3d area   = Eigen::Vector3d::Zero();
-    Eigen::Vector3d first  = Eigen::Vector3d::Zero(); ///< area times middle
-    double          weight = 0;                       ///< area
+    Eigen::Vector3d first  = Eigen::Vector3d::Zero(); ///< size times middle
+    double          weight = 0;                       ///< size
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero(); ///< area vector times middle^T
 };
 
-Moments leaf_moments(const TriangleTree& tree, const TriangleTree::Node& leaf)
+Moments leaf_moments(const TriangleTree& tree, const TriangleTree::Node& leaf, const Eigen::Vector3d& origin)
 {
     Moments sum;
     for (std::int32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
     {
-        const auto& [a, b, c]      = tree.corners[static_cast<std::size_t>(i)];
-        const Eigen::Vector3d area = 0.5 * (b - a).cross(c - a);
-        const double          size = area.norm();
+        const auto& [a, b, c]        = tree.corners[static_cast<std::size_t>(i)];
+        const Eigen::Vector3d area   = 0.5 * (b - a).cross(c - a);
+        const Eigen::Vector3d middle = (a + b + c) / 3 - origin;
+        const double          size   = area.norm();
         sum.area += area;
-        sum.first += size / 3 * (a + b + c);
+        sum.first += size * middle;
         sum.weight += size;
+        sum.moment += area * middle.transpose();
     }
     return sum;
 }
 
-Dipole dipole(const Moments& sum, const TriangleTree::Node& node)
+Moments both(const Moments& one, const Moments& other)
 {
-    const Eigen::Vector3d middle = 0.5 * (node.low + node.high);
-    const Eigen::Vector3d centre = sum.weight > 0 ? Eigen::Vector3d(sum.first / sum.weight) : middle;
-    return {sum.area, centre, (node.high - centre).cwiseMax(centre - node.low).norm()};
+    return {one.area + other.area, one.first + other.first, one.weight + other.weight, one.moment + other.moment};
 }
 
-// The solid angle of a surface S seen from q is the integral of n . (x - q) / |x - q|^3. Expanded about a centre p, the
-// zeroth term is A . (p - q) / |p - q|^3 with A the sum of the area vectors; the next is of relative size
-// radius / |p - q|, and the choice of p takes its larger part away.
-double seen_as_dipole(const Dipole& dipole, const Eigen::Vector3d& way, double squared)
+Cluster cluster(const Moments& sum, const TriangleTree::Node& node, const Eigen::Vector3d& origin)
 {
-    return dipole.area.dot(way) / (4 * pi * squared * std::sqrt(squared));
+    const Eigen::Vector3d middle = 0.5 * (node.low + node.high) - origin;
+    const Eigen::Vector3d centre = sum.weight > 0 ? Eigen::Vector3d(sum.first / sum.weight) : middle;
+    const Eigen::Vector3d place  = origin + centre;
+    return {sum.area, sum.moment - sum.area * centre.transpose(), place,
+            (node.high - place).cwiseMax(place - node.low).norm()};
+}
+
+// The solid angle of a surface S seen from q is the integral of n . r / r^3, r = x - q. About a centre, with R from q
+// to it, the first two terms of Taylor's series in x - centre are
+//   A . R / R^3  +  tr(M) / R^3 - 3 R^T M R / R^5,  A = sum of area vectors, M = sum of area vector (middle - centre)^T
+// (the integral of x over a triangle is its size times its middle). The next is of relative size (radius / R)^2.
+double seen_from_afar(const Cluster& cluster, const Eigen::Vector3d& way, double squared)
+{
+    const double cubed = squared * std::sqrt(squared);
+    const double outer = 3 * way.dot(cluster.moment * way) / squared;
+    return (cluster.area.dot(way) + cluster.moment.trace() - outer) / (4 * pi * cubed);
 }
 
 constexpr double near = 4; ///< radii within which the children are asked
@@ -66,22 +79,18 @@ double covered_part(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::
 
 WindingTree build_winding_tree(const TriangleMesh& mesh)
 {
-    WindingTree          winding{build_tree(mesh), {}};
-    const TriangleTree&  tree = winding.tree;
-    std::vector<Moments> moments(tree.nodes.size());
-    winding.dipoles.resize(tree.nodes.size());
+    WindingTree           winding{build_tree(mesh), {}};
+    const TriangleTree&   tree   = winding.tree;
+    const Eigen::Vector3d origin = 0.5 * (tree.nodes[0].low + tree.nodes[0].high);
+    std::vector<Moments>  moments(tree.nodes.size());
+    winding.clusters.resize(tree.nodes.size());
     // Children stand behind their parents.
     for (std::size_t n = tree.nodes.size(); n-- > 0;)
     {
         const TriangleTree::Node& node = tree.nodes[n];
-        if (node.count > 0) { moments[n] = leaf_moments(tree, node); }
-        else
-        {
-            const auto     left = static_cast<std::size_t>(node.first);
-            const Moments &one = moments[left], &other = moments[left + 1];
-            moments[n] = {one.area + other.area, one.first + other.first, one.weight + other.weight};
-        }
-        winding.dipoles[n] = dipole(moments[n], node);
+        const auto                left = static_cast<std::size_t>(node.first);
+        moments[n] = node.count > 0 ? leaf_moments(tree, node, origin) : both(moments[left], moments[left + 1]);
+        winding.clusters[n] = cluster(moments[n], node, origin);
     }
     return winding;
 }
@@ -97,12 +106,12 @@ double winding_number(const WindingTree& winding, const Eigen::Vector3d& point)
     {
         const auto                at      = static_cast<std::size_t>(stack[--top]);
         const TriangleTree::Node& node    = tree.nodes[at];
-        const Dipole&             dipole  = winding.dipoles[at];
-        const Eigen::Vector3d     way     = dipole.centre - point;
+        const Cluster&            cluster = winding.clusters[at];
+        const Eigen::Vector3d     way     = cluster.centre - point;
         const double              squared = way.squaredNorm();
-        if (squared > near * near * dipole.radius * dipole.radius)
+        if (squared > near * near * cluster.radius * cluster.radius)
         {
-            sum += seen_as_dipole(dipole, way, squared);
+            sum += seen_from_afar(cluster, way, squared);
             continue;
         }
         if (node.count == 0)

@@ -84,7 +84,7 @@ const std::string obj_vertices = "# a cube\nv -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 
 
 TEST_F(MeshFiles, BinaryStlRoundTrip)
 {
-    const TriangleMesh mesh = rock_mesh({5, 0.7, 0.9}, "rock");
+    const TriangleMesh mesh = rock_mesh({5, 0.7, 0.9, 162}, "rock");
     write_stl(mesh, path("rock.stl"));
     const TriangleMesh read = read_mesh(path("rock.stl"), 1);
     ASSERT_EQ(read.triangles.size(), mesh.triangles.size());
