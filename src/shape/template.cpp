@@ -52,11 +52,19 @@ struct MakeSolid
     }
 };
 
-SurfaceNodes sphere_nodes(const TriangleMesh& mesh)
+/// Of a mesh inscribed in the sphere of diameter 1 m, put onto that.
+SurfaceNodes on_sphere(SurfaceNodes nodes, const TriangleMesh& mesh)
 {
-    SurfaceNodes nodes = nodes_at_vertices(mesh);
     const double ratio = pi / surface_area(mesh);
     for (double& area : nodes.areas) { area *= ratio; }
+    for (Eigen::Vector3d& position : nodes.positions) { position *= 0.5 / position.norm(); }
+    // A node on a facet moves out by no more than the facet is below the sphere: its cluster's sphere grows by that.
+    double moved = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+        moved = std::max(moved, 0.5 - area_vector(mesh, t).normalized().dot(corner(mesh, t, 0)));
+    }
+    for (double& radius : nodes.cluster_radii) { radius += moved; }
     nodes.spacing *= std::sqrt(ratio);
     return nodes;
 }
@@ -70,7 +78,10 @@ struct MakeNodes
     {
         return spacing > 0 ? resample(mesh, spacing) : resample_to_count(mesh, rock.nodes);
     }
-    SurfaceNodes operator()(const scene::SphereGenerator&) const { return sphere_nodes(mesh); }
+    SurfaceNodes operator()(const scene::SphereGenerator&) const
+    {
+        return on_sphere(spacing > 0 ? resample(mesh, spacing) : nodes_at_vertices(mesh), mesh);
+    }
     SurfaceNodes operator()(const scene::WheelGenerator& wheel) const { return resampled(wheel.radius / 32); }
     SurfaceNodes operator()(const scene::MeshFile&) const { return resampled(bounds(mesh).extent().maxCoeff() / 40); }
 

@@ -41,6 +41,17 @@ class Commands(CommandTest):
         again = self.tread("sdf", "metres.stl", "--cells", "32")
         self.assertRegex(again.stdout, r"volume +8e-06 m3")
 
+    def test_sdf_of_a_cube_with_a_hole(self):
+        (self.directory / "open.stl").write_bytes(binary_stl(cube(20.0)[:-1]))
+        refused = self.tread("sdf", "open.stl", "--unit", "mm")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("open.stl", refused.stderr)
+        self.assertIn("repair = true", refused.stderr)
+        mended = self.tread("sdf", "open.stl", "--unit", "mm", "--cells", "32", "--repair")
+        self.assertEqual(mended.returncode, 0, mended.stderr)
+        self.assertIn("repair: 1 holes closed", mended.stdout)
+        self.assertRegex(mended.stdout, r"volume +8e-06 m3")
+
     def test_sdf_of_a_built_in_wheel(self):
         result = self.tread("sdf", "perseverance")
         self.assertEqual(result.returncode, 0, result.stderr)

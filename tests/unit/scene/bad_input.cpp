@@ -138,6 +138,8 @@ const std::vector<BadCase> cross_cases{
     {"unit_of_generator", "seed = 3 }", "seed = 3 }\nunit = \"mm\"", 32, "unit: may stand only with `file`"},
     {"mesh_missing", "generate = { kind = \"rock\", seed = 3 }", "file = \"none.stl\"", 31,
      "[shape.clast] file: there is no file "},
+    {"repair_is_no_number", "generate = { kind = \"rock\", seed = 3 }", "file = \"bad.toml\"\nrepair = 1", 32,
+     "accepted: true | false"},
     {"wheel_without_room", "kind = \"rock\", seed = 3", "kind = \"wheel\", wall_thickness = 0.3", 31,
      "leave no room in the wheel"},
     {"grousers_overlap", "kind = \"rock\", seed = 3", "kind = \"wheel\", grousers = 900", 31, "the grousers overlap"},

@@ -78,6 +78,24 @@ TEST(Template, OfASphereIsTheExactSphere)
     }
 }
 
+TEST(Template, NodesOfASphereFollowTheSpacingThatIsAskedFor)
+{
+    const double        spacing = 0.05;
+    const ShapeTemplate made    = make_template({"ball", scene::SphereGenerator{642}, 40, spacing}, "");
+    const double        wanted  = test::pi / (spacing * spacing);
+    const auto          count   = static_cast<double>(made.nodes.positions.size());
+    std::printf("%g nodes (expected %g, tolerance 20 %%: spacing is \"about\")\n", count, wanted);
+    EXPECT_NEAR(count / wanted, 1, 0.2);
+    EXPECT_NEAR(total(made.nodes.areas), test::pi, 1e-12);
+    for (std::size_t i = 0; i < made.nodes.positions.size(); ++i)
+    {
+        const std::size_t cluster = i / SurfaceNodes::cluster_size;
+        const auto&       node    = made.nodes.positions[i];
+        EXPECT_NEAR(node.norm(), 0.5, 1e-12);
+        EXPECT_LE((node - made.nodes.cluster_centres[cluster]).norm(), made.nodes.cluster_radii[cluster] + 1e-12);
+    }
+}
+
 TEST(Template, BuiltinWheelsKeepTheirVolumeInTheSdf)
 {
     for (const std::string& name : builtin_shape_names())
