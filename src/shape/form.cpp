@@ -120,10 +120,13 @@ Width least_width_across(const std::vector<Eigen::Vector3d>& points, const Eigen
 
     auto best = at(0);
     for (int i = 1; i < turns; ++i) { best = std::min(best, at(pi * i / turns), narrower); }
-    for (double step = 0.5 * pi / turns; step > 1e-8; step *= 0.5)
+    constexpr int halvings = 20; // to 1e-8 of a turn
+    double        step     = 0.5 * pi / turns;
+    for (int halving = 0; halving < halvings; ++halving)
     {
         const double turn = best.second;
         best              = std::min({best, at(turn - step), at(turn + step)}, narrower);
+        step *= 0.5;
     }
     return best.first;
 }

@@ -69,8 +69,8 @@ MassProperties sampled_mass_properties(const Bounds& box, const MeshDistance& di
 #pragma omp parallel for schedule(dynamic, 1)
     for (std::size_t p = 0; p < parts.size(); ++p)
     {
-        const auto            i = static_cast<int>(p) % coarse, j = static_cast<int>(p) / coarse % coarse;
-        const Eigen::Vector3d place(i + 0.5, j + 0.5, static_cast<int>(p) / (coarse * coarse) + 0.5);
+        const int at = static_cast<int>(p), i = at % coarse, j = at / coarse % coarse, k = at / (coarse * coarse);
+        const Eigen::Vector3d place(i + 0.5, j + 0.5, k + 0.5);
         inner.integrate(side * (place - Eigen::Vector3d::Constant(0.5 * coarse)), side, 0, parts[p]);
     }
     Moments sum;

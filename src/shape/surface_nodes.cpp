@@ -98,6 +98,7 @@ SurfaceNodes resample_to_count(const TriangleMesh& mesh, int count)
 
     std::vector<Eigen::Vector3d> positions;
     std::vector<double>          areas(places.size(), 0.0);
+    positions.reserve(places.size());
     for (const std::size_t place : places) { positions.push_back(samples.positions[place]); }
     for (std::size_t i = 0; i < owners.size(); ++i) { areas[owners[i]] += samples.areas[i]; }
     return cluster(positions, areas);
