@@ -75,7 +75,7 @@ struct Quarry
     double               elongation;
 
     /// The rock with these handles, but stretched further until it has the extents.
-    Rock rock(RockHandles handles, const TriangleMesh& directions) const
+    Rock rock(const RockHandles& handles, const TriangleMesh& directions) const
     {
         constexpr int    rounds = 12;
         constexpr double enough = 1e-3;
@@ -246,7 +246,7 @@ Rock drawn_rock(std::uint64_t seed, const Form& wanted, const std::string& origi
         const Yield         yield = yield_of(coarse, wanted.solidity);
         add(draws, yield);
         if (!contains(yield, wanted)) { continue; }
-        const Rock rock = search(coarse, {character, many, wanted.aspect, wanted.elongation}, wanted);
+        Rock rock = search(coarse, {character, many, wanted.aspect, wanted.elongation}, wanted);
         if (largest_error(rock.form, wanted) < tolerance) { return rock; }
         if (!draws.nearest || largest_error(rock.form, wanted) < largest_error(draws.nearest->form, wanted))
         {
