@@ -294,14 +294,16 @@ std::size_t place_at_random(const scene::Scene& scene, std::size_t table, const 
 std::size_t place_on_lattice(const scene::Scene& scene, std::size_t table, const Space& space,
                              const std::vector<RockDraw>& rocks, World& world)
 {
-    const double      widest = largest_bounding_diameter(scene, table, rocks, world);
-    const std::size_t before = world.bodies.size();
-    std::size_t       best   = 0;
-    for (double spacing = widest; spacing >= 0.6 * widest; spacing *= 0.97)
+    const double      widest   = largest_bounding_diameter(scene, table, rocks, world);
+    const std::size_t before   = world.bodies.size();
+    std::size_t       best     = 0;
+    constexpr int     lattices = 17; // each narrower than the one before by 3 %, down to 61 %
+    for (int narrowed = 0; narrowed < lattices; ++narrowed)
     {
-        const auto sites = lattice(shrunk(bounds(space.region), 0.5 * spacing), spacing);
+        const double spacing = widest * std::pow(0.97, narrowed);
+        const auto   sites   = lattice(shrunk(bounds(space.region), 0.5 * spacing), spacing);
         // The narrowest lattice is tried anyway: an error says how many it takes.
-        if (sites.size() < rocks.size() && 0.97 * spacing >= 0.6 * widest) { continue; }
+        if (sites.size() < rocks.size() && narrowed + 1 < lattices) { continue; }
         Placer placer(scene, table, space, world);
         Random random = random_places(scene.rocks[table]);
         best          = std::max(best, place_on_sites(placer, sites, rocks, random));
