@@ -122,21 +122,24 @@ struct AskedShape
     std::string  directory; ///< that its files are relative to
 };
 
+/// A shape of the scene, a rock of one of its families, or a built-in.
+scene::Shape named_shape(const scene::Scene& scene, const std::string& name)
+{
+    for (const scene::Shape& family : scene.shapes)
+    {
+        for (const scene::Shape& rock : shape::members(family))
+        {
+            if (rock.name == name) { return rock; }
+        }
+    }
+    return shape::find_shape(scene, name);
+}
+
 /// The shape of a scene that is asked for, or its only one.
 AskedShape shape_in_scene(const SdfArguments& arguments)
 {
     const scene::Scene scene = scene::load_scene(arguments.mesh, {});
-    if (arguments.shape)
-    {
-        for (const scene::Shape& family : scene.shapes)
-        {
-            for (const scene::Shape& rock : shape::members(family))
-            {
-                if (rock.name == *arguments.shape) { return {rock, scene.directory}; }
-            }
-        }
-        return {shape::find_shape(scene, *arguments.shape), scene.directory};
-    }
+    if (arguments.shape) { return {named_shape(scene, *arguments.shape), scene.directory}; }
     if (scene.shapes.size() != 1)
     {
         throw InputError(

@@ -1,9 +1,14 @@
 #include "solver/device_templates.hpp"
 
+#include "kernels/dem/sdf_kern.hpp"
+
 namespace tread::solver
 {
 namespace
 {
+
+// Kernels know nothing of shapes, and read what they lay out.
+static_assert(dem::brick_cells == shape::SignedDistanceGrid::brick_cells);
 
 /// Appends `from` to `to`; returns where it starts.
 template<class T>

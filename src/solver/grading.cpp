@@ -77,9 +77,6 @@ double quantile(const scene::Diameter& diameter, double u) { return std::visit(Q
 
 double sphere_volume(double diameter) { return std::numbers::pi / 6 * diameter * diameter * diameter; }
 
-double smallest_diameter(const scene::Diameter& diameter) { return quantile(diameter, 0); }
-double largest_diameter(const scene::Diameter& diameter) { return quantile(diameter, 1); }
-
 std::vector<RockDraw> draw_rocks(const scene::Rocks& rocks, double volume, std::size_t members)
 {
     const double          wanted = rocks.solid_fraction.value_or(0) * volume;

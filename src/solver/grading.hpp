@@ -14,9 +14,6 @@ double quantile(const scene::Diameter& diameter, double u);
 /// m3, of the sphere of this diameter (m).
 double sphere_volume(double diameter);
 
-double smallest_diameter(const scene::Diameter& diameter);
-double largest_diameter(const scene::Diameter& diameter);
-
 /// A rock before it has a place.
 struct RockDraw
 {

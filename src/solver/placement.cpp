@@ -6,6 +6,7 @@
 
 #include "base/random.hpp"
 #include "solver/body_grid.hpp"
+#include "solver/rocks.hpp"
 
 namespace tread::solver
 {
@@ -70,7 +71,7 @@ public:
         , world_(world)
         , grid_(world)
     {
-        for (const auto& member : shape::members(shape::find_shape(scene, scene.rocks[table].shape)))
+        for (const auto& member : rocks_family(scene, table))
         {
             members_.push_back(template_index(world, member.name));
         }
@@ -252,7 +253,7 @@ double largest_bounding_diameter(const scene::Scene& scene, std::size_t table, c
                                  const World& world)
 {
     std::vector<double> largest_of_member;
-    for (const auto& member : shape::members(shape::find_shape(scene, scene.rocks[table].shape)))
+    for (const auto& member : rocks_family(scene, table))
     {
         const auto index = static_cast<std::size_t>(template_index(world, member.name));
         const bool drawn = index < world.templates.size();

@@ -53,6 +53,11 @@ Space rocks_space(const scene::Scene& scene, std::size_t table)
     return make_space(rocks.region, rocks.height, rocks.floor, fmt::format("[[rocks]] {}", table));
 }
 
+std::vector<scene::Shape> rocks_family(const scene::Scene& scene, std::size_t table)
+{
+    return shape::members(shape::find_shape(scene, scene.rocks[table].shape));
+}
+
 void place_rocks(const scene::Scene& scene, std::size_t table, const std::vector<RockDraw>& rocks, World& world)
 {
     const std::size_t first  = world.bodies.size();

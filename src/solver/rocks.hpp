@@ -10,6 +10,9 @@ namespace tread::solver
 /// Where the rocks of a table may be.
 Space rocks_space(const scene::Scene& scene, std::size_t table);
 
+/// The shapes that the rocks of a table are drawn from.
+std::vector<scene::Shape> rocks_family(const scene::Scene& scene, std::size_t table);
+
 /// Adds the drawn rocks of a [[rocks]] table to the world: at random or on a lattice in the table's space, with random
 /// orientations, the same for a seed on every machine. A rock lies whole in the space by its surface nodes, and keeps
 /// 1 % of the smaller radius from every other body, by the surface nodes of both. With placement "replace" the points

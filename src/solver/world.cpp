@@ -85,9 +85,8 @@ std::vector<std::vector<RockDraw>> draw_all_rocks(const scene::Scene& scene)
     std::vector<std::vector<RockDraw>> draws;
     for (std::size_t table = 0; table < scene.rocks.size(); ++table)
     {
-        const scene::Rocks& rocks   = scene.rocks[table];
-        const auto          members = shape::members(shape::find_shape(scene, rocks.shape)).size();
-        draws.push_back(draw_rocks(rocks, volume(rocks_space(scene, table)), members));
+        const auto members = rocks_family(scene, table).size();
+        draws.push_back(draw_rocks(scene.rocks[table], volume(rocks_space(scene, table)), members));
     }
     return draws;
 }
@@ -96,21 +95,19 @@ std::vector<std::vector<RockDraw>> draw_all_rocks(const scene::Scene& scene)
 struct Wanted
 {
     scene::Shape shape;
-    double       smallest; ///< m, diameter of the smallest instance; infinite if all are at scale 1
-    bool         named;    ///< by a [[body]]
+    double       smallest; ///< m, diameter of the smallest instance; infinite if all are bodies of the shape's own size
 };
 
 /// The shapes that bodies and drawn rocks take, each once, in order of first use.
 class WantedShapes
 {
 public:
-    void add(const scene::Shape& shape, double diameter, bool named)
+    void add(const scene::Shape& shape, double diameter)
     {
         const auto [at, is_new] = index_.try_emplace(shape.name, wanted.size());
-        if (is_new) { wanted.push_back({shape, diameter, named}); }
+        if (is_new) { wanted.push_back({shape, diameter}); }
         Wanted& one  = wanted[at->second];
         one.smallest = std::min(one.smallest, diameter);
-        one.named    = one.named || named;
     }
 
     std::vector<Wanted> wanted;
@@ -125,14 +122,14 @@ std::vector<Wanted> wanted_shapes(const scene::Scene& scene, const std::vector<s
     for (const scene::Body& body : scene.bodies)
     {
         const auto own_size = std::numeric_limits<double>::infinity();
-        shapes.add(body_shape(scene, body), body.diameter.value_or(own_size), true);
+        shapes.add(body_shape(scene, body), body.diameter.value_or(own_size));
     }
     for (std::size_t table = 0; table < scene.rocks.size(); ++table)
     {
-        const auto family = shape::members(shape::find_shape(scene, scene.rocks[table].shape));
+        const auto family = rocks_family(scene, table);
         for (const RockDraw& rock : draws[table])
         {
-            shapes.add(family[static_cast<std::size_t>(rock.member)], rock.diameter, false);
+            shapes.add(family[static_cast<std::size_t>(rock.member)], rock.diameter);
         }
     }
     return shapes.wanted;
@@ -161,7 +158,7 @@ std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene, cons
         { return contact_reach(scene, one.smallest, equivalent_radius); };
         templates.push_back(shape::make_template(one.shape, scene.directory, reach));
         const double extent = templates.back().box.extent().maxCoeff();
-        if (one.named && std::isinf(one.smallest) && extent > 100 * *std::max_element(size.begin(), size.end()))
+        if (std::isinf(one.smallest) && extent > 100 * *std::max_element(size.begin(), size.end()))
         {
             throw InputError(
                 fmt::format("[[shape]] '{}': its extent of {:.4g} m is over 100 times the domain; a mesh in "
