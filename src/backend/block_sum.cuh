@@ -3,25 +3,47 @@
 namespace tread
 {
 
-/// Adds `width` values of each of a block's `threads` threads in a fixed tree; thread 0 writes the sums to `out`.
-/// `shared` holds threads * width doubles. All threads must call it.
+struct AddValues
+{
+    __device__ double operator()(double a, double b) const { return a + b; }
+};
+
+struct LargerValue
+{
+    __device__ double operator()(double a, double b) const { return a > b ? a : b; }
+};
+
+/// Combines `width` values of each of a block's `threads` threads in a fixed order: a tree in each warp, then the warps
+/// one after the other. `shared` holds threads / 32 * width doubles, not in use by others. All threads must call it.
+template<int threads, int width, class Combine>
+__device__ void block_combine(const double* values, double* shared, double* out, Combine combine)
+{
+    constexpr int warps = threads / 32;
+    for (int w = 0; w < width; ++w)
+    {
+        double value = values[w];
+        for (int half = 16; half > 0; half /= 2) { value = combine(value, __shfl_xor_sync(0xffffffffu, value, half)); }
+        if (threadIdx.x % 32 == 0) { shared[threadIdx.x / 32 * width + w] = value; }
+    }
+    __syncthreads();
+    if (threadIdx.x < width)
+    {
+        double value = shared[threadIdx.x];
+        for (int warp = 1; warp < warps; ++warp) { value = combine(value, shared[warp * width + threadIdx.x]); }
+        out[threadIdx.x] = value;
+    }
+}
+
 template<int threads, int width>
 __device__ void block_sum(const double* values, double* shared, double* out)
 {
-    for (int w = 0; w < width; ++w) { shared[w * threads + threadIdx.x] = values[w]; }
-    __syncthreads();
-    for (unsigned half = threads / 2; half > 0; half /= 2)
-    {
-        if (threadIdx.x < half)
-        {
-            for (int w = 0; w < width; ++w)
-            {
-                shared[w * threads + threadIdx.x] += shared[w * threads + threadIdx.x + half];
-            }
-        }
-        __syncthreads();
-    }
-    if (threadIdx.x < width) { out[threadIdx.x] = shared[threadIdx.x * threads]; }
+    block_combine<threads, width>(values, shared, out, AddValues{});
+}
+
+template<int threads, int width>
+__device__ void block_largest(const double* values, double* shared, double* out)
+{
+    block_combine<threads, width>(values, shared, out, LargerValue{});
 }
 
 } // namespace tread

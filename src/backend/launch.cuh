@@ -27,19 +27,20 @@ void for_each(const Gpu& gpu, const char* name, std::int64_t n, F f)
     check_cuda(cudaGetLastError(), name);
 }
 
-template<int threads, class F>
-__global__ void __launch_bounds__(threads) for_each_block_kernel(F f)
+template<int threads, int blocks_an_sm, class F>
+__global__ void __launch_bounds__(threads, blocks_an_sm) for_each_block_kernel(F f)
 {
     f(static_cast<std::int64_t>(blockIdx.x));
 }
 
-/// Runs f(block) with `threads` threads a block, for bodies that share memory and barriers.
-template<int threads, class F>
+/// Runs f(block) with `threads` threads a block, for bodies that share memory and barriers. `blocks_an_sm` caps the
+/// registers so that that many fit.
+template<int threads, int blocks_an_sm = 1, class F>
 void for_each_block(const Gpu& gpu, const char* name, std::int64_t blocks, F f)
 {
     if (blocks == 0) { return; }
     gpu.counters->launched(name);
-    for_each_block_kernel<threads><<<static_cast<unsigned>(blocks), threads, 0, gpu.stream>>>(f);
+    for_each_block_kernel<threads, blocks_an_sm><<<static_cast<unsigned>(blocks), threads, 0, gpu.stream>>>(f);
     check_cuda(cudaGetLastError(), name);
 }
 

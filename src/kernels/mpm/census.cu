@@ -22,7 +22,7 @@ struct CountPage
 
     __device__ void operator()(std::int64_t page) const
     {
-        __shared__ double shared[census_threads * census_count];
+        __shared__ double shared[census_threads / 32 * census_count];
         double            row[census_count] = {};
         for (std::int64_t i = pages.first_point[page] + threadIdx.x; i < pages.first_point[page + 1];
              i += census_threads)

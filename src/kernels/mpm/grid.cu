@@ -21,7 +21,7 @@ struct UpdatePage
 
     __device__ void operator()(std::int64_t page) const
     {
-        __shared__ double shared[grid_sums * page_cells];
+        __shared__ double shared[page_cells / 32 * grid_sums];
         const int         place = static_cast<int>(threadIdx.x);
         Real              channels[node_channels];
         double            sum[grid_sums] = {};

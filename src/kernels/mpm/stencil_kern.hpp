@@ -39,22 +39,35 @@ TREAD_HD void linear_weights(Real f, Real inverse_spacing, Real* weight, Real* s
     slope[2]  = 0;
 }
 
-/// Stencil of a position (m). `stencil_shift` 0.5 means quadratic, 0 linear.
+/// Weights along one axis of a point `f` spacings above its lowest node.
+template<class Real>
+TREAD_HD void axis_weights(Real f, Real inverse_spacing, double stencil_shift, Real* weight, Real* slope)
+{
+    if (stencil_shift > 0) { quadratic_weights(f, inverse_spacing, weight, slope); }
+    else { linear_weights(f, inverse_spacing, weight, slope); }
+}
+
+/// Stencil of a position (m) whose lowest node is known. `stencil_shift` 0.5 means quadratic, 0 linear.
+template<class Real>
+TREAD_HD Stencil<Real> stencil_above(Index3 base, const Vec3<double>& position, double spacing, double stencil_shift)
+{
+    Stencil<Real> stencil;
+    stencil.base          = base;
+    const double lowest[] = {double(base.x), double(base.y), double(base.z)};
+    const double inverse  = 1 / spacing;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        stencil.fraction[axis] = static_cast<Real>(position[axis] * inverse - lowest[axis]);
+        axis_weights(stencil.fraction[axis], static_cast<Real>(inverse), stencil_shift, stencil.weight[axis],
+                     stencil.slope[axis]);
+    }
+    return stencil;
+}
+
 template<class Real>
 TREAD_HD Stencil<Real> stencil_at(const Vec3<double>& position, double spacing, double stencil_shift)
 {
-    Stencil<Real> stencil;
-    stencil.base         = cell_of(position, spacing, stencil_shift);
-    const double base[3] = {double(stencil.base.x), double(stencil.base.y), double(stencil.base.z)};
-    const Real   inverse = static_cast<Real>(1 / spacing);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        const Real f           = static_cast<Real>(position[axis] / spacing - base[axis]);
-        stencil.fraction[axis] = f;
-        if (stencil_shift > 0) { quadratic_weights(f, inverse, stencil.weight[axis], stencil.slope[axis]); }
-        else { linear_weights(f, inverse, stencil.weight[axis], stencil.slope[axis]); }
-    }
-    return stencil;
+    return stencil_above<Real>(cell_of(position, spacing, stencil_shift), position, spacing, stencil_shift);
 }
 
 /// Place in the page's tile of the stencil's lowest node.

@@ -1,0 +1,55 @@
+#include <iostream>
+#include <map>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "base/errors.hpp"
+#include "mpm.hpp"
+
+// Benchmarks: print figures, assert none.
+namespace
+{
+
+using namespace tread;
+
+template<class T>
+void add_word(CLI::App& command, const std::string& name, T& value, const std::map<std::string, T>& words)
+{
+    command.add_option(name, value)->transform(CLI::CheckedTransformer(words))->type_name("WORD");
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App       app("tread-bench: what a step costs", "tread-bench");
+    bench::MpmCase mpm;
+    double         points      = 1e6;
+    CLI::App*      mpm_command = app.add_subcommand("mpm", "Whole steps of pure sand");
+    mpm_command->add_option("--points", points, "About how many, as 1e6");
+    mpm_command->add_option("--per-cell", mpm.per_cell, "1, 8, 27 or 64");
+    mpm_command->add_option("--steps", mpm.steps, "Timed steps, three times");
+    add_word<scene::MaterialModel>(
+        *mpm_command, "--law", mpm.law,
+        {{"elastic", scene::MaterialModel::elastic}, {"mohr-coulomb", scene::MaterialModel::mohr_coulomb}});
+    add_word<bench::SandState>(*mpm_command, "--state", mpm.state,
+                               {{"settled", bench::SandState::settled}, {"collapsing", bench::SandState::collapsing}});
+    add_word<scene::Precision>(*mpm_command, "--precision", mpm.precision,
+                               {{"single", scene::Precision::single_}, {"double", scene::Precision::double_}});
+    add_word<bench::Backend>(*mpm_command, "--backend", mpm.backend,
+                             {{"cpu", bench::Backend::cpu}, {"cuda", bench::Backend::cuda}});
+    app.require_subcommand(1);
+    CLI11_PARSE(app, argc, argv);
+    mpm.points = static_cast<std::int64_t>(points);
+    try
+    {
+        bench::run_mpm(mpm);
+    }
+    catch (const std::exception& error)
+    {
+        std::cerr << "tread-bench: error: " << error.what() << std::endl;
+        return 4;
+    }
+    return 0;
+}

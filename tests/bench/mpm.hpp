@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "scene/scene.hpp"
+
+namespace tread::bench
+{
+
+enum class SandState
+{
+    settled,   ///< a bed at rest between slip walls
+    collapsing ///< a column that falls apart
+};
+
+enum class Backend
+{
+    cpu,
+    cuda
+};
+
+struct MpmCase
+{
+    std::int64_t         points    = 1'000'000;
+    int                  per_cell  = 8; ///< 1, 8, 27, 64
+    scene::MaterialModel law       = scene::MaterialModel::mohr_coulomb;
+    SandState            state     = SandState::settled;
+    scene::Precision     precision = scene::Precision::single_;
+    Backend              backend   = Backend::cpu;
+    int                  steps     = 200; ///< timed, three times
+};
+
+/// Times whole MPM steps of pure sand, ordering included, and its kernels one by one; prints points a second, bytes
+/// counted and their share of `copy_rate` (bytes a second, read and write, of a device copy measured in the same run).
+void run_mpm(const MpmCase& what);
+
+} // namespace tread::bench
