@@ -34,13 +34,18 @@ void sort_by_key(const Cpu& cpu, Array<Cpu, std::uint64_t>& keys, Array<Cpu, std
     }
 }
 
-std::int64_t exclusive_scan(const Cpu& cpu, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&)
+void scan_in_place(const Cpu& cpu, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&)
 {
     cpu.counters->launched("scan");
+    std::exclusive_scan(values.data(), values.data() + values.size(), values.data(), 0);
+}
+
+std::int64_t exclusive_scan(const Cpu& cpu, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>& scratch)
+{
     const std::int64_t n = values.size();
     if (n == 0) { return 0; }
     const std::int64_t last = values.data()[n - 1];
-    std::exclusive_scan(values.data(), values.data() + n, values.data(), 0);
+    scan_in_place(cpu, values, scratch);
     return values.data()[n - 1] + last;
 }
 

@@ -27,19 +27,25 @@ void sort_by_key(const Gpu& gpu, Array<Gpu, std::uint64_t>& keys, Array<Gpu, std
     copy(gpu, values.data(), scratch.values.data(), static_cast<std::size_t>(n) * sizeof(std::int32_t));
 }
 
-std::int64_t exclusive_scan(const Gpu& gpu, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>& scratch)
+void scan_in_place(const Gpu& gpu, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>& scratch)
 {
-    const std::int64_t n = values.size();
-    if (n == 0) { return 0; }
+    if (values.size() == 0) { return; }
     gpu.counters->launched("scan");
-    const std::int32_t last  = read(gpu, values.data() + n - 1);
-    const int          count = static_cast<int>(n);
-    std::size_t        bytes = 0;
+    const int   count = static_cast<int>(values.size());
+    std::size_t bytes = 0;
     check_cuda(cub::DeviceScan::ExclusiveSum(nullptr, bytes, values.data(), values.data(), count, gpu.stream), "scan");
     scratch.bytes.resize(static_cast<std::int64_t>(bytes));
     check_cuda(
         cub::DeviceScan::ExclusiveSum(scratch.bytes.data(), bytes, values.data(), values.data(), count, gpu.stream),
         "scan");
+}
+
+std::int64_t exclusive_scan(const Gpu& gpu, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>& scratch)
+{
+    const std::int64_t n = values.size();
+    if (n == 0) { return 0; }
+    const std::int32_t last = read(gpu, values.data() + n - 1);
+    scan_in_place(gpu, values, scratch);
     return read(gpu, values.data() + n - 1) + last;
 }
 

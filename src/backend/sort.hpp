@@ -28,7 +28,11 @@ struct SortScratch
 void sort_by_key(const Cpu&, Array<Cpu, std::uint64_t>& keys, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&);
 void sort_by_key(const Gpu&, Array<Gpu, std::uint64_t>& keys, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>&);
 
-/// In place: values[i] becomes the sum of the values before i; returns the sum of all (and waits for it).
+/// values[i] becomes the sum of the values before i.
+void scan_in_place(const Cpu&, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&);
+void scan_in_place(const Gpu&, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>&);
+
+/// The same; returns the sum of all (and waits for it).
 std::int64_t exclusive_scan(const Cpu&, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&);
 std::int64_t exclusive_scan(const Gpu&, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>&);
 

@@ -13,6 +13,9 @@ namespace
 /// underflow in fp32: a larger one would hold nodes back that move with the sand, and strain what falls freely.
 constexpr double mass_floor_share = 1e-20;
 
+/// After so many new lists the order in memory is renewed: points of a cell that stand far apart in memory cost reads.
+constexpr int relists_an_order = 64;
+
 /// Room for a census, or for the sums and peaks of a step.
 constexpr std::int64_t totals_size = std::int64_t{mpm::census_count} + std::int64_t{mpm::grid_sums} +
                                      std::int64_t{mpm::point_sums} + std::int64_t{mpm::point_peaks};
@@ -67,6 +70,9 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     , points_(exec)
     , pages_(exec)
     , order_scratch_(exec)
+    , relist_scratch_(exec)
+    , moves_to_(exec, "point moves")
+    , move_counts_(exec, "page moves")
     , tiles_(exec, "tiles")
     , motion_(exec, "grid motion")
     , grid_rows_(exec, "grid sums")
@@ -111,15 +117,35 @@ mpm::PagesView Sand<Exec, Real>::pages() const
 template<class Exec, class Real>
 void Sand<Exec, Real>::order()
 {
-    if (ordered_) { return; }
+    if (stir_ == mpm::Stir::none) { return; }
+    if (stir_ == mpm::Stir::moved && relists_ < relists_an_order)
+    {
+        mpm::relist_points(exec_, pages_, moves(), relist_scratch_);
+        ++relists_;
+    }
+    else { order_in_memory(); }
+    stir_ = mpm::Stir::none;
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::order_in_memory()
+{
     mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_);
-    ordered_                       = true;
+    relists_                       = 0;
     const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
     tiles_.resize(point_pages * mpm::node_channels * mpm::tile_nodes);
     motion_.resize(node_pages * mpm::motion_channels * mpm::page_cells);
     grid_rows_.resize(node_pages * mpm::grid_sums);
     point_rows_.resize(point_pages * mpm::point_sums);
     peak_rows_.resize(point_pages * mpm::point_peaks);
+    moves_to_.resize(points_.count);
+    move_counts_.resize(point_pages * mpm::move_counts);
+}
+
+template<class Exec, class Real>
+mpm::MovesView Sand<Exec, Real>::moves()
+{
+    return {moves_to_.data(), move_counts_.data()};
 }
 
 template<class Exec, class Real>
@@ -139,7 +165,7 @@ template<class Exec, class Real>
 void Sand<Exec, Real>::gather(double dt)
 {
     const mpm::GatherStep<Real> step{static_cast<Real>(dt), materials_.data(), pic_rates_.data()};
-    mpm::gather(exec_, points_.view(), pages(), motion_.data(), step, point_rows_.data(), peak_rows_.data());
+    mpm::gather(exec_, points_.view(), pages(), motion_.data(), step, moves(), point_rows_.data(), peak_rows_.data());
 }
 
 template<class Exec, class Real>
@@ -157,7 +183,7 @@ SandReport Sand<Exec, Real>::report()
     read(exec_, report.grid, grid);
     read(exec_, report.points, points);
     read(exec_, report.peaks, peaks);
-    if (report.peaks[mpm::peak_moved] > 0) { ordered_ = false; }
+    stir_ = static_cast<mpm::Stir>(static_cast<int>(report.peaks[mpm::peak_stir]));
     return report;
 }
 

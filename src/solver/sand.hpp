@@ -8,6 +8,7 @@
 #include "kernels/mpm/gather.hpp"
 #include "kernels/mpm/grid.hpp"
 #include "kernels/mpm/order.hpp"
+#include "kernels/mpm/relist.hpp"
 #include "kernels/mpm/scatter.hpp"
 #include "solver/world.hpp"
 
@@ -45,7 +46,8 @@ public:
     mpm::PagesView           pages() const;
     const mpm::GridGeometry& geometry() const { return geometry_; }
 
-    /// 1. Orders points by page and cell, if one has left its cell since.
+    /// 1. Lists points by page and cell, if one has left its cell since; orders them in memory when one has gone beyond
+    /// the listed pages, or after many such changes.
     void order();
 
     /// 4. P2G.
@@ -73,7 +75,9 @@ public:
     io::PointFields fields() const;
 
 private:
-    void upload(const World& world, mpm::PointFields fields);
+    void           upload(const World& world, mpm::PointFields fields);
+    void           order_in_memory();
+    mpm::MovesView moves();
 
     Exec                                       exec_;
     mpm::GridGeometry                          geometry_;
@@ -83,6 +87,9 @@ private:
     mpm::Points<Exec, Real>                    points_;
     mpm::Pages<Exec>                           pages_;
     mpm::OrderScratch<Exec, Real>              order_scratch_;
+    mpm::RelistScratch<Exec>                   relist_scratch_;
+    Array<Exec, std::uint16_t>                 moves_to_;
+    Array<Exec, std::int32_t>                  move_counts_;
     Array<Exec, Real>                          tiles_;
     Array<Exec, Real>                          motion_;
     Array<Exec, double>                        grid_rows_;
@@ -93,7 +100,8 @@ private:
     Array<Exec, mpm::MaterialParameters<Real>> materials_;
     Array<Exec, Real>                          pic_rates_;
     double                                     mass_    = 0;
-    bool                                       ordered_ = false;
+    mpm::Stir                                  stir_    = mpm::Stir::lost; ///< since the points were last listed
+    int                                        relists_ = 0;               ///< since they were last ordered in memory
 };
 
 } // namespace tread::solver

@@ -113,7 +113,7 @@ void Simulation<Exec, Real>::measure(const TimeStep& step, double time)
 {
     const SandReport  sand  = sand_ ? sand_->report() : SandReport{};
     const RigidReport rigid = rigid_ ? rigid_->report(time) : RigidReport{};
-    if (sand.peaks[mpm::peak_moved] >= 2)
+    if (sand.peaks[mpm::peak_stir] >= static_cast<double>(mpm::Stir::not_finite))
     {
         throw NumericalError(
             fmt::format("t = {:.6g} s: a point of the sand has a velocity or stress that is not a number "

@@ -96,9 +96,10 @@ struct Probe
         if (range[0] == range[1]) { return; }
         const SearchBody body = search_body(bodies, templates, pair_body[pair], reach);
         if (!cell_may_touch(body, pages, page, place, reach)) { return; }
-        for (std::int32_t p = range[0]; p < range[1]; ++p)
+        for (std::int32_t at = range[0]; at < range[1]; ++at)
         {
-            const double own = point_radius(static_cast<double>(points.volume[p]), radius);
+            const std::int32_t p   = pages.point_at[at];
+            const double       own = point_radius(static_cast<double>(points.volume[p]), radius);
             if (may_touch(body, points.position.get(p), own)) { visit(pair_body[pair], p); }
         }
     }

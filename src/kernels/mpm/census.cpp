@@ -14,9 +14,9 @@ void take_census(const Cpu& cpu, const PointsView<Real>& points, const PagesView
     {
         double* row = rows + page * census_count;
         for (int c = 0; c < census_count; ++c) { row[c] = 0; }
-        for (std::int64_t i = pages.first_point[page]; i < pages.first_point[page + 1]; ++i)
+        for (std::int64_t at = pages.first_point[page]; at < pages.first_point[page + 1]; ++at)
         {
-            count_point(points, i, materials, row);
+            count_point(points, pages.point_at[at], materials, row);
         }
     };
     for_each_heavy(cpu, "census", pages.point_pages, count_page);

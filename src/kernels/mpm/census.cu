@@ -24,10 +24,10 @@ struct CountPage
     {
         __shared__ double shared[census_threads / 32 * census_count];
         double            row[census_count] = {};
-        for (std::int64_t i = pages.first_point[page] + threadIdx.x; i < pages.first_point[page + 1];
-             i += census_threads)
+        for (std::int64_t at = pages.first_point[page] + threadIdx.x; at < pages.first_point[page + 1];
+             at += census_threads)
         {
-            count_point(points, i, materials, row);
+            count_point(points, pages.point_at[at], materials, row);
         }
         block_sum<census_threads, census_count>(row, shared, rows + page * census_count);
     }

@@ -1,5 +1,7 @@
 #include "kernels/mpm/gather.hpp"
 
+#include <algorithm>
+
 #include "backend/launch.hpp"
 #include "kernels/mpm/gather_kern.hpp"
 
@@ -10,8 +12,16 @@ namespace
 
 template<class Real>
 void gather_page(const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-                 const GatherStep<Real>& step, std::int64_t page, double* sums, double* peaks)
+                 const GatherStep<Real>& step, const MovesView& moves, std::int64_t page, double* sums, double* peaks)
 {
+    std::int32_t* count = moves.count + page * move_counts;
+    std::fill(count, count + move_counts, 0);
+    if (pages.first_point[page] == pages.first_point[page + 1])
+    {
+        std::fill(sums, sums + point_sums, 0.0);
+        std::fill(peaks, peaks + point_peaks, 0.0);
+        return;
+    }
     Real tile[tile_nodes][lanes] = {};
     for (int node = 0; node < tile_nodes; ++node)
     {
@@ -21,11 +31,15 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
     const Real spacing = static_cast<Real>(pages.spacing);
     for (int s = 0; s < point_sums; ++s) { sums[s] = 0; }
     for (int p = 0; p < point_peaks; ++p) { peaks[p] = 0; }
-    for (std::int64_t i = pages.first_point[page]; i < pages.first_point[page + 1]; ++i)
+    for (std::int64_t at = pages.first_point[page]; at < pages.first_point[page + 1]; ++at)
     {
-        const auto stencil = stencil_at<Real>(points.position.get(i), pages.spacing, pages.stencil_shift);
-        const auto seen    = see(stencil, spacing, [&](int node) -> const Real(&)[lanes] { return tile[node]; });
-        update_point(points, i, seen, stencil.base, pages, step, sums, peaks);
+        const std::int64_t i       = pages.point_at[at];
+        const auto         stencil = stencil_at<Real>(points.position.get(i), pages.spacing, pages.stencil_shift);
+        const auto         seen = see(stencil, spacing, [&](int node) -> const Real(&)[lanes] { return tile[node]; });
+        const Move         move = update_point(points, i, seen, stencil.base, pages, page, step, sums, peaks);
+        moves.to[at]            = packed(move);
+        count[move.direction] += move.direction != own_page;
+        count[stirred_points] += move.stir != Stir::none;
     }
 }
 
@@ -33,16 +47,16 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
 
 template<class Real>
 void gather(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-            const GatherStep<Real>& step, double* sums, double* peaks)
+            const GatherStep<Real>& step, const MovesView& moves, double* sums, double* peaks)
 {
     const auto item = [=](std::int64_t page)
-    { gather_page(points, pages, motion, step, page, sums + page * point_sums, peaks + page * point_peaks); };
+    { gather_page(points, pages, motion, step, moves, page, sums + page * point_sums, peaks + page * point_peaks); };
     for_each_heavy(cpu, "gather", pages.point_pages, item);
 }
 
 template void gather(const Cpu&, const PointsView<float>&, const PagesView&, const float*, const GatherStep<float>&,
-                     double*, double*);
+                     const MovesView&, double*, double*);
 template void gather(const Cpu&, const PointsView<double>&, const PagesView&, const double*, const GatherStep<double>&,
-                     double*, double*);
+                     const MovesView&, double*, double*);
 
 } // namespace tread::mpm

@@ -14,7 +14,10 @@ constexpr int gather_threads = 64;
 /// Measured on an H200: the kernel waits for memory, and more warps hide more of it than the spilled registers cost
 /// (fp32, 4e6 points, 8 a cell: 8.6e9 points/s with 8 blocks, 10.5e9 with 12; fp64: 6.0e9 with 8, 4.1e9 with 12).
 template<class Real>
-constexpr int blocks_an_sm = sizeof(Real) == 4 ? 12 : 8;
+struct Occupancy
+{
+    static constexpr int blocks_an_sm = sizeof(Real) == 4 ? 12 : 8;
+};
 
 /// Without APIC nothing reads the moment.
 struct WithoutMoment
@@ -119,14 +122,22 @@ struct GatherPage
     PagesView        pages;
     const Real*      motion;
     GatherStep<Real> step;
+    MovesView        moves;
     double*          sums;
     double*          peaks;
 
     __device__ void operator()(std::int64_t page) const
     {
+        if (pages.first_point[page] == pages.first_point[page + 1])
+        {
+            clear(page);
+            return;
+        }
         __shared__ MotionNode<Real> tile[tile_nodes];
         __shared__ double           shared_sums[gather_threads / 32 * point_sums];
         __shared__ double           shared_peaks[gather_threads / 32 * point_peaks];
+        __shared__ std::int32_t count[move_counts];
+        if (threadIdx.x < move_counts) { count[threadIdx.x] = 0; }
         for (int node = threadIdx.x; node < tile_nodes; node += gather_threads)
         {
             const Real* source = tile_source(motion, pages.node_page_of + 8 * page, node);
@@ -136,14 +147,33 @@ struct GatherPage
         double             sum[point_sums] = {}, peak[point_peaks] = {};
         const Real         spacing = static_cast<Real>(pages.spacing);
         const std::int64_t end     = pages.first_point[page + 1];
-        for (std::int64_t i = pages.first_point[page] + threadIdx.x; i < end; i += gather_threads)
+        for (std::int64_t at = pages.first_point[page] + threadIdx.x; at < end; at += gather_threads)
         {
-            const auto stencil = stencil_at<Real>(points.position.get(i), pages.spacing, pages.stencil_shift);
-            const auto seen    = see_tile(stencil, spacing, tile, Moment{});
-            update_point(points, i, seen, stencil.base, pages, step, sum, peak);
+            const std::int64_t i       = pages.point_at[at];
+            const auto         stencil = stencil_at<Real>(points.position.get(i), pages.spacing, pages.stencil_shift);
+            const auto         seen    = see_tile(stencil, spacing, tile, Moment{});
+            const Move         move    = update_point(points, i, seen, stencil.base, pages, page, step, sum, peak);
+            moves.to[at]               = packed(move);
+            if (move.stir != Stir::none) { count_move(move, count); }
         }
         block_sum<gather_threads, point_sums>(sum, shared_sums, sums + page * point_sums);
         block_largest<gather_threads, point_peaks>(peak, shared_peaks, peaks + page * point_peaks);
+        if (threadIdx.x < move_counts) { moves.count[page * move_counts + threadIdx.x] = count[threadIdx.x]; }
+    }
+
+    /// Nothing happens on a page without points.
+    __device__ void clear(std::int64_t page) const
+    {
+        if (threadIdx.x < point_sums) { sums[page * point_sums + threadIdx.x] = 0; }
+        if (threadIdx.x < point_peaks) { peaks[page * point_peaks + threadIdx.x] = 0; }
+        if (threadIdx.x < move_counts) { moves.count[page * move_counts + threadIdx.x] = 0; }
+    }
+
+    /// Integers: the order of the additions changes nothing.
+    __device__ static void count_move(const Move& move, std::int32_t* count)
+    {
+        atomicAdd(count + stirred_points, 1);
+        if (move.direction != own_page) { atomicAdd(count + move.direction, 1); }
     }
 };
 
@@ -151,21 +181,21 @@ struct GatherPage
 
 template<class Real>
 void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-            const GatherStep<Real>& step, double* sums, double* peaks)
+            const GatherStep<Real>& step, const MovesView& moves, double* sums, double* peaks)
 {
     const auto launch = [&](auto moment)
     {
-        for_each_block<gather_threads, blocks_an_sm<Real>>(
+        for_each_block<gather_threads, Occupancy<Real>::blocks_an_sm>(
             gpu, "gather", pages.point_pages,
-            GatherPage<Real, decltype(moment)>{points, pages, motion, step, sums, peaks});
+            GatherPage<Real, decltype(moment)>{points, pages, motion, step, moves, sums, peaks});
     };
     if (points.affine.data != nullptr) { launch(WithMoment{}); }
     else { launch(WithoutMoment{}); }
 }
 
 template void gather(const Gpu&, const PointsView<float>&, const PagesView&, const float*, const GatherStep<float>&,
-                     double*, double*);
+                     const MovesView&, double*, double*);
 template void gather(const Gpu&, const PointsView<double>&, const PagesView&, const double*, const GatherStep<double>&,
-                     double*, double*);
+                     const MovesView&, double*, double*);
 
 } // namespace tread::mpm

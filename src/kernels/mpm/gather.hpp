@@ -3,6 +3,7 @@
 #include "backend/array.hpp"
 #include "kernels/mpm/grid.hpp"
 #include "kernels/mpm/material_parameters.hpp"
+#include "kernels/mpm/moves.hpp"
 #include "kernels/mpm/pages.hpp"
 #include "kernels/mpm/points.hpp"
 
@@ -30,18 +31,18 @@ enum PointSum : int
 enum PointPeak : int
 {
     peak_speed, ///< m/s
-    peak_moved, ///< 1 if a point left its cell, 2 if one left the finite numbers
+    peak_stir,  ///< the largest Stir of a point
     point_peaks
 };
 
 /// G2P: velocity (FLIP with PIC part, or APIC), position, stress and plastic state of every point; for coupled scenes
 /// also the interpolated grid velocity and the support acceleration. sums[point page][PointSum], peaks[point
-/// page][PointPeak].
+/// page][PointPeak]; `moves`: where every point is now.
 template<class Real>
 void gather(const Cpu&, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-            const GatherStep<Real>& step, double* sums, double* peaks);
+            const GatherStep<Real>& step, const MovesView& moves, double* sums, double* peaks);
 template<class Real>
 void gather(const Gpu&, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-            const GatherStep<Real>& step, double* sums, double* peaks);
+            const GatherStep<Real>& step, const MovesView& moves, double* sums, double* peaks);
 
 } // namespace tread::mpm

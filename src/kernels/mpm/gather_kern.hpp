@@ -137,10 +137,11 @@ TREAD_HD void update_material(const PointsView<Real>& points, std::int64_t i, co
     }
 }
 
-/// The whole G2P of one point.
+/// The whole G2P of one point of a page, up to where it is then.
 template<class Real>
-TREAD_HD void update_point(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen, Index3 cell,
-                           const PagesView& pages, const GatherStep<Real>& step, double* sums, double* peaks)
+TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen, Index3 cell,
+                           const PagesView& pages, std::int64_t page, const GatherStep<Real>& step, double* sums,
+                           double* peaks)
 {
     const Vec3<Real> velocity = transferred_velocity(points, i, seen, step.pic_rate[points.material[i]], step.dt);
     points.velocity.set(i, velocity);
@@ -154,14 +155,12 @@ TREAD_HD void update_point(const PointsView<Real>& points, std::int64_t i, const
     const double speed = std::sqrt(double(velocity.squaredNorm()));
     sums[point_kinetic] += 0.5 * double(points.mass[i]) * speed * speed;
     const double stress = double(points.stress.get(i).sum());
-    if (!(speed < 1e30) || !(stress - stress == 0))
-    {
-        peaks[peak_moved] = 2;
-        return;
-    }
-    if (speed > peaks[peak_speed]) { peaks[peak_speed] = speed; }
-    const Index3 now = cell_of(position, pages.spacing, pages.stencil_shift);
-    if ((now.x != cell.x || now.y != cell.y || now.z != cell.z) && peaks[peak_moved] < 1) { peaks[peak_moved] = 1; }
+    const bool   finite = speed < 1e30 && stress - stress == 0;
+    const Move   move   = finite ? move_to(pages, page, cell, cell_of(position, pages.spacing, pages.stencil_shift))
+                                 : Move{own_page, place_in_page(cell), Stir::not_finite};
+    peaks[peak_speed]   = finite && speed > peaks[peak_speed] ? speed : peaks[peak_speed];
+    peaks[peak_stir]    = std::fmax(peaks[peak_stir], static_cast<double>(move.stir));
+    return move;
 }
 
 } // namespace tread::mpm

@@ -18,7 +18,7 @@ TREAD_HD void sum_tiles(const PagesView& pages, const Real* tiles, std::int64_t 
                   k = z + page_edge * (octant >> 2);
         if (i >= tile_edge || j >= tile_edge || k >= tile_edge) { continue; }
         const std::int64_t page = pages.point_page_of[8 * node_page + octant];
-        if (page < 0) { continue; }
+        if (page < 0 || pages.first_point[page] == pages.first_point[page + 1]) { continue; }
         const Real* tile = tiles + page * node_channels * tile_nodes + i + tile_edge * (j + tile_edge * k);
         for (int c = 0; c < node_channels; ++c) { total[c] += tile[c * tile_nodes]; }
     }

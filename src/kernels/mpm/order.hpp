@@ -45,9 +45,10 @@ struct OrderScratch
     Array<Exec, std::uint8_t>  byte;
 };
 
-/// Orders points by page and cell, stably, and rebuilds the page tables. Points more than two cells outside the domain
-/// are dropped from the end (points.count shrinks). Post: every point stands in the range of its cell; page keys
-/// ascend.
+/// Orders points in memory by page and cell, stably, and rebuilds the page tables. Points more than two cells outside
+/// the domain are dropped from the end (points.count shrinks). Post: every point is listed in the range of its cell;
+/// the list is the order in memory; page keys ascend; every page within two cells of a point is
+/// listed.
 template<class Exec, class Real>
 void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, const GridGeometry& geometry,
                   OrderScratch<Exec, Real>& scratch);

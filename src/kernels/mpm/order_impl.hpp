@@ -8,6 +8,9 @@ namespace tread::mpm
 namespace order_steps
 {
 
+/// Points further outside the domain are dropped, in spacings.
+constexpr double drop_margin = 2;
+
 template<class Real>
 struct MakeKeys
 {
@@ -19,7 +22,7 @@ struct MakeKeys
     TREAD_HD void operator()(std::int64_t i) const
     {
         const Vec3<double> x      = points.position.get(i);
-        const double       margin = 2 * geometry.spacing;
+        const double       margin = drop_margin * geometry.spacing;
         bool               inside = true;
         for (int c = 0; c < 3; ++c)
         {
@@ -36,13 +39,8 @@ struct Gather
     const T*            from;
     T*                  to;
     const std::int32_t* order;
-    std::int64_t        stride;
-    int                 components;
 
-    TREAD_HD void operator()(std::int64_t i) const
-    {
-        for (int c = 0; c < components; ++c) { to[c * stride + i] = from[c * stride + order[i]]; }
-    }
+    TREAD_HD void operator()(std::int64_t i) const { to[i] = from[order[i]]; }
 };
 
 struct MarkFirstOfPage
@@ -63,28 +61,35 @@ struct WritePages
     const std::uint64_t* keys;
     const std::int32_t*  heads_before;
     std::uint64_t*       page_key;
-    std::int32_t*        first;
     int                  shift;
 
     TREAD_HD void operator()(std::int64_t i) const
     {
         if (keys[i] == no_page || (i > 0 && keys[i] >> shift == keys[i - 1] >> shift)) { return; }
         page_key[heads_before[i]] = keys[i] >> shift;
-        if (first != nullptr) { first[heads_before[i]] = static_cast<std::int32_t>(i); }
     }
 };
 
-/// Points that left the domain carry the largest key: they stand last, and the last page ends before them.
-struct CloseRanges
+/// Of `pages` pages and, for the last i, of the points that left the domain: they carry the largest key.
+struct FirstOfPage
 {
     const std::uint64_t* keys;
     std::int64_t         points;
-    std::int32_t*        end;
+    std::int64_t         pages;
+    const std::uint64_t* page_key;
+    std::int32_t*        first_point;
 
-    TREAD_HD void operator()(std::int64_t) const
+    TREAD_HD void operator()(std::int64_t i) const
     {
-        *end = static_cast<std::int32_t>(lower_bound(keys, points, no_page));
+        first_point[i] = static_cast<std::int32_t>(lower_bound(keys, points, i < pages ? page_key[i] << 6 : no_page));
     }
+};
+
+struct ListInOrder
+{
+    std::int32_t* point_at;
+
+    TREAD_HD void operator()(std::int64_t i) const { point_at[i] = static_cast<std::int32_t>(i); }
 };
 
 struct FirstOfCell
@@ -115,6 +120,66 @@ TREAD_HD Index3 shifted(Index3 page, int octant, int sign)
     return {page.x + sign * (octant & 1), page.y + sign * (octant >> 1 & 1), page.z + sign * (octant >> 2)};
 }
 
+TREAD_HD Index3 towards(Index3 page, int direction)
+{
+    return {page.x + direction % 3 - 1, page.y + direction / 3 % 3 - 1, page.z + direction / 9 - 1};
+}
+
+/// How far from its page's faces, in cells, a point makes the page beyond be listed, too.
+constexpr int surround_reach = 2;
+
+/// Whether a cell of a page (place 0..63) is within reach of the neighbour in a direction, along every axis.
+TREAD_HD bool reaches(int place, int direction)
+{
+    const int at[]   = {place & 3, place >> 2 & 3, place >> 4};
+    const int step[] = {direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1};
+    for (int c = 0; c < 3; ++c)
+    {
+        if (step[c] < 0 && at[c] >= surround_reach) { return false; }
+        if (step[c] > 0 && at[c] < page_edge - surround_reach) { return false; }
+    }
+    return true;
+}
+
+/// Pages around those that hold points: where points may go before they are ordered anew. Not where no point may be.
+struct SurroundingKeys
+{
+    const std::uint64_t* page_key;
+    const std::uint64_t* point_keys; ///< sorted
+    std::int64_t         points;
+    GridGeometry         geometry;
+    std::uint64_t*       keys;
+    std::int32_t*        order;
+
+    /// Whether a point of the page is within reach of its neighbour.
+    TREAD_HD bool wanted(std::uint64_t key, int direction) const
+    {
+        const std::int64_t first = lower_bound(point_keys, points, key << 6);
+        for (std::int64_t i = first; i < points && point_keys[i] >> 6 == key; ++i)
+        {
+            if (reaches(static_cast<int>(point_keys[i] & 63), direction)) { return true; }
+        }
+        return false;
+    }
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        const std::uint64_t own       = page_key[i / directions];
+        const int           direction = static_cast<int>(i % directions);
+        const Index3        page      = towards(page_coordinates(own), direction);
+        const double        edge      = page_edge * geometry.spacing;
+        const double        corner[]  = {page.x * edge, page.y * edge, page.z * edge};
+        bool                inside    = true;
+        for (int c = 0; c < 3; ++c)
+        {
+            const double margin = (drop_margin + 1) * geometry.spacing;
+            inside = inside && corner[c] + edge >= -margin && (c == 2 || corner[c] <= geometry.size[c] + margin);
+        }
+        keys[i]  = inside && wanted(own, direction) ? tread::mpm::page_key(page) : no_page;
+        order[i] = 0;
+    }
+};
+
 struct NeighbourKeys
 {
     const std::uint64_t* page_key;
@@ -143,16 +208,33 @@ struct FindNeighbours
     }
 };
 
+struct FindAround
+{
+    const std::uint64_t* page_key;
+    std::int64_t         pages;
+    std::int32_t*        neighbour;
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        const Index3 page = towards(page_coordinates(page_key[i / directions]), static_cast<int>(i % directions));
+        neighbour[i]      = static_cast<std::int32_t>(find_sorted(page_key, pages, tread::mpm::page_key(page)));
+    }
+};
+
 } // namespace order_steps
 
+/// One plane after the other, so that the buffer is as small as one.
 template<class Exec, class Real, class T>
 void gather_field(const Exec& exec, Array<Exec, T>& field, Array<Exec, T>& buffer, const Points<Exec, Real>& points,
                   int components, const std::int32_t* order)
 {
-    buffer.resize(components * points.stride);
-    for_each(exec, "gather points", points.count,
-             order_steps::Gather<T>{field.data(), buffer.data(), order, points.stride, components});
-    copy(exec, field.data(), buffer.data(), static_cast<std::size_t>(components * points.stride) * sizeof(T));
+    buffer.resize(points.count);
+    for (int c = 0; c < components; ++c)
+    {
+        T* plane = field.data() + c * points.stride;
+        for_each(exec, "gather points", points.count, order_steps::Gather<T>{plane, buffer.data(), order});
+        copy(exec, plane, buffer.data(), static_cast<std::size_t>(points.count) * sizeof(T));
+    }
 }
 
 template<class Exec, class Real>
@@ -178,27 +260,49 @@ void gather_points(const Exec& exec, Points<Exec, Real>& points, OrderScratch<Ex
     points.for_each_field(gather);
 }
 
-/// Point pages, their point ranges and cell ranges, from the sorted keys.
+/// The pages of the sorted keys, each once, to `page_key`; keys below `shift` bits do not count.
 template<class Exec, class Real>
-void build_point_pages(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages,
+void write_pages(const Exec& exec, const Array<Exec, std::uint64_t>& keys, int shift,
+                 Array<Exec, std::uint64_t>& page_key, OrderScratch<Exec, Real>& scratch)
+{
+    using namespace order_steps;
+    scratch.marks.resize(keys.size());
+    for_each(exec, "mark pages", keys.size(), MarkFirstOfPage{keys.data(), scratch.marks.data(), shift});
+    page_key.resize(exclusive_scan(exec, scratch.marks, scratch.sort));
+    for_each(exec, "write pages", keys.size(), WritePages{keys.data(), scratch.marks.data(), page_key.data(), shift});
+}
+
+/// Point pages and their neighbours, ranges of pages and cells, from the sorted keys of the points.
+template<class Exec, class Real>
+void build_point_pages(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, const GridGeometry& geometry,
                        OrderScratch<Exec, Real>& scratch)
 {
     using namespace order_steps;
-    const std::int64_t n = points.count;
-    scratch.marks.resize(n);
-    for_each(exec, "mark pages", n, MarkFirstOfPage{scratch.keys.data(), scratch.marks.data(), 6});
-    const std::int64_t count = exclusive_scan(exec, scratch.marks, scratch.sort);
-    pages.point_page_key.resize(count);
+    write_pages(exec, scratch.keys, 6, pages.point_page_key, scratch);
+    const std::int64_t around = directions * pages.point_page_key.size();
+    scratch.neighbour_keys.resize(around);
+    scratch.neighbour_order.resize(around);
+    for_each(exec, "surrounding keys", around,
+             SurroundingKeys{pages.point_page_key.data(), scratch.keys.data(), scratch.keys.size(), geometry,
+                             scratch.neighbour_keys.data(), scratch.neighbour_order.data()});
+    sort_by_key(exec, scratch.neighbour_keys, scratch.neighbour_order, scratch.sort);
+    write_pages(exec, scratch.neighbour_keys, 0, pages.point_page_key, scratch);
+
+    const std::int64_t count = pages.point_page_key.size();
     pages.first_point.resize(count + 1);
-    for_each(exec, "write pages", n,
-             WritePages{scratch.keys.data(), scratch.marks.data(), pages.point_page_key.data(),
-                        pages.first_point.data(), 6});
-    for_each(exec, "close pages", 1, CloseRanges{scratch.keys.data(), n, pages.first_point.data() + count});
+    for_each(exec, "first points", count + 1,
+             FirstOfPage{scratch.keys.data(), scratch.keys.size(), count, pages.point_page_key.data(),
+                         pages.first_point.data()});
     points.count = read(exec, pages.first_point.data() + count);
     pages.cell_first_point.resize(count * page_cells + 1);
     for_each(exec, "write cells", count * page_cells + 1,
              FirstOfCell{scratch.keys.data(), points.count, count, pages.point_page_key.data(),
                          pages.first_point.data(), pages.cell_first_point.data()});
+    pages.point_at.resize(points.count);
+    for_each(exec, "list points", points.count, ListInOrder{pages.point_at.data()});
+    pages.neighbour.resize(directions * count);
+    for_each(exec, "find neighbours", directions * count,
+             FindAround{pages.point_page_key.data(), count, pages.neighbour.data()});
 }
 
 /// Node pages = point pages and their upper neighbours; tables both ways.
@@ -212,13 +316,8 @@ void build_node_pages(const Exec& exec, Pages<Exec>& pages, OrderScratch<Exec, R
     for_each(exec, "neighbour keys", 8 * point_pages,
              NeighbourKeys{pages.point_page_key.data(), scratch.neighbour_keys.data(), scratch.neighbour_order.data()});
     sort_by_key(exec, scratch.neighbour_keys, scratch.neighbour_order, scratch.sort);
-    scratch.marks.resize(8 * point_pages);
-    for_each(exec, "mark node pages", 8 * point_pages,
-             MarkFirstOfPage{scratch.neighbour_keys.data(), scratch.marks.data(), 0});
-    const std::int64_t node_pages = exclusive_scan(exec, scratch.marks, scratch.sort);
-    pages.node_page_key.resize(node_pages);
-    for_each(exec, "write node pages", 8 * point_pages,
-             WritePages{scratch.neighbour_keys.data(), scratch.marks.data(), pages.node_page_key.data(), nullptr, 0});
+    write_pages(exec, scratch.neighbour_keys, 0, pages.node_page_key, scratch);
+    const std::int64_t node_pages = pages.node_page_key.size();
     pages.node_page_of.resize(8 * point_pages);
     for_each(exec, "find node pages", 8 * point_pages,
              FindNeighbours{pages.point_page_key.data(), pages.node_page_key.data(), node_pages, 1,
@@ -240,7 +339,7 @@ void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pag
              order_steps::MakeKeys<Real>{points.view(), geometry, scratch.keys.data(), scratch.order.data()});
     sort_by_key(exec, scratch.keys, scratch.order, scratch.sort);
     gather_points(exec, points, scratch);
-    build_point_pages(exec, points, pages, scratch);
+    build_point_pages(exec, points, pages, geometry, scratch);
     build_node_pages(exec, pages, scratch);
 }
 

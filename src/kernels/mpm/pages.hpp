@@ -8,8 +8,13 @@
 namespace tread::mpm
 {
 
-/// The pages that hold points ("point pages") and those that their stencils reach ("node pages", which include them).
-/// Points are ordered by page key, then by place in the page.
+/// Directions from a page to its neighbours: (d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1); `own_page` is the page itself.
+constexpr int directions = 27;
+constexpr int own_page   = 13;
+
+/// The pages that hold points, with all their neighbours ("point pages"), and those that their stencils reach ("node
+/// pages", which include them). Points are listed by page key, then by place in the page; in memory they stand as they
+/// were when they were last ordered.
 struct PagesView
 {
     double               spacing;       ///< m, of the grid
@@ -17,8 +22,10 @@ struct PagesView
     std::int64_t         point_pages;
     std::int64_t         node_pages;
     const std::uint64_t* point_page_key;   ///< [point_pages], ascending
-    const std::int32_t*  first_point;      ///< [point_pages + 1]
-    const std::int32_t*  cell_first_point; ///< [64 * point_pages + 1], by place in the page
+    const std::int32_t*  first_point;      ///< [point_pages + 1], into the list
+    const std::int32_t*  cell_first_point; ///< [64 * point_pages + 1], into the list, by place in the page
+    const std::int32_t*  point_at;         ///< [points], the list: where in memory each point is
+    const std::int32_t*  neighbour;        ///< [27 * point_pages], point page by direction, or -1
     const std::uint64_t* node_page_key;    ///< [node_pages], ascending
     const std::int32_t*  node_page_of;     ///< [8 * point_pages], node page at + (o & 1, o >> 1 & 1, o >> 2)
     const std::int32_t*  point_page_of;    ///< [8 * node_pages], point page at - (o & 1, o >> 1 & 1, o >> 2), or -1
@@ -32,6 +39,8 @@ struct Pages
         : point_page_key(exec, "point page keys")
         , first_point(exec, "point page first point")
         , cell_first_point(exec, "cell first point")
+        , point_at(exec, "point list")
+        , neighbour(exec, "neighbours of point pages")
         , node_page_key(exec, "node page keys")
         , node_page_of(exec, "node pages of point pages")
         , point_page_of(exec, "point pages of node pages")
@@ -47,6 +56,8 @@ struct Pages
                 point_page_key.data(),
                 first_point.data(),
                 cell_first_point.data(),
+                point_at.data(),
+                neighbour.data(),
                 node_page_key.data(),
                 node_page_of.data(),
                 point_page_of.data()};
@@ -55,19 +66,22 @@ struct Pages
     Array<Exec, std::uint64_t> point_page_key;
     Array<Exec, std::int32_t>  first_point;
     Array<Exec, std::int32_t>  cell_first_point;
+    Array<Exec, std::int32_t>  point_at;
+    Array<Exec, std::int32_t>  neighbour;
     Array<Exec, std::uint64_t> node_page_key;
     Array<Exec, std::int32_t>  node_page_of;
     Array<Exec, std::int32_t>  point_page_of;
 };
 
 /// Node that names the cell of a position: the lowest of its stencil. A product with the inverse, not a quotient: fp64
-/// division costs a GPU as much as the rest of the stencil.
+/// division costs a GPU as much as the rest of the stencil. The multiply-add is explicit: left to compilers it would be
+/// fused in one kernel and not in another, and they would disagree about points on the boundary of a cell.
 TREAD_HD Index3 cell_of(const Vec3<double>& position, double spacing, double stencil_shift)
 {
     const double inverse = 1 / spacing;
-    return {static_cast<std::int32_t>(std::floor(position[0] * inverse - stencil_shift)),
-            static_cast<std::int32_t>(std::floor(position[1] * inverse - stencil_shift)),
-            static_cast<std::int32_t>(std::floor(position[2] * inverse - stencil_shift))};
+    return {static_cast<std::int32_t>(std::floor(std::fma(position[0], inverse, -stencil_shift))),
+            static_cast<std::int32_t>(std::floor(std::fma(position[1], inverse, -stencil_shift))),
+            static_cast<std::int32_t>(std::floor(std::fma(position[2], inverse, -stencil_shift)))};
 }
 
 } // namespace tread::mpm

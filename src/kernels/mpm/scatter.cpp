@@ -11,13 +11,15 @@ namespace
 template<class Real>
 void scatter_page(const PointsView<Real>& points, const PagesView& pages, std::int64_t page, Real* out)
 {
+    if (pages.first_point[page] == pages.first_point[page + 1]) { return; }
     Real       tile[tile_nodes][lanes] = {};
     const Real spacing                 = static_cast<Real>(pages.spacing);
-    for (std::int64_t i = pages.first_point[page]; i < pages.first_point[page + 1]; ++i)
+    for (std::int64_t at = pages.first_point[page]; at < pages.first_point[page + 1]; ++at)
     {
-        const auto load    = point_load(points, i);
-        const auto stencil = stencil_at<Real>(points.position.get(i), pages.spacing, pages.stencil_shift);
-        Real(*base)[lanes] = tile + tile_base(stencil.base);
+        const std::int64_t i       = pages.point_at[at];
+        const auto         load    = point_load(points, i);
+        const auto         stencil = stencil_at<Real>(points.position.get(i), pages.spacing, pages.stencil_shift);
+        Real(*base)[lanes]         = tile + tile_base(stencil.base);
         for (int c = 0; c < 3; ++c)
         {
             for (int b = 0; b < 3; ++b)

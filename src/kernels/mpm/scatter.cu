@@ -77,6 +77,7 @@ struct ScatterPage
 
     __device__ void operator()(std::int64_t page) const
     {
+        if (pages.first_point[page] == pages.first_point[page + 1]) { return; }
         __shared__ Real tile[layers][node_channels][layer_nodes];
         Real*           flat = &tile[0][0][0];
         for (int n = threadIdx.x; n < layers * node_channels * layer_nodes; n += scatter_threads) { flat[n] = 0; }
@@ -105,9 +106,10 @@ struct ScatterPage
         const Real         spacing = static_cast<Real>(pages.spacing);
         const std::int64_t cell    = page * page_cells + place;
         const std::int64_t end     = pages.cell_first_point[cell + 1];
-        for (std::int64_t i = pages.cell_first_point[cell]; i < end; ++i)
+        for (std::int64_t at = pages.cell_first_point[cell]; at < end; ++at)
         {
-            const auto load    = point_load(points, i);
+            const std::int64_t i    = pages.point_at[at];
+            const auto         load = point_load(points, i);
             const auto stencil = stencil_above<Real>(base, points.position.get(i), pages.spacing, pages.stencil_shift);
             add_point(load, stencil, layer, spacing, sums, Momentum{});
         }

@@ -7,8 +7,8 @@
 namespace tread::mpm
 {
 
-/// P2G: writes the tile of every point page, tiles[page][channel][tile node] (scatter_kern.hpp names the channels).
-/// Each page adds its points in their order: the sums do not depend on threads.
+/// P2G: writes the tile of every page that holds points, tiles[page][channel][tile node] (scatter_kern.hpp names the
+/// channels). Each page adds its points in their order: the sums do not depend on threads.
 template<class Real>
 void scatter(const Cpu&, const PointsView<Real>& points, const PagesView& pages, Real* tiles);
 template<class Real>

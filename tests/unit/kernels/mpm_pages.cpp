@@ -4,7 +4,9 @@
 
 #include "backend.hpp"
 #include "base/random.hpp"
+#include "kernels/mpm/gather.hpp"
 #include "kernels/mpm/order.hpp"
+#include "kernels/mpm/relist.hpp"
 #include "kernels/mpm/scatter.hpp"
 #include "kernels/mpm/scatter_kern.hpp"
 
@@ -94,6 +96,33 @@ protected:
         return points;
     }
 
+    /// Every point is listed once, in the range of the cell that it is in.
+    void expect_listed(const Points<Exec, double>& points, const Pages<Exec>& pages, std::int64_t count)
+    {
+        const auto first = pages.first_point.to_host(), cells = pages.cell_first_point.to_host();
+        const auto list = pages.point_at.to_host();
+        const auto keys = pages.point_page_key.to_host();
+        const auto x    = points.position.to_host();
+        const auto s    = static_cast<std::size_t>(points.stride);
+        ASSERT_EQ(first.back(), count);
+        std::set<std::int32_t> seen;
+        int                    misplaced = 0;
+        for (std::size_t page = 0; page < keys.size(); ++page)
+        {
+            EXPECT_EQ(cells[page * page_cells], first[page]);
+            for (std::int32_t at = first[page]; at < first[page + 1]; ++at)
+            {
+                const auto   k    = static_cast<std::size_t>(list[static_cast<std::size_t>(at)]);
+                const Index3 cell = cell_of({x[k], x[s + k], x[2 * s + k]}, spacing, 0.5);
+                const auto   of   = page * page_cells + static_cast<std::size_t>(place_in_page(cell));
+                misplaced += page_key(page_of(cell)) != keys[page] || at < cells[of] || at >= cells[of + 1];
+                seen.insert(list[static_cast<std::size_t>(at)]);
+            }
+        }
+        EXPECT_EQ(misplaced, 0);
+        EXPECT_EQ(static_cast<std::int64_t>(seen.size()), count);
+    }
+
     GridGeometry geometry{spacing, 0.5, {2, 2, 2}};
 };
 
@@ -155,6 +184,57 @@ TYPED_TEST(PagesTest, NeighbourTablesAgreeBothWays)
     EXPECT_EQ(std::vector<std::uint64_t>(wanted.begin(), wanted.end()), node_key);
 }
 
+/// Points drift through several pages on a uniform grid velocity; after every step the list must be what ordering them
+/// anew would give as sets, cell by cell, though no point moves in memory.
+TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
+{
+    constexpr std::int64_t count = 3000;
+    constexpr double       dt = 0.01, speed = 2.9; // 0.29 of a spacing a step
+    auto                   points = this->random_points(count);
+    points.volume_ratio.assign(std::vector<double>(count, 1.0));
+    auto start = points.position.to_host();
+    for (double& x : start) { x += 1; } // clear of the walls, beyond which there are no pages
+    points.position.assign(start);
+    Pages<TypeParam>                pages(this->exec());
+    OrderScratch<TypeParam, double> order_scratch(this->exec());
+    RelistScratch<TypeParam>        scratch(this->exec());
+    order_points(this->exec(), points, pages, GridGeometry{this->spacing, 0.5, {4, 4, 4}}, order_scratch);
+    start = points.position.to_host();
+
+    Array<TypeParam, MaterialParameters<double>> materials(this->exec(), "materials");
+    Array<TypeParam, double>                     pic_rates(this->exec(), "pic rates");
+    materials.assign({make_parameters<double>(1e6, 0.3, 1600, 0, 0, 0, LawKind::elastic)});
+    pic_rates.assign({0.0});
+    const std::int64_t       page_count = pages.point_page_key.size(), node_pages = pages.node_page_key.size();
+    Array<TypeParam, double> motion(this->exec(), "motion"), sums(this->exec(), "sums", page_count * point_sums),
+        peaks(this->exec(), "peaks", page_count * point_peaks);
+    std::vector<double> uniform(static_cast<std::size_t>(node_pages * motion_channels * page_cells), 0.0);
+    for (std::size_t i = 0; i < uniform.size(); ++i)
+    {
+        uniform[i] = i / page_cells % motion_channels < 3 ? (i / page_cells % 2 == 0 ? speed : -speed) : 0.0;
+    }
+    motion.assign(uniform);
+    Array<TypeParam, std::uint16_t> to(this->exec(), "to", count);
+    Array<TypeParam, std::int32_t>  counts(this->exec(), "counts", page_count * move_counts);
+
+    for (int step = 0; step < 6; ++step) // 1.7 spacings: within the pages that are listed
+    {
+        const MovesView moves{to.data(), counts.data()};
+        gather(this->exec(), points.view(), pages.view(this->spacing, 0.5), motion.data(),
+               GatherStep<double>{dt, materials.data(), pic_rates.data()}, moves, sums.data(), peaks.data());
+        double     worst = 0;
+        const auto rows  = peaks.to_host();
+        for (std::size_t row = 0; row < rows.size(); row += point_peaks)
+        {
+            worst = std::max(worst, rows[row + peak_stir]);
+        }
+        ASSERT_EQ(worst, static_cast<double>(Stir::moved)) << "step " << step;
+        relist_points(this->exec(), pages, moves, scratch);
+        this->expect_listed(points, pages, count);
+    }
+    EXPECT_NEAR(points.position.to_host()[0], start[0] + 6 * dt * speed, 1e-12); // in memory where it was
+}
+
 TYPED_TEST(PagesTest, PointsFarOutsideAreDropped)
 {
     auto points = this->random_points(100);
@@ -182,6 +262,7 @@ TYPED_TEST(PagesTest, ScatterKeepsMassMomentumAndForceFree)
     order_points(this->exec(), points, pages, this->geometry, scratch);
     const std::int64_t       page_count = pages.point_page_key.size();
     Array<TypeParam, double> tiles(this->exec(), "tiles", page_count * node_channels * tile_nodes);
+    tiles.fill_zero(); // those of pages without points are not written
     scatter(this->exec(), points.view(), pages.view(this->spacing, 0.5), tiles.data());
     const auto values                = tiles.to_host();
     double     totals[node_channels] = {};

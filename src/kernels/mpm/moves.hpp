@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/mpm/pages.hpp"
+
+namespace tread::mpm
+{
+
+/// What a step did to a point's place in the list, worst last.
+enum class Stir : std::int32_t
+{
+    none,      ///< same cell
+    moved,     ///< another cell of a page that is listed
+    lost,      ///< no listed page: the points must be ordered anew
+    not_finite ///< position, velocity or stress
+};
+
+/// Where a point is after a step, seen from its page.
+struct Move
+{
+    int  direction; ///< of the page
+    int  place;     ///< in that page
+    Stir stir;
+};
+
+/// How many points leave a page each way (0 for `own_page`); the last entry counts those that changed their cell.
+constexpr int stirred_points = directions;
+constexpr int move_counts    = directions + 1;
+
+/// Of all points, by their places in the list of before the step.
+struct MovesView
+{
+    std::uint16_t* to;    ///< [points], place in the page + 64 * direction
+    std::int32_t*  count; ///< [point pages][move_counts]
+};
+
+/// A point that has no listed page to go to stays in its own until all are ordered anew.
+TREAD_HD Move move_to(const PagesView& pages, std::int64_t page, Index3 before, Index3 now)
+{
+    if (now.x == before.x && now.y == before.y && now.z == before.z)
+    {
+        return {own_page, place_in_page(now), Stir::none};
+    }
+    const Index3 from = page_of(before), to = page_of(now);
+    const int    x = to.x - from.x, y = to.y - from.y, z = to.z - from.z;
+    const Move   stay{own_page, place_in_page(before), Stir::lost};
+    if (x < -1 || x > 1 || y < -1 || y > 1 || z < -1 || z > 1) { return stay; }
+    const int direction = own_page + x + 3 * y + 9 * z;
+    if (pages.neighbour[page * directions + direction] < 0) { return stay; }
+    return {direction, place_in_page(now), Stir::moved};
+}
+
+TREAD_HD std::uint16_t packed(const Move& move)
+{
+    return static_cast<std::uint16_t>(move.place + page_cells * move.direction);
+}
+
+} // namespace tread::mpm

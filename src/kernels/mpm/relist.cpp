@@ -1,0 +1,70 @@
+#include "kernels/mpm/relist.hpp"
+
+#include "backend/launch.hpp"
+#include "kernels/mpm/relist_impl.hpp"
+
+namespace tread::mpm
+{
+namespace
+{
+
+/// Calls visit(place, place in the old list) for every point that is in `page` now.
+template<class Visit>
+void for_each_listed(const Relisting& job, std::int64_t page, Visit visit)
+{
+    const auto take = [&](std::int64_t from, int direction)
+    {
+        for (std::int32_t at = job.old.first_point[from]; at < job.old.first_point[from + 1]; ++at)
+        {
+            const int move = job.moves.to[at];
+            if (move / page_cells == direction) { visit(move % page_cells, at); }
+        }
+    };
+    take(page, own_page);
+    for (int d = 0; d < directions; ++d)
+    {
+        if (arrivals(job.old, job.moves, page, d) > 0)
+        {
+            take(job.old.neighbour[page * directions + d], directions - 1 - d);
+        }
+    }
+}
+
+void copy_list(const Relisting& job, std::int64_t page)
+{
+    const std::int32_t from = job.old.first_point[page], to = job.first_point[page];
+    for (std::int64_t c = page * page_cells; c < (page + 1) * page_cells; ++c)
+    {
+        job.cell_first_point[c] = job.old.cell_first_point[c] - from + to;
+    }
+    std::copy(job.old.point_at + from, job.old.point_at + job.old.first_point[page + 1], job.point_at + to);
+}
+
+void relist_page(const Relisting& job, std::int64_t page)
+{
+    if (unchanged(job.old, job.moves, page))
+    {
+        copy_list(job, page);
+        return;
+    }
+    std::int32_t next[page_cells] = {};
+    for_each_listed(job, page, [&](int place, std::int32_t) { ++next[place]; });
+    std::int32_t first = job.first_point[page];
+    for (int place = 0; place < page_cells; ++place)
+    {
+        job.cell_first_point[page * page_cells + place] = first;
+        first += std::exchange(next[place], first);
+    }
+    for_each_listed(job, page, [&](int place, std::int32_t at) { job.point_at[next[place]++] = job.old.point_at[at]; });
+}
+
+} // namespace
+
+void relist_pages(const Cpu& cpu, const Relisting& job)
+{
+    for_each_heavy(cpu, "relist points", job.old.point_pages, [=](std::int64_t page) { relist_page(job, page); });
+}
+
+template void relist_points(const Cpu&, Pages<Cpu>&, const MovesView&, RelistScratch<Cpu>&);
+
+} // namespace tread::mpm

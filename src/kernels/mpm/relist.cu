@@ -1,0 +1,127 @@
+#include "backend/launch.cuh"
+#include "kernels/mpm/relist_impl.hpp"
+
+namespace tread::mpm
+{
+namespace
+{
+
+constexpr int relist_warps = 4;
+
+/// One warp a page: places are counted, then filled in the order of the old list, 32 points at a time.
+struct RelistPages
+{
+    Relisting job;
+
+    __device__ void operator()(std::int64_t block) const
+    {
+        __shared__ std::int32_t next[relist_warps][page_cells];
+        const int               warp = static_cast<int>(threadIdx.x) / 32;
+        const std::int64_t      page = block * relist_warps + warp;
+        if (page >= job.old.point_pages) { return; }
+        if (unchanged(job.old, job.moves, page)) { copy_list(page); }
+        else { relist(page, next[warp]); }
+    }
+
+private:
+    __device__ static int lane() { return static_cast<int>(threadIdx.x) % 32; }
+
+    __device__ void copy_list(std::int64_t page) const
+    {
+        const std::int32_t from = job.old.first_point[page], to = job.first_point[page];
+        for (std::int64_t c = page * page_cells + lane(); c < (page + 1) * page_cells; c += 32)
+        {
+            job.cell_first_point[c] = job.old.cell_first_point[c] - from + to;
+        }
+        for (std::int32_t at = from + lane(); at < job.old.first_point[page + 1]; at += 32)
+        {
+            job.point_at[to + at - from] = job.old.point_at[at];
+        }
+    }
+
+    __device__ void relist(std::int64_t page, std::int32_t* next) const
+    {
+        next[lane()] = next[lane() + 32] = 0;
+        __syncwarp();
+        for_each_listed(page,
+                        [&](bool listed, int place, std::int32_t)
+                        {
+                            if (listed) { atomicAdd(next + place, 1); }
+                        });
+        __syncwarp();
+        start_cells(page, next);
+        for_each_listed(page, [&](bool listed, int place, std::int32_t at) { put(listed, place, at, next); });
+    }
+
+    /// Calls visit(listed, place, place in the old list) with all lanes at once; `listed` if the point is in `page`
+    /// now.
+    template<class Visit>
+    __device__ void for_each_listed(std::int64_t page, Visit visit) const
+    {
+        take(page, own_page, visit);
+        for (int d = 0; d < directions; ++d)
+        {
+            if (arrivals(job.old, job.moves, page, d) > 0)
+            {
+                take(job.old.neighbour[page * directions + d], directions - 1 - d, visit);
+            }
+        }
+    }
+
+    template<class Visit>
+    __device__ void take(std::int64_t from, int direction, Visit visit) const
+    {
+        const std::int32_t end = job.old.first_point[from + 1];
+        for (std::int32_t first = job.old.first_point[from]; first < end; first += 32)
+        {
+            const std::int32_t at   = first + lane();
+            const int          move = at < end ? job.moves.to[at] : 0;
+            visit(at < end && move / page_cells == direction, move % page_cells, at);
+        }
+    }
+
+    /// Counts become first places, two a lane.
+    __device__ void start_cells(std::int64_t page, std::int32_t* next) const
+    {
+        const std::int32_t low = next[2 * lane()], high = next[2 * lane() + 1];
+        std::int32_t       sum = low + high;
+        for (int step = 1; step < 32; step *= 2)
+        {
+            const std::int32_t before = __shfl_up_sync(0xffffffffu, sum, step);
+            if (lane() >= step) { sum += before; }
+        }
+        const std::int32_t start = job.first_point[page] + sum - low - high;
+        __syncwarp();
+        next[2 * lane()]                                         = start;
+        next[2 * lane() + 1]                                     = start + low;
+        job.cell_first_point[page * page_cells + 2 * lane()]     = start;
+        job.cell_first_point[page * page_cells + 2 * lane() + 1] = start + low;
+        __syncwarp();
+    }
+
+    /// The lanes of one place follow each other in the order of the lanes.
+    __device__ void put(bool listed, int place, std::int32_t at, std::int32_t* next) const
+    {
+        const unsigned lanes = __match_any_sync(0xffffffffu, listed ? place : page_cells);
+        if (listed)
+        {
+            const std::int32_t before          = __popc(lanes & ((1u << lane()) - 1));
+            job.point_at[next[place] + before] = job.old.point_at[at];
+        }
+        __syncwarp();
+        if (listed && lane() == __ffs(static_cast<int>(lanes)) - 1) { next[place] += __popc(lanes); }
+        __syncwarp();
+    }
+};
+
+} // namespace
+
+void relist_pages(const Gpu& gpu, const Relisting& job)
+{
+    for_each_block<32 * relist_warps>(gpu, "relist points", (job.old.point_pages + relist_warps - 1) / relist_warps,
+                                      RelistPages{job});
+}
+
+template void relist_points(const Gpu&, Pages<Gpu>&, const MovesView&, RelistScratch<Gpu>&);
+
+} // namespace tread::mpm
