@@ -14,7 +14,8 @@ struct LargerValue
 };
 
 /// Combines `width` values of each of a block's `threads` threads in a fixed order: a tree in each warp, then the warps
-/// one after the other. `shared` holds threads / 32 * width doubles, not in use by others. All threads must call it.
+/// one after the other; 0 combined with 0 must give 0. `shared` holds threads / 32 * width doubles, not in use by
+/// others. All threads must call it.
 template<int threads, int width, class Combine>
 __device__ void block_combine(const double* values, double* shared, double* out, Combine combine)
 {
@@ -22,7 +23,13 @@ __device__ void block_combine(const double* values, double* shared, double* out,
     for (int w = 0; w < width; ++w)
     {
         double value = values[w];
-        for (int half = 16; half > 0; half /= 2) { value = combine(value, __shfl_xor_sync(0xffffffffu, value, half)); }
+        if (__any_sync(0xffffffffu, value != 0)) // many sums are zero on most pages
+        {
+            for (int half = 16; half > 0; half /= 2)
+            {
+                value = combine(value, __shfl_xor_sync(0xffffffffu, value, half));
+            }
+        }
         if (threadIdx.x % 32 == 0) { shared[threadIdx.x / 32 * width + w] = value; }
     }
     __syncthreads();

@@ -23,7 +23,8 @@ template<class Exec, class Real>
 void Coupling<Exec, Real>::begin_step(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
                                       const dem::BodiesView& bodies, double dt, double speed)
 {
-    contact::begin_step(exec_, contact_, points, pages, bodies, law_, {dt, speed, 0.0, largest_radius_});
+    const double drift = mpm::quadratic_cell_slack * pages.spacing;
+    contact::begin_step(exec_, contact_, points, pages, bodies, law_, {dt, speed, drift, largest_radius_});
 }
 
 template<class Exec, class Real>

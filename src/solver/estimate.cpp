@@ -31,7 +31,7 @@ std::int64_t count_pages(const World& world)
     for (const Vec3<double>& x : world.points.position)
     {
         pages.insert(
-            mpm::page_key(mpm::page_of(mpm::cell_of(x, world.geometry.spacing, world.geometry.stencil_shift))));
+            mpm::page_key(mpm::page_of(mpm::cell_of(x, 1 / world.geometry.spacing, world.geometry.stencil_shift))));
     }
     return static_cast<std::int64_t>(pages.size());
 }

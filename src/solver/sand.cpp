@@ -1,6 +1,7 @@
 #include "solver/sand.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/materials.hpp"
 
@@ -183,7 +184,8 @@ SandReport Sand<Exec, Real>::report()
     read(exec_, report.grid, grid);
     read(exec_, report.points, points);
     read(exec_, report.peaks, peaks);
-    stir_ = static_cast<mpm::Stir>(static_cast<int>(report.peaks[mpm::peak_stir]));
+    report.largest_speed = std::sqrt(report.peaks[mpm::peak_speed_squared]);
+    stir_                = static_cast<mpm::Stir>(static_cast<int>(report.peaks[mpm::peak_stir]));
     return report;
 }
 

@@ -21,6 +21,7 @@ struct SandReport
     double grid[mpm::grid_sums]    = {}; ///< by mpm::GridSum
     double points[mpm::point_sums] = {}; ///< by mpm::PointSum
     double peaks[mpm::point_peaks] = {}; ///< by mpm::PointPeak
+    double largest_speed           = 0;  ///< m/s, of a point
 };
 
 /// What the sand holds.

@@ -120,7 +120,7 @@ void Simulation<Exec, Real>::measure(const TimeStep& step, double time)
                         "(dt = {:.4g} s, limit: {})",
                         time, step.dt, step.limit));
     }
-    pace_.largest_speed    = std::max(sand.peaks[mpm::peak_speed], rigid.largest_speed);
+    pace_.largest_speed    = std::max(sand.largest_speed, rigid.largest_speed);
     pace_.shortest_contact = rigid.shortest_contact;
     pace_.overlap          = rigid.overlap;
     // Substeps that the code chooses are right again in the next step; those of the scene stay wrong.
@@ -132,10 +132,10 @@ void Simulation<Exec, Real>::measure(const TimeStep& step, double time)
                         "{} at which its contacts gain energy: more substeps, or a smaller dt",
                         time, substep, substep / pace_.shortest_contact, longest_substep));
     }
-    if (sand_ && sand.peaks[mpm::peak_speed] * step.dt > scene_.grid.spacing)
+    if (sand_ && sand.largest_speed * step.dt > scene_.grid.spacing)
     {
         throw NumericalError(fmt::format("t = {:.6g} s: a point moves {:.3g} m/s, more than a cell a step of {:.4g} s",
-                                         time, sand.peaks[mpm::peak_speed], step.dt));
+                                         time, sand.largest_speed, step.dt));
     }
     double contact_friction = 0;
     if (coupling_)

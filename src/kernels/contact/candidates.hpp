@@ -20,7 +20,7 @@ struct SearchReach
 {
     double dt;             ///< s, of the MPM step
     double point_speed;    ///< m/s, no point is faster
-    double point_drift;    ///< m, how far a point may stand outside the cell that it was ordered in
+    double point_drift;    ///< m, how far a point may stand outside the cell that it is listed in
     double largest_radius; ///< m, of any point
 };
 

@@ -28,13 +28,16 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
         const Real* source = tile_source(motion, pages.node_page_of + 8 * page, node);
         for (int c = 0; c < motion_channels; ++c) { tile[node][c] = source[c * page_cells]; }
     }
-    const Real spacing = static_cast<Real>(pages.spacing);
+    const Index3 low     = page_coordinates(pages.point_page_key[page]);
+    const Real   spacing = static_cast<Real>(pages.spacing);
     for (int s = 0; s < point_sums; ++s) { sums[s] = 0; }
     for (int p = 0; p < point_peaks; ++p) { peaks[p] = 0; }
     for (std::int64_t at = pages.first_point[page]; at < pages.first_point[page + 1]; ++at)
     {
         const std::int64_t i       = pages.point_at[at];
-        const auto         stencil = stencil_at<Real>(points.position.get(i), pages.spacing, pages.stencil_shift);
+        const Index3       cell    = node_at(low, pages.place_at[at]);
+        const auto         stencil = stencil_above<Real>(cell, points.position.get(i), pages.inverse_spacing,
+                                                 pages.inverse_spacing, pages.stencil_shift);
         const auto         seen = see(stencil, spacing, [&](int node) -> const Real(&)[lanes] { return tile[node]; });
         const Move         move = update_point(points, i, seen, stencil.base, pages, page, step, sums, peaks);
         moves.to[at]            = packed(move);

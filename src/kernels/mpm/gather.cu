@@ -2,6 +2,7 @@
 
 #include "backend/block_sum.cuh"
 #include "backend/launch.cuh"
+#include "backend/pack.hpp"
 #include "kernels/mpm/gather_kern.hpp"
 
 namespace tread::mpm
@@ -9,15 +10,14 @@ namespace tread::mpm
 namespace
 {
 
-constexpr int gather_threads = 64;
-
 /// Measured on an H200: the kernel waits for memory, and more warps hide more of it than the spilled registers cost
-/// (fp32, 4e6 points, 8 a cell: 8.6e9 points/s with 8 blocks, 10.5e9 with 12; fp64: 6.0e9 with 8, 4.1e9 with 12).
+/// (fp32, 4e6 points, 8 a cell: 8.6e9 points/s with 512 threads, 10.5e9 with 768; fp64: 6.0e9 with 512, 4.1e9 with
+/// 768).
 template<class Real>
-struct Occupancy
-{
-    static constexpr int blocks_an_sm = sizeof(Real) == 4 ? 12 : 8;
-};
+constexpr int threads_an_sm = sizeof(Real) == 4 ? 896 : 512;
+
+/// Fewer pages than this leave multiprocessors idle unless each page has many threads.
+constexpr std::int64_t few_pages = 1024;
 
 /// Without APIC nothing reads the moment.
 struct WithoutMoment
@@ -27,12 +27,44 @@ struct WithMoment
 {
 };
 
+/// Where shared memory keeps tile node (x, y, z): with this pitch the 16 cells of a layer, each at the same one of its
+/// nodes, touch all banks.
+constexpr int gather_row   = 12;
+constexpr int gather_layer = gather_row * tile_edge;
+constexpr int gather_nodes = gather_layer * tile_edge;
+
+__device__ int gather_slot(int x, int y, int z) { return x + gather_row * y + gather_layer * z; }
+
 /// One tile node in shared memory, aligned so that its channels come in pairs.
 template<class Real>
 struct alignas(2 * sizeof(Real)) MotionNode
 {
     Real channel[motion_channels];
 };
+
+/// Brings the motion of a page's tile into shared memory: a thread a row of nodes, or several with some channels each.
+template<int threads, class Real>
+__device__ void load_tile(const Real* motion, const std::int32_t* node_page, MotionNode<Real>* tile)
+{
+    constexpr int rows = tile_edge * tile_edge, beyond = tile_edge - page_edge;
+    constexpr int teams = threads / rows < motion_channels ? threads / rows : motion_channels;
+    const int     y = static_cast<int>(threadIdx.x) % tile_edge, z = static_cast<int>(threadIdx.x) % rows / tile_edge;
+    const int     team = static_cast<int>(threadIdx.x) / rows;
+    if (team >= teams) { return; }
+    const std::int32_t* page = node_page + (y / page_edge << 1 | z / page_edge << 2);
+    const Real*         here = motion + page_edge * (y % page_edge + page_edge * (z % page_edge));
+    const Real*         low  = here + std::int64_t(page[0]) * motion_channels * page_cells;
+    const Real*         high = here + std::int64_t(page[1]) * motion_channels * page_cells;
+    MotionNode<Real>*   node = tile + gather_slot(0, y, z);
+#pragma unroll
+    for (int c = team; c < motion_channels; c += teams)
+    {
+        const auto four = *reinterpret_cast<const Pack<Real, page_edge>*>(low + c * page_cells);
+        const auto two  = *reinterpret_cast<const Pack<Real, beyond>*>(high + c * page_cells);
+        for (int x = 0; x < page_edge; ++x) { node[x].channel[c] = four.at[x]; }
+        for (int x = 0; x < beyond; ++x) { node[page_edge + x].channel[c] = two.at[x]; }
+    }
+}
 
 /// Partial sums of the velocity over rows and layers of nodes, and of its products with slopes and offsets.
 template<class Real>
@@ -48,7 +80,7 @@ __device__ Seen<Real> see_tile(const Stencil<Real>& s, Real spacing, const Motio
 {
     constexpr bool moment = std::is_same_v<Moment, WithMoment>;
     Partial<Real>  all{};
-    const int      base = tile_base(s.base);
+    const int      base = gather_slot(s.base.x & 3, s.base.y & 3, s.base.z & 3);
 #pragma unroll
     for (int c = 0; c < 3; ++c)
     {
@@ -60,7 +92,7 @@ __device__ Seen<Real> see_tile(const Stencil<Real>& s, Real spacing, const Motio
 #pragma unroll
             for (int a = 0; a < 3; ++a)
             {
-                const MotionNode<Real> node   = tile[base + tile_offset(a, b, c)];
+                const MotionNode<Real> node   = tile[base + gather_slot(a, b, c)];
                 const Real             weight = s.weight[0][a], slope = s.slope[0][a];
 #pragma unroll
                 for (int i = 0; i < 3; ++i)
@@ -115,7 +147,7 @@ __device__ Seen<Real> see_tile(const Stencil<Real>& s, Real spacing, const Motio
 }
 
 /// One block a page: its tile in shared memory, its points dealt to the threads in order.
-template<class Real, class Moment>
+template<int threads, class Real, class Moment>
 struct GatherPage
 {
     PointsView<Real> points;
@@ -133,31 +165,30 @@ struct GatherPage
             clear(page);
             return;
         }
-        __shared__ MotionNode<Real> tile[tile_nodes];
-        __shared__ double           shared_sums[gather_threads / 32 * point_sums];
-        __shared__ double           shared_peaks[gather_threads / 32 * point_peaks];
+        __shared__ MotionNode<Real> tile[gather_nodes];
+        __shared__ double           shared_sums[threads / 32 * point_sums];
+        __shared__ double           shared_peaks[threads / 32 * point_peaks];
         __shared__ std::int32_t count[move_counts];
         if (threadIdx.x < move_counts) { count[threadIdx.x] = 0; }
-        for (int node = threadIdx.x; node < tile_nodes; node += gather_threads)
-        {
-            const Real* source = tile_source(motion, pages.node_page_of + 8 * page, node);
-            for (int c = 0; c < motion_channels; ++c) { tile[node].channel[c] = source[c * page_cells]; }
-        }
+        load_tile<threads>(motion, pages.node_page_of + 8 * page, tile);
         __syncthreads();
         double             sum[point_sums] = {}, peak[point_peaks] = {};
+        const Index3       low     = page_coordinates(pages.point_page_key[page]);
         const Real         spacing = static_cast<Real>(pages.spacing);
         const std::int64_t end     = pages.first_point[page + 1];
-        for (std::int64_t at = pages.first_point[page] + threadIdx.x; at < end; at += gather_threads)
+        for (std::int64_t at = pages.first_point[page] + threadIdx.x; at < end; at += threads)
         {
             const std::int64_t i       = pages.point_at[at];
-            const auto         stencil = stencil_at<Real>(points.position.get(i), pages.spacing, pages.stencil_shift);
+            const Index3       cell    = node_at(low, pages.place_at[at]);
+            const auto         stencil = stencil_above<Real>(cell, points.position.get(i), pages.inverse_spacing,
+                                                     pages.inverse_spacing, pages.stencil_shift);
             const auto         seen    = see_tile(stencil, spacing, tile, Moment{});
             const Move         move    = update_point(points, i, seen, stencil.base, pages, page, step, sum, peak);
             moves.to[at]               = packed(move);
             if (move.stir != Stir::none) { count_move(move, count); }
         }
-        block_sum<gather_threads, point_sums>(sum, shared_sums, sums + page * point_sums);
-        block_largest<gather_threads, point_peaks>(peak, shared_peaks, peaks + page * point_peaks);
+        block_sum<threads, point_sums>(sum, shared_sums, sums + page * point_sums);
+        block_largest<threads, point_peaks>(peak, shared_peaks, peaks + page * point_peaks);
         if (threadIdx.x < move_counts) { moves.count[page * move_counts + threadIdx.x] = count[threadIdx.x]; }
     }
 
@@ -183,14 +214,19 @@ template<class Real>
 void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
             const GatherStep<Real>& step, const MovesView& moves, double* sums, double* peaks)
 {
-    const auto launch = [&](auto moment)
+    const auto launch = [&](auto threads, auto moment)
     {
-        for_each_block<gather_threads, Occupancy<Real>::blocks_an_sm>(
+        for_each_block<threads, threads_an_sm<Real> / threads>(
             gpu, "gather", pages.point_pages,
-            GatherPage<Real, decltype(moment)>{points, pages, motion, step, moves, sums, peaks});
+            GatherPage<threads, Real, decltype(moment)>{points, pages, motion, step, moves, sums, peaks});
     };
-    if (points.affine.data != nullptr) { launch(WithMoment{}); }
-    else { launch(WithoutMoment{}); }
+    const auto with_threads = [&](auto threads)
+    {
+        if (points.affine.data != nullptr) { launch(threads, WithMoment{}); }
+        else { launch(threads, WithoutMoment{}); }
+    };
+    if (pages.point_pages < few_pages) { with_threads(std::integral_constant<int, 256>{}); }
+    else { with_threads(std::integral_constant<int, 64>{}); }
 }
 
 template void gather(const Gpu&, const PointsView<float>&, const PagesView&, const float*, const GatherStep<float>&,

@@ -30,8 +30,8 @@ enum PointSum : int
 /// Per page, fp64, for the largest over all pages.
 enum PointPeak : int
 {
-    peak_speed, ///< m/s
-    peak_stir,  ///< the largest Stir of a point
+    peak_speed_squared, ///< m2/s2
+    peak_stir,          ///< the largest Stir of a point
     point_peaks
 };
 

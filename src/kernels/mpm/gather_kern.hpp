@@ -114,9 +114,10 @@ TREAD_HD void keep_for_contact(const PointsView<Real>& points, std::int64_t i, c
     sums[point_contact_work] += double(dt) * double(force.dot(seen.velocity - Real(0.5) * seen.change));
 }
 
+/// Gives the new stress.
 template<class Real>
-TREAD_HD void update_material(const PointsView<Real>& points, std::int64_t i, const Mat3<Real>& gradient,
-                              const GatherStep<Real>& step, double* sums)
+TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t i, const Mat3<Real>& gradient,
+                                    const GatherStep<Real>& step, double* sums)
 {
     const MaterialParameters<Real>& material = step.materials[points.material[i]];
     const Real                      ratio    = points.volume_ratio[i] * (Real(1) + step.dt * gradient.trace());
@@ -133,8 +134,12 @@ TREAD_HD void update_material(const PointsView<Real>& points, std::int64_t i, co
         points.plastic_shear[i] = update.state.plastic_shear;
         points.plastic_rate[i]  = update.state.plastic_rate;
         points.volume_gap[i]    = update.state.volume_gap;
-        sums[point_plastic_work] += double(update.plastic_work) * double(points.volume[i]) * double(ratio);
+        if (update.plastic_work != 0)
+        {
+            sums[point_plastic_work] += double(update.plastic_work * points.volume[i] * ratio);
+        }
     }
+    return update.stress;
 }
 
 /// The whole G2P of one point of a page, up to where it is then.
@@ -147,19 +152,18 @@ TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const
     points.velocity.set(i, velocity);
     if (points.affine.data != nullptr) { set_affine(points, i, seen, pages.spacing, pages.stencil_shift); }
     if (points.contact_force.data != nullptr) { keep_for_contact(points, i, seen, step.dt, sums); }
-    update_material(points, i, seen.gradient, step, sums);
+    const Sym3<Real> stress = update_material(points, i, seen.gradient, step, sums);
 
     const Vec3<double> position = points.position.get(i) + double(step.dt) * seen.velocity.template cast<double>();
     points.position.set(i, position);
 
-    const double speed = std::sqrt(double(velocity.squaredNorm()));
-    sums[point_kinetic] += 0.5 * double(points.mass[i]) * speed * speed;
-    const double stress = double(points.stress.get(i).sum());
-    const bool   finite = speed < 1e30 && stress - stress == 0;
-    const Move   move   = finite ? move_to(pages, page, cell, cell_of(position, pages.spacing, pages.stencil_shift))
-                                 : Move{own_page, place_in_page(cell), Stir::not_finite};
-    peaks[peak_speed]   = finite && speed > peaks[peak_speed] ? speed : peaks[peak_speed];
-    peaks[peak_stir]    = std::fmax(peaks[peak_stir], static_cast<double>(move.stir));
+    const Real speed_squared = velocity.squaredNorm(), checked = speed_squared + stress.sum();
+    sums[point_kinetic] += double(Real(0.5) * points.mass[i] * speed_squared);
+    const bool finite = checked - checked == 0;
+    const Move move =
+        finite ? move_to(pages, page, cell, position) : Move{own_page, place_in_page(cell), Stir::not_finite};
+    peaks[peak_speed_squared] = std::fmax(peaks[peak_speed_squared], finite ? double(speed_squared) : 0);
+    peaks[peak_stir]          = std::fmax(peaks[peak_stir], static_cast<double>(move.stir));
     return move;
 }
 

@@ -15,11 +15,13 @@ void update_grid(const Cpu& cpu, const PagesView& pages, const Real* tiles, cons
         const Index3 at   = page_coordinates(pages.node_page_key[page]);
         double*      sum  = sums + page * grid_sums;
         Real*        here = motion + page * motion_channels * page_cells;
+        std::int32_t tile_pages[octants];
+        for (int octant = 0; octant < octants; ++octant) { tile_pages[octant] = tile_page(pages, page, octant); }
         for (int s = 0; s < grid_sums; ++s) { sum[s] = 0; }
         for (int place = 0; place < page_cells; ++place)
         {
             Real channels[node_channels];
-            sum_tiles(pages, tiles, page, place, channels);
+            sum_tiles(tile_pages, tiles, place, channels);
             update_node(step, node_at(at, place), channels, here + place, sum);
         }
     };

@@ -22,10 +22,13 @@ struct UpdatePage
     __device__ void operator()(std::int64_t page) const
     {
         __shared__ double shared[page_cells / 32 * grid_sums];
-        const int         place = static_cast<int>(threadIdx.x);
-        Real              channels[node_channels];
-        double            sum[grid_sums] = {};
-        sum_tiles(pages, tiles, page, place, channels);
+        __shared__ std::int32_t tile_pages[octants];
+        const int               place = static_cast<int>(threadIdx.x);
+        if (place < octants) { tile_pages[place] = tile_page(pages, page, place); }
+        __syncthreads();
+        Real   channels[node_channels];
+        double sum[grid_sums] = {};
+        sum_tiles(tile_pages, tiles, place, channels);
         update_node(step, node_at(page_coordinates(pages.node_page_key[page]), place), channels,
                     motion + page * motion_channels * page_cells + place, sum);
         block_sum<page_cells, grid_sums>(sum, shared, sums + page * grid_sums);

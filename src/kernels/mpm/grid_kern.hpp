@@ -2,24 +2,30 @@
 
 #include "kernels/local_damping_kern.hpp"
 #include "kernels/mpm/grid.hpp"
+#include "kernels/mpm/stencil_kern.hpp"
 
 namespace tread::mpm
 {
 
-/// Sum of the up to eight tiles that reach a node, lowest octant first.
+/// The point page whose tile reaches a node page from an octant, or -1 where there is none or no point in it.
+TREAD_HD std::int32_t tile_page(const PagesView& pages, std::int64_t node_page, int octant)
+{
+    const std::int32_t page = pages.point_page_of[octants * node_page + octant];
+    return page >= 0 && pages.first_point[page] < pages.first_point[page + 1] ? page : -1;
+}
+
+/// Sum of the up to eight tiles that reach a node, lowest octant first. `tile_pages`: by octant.
 template<class Real>
-TREAD_HD void sum_tiles(const PagesView& pages, const Real* tiles, std::int64_t node_page, int place, Real* total)
+TREAD_HD void sum_tiles(const std::int32_t* tile_pages, const Real* tiles, int place, Real* total)
 {
     const int x = place & 3, y = place >> 2 & 3, z = place >> 4;
     for (int c = 0; c < node_channels; ++c) { total[c] = 0; }
-    for (int octant = 0; octant < 8; ++octant)
+    for (int octant = 0; octant < octants; ++octant)
     {
-        const int i = x + page_edge * (octant & 1), j = y + page_edge * (octant >> 1 & 1),
-                  k = z + page_edge * (octant >> 2);
-        if (i >= tile_edge || j >= tile_edge || k >= tile_edge) { continue; }
-        const std::int64_t page = pages.point_page_of[8 * node_page + octant];
-        if (page < 0 || pages.first_point[page] == pages.first_point[page + 1]) { continue; }
-        const Real* tile = tiles + page * node_channels * tile_nodes + i + tile_edge * (j + tile_edge * k);
+        if (x >= octant_edge(octant, 0) || y >= octant_edge(octant, 1) || z >= octant_edge(octant, 2)) { continue; }
+        if (tile_pages[octant] < 0) { continue; }
+        const Real* tile = tiles + std::int64_t(tile_pages[octant]) * node_channels * tile_nodes +
+                           octant_start(octant) + x + octant_edge(octant, 0) * (y + octant_edge(octant, 1) * z);
         for (int c = 0; c < node_channels; ++c) { total[c] += tile[c * tile_nodes]; }
     }
 }
@@ -78,11 +84,6 @@ TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* c
         motion[c * page_cells]       = after[c];
         motion[(3 + c) * page_cells] = change[c];
     }
-}
-
-TREAD_HD Index3 node_at(Index3 page, int place)
-{
-    return {page.x * page_edge + (place & 3), page.y * page_edge + (place >> 2 & 3), page.z * page_edge + (place >> 4)};
 }
 
 } // namespace tread::mpm

@@ -33,7 +33,7 @@ TREAD_HD bool inside_inscribed_cone(const MaterialParameters<Real>& material, Re
 {
     const Real s     = material.sin_friction;
     const Real limit = material.cohesion * material.cos_friction - mean * s;
-    return limit >= 0 && j2 * (Real(1) + s * s / Real(3)) <= limit * limit;
+    return limit >= 0 && j2 * (Real(1) + s * s * Real(1.0 / 3)) <= limit * limit;
 }
 
 /// Largest and smallest principal stress on the yield surface, Pa.
@@ -92,11 +92,11 @@ TREAD_HD PlasticFlow<Real> plastic_flow(const MaterialParameters<Real>& material
                                         const Vec3<Real>& stress)
 {
     const Vec3<Real> drop        = trial - stress;
-    const Real       mean        = drop.sum() / Real(3);
+    const Real       mean        = drop.sum() * Real(1.0 / 3);
     const Vec3<Real> e           = (drop.array() - mean) / (Real(2) * material.shear_modulus);
     const Real       volume      = mean / material.bulk_modulus;
-    const Real       stress_mean = stress.sum() / Real(3);
-    return {std::sqrt(Real(2) / Real(3) * e.squaredNorm()), volume,
+    const Real       stress_mean = stress.sum() * Real(1.0 / 3);
+    return {std::sqrt(Real(2.0 / 3) * e.squaredNorm()), volume,
             stress_mean * volume + e.dot(Vec3<Real>(stress.array() - stress_mean))};
 }
 
@@ -124,7 +124,7 @@ TREAD_HD StressUpdate<Real> mohr_coulomb_return(const MaterialParameters<Real>& 
                                                 const PlasticState<Real>& state, Real dt)
 {
     StressUpdate<Real> update{trial, {state.plastic_shear, Real(0), state.volume_gap}, Real(0)};
-    Real               mean   = (trial[0] + trial[1] + trial[2]) / Real(3);
+    Real               mean   = (trial[0] + trial[1] + trial[2]) * Real(1.0 / 3);
     const Real         closed = close_gap(mean, material.bulk_modulus, update.state.volume_gap);
     mean += closed;
     Real j2 = 0;

@@ -35,13 +35,15 @@ struct MovesView
     std::int32_t*  count; ///< [point pages][move_counts]
 };
 
-/// A point that has no listed page to go to stays in its own until all are ordered anew.
-TREAD_HD Move move_to(const PagesView& pages, std::int64_t page, Index3 before, Index3 now)
+/// Of a point of cell `before` that is at `position` now. One that has no listed page to go to stays in its own until
+/// all are ordered anew.
+TREAD_HD Move move_to(const PagesView& pages, std::int64_t page, Index3 before, const Vec3<double>& position)
 {
-    if (now.x == before.x && now.y == before.y && now.z == before.z)
+    if (stays_in(before, position, pages.inverse_spacing, pages.stencil_shift))
     {
-        return {own_page, place_in_page(now), Stir::none};
+        return {own_page, place_in_page(before), Stir::none};
     }
+    const Index3 now  = cell_of(position, pages.inverse_spacing, pages.stencil_shift);
     const Index3 from = page_of(before), to = page_of(now);
     const int    x = to.x - from.x, y = to.y - from.y, z = to.z - from.z;
     const Move   stay{own_page, place_in_page(before), Stir::lost};

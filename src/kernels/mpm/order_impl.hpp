@@ -28,7 +28,7 @@ struct MakeKeys
         {
             inside = inside && x[c] >= -margin && (c == 2 || x[c] <= geometry.size[c] + margin);
         }
-        keys[i]  = inside ? cell_key(cell_of(x, geometry.spacing, geometry.stencil_shift)) : no_page;
+        keys[i]  = inside ? cell_key(cell_of(x, 1 / geometry.spacing, geometry.stencil_shift)) : no_page;
         order[i] = static_cast<std::int32_t>(i);
     }
 };
@@ -87,9 +87,15 @@ struct FirstOfPage
 
 struct ListInOrder
 {
-    std::int32_t* point_at;
+    const std::uint64_t* keys;
+    std::int32_t*        point_at;
+    std::uint8_t*        place_at;
 
-    TREAD_HD void operator()(std::int64_t i) const { point_at[i] = static_cast<std::int32_t>(i); }
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        point_at[i] = static_cast<std::int32_t>(i);
+        place_at[i] = static_cast<std::uint8_t>(keys[i] & 63);
+    }
 };
 
 struct FirstOfCell
@@ -299,7 +305,9 @@ void build_point_pages(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>
              FirstOfCell{scratch.keys.data(), points.count, count, pages.point_page_key.data(),
                          pages.first_point.data(), pages.cell_first_point.data()});
     pages.point_at.resize(points.count);
-    for_each(exec, "list points", points.count, ListInOrder{pages.point_at.data()});
+    pages.place_at.resize(points.count);
+    for_each(exec, "list points", points.count,
+             ListInOrder{scratch.keys.data(), pages.point_at.data(), pages.place_at.data()});
     pages.neighbour.resize(directions * count);
     for_each(exec, "find neighbours", directions * count,
              FindAround{pages.point_page_key.data(), count, pages.neighbour.data()});

@@ -67,6 +67,12 @@ TREAD_HD Index3 page_of(Index3 node) { return {node.x >> 2, node.y >> 2, node.z 
 /// Place of a node within its page, 0..63.
 TREAD_HD int place_in_page(Index3 node) { return (node.x & 3) | (node.y & 3) << 2 | (node.z & 3) << 4; }
 
+/// Node at a place of a page.
+TREAD_HD Index3 node_at(Index3 page, int place)
+{
+    return {page.x * page_edge + (place & 3), page.y * page_edge + (place >> 2 & 3), page.z * page_edge + (place >> 4)};
+}
+
 /// Orders cells by page, then by place in the page.
 TREAD_HD std::uint64_t cell_key(Index3 cell)
 {

@@ -12,19 +12,27 @@ namespace tread::mpm
 constexpr int directions = 27;
 constexpr int own_page   = 13;
 
+/// How far (in spacings) a point may pass the boundary of its cell before it is listed in the next one: beds at rest on
+/// a lattice that falls on boundaries do not change their lists with every breath. Quadratic weights, continued beyond
+/// the cell, still sum to one and reproduce linear fields exactly; they differ from the next cell's by half the square
+/// of this, the rounding of fp32. Hats have a kink at the boundary, and no slack.
+constexpr double quadratic_cell_slack = 1.0 / 1024;
+
 /// The pages that hold points, with all their neighbours ("point pages"), and those that their stencils reach ("node
 /// pages", which include them). Points are listed by page key, then by place in the page; in memory they stand as they
-/// were when they were last ordered.
+/// were when they were last ordered. The cell of a point is the one in which it is listed.
 struct PagesView
 {
-    double               spacing;       ///< m, of the grid
-    double               stencil_shift; ///< cell = floor(x / spacing - stencil_shift): 0.5 quadratic, 0 linear
+    double               spacing;         ///< m, of the grid
+    double               inverse_spacing; ///< 1/m
+    double               stencil_shift;   ///< cell = floor(x / spacing - stencil_shift): 0.5 quadratic, 0 linear
     std::int64_t         point_pages;
     std::int64_t         node_pages;
     const std::uint64_t* point_page_key;   ///< [point_pages], ascending
     const std::int32_t*  first_point;      ///< [point_pages + 1], into the list
     const std::int32_t*  cell_first_point; ///< [64 * point_pages + 1], into the list, by place in the page
     const std::int32_t*  point_at;         ///< [points], the list: where in memory each point is
+    const std::uint8_t*  place_at;         ///< [points], of the list: place in its page of the point's cell
     const std::int32_t*  neighbour;        ///< [27 * point_pages], point page by direction, or -1
     const std::uint64_t* node_page_key;    ///< [node_pages], ascending
     const std::int32_t*  node_page_of;     ///< [8 * point_pages], node page at + (o & 1, o >> 1 & 1, o >> 2)
@@ -40,6 +48,7 @@ struct Pages
         , first_point(exec, "point page first point")
         , cell_first_point(exec, "cell first point")
         , point_at(exec, "point list")
+        , place_at(exec, "point list cells")
         , neighbour(exec, "neighbours of point pages")
         , node_page_key(exec, "node page keys")
         , node_page_of(exec, "node pages of point pages")
@@ -50,6 +59,7 @@ struct Pages
     PagesView view(double spacing, double stencil_shift) const
     {
         return {spacing,
+                1 / spacing,
                 stencil_shift,
                 point_page_key.size(),
                 node_page_key.size(),
@@ -57,6 +67,7 @@ struct Pages
                 first_point.data(),
                 cell_first_point.data(),
                 point_at.data(),
+                place_at.data(),
                 neighbour.data(),
                 node_page_key.data(),
                 node_page_of.data(),
@@ -67,6 +78,7 @@ struct Pages
     Array<Exec, std::int32_t>  first_point;
     Array<Exec, std::int32_t>  cell_first_point;
     Array<Exec, std::int32_t>  point_at;
+    Array<Exec, std::uint8_t>  place_at;
     Array<Exec, std::int32_t>  neighbour;
     Array<Exec, std::uint64_t> node_page_key;
     Array<Exec, std::int32_t>  node_page_of;
@@ -76,12 +88,25 @@ struct Pages
 /// Node that names the cell of a position: the lowest of its stencil. A product with the inverse, not a quotient: fp64
 /// division costs a GPU as much as the rest of the stencil. The multiply-add is explicit: left to compilers it would be
 /// fused in one kernel and not in another, and they would disagree about points on the boundary of a cell.
-TREAD_HD Index3 cell_of(const Vec3<double>& position, double spacing, double stencil_shift)
+TREAD_HD Index3 cell_of(const Vec3<double>& position, double inverse_spacing, double stencil_shift)
 {
-    const double inverse = 1 / spacing;
-    return {static_cast<std::int32_t>(std::floor(std::fma(position[0], inverse, -stencil_shift))),
-            static_cast<std::int32_t>(std::floor(std::fma(position[1], inverse, -stencil_shift))),
-            static_cast<std::int32_t>(std::floor(std::fma(position[2], inverse, -stencil_shift)))};
+    return {static_cast<std::int32_t>(std::floor(std::fma(position[0], inverse_spacing, -stencil_shift))),
+            static_cast<std::int32_t>(std::floor(std::fma(position[1], inverse_spacing, -stencil_shift))),
+            static_cast<std::int32_t>(std::floor(std::fma(position[2], inverse_spacing, -stencil_shift)))};
+}
+
+/// Whether a point of `cell` may stay listed there.
+TREAD_HD bool stays_in(Index3 cell, const Vec3<double>& position, double inverse_spacing, double stencil_shift)
+{
+    const double reach     = 0.5 + (stencil_shift > 0 ? quadratic_cell_slack : 0);
+    const double centre[3] = {cell.x + 0.5 + stencil_shift, cell.y + 0.5 + stencil_shift, cell.z + 0.5 + stencil_shift};
+    bool         stays     = true;
+    for (int c = 0; c < 3; ++c)
+    {
+        const double off = std::fma(position[c], inverse_spacing, -centre[c]);
+        stays            = stays && off >= -reach && off < reach;
+    }
+    return stays;
 }
 
 } // namespace tread::mpm

@@ -37,7 +37,9 @@ void copy_list(const Relisting& job, std::int64_t page)
     {
         job.cell_first_point[c] = job.old.cell_first_point[c] - from + to;
     }
-    std::copy(job.old.point_at + from, job.old.point_at + job.old.first_point[page + 1], job.point_at + to);
+    const std::int32_t end = job.old.first_point[page + 1];
+    std::copy(job.old.point_at + from, job.old.point_at + end, job.point_at + to);
+    std::copy(job.old.place_at + from, job.old.place_at + end, job.place_at + to);
 }
 
 void relist_page(const Relisting& job, std::int64_t page)
@@ -55,7 +57,13 @@ void relist_page(const Relisting& job, std::int64_t page)
         job.cell_first_point[page * page_cells + place] = first;
         first += std::exchange(next[place], first);
     }
-    for_each_listed(job, page, [&](int place, std::int32_t at) { job.point_at[next[place]++] = job.old.point_at[at]; });
+    for_each_listed(job, page,
+                    [&](int place, std::int32_t at)
+                    {
+                        const std::int32_t to = next[place]++;
+                        job.point_at[to]      = job.old.point_at[at];
+                        job.place_at[to]      = static_cast<std::uint8_t>(place);
+                    });
 }
 
 } // namespace

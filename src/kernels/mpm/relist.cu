@@ -19,8 +19,10 @@ struct RelistPages
         const int               warp = static_cast<int>(threadIdx.x) / 32;
         const std::int64_t      page = block * relist_warps + warp;
         if (page >= job.old.point_pages) { return; }
-        if (unchanged(job.old, job.moves, page)) { copy_list(page); }
-        else { relist(page, next[warp]); }
+        const bool     arrive  = lane() < directions && arrivals(job.old, job.moves, page, lane()) > 0;
+        const unsigned sources = __ballot_sync(0xffffffffu, arrive);
+        if (sources == 0 && job.moves.count[page * move_counts + stirred_points] == 0) { copy_list(page); }
+        else { relist(page, sources, next[warp]); }
     }
 
 private:
@@ -36,35 +38,35 @@ private:
         for (std::int32_t at = from + lane(); at < job.old.first_point[page + 1]; at += 32)
         {
             job.point_at[to + at - from] = job.old.point_at[at];
+            job.place_at[to + at - from] = job.old.place_at[at];
         }
     }
 
-    __device__ void relist(std::int64_t page, std::int32_t* next) const
+    /// `sources`: a bit for each direction from which points come.
+    __device__ void relist(std::int64_t page, unsigned sources, std::int32_t* next) const
     {
         next[lane()] = next[lane() + 32] = 0;
         __syncwarp();
-        for_each_listed(page,
+        for_each_listed(page, sources,
                         [&](bool listed, int place, std::int32_t)
                         {
                             if (listed) { atomicAdd(next + place, 1); }
                         });
         __syncwarp();
         start_cells(page, next);
-        for_each_listed(page, [&](bool listed, int place, std::int32_t at) { put(listed, place, at, next); });
+        for_each_listed(page, sources, [&](bool listed, int place, std::int32_t at) { put(listed, place, at, next); });
     }
 
     /// Calls visit(listed, place, place in the old list) with all lanes at once; `listed` if the point is in `page`
     /// now.
     template<class Visit>
-    __device__ void for_each_listed(std::int64_t page, Visit visit) const
+    __device__ void for_each_listed(std::int64_t page, unsigned sources, Visit visit) const
     {
         take(page, own_page, visit);
-        for (int d = 0; d < directions; ++d)
+        for (; sources != 0; sources &= sources - 1)
         {
-            if (arrivals(job.old, job.moves, page, d) > 0)
-            {
-                take(job.old.neighbour[page * directions + d], directions - 1 - d, visit);
-            }
+            const int d = __ffs(static_cast<int>(sources)) - 1;
+            take(job.old.neighbour[page * directions + d], directions - 1 - d, visit);
         }
     }
 
@@ -105,8 +107,9 @@ private:
         const unsigned lanes = __match_any_sync(0xffffffffu, listed ? place : page_cells);
         if (listed)
         {
-            const std::int32_t before          = __popc(lanes & ((1u << lane()) - 1));
-            job.point_at[next[place] + before] = job.old.point_at[at];
+            const std::int32_t to = next[place] + __popc(lanes & ((1u << lane()) - 1));
+            job.point_at[to]      = job.old.point_at[at];
+            job.place_at[to]      = static_cast<std::uint8_t>(place);
         }
         __syncwarp();
         if (listed && lane() == __ffs(static_cast<int>(lanes)) - 1) { next[place] += __popc(lanes); }

@@ -16,6 +16,7 @@ struct RelistScratch
         , first_point(exec, "relist first point")
         , cell_first_point(exec, "relist cell first point")
         , point_at(exec, "relist point list")
+        , place_at(exec, "relist point list cells")
     {
     }
 
@@ -23,6 +24,7 @@ struct RelistScratch
     Array<Exec, std::int32_t> first_point;
     Array<Exec, std::int32_t> cell_first_point;
     Array<Exec, std::int32_t> point_at;
+    Array<Exec, std::uint8_t> place_at;
 };
 
 /// Lists every point in the cell that it moved to; no point moves in memory. In a cell those that stayed in the page

@@ -14,6 +14,7 @@ struct Relisting
     const std::int32_t* first_point;      ///< new, [point_pages + 1]
     std::int32_t*       cell_first_point; ///< new
     std::int32_t*       point_at;         ///< new
+    std::uint8_t*       place_at;         ///< new
 };
 
 /// How many come to `page` from its neighbour in a direction; their own direction is the opposite.

@@ -12,13 +12,16 @@ template<class Real>
 void scatter_page(const PointsView<Real>& points, const PagesView& pages, std::int64_t page, Real* out)
 {
     if (pages.first_point[page] == pages.first_point[page + 1]) { return; }
-    Real       tile[tile_nodes][lanes] = {};
-    const Real spacing                 = static_cast<Real>(pages.spacing);
+    Real         tile[tile_nodes][lanes] = {};
+    const Real   spacing                 = static_cast<Real>(pages.spacing);
+    const Index3 low                     = page_coordinates(pages.point_page_key[page]);
     for (std::int64_t at = pages.first_point[page]; at < pages.first_point[page + 1]; ++at)
     {
         const std::int64_t i       = pages.point_at[at];
         const auto         load    = point_load(points, i);
-        const auto         stencil = stencil_at<Real>(points.position.get(i), pages.spacing, pages.stencil_shift);
+        const Index3       cell    = node_at(low, pages.place_at[at]);
+        const auto         stencil = stencil_above<Real>(cell, points.position.get(i), pages.inverse_spacing,
+                                                 pages.inverse_spacing, pages.stencil_shift);
         Real(*base)[lanes]         = tile + tile_base(stencil.base);
         for (int c = 0; c < 3; ++c)
         {
@@ -34,9 +37,13 @@ void scatter_page(const PointsView<Real>& points, const PagesView& pages, std::i
             }
         }
     }
-    for (int channel = 0; channel < node_channels; ++channel)
+    for (int node = 0; node < tile_nodes; ++node)
     {
-        for (int node = 0; node < tile_nodes; ++node) { out[channel * tile_nodes + node] = tile[node][channel]; }
+        const int slot = tile_slot(node % tile_edge, node / tile_edge % tile_edge, node / (tile_edge * tile_edge));
+        for (int channel = 0; channel < node_channels; ++channel)
+        {
+            out[channel * tile_nodes + slot] = tile[node][channel];
+        }
     }
 }
 

@@ -47,27 +47,22 @@ TREAD_HD void axis_weights(Real f, Real inverse_spacing, double stencil_shift, R
     else { linear_weights(f, inverse_spacing, weight, slope); }
 }
 
-/// Stencil of a position (m) whose lowest node is known. `stencil_shift` 0.5 means quadratic, 0 linear.
+/// Stencil of a position (m) whose lowest node is `base`. `slope_scale`: 1/m, or 1 for slopes per spacing;
+/// `stencil_shift` 0.5 means quadratic, 0 linear.
 template<class Real>
-TREAD_HD Stencil<Real> stencil_above(Index3 base, const Vec3<double>& position, double spacing, double stencil_shift)
+TREAD_HD Stencil<Real> stencil_above(Index3 base, const Vec3<double>& position, double slope_scale,
+                                     double inverse_spacing, double stencil_shift)
 {
     Stencil<Real> stencil;
     stencil.base          = base;
     const double lowest[] = {double(base.x), double(base.y), double(base.z)};
-    const double inverse  = 1 / spacing;
     for (int axis = 0; axis < 3; ++axis)
     {
-        stencil.fraction[axis] = static_cast<Real>(position[axis] * inverse - lowest[axis]);
-        axis_weights(stencil.fraction[axis], static_cast<Real>(inverse), stencil_shift, stencil.weight[axis],
+        stencil.fraction[axis] = static_cast<Real>(position[axis] * inverse_spacing - lowest[axis]);
+        axis_weights(stencil.fraction[axis], static_cast<Real>(slope_scale), stencil_shift, stencil.weight[axis],
                      stencil.slope[axis]);
     }
     return stencil;
-}
-
-template<class Real>
-TREAD_HD Stencil<Real> stencil_at(const Vec3<double>& position, double spacing, double stencil_shift)
-{
-    return stencil_above<Real>(cell_of(position, spacing, stencil_shift), position, spacing, stencil_shift);
 }
 
 /// Place in the page's tile of the stencil's lowest node.
@@ -75,5 +70,28 @@ TREAD_HD int tile_base(Index3 base) { return (base.x & 3) + tile_edge * ((base.y
 
 /// Place of node (i, j, k) of a stencil relative to its lowest.
 TREAD_HD int tile_offset(int i, int j, int k) { return i + tile_edge * (j + tile_edge * k); }
+
+/// The part of a tile that belongs to the node page at + (o & 1, o >> 1 & 1, o >> 2): its edges, and where it starts. A
+/// finished tile keeps its parts one after the other, so that a node page reads each in one piece.
+constexpr int          octants = 8;
+TREAD_HD constexpr int octant_edge(int octant, int axis)
+{
+    return (octant >> axis & 1) != 0 ? tile_edge - page_edge : page_edge;
+}
+TREAD_HD constexpr int octant_start(int octant)
+{
+    const int z = octant >> 2, y = octant >> 1 & 1, x = octant & 1;
+    const int height = octant_edge(octant, 2);
+    return z * page_edge * tile_edge * tile_edge + y * height * page_edge * tile_edge +
+           x * height * octant_edge(octant, 1) * page_edge;
+}
+
+/// Where a finished tile keeps node (i, j, k).
+TREAD_HD int tile_slot(int i, int j, int k)
+{
+    const int octant = (i / page_edge) | (j / page_edge) << 1 | (k / page_edge) << 2;
+    return octant_start(octant) + i % page_edge +
+           octant_edge(octant, 0) * (j % page_edge + octant_edge(octant, 1) * (k % page_edge));
+}
 
 } // namespace tread::mpm

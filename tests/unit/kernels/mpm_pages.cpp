@@ -40,7 +40,7 @@ void expect_partition_of_unity(double shift, double tolerance)
     {
         const double       spacing = 0.025;
         const Vec3<double> x(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-        const auto         stencil = stencil_at<Real>(x, spacing, shift);
+        const auto stencil = stencil_above<Real>(cell_of(x, 1 / spacing, shift), x, 1 / spacing, 1 / spacing, shift);
         for (int axis = 0; axis < 3; ++axis)
         {
             double sum = 0, slope = 0, moment = 0;
@@ -96,14 +96,15 @@ protected:
         return points;
     }
 
-    /// Every point is listed once, in the range of the cell that it is in.
+    /// Every point is listed once, in the range of a cell where it may be.
     void expect_listed(const Points<Exec, double>& points, const Pages<Exec>& pages, std::int64_t count)
     {
         const auto first = pages.first_point.to_host(), cells = pages.cell_first_point.to_host();
-        const auto list = pages.point_at.to_host();
-        const auto keys = pages.point_page_key.to_host();
-        const auto x    = points.position.to_host();
-        const auto s    = static_cast<std::size_t>(points.stride);
+        const auto list  = pages.point_at.to_host();
+        const auto place = pages.place_at.to_host();
+        const auto keys  = pages.point_page_key.to_host();
+        const auto x     = points.position.to_host();
+        const auto s     = static_cast<std::size_t>(points.stride);
         ASSERT_EQ(first.back(), count);
         std::set<std::int32_t> seen;
         int                    misplaced = 0;
@@ -113,9 +114,11 @@ protected:
             for (std::int32_t at = first[page]; at < first[page + 1]; ++at)
             {
                 const auto   k    = static_cast<std::size_t>(list[static_cast<std::size_t>(at)]);
-                const Index3 cell = cell_of({x[k], x[s + k], x[2 * s + k]}, spacing, 0.5);
-                const auto   of   = page * page_cells + static_cast<std::size_t>(place_in_page(cell));
-                misplaced += page_key(page_of(cell)) != keys[page] || at < cells[of] || at >= cells[of + 1];
+                const auto   here = place[static_cast<std::size_t>(at)];
+                const Index3 cell = node_at(page_coordinates(keys[page]), here);
+                const auto   of   = page * page_cells + here;
+                misplaced += !stays_in(cell, {x[k], x[s + k], x[2 * s + k]}, 1 / spacing, 0.5) || at < cells[of] ||
+                             at >= cells[of + 1];
                 seen.insert(list[static_cast<std::size_t>(at)]);
             }
         }
@@ -148,7 +151,7 @@ TYPED_TEST(PagesTest, EveryPointStandsInTheRangeOfItsCell)
         {
             const auto   k    = static_cast<std::size_t>(i);
             const auto   s    = static_cast<std::size_t>(points.stride);
-            const Index3 cell = cell_of({x[k], x[s + k], x[2 * s + k]}, this->spacing, 0.5);
+            const Index3 cell = cell_of({x[k], x[s + k], x[2 * s + k]}, 1 / this->spacing, 0.5);
             EXPECT_EQ(page_key(page_of(cell)), keys[page]);
             const auto at = page * page_cells + static_cast<std::size_t>(place_in_page(cell));
             EXPECT_GE(i, cells[at]);
@@ -184,8 +187,8 @@ TYPED_TEST(PagesTest, NeighbourTablesAgreeBothWays)
     EXPECT_EQ(std::vector<std::uint64_t>(wanted.begin(), wanted.end()), node_key);
 }
 
-/// Points drift through several pages on a uniform grid velocity; after every step the list must be what ordering them
-/// anew would give as sets, cell by cell, though no point moves in memory.
+/// Points drift through several pages on a uniform grid velocity; after every step each is listed where it is, though
+/// no point moves in memory.
 TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
 {
     constexpr std::int64_t count = 3000;
