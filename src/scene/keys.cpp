@@ -29,7 +29,9 @@ Keys<Drive> drive_keys()
     };
 }
 
-bool is_mohr_coulomb(const Material& material) { return material.model == MaterialModel::mohr_coulomb; }
+bool flows(const Material& material) { return is_granular(material.model); }
+
+bool is_drucker_prager(const Material& material) { return material.model == MaterialModel::drucker_prager; }
 
 } // namespace
 
@@ -86,6 +88,9 @@ Keys<Numerics> numerics_keys()
                  "Factor of the contact force: 4/3 E* sqrt(R*) d^1.5, or the paper's Eq. 7, which is 1/sqrt(2) of it."),
         optional("point_radius", "", &Numerics::point_radius, word<PointRadius>({"sphere", "semi-domain"}),
                  "Contact radius of a point: of the sphere of its initial volume V (Eq. 11), or 0.5 V^(1/3)."),
+        optional("volume_strain", "", &Numerics::volume_strain, word<VolumeStrain>({"point", "cell-average"}),
+                 "Volumetric strain that the material law sees: each point's own, or the mean over its cell's points, "
+                 "against locking where the flow keeps its volume (undrained clay, sand that does not dilate)."),
         optional("linear_overlap", "R*", &Numerics::linear_overlap, number(above_up_to(0, 0.1)),
                  "Overlap below which traction between bodies is linear; 1e-2 allows thrice the step."),
     };
@@ -93,10 +98,11 @@ Keys<Numerics> numerics_keys()
 
 Keys<Material> material_keys()
 {
-    const std::string mohr_coulomb = "model = \"mohr-coulomb\"";
+    const std::string granular = "model = \"mohr-coulomb\" or \"drucker-prager\"";
     return {
         required("name", "", &Material::name, name(), "Unique among materials."),
-        required("model", "", &Material::model, word<MaterialModel>({"elastic", "mohr-coulomb", "rigid"}),
+        required("model", "", &Material::model,
+                 word<MaterialModel>({"elastic", "mohr-coulomb", "drucker-prager", "rigid"}),
                  "Constitutive model of points. Rocks and bodies take \"elastic\" or \"rigid\"; both stay rigid, and "
                  "`young` and `poisson` set the stiffness of their contacts."),
         optional("density", "kg/m3", &Material::density, number(above(0)),
@@ -107,12 +113,17 @@ Keys<Material> material_keys()
         optional("poisson", "", &Material::poisson, number(between(0, 0.499)), "Poisson's ratio."),
         required("friction_angle_deg", "degrees", &Material::friction_angle_deg, number(from_below(0, 90)),
                  "Internal friction angle.")
-            .when(mohr_coulomb, is_mohr_coulomb),
+            .when(granular, flows),
         optional("dilation_angle_deg", "degrees", &Material::dilation_angle_deg, number(from_below(0, 90)),
                  "Dilation angle; at most the friction angle.")
-            .when(mohr_coulomb, is_mohr_coulomb),
-        optional("cohesion", "Pa", &Material::cohesion, number(at_least(0)), "Cohesion.")
-            .when(mohr_coulomb, is_mohr_coulomb),
+            .when(granular, flows),
+        optional("cohesion", "Pa", &Material::cohesion, number(at_least(0)), "Cohesion.").when(granular, flows),
+        required(
+            "drucker_prager_fit", "", &Material::drucker_prager_fit,
+            word<ConeFit>({"compression", "extension", "plane-strain"}),
+            "Where the cone has the strength of the friction angle and cohesion: in triaxial compression (stronger "
+            "elsewhere), in triaxial extension (weaker elsewhere), or in plane strain.")
+            .when("model = \"drucker-prager\"", is_drucker_prager),
         optional("family", "", &Material::family, name(),
                  "Contact class, looked up in [[contact]]. \"wall\" is reserved for the domain's walls.",
                  "the material's name"),
@@ -135,7 +146,7 @@ Keys<Terrain> terrain_keys()
 {
     const auto on_the_grid = [](const Terrain& terrain) { return !terrain.spacing; };
     return {
-        required("material", "", &Terrain::material, name(), "The name of an elastic or Mohr-Coulomb [[material]]."),
+        required("material", "", &Terrain::material, name(), "The name of a [[material]] that is not rigid."),
         terrain_region_key(),
         terrain_height_key(),
         terrain_floor_key(),

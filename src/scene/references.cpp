@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -17,13 +18,13 @@ const Material* find_material(const Scene& scene, const std::string& name)
     return found == scene.materials.end() ? nullptr : &*found;
 }
 
-/// The material exists, and its model is not the one that this table cannot use.
-void check_material(const Scene& scene, const TableAt& at, const std::string& name, MaterialModel refused,
-                    const std::string& accepted, Checker& checker)
+/// The material exists, and its model is one that this table can use.
+void check_material(const Scene& scene, const TableAt& at, const std::string& name,
+                    const std::function<bool(MaterialModel)>& suits, const std::string& accepted, Checker& checker)
 {
     checker.require_known(at, "material", name, names_in(scene.materials), "[[material]]");
     const auto* material = find_material(scene, name);
-    if (material == nullptr || material->model != refused) { return; }
+    if (material == nullptr || suits(material->model)) { return; }
     const auto index = static_cast<std::size_t>(material - scene.materials.data());
     if (!checker.sound({"material", index}, {"model"})) { return; }
     checker.report(at, "material", fmt::format("the model of \"{}\" does not suit [[{}]]", name, at.name), accepted);
@@ -38,19 +39,21 @@ std::vector<std::string> shape_names(const Scene& scene)
 
 void check_materials(const Scene& scene, Checker& checker)
 {
-    const std::string stiff = "a material of model \"elastic\" | \"rigid\"";
+    const auto        points = [](MaterialModel model) { return model != MaterialModel::rigid; };
+    const auto        solid  = [](MaterialModel model) { return !is_granular(model); };
+    const std::string stiff  = "a material of model \"elastic\" | \"rigid\"";
     for (std::size_t i = 0; i < scene.terrain.size(); ++i)
     {
-        check_material(scene, {"terrain", i}, scene.terrain[i].material, MaterialModel::rigid,
-                       "a material of model \"elastic\" | \"mohr-coulomb\"", checker);
+        check_material(scene, {"terrain", i}, scene.terrain[i].material, points,
+                       "a material of model \"elastic\" | \"mohr-coulomb\" | \"drucker-prager\"", checker);
     }
     for (std::size_t i = 0; i < scene.rocks.size(); ++i)
     {
-        check_material(scene, {"rocks", i}, scene.rocks[i].material, MaterialModel::mohr_coulomb, stiff, checker);
+        check_material(scene, {"rocks", i}, scene.rocks[i].material, solid, stiff, checker);
     }
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     {
-        check_material(scene, {"body", i}, scene.bodies[i].material, MaterialModel::mohr_coulomb, stiff, checker);
+        check_material(scene, {"body", i}, scene.bodies[i].material, solid, stiff, checker);
     }
 }
 

@@ -46,6 +46,12 @@ enum class HertzFactor
     standard,
     paper_eq7
 };
+/// What the volumetric strain rate of a point's law is.
+enum class VolumeStrain
+{
+    point,       ///< the velocity's divergence there
+    cell_average ///< its mean over the points of the cell
+};
 enum class PointRadius
 {
     sphere,
@@ -55,7 +61,22 @@ enum class MaterialModel
 {
     elastic,
     mohr_coulomb,
+    drucker_prager,
     rigid
+};
+
+/// The models that flow: with friction angle, dilation angle and cohesion.
+constexpr bool is_granular(MaterialModel model)
+{
+    return model == MaterialModel::mohr_coulomb || model == MaterialModel::drucker_prager;
+}
+
+/// The stress states in which Drucker and Prager's cone is as strong as Mohr and Coulomb's hexagon.
+enum class ConeFit
+{
+    compression,
+    extension,
+    plane_strain
 };
 enum class Placement
 {
@@ -113,6 +134,7 @@ struct Numerics
     HertzFactor           hertz           = HertzFactor::standard;
     PointRadius           point_radius    = PointRadius::sphere;
     double                linear_overlap  = 1e-3; ///< d0/R* under which the body-body traction is linear
+    VolumeStrain          volume_strain   = VolumeStrain::point;
 
     bool operator==(const Numerics&) const = default;
 };
@@ -124,10 +146,11 @@ struct Material
     double        density = 0; ///< kg/m3
     double        young   = 0; ///< Pa; infinity: perfectly stiff, for a rigid material whose scene gives none
     double        poisson = 0.3;
-    double        friction_angle_deg = 0; ///< Mohr-Coulomb
+    double        friction_angle_deg = 0; ///< granular models
     double        dilation_angle_deg = 0;
     double        cohesion           = 0; ///< Pa
     std::string   family;                 ///< contact class; default: the material's own name
+    ConeFit       drucker_prager_fit = ConeFit::compression;
 
     bool operator==(const Material&) const = default;
 };

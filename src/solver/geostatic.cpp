@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "solver/materials.hpp"
 
 namespace tread::solver
 {
@@ -61,10 +62,7 @@ void add_rocks(const HostBodies& bodies, const Plan& plan, std::vector<Weight>& 
 double horizontal_stress(const scene::Material& material, double vertical)
 {
     const double at_rest = material.poisson / (1 - material.poisson) * vertical;
-    if (material.model != scene::MaterialModel::mohr_coulomb) { return at_rest; }
-    const double sine   = std::sin(material.friction_angle_deg * std::numbers::pi / 180);
-    const double active = (1 - sine) / (1 + sine);
-    return std::max(at_rest, active * vertical - 2 * material.cohesion * std::sqrt(active));
+    return scene::is_granular(material.model) ? std::max(at_rest, active_stress(material, vertical)) : at_rest;
 }
 
 bool rests(const HostPoints& points, std::size_t i)

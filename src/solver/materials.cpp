@@ -23,6 +23,43 @@ Compliance compliance(const scene::Material& material)
     return {(1 - material.poisson * material.poisson) / material.young, (2 - material.poisson) / shear_modulus};
 }
 
+mpm::Strength strength(const scene::Material& material)
+{
+    return {material.friction_angle_deg, material.dilation_angle_deg, material.cohesion};
+}
+
+mpm::ConeFit cone_fit(scene::ConeFit fit)
+{
+    switch (fit)
+    {
+    case scene::ConeFit::compression:
+        return mpm::ConeFit::compression;
+    case scene::ConeFit::extension:
+        return mpm::ConeFit::extension;
+    case scene::ConeFit::plane_strain:
+        return mpm::ConeFit::plane_strain;
+    }
+    return mpm::ConeFit::compression;
+}
+
+template<class Real>
+mpm::MaterialParameters<Real> law_of(const scene::Material& material)
+{
+    const auto elasticity = mpm::make_elasticity<Real>(material.young, material.poisson, material.density);
+    switch (material.model)
+    {
+    case scene::MaterialModel::mohr_coulomb:
+        return mpm::make_material(elasticity, mpm::make_mohr_coulomb<Real>(strength(material)));
+    case scene::MaterialModel::drucker_prager:
+        return mpm::make_material(
+            elasticity, mpm::make_drucker_prager<Real>(strength(material), cone_fit(material.drucker_prager_fit)));
+    case scene::MaterialModel::elastic:
+    case scene::MaterialModel::rigid:
+        break;
+    }
+    return mpm::make_material(elasticity);
+}
+
 dem::PairProperties pair(const scene::Contact& contact, Compliance a, Compliance b)
 {
     return {1 / (a.normal + b.normal), 1 / (a.shear + b.shear), contact.friction, damping_ratio(contact.restitution)};
@@ -54,17 +91,26 @@ double hertz_factor(scene::HertzFactor factor)
     return factor == scene::HertzFactor::standard ? 1.0 : 1.0 / std::numbers::sqrt2;
 }
 
+double active_stress(const scene::Material& material, double vertical)
+{
+    if (material.model == scene::MaterialModel::drucker_prager)
+    {
+        // sqrt(J2) = (v - h) / sqrt 3 meets the cone k + eta (v + 2 h) / 3.
+        const auto   cone = mpm::make_drucker_prager<double>(strength(material), cone_fit(material.drucker_prager_fit));
+        const double third = cone.slope / 3, root = 1 / std::numbers::sqrt3;
+        return ((root - third) * vertical - cone.limit) / (root + 2 * third);
+    }
+    const double sine   = std::sin(material.friction_angle_deg * std::numbers::pi / 180);
+    const double active = (1 - sine) / (1 + sine);
+    return active * vertical - 2 * material.cohesion * std::sqrt(active);
+}
+
 template<class Real>
 std::vector<mpm::MaterialParameters<Real>> law_parameters(const scene::Scene& scene)
 {
     std::vector<mpm::MaterialParameters<Real>> parameters;
-    for (const scene::Material& m : scene.materials)
-    {
-        const auto law =
-            m.model == scene::MaterialModel::mohr_coulomb ? mpm::LawKind::mohr_coulomb : mpm::LawKind::elastic;
-        parameters.push_back(mpm::make_parameters<Real>(m.young, m.poisson, m.density, m.friction_angle_deg,
-                                                        m.dilation_angle_deg, m.cohesion, law));
-    }
+    parameters.reserve(scene.materials.size());
+    for (const scene::Material& material : scene.materials) { parameters.push_back(law_of<Real>(material)); }
     return parameters;
 }
 
@@ -120,7 +166,7 @@ std::vector<double> pic_rates(const scene::Scene& scene)
     std::vector<double> rates;
     for (const scene::Material& material : scene.materials)
     {
-        const bool   granular = material.model == scene::MaterialModel::mohr_coulomb;
+        const bool   granular = scene::is_granular(material.model);
         const double factor   = scene.numerics.pic_rate.value_or(granular ? 0.2 : 0.04);
         rates.push_back(factor * compression_wave_speed(material) / scene.grid.spacing);
     }

@@ -17,6 +17,10 @@ std::vector<mpm::MaterialParameters<Real>> law_parameters(const scene::Scene& sc
 /// Contact properties of every pair of materials; the last row and column is the domain's wall.
 std::vector<dem::PairProperties> pair_properties(const scene::Scene& scene);
 
+/// Smallest horizontal stress of a granular material under the vertical stress `vertical`; Pa, compression positive.
+/// That is triaxial compression at the yield limit.
+double active_stress(const scene::Material& material, double vertical);
+
 /// Speed of compression waves sqrt((lambda + 2 mu) / rho), m/s.
 double compression_wave_speed(const scene::Material& material);
 

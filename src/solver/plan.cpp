@@ -7,9 +7,8 @@ namespace tread::solver
 
 Plan make_plan(const scene::Scene& scene, const World& world)
 {
-    const auto plastic = [](const scene::Material& material)
-    { return material.model == scene::MaterialModel::mohr_coulomb; };
-    const auto damped = [](const scene::Phase& phase) { return phase.damping > 0; };
+    const auto plastic = [](const scene::Material& material) { return scene::is_granular(material.model); };
+    const auto damped  = [](const scene::Phase& phase) { return phase.damping > 0; };
     Plan       plan{};
     plan.sand         = world.points.size() > 0;
     plan.bodies       = world.bodies.size() > 0;
@@ -41,7 +40,7 @@ std::vector<Stage> stages(const scene::Scene&, const Plan& plan)
         needs(stage::scatter, plan.sand, "terrain", no_sand),
         needs(stage::grid, plan.sand, "terrain", no_sand),
         needs(stage::gather, plan.sand, "terrain", no_sand),
-        needs(stage::plasticity, plan.plasticity, "Mohr-Coulomb terrain; part of grid to points",
+        needs(stage::plasticity, plan.plasticity, "granular terrain; part of grid to points",
               plan.sand ? "elastic terrain" : no_sand),
         needs(stage::damping, plan.damping, "a phase with damping; part of grid and move bodies",
               "no phase with damping"),

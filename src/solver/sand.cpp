@@ -83,6 +83,8 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     , totals_(exec, "sand totals", totals_size)
     , materials_(exec, "materials")
     , pic_rates_(exec, "pic rates")
+    , cell_means_(scene.numerics.volume_strain == scene::VolumeStrain::cell_average)
+    , cell_divergence_(exec, "cell divergence")
 {
     materials_.assign(law_parameters<Real>(scene));
     pic_rates_.assign(cast<Real>(pic_rates(scene)));
@@ -139,6 +141,7 @@ void Sand<Exec, Real>::order_in_memory()
     grid_rows_.resize(node_pages * mpm::grid_sums);
     point_rows_.resize(point_pages * mpm::point_sums);
     peak_rows_.resize(point_pages * mpm::point_peaks);
+    if (cell_means_) { cell_divergence_.resize(point_pages * mpm::page_cells); }
     moves_to_.resize(points_.count);
     move_counts_.resize(point_pages * mpm::move_counts);
 }
@@ -165,7 +168,12 @@ void Sand<Exec, Real>::update_grid(double dt, double damping)
 template<class Exec, class Real>
 void Sand<Exec, Real>::gather(double dt)
 {
-    const mpm::GatherStep<Real> step{static_cast<Real>(dt), materials_.data(), pic_rates_.data()};
+    if (cell_means_)
+    {
+        mpm::average_divergence(exec_, points_.view(), pages(), motion_.data(), cell_divergence_.data());
+    }
+    const mpm::GatherStep<Real> step{static_cast<Real>(dt), materials_.data(), pic_rates_.data(),
+                                     cell_divergence_.data()};
     mpm::gather(exec_, points_.view(), pages(), motion_.data(), step, moves(), point_rows_.data(), peak_rows_.data());
 }
 

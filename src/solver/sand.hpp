@@ -4,6 +4,7 @@
 
 #include "backend/reduce.hpp"
 #include "io/snapshot.hpp"
+#include "kernels/mpm/cell_divergence.hpp"
 #include "kernels/mpm/census.hpp"
 #include "kernels/mpm/gather.hpp"
 #include "kernels/mpm/grid.hpp"
@@ -100,6 +101,8 @@ private:
     Array<Exec, double>                        totals_;
     Array<Exec, mpm::MaterialParameters<Real>> materials_;
     Array<Exec, Real>                          pic_rates_;
+    bool                                       cell_means_; ///< of the volumetric strain
+    Array<Exec, Real>                          cell_divergence_;
     double                                     mass_    = 0;
     mpm::Stir                                  stir_    = mpm::Stir::lost; ///< since the points were last listed
     int                                        relists_ = 0;               ///< since they were last ordered in memory

@@ -30,9 +30,10 @@ int main(int argc, char** argv)
     mpm_command->add_option("--points", points, "About how many, as 1e6");
     mpm_command->add_option("--per-cell", mpm.per_cell, "1, 8, 27 or 64");
     mpm_command->add_option("--steps", mpm.steps, "Timed steps, three times");
-    add_word<scene::MaterialModel>(
-        *mpm_command, "--law", mpm.law,
-        {{"elastic", scene::MaterialModel::elastic}, {"mohr-coulomb", scene::MaterialModel::mohr_coulomb}});
+    add_word<scene::MaterialModel>(*mpm_command, "--law", mpm.law,
+                                   {{"elastic", scene::MaterialModel::elastic},
+                                    {"mohr-coulomb", scene::MaterialModel::mohr_coulomb},
+                                    {"drucker-prager", scene::MaterialModel::drucker_prager}});
     add_word<bench::SandState>(*mpm_command, "--state", mpm.state,
                                {{"settled", bench::SandState::settled}, {"collapsing", bench::SandState::collapsing}});
     add_word<scene::Precision>(*mpm_command, "--precision", mpm.precision,

@@ -29,6 +29,12 @@ struct Lattice
     double       distance;  ///< m
 };
 
+const char* law_name(scene::MaterialModel law)
+{
+    if (law == scene::MaterialModel::mohr_coulomb) { return "mohr-coulomb"; }
+    return law == scene::MaterialModel::drucker_prager ? "drucker-prager" : "elastic";
+}
+
 /// A bed four times as wide as high, or a column twice as high as wide, of about `points`.
 Lattice lattice(const MpmCase& what)
 {
@@ -110,7 +116,7 @@ class SandBench
 public:
     SandBench(const Exec& exec, const MpmCase& what, const scene::Scene& scene, const solver::World& world)
         : exec_(exec)
-        , sand_(exec, scene, world, {false, what.law == scene::MaterialModel::mohr_coulomb, false})
+        , sand_(exec, scene, world, {false, scene::is_granular(what.law), false})
         , dt_((what.per_cell == 1 ? 0.35 : 0.5) * spacing / solver::compression_wave_speed(scene.materials[0]))
     {
     }
@@ -191,9 +197,9 @@ void run_on(const Exec& exec, const MpmCase& what)
     std::cout << fmt::format(
         "{:.3g} points, {} a cell, {}, {}, {}: {:.1f} us a step, {:.3f}e9 points/s, {:.1f} bytes a "
         "point\n",
-        count, what.per_cell, moving ? "collapsing" : "settled",
-        what.law == scene::MaterialModel::elastic ? "elastic" : "mohr-coulomb", sizeof(Real) == 4 ? "single" : "double",
-        1e6 * times[1], 1e-9 * count / times[1], static_cast<double>(exec.counters->peak_bytes()) / count);
+        count, what.per_cell, moving ? "collapsing" : "settled", law_name(what.law),
+        sizeof(Real) == 4 ? "single" : "double", 1e6 * times[1], 1e-9 * count / times[1],
+        static_cast<double>(exec.counters->peak_bytes()) / count);
     bench.print_kernels(std::min(what.steps, 50), count);
     std::cout << std::flush;
 }

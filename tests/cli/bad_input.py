@@ -59,6 +59,16 @@ class BadScene(CommandTest):
     def test_dilation_above_friction(self):
         self.refuse_value("dilation_angle_deg = 0.0", "dilation_angle_deg = 31.0", ["dilation_angle_deg", "30"])
 
+    def test_cone_fit_of_a_hexagon(self):
+        self.refuse_value("cohesion           = 0.0", 'drucker_prager_fit = "compression"', ["drucker_prager_fit"])
+
+    def test_cone_without_a_fit(self):
+        text = SCENE.replace('"mohr-coulomb"', '"drucker-prager"', 1)
+        self.refuse(text, ["drucker_prager_fit: missing", "plane-strain"])
+
+    def test_unknown_volume_strain(self):
+        self.refuse(SCENE + '[numerics]\nvolume_strain = "nodes"\n', ["volume_strain", "cell-average"])
+
     def test_misspelt_key(self):
         self.refuse_value("cohesion           = 0.0", "cohession          = 0.0", ["cohession", "cohesion"])
 

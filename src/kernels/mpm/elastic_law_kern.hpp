@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/mpm/material_parameters.hpp"
+#include "kernels/mpm/elasticity.hpp"
 #include "kernels/mpm/objective_rate_kern.hpp"
 
 namespace tread::mpm
@@ -8,26 +8,26 @@ namespace tread::mpm
 
 /// C : strain for isotropic C, Pa; `strain` in tensor components.
 template<class Real>
-TREAD_HD Sym3<Real> elastic_stress(const MaterialParameters<Real>& material, const Sym3<Real>& strain)
+TREAD_HD Sym3<Real> elastic_stress(const Elasticity<Real>& elasticity, const Sym3<Real>& strain)
 {
-    Sym3<Real> stress   = Real(2) * material.shear_modulus * strain;
-    const Real pressure = material.lame_modulus * (strain[0] + strain[1] + strain[2]);
+    Sym3<Real> stress   = Real(2) * elasticity.shear_modulus * strain;
+    const Real pressure = elasticity.lame_modulus * (strain[0] + strain[1] + strain[2]);
     for (int i = 0; i < 3; ++i) { stress[i] += pressure; }
     return stress;
 }
 
 /// Hypoelastic step R stress R^T + C : D dt with incremental objectivity (Hughes and Winget 1980).
 template<class Real>
-TREAD_HD Sym3<Real> trial_stress(const MaterialParameters<Real>& material, const Sym3<Real>& stress,
+TREAD_HD Sym3<Real> trial_stress(const Elasticity<Real>& elasticity, const Sym3<Real>& stress,
                                  const Mat3<Real>& gradient, Real dt)
 {
     const Sym3<Real> turned = rotation_of_stress(stress, rotation_increment(gradient, dt));
-    return stress + (turned + elastic_stress(material, strain_increment(gradient, dt)));
+    return stress + (turned + elastic_stress(elasticity, strain_increment(gradient, dt)));
 }
 
 /// p^2/(2K) + s:s/(4G), J/m3: the energy that the stress can give back, without further state.
 template<class Real>
-TREAD_HD Real elastic_energy_density(const MaterialParameters<Real>& material, const Sym3<Real>& stress)
+TREAD_HD Real elastic_energy_density(const Elasticity<Real>& elasticity, const Sym3<Real>& stress)
 {
     const Real mean   = (stress[0] + stress[1] + stress[2]) / Real(3);
     Real       square = 0;
@@ -36,7 +36,7 @@ TREAD_HD Real elastic_energy_density(const MaterialParameters<Real>& material, c
         const Real deviator = stress[i] - mean;
         square += deviator * deviator + Real(2) * stress[3 + i] * stress[3 + i];
     }
-    return mean * mean / (Real(2) * material.bulk_modulus) + square / (Real(4) * material.shear_modulus);
+    return mean * mean / (Real(2) * elasticity.bulk_modulus) + square / (Real(4) * elasticity.shear_modulus);
 }
 
 } // namespace tread::mpm

@@ -16,6 +16,8 @@ struct GatherStep
     Real                            dt;        ///< s
     const MaterialParameters<Real>* materials; ///< by PointsView::material
     const Real*                     pic_rate;  ///< 1/s, by material: FLIP's part of PIC per unit time
+    const Real*
+        cell_divergence; ///< 1/s, of average_divergence: the laws' volumetric strain rate; null = the point's own
 };
 
 /// Per page, fp64: what the points' update did.

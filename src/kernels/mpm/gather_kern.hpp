@@ -142,6 +142,14 @@ TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t
     return update.stress;
 }
 
+/// The velocity gradient that the law sees: with cell means, its trace is that of the cell.
+template<class Real>
+TREAD_HD Mat3<Real> law_gradient(const Mat3<Real>& gradient, const Real* cell_divergence, std::int64_t cell)
+{
+    if (cell_divergence == nullptr) { return gradient; }
+    return gradient + (cell_divergence[cell] - gradient.trace()) * Real(1.0 / 3) * Mat3<Real>::Identity();
+}
+
 /// The whole G2P of one point of a page, up to where it is then.
 template<class Real>
 TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen, Index3 cell,
@@ -152,7 +160,9 @@ TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const
     points.velocity.set(i, velocity);
     if (points.affine.data != nullptr) { set_affine(points, i, seen, pages.spacing, pages.stencil_shift); }
     if (points.contact_force.data != nullptr) { keep_for_contact(points, i, seen, step.dt, sums); }
-    const Sym3<Real> stress = update_material(points, i, seen.gradient, step, sums);
+    const std::int64_t place  = page * page_cells + place_in_page(cell);
+    const Sym3<Real>   stress =
+        update_material(points, i, law_gradient(seen.gradient, step.cell_divergence, place), step, sums);
 
     const Vec3<double> position = points.position.get(i) + double(step.dt) * seen.velocity.template cast<double>();
     points.position.set(i, position);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/mpm/elastic_law_kern.hpp"
-#include "kernels/mpm/mohr_coulomb_law_kern.hpp"
+#include "kernels/mpm/material_parameters.hpp"
 
 namespace tread::mpm
 {
@@ -13,10 +13,12 @@ TREAD_HD StressUpdate<Real> update_stress(const MaterialParameters<Real>& materi
                                           const PlasticState<Real>& state, const Mat3<Real>& gradient, Real dt)
 {
     const Sym3<Real> trial = trial_stress(material, stress, gradient, dt);
-    switch (material.model)
+    switch (material.law)
     {
     case LawKind::mohr_coulomb:
-        return mohr_coulomb_return(material, trial, state, dt);
+        return respond(material, material.mohr_coulomb, trial, state, dt);
+    case LawKind::drucker_prager:
+        return respond(material, material.drucker_prager, trial, state, dt);
     case LawKind::elastic:
         break;
     }

@@ -1,59 +1,50 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
-#include <limits>
-#include <numbers>
 
+#include "kernels/mpm/drucker_prager_law_kern.hpp"
+#include "kernels/mpm/elasticity.hpp"
+#include "kernels/mpm/mohr_coulomb_law_kern.hpp"
+
+// The table of laws. A law is a struct of constants and an item function
+//   respond(elasticity, constants, trial stress, plastic state, dt) -> StressUpdate
+// in a file of its own; here it has a word, a place for its constants and a line in update_stress (law_kern.hpp).
 namespace tread::mpm
 {
 
 enum class LawKind : std::int32_t
 {
     elastic,
-    mohr_coulomb
+    mohr_coulomb,
+    drucker_prager
 };
 
-/// What the laws need of a material, by PointsView::material. Made on the host by make_parameters.
+/// What the laws need of a material, by PointsView::material. Made on the host by make_material; the constants of other
+/// laws than its own are zero.
 template<class Real>
-struct MaterialParameters
+struct MaterialParameters : Elasticity<Real>
 {
-    LawKind model;
-    Real    density;       ///< kg/m3
-    Real    lame_modulus;  ///< Pa, lambda
-    Real    shear_modulus; ///< Pa
-    Real    bulk_modulus;  ///< Pa
-    Real    wave_speed;    ///< m/s, of compression waves
-    Real    sin_friction;
-    Real    cos_friction;
-    Real    sin_dilation;
-    Real    cohesion;     ///< Pa
-    Real    apex_tension; ///< Pa, c cot phi; infinite for phi = 0, whose yield surface is a prism
+    LawKind             law = LawKind::elastic;
+    MohrCoulomb<Real>   mohr_coulomb{};
+    DruckerPrager<Real> drucker_prager{};
 };
 
-/// `young` > 0 and `cohesion` >= 0 in Pa, -1 < `poisson` < 0.5, `density` > 0 in kg/m3,
-/// 0 <= `dilation_angle_deg` <= `friction_angle_deg` < 90. Elastic materials ignore the last three. Computed in fp64,
-/// then rounded to Real.
 template<class Real>
-MaterialParameters<Real> make_parameters(double young, double poisson, double density, double friction_angle_deg,
-                                         double dilation_angle_deg, double cohesion, LawKind model)
+MaterialParameters<Real> make_material(const Elasticity<Real>& elasticity)
 {
-    constexpr double radians  = std::numbers::pi / 180;
-    const double     friction = friction_angle_deg * radians;
-    const double     shear    = young / (2 * (1 + poisson));
-    const double     lame     = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
-    const double     apex     = friction > 0 ? cohesion / std::tan(friction) : std::numeric_limits<double>::infinity();
-    return {model,
-            static_cast<Real>(density),
-            static_cast<Real>(lame),
-            static_cast<Real>(shear),
-            static_cast<Real>(lame + 2 * shear / 3),
-            static_cast<Real>(std::sqrt((lame + 2 * shear) / density)),
-            static_cast<Real>(std::sin(friction)),
-            static_cast<Real>(std::cos(friction)),
-            static_cast<Real>(std::sin(dilation_angle_deg * radians)),
-            static_cast<Real>(cohesion),
-            static_cast<Real>(apex)};
+    return {elasticity, LawKind::elastic, {}, {}};
+}
+
+template<class Real>
+MaterialParameters<Real> make_material(const Elasticity<Real>& elasticity, const MohrCoulomb<Real>& law)
+{
+    return {elasticity, LawKind::mohr_coulomb, law, {}};
+}
+
+template<class Real>
+MaterialParameters<Real> make_material(const Elasticity<Real>& elasticity, const DruckerPrager<Real>& law)
+{
+    return {elasticity, LawKind::drucker_prager, {}, law};
 }
 
 } // namespace tread::mpm

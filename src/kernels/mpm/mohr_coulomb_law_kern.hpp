@@ -2,10 +2,13 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
-#include "kernels/mpm/material_parameters.hpp"
+#include "kernels/mpm/elasticity.hpp"
 #include "kernels/mpm/plastic_state.hpp"
+#include "kernels/mpm/strength.hpp"
 #include "kernels/mpm/symmetric_eigen_kern.hpp"
+#include "kernels/mpm/volume_gap_kern.hpp"
 
 // Perfect plasticity of Mohr-Coulomb, tension positive, principal stresses s1 >= s2 >= s3:
 //   f = (1 + sin phi) s1 - (1 - sin phi) s3 - 2 c cos phi <= 0, flow along the gradient of the same with psi <= phi.
@@ -14,25 +17,42 @@
 namespace tread::mpm
 {
 
-/// f above this share of |s1| + |s3| + c is yielding: 16 roundings, above what the eigen-decomposition and f itself
-/// leave (2-3), so that a returned stress is not returned again.
 template<class Real>
-constexpr Real yield_tolerance = Real(16) * std::numeric_limits<Real>::epsilon();
+struct MohrCoulomb
+{
+    Real sin_friction;
+    Real cos_friction;
+    Real sin_dilation;
+    Real cohesion;     ///< Pa
+    Real apex_tension; ///< Pa, c cot phi; infinite for phi = 0, whose yield surface is a prism
+};
+
+/// Computed in fp64, then rounded to Real.
+template<class Real>
+MohrCoulomb<Real> make_mohr_coulomb(const Strength& strength)
+{
+    constexpr double radians  = std::numbers::pi / 180;
+    const double     friction = strength.friction_angle_deg * radians;
+    const double apex = friction > 0 ? strength.cohesion / std::tan(friction) : std::numeric_limits<double>::infinity();
+    return {static_cast<Real>(std::sin(friction)), static_cast<Real>(std::cos(friction)),
+            static_cast<Real>(std::sin(strength.dilation_angle_deg * radians)), static_cast<Real>(strength.cohesion),
+            static_cast<Real>(apex)};
+}
 
 template<class Real>
-TREAD_HD Real yield_function(const MaterialParameters<Real>& material, Real major, Real minor)
+TREAD_HD Real yield_function(const MohrCoulomb<Real>& law, Real major, Real minor)
 {
-    return (Real(1) + material.sin_friction) * major - (Real(1) - material.sin_friction) * minor -
-           Real(2) * material.cohesion * material.cos_friction;
+    return (Real(1) + law.sin_friction) * major - (Real(1) - law.sin_friction) * minor -
+           Real(2) * law.cohesion * law.cos_friction;
 }
 
 /// True only if the state is elastic, from invariants alone: over all Lode angles f is at most
 /// 2 sqrt(J2 (1 + sin^2 phi / 3)) + 2 p sin phi - 2 c cos phi, the cone inscribed in the hexagon.
 template<class Real>
-TREAD_HD bool inside_inscribed_cone(const MaterialParameters<Real>& material, Real mean, Real j2)
+TREAD_HD bool inside_inscribed_cone(const MohrCoulomb<Real>& law, Real mean, Real j2)
 {
-    const Real s     = material.sin_friction;
-    const Real limit = material.cohesion * material.cos_friction - mean * s;
+    const Real s     = law.sin_friction;
+    const Real limit = law.cohesion * law.cos_friction - mean * s;
     return limit >= 0 && j2 * (Real(1) + s * s * Real(1.0 / 3)) <= limit * limit;
 }
 
@@ -47,34 +67,34 @@ struct YieldPair
 /// Where the yield surface is met by flow that lowers (major, minor) at the rates (major_flow, minor_flow). The
 /// larger coefficient of f divides, so that f vanishes to rounding whatever the length of the way.
 template<class Real>
-TREAD_HD YieldPair<Real> flow_to_surface(const MaterialParameters<Real>& material, Real major, Real minor,
-                                         Real major_flow, Real minor_flow)
+TREAD_HD YieldPair<Real> flow_to_surface(const MohrCoulomb<Real>& law, Real major, Real minor, Real major_flow,
+                                         Real minor_flow)
 {
-    const Real steep = Real(1) + material.sin_friction, flat = Real(1) - material.sin_friction;
-    const Real multiplier = yield_function(material, major, minor) / (steep * major_flow - flat * minor_flow);
+    const Real steep = Real(1) + law.sin_friction, flat = Real(1) - law.sin_friction;
+    const Real multiplier = yield_function(law, major, minor) / (steep * major_flow - flat * minor_flow);
     const Real returned   = minor - multiplier * minor_flow;
-    return {(Real(2) * material.cohesion * material.cos_friction + flat * returned) / steep, returned, multiplier};
+    return {(Real(2) * law.cohesion * law.cos_friction + flat * returned) / steep, returned, multiplier};
 }
 
 /// Principal stresses, in order, returned from yielding trial values in order. On an edge both active surfaces share
 /// one principal value and the equal pair moves as its mean, so that one multiplier is left.
 template<class Real>
-TREAD_HD Vec3<Real> return_principal(const MaterialParameters<Real>& material, Real sin_dilation,
-                                     const Vec3<Real>& trial)
+TREAD_HD Vec3<Real> return_principal(const Elasticity<Real>& elasticity, const MohrCoulomb<Real>& law,
+                                     Real sin_dilation, const Vec3<Real>& trial)
 {
-    const Real shear = material.shear_modulus, volume = Real(2) * material.lame_modulus * sin_dilation;
+    const Real shear = elasticity.shear_modulus, volume = Real(2) * elasticity.lame_modulus * sin_dilation;
     const Real up = Real(1) + sin_dilation, down = Real(1) - sin_dilation;
     const Real major_flow = volume + Real(2) * shear * up, minor_flow = volume - Real(2) * shear * down;
 
-    const YieldPair<Real> plane  = flow_to_surface(material, trial[0], trial[2], major_flow, minor_flow);
+    const YieldPair<Real> plane  = flow_to_surface(law, trial[0], trial[2], major_flow, minor_flow);
     const Real            middle = trial[1] - plane.multiplier * volume;
     if (plane.major >= middle && middle >= plane.minor) { return {plane.major, middle, plane.minor}; }
 
     const bool            right = down * trial[0] - Real(2) * trial[1] + up * trial[2] > 0; // s2 = s3, else s1 = s2
     const Real            pair  = Real(0.5) * (trial[1] + (right ? trial[2] : trial[0]));
-    const YieldPair<Real> edge  = right ? flow_to_surface(material, trial[0], pair, major_flow, volume - shear * down)
-                                        : flow_to_surface(material, pair, trial[2], volume + shear * up, minor_flow);
-    if (edge.major < edge.minor) { return Vec3<Real>::Constant(material.apex_tension); }
+    const YieldPair<Real> edge  = right ? flow_to_surface(law, trial[0], pair, major_flow, volume - shear * down)
+                                        : flow_to_surface(law, pair, trial[2], volume + shear * up, minor_flow);
+    if (edge.major < edge.minor) { return Vec3<Real>::Constant(law.apex_tension); }
     return {edge.major, right ? edge.minor : edge.major, edge.minor};
 }
 
@@ -88,44 +108,27 @@ struct PlasticFlow
 };
 
 template<class Real>
-TREAD_HD PlasticFlow<Real> plastic_flow(const MaterialParameters<Real>& material, const Vec3<Real>& trial,
+TREAD_HD PlasticFlow<Real> plastic_flow(const Elasticity<Real>& elasticity, const Vec3<Real>& trial,
                                         const Vec3<Real>& stress)
 {
     const Vec3<Real> drop        = trial - stress;
     const Real       mean        = drop.sum() * Real(1.0 / 3);
-    const Vec3<Real> e           = (drop.array() - mean) / (Real(2) * material.shear_modulus);
-    const Real       volume      = mean / material.bulk_modulus;
+    const Vec3<Real> e           = (drop.array() - mean) / (Real(2) * elasticity.shear_modulus);
+    const Real       volume      = mean / elasticity.bulk_modulus;
     const Real       stress_mean = stress.sum() * Real(1.0 / 3);
     return {std::sqrt(Real(2.0 / 3) * e.squaredNorm()), volume,
             stress_mean * volume + e.dot(Vec3<Real>(stress.array() - stress_mean))};
 }
 
-/// Compression first closes the volume that opened at the apex, and only then loads the grains (the hypoelastic twin of
-/// Tampubolon et al. 2017, ACM Trans. Graph. 36:105). Lowers `gap`; gives the tension to add to the mean of the trial.
-template<class Real>
-TREAD_HD Real close_gap(Real mean, Real bulk_modulus, Real& gap)
-{
-    if (!(mean < 0 && gap > 0)) { return 0; }
-    const Real wanted = -mean / bulk_modulus;
-    if (wanted >= gap)
-    {
-        const Real closed = gap;
-        gap               = 0;
-        return bulk_modulus * closed;
-    }
-    gap -= wanted;
-    return -mean;
-}
-
 /// Returned stress and state of a trial stress (Pa) after the step dt (s). Grains that do not touch cannot dilate: the
 /// flow is isochoric while a gap is open.
 template<class Real>
-TREAD_HD StressUpdate<Real> mohr_coulomb_return(const MaterialParameters<Real>& material, const Sym3<Real>& trial,
-                                                const PlasticState<Real>& state, Real dt)
+TREAD_HD StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const MohrCoulomb<Real>& law,
+                                    const Sym3<Real>& trial, const PlasticState<Real>& state, Real dt)
 {
     StressUpdate<Real> update{trial, {state.plastic_shear, Real(0), state.volume_gap}, Real(0)};
     Real               mean   = (trial[0] + trial[1] + trial[2]) * Real(1.0 / 3);
-    const Real         closed = close_gap(mean, material.bulk_modulus, update.state.volume_gap);
+    const Real         closed = close_gap(mean, elasticity.bulk_modulus, update.state.volume_gap);
     mean += closed;
     Real j2 = 0;
     for (int i = 0; i < 3; ++i)
@@ -134,22 +137,21 @@ TREAD_HD StressUpdate<Real> mohr_coulomb_return(const MaterialParameters<Real>& 
         const Real deviator = update.stress[i] - mean;
         j2 += Real(0.5) * deviator * deviator + trial[3 + i] * trial[3 + i];
     }
-    if (inside_inscribed_cone(material, mean, j2)) { return update; }
+    if (inside_inscribed_cone(law, mean, j2)) { return update; }
 
     const SymmetricEigen<Real> eigen = symmetric_eigen(update.stress);
     const Real                 major = eigen.values[0], minor = eigen.values[2];
-    if (yield_function(material, major, minor) <=
-        yield_tolerance<Real> * (std::abs(major) + std::abs(minor) + material.cohesion))
+    if (yield_function(law, major, minor) <= yield_tolerance<Real> * (std::abs(major) + std::abs(minor) + law.cohesion))
     {
         return update;
     }
-    const Real              sin_dilation = update.state.volume_gap > 0 ? Real(0) : material.sin_dilation;
-    const Vec3<Real>        returned     = return_principal(material, sin_dilation, eigen.values);
-    const PlasticFlow<Real> flow         = plastic_flow(material, eigen.values, returned);
+    const Real              sin_dilation = update.state.volume_gap > 0 ? Real(0) : law.sin_dilation;
+    const Vec3<Real>        returned     = return_principal(elasticity, law, sin_dilation, eigen.values);
+    const PlasticFlow<Real> flow         = plastic_flow(elasticity, eigen.values, returned);
     update.stress                        = from_principal(returned, eigen.axes);
     update.state.plastic_shear += flow.shear;
     update.state.plastic_rate = flow.shear / dt;
-    const bool at_apex        = returned[0] == material.apex_tension;
+    const bool at_apex        = returned[0] == law.apex_tension;
     if (at_apex && flow.volume > 0) { update.state.volume_gap += flow.volume; }
     update.plastic_work = flow.work;
     return update;

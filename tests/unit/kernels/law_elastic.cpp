@@ -13,7 +13,7 @@ using namespace tread::test;
 template<class Real>
 MaterialParameters<Real> rubber()
 {
-    return make_parameters<Real>(1e7, 0.25, 2000, 0, 0, 0, LawKind::elastic);
+    return make_material(make_elasticity<Real>(1e7, 0.25, 2000));
 }
 
 Sym3<double> some_stress()

@@ -12,7 +12,8 @@ using namespace tread::test;
 
 MaterialParameters<double> sand(double friction, double dilation, double cohesion)
 {
-    return make_parameters<double>(1e7, 0.25, 1500, friction, dilation, cohesion, LawKind::mohr_coulomb);
+    return make_material(make_elasticity<double>(1e7, 0.25, 1500),
+                         make_mohr_coulomb<double>({friction, dilation, cohesion}));
 }
 
 const char* rounding = "rounding of a hundred steps";

@@ -22,7 +22,8 @@ struct Sand
     double dilation_number() const { return (1 + std::sin(dilation_angle())) / (1 - std::sin(dilation_angle())); }
     MaterialParameters<double> parameters() const
     {
-        return make_parameters<double>(young, poisson, 1500, friction, dilation, cohesion, LawKind::mohr_coulomb);
+        return make_material(make_elasticity<double>(young, poisson, 1500),
+                             make_mohr_coulomb<double>({friction, dilation, cohesion}));
     }
 };
 
@@ -105,6 +106,29 @@ TEST(MohrCoulombPath, OedometerWithActivePressureAboveElastic)
     expect_law("sigma_z, Pa", -element.stress[2], modulus * 1e-3, 1e-8 * modulus * 1e-3, exact);
     expect_law("sigma_r, Pa", -element.stress[0], modulus * 1e-3 / n, 1e-8 * modulus * 1e-3, exact);
     expect_law("K = Ka", element.stress[0] / element.stress[2], (1 - sand.sine()) / (1 + sand.sine()), 1e-9, exact);
+}
+
+/// Confined compression from no stress: elastic with K0 where K0 >= Ka, and for Ka > K0 along the edge of two active
+/// planes from sigma_z = 2 c sqrt(Ka) / (Ka - K0) on, with K from sigma_r = Ka sigma_z - 2 c sqrt(Ka).
+TEST(MohrCoulombPath, OedometerOfEveryParameterSet)
+{
+    for (const Sand& sand : sands)
+    {
+        const double n = sand.flow_number(), m = sand.dilation_number(), nu = sand.poisson, ka = 1 / n;
+        const double elastic = sand.young * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), k0 = nu / (1 - nu);
+        const bool   flows   = ka > k0;
+        const double onset   = flows ? 2 * sand.cohesion * std::sqrt(ka) / (ka - k0) : 0;
+        const double plastic = sand.young / (1 - 2 * nu / n + 2 / m * ((1 - nu) / n - nu));
+        const double end     = flows ? 2 * onset + 1e4 : 1e4;
+        const double strain  = flows ? onset / elastic + (end - onset) / plastic : end / elastic;
+        Element      element{sand.parameters()};
+        for (int i = 0; i < 1000; ++i) { element.strain(diagonal(0, 0, -strain / 1000)); }
+        // Of the step in which it first yields only the part beyond is plastic; the return takes that into account.
+        expect_law("sigma_z, Pa", -element.stress[2], end, 1e-8 * end, exact);
+        const double side = flows ? ka * end - 2 * sand.cohesion * std::sqrt(ka) : k0 * end;
+        expect_law("sigma_r, Pa", -element.stress[0], side, 1e-8 * end, exact);
+        EXPECT_EQ(element.state.plastic_shear > 0, flows);
+    }
 }
 
 /// Simple shear in xz at constant sigma_z, plane strain in y, from the K0 state.

@@ -206,7 +206,7 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
 
     Array<TypeParam, MaterialParameters<double>> materials(this->exec(), "materials");
     Array<TypeParam, double>                     pic_rates(this->exec(), "pic rates");
-    materials.assign({make_parameters<double>(1e6, 0.3, 1600, 0, 0, 0, LawKind::elastic)});
+    materials.assign({make_material(make_elasticity<double>(1e6, 0.3, 1600))});
     pic_rates.assign({0.0});
     const std::int64_t       page_count = pages.point_page_key.size(), node_pages = pages.node_page_key.size();
     Array<TypeParam, double> motion(this->exec(), "motion"), sums(this->exec(), "sums", page_count * point_sums),

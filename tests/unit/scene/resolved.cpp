@@ -30,10 +30,11 @@ shape_functions = "linear"
 point_motion = "frozen"
 hertz = "paper-eq7"
 point_radius = "semi-domain"
+volume_strain = "cell-average"
 linear_overlap = 1e-2
 [[material]]
 name = "sand"
-model = "mohr-coulomb"
+model = "drucker-prager"
 density = 1600
 young = 1e21
 poisson = 0.1
@@ -41,6 +42,7 @@ friction_angle_deg = 30
 dilation_angle_deg = 5
 cohesion = 100
 family = "ripple"
+drucker_prager_fit = "plane-strain"
 [[material]]
 name = "steel"
 model = "rigid"
@@ -155,10 +157,11 @@ TEST(Resolved, what_was_read_is_what_was_written)
     EXPECT_EQ(scene.domain.gravity[2], -0.30000000000000004);
     EXPECT_EQ(scene.domain.walls, (Walls{WallKind::fixed, WallKind::open, WallKind::slip, WallKind::fixed}));
     EXPECT_EQ(scene.time, (TimeOptions{1e-5, 7}));
-    EXPECT_EQ(scene.numerics, (Numerics{Precision::double_, Transfer::apic, std::nullopt, ShapeFunctions::linear,
-                                        PointMotion::frozen, HertzFactor::paper_eq7, PointRadius::semi_domain, 1e-2}));
-    EXPECT_EQ(scene.materials[0],
-              (Material{"sand", MaterialModel::mohr_coulomb, 1600, 1e21, 0.1, 30, 5, 100, "ripple"}));
+    EXPECT_EQ(scene.numerics,
+              (Numerics{Precision::double_, Transfer::apic, std::nullopt, ShapeFunctions::linear, PointMotion::frozen,
+                        HertzFactor::paper_eq7, PointRadius::semi_domain, 1e-2, VolumeStrain::cell_average}));
+    EXPECT_EQ(scene.materials[0], (Material{"sand", MaterialModel::drucker_prager, 1600, 1e21, 0.1, 30, 5, 100,
+                                            "ripple", ConeFit::plane_strain}));
     EXPECT_EQ(scene.materials[1].family, "steel");
     EXPECT_EQ(std::get<WheelGenerator>(scene.shapes[2].source),
               (WheelGenerator{1, 2, 0.1, 3, 0.2, 0.3, GrouserShape::chevron, -5, 0.05, 0.06, 0.07, 0.3, 0.4, 0.08}));

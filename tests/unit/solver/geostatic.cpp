@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/mpm/law_kern.hpp"
 #include "scene_text.hpp"
+#include "solver/materials.hpp"
 #include "solver/world.hpp"
 
 namespace
@@ -104,6 +106,34 @@ TEST(Geostatic, CarriesTheRocks)
     for (const double mass : world.bodies.mass) { weight += 9.81 * mass; }
     std::cout << "force at the bottom " << force << " N, weight " << weight << " N, tolerance 1e-9 of it\n";
     EXPECT_NEAR(force, weight, 1e-9 * weight);
+}
+
+/// Under the active stress a granular material is at its yield limit: a little less of it flows, a little more does
+/// not.
+TEST(Geostatic, ActiveStressIsAtTheYieldLimit)
+{
+    const std::string models[] = {"mohr-coulomb", "drucker-prager\"\ndrucker_prager_fit = \"compression",
+                                  "drucker-prager\"\ndrucker_prager_fit = \"extension",
+                                  "drucker-prager\"\ndrucker_prager_fit = \"plane-strain"};
+    for (const std::string& model : models)
+    {
+        std::string text = layers("0.2");
+        text.replace(text.find("mohr-coulomb"), 12, model);
+        text.replace(text.find("friction_angle_deg"), 0, "cohesion = 200.0\n");
+        const scene::Scene scene    = load_text(text);
+        const auto         material = law_parameters<double>(scene)[0];
+        const double       vertical = 5000, horizontal = active_stress(scene.materials[0], vertical);
+        const auto         shear_with = [&](double change)
+        {
+            const double       side = -horizontal * (1 + change);
+            const Sym3<double> stress(side, side, -vertical, 0, 0, 0);
+            const Mat3<double> still = Mat3<double>::Zero();
+            return mpm::update_stress(material, stress, mpm::PlasticState<double>{}, still, 1.0).state.plastic_shear;
+        };
+        std::cout << model << ": active stress " << horizontal << " Pa under " << vertical << " Pa\n";
+        EXPECT_EQ(shear_with(1e-9), 0);
+        EXPECT_GT(shear_with(-1e-9), 0);
+    }
 }
 
 } // namespace

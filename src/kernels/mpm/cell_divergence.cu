@@ -1,0 +1,46 @@
+#include "kernels/mpm/cell_divergence.hpp"
+
+#include "backend/launch.cuh"
+#include "kernels/mpm/cell_divergence_kern.hpp"
+
+namespace tread::mpm
+{
+namespace
+{
+
+/// One block a page, one thread a cell.
+template<class Real>
+struct AveragePage
+{
+    PointsView<Real> points;
+    PagesView        pages;
+    const Real*      motion;
+    Real*            cell_divergence;
+
+    __device__ void operator()(std::int64_t page) const
+    {
+        __shared__ VelocityTile<Real> tile;
+        for (int node = threadIdx.x; node < tile_nodes; node += page_cells)
+        {
+            load_velocity(motion, pages, page, node, tile);
+        }
+        __syncthreads();
+        const std::int64_t cell = page * page_cells + threadIdx.x;
+        cell_divergence[cell]   = mean_divergence(points, pages, cell, tile);
+    }
+};
+
+} // namespace
+
+template<class Real>
+void average_divergence(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
+                        Real* cell_divergence)
+{
+    for_each_block<page_cells>(gpu, "cell divergence", pages.point_pages,
+                               AveragePage<Real>{points, pages, motion, cell_divergence});
+}
+
+template void average_divergence(const Gpu&, const PointsView<float>&, const PagesView&, const float*, float*);
+template void average_divergence(const Gpu&, const PointsView<double>&, const PagesView&, const double*, double*);
+
+} // namespace tread::mpm

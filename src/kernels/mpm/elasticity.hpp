@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cmath>
+
+namespace tread::mpm
+{
+
+/// Isotropic elasticity of a material and what follows from it.
+template<class Real>
+struct Elasticity
+{
+    Real density;       ///< kg/m3
+    Real lame_modulus;  ///< Pa, lambda
+    Real shear_modulus; ///< Pa
+    Real bulk_modulus;  ///< Pa
+    Real wave_speed;    ///< m/s, of compression waves
+};
+
+/// `young` > 0 in Pa, -1 < `poisson` < 0.5, `density` > 0 in kg/m3. Computed in fp64, then rounded to Real.
+template<class Real>
+Elasticity<Real> make_elasticity(double young, double poisson, double density)
+{
+    const double shear = young / (2 * (1 + poisson));
+    const double lame  = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+    return {static_cast<Real>(density), static_cast<Real>(lame), static_cast<Real>(shear),
+            static_cast<Real>(lame + 2 * shear / 3), static_cast<Real>(std::sqrt((lame + 2 * shear) / density))};
+}
+
+} // namespace tread::mpm
