@@ -14,16 +14,17 @@ namespace tread::test
 
 struct Footing
 {
-    std::string soil;                 ///< keys of the soil's [[material]]
-    double      density       = 1000; ///< kg/m3, of the soil
-    double      gravity       = 0;    ///< m/s2, downwards
-    double      width         = 0.1;  ///< m, B
-    int         cells         = 8;    ///< of the grid across B / 2
-    double      reach         = 2.25; ///< of the soil sideways from the centre, in B
-    double      depth         = 1.25; ///< in B
-    double      speed         = 0.1;  ///< m/s
-    double      settlement    = 0.03; ///< at the end, in B
-    double      damping       = 0.3;  ///< local
+    std::string soil;                  ///< keys of the soil's [[material]]
+    double      density       = 1000;  ///< kg/m3, of the soil
+    double      gravity       = 0;     ///< m/s2, downwards
+    double      width         = 0.1;   ///< m, B
+    int         cells         = 8;     ///< of the grid across B / 2
+    double      reach         = 2.25;  ///< of the soil sideways from the centre, in B
+    double      depth         = 1.25;  ///< in B
+    double      stiffness     = 1.5e7; ///< Pa, confined modulus of the footing: about the soil's, for the same step
+    double      speed         = 0.06;  ///< m/s, after a ramp over a quarter of the time
+    double      settlement    = 0.03;  ///< at the end, in B
+    double      damping       = 0.3;   ///< local
     std::string volume_strain = "point";
 };
 
@@ -33,6 +34,15 @@ struct FootingLoad
     double settlement; ///< in B
     double pressure;   ///< Pa
 };
+
+/// Share of the time in which the speed rises.
+constexpr double footing_ramp = 0.25;
+
+/// s
+inline double duration(const Footing& footing)
+{
+    return footing.settlement * footing.width / (footing.speed * (1 - 0.5 * footing_ramp));
+}
 
 inline std::string footing_scene(const Footing& footing)
 {
@@ -57,7 +67,7 @@ density = {density}
 name    = "footing"
 model   = "elastic"
 density = {density}
-young   = 1.0e6
+young   = {young}
 poisson = 0.0
 [[terrain]]
 material = "soil"
@@ -71,17 +81,17 @@ name     = "push"
 damping  = {damping}
 duration = {duration}
 )",
-                       fmt::arg("across", across), fmt::arg("h", h), fmt::arg("top", deep + 6 * h),
-                       fmt::arg("gravity", footing.gravity), fmt::arg("volume_strain", footing.volume_strain),
-                       fmt::arg("density", footing.density), fmt::arg("soil", footing.soil), fmt::arg("deep", deep),
-                       fmt::arg("half", 0.5 * footing.width), fmt::arg("lid", deep + 2 * h),
-                       fmt::arg("speed", footing.speed), fmt::arg("damping", footing.damping),
-                       fmt::arg("duration", footing.settlement * footing.width / footing.speed));
+                       fmt::arg("across", across), fmt::arg("h", h), fmt::arg("top", deep + 7 * h),
+                       fmt::arg("young", footing.stiffness), fmt::arg("gravity", footing.gravity),
+                       fmt::arg("volume_strain", footing.volume_strain), fmt::arg("density", footing.density),
+                       fmt::arg("soil", footing.soil), fmt::arg("deep", deep), fmt::arg("half", 0.5 * footing.width),
+                       fmt::arg("lid", deep + 3 * h), fmt::arg("speed", footing.speed),
+                       fmt::arg("damping", footing.damping), fmt::arg("duration", duration(footing)));
 }
 
-/// A rigid, rough footing pushed down at a constant speed: its points are so heavy that nothing slows them, and keep
-/// their velocity. In equilibrium the load goes through every level, so that it is read off the vertical stress of a
-/// slab under the surface, less what stood there at the start.
+/// A stiff, rough footing whose points are given their speed anew in every step. In equilibrium the load goes through
+/// every level, so that it is read off the vertical stress of a slab under the surface, less what stood there at the
+/// start.
 template<class Exec>
 class FootingTest
 {
@@ -90,41 +100,55 @@ public:
         : footing_(footing)
         , experiment_(exec, footing_scene(footing))
     {
-        auto&      points   = experiment_.simulation().sand().points();
-        auto       mass     = points.mass.to_host();
-        auto       stress   = points.stress.to_host();
-        const auto material = points.material.to_host();
-        stride_             = mass.size();
-        for (std::size_t i = 0; i < mass.size(); ++i)
-        {
-            if (material[i] == 0) { continue; }
-            mass[i] *= 1e6;
-            for (std::size_t c = 0; c < 6; ++c) { stress[c * stride_ + i] = 0; }
-        }
-        points.mass.assign(mass);
+        auto& points = experiment_.simulation().sand().points();
+        auto  stress = points.stress.to_host();
+        stride_      = points.mass.to_host().size();
+        for_footing(
+            [&](std::size_t i)
+            {
+                for (std::size_t c = 0; c < 6; ++c) { stress[c * stride_ + i] = 0; }
+            });
         points.stress.assign(stress);
+        set_speed(0);
         at_start_ = slab_force();
     }
 
-    /// The load at `samples` equal steps of the settlement.
+    /// The load, each a mean over one of `samples` equal parts of the time.
     std::vector<FootingLoad> run(int samples)
     {
         std::vector<FootingLoad> loads;
+        const double             end = duration(footing_), part = end / samples;
+        double                   sum = 0, settlement = 0, last = 0;
+        int                      count = 0;
         experiment_.run(
             [&](double time)
             {
-                keep_velocity();
-                const double settlement = footing_.speed * time / footing_.width;
-                const double next       = footing_.settlement * static_cast<double>(loads.size() + 1) / samples;
-                if (settlement < next - 1e-9) { return; }
-                loads.push_back({settlement, 2 * (slab_force() - at_start_) / footing_.width});
+                const double speed = footing_.speed * std::min(1.0, time / (footing_ramp * end));
+                settlement += speed * (time - last) / footing_.width;
+                last = time;
+                set_speed(speed);
+                sum += slab_force() - at_start_;
+                ++count;
+                if (time < part * static_cast<double>(loads.size() + 1) - 1e-9) { return; }
+                loads.push_back({settlement, 2 * sum / (count * footing_.width)});
+                sum   = 0;
+                count = 0;
             });
         return loads;
     }
 
-    Experiment<Exec>& experiment() { return experiment_; }
-
 private:
+    /// The footing's points; they may have been ordered anew in memory.
+    template<class F>
+    void for_footing(F f)
+    {
+        const auto material = experiment_.simulation().sand().points().material.to_host();
+        for (std::size_t i = 0; i < material.size(); ++i)
+        {
+            if (material[i] == 1) { f(i); }
+        }
+    }
+
     /// N/m: of the half, compression positive; over the slab from a half to three quarters of the depth.
     double slab_force()
     {
@@ -143,16 +167,15 @@ private:
         return force / ((high - low) * thick);
     }
 
-    void keep_velocity()
+    void set_speed(double speed)
     {
-        auto&      points   = experiment_.simulation().sand().points();
-        auto       velocity = points.velocity.to_host();
-        const auto material = points.material.to_host();
-        for (std::size_t i = 0; i < stride_; ++i)
-        {
-            if (material[i] == 0) { continue; }
-            for (std::size_t c = 0; c < 3; ++c) { velocity[c * stride_ + i] = c == 2 ? -footing_.speed : 0; }
-        }
+        auto& points   = experiment_.simulation().sand().points();
+        auto  velocity = points.velocity.to_host();
+        for_footing(
+            [&](std::size_t i)
+            {
+                for (std::size_t c = 0; c < 3; ++c) { velocity[c * stride_ + i] = c == 2 ? -speed : 0; }
+            });
         points.velocity.assign(velocity);
     }
 

@@ -29,7 +29,7 @@ struct DruckerPrager
     Real slope;        ///< eta
     Real flow_slope;   ///< of the flow's cone: volumetric plastic strain a multiplier
     Real limit;        ///< Pa, k: sqrt(J2) at no pressure
-    Real apex_tension; ///< Pa, k / eta; infinite for phi = 0, von Mises' cylinder
+    Real apex_tension; ///< Pa, of apex_tension(Strength)
 };
 
 /// Slope of the cone that meets the hexagon's outer (`side` = -1) or inner (+1) edges.
@@ -54,8 +54,8 @@ DruckerPrager<Real> make_drucker_prager(const Strength& strength, ConeFit fit)
         divisor = std::sqrt(1 - flow * flow / 3) + sine * flow / 3;
     }
     const double slope = sine / divisor, limit = strength.cohesion * std::cos(friction) / divisor;
-    const double apex = slope > 0 ? limit / slope : std::numeric_limits<double>::infinity();
-    return {static_cast<Real>(slope), static_cast<Real>(flow), static_cast<Real>(limit), static_cast<Real>(apex)};
+    return {static_cast<Real>(slope), static_cast<Real>(flow), static_cast<Real>(limit),
+            static_cast<Real>(apex_tension(strength))};
 }
 
 /// sqrt(J2) on the cone at the mean stress m; negative beyond the apex.
@@ -85,12 +85,16 @@ TREAD_HD StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const Dr
     for (int i = 0; i < 3; ++i) { j2 += Real(0.5) * deviator[i] * deviator[i] + deviator[3 + i] * deviator[3 + i]; }
     const Real shear = elasticity.shear_modulus, bulk = elasticity.bulk_modulus;
     const Real radius = std::sqrt(j2), excess = radius - cone_radius(law, mean);
-    if (excess <= yield_tolerance<Real> * (radius + law.slope * std::abs(mean) + law.limit)) { return update; }
+    const bool opens = beyond_apex(mean, law.apex_tension);
+    if (!opens && excess <= yield_tolerance<Real> * (radius + law.slope * std::abs(mean) + law.limit))
+    {
+        return update;
+    }
 
     const Real flow       = update.state.volume_gap > 0 ? Real(0) : law.flow_slope;
     const Real multiplier = excess / (shear + bulk * law.slope * flow);
     Real       new_mean = mean - multiplier * bulk * flow, new_radius = cone_radius(law, new_mean);
-    const bool at_apex = new_radius < 0;
+    const bool at_apex = new_radius < 0 || new_mean > law.apex_tension;
     if (at_apex)
     {
         new_mean   = law.apex_tension;

@@ -24,7 +24,7 @@ struct MohrCoulomb
     Real cos_friction;
     Real sin_dilation;
     Real cohesion;     ///< Pa
-    Real apex_tension; ///< Pa, c cot phi; infinite for phi = 0, whose yield surface is a prism
+    Real apex_tension; ///< Pa, of apex_tension(Strength)
 };
 
 /// Computed in fp64, then rounded to Real.
@@ -33,10 +33,9 @@ MohrCoulomb<Real> make_mohr_coulomb(const Strength& strength)
 {
     constexpr double radians  = std::numbers::pi / 180;
     const double     friction = strength.friction_angle_deg * radians;
-    const double apex = friction > 0 ? strength.cohesion / std::tan(friction) : std::numeric_limits<double>::infinity();
     return {static_cast<Real>(std::sin(friction)), static_cast<Real>(std::cos(friction)),
             static_cast<Real>(std::sin(strength.dilation_angle_deg * radians)), static_cast<Real>(strength.cohesion),
-            static_cast<Real>(apex)};
+            static_cast<Real>(apex_tension(strength))};
 }
 
 template<class Real>
@@ -137,18 +136,21 @@ TREAD_HD StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const Mo
         const Real deviator = update.stress[i] - mean;
         j2 += Real(0.5) * deviator * deviator + trial[3 + i] * trial[3 + i];
     }
-    if (inside_inscribed_cone(law, mean, j2)) { return update; }
+    const bool opens = beyond_apex(mean, law.apex_tension);
+    if (!opens && inside_inscribed_cone(law, mean, j2)) { return update; }
 
     const SymmetricEigen<Real> eigen = symmetric_eigen(update.stress);
     const Real                 major = eigen.values[0], minor = eigen.values[2];
-    if (yield_function(law, major, minor) <= yield_tolerance<Real> * (std::abs(major) + std::abs(minor) + law.cohesion))
+    if (!opens &&
+        yield_function(law, major, minor) <= yield_tolerance<Real> * (std::abs(major) + std::abs(minor) + law.cohesion))
     {
         return update;
     }
-    const Real              sin_dilation = update.state.volume_gap > 0 ? Real(0) : law.sin_dilation;
-    const Vec3<Real>        returned     = return_principal(elasticity, law, sin_dilation, eigen.values);
-    const PlasticFlow<Real> flow         = plastic_flow(elasticity, eigen.values, returned);
-    update.stress                        = from_principal(returned, eigen.axes);
+    const Real sin_dilation = update.state.volume_gap > 0 ? Real(0) : law.sin_dilation;
+    Vec3<Real> returned     = return_principal(elasticity, law, sin_dilation, eigen.values);
+    if (returned[2] > law.apex_tension) { returned.setConstant(law.apex_tension); }
+    const PlasticFlow<Real> flow = plastic_flow(elasticity, eigen.values, returned);
+    update.stress                = from_principal(returned, eigen.axes);
     update.state.plastic_shear += flow.shear;
     update.state.plastic_rate = flow.shear / dt;
     const bool at_apex        = returned[0] == law.apex_tension;

@@ -34,6 +34,24 @@ TEST(VolumeGap, DrySandCarriesOnlyWhenClosed)
     expect_law("work of dry opening, J/m3", element.plastic_work, 0, 1e-12, "no stress, no work");
 }
 
+TEST(VolumeGap, LiquidHoldsNoTension)
+{
+    const auto elasticity = make_elasticity<double>(1e7, 0.499, 1500);
+    const auto hexagon    = make_material(elasticity, make_mohr_coulomb<double>({0, 0, 0}));
+    const auto cone       = make_material(elasticity, make_drucker_prager<double>({0, 0, 0}, ConeFit::compression));
+    for (const auto& material : {hexagon, cone})
+    {
+        Element element{material};
+        element.strain(diagonal(-1e-4, -3e-4, -2e-4));
+        const double pressure = material.bulk_modulus * 6e-4;
+        expect_law("pressure, Pa", -element.stress[0], pressure, 1e-12 * pressure, rounding);
+        expect_law("shear stress, Pa", element.stress[0] - element.stress[1], 0, 1e-12 * pressure, rounding);
+        for (int i = 0; i < 10; ++i) { element.strain(diagonal(2e-4, 1e-4, 3e-4)); }
+        EXPECT_EQ(element.stress.norm(), 0);
+        expect_law("log volume opened", element.state.volume_gap, 54e-4, 1e-12, rounding);
+    }
+}
+
 TEST(VolumeGap, ApartGrainsDoNotDilate)
 {
     Element element{sand(35, 20, 0)};
