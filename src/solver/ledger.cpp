@@ -24,7 +24,7 @@ Ledger::Ledger(Vec3<double> gravity, const Census& start)
 
 double Ledger::stored(const Census& now) const
 {
-    return now.sand.kinetic + now.sand.strain + now.rigid.kinetic + now.rigid.contact + now.sand_contact +
+    return now.sand.kinetic + half_step_ + now.sand.strain + now.rigid.kinetic + now.rigid.contact + now.sand_contact +
            gravity_energy(now);
 }
 
@@ -36,6 +36,9 @@ void Ledger::step(double dt, const SandReport& sand, const RigidReport& rigid, d
     time_ += dt;
     const double kinetic = sand.points[mpm::point_kinetic];
     transfer_ += kinetic_points_ - kinetic + sand.grid[mpm::grid_kinetic_after] - sand.grid[mpm::grid_kinetic_before];
+    transfer_ += 0.5 * dt * (power_ - sand.grid[mpm::grid_power_before] + sand.points[mpm::point_contact_power]);
+    power_          = sand.grid[mpm::grid_gravity_power] - sand.points[mpm::point_stress_power];
+    half_step_      = 0.5 * dt * power_;
     kinetic_points_ = kinetic;
     plastic_ += sand.points[mpm::point_plastic_work];
     damping_ += sand.grid[mpm::grid_damped] + rigid.damped;
@@ -55,6 +58,7 @@ EnergyRow Ledger::energy(const Census& now)
     row.kinetic_bodies = now.rigid.kinetic;
     row.contact        = now.rigid.contact + now.sand_contact;
     row.gravity        = gravity_energy(now);
+    row.half_step      = half_step_;
     row.plastic        = plastic_;
     row.friction       = friction_;
     row.restitution    = restitution_;

@@ -45,6 +45,9 @@ struct Census
 struct EnergyRow
 {
     double kinetic_points = 0, strain = 0, kinetic_bodies = 0, contact = 0, gravity = 0;
+    /// Velocities of points are half a step older than their positions (symplectic Euler is leapfrog): half a step of
+    /// the power of stress and weight brings the sum of stores from first to second order in dt.
+    double half_step = 0;
     double plastic = 0, friction = 0, restitution = 0, damping = 0, transfer = 0, work_in = 0;
     double total = 0; ///< stores and losses less work_in: constant if nothing is unaccounted
 };
@@ -78,6 +81,7 @@ private:
     double          start_energy_ = 0;
     double          time_         = 0;
     double          kinetic_points_;
+    double          power_ = 0, half_step_ = 0; ///< W, of the sand's forces on its points; J
     double          plastic_ = 0, friction_ = 0, restitution_ = 0, damping_ = 0, transfer_ = 0, work_in_ = 0;
     Vec3<double>    impulse_ = Vec3<double>::Zero();
     io::ErrorReport errors_;

@@ -25,8 +25,8 @@ std::vector<io::Column> wheel_columns()
 std::vector<io::Column> energy_columns()
 {
     std::vector<io::Column> columns = {{"time", 1, "s"}};
-    for (const char* name : {"kinetic_points", "strain", "kinetic_bodies", "contact", "gravity", "plastic", "friction",
-                             "restitution", "damping", "transfer", "work_in", "total"})
+    for (const char* name : {"kinetic_points", "strain", "kinetic_bodies", "contact", "gravity", "half_step", "plastic",
+                             "friction", "restitution", "damping", "transfer", "work_in", "total"})
     {
         columns.push_back({name, 1, "J"});
     }
@@ -81,8 +81,8 @@ void Recorder::write(double time, const std::vector<BodyRow>& bodies, const Ener
         series_.append(group(scene_.bodies[b]), row);
     }
     series_.append("/energy", {time, energy.kinetic_points, energy.strain, energy.kinetic_bodies, energy.contact,
-                               energy.gravity, energy.plastic, energy.friction, energy.restitution, energy.damping,
-                               energy.transfer, energy.work_in, energy.total});
+                               energy.gravity, energy.half_step, energy.plastic, energy.friction, energy.restitution,
+                               energy.damping, energy.transfer, energy.work_in, energy.total});
     std::vector<double> row = {time, balance.mass};
     append(row, balance.momentum);
     row.push_back(balance.impulse_error);

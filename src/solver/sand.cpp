@@ -232,8 +232,10 @@ io::PointFields Sand<Exec, Real>::fields() const
     {
         fields.displacement[i] = static_cast<float>(fields.position[i] - start[i]);
     }
-    fields.velocity = interleaved<float>(points_.velocity, points_, 3);
-    fields.stress   = interleaved<float>(points_.stress, points_, 6);
+    fields.velocity                = interleaved<float>(points_.velocity, points_, 3);
+    fields.stress                  = interleaved<float>(points_.stress, points_, 6);
+    const std::vector<float> ratio = interleaved<float>(points_.volume_ratio, points_, 1);
+    for (std::size_t i = 0; i < fields.stress.size(); ++i) { fields.stress[i] /= ratio[i / 6]; } // Kirchhoff to Cauchy
     if (points_.plastic_shear.size() > 0)
     {
         fields.plastic_shear = interleaved<float>(points_.plastic_shear, points_, 1);

@@ -14,7 +14,7 @@ TREAD_HD void count_point(const PointsView<Real>& points, std::int64_t i, const 
     const double       mass     = points.mass[i];
     const Vec3<double> velocity = points.velocity.get(i).template cast<double>();
     const Vec3<double> position = points.position.get(i);
-    const double       volume   = double(points.volume[i]) * double(points.volume_ratio[i]);
+    const double       volume   = double(points.volume[i]);
     row[census_mass] += mass;
     row[census_kinetic] += 0.5 * mass * velocity.squaredNorm();
     row[census_strain] += volume * double(elastic_energy_density(materials[points.material[i]], points.stress.get(i)));

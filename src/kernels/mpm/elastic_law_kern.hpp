@@ -25,18 +25,21 @@ TREAD_HD Sym3<Real> trial_stress(const Elasticity<Real>& elasticity, const Sym3<
     return stress + (turned + elastic_stress(elasticity, strain_increment(gradient, dt)));
 }
 
+/// a : C^-1 : b, J/m3: the work of stress `a` on the elastic strain of stress `b`.
+template<class Real>
+TREAD_HD Real elastic_product(const Elasticity<Real>& elasticity, const Sym3<Real>& a, const Sym3<Real>& b)
+{
+    const Real mean = (a[0] + a[1] + a[2]) * Real(1.0 / 3), other = (b[0] + b[1] + b[2]) * Real(1.0 / 3);
+    Real       product = 0;
+    for (int i = 0; i < 3; ++i) { product += (a[i] - mean) * (b[i] - other) + Real(2) * a[3 + i] * b[3 + i]; }
+    return mean * other / elasticity.bulk_modulus + product / (Real(2) * elasticity.shear_modulus);
+}
+
 /// p^2/(2K) + s:s/(4G), J/m3: the energy that the stress can give back, without further state.
 template<class Real>
 TREAD_HD Real elastic_energy_density(const Elasticity<Real>& elasticity, const Sym3<Real>& stress)
 {
-    const Real mean   = (stress[0] + stress[1] + stress[2]) / Real(3);
-    Real       square = 0;
-    for (int i = 0; i < 3; ++i)
-    {
-        const Real deviator = stress[i] - mean;
-        square += deviator * deviator + Real(2) * stress[3 + i] * stress[3 + i];
-    }
-    return mean * mean / (Real(2) * elasticity.bulk_modulus) + square / (Real(4) * elasticity.shear_modulus);
+    return Real(0.5) * elastic_product(elasticity, stress, stress);
 }
 
 } // namespace tread::mpm

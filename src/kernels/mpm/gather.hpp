@@ -23,9 +23,11 @@ struct GatherStep
 /// Per page, fp64: what the points' update did.
 enum PointSum : int
 {
-    point_kinetic,      ///< J, after the step
-    point_plastic_work, ///< J, of the step
-    point_contact_work, ///< J, of the step's contact forces on the sand
+    point_kinetic,       ///< J, after the step
+    point_plastic_work,  ///< J, of the step
+    point_contact_work,  ///< J, of the step's contact forces on the sand
+    point_stress_power,  ///< W, of the stress after the step on its rate of strain
+    point_contact_power, ///< W, of the step's contact forces on the velocity after P2G
     point_sums
 };
 

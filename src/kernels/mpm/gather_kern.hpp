@@ -111,7 +111,17 @@ TREAD_HD void keep_for_contact(const PointsView<Real>& points, std::int64_t i, c
     const Vec3<Real> force = points.contact_force.get(i);
     points.grid_velocity.set(i, seen.velocity);
     points.support.set(i, seen.change / dt - force / points.mass[i]);
+    sums[point_contact_power] += double(force.dot(seen.velocity - seen.change));
     sums[point_contact_work] += double(dt) * double(force.dot(seen.velocity - Real(0.5) * seen.change));
+}
+
+/// Power of `stress` (Pa) on the symmetric part of `gradient` (1/s), W/m3.
+template<class Real>
+TREAD_HD Real stress_power(const Sym3<Real>& stress, const Mat3<Real>& gradient)
+{
+    return stress[0] * gradient(0, 0) + stress[1] * gradient(1, 1) + stress[2] * gradient(2, 2) +
+           stress[3] * (gradient(1, 2) + gradient(2, 1)) + stress[4] * (gradient(0, 2) + gradient(2, 0)) +
+           stress[5] * (gradient(0, 1) + gradient(1, 0));
 }
 
 /// Gives the new stress.
@@ -129,15 +139,14 @@ TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t
     }
     const StressUpdate<Real> update = update_stress(material, points.stress.get(i), state, gradient, step.dt);
     points.stress.set(i, update.stress);
+    sums[point_stress_power] += double(points.volume[i] * stress_power(update.stress, gradient));
     if (points.plastic_shear != nullptr)
     {
         points.plastic_shear[i] = update.state.plastic_shear;
         points.plastic_rate[i]  = update.state.plastic_rate;
         points.volume_gap[i]    = update.state.volume_gap;
-        if (update.plastic_work != 0)
-        {
-            sums[point_plastic_work] += double(update.plastic_work * points.volume[i] * ratio);
-        }
+        const Real work = update.plastic_work + update.work_to_mean;
+        if (work != 0) { sums[point_plastic_work] += double(work * points.volume[i]); }
     }
     return update.stress;
 }

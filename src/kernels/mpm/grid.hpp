@@ -40,6 +40,8 @@ enum GridSum : int
 {
     grid_kinetic_before,                          ///< J, after P2G
     grid_kinetic_after,                           ///< J, before G2P
+    grid_power_before,                            ///< W, of all forces but damping on the velocity after P2G
+    grid_gravity_power,                           ///< W, of the weight on the velocity before G2P
     grid_damped,                                  ///< J, taken by local damping
     grid_wall_loss,                               ///< J, taken by walls
     grid_net_force,                               ///< N, sum of |m dv/dt|: what is out of balance

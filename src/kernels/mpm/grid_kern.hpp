@@ -69,6 +69,8 @@ TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* c
         const double m = double(mass);
         sums[grid_kinetic_before] += 0.5 * m * double(before.squaredNorm());
         sums[grid_kinetic_after] += 0.5 * m * double(after.squaredNorm());
+        sums[grid_power_before] += double(force.dot(before));
+        sums[grid_gravity_power] += m * double(step.gravity.dot(after));
         const Vec3<Real> middle = Real(0.5) * (before + after);
         sums[grid_damped] -= double(step.dt * damping.dot(middle));
         sums[grid_wall_loss] -= m * double((after - moved).dot(middle));

@@ -19,9 +19,12 @@ struct PlasticState
 template<class Real>
 struct StressUpdate
 {
-    Sym3<Real>         stress; ///< Pa, Cauchy, tension positive
+    Sym3<Real>         stress; ///< Pa, Kirchhoff, tension positive
     PlasticState<Real> state;
-    Real               plastic_work; ///< J/m3 of current volume, of the step
+    Real               plastic_work; ///< J/m3 of initial volume, of the step, at the returned stress: never negative
+    /// J/m3, what makes it the work at the mean of the stresses before and after, so that it and the elastic energy
+    /// are together the trapezoidal rule of the stress power.
+    Real work_to_mean = 0;
 };
 
 } // namespace tread::mpm

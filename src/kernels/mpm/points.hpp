@@ -16,7 +16,7 @@ struct PointsView
     Planes<double, 3> position;     ///< m
     Planes<double, 3> start;        ///< m, position that displacement is measured from
     Planes<Real, 3>   velocity;     ///< m/s
-    Planes<Real, 6>   stress;       ///< Pa, Cauchy, tension positive
+    Planes<Real, 6>   stress;       ///< Pa, Kirchhoff: Cauchy times volume_ratio; tension positive
     Real*             mass;         ///< kg
     Real*             volume;       ///< m3, initial
     Real*             volume_ratio; ///< current over initial volume

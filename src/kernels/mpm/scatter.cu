@@ -20,7 +20,7 @@ using Pair = Pack<Real, 2>;
 template<class Real>
 using Quad = Pack<Real, 4>;
 
-/// What a point brings to its nodes, as it stands in shared memory: mass and momentum, -V sigma/h, weight and slope
+/// What a point brings to its nodes, as it stands in shared memory: mass and momentum, -V tau/h, weight and slope
 /// (per spacing) of each of its three nodes along each axis; then what only some scenes need: contact force, place
 /// above its lowest node, m h C.
 enum Brought : int
@@ -237,7 +237,7 @@ struct ScatterPage
             stencil_above<Real>(cell, points.position.get(i), 1, pages.inverse_spacing, pages.stencil_shift);
         const Real       mass     = points.mass[i];
         const Vec3<Real> velocity = points.velocity.get(i);
-        const Real       scale    = -points.volume[i] * points.volume_ratio[i] * Real(pages.inverse_spacing);
+        const Real       scale    = -points.volume[i] * Real(pages.inverse_spacing);
         const Sym3<Real> stress   = scale * points.stress.get(i);
         brought[brought_mass]     = mass;
         for (int c = 0; c < 3; ++c)

@@ -19,14 +19,15 @@ struct PointLoad
     Real per_slope[3][lanes];  ///< times the weight's gradient, 1/m
 };
 
-/// Mass, momentum, contact force and internal force -V sigma . grad w of a point (design: P2G; MLS/USL form).
+/// Mass, momentum, contact force and internal force -V0 tau . grad w of a point (USL form), tau the Kirchhoff stress:
+/// V0 tau is V sigma, and the stored energy is V0 psi(tau) for any change of volume.
 template<class Real>
 TREAD_HD PointLoad<Real> point_load(const PointsView<Real>& points, std::int64_t i)
 {
     PointLoad<Real>  load{};
     const Real       mass      = points.mass[i];
     const Vec3<Real> velocity  = points.velocity.get(i);
-    const Real       volume    = points.volume[i] * points.volume_ratio[i];
+    const Real       volume    = points.volume[i];
     const Sym3<Real> s         = points.stress.get(i);
     const int        row[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}}; // of Sym3
     load.value[0]              = mass;
