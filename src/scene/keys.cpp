@@ -7,12 +7,14 @@ namespace
 
 Keys<Walls> wall_keys()
 {
-    const auto wall = word<WallKind>({"slip", "fixed", "open"});
+    const auto wall = word<WallKind>({"slip", "fixed", "frictional", "open"});
     return {
         optional("x", "", &Walls::x, wall, "Both walls normal to x."),
         optional("y", "", &Walls::y, wall, "Both walls normal to y."),
         optional("bottom", "", &Walls::bottom, wall, "The wall at z = 0."),
         optional("top", "", &Walls::top, wall, "The wall at z = size."),
+        optional("friction", "", &Walls::friction, number(at_least(0)),
+                 "Coefficient of Coulomb's friction of sand with every \"frictional\" wall."),
     };
 }
 
@@ -48,7 +50,8 @@ Keys<Domain> domain_keys()
         table_key<Domain>(
             Presence::optional, "walls", "[domain] walls", &Domain::walls, wall_keys(),
             "What the domain's faces do to sand: \"slip\" stops the normal velocity, \"fixed\" all of it, "
-            "\"open\" lets it leave. Rocks and bodies meet every wall that is not open.",
+            "\"frictional\" is \"slip\" with Coulomb's friction, \"open\" lets it leave. Rocks and bodies meet every "
+            "wall that is not open; their friction with it is that of [[contact]], none with a slip one.",
             "see below"),
     };
 }

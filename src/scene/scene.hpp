@@ -18,6 +18,7 @@ enum class WallKind
 {
     slip,
     fixed,
+    frictional,
     open
 };
 enum class Precision
@@ -96,6 +97,8 @@ struct Walls
     WallKind y      = WallKind::slip;
     WallKind bottom = WallKind::fixed;
     WallKind top    = WallKind::open;
+
+    double friction = 0.5; ///< of frictional walls with sand
 
     bool operator==(const Walls&) const = default;
 };

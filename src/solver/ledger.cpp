@@ -42,7 +42,7 @@ void Ledger::step(double dt, const SandReport& sand, const RigidReport& rigid, d
     kinetic_points_ = kinetic;
     plastic_ += sand.points[mpm::point_plastic_work];
     damping_ += sand.grid[mpm::grid_damped] + rigid.damped;
-    friction_ += contact_friction + rigid.friction + sand.grid[mpm::grid_wall_loss];
+    friction_ += contact_friction + rigid.friction + sand.grid[mpm::grid_friction] + sand.grid[mpm::grid_wall_loss];
     restitution_ += rigid.restitution;
     work_in_ += rigid.driver_work;
     impulse_ += moving_mass * dt * gravity_ + Vec3<double>(sand.grid + mpm::grid_wall_impulse) +

@@ -163,6 +163,8 @@ void Sand<Exec, Real>::update_grid(double dt, double damping)
 {
     const mpm::GridStep<Real> step{static_cast<Real>(dt), gravity_, static_cast<Real>(damping), mass_floor_, walls_};
     mpm::update_grid(exec_, pages(), tiles_.data(), step, motion_.data(), grid_rows_.data());
+    if (!mpm::has_walls(walls_)) { return; }
+    mpm::update_walls(exec_, pages(), tiles_.data(), step, motion_.data(), grid_rows_.data());
 }
 
 template<class Exec, class Real>

@@ -30,6 +30,8 @@ mpm::WallRule wall_rule(scene::WallKind kind)
         return mpm::WallRule::slip;
     case scene::WallKind::fixed:
         return mpm::WallRule::fixed;
+    case scene::WallKind::frictional:
+        return mpm::WallRule::frictional;
     case scene::WallKind::open:
         return mpm::WallRule::open;
     }
@@ -53,6 +55,7 @@ mpm::GridWalls grid_walls(const scene::Scene& scene)
 {
     mpm::GridWalls walls{};
     for (const Side& side : sides(scene.domain.walls)) { walls.rule[side.axis][side.end] = wall_rule(side.kind); }
+    walls.friction = scene.domain.walls.friction;
     for (std::size_t c = 0; c < 3; ++c)
     {
         walls.last_node[c] = static_cast<std::int32_t>(std::lround(scene.domain.size[c] / scene.grid.spacing));

@@ -1,7 +1,7 @@
 #include "kernels/mpm/grid.hpp"
 
 #include "backend/launch.hpp"
-#include "kernels/mpm/grid_kern.hpp"
+#include "kernels/mpm/wall_step_kern.hpp"
 
 namespace tread::mpm
 {
@@ -28,7 +28,27 @@ void update_grid(const Cpu& cpu, const PagesView& pages, const Real* tiles, cons
     for_each_heavy(cpu, "update grid", pages.node_pages, update_page);
 }
 
+template<class Real>
+void update_walls(const Cpu& cpu, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                  double* sums)
+{
+    const auto update_page = [=](std::int64_t page)
+    {
+        const Index3 at = page_coordinates(pages.node_page_key[page]);
+        if (!touches_wall(step.walls, at)) { return; }
+        for (int place = 0; place < page_cells; ++place)
+        {
+            const Index3 node = node_at(at, place);
+            if (!owns_pairs(step.walls, node)) { continue; }
+            update_owned(pages, tiles, step, node, motion, sums + page * grid_sums);
+        }
+    };
+    for_each_heavy(cpu, "update walls", pages.node_pages, update_page);
+}
+
 template void update_grid(const Cpu&, const PagesView&, const float*, const GridStep<float>&, float*, double*);
 template void update_grid(const Cpu&, const PagesView&, const double*, const GridStep<double>&, double*, double*);
+template void update_walls(const Cpu&, const PagesView&, const float*, const GridStep<float>&, float*, double*);
+template void update_walls(const Cpu&, const PagesView&, const double*, const GridStep<double>&, double*, double*);
 
 } // namespace tread::mpm

@@ -2,7 +2,7 @@
 
 #include "backend/block_sum.cuh"
 #include "backend/launch.cuh"
-#include "kernels/mpm/grid_kern.hpp"
+#include "kernels/mpm/wall_step_kern.hpp"
 
 namespace tread::mpm
 {
@@ -35,6 +35,29 @@ struct UpdatePage
     }
 };
 
+/// One block a node page, one thread a node; pages without walls end at once.
+template<class Real>
+struct UpdateWallPage
+{
+    PagesView      pages;
+    const Real*    tiles;
+    GridStep<Real> step;
+    Real*          motion;
+    double*        sums;
+
+    __device__ void operator()(std::int64_t page) const
+    {
+        __shared__ double shared[page_cells / 32 * grid_sums], total[grid_sums];
+        const Index3      at = page_coordinates(pages.node_page_key[page]);
+        if (!touches_wall(step.walls, at)) { return; }
+        const Index3 node           = node_at(at, static_cast<int>(threadIdx.x));
+        double       sum[grid_sums] = {};
+        if (owns_pairs(step.walls, node)) { update_owned(pages, tiles, step, node, motion, sum); }
+        block_sum<page_cells, grid_sums>(sum, shared, total);
+        if (threadIdx.x < grid_sums) { sums[page * grid_sums + threadIdx.x] += total[threadIdx.x]; }
+    }
+};
+
 } // namespace
 
 template<class Real>
@@ -45,7 +68,17 @@ void update_grid(const Gpu& gpu, const PagesView& pages, const Real* tiles, cons
                                UpdatePage<Real>{pages, tiles, step, motion, sums});
 }
 
+template<class Real>
+void update_walls(const Gpu& gpu, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                  double* sums)
+{
+    for_each_block<page_cells>(gpu, "update walls", pages.node_pages,
+                               UpdateWallPage<Real>{pages, tiles, step, motion, sums});
+}
+
 template void update_grid(const Gpu&, const PagesView&, const float*, const GridStep<float>&, float*, double*);
 template void update_grid(const Gpu&, const PagesView&, const double*, const GridStep<double>&, double*, double*);
+template void update_walls(const Gpu&, const PagesView&, const float*, const GridStep<float>&, float*, double*);
+template void update_walls(const Gpu&, const PagesView&, const double*, const GridStep<double>&, double*, double*);
 
 } // namespace tread::mpm

@@ -11,8 +11,9 @@ namespace tread::mpm
 enum class WallRule : std::int32_t
 {
     open,
-    slip, ///< no velocity into the wall; sand may leave it
-    fixed ///< no velocity
+    slip,      ///< no velocity into the wall; sand may leave it
+    fixed,     ///< no velocity
+    frictional ///< as slip, and Coulomb's friction along the wall
 };
 
 /// [axis][0 = low side, 1 = high side].
@@ -20,6 +21,7 @@ struct GridWalls
 {
     WallRule     rule[3][2];
     std::int32_t last_node[3]; ///< node on the high wall; the low wall's is 0
+    double       friction;     ///< coefficient of the frictional walls
 };
 
 template<class Real>
@@ -43,7 +45,8 @@ enum GridSum : int
     grid_power_before,                            ///< W, of all forces but damping on the velocity after P2G
     grid_gravity_power,                           ///< W, of the weight on the velocity before G2P
     grid_damped,                                  ///< J, taken by local damping
-    grid_wall_loss,                               ///< J, taken by walls
+    grid_wall_loss,                               ///< J, taken by walls, friction apart
+    grid_friction,                                ///< J, taken by the friction of walls
     grid_net_force,                               ///< N, sum of |m dv/dt|: what is out of balance
     grid_wall_impulse,                            ///< N s (3)
     grid_damping_impulse = grid_wall_impulse + 3, ///< N s (3)
@@ -51,12 +54,32 @@ enum GridSum : int
 };
 
 /// Sums the tiles that reach each node, in a fixed order, and updates its velocity (Eq. 2 of the paper, lumped mass):
-/// motion[node page][channel][place], sums[node page][GridSum].
+/// motion[node page][channel][place], sums[node page][GridSum]. Nodes within one spacing of a wall are left for
+/// update_walls, which must follow where any wall is not open.
 template<class Real>
 void update_grid(const Cpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
                  double* sums);
 template<class Real>
 void update_grid(const Gpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
                  double* sums);
+
+/// Finishes the nodes within one spacing of a wall: the splines' velocity vanishes on the wall's plane for every linear
+/// profile, whatever the wall holds (wall_kern.hpp). Adds to the sums of the pages on the wall.
+template<class Real>
+void update_walls(const Cpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                  double* sums);
+template<class Real>
+void update_walls(const Gpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                  double* sums);
+
+/// Whether any wall holds anything.
+inline bool has_walls(const GridWalls& walls)
+{
+    for (const auto& axis : walls.rule)
+    {
+        if (axis[0] != WallRule::open || axis[1] != WallRule::open) { return true; }
+    }
+    return false;
+}
 
 } // namespace tread::mpm

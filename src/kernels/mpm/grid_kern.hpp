@@ -3,6 +3,7 @@
 #include "kernels/local_damping_kern.hpp"
 #include "kernels/mpm/grid.hpp"
 #include "kernels/mpm/stencil_kern.hpp"
+#include "kernels/mpm/wall_kern.hpp"
 
 namespace tread::mpm
 {
@@ -14,78 +15,96 @@ TREAD_HD std::int32_t tile_page(const PagesView& pages, std::int64_t node_page, 
     return page >= 0 && pages.first_point[page] < pages.first_point[page + 1] ? page : -1;
 }
 
-/// Sum of the up to eight tiles that reach a node, lowest octant first. `tile_pages`: by octant.
-template<class Real>
+/// Sum of the first `count` channels of the up to eight tiles that reach a node, lowest octant first. `tile_pages`: by
+/// octant.
+template<int count = node_channels, class Real>
 TREAD_HD void sum_tiles(const std::int32_t* tile_pages, const Real* tiles, int place, Real* total)
 {
     const int x = place & 3, y = place >> 2 & 3, z = place >> 4;
-    for (int c = 0; c < node_channels; ++c) { total[c] = 0; }
+    for (int c = 0; c < count; ++c) { total[c] = 0; }
     for (int octant = 0; octant < octants; ++octant)
     {
         if (x >= octant_edge(octant, 0) || y >= octant_edge(octant, 1) || z >= octant_edge(octant, 2)) { continue; }
         if (tile_pages[octant] < 0) { continue; }
         const Real* tile = tiles + std::int64_t(tile_pages[octant]) * node_channels * tile_nodes +
                            octant_start(octant) + x + octant_edge(octant, 0) * (y + octant_edge(octant, 1) * z);
-        for (int c = 0; c < node_channels; ++c) { total[c] += tile[c * tile_nodes]; }
+        for (int c = 0; c < count; ++c) { total[c] += tile[c * tile_nodes]; }
     }
 }
 
+/// A node before walls have touched it.
 template<class Real>
-TREAD_HD Vec3<Real> apply_walls(const GridWalls& walls, Index3 node, Vec3<Real> velocity)
+struct NodeStep
 {
-    const std::int32_t at[3] = {node.x, node.y, node.z};
-    for (int axis = 0; axis < 3; ++axis)
+    Real       mass    = 0; ///< kg; 0 if it is too light to move
+    Vec3<Real> before  = Vec3<Real>::Zero();
+    Vec3<Real> force   = Vec3<Real>::Zero(); ///< N, weight and what points bring
+    Vec3<Real> damping = Vec3<Real>::Zero(); ///< N
+    Vec3<Real> moved   = Vec3<Real>::Zero(); ///< m/s, by all forces but those of walls
+};
+
+/// `channels`: what sum_tiles gave.
+template<class Real>
+TREAD_HD NodeStep<Real> begin_node(const GridStep<Real>& step, const Real* channels)
+{
+    NodeStep<Real> node;
+    if (channels[0] <= step.mass_floor) { return node; }
+    node.mass          = channels[0];
+    const Real inverse = Real(1) / node.mass;
+    node.before        = inverse * Vec3<Real>(channels[1], channels[2], channels[3]);
+    node.force         = Vec3<Real>(channels[4], channels[5], channels[6]) + node.mass * step.gravity;
+    if (step.damping > 0)
     {
-        const bool low = at[axis] <= 0, high = at[axis] >= walls.last_node[axis];
-        if ((low && walls.rule[axis][0] == WallRule::fixed) || (high && walls.rule[axis][1] == WallRule::fixed))
-        {
-            return Vec3<Real>::Zero();
-        }
-        if (low && walls.rule[axis][0] == WallRule::slip && velocity[axis] < 0) { velocity[axis] = 0; }
-        if (high && walls.rule[axis][1] == WallRule::slip && velocity[axis] > 0) { velocity[axis] = 0; }
+        for (int c = 0; c < 3; ++c) { node.damping[c] = local_damping(step.damping, node.force[c], node.before[c]); }
     }
-    return velocity;
+    node.moved = node.before + (step.dt * inverse) * (node.force + node.damping);
+    return node;
 }
 
-/// One node's step. `channels`: what sum_tiles gave. Writes velocity and change to motion[c * 64], adds to `sums`.
+/// Writes velocity and change to motion[c * 64], adds to `sums`.
 template<class Real>
-TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* channels, Real* motion, double* sums)
+TREAD_HD void finish_node(const GridStep<Real>& step, const NodeStep<Real>& node, const Vec3<Real>& after, Real* motion,
+                          double* sums)
 {
-    Vec3<Real> after = Vec3<Real>::Zero(), change = Vec3<Real>::Zero();
-    const Real mass = channels[0];
-    if (mass > step.mass_floor)
-    {
-        const Vec3<Real> before  = Vec3<Real>(channels[1], channels[2], channels[3]) / mass;
-        const Vec3<Real> force   = Vec3<Real>(channels[4], channels[5], channels[6]) + mass * step.gravity;
-        Vec3<Real>       damping = Vec3<Real>::Zero();
-        if (step.damping > 0)
-        {
-            for (int c = 0; c < 3; ++c) { damping[c] = local_damping(step.damping, force[c], before[c]); }
-        }
-        const Vec3<Real> moved = before + (step.dt / mass) * (force + damping);
-        after                  = apply_walls(step.walls, node, moved);
-        change                 = after - before;
-
-        const double m = double(mass);
-        sums[grid_kinetic_before] += 0.5 * m * double(before.squaredNorm());
-        sums[grid_kinetic_after] += 0.5 * m * double(after.squaredNorm());
-        sums[grid_power_before] += double(force.dot(before));
-        sums[grid_gravity_power] += m * double(step.gravity.dot(after));
-        const Vec3<Real> middle = Real(0.5) * (before + after);
-        sums[grid_damped] -= double(step.dt * damping.dot(middle));
-        sums[grid_wall_loss] -= m * double((after - moved).dot(middle));
-        sums[grid_net_force] += double(mass * change.norm() / step.dt);
-        for (int c = 0; c < 3; ++c)
-        {
-            sums[grid_wall_impulse + c] += m * double(after[c] - moved[c]);
-            sums[grid_damping_impulse + c] += double(step.dt * damping[c]);
-        }
-    }
+    const Vec3<Real> change = after - node.before, middle = Real(0.5) * (node.before + after);
+    const double     m = double(node.mass);
+    sums[grid_kinetic_before] += 0.5 * m * double(node.before.squaredNorm());
+    sums[grid_kinetic_after] += 0.5 * m * double(after.squaredNorm());
+    sums[grid_power_before] += double(node.force.dot(node.before));
+    sums[grid_gravity_power] += m * double(step.gravity.dot(after));
+    sums[grid_damped] -= double(step.dt * node.damping.dot(middle));
+    sums[grid_wall_loss] -= m * double((after - node.moved).dot(middle));
+    sums[grid_net_force] += double(node.mass * change.norm() / step.dt);
     for (int c = 0; c < 3; ++c)
     {
+        sums[grid_wall_impulse + c] += m * double(after[c] - node.moved[c]);
+        sums[grid_damping_impulse + c] += double(step.dt * node.damping[c]);
         motion[c * page_cells]       = after[c];
         motion[(3 + c) * page_cells] = change[c];
     }
+}
+
+template<class Real>
+TREAD_HD void write_velocity(const Vec3<Real>& velocity, Real* motion)
+{
+    for (int c = 0; c < 3; ++c) { motion[c * page_cells] = velocity[c]; }
+}
+
+template<class Real>
+TREAD_HD Vec3<Real> read_velocity(const Real* motion)
+{
+    return {motion[0], motion[page_cells], motion[2 * page_cells]};
+}
+
+/// One node's step, or, of a node that walls hold together with others, its first part. `channels`: what sum_tiles
+/// gave.
+template<class Real>
+TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* channels, Real* motion, double* sums)
+{
+    const NodeStep<Real> begun = begin_node(step, channels);
+    const Vec3<Real>     after = hold_alone(step.walls, node, begun.mass, begun.moved, sums);
+    if (is_paired(step.walls, node)) { write_velocity(after, motion); }
+    else { finish_node(step, begun, after, motion, sums); }
 }
 
 } // namespace tread::mpm

@@ -1,0 +1,279 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness.hpp"
+
+// Columns of one cell between slip walls: what stands on the floor, and how local damping brings it to rest.
+namespace
+{
+
+using namespace tread;
+
+template<class Exec>
+class Columns : public test::BackendTest<Exec>
+{
+};
+TYPED_TEST_SUITE(Columns, test::Backends, test::BackendNames);
+
+constexpr double gravity = 9.81, density = 1800, height = 0.1, young = 1e6;
+constexpr double base_stress = density * gravity * height;
+
+/// verification C2, mpm.md 6: 0.1 m high; x and y one cell wide.
+std::string column_text(double spacing, const std::string& law, const std::string& walls)
+{
+    return fmt::format(R"(
+title = "column"
+[domain]
+size    = [{0}, {0}, {1}]
+gravity = [0.0, 0.0, -{2}]
+walls   = {{ x = "slip", y = "slip", {3} }}
+[grid]
+spacing = {0}
+[numerics]
+precision = "double"
+[[material]]
+name    = "sand"
+density = {4}
+young   = {5}
+{6}
+[[terrain]]
+material = "sand"
+region = {{ box = [[0.0, 0.0, 0.0], [{0}, {0}, {7}]] }}
+[[phase]]
+name = "rest"
+damping = 0.7
+duration = 0.15
+)",
+                       spacing, height + 4 * spacing, gravity, walls, density, young, law, height);
+}
+
+struct Column
+{
+    std::vector<double> depth;      ///< m, of the points at the start
+    std::vector<double> vertical;   ///< Pa, at the end, pressure
+    std::vector<double> horizontal; ///< Pa
+    double              reaction;   ///< N, of the floor
+    double              weight;     ///< N
+};
+
+/// Starts with `share` of the stress at rest, so that the rest of the load comes on in the run.
+template<class Exec>
+Column settle(const Exec& exec, const std::string& text, double share)
+{
+    test::Experiment<Exec> experiment(exec, text);
+    auto&                  sand   = experiment.simulation().sand();
+    auto                   stress = sand.points().stress.to_host();
+    for (double& component : stress) { component *= share; }
+    sand.points().stress.assign(stress);
+    experiment.run();
+    const auto start  = sand.points().start.to_host();
+    const auto end    = sand.points().stress.to_host();
+    const auto stride = static_cast<std::size_t>(sand.points().stride);
+    const auto count  = static_cast<std::size_t>(sand.count());
+    Column     column;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        column.depth.push_back(height - start[2 * stride + i]);
+        column.horizontal.push_back(-end[i]);
+        column.vertical.push_back(-end[2 * stride + i]);
+    }
+    column.reaction = sand.report().grid[mpm::grid_wall_impulse + 2] / experiment.dt();
+    column.weight   = sand.census().mass * gravity;
+    return column;
+}
+
+/// Largest error of the vertical stress over that of the base, of points whose depth is in a range.
+double worst(const Column& column, double from, double to)
+{
+    double error = 0;
+    for (std::size_t i = 0; i < column.depth.size(); ++i)
+    {
+        if (column.depth[i] < from || column.depth[i] > to) { continue; }
+        error = std::max(error, std::abs(column.vertical[i] - density * gravity * column.depth[i]) / base_stress);
+    }
+    return error;
+}
+
+const std::string elastic = "model = \"elastic\"\npoisson = 0.0";
+
+/// The column from no stress at all, on either floor: hydrostatic, beside the floor as elsewhere.
+TYPED_TEST(Columns, HydrostaticOnSlipAndFixedFloors)
+{
+    for (const std::string floor : {"slip", "fixed"})
+    {
+        double errors[2] = {};
+        for (int level = 0; level < 2; ++level)
+        {
+            const double spacing = level == 0 ? 0.01 : 0.005;
+            const Column column =
+                settle(this->exec(), column_text(spacing, elastic, "bottom = \"" + floor + "\", top = \"open\""), 0);
+            const double beside       = worst(column, height - spacing, height),
+                         inner        = worst(column, 2 * spacing, height - 2 * spacing);
+            const double      surface = worst(column, 0, 2 * spacing);
+            const std::string at      = fmt::format(" ({} floor, {} cells)", floor, std::lround(height / spacing));
+            errors[level]             = std::max(beside, inner);
+            test::report("stress beside the floor, error over base" + at, beside, 0, 0.01, "C2: 1 % of the base");
+            test::report("stress in the middle, error over base" + at, inner, 0, 0.01, "C2: 1 % of the base");
+            test::report("stress under the surface, error over base" + at, surface, 0, 0.5 * spacing / height,
+                         "half a cell's weight");
+            test::report("floor reaction over weight" + at, column.reaction / column.weight, 1, 1e-3, "at rest");
+            EXPECT_LT(beside, 0.01);
+            EXPECT_LT(inner, 0.01);
+            EXPECT_LT(surface, 0.5 * spacing / height);
+            EXPECT_NEAR(column.reaction / column.weight, 1, 1e-3);
+        }
+        const double order = std::log2(errors[0] / errors[1]);
+        test::report("order of convergence (" + floor + " floor)", order, 2, 1, "at least 1");
+        EXPECT_GT(order, 1);
+    }
+}
+
+/// verification C2: K = nu / (1 - nu) if that is over Ka; sand yields, and K = Ka, if not.
+TYPED_TEST(Columns, GeostaticElasticAndPlastic)
+{
+    const double active = 1.0 / 3.0; // 30 degrees
+    for (const double poisson : {0.3, 0.2})
+    {
+        const double expected = std::max(poisson / (1 - poisson), active);
+        for (const double spacing : {0.01, 0.005})
+        {
+            const std::string law =
+                fmt::format("model = \"mohr-coulomb\"\npoisson = {}\nfriction_angle_deg = 30.0\n", poisson);
+            const Column column =
+                settle(this->exec(), column_text(spacing, law, "bottom = \"fixed\", top = \"open\""), 0.8);
+            double ratio_error = 0, checkerboard = 0;
+            for (std::size_t i = 0; i < column.depth.size(); ++i)
+            {
+                if (column.depth[i] < 2 * spacing || column.depth[i] > height - 2 * spacing) { continue; }
+                const double ratio = column.horizontal[i] / column.vertical[i];
+                ratio_error        = std::max(ratio_error, std::abs(ratio / expected - 1));
+                checkerboard =
+                    std::max(checkerboard, std::abs(column.vertical[i] / (density * gravity * column.depth[i]) - 1));
+            }
+            const std::string at    = fmt::format(" (nu {}, {} cells)", poisson, std::lround(height / spacing));
+            const double      inner = worst(column, 2 * spacing, height - 2 * spacing);
+            test::report("vertical stress, error over base" + at, inner, 0, 0.01, "C2: 1 % of the base");
+            test::report("K, relative error" + at, ratio_error, 0, 0.02,
+                         "overshoot of the last fifth of the load under damping 0.7");
+            test::report("stress against its own line" + at, checkerboard, 0, 0.02, "C2: checkerboard under 2 %");
+            test::report("floor reaction over weight" + at, column.reaction / column.weight, 1, 1e-3, "at rest");
+            EXPECT_LT(inner, 0.01);
+            EXPECT_LT(ratio_error, 0.02);
+            EXPECT_LT(checkerboard, 0.02);
+            EXPECT_NEAR(column.reaction / column.weight, 1, 1e-3);
+        }
+    }
+}
+
+std::string bar_text(double damping)
+{
+    return fmt::format(R"(
+title = "bar"
+[domain]
+size    = [1.5, 0.05, 0.05]
+gravity = [0.0, 0.0, 0.0]
+walls   = {{ x = "fixed", y = "slip", bottom = "slip", top = "slip" }}
+[grid]
+spacing = 0.05
+[time]
+dt = 5e-5
+[numerics]
+precision = "double"
+pic_rate = 0.0
+[[material]]
+name = "bar"
+model = "elastic"
+density = 1000.0
+young = 1.0e7
+poisson = 0.0
+[[terrain]]
+material = "bar"
+region = {{ box = [[0.0, 0.0, 0.0], [1.0, 0.05, 0.05]] }}
+[[phase]]
+name = "vibrate"
+damping = {}
+duration = 0.09
+)",
+                       damping);
+}
+
+/// verification C8: in its first mode all of a bar swings alike, so that Cundall's law for one mass holds for it.
+TYPED_TEST(Columns, LocalDampingFollowsCundallsLaw)
+{
+    constexpr double            damping = 0.3;
+    test::Experiment<TypeParam> bar(this->exec(), bar_text(damping));
+    auto&                       points = bar.simulation().sand().points();
+    const auto                  x      = points.position.to_host();
+    auto                        v      = points.velocity.to_host();
+    for (std::size_t i = 0; i < v.size() / 3; ++i) { v[i] = 0.1 * std::sin(0.5 * std::numbers::pi * x[i]); }
+    points.velocity.assign(v);
+    std::vector<double> crossings, peaks{bar.simulation().census().sand.momentum[0]};
+    double              last = peaks[0], peak = 0;
+    bar.run(
+        [&](double time)
+        {
+            const double momentum = bar.simulation().census().sand.momentum[0];
+            if (last * momentum < 0)
+            {
+                crossings.push_back(time - bar.dt() * momentum / (momentum - last));
+                if (crossings.size() > 1) { peaks.push_back(peak); }
+                peak = 0;
+            }
+            peak = std::max(peak, std::abs(momentum));
+            last = momentum;
+        });
+    ASSERT_GE(peaks.size(), 4);
+    // From rest to rest is half a period: half of it with force (1 - alpha), half with (1 + alpha).
+    const double half   = (crossings[3] - crossings[0]) / 3;
+    const double period = 0.02 * 0.5 * (1 / std::sqrt(1 - damping) + 1 / std::sqrt(1 + damping));
+    test::report("half period in s", half, period, 0.01 * period, "C8; the bar's own period is right to 0.2 %");
+    EXPECT_NEAR(half, period, 0.01 * period);
+    const double ratio = std::cbrt(peaks[3] / peaks[0]), expected = std::sqrt((1 - damping) / (1 + damping));
+    test::report("ratio of amplitudes half a period apart", ratio, expected, 0.02 * expected,
+                 "C8; 2 %: momentum of the bar, not of one mass");
+    EXPECT_NEAR(ratio, expected, 0.02 * expected);
+}
+
+/// verification C8: what falls freely under local damping falls with g (1 - alpha), which is why it is off then.
+TYPED_TEST(Columns, FreeFallUnderLocalDamping)
+{
+    test::Experiment<TypeParam> fall(this->exec(), R"(
+title = "fall under damping"
+[domain]
+size    = [0.4, 0.4, 2.0]
+gravity = [0.0, 0.0, -9.81]
+walls   = { x = "open", y = "open", bottom = "open", top = "open" }
+[grid]
+spacing = 0.05
+[[material]]
+name = "sand"
+model = "mohr-coulomb"
+density = 1600.0
+young = 1.0e6
+poisson = 0.3
+friction_angle_deg = 30.0
+[[terrain]]
+material = "sand"
+region = { box = [[0.1, 0.1, 1.5], [0.2, 0.2, 1.6]] }
+[[phase]]
+name = "fall"
+damping = 0.3
+duration = 0.2
+)");
+    auto                        stress = fall.simulation().sand().points().stress.to_host();
+    std::fill(stress.begin(), stress.end(), 0.0);
+    fall.simulation().sand().points().stress.assign(stress);
+    fall.run();
+    const solver::Census end   = fall.simulation().census();
+    const double         speed = -end.sand.momentum[2] / end.sand.mass, expected = 0.7 * 9.81 * fall.time();
+    const double         tolerance = 2 * 9.81 * 0.3 * 1e-3; // the first steps start from rest, where the law is silent
+    test::report("speed in m/s", speed, expected, tolerance, "C8: g (1 - alpha) t; the first step starts from rest");
+    EXPECT_NEAR(speed, expected, tolerance);
+    EXPECT_EQ(this->counters.launches().count("update walls"), 0) << "no walls, no launch";
+}
+
+} // namespace

@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness.hpp"
+
+// Every kind of wall against blocks and beds that rest on it, slide over it or leave it.
+namespace
+{
+
+using namespace tread;
+
+template<class Exec>
+class WallsOfSand : public test::BackendTest<Exec>
+{
+};
+TYPED_TEST_SUITE(WallsOfSand, test::Backends, test::BackendNames);
+
+constexpr double gravity = 9.81;
+
+/// An elastic block, 0.4 m x 0.2 m and one cell thick, on a floor tilted by `degrees`, down which x points.
+std::string block_text(double degrees, const std::string& walls, double duration)
+{
+    const double angle = degrees * std::numbers::pi / 180;
+    return fmt::format(R"(
+title = "block on a slope"
+[domain]
+size    = [2.4, 0.05, 0.6]
+gravity = [{}, 0.0, {}]
+walls   = {{ x = "open", y = "slip", top = "open", {} }}
+[grid]
+spacing = 0.05
+[numerics]
+precision = "double"
+[[material]]
+name = "block"
+model = "elastic"
+density = 1800.0
+young = 1.0e6
+poisson = 0.2
+[[terrain]]
+material = "block"
+region = {{ box = [[0.2, 0.0, 0.0], [0.6, 0.05, 0.2]] }}
+[[phase]]
+name = "slide"
+duration = {}
+)",
+                       gravity * std::sin(angle), -gravity * std::cos(angle), walls, duration);
+}
+
+/// Mean velocity (m/s) and position (m) of the sand's mass.
+struct Motion
+{
+    double       time;
+    Vec3<double> position, velocity;
+};
+
+template<class Experiment>
+Motion motion(Experiment& experiment)
+{
+    const solver::SandCensus now = experiment.simulation().census().sand;
+    return {experiment.time(), now.moment / now.mass, now.momentum / now.mass};
+}
+
+/// Acceleration (m/s2) between a fifth of the run, when the block has found its stress, and its end.
+template<class Exec>
+Vec3<double> acceleration(const Exec& exec, double degrees, const std::string& walls, double duration)
+{
+    test::Experiment<Exec> slide(exec, block_text(degrees, walls, duration));
+    Motion                 early{};
+    const auto             look = [&](double time)
+    {
+        if (early.time == 0 && time >= 0.2 * duration) { early = motion(slide); }
+    };
+    slide.run(look);
+    const Motion late = motion(slide);
+    return (late.velocity - early.velocity) / (late.time - early.time);
+}
+
+/// verification A5, C6: a block that slides has a = g (sin - mu cos).
+TYPED_TEST(WallsOfSand, BlockSlidesByCoulombsLaw)
+{
+    for (const double degrees : {20.0, 30.0, 45.0})
+    {
+        const double angle    = degrees * std::numbers::pi / 180;
+        const double expected = gravity * (std::sin(angle) - 0.3 * std::cos(angle));
+        const double measured = acceleration(this->exec(), degrees, "bottom = \"frictional\", friction = 0.3", 0.5)[0];
+        test::report(fmt::format("acceleration at {} degrees in m/s2", degrees), measured, expected, 0.01 * expected,
+                     "C6: 1 %");
+        EXPECT_NEAR(measured, expected, 0.01 * expected);
+    }
+}
+
+/// verification A5: under atan 0.3 = 16.7 degrees it stays, but for the shear that its own weight gives it.
+TYPED_TEST(WallsOfSand, BlockSticksBelowTheAngleOfFriction)
+{
+    test::Experiment<TypeParam> stick(this->exec(), block_text(10, "bottom = \"frictional\", friction = 0.3", 1.0));
+    const Motion                start = motion(stick);
+    Motion                      middle{};
+    const auto                  look = [&](double time)
+    {
+        if (middle.time == 0 && time >= 0.5) { middle = motion(stick); }
+    };
+    stick.run(look);
+    const Motion end = motion(stick);
+    // rho g sin H^2 / (2 G), swinging to twice that.
+    const double shear = 1800 * gravity * std::sin(std::numbers::pi / 18) * 0.2 * 0.2 / (1e6 / 1.2);
+    const double moved = end.position[0] - start.position[0], crept = end.position[0] - middle.position[0];
+    test::report("displacement in m", moved, 0.5 * shear, shear,
+                 "elastic shear under its own weight, swinging, and bending");
+    EXPECT_LT(std::abs(moved), 2 * shear);
+    const double free = 0.5 * gravity * std::sin(std::numbers::pi / 18) * 0.25;
+    test::report("creep from 0.5 s to 1 s in m", crept, 0, 1e-3 * free,
+                 "a thousandth of free sliding from rest; it still swings");
+    EXPECT_LT(std::abs(crept), 1e-3 * free);
+}
+
+/// slip: nothing along the wall, weight across it; fixed: holds at 45 degrees; open: is not there.
+TYPED_TEST(WallsOfSand, SlipFixedAndOpenFloors)
+{
+    const double       along = gravity * std::sin(std::numbers::pi / 4);
+    const Vec3<double> slip  = acceleration(this->exec(), 45, "bottom = \"slip\"", 0.4);
+    test::report("slip floor, along it, m/s2", slip[0], along, 1e-9 * along, "no force along it at all");
+    EXPECT_NEAR(slip[0], along, 1e-9 * along);
+    const Vec3<double> fixed = acceleration(this->exec(), 45, "bottom = \"fixed\"", 0.4);
+    // The block swings in shear and bending with periods of 20 to 40 ms at up to 2 % of g t.
+    test::report("fixed floor, along it, m/s2", fixed[0], 0, 0.02 * along, "it swings, but stays");
+    EXPECT_LT(std::abs(fixed[0]), 0.02 * along);
+    const Vec3<double> open = acceleration(this->exec(), 45, "bottom = \"open\"", 0.1);
+    test::report("open floor, across it, m/s2", open[2], -along, 1e-9 * along, "free fall");
+    EXPECT_NEAR(open[2], -along, 1e-9 * along);
+}
+
+/// A floor that does not hold lets go: a block thrown off it flies.
+TYPED_TEST(WallsOfSand, BlockLeavesTheFloor)
+{
+    for (const std::string floor : {"slip", "frictional"})
+    {
+        test::Experiment<TypeParam> fly(this->exec(), block_text(0, "bottom = \"" + floor + "\"", 0.2));
+        auto&                       points = fly.simulation().sand().points();
+        auto                        stress = points.stress.to_host();
+        std::fill(stress.begin(), stress.end(), 0.0);
+        points.stress.assign(stress);
+        auto       v = points.velocity.to_host();
+        const auto n = v.size() / 3;
+        std::fill(v.begin() + static_cast<std::ptrdiff_t>(2 * n), v.end(), 2.0);
+        points.velocity.assign(v);
+        const Motion start = motion(fly);
+        fly.run();
+        const Motion end = motion(fly);
+        const double t = fly.time(), expected = 2 * t - 0.5 * gravity * t * t;
+        const double tolerance = gravity * t * fly.dt();
+        test::report("rise in m off a " + floor + " floor", end.position[2] - start.position[2], expected, tolerance,
+                     "symplectic Euler: g t dt");
+        EXPECT_NEAR(end.position[2] - start.position[2], expected, tolerance);
+    }
+}
+
+/// A bed of 0.2 m x 0.2 m against three walls that meet in a corner; `up` turns the world upside down.
+std::string corner_text(int cells, bool up)
+{
+    const double size = 0.05 * cells;
+    return fmt::format(R"(
+title = "corner"
+[domain]
+size    = [{0}, {0}, {0}]
+gravity = [{1}, {1}, {1}]
+walls   = {{ x = "slip", y = "frictional", bottom = "fixed", top = "fixed", friction = 0.2 }}
+[grid]
+spacing = 0.05
+[time]
+dt = 5e-4
+[numerics]
+precision = "double"
+[[material]]
+name = "sand"
+model = "elastic"
+density = 1800.0
+young = 1.0e6
+poisson = 0.3
+[[terrain]]
+material = "sand"
+region = {{ box = [[{2}, {2}, {2}], [{3}, {3}, {3}]] }}
+[[phase]]
+name = "lean"
+duration = 0.05
+)",
+                       size, up ? 4.0 : -4.0, up ? size - 0.2 : 0.0, up ? size : 0.2);
+}
+
+/// High walls do what low ones do, wherever the walls fall in their pages of four nodes.
+TYPED_TEST(WallsOfSand, HighWallsMirrorLowOnes)
+{
+    const auto lean = [&](int cells, bool up)
+    {
+        test::Experiment<TypeParam> bed(this->exec(), corner_text(cells, up));
+        auto&                       points = bed.simulation().sand().points();
+        auto                        stress = points.stress.to_host();
+        std::fill(stress.begin(), stress.end(), 0.0);
+        points.stress.assign(stress);
+        const Motion start = motion(bed);
+        bed.run();
+        return Vec3<double>(motion(bed).position - start.position);
+    };
+    const Vec3<double> low = lean(8, false);
+    EXPECT_LT(low.maxCoeff(), -1e-6);
+    for (int cells = 8; cells < 12; ++cells)
+    {
+        const double difference = (lean(cells, true) + low).norm() / low.norm();
+        test::report(fmt::format("high against low walls, {} cells", cells), difference, 0, 1e-9,
+                     "fp64 rounding over 100 steps");
+        EXPECT_LT(difference, 1e-9);
+    }
+}
+
+} // namespace
