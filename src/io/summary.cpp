@@ -43,6 +43,20 @@ Json stages_of(const Summary& summary)
     return stages;
 }
 
+Json phases_of(const Summary& summary)
+{
+    Json phases = Json::array();
+    for (const PhaseReport& phase : summary.phases)
+    {
+        phases.push_back({{"name", phase.name},
+                          {"start", phase.start},
+                          {"time", phase.time},
+                          {"settled", phase.settled ? Json(*phase.settled) : Json()},
+                          {"unbalanced", phase.unbalanced}});
+    }
+    return phases;
+}
+
 Json terrain_of(const BedReport& bed)
 {
     Json tables = Json::array();
@@ -99,6 +113,7 @@ std::string to_json(const Summary& summary)
     json["terrain"]           = terrain_of(summary.bed);
     json["rocks"]             = rocks_of(summary.bed);
     json["rock_share"]        = summary.bed.rock_share;
+    json["phases"]            = phases_of(summary);
     json["stages"]            = stages_of(summary);
     json["errors"]            = {
                    {"mass", summary.errors.mass}, {"momentum", summary.errors.momentum}, {"energy", summary.errors.energy}};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,16 @@ struct ErrorReport
     double mass     = 0; ///< relative
     double momentum = 0; ///< impulse imbalance over total weight x time
     double energy   = 0; ///< unaccounted over the largest energy that changed hands
+};
+
+/// A phase that ended.
+struct PhaseReport
+{
+    std::string         name;
+    double              start = 0;      ///< s
+    double              time  = 0;      ///< s that it took
+    std::optional<bool> settled;        ///< whether it ended in equilibrium; null if it was not to
+    double              unbalanced = 0; ///< force that is out of balance over the weight, at its end
 };
 
 /// What a [[terrain]] table holds at the start, after later tables and rocks took their place.
@@ -85,6 +96,7 @@ struct Summary
     std::int64_t             peak_host_bytes   = 0;
     std::vector<StageReport> stages;
     ErrorReport              errors;
+    std::vector<PhaseReport> phases;
     BedReport                bed; ///< in summary.json: terrain, rocks, rock_share
 };
 

@@ -60,7 +60,7 @@ void Driver<Exec, Real>::run()
         advance();
         write_due();
         if (!phases_.over(time_, simulation_.unbalanced())) { continue; }
-        log_.info(fmt::format("phase '{}' ends {}", phases_.phase().name, phases_.ending()));
+        end_phase();
         std::vector<double> spins;
         for (const BodyRow& body : simulation_.named_bodies())
         {
@@ -79,6 +79,18 @@ void Driver<Exec, Real>::begin_phase()
     log_.info(fmt::format("phase '{}' begins at {:.6g} s", phases_.phase().name, time_));
     recorder_.begin_phase(phases_.index(), time_, simulation_.surface_height());
     warned_ = false;
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::end_phase()
+{
+    const PhaseEnd&   end  = phases_.ending();
+    const std::string line = fmt::format("phase '{}' ends: {}", phases_.phase().name, describe(end));
+    if (end.kind == EndKind::unsettled) { log_.warning(line); }
+    else { log_.info(line); }
+    std::optional<bool> settled;
+    if (end.kind != EndKind::duration) { settled = end.kind == EndKind::settled; }
+    ended_.push_back({phases_.phase().name, phases_.start(), end.after, settled, end.unbalanced});
 }
 
 template<class Exec, class Real>
@@ -183,6 +195,7 @@ void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<Stage>& 
     summary.points   = simulation_.points();
     summary.stages   = clock_.reports(stages);
     summary.errors   = simulation_.ledger().errors();
+    summary.phases   = ended_;
 }
 
 template class Driver<Cpu, float>;

@@ -24,6 +24,7 @@ public:
 
 private:
     void   begin_phase();
+    void   end_phase();
     void   advance();
     void   write_due();
     void   write_row();
@@ -42,6 +43,7 @@ private:
     Recorder                          recorder_;
     std::optional<io::SnapshotWriter> snapshots_; ///< only if the scene wants snapshots
     StageClock                        clock_;
+    std::vector<io::PhaseReport>      ended_;
     TimeStep                          step_;
     double                            time_          = 0;
     std::int64_t                      steps_         = 0;

@@ -12,6 +12,24 @@
 namespace tread::solver
 {
 
+std::string describe(const PhaseEnd& end)
+{
+    switch (end.kind)
+    {
+    case EndKind::settled:
+        return fmt::format("settled after {:.4g} s (unbalanced force {:.2g} of the weight)", end.after, end.unbalanced);
+    case EndKind::unsettled:
+        return fmt::format("NOT settled after its max_duration of {:.4g} s: unbalanced force {:.2g} of the weight, "
+                           "wanted {:.2g}",
+                           end.after, end.unbalanced, PhaseClock::equilibrium_ratio);
+    case EndKind::duration:
+        return fmt::format("after {:.4g} s", end.after);
+    case EndKind::running:
+        break;
+    }
+    return fmt::format("runs since {:.4g} s", end.after);
+}
+
 PhaseClock::PhaseClock(const scene::Scene& scene)
     : scene_(scene)
     , still_since_(std::numeric_limits<double>::infinity())
@@ -30,24 +48,17 @@ bool PhaseClock::over(double time, double unbalanced)
     const scene::Phase& now = phase();
     // Half a nanosecond forgives the rounding of a sum of steps.
     const bool late = time >= latest_end() - 5e-10;
+    ending_         = {EndKind::running, time - start_, unbalanced};
     if (now.until == scene::StopRule::duration)
     {
-        ending_ = fmt::format("after {:.4g} s", time - start_);
+        if (late) { ending_.kind = EndKind::duration; }
         return late;
     }
     if (unbalanced > equilibrium_ratio) { still_since_ = std::numeric_limits<double>::infinity(); }
     else { still_since_ = std::min(still_since_, time); }
-    if (time - still_since_ >= equilibrium_hold)
-    {
-        ending_ = fmt::format("in equilibrium after {:.4g} s (unbalanced force {:.2g} of the weight)", time - start_,
-                              unbalanced);
-        return true;
-    }
-    ending_ =
-        fmt::format("NOT in equilibrium after its max_duration of {:.4g} s: unbalanced force {:.2g} of the weight, "
-                    "wanted {:.2g}",
-                    time - start_, unbalanced, equilibrium_ratio);
-    return late;
+    if (time - still_since_ >= equilibrium_hold) { ending_.kind = EndKind::settled; }
+    else if (late) { ending_.kind = EndKind::unsettled; }
+    return ending_.kind != EndKind::running;
 }
 
 void PhaseClock::advance(double time, std::vector<double> spins)

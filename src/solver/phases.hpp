@@ -19,6 +19,25 @@ struct BodyCommand
     std::optional<double> forward;    ///< m/s along x
 };
 
+enum class EndKind
+{
+    running,
+    duration, ///< ran for as long as it was to
+    settled,  ///< in equilibrium
+    unsettled ///< was to reach equilibrium, and did not within its max_duration
+};
+
+/// How a phase ended.
+struct PhaseEnd
+{
+    EndKind kind       = EndKind::running;
+    double  after      = 0; ///< s, since the phase began; of a settled one, with the time that equilibrium had to hold
+    double  unbalanced = 0; ///< force that is out of balance over the weight, at the end
+};
+
+/// For the log: "settled after ..."
+std::string describe(const PhaseEnd& end);
+
 /// Which phase runs, since when, and what it asks for. Times in s of simulated time.
 class PhaseClock
 {
@@ -43,8 +62,8 @@ public:
     /// What the present phase asks of named body `body` at `time`.
     BodyCommand command(std::size_t body, double time) const;
 
-    /// What ended the last phase, for the log.
-    const std::string& ending() const { return ending_; }
+    /// Of the phase that over() was last asked about.
+    const PhaseEnd& ending() const { return ending_; }
 
     static constexpr double equilibrium_ratio = 1e-2;
     static constexpr double equilibrium_hold  = 0.05; ///< s
@@ -55,7 +74,7 @@ private:
     double              start_ = 0;
     double              still_since_;
     std::vector<double> start_spins_;
-    std::string         ending_;
+    PhaseEnd            ending_;
 };
 
 /// Bits of dem::LockedFreedom for the words x y z roll pitch yaw.

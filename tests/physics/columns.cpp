@@ -100,7 +100,9 @@ double worst(const Column& column, double from, double to)
 
 const std::string elastic = "model = \"elastic\"\npoisson = 0.0";
 
-/// The column from no stress at all, on either floor: hydrostatic, beside the floor as elsewhere.
+/// The column from no stress at all, on either floor: hydrostatic, beside the floor as elsewhere. Between wall and half
+/// a cell a spline that vanishes with its mirror image is a straight line: the stress there is that of half a cell's
+/// height, and up to a quarter of a cell's weight off at the points. So the stress converges with first order there.
 TYPED_TEST(Columns, HydrostaticOnSlipAndFixedFloors)
 {
     for (const std::string floor : {"slip", "fixed"})
@@ -108,31 +110,34 @@ TYPED_TEST(Columns, HydrostaticOnSlipAndFixedFloors)
         double errors[2] = {};
         for (int level = 0; level < 2; ++level)
         {
-            const double spacing = level == 0 ? 0.01 : 0.005;
-            const Column column =
-                settle(this->exec(), column_text(spacing, elastic, "bottom = \"" + floor + "\", top = \"open\""), 0);
-            const double beside       = worst(column, height - spacing, height),
-                         inner        = worst(column, 2 * spacing, height - 2 * spacing);
+            const double      spacing = level == 0 ? 0.01 : 0.005, quarter = 0.25 * spacing / height;
+            const std::string walls   = "bottom = \"" + floor + "\", top = \"open\"";
+            const Column      column  = settle(this->exec(), column_text(spacing, elastic, walls), 0);
+            const double      beside  = worst(column, height - spacing, height);
+            const double      inner   = worst(column, 2 * spacing, height - 2 * spacing);
             const double      surface = worst(column, 0, 2 * spacing);
             const std::string at      = fmt::format(" ({} floor, {} cells)", floor, std::lround(height / spacing));
             errors[level]             = std::max(beside, inner);
-            test::report("stress beside the floor, error over base" + at, beside, 0, 0.01, "C2: 1 % of the base");
+            test::report("stress beside the floor, error over base" + at, beside, 0, quarter,
+                         "a quarter cell's weight");
             test::report("stress in the middle, error over base" + at, inner, 0, 0.01, "C2: 1 % of the base");
-            test::report("stress under the surface, error over base" + at, surface, 0, 0.5 * spacing / height,
+            test::report("stress under the surface, error over base" + at, surface, 0, 2 * quarter,
                          "half a cell's weight");
             test::report("floor reaction over weight" + at, column.reaction / column.weight, 1, 1e-3, "at rest");
-            EXPECT_LT(beside, 0.01);
+            EXPECT_LT(beside, quarter);
             EXPECT_LT(inner, 0.01);
-            EXPECT_LT(surface, 0.5 * spacing / height);
+            EXPECT_LT(surface, 2 * quarter);
             EXPECT_NEAR(column.reaction / column.weight, 1, 1e-3);
         }
         const double order = std::log2(errors[0] / errors[1]);
-        test::report("order of convergence (" + floor + " floor)", order, 2, 1, "at least 1");
-        EXPECT_GT(order, 1);
+        test::report("order of convergence (" + floor + " floor)", order, 1, 0.1, "first order beside the floor");
+        EXPECT_GT(order, 0.9);
     }
 }
 
-/// verification C2: K = nu / (1 - nu) if that is over Ka; sand yields, and K = Ka, if not.
+/// verification C2: K = nu / (1 - nu) if that is over Ka; sand yields, and K = Ka, if not. The last twentieth of the
+/// load comes on in the run; what overshoots, sqrt((1 - 0.7) / (1 + 0.7)) of it, comes off elastically again, so that a
+/// plastic K keeps (1 - K0 / Ka) of that: 0.5 %.
 TYPED_TEST(Columns, GeostaticElasticAndPlastic)
 {
     const double active = 1.0 / 3.0; // 30 degrees
@@ -144,26 +149,23 @@ TYPED_TEST(Columns, GeostaticElasticAndPlastic)
             const std::string law =
                 fmt::format("model = \"mohr-coulomb\"\npoisson = {}\nfriction_angle_deg = 30.0\n", poisson);
             const Column column =
-                settle(this->exec(), column_text(spacing, law, "bottom = \"fixed\", top = \"open\""), 0.8);
-            double ratio_error = 0, checkerboard = 0;
+                settle(this->exec(), column_text(spacing, law, "bottom = \"fixed\", top = \"open\""), 0.95);
+            double ratio_error = 0, own_line = 0;
             for (std::size_t i = 0; i < column.depth.size(); ++i)
             {
                 if (column.depth[i] < 2 * spacing || column.depth[i] > height - 2 * spacing) { continue; }
-                const double ratio = column.horizontal[i] / column.vertical[i];
-                ratio_error        = std::max(ratio_error, std::abs(ratio / expected - 1));
-                checkerboard =
-                    std::max(checkerboard, std::abs(column.vertical[i] / (density * gravity * column.depth[i]) - 1));
+                ratio_error = std::max(ratio_error, std::abs(column.horizontal[i] / column.vertical[i] / expected - 1));
+                own_line = std::max(own_line, std::abs(column.vertical[i] / (density * gravity * column.depth[i]) - 1));
             }
             const std::string at    = fmt::format(" (nu {}, {} cells)", poisson, std::lround(height / spacing));
             const double      inner = worst(column, 2 * spacing, height - 2 * spacing);
             test::report("vertical stress, error over base" + at, inner, 0, 0.01, "C2: 1 % of the base");
-            test::report("K, relative error" + at, ratio_error, 0, 0.02,
-                         "overshoot of the last fifth of the load under damping 0.7");
-            test::report("stress against its own line" + at, checkerboard, 0, 0.02, "C2: checkerboard under 2 %");
+            test::report("K, relative error" + at, ratio_error, 0, 0.01, "C2: 1 %; 0.5 % of it from the overshoot");
+            test::report("stress from point to point" + at, own_line, 0, 0.02, "C2: checkerboard under 2 %");
             test::report("floor reaction over weight" + at, column.reaction / column.weight, 1, 1e-3, "at rest");
             EXPECT_LT(inner, 0.01);
-            EXPECT_LT(ratio_error, 0.02);
-            EXPECT_LT(checkerboard, 0.02);
+            EXPECT_LT(ratio_error, 0.01);
+            EXPECT_LT(own_line, 0.02);
             EXPECT_NEAR(column.reaction / column.weight, 1, 1e-3);
         }
     }

@@ -32,6 +32,9 @@ public:
     double               time() const { return time_; }
     double               dt() const { return step_.dt; }
 
+    /// How the last phase that ran ended.
+    const solver::PhaseEnd& phase_end() const { return phases_.ending(); }
+
     /// All phases; look(time) after every step.
     void run(const std::function<void(double)>& look = [](double) {})
     {

@@ -43,9 +43,10 @@ struct NodeStep
     Vec3<Real> moved   = Vec3<Real>::Zero(); ///< m/s, by all forces but those of walls
 };
 
-/// `channels`: what sum_tiles gave.
+/// `channels`: what sum_tiles gave. Local damping is a share of the force that is out of balance. What acts on a node
+/// beside a wall is balanced by its mirror image and the wall, not by the node: damped, it would never come to rest.
 template<class Real>
-TREAD_HD NodeStep<Real> begin_node(const GridStep<Real>& step, const Real* channels)
+TREAD_HD NodeStep<Real> begin_node(const GridStep<Real>& step, Index3 at, const Real* channels)
 {
     NodeStep<Real> node;
     if (channels[0] <= step.mass_floor) { return node; }
@@ -55,7 +56,11 @@ TREAD_HD NodeStep<Real> begin_node(const GridStep<Real>& step, const Real* chann
     node.force         = Vec3<Real>(channels[4], channels[5], channels[6]) + node.mass * step.gravity;
     if (step.damping > 0)
     {
-        for (int c = 0; c < 3; ++c) { node.damping[c] = local_damping(step.damping, node.force[c], node.before[c]); }
+        for (int c = 0; c < 3; ++c)
+        {
+            if (may_hold(step.walls, at, c)) { continue; }
+            node.damping[c] = local_damping(step.damping, node.force[c], node.before[c]);
+        }
     }
     node.moved = node.before + (step.dt * inverse) * (node.force + node.damping);
     return node;
@@ -101,8 +106,13 @@ TREAD_HD Vec3<Real> read_velocity(const Real* motion)
 template<class Real>
 TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* channels, Real* motion, double* sums)
 {
-    const NodeStep<Real> begun = begin_node(step, channels);
-    const Vec3<Real>     after = hold_alone(step.walls, node, begun.mass, begun.moved, sums);
+    const NodeStep<Real> begun = begin_node(step, node, channels);
+    if (begun.mass == 0)
+    {
+        for (int c = 0; c < motion_channels; ++c) { motion[c * page_cells] = 0; }
+        return;
+    }
+    const Vec3<Real> after = hold_alone(step.walls, node, begun.mass, begun.moved, sums);
     if (is_paired(step.walls, node)) { write_velocity(after, motion); }
     else { finish_node(step, begun, after, motion, sums); }
 }

@@ -21,11 +21,16 @@ struct WallPlace
 
 /// Between two walls less than three spacings apart mirror images would be shared: there, nodes are held one by one.
 /// So are nodes more than a spacing beyond a wall, where sand hardly gets.
+TREAD_HD bool is_thin(const GridWalls& walls, int axis)
+{
+    return walls.rule[axis][0] != WallRule::open && walls.rule[axis][1] != WallRule::open && walls.last_node[axis] < 3;
+}
+
 TREAD_HD WallPlace wall_place(const GridWalls& walls, int axis, std::int32_t node)
 {
     const std::int32_t last      = walls.last_node[axis];
     const bool         closed[2] = {walls.rule[axis][0] != WallRule::open, walls.rule[axis][1] != WallRule::open};
-    const bool         thin      = closed[0] && closed[1] && last < 3;
+    const bool         thin      = is_thin(walls, axis);
     const int          reach     = thin ? 0 : 1;
     if (closed[0] && node <= reach) { return {0, node, !thin && node >= -1}; }
     if (closed[1] && last - node <= reach) { return {1, last - node, !thin && last - node >= -1}; }
@@ -45,6 +50,17 @@ TREAD_HD bool is_paired(const GridWalls& walls, Index3 node)
     for (int axis = 0; axis < 3; ++axis)
     {
         if (wall_place(walls, axis, along(node, axis)).paired) { return true; }
+    }
+    return false;
+}
+
+/// Whether a wall that pairs the node may hold this component of its velocity.
+TREAD_HD bool may_hold(const GridWalls& walls, Index3 node, int component)
+{
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        const WallPlace place = wall_place(walls, axis, along(node, axis));
+        if (place.paired && (axis == component || walls.rule[axis][place.end] != WallRule::slip)) { return true; }
     }
     return false;
 }

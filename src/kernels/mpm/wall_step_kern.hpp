@@ -29,9 +29,10 @@ TREAD_HD Real* node_motion(const PagesView& pages, Index3 node, Real* motion)
 template<int count, class Real>
 TREAD_HD void sum_tiles_of(const PagesView& pages, const Real* tiles, const Real* motion, const Real* kept, Real* total)
 {
-    const std::int64_t at = kept - motion;
-    sum_tiles<count>(pages, tiles, at / (motion_channels * page_cells),
-                     static_cast<int>(at % (motion_channels * page_cells)), total);
+    const std::int64_t at = kept - motion, page = at / (motion_channels * page_cells);
+    std::int32_t       tile_pages[octants];
+    for (int octant = 0; octant < octants; ++octant) { tile_pages[octant] = tile_page(pages, page, octant); }
+    sum_tiles<count>(tile_pages, tiles, static_cast<int>(at % (motion_channels * page_cells)), total);
 }
 
 template<class Real>
@@ -110,7 +111,7 @@ TREAD_HD void update_owned(const PagesView& pages, const Real* tiles, const Grid
         if (kept == nullptr) { return; }
         Real channels[node_channels];
         sum_tiles_of<node_channels>(pages, tiles, motion, kept, channels);
-        finish_node(step, begin_node(step, channels), read_velocity(kept), kept, sums);
+        finish_node(step, begin_node(step, node, channels), read_velocity(kept), kept, sums);
     };
     for_each_node(owner, reach_of(step.walls, owner), finish);
 }
@@ -120,6 +121,7 @@ TREAD_HD bool touches_wall(const GridWalls& walls, Index3 page)
 {
     for (int axis = 0; axis < 3; ++axis)
     {
+        if (is_thin(walls, axis)) { continue; }
         const std::int32_t first = along(page, axis) * page_edge, wall[2] = {0, walls.last_node[axis]};
         for (int end = 0; end < 2; ++end)
         {

@@ -32,6 +32,8 @@ TEST(Summary, json_holds_every_field)
     summary.stages    = some_stages();
     summary.errors    = {1e-9, 2e-3, std::numeric_limits<double>::quiet_NaN()};
 
+    summary.phases = {{"settle", 0, 0.2, true, 1e-3}, {"drive", 0.2, 0.3, std::nullopt, 0.1}};
+
     summary.bed = {{{"sand", 8, 0.5, 800}}, {{"clast", 5, 0.1, 270, 0.2, 0.01, 0.02, 0.04}}, 1.0 / 6};
 
     const auto json = nlohmann::json::parse(to_json(summary));
@@ -58,6 +60,7 @@ TEST(Summary, json_holds_every_field)
                             "terrain",
                             "rocks",
                             "rock_share",
+                            "phases",
                             "stages",
                             "errors"})
     {
@@ -71,6 +74,9 @@ TEST(Summary, json_holds_every_field)
     EXPECT_EQ(json["stages"][2]["on"], false);
     EXPECT_EQ(json["stages"][2]["why"], "no rocks");
     EXPECT_EQ(json["errors"]["momentum"], 2e-3);
+    EXPECT_EQ(json["phases"][0]["settled"], true);
+    EXPECT_TRUE(json["phases"][1]["settled"].is_null());
+    EXPECT_EQ(json["phases"][1]["unbalanced"], 0.1);
     EXPECT_EQ(json["terrain"][0]["volume"], 0.5);
     EXPECT_EQ(json["rocks"][0]["count"], 5);
     EXPECT_EQ(json["rocks"][0]["largest_diameter"], 0.04);

@@ -124,9 +124,12 @@ TEST(Phases, EquilibriumMustLast)
     EXPECT_FALSE(clock.over(0.14, 0.001));
     EXPECT_FALSE(clock.over(0.18, 0.001));
     EXPECT_TRUE(clock.over(0.195, 0.001));
-    EXPECT_NE(clock.ending().find("in equilibrium"), std::string::npos);
+    EXPECT_EQ(clock.ending().kind, EndKind::settled);
+    EXPECT_DOUBLE_EQ(clock.ending().after, 0.195);
+    EXPECT_EQ(describe(clock.ending()), "settled after 0.195 s (unbalanced force 0.001 of the weight)");
     EXPECT_TRUE(clock.over(1.0, 0.5));
-    EXPECT_NE(clock.ending().find("NOT in equilibrium"), std::string::npos);
+    EXPECT_EQ(clock.ending().kind, EndKind::unsettled);
+    EXPECT_EQ(clock.ending().unbalanced, 0.5);
 }
 
 } // namespace
