@@ -53,6 +53,14 @@ class BadScene(CommandTest):
     def test_negative_density(self):
         self.refuse_value("density            = 1600.0", "density            = -1600.0", ["density", "> 0"])
 
+    def test_wall_friction_below_zero(self):
+        walls = 'gravity = [0.0, 0.0, -9.81]\nwalls = { bottom = "frictional", friction = -0.1 }'
+        self.refuse_value("gravity = [0.0, 0.0, -9.81]", walls, ["friction", ">= 0"])
+
+    def test_unknown_wall(self):
+        walls = 'gravity = [0.0, 0.0, -9.81]\nwalls = { bottom = "rough" }'
+        self.refuse_value("gravity = [0.0, 0.0, -9.81]", walls, ["bottom", "frictional"])
+
     def test_incompressible(self):
         self.refuse_value("poisson            = 0.3", "poisson            = 0.5", ["poisson", "0.5"])
 

@@ -29,12 +29,23 @@ class RunOutput(CommandTest):
         self.check_snapshots()
         self.check_resolved_scene_runs_to_the_same_result()
 
+    def test_a_phase_that_did_not_settle_says_so(self):
+        text = SCENE.replace("duration = 0.02", 'until = "equilibrium"\nmax_duration = 0.002')
+        output = self.directory / "unsettled"
+        result = self.tread("run", self.write("unsettled.toml", text), "--output", output, "--backend", "cpu")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        phase = json.loads((output / "summary.json").read_text())["phases"][0]
+        self.assertIs(phase["settled"], False)
+        self.assertAlmostEqual(phase["time"], 0.002)
+        self.assertRegex((output / "log.txt").read_text(), "(?i)warning.*phase 'rest' ends: NOT settled after .* unbalanced")
+
     def check_summary(self):
         summary = json.loads((self.output / "summary.json").read_text())
         self.assertEqual((summary["status"], summary["exit_code"]), ("finished", 0))
         self.assertEqual(summary["points"], 8 * 8 * 2 * 8)
         self.assertEqual(summary["bodies"], 1)
         self.assertGreaterEqual(summary["time"], 0.02)
+        self.assertEqual([(phase["name"], phase["settled"]) for phase in summary["phases"]], [("rest", None)])
         self.assertTrue((self.output / "log.txt").read_text())
 
     def check_time_series(self):

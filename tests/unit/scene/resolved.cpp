@@ -17,7 +17,7 @@ const std::string full_scene = R"(title = "quotes \" and \\ and \t tab"
 [domain]
 size = [2, 3, 4]
 gravity = [0.1, 0.2, -0.30000000000000004]
-walls = { x = "fixed", y = "open", bottom = "slip", top = "fixed" }
+walls = { x = "fixed", y = "open", bottom = "slip", top = "frictional", friction = 0.7 }
 [grid]
 spacing = 0.1
 [time]
@@ -155,7 +155,7 @@ TEST(Resolved, what_was_read_is_what_was_written)
     const auto      scene = load_full(directory);
     EXPECT_EQ(scene.title, "quotes \" and \\ and \t tab");
     EXPECT_EQ(scene.domain.gravity[2], -0.30000000000000004);
-    EXPECT_EQ(scene.domain.walls, (Walls{WallKind::fixed, WallKind::open, WallKind::slip, WallKind::fixed}));
+    EXPECT_EQ(scene.domain.walls, (Walls{WallKind::fixed, WallKind::open, WallKind::slip, WallKind::frictional, 0.7}));
     EXPECT_EQ(scene.time, (TimeOptions{1e-5, 7}));
     EXPECT_EQ(scene.numerics,
               (Numerics{Precision::double_, Transfer::apic, std::nullopt, ShapeFunctions::linear, PointMotion::frozen,
@@ -197,10 +197,11 @@ TEST(Resolved, shows_every_key_that_was_left_to_its_default)
 {
     const Directory directory;
     const auto      text = resolved_toml(load_text(directory, good_scene));
-    for (const auto* line : {"dt = \"auto\"", "substeps = \"auto\"", "precision = \"single\"", "pic_rate = \"auto\"",
-                             "linear_overlap = 0.001", "cohesion = 0.0", "family = \"sand\"", "sdf_cells = \"auto\"",
-                             "rolling_radius = \"auto\"", "lock = []", "damping = 0.0", "every = 0.02",
-                             "walls = { x = \"slip\", y = \"slip\", bottom = \"fixed\", top = \"open\" }"})
+    for (const auto* line :
+         {"dt = \"auto\"", "substeps = \"auto\"", "precision = \"single\"", "pic_rate = \"auto\"",
+          "linear_overlap = 0.001", "cohesion = 0.0", "family = \"sand\"", "sdf_cells = \"auto\"",
+          "rolling_radius = \"auto\"", "lock = []", "damping = 0.0", "every = 0.02",
+          "walls = { x = \"slip\", y = \"slip\", bottom = \"fixed\", top = \"open\", friction = 0.5 }"})
     {
         EXPECT_THAT(text, HasSubstr(std::string(line) + "\n"));
     }
