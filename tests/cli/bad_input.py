@@ -53,13 +53,16 @@ class BadScene(CommandTest):
     def test_negative_density(self):
         self.refuse_value("density            = 1600.0", "density            = -1600.0", ["density", "> 0"])
 
+    def refuse_walls(self, walls, mentions):
+        old = "gravity = [0.0, 0.0, -9.81]\n"
+        self.assertIn(old, SCENE)
+        self.refuse(SCENE.replace(old, f"{old}walls = {{ {walls} }}\n", 1), mentions)
+
     def test_wall_friction_below_zero(self):
-        walls = 'gravity = [0.0, 0.0, -9.81]\nwalls = { bottom = "frictional", friction = -0.1 }'
-        self.refuse_value("gravity = [0.0, 0.0, -9.81]", walls, ["friction", ">= 0"])
+        self.refuse_walls('bottom = "frictional", friction = -0.1', ["friction", ">= 0"])
 
     def test_unknown_wall(self):
-        walls = 'gravity = [0.0, 0.0, -9.81]\nwalls = { bottom = "rough" }'
-        self.refuse_value("gravity = [0.0, 0.0, -9.81]", walls, ["bottom", "frictional"])
+        self.refuse_walls('bottom = "rough"', ["bottom", "frictional"])
 
     def test_incompressible(self):
         self.refuse_value("poisson            = 0.3", "poisson            = 0.5", ["poisson", "0.5"])

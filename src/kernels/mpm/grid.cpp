@@ -40,7 +40,7 @@ void update_walls(const Cpu& cpu, const PagesView& pages, const Real* tiles, con
         {
             const Index3 node = node_at(at, place);
             if (!owns_pairs(step.walls, node)) { continue; }
-            update_owned(pages, tiles, step, node, motion, sums + page * grid_sums);
+            update_owned(pages, {at, page}, tiles, step, node, motion, sums + page * grid_sums);
         }
     };
     for_each_heavy(cpu, "update walls", pages.node_pages, update_page);

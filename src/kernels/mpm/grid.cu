@@ -52,7 +52,7 @@ struct UpdateWallPage
         if (!touches_wall(step.walls, at)) { return; }
         const Index3 node           = node_at(at, static_cast<int>(threadIdx.x));
         double       sum[grid_sums] = {};
-        if (owns_pairs(step.walls, node)) { update_owned(pages, tiles, step, node, motion, sum); }
+        if (owns_pairs(step.walls, node)) { update_owned(pages, {at, page}, tiles, step, node, motion, sum); }
         block_sum<page_cells, grid_sums>(sum, shared, total);
         if (threadIdx.x < grid_sums) { sums[page * grid_sums + threadIdx.x] += total[threadIdx.x]; }
     }

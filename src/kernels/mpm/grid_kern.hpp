@@ -15,20 +15,19 @@ TREAD_HD std::int32_t tile_page(const PagesView& pages, std::int64_t node_page, 
     return page >= 0 && pages.first_point[page] < pages.first_point[page + 1] ? page : -1;
 }
 
-/// Sum of the first `count` channels of the up to eight tiles that reach a node, lowest octant first. `tile_pages`: by
-/// octant.
-template<int count = node_channels, class Real>
+/// Sum of the up to eight tiles that reach a node, lowest octant first. `tile_pages`: by octant.
+template<class Real>
 TREAD_HD void sum_tiles(const std::int32_t* tile_pages, const Real* tiles, int place, Real* total)
 {
     const int x = place & 3, y = place >> 2 & 3, z = place >> 4;
-    for (int c = 0; c < count; ++c) { total[c] = 0; }
+    for (int c = 0; c < node_channels; ++c) { total[c] = 0; }
     for (int octant = 0; octant < octants; ++octant)
     {
         if (x >= octant_edge(octant, 0) || y >= octant_edge(octant, 1) || z >= octant_edge(octant, 2)) { continue; }
         if (tile_pages[octant] < 0) { continue; }
         const Real* tile = tiles + std::int64_t(tile_pages[octant]) * node_channels * tile_nodes +
                            octant_start(octant) + x + octant_edge(octant, 0) * (y + octant_edge(octant, 1) * z);
-        for (int c = 0; c < count; ++c) { total[c] += tile[c * tile_nodes]; }
+        for (int c = 0; c < node_channels; ++c) { total[c] += tile[c * tile_nodes]; }
     }
 }
 
@@ -101,20 +100,33 @@ TREAD_HD Vec3<Real> read_velocity(const Real* motion)
     return {motion[0], motion[page_cells], motion[2 * page_cells]};
 }
 
+/// Of a node that others finish, the mass stands where its change will.
+template<class Real>
+TREAD_HD Real& unfinished_mass(Real* motion)
+{
+    return motion[3 * page_cells];
+}
+
 /// One node's step, or, of a node that walls hold together with others, its first part. `channels`: what sum_tiles
 /// gave.
 template<class Real>
 TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* channels, Real* motion, double* sums)
 {
     const NodeStep<Real> begun = begin_node(step, node, channels);
+    const Held           held  = held_by(step.walls, node);
     if (begun.mass == 0)
     {
         for (int c = 0; c < motion_channels; ++c) { motion[c * page_cells] = 0; }
         return;
     }
-    const Vec3<Real> after = hold_alone(step.walls, node, begun.mass, begun.moved, sums);
-    if (is_paired(step.walls, node)) { write_velocity(after, motion); }
-    else { finish_node(step, begun, after, motion, sums); }
+    const Vec3<Real> after = held.alone ? hold_alone(step.walls, node, begun.mass, begun.moved, sums) : begun.moved;
+    if (!held.paired)
+    {
+        finish_node(step, begun, after, motion, sums);
+        return;
+    }
+    write_velocity(after, motion);
+    unfinished_mass(motion) = begun.mass;
 }
 
 } // namespace tread::mpm

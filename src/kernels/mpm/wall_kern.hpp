@@ -44,14 +44,23 @@ TREAD_HD Index3 beside(Index3 node, int axis, int steps)
     return {node.x + (axis == 0 ? steps : 0), node.y + (axis == 1 ? steps : 0), node.z + (axis == 2 ? steps : 0)};
 }
 
-/// Whether the node is held together with others, by any wall.
-TREAD_HD bool is_paired(const GridWalls& walls, Index3 node)
+/// How walls may hold a node: with its mirror image, alone, or, by different walls, both.
+struct Held
 {
+    bool paired = false;
+    bool alone  = false;
+};
+
+TREAD_HD Held held_by(const GridWalls& walls, Index3 node)
+{
+    Held held;
     for (int axis = 0; axis < 3; ++axis)
     {
-        if (wall_place(walls, axis, along(node, axis)).paired) { return true; }
+        const WallPlace place = wall_place(walls, axis, along(node, axis));
+        held.paired           = held.paired || place.paired;
+        held.alone            = held.alone || (place.end >= 0 && !place.paired);
     }
-    return false;
+    return held;
 }
 
 /// Whether a wall that pairs the node may hold this component of its velocity.

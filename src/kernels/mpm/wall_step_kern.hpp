@@ -9,7 +9,29 @@
 namespace tread::mpm
 {
 
-/// Velocity and mass of the group whose middle is `node`, as far as they are known, and where they are kept.
+/// A page of nodes: where it is, and which in the list of node pages.
+struct HomePage
+{
+    Index3       at;
+    std::int64_t number;
+};
+
+/// Number of the page that holds a node, -1 if none does; seldom another one than `home`.
+TREAD_HD std::int64_t page_holding(const PagesView& pages, const HomePage& home, Index3 node)
+{
+    const Index3 at = page_of(node);
+    if (at.x == home.at.x && at.y == home.at.y && at.z == home.at.z) { return home.number; }
+    return find_sorted(pages.node_page_key, pages.node_pages, page_key(at));
+}
+
+/// Where a page keeps the motion of one of its nodes.
+template<class Real>
+TREAD_HD Real* motion_of(Real* motion, std::int64_t page, Index3 node)
+{
+    return motion + page * motion_channels * page_cells + place_in_page(node);
+}
+
+/// Mass and velocity, as far as it is known, of the nodes around a wall's plane, and where they are kept.
 template<class Real>
 struct FoundGroup
 {
@@ -17,38 +39,19 @@ struct FoundGroup
     Real*           motion[3] = {nullptr, nullptr, nullptr};
 };
 
-/// Where a node's motion is; nullptr if it is in no page.
 template<class Real>
-TREAD_HD Real* node_motion(const PagesView& pages, Index3 node, Real* motion)
-{
-    const std::int64_t page = find_sorted(pages.node_page_key, pages.node_pages, page_key(page_of(node)));
-    return page < 0 ? nullptr : motion + page * motion_channels * page_cells + place_in_page(node);
-}
-
-/// Sum of the first `count` channels of the tiles of the node that keeps its motion at `kept`.
-template<int count, class Real>
-TREAD_HD void sum_tiles_of(const PagesView& pages, const Real* tiles, const Real* motion, const Real* kept, Real* total)
-{
-    const std::int64_t at = kept - motion, page = at / (motion_channels * page_cells);
-    std::int32_t       tile_pages[octants];
-    for (int octant = 0; octant < octants; ++octant) { tile_pages[octant] = tile_page(pages, page, octant); }
-    sum_tiles<count>(tile_pages, tiles, static_cast<int>(at % (motion_channels * page_cells)), total);
-}
-
-template<class Real>
-TREAD_HD FoundGroup<Real> find_group(const PagesView& pages, const Real* tiles, Real mass_floor, Index3 node, int axis,
-                                     int end, Real* motion)
+TREAD_HD FoundGroup<Real> find_group(const PagesView& pages, const HomePage& home, Index3 middle, int axis, int end,
+                                     Real* motion)
 {
     FoundGroup<Real> found;
     for (int i = 0; i < 3; ++i)
     {
-        Real* kept = node_motion(pages, beside(node, axis, end == 0 ? i - 1 : 1 - i), motion);
-        if (kept == nullptr) { continue; }
-        Real mass;
-        sum_tiles_of<1>(pages, tiles, motion, kept, &mass);
-        found.motion[i]         = kept;
-        found.group.mass[i]     = mass > mass_floor ? mass : Real(0);
-        found.group.velocity[i] = read_velocity(kept);
+        const Index3       node = beside(middle, axis, end == 0 ? i - 1 : 1 - i);
+        const std::int64_t page = page_holding(pages, home, node);
+        if (page < 0) { continue; }
+        found.motion[i]         = motion_of(motion, page, node);
+        found.group.mass[i]     = unfinished_mass(found.motion[i]);
+        found.group.velocity[i] = read_velocity(found.motion[i]);
     }
     return found;
 }
@@ -80,37 +83,41 @@ TREAD_HD void for_each_node(Index3 owner, Reach reach, F f)
 
 /// The wall that pairs `owner` along `axis` on all its groups.
 template<class Real>
-TREAD_HD void hold_groups(const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Index3 owner, int axis,
+TREAD_HD void hold_groups(const PagesView& pages, const HomePage& home, const GridWalls& walls, Index3 owner, int axis,
                           Real* motion, double* sums)
 {
-    const WallPlace place = wall_place(step.walls, axis, along(owner, axis));
+    const WallPlace place = wall_place(walls, axis, along(owner, axis));
     if (!place.paired) { return; }
-    Reach reach                                           = reach_of(step.walls, owner);
+    Reach reach                                           = reach_of(walls, owner);
     (axis == 0 ? reach.x : axis == 1 ? reach.y : reach.z) = 0;
     const auto hold_group                                 = [&](Index3 middle)
     {
-        FoundGroup<Real> found = find_group(pages, tiles, step.mass_floor, middle, axis, place.end, motion);
-        book_friction(hold(step.walls, axis, place.end, found.group), sums);
+        FoundGroup<Real> found = find_group(pages, home, middle, axis, place.end, motion);
+        book_friction(hold(walls, axis, place.end, found.group), sums);
         for (int i = 0; i < 3; ++i)
         {
-            if (found.motion[i] != nullptr) { write_velocity(found.group.velocity[i], found.motion[i]); }
+            if (found.group.mass[i] > 0) { write_velocity(found.group.velocity[i], found.motion[i]); }
         }
     };
     for_each_node(owner, reach, hold_group);
 }
 
-/// Finishes all nodes of the owner `owner`.
+/// Finishes all nodes that a node of page `home` owns.
 template<class Real>
-TREAD_HD void update_owned(const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Index3 owner,
-                           Real* motion, double* sums)
+TREAD_HD void update_owned(const PagesView& pages, const HomePage& home, const Real* tiles, const GridStep<Real>& step,
+                           Index3 owner, Real* motion, double* sums)
 {
-    for (int axis = 0; axis < 3; ++axis) { hold_groups(pages, tiles, step, owner, axis, motion, sums); }
+    for (int axis = 0; axis < 3; ++axis) { hold_groups(pages, home, step.walls, owner, axis, motion, sums); }
     const auto finish = [&](Index3 node)
     {
-        Real* kept = node_motion(pages, node, motion);
-        if (kept == nullptr) { return; }
+        const std::int64_t page = page_holding(pages, home, node);
+        if (page < 0) { return; }
+        Real* kept = motion_of(motion, page, node);
+        if (unfinished_mass(kept) == 0) { return; }
+        std::int32_t tile_pages[octants];
+        for (int octant = 0; octant < octants; ++octant) { tile_pages[octant] = tile_page(pages, page, octant); }
         Real channels[node_channels];
-        sum_tiles_of<node_channels>(pages, tiles, motion, kept, channels);
+        sum_tiles(tile_pages, tiles, place_in_page(node), channels);
         finish_node(step, begin_node(step, node, channels), read_velocity(kept), kept, sums);
     };
     for_each_node(owner, reach_of(step.walls, owner), finish);
