@@ -47,7 +47,9 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
         rigid_->find_pairs(choose_step(scene.time, limits_, pace_, 0).dt);
         pace_.shortest_contact = rigid_->shortest_contact();
     }
-    ledger_.emplace(gravity_, census());
+    const Census start = census();
+    ledger_.emplace(gravity_, start);
+    if (sand_) { guard_.emplace(limits_, start.sand.mass); }
 }
 
 template<class Exec, class Real>
@@ -62,6 +64,7 @@ void Simulation<Exec, Real>::step(const TimeStep& step, double time, StageClock&
 {
     if (sand_)
     {
+        guard_->allow(step, time);
         clock.run(exec_, stage::order, [&] { sand_->order(); });
     }
     if (plan_.body_contact)
@@ -113,13 +116,7 @@ void Simulation<Exec, Real>::measure(const TimeStep& step, double time)
 {
     const SandReport  sand  = sand_ ? sand_->report() : SandReport{};
     const RigidReport rigid = rigid_ ? rigid_->report(time) : RigidReport{};
-    if (sand.peaks[mpm::peak_stir] >= static_cast<double>(mpm::Stir::not_finite))
-    {
-        throw NumericalError(
-            fmt::format("t = {:.6g} s: a point of the sand has a velocity or stress that is not a number "
-                        "(dt = {:.4g} s, limit: {})",
-                        time, step.dt, step.limit));
-    }
+    if (guard_) { guard_->check(sand, 1, step, time); }
     pace_.largest_speed    = std::max(sand.largest_speed, rigid.largest_speed);
     pace_.shortest_contact = rigid.shortest_contact;
     pace_.overlap          = rigid.overlap;
@@ -131,11 +128,6 @@ void Simulation<Exec, Real>::measure(const TimeStep& step, double time)
             fmt::format("t = {:.6g} s: a substep of {:.4g} s is {:.3g} of a body's sqrt(m / sum K), over the "
                         "{} at which its contacts gain energy: more substeps, or a smaller dt",
                         time, substep, substep / pace_.shortest_contact, longest_substep));
-    }
-    if (sand_ && sand.largest_speed * step.dt > scene_.grid.spacing)
-    {
-        throw NumericalError(fmt::format("t = {:.6g} s: a point moves {:.3g} m/s, more than a cell a step of {:.4g} s",
-                                         time, sand.largest_speed, step.dt));
     }
     double contact_friction = 0;
     if (coupling_)

@@ -11,6 +11,7 @@
 #include "solver/recorder.hpp"
 #include "solver/rigid.hpp"
 #include "solver/sand.hpp"
+#include "solver/sand_guard.hpp"
 #include "solver/stage_clock.hpp"
 #include "solver/time_step.hpp"
 #include "solver/world.hpp"
@@ -82,6 +83,7 @@ private:
     std::optional<Rigid<Exec>>          rigid_;
     std::optional<Coupling<Exec, Real>> coupling_;
     std::optional<Ledger>               ledger_;
+    std::optional<SandGuard>            guard_;
 };
 
 } // namespace tread::solver

@@ -24,6 +24,7 @@ struct GatherStep
 enum PointSum : int
 {
     point_kinetic,       ///< J, after the step
+    point_strain,        ///< J, elastic, after the step
     point_plastic_work,  ///< J, of the step
     point_contact_work,  ///< J, of the step's contact forces on the sand
     point_stress_power,  ///< W, of the stress after the step on its rate of strain

@@ -140,6 +140,7 @@ TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t
     const StressUpdate<Real> update = update_stress(material, points.stress.get(i), state, gradient, step.dt);
     points.stress.set(i, update.stress);
     sums[point_stress_power] += double(points.volume[i] * stress_power(update.stress, gradient));
+    sums[point_strain] += double(points.volume[i] * elastic_energy_density(material, update.stress));
     if (points.plastic_shear != nullptr)
     {
         points.plastic_shear[i] = update.state.plastic_shear;

@@ -47,6 +47,7 @@ enum GridSum : int
     grid_damped,                                  ///< J, taken by local damping
     grid_wall_loss,                               ///< J, taken by walls, friction apart
     grid_friction,                                ///< J, taken by the friction of walls
+    grid_gravity_work,                            ///< J, done by gravity
     grid_net_force,                               ///< N, sum of |m dv/dt|: what is out of balance
     grid_wall_impulse,                            ///< N s (3)
     grid_damping_impulse = grid_wall_impulse + 3, ///< N s (3)

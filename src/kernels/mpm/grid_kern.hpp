@@ -78,6 +78,7 @@ TREAD_HD void finish_node(const GridStep<Real>& step, const NodeStep<Real>& node
     sums[grid_gravity_power] += m * double(step.gravity.dot(after));
     sums[grid_damped] -= double(step.dt * node.damping.dot(middle));
     sums[grid_wall_loss] -= m * double((after - node.moved).dot(middle));
+    sums[grid_gravity_work] += m * double(step.dt * step.gravity.dot(middle));
     sums[grid_net_force] += double(node.mass * change.norm() / step.dt);
     for (int c = 0; c < 3; ++c)
     {

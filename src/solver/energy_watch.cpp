@@ -1,0 +1,33 @@
+#include "solver/energy_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread::solver
+{
+
+EnergyWatch::EnergyWatch(double mass, double wave_speed)
+    : floor_(0.5e-20 * mass * wave_speed * wave_speed)
+    , held_(floor_)
+{
+}
+
+void EnergyWatch::add(const SandReport& sand, std::int64_t steps)
+{
+    const double strain  = sand.points[mpm::point_strain];
+    const bool   started = strain_ >= 0;
+    const double stored  = started ? strain - strain_ : 0;
+    strain_              = strain;
+    if (!started) { return; }
+
+    const double gravity = sand.grid[mpm::grid_gravity_work], contact = sand.points[mpm::point_contact_work];
+    const double stress_work = sand.grid[mpm::grid_kinetic_after] - sand.grid[mpm::grid_kinetic_before] +
+                               sand.grid[mpm::grid_damped] + sand.grid[mpm::grid_wall_loss] +
+                               sand.grid[mpm::grid_friction] - gravity - contact;
+    const double kept = std::pow(1 - 1 / memory, static_cast<double>(steps));
+    appeared_         = kept * appeared_ + stress_work + stored + sand.points[mpm::point_plastic_work];
+    received_         = kept * received_ + std::abs(gravity) + std::abs(contact);
+    held_             = std::max({kept * held_, strain + sand.points[mpm::point_kinetic], floor_});
+}
+
+} // namespace tread::solver

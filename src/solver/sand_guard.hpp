@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "solver/energy_watch.hpp"
+#include "solver/time_step.hpp"
+
+namespace tread::solver
+{
+
+/// Stops a run whose sand is unstable, before its energy has doubled without a source.
+class SandGuard
+{
+public:
+    /// `mass` kg, of the sand.
+    SandGuard(const PaceLimits& limits, double mass);
+
+    /// NumericalError when no sand is stable at such a step, before it does harm. `time` (s) is for the message.
+    void allow(const TimeStep& step, double time) const;
+
+    /// `sand`: what the `steps` steps that end with `step` did. NumericalError, with what grew and which limit, when
+    /// the state cannot be trusted any more.
+    void check(const SandReport& sand, std::int64_t steps, const TimeStep& step, double time);
+
+    /// c_p dt/h from which on sand was destroyed whatever its points a cell (verification catalogue E: 0.82 at 1 a
+    /// cell, 0.98 at 8). Where a scene is loose enough to live with more, its energy tells nothing.
+    static constexpr double hopeless_courant = 1;
+
+private:
+    [[noreturn]] void fail(const std::string& what, const TimeStep& step, double time) const;
+
+    double courant(const TimeStep& step) const { return limits_.wave_speed * step.dt / limits_.spacing; }
+
+    PaceLimits  limits_;
+    EnergyWatch energy_;
+};
+
+} // namespace tread::solver
