@@ -45,13 +45,14 @@ template<class Real>
 TREAD_HD Real mean_divergence(const PointsView<Real>& points, const PagesView& pages, std::int64_t cell,
                               const VelocityTile<Real>& tile)
 {
-    const Index3 node   = node_at(page_coordinates(pages.point_page_key[cell / page_cells]), static_cast<int>(cell % page_cells));
-    Real         volume = 0, flow = 0;
+    const Index3 node =
+        node_at(page_coordinates(pages.point_page_key[cell / page_cells]), static_cast<int>(cell % page_cells));
+    Real volume = 0, flow = 0;
     for (std::int64_t at = pages.cell_first_point[cell]; at < pages.cell_first_point[cell + 1]; ++at)
     {
         const std::int64_t i       = pages.point_at[at];
         const auto         stencil = stencil_above<Real>(node, points.position.get(i), pages.inverse_spacing,
-                                                            pages.inverse_spacing, pages.stencil_shift);
+                                                 pages.inverse_spacing, pages.stencil_shift);
         const Real         share   = points.volume[i] * points.volume_ratio[i];
         volume += share;
         flow += share * divergence_at(stencil, tile);

@@ -146,7 +146,7 @@ TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t
         points.plastic_shear[i] = update.state.plastic_shear;
         points.plastic_rate[i]  = update.state.plastic_rate;
         points.volume_gap[i]    = update.state.volume_gap;
-        const Real work = update.plastic_work + update.work_to_mean;
+        const Real work         = update.plastic_work + update.work_to_mean;
         if (work != 0) { sums[point_plastic_work] += double(work * points.volume[i]); }
     }
     return update.stress;
@@ -170,7 +170,7 @@ TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const
     points.velocity.set(i, velocity);
     if (points.affine.data != nullptr) { set_affine(points, i, seen, pages.spacing, pages.stencil_shift); }
     if (points.contact_force.data != nullptr) { keep_for_contact(points, i, seen, step.dt, sums); }
-    const std::int64_t place  = page * page_cells + place_in_page(cell);
+    const std::int64_t place = page * page_cells + place_in_page(cell);
     const Sym3<Real>   stress =
         update_material(points, i, law_gradient(seen.gradient, step.cell_divergence, place), step, sums);
 

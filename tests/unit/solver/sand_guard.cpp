@@ -122,7 +122,7 @@ TEST(SandGuard, SaysWhatWhereAndWhichLimit)
 {
     SandGuard  guard(limits(), 1);
     SandReport wild;
-    wild.peaks[mpm::peak_speed] = 50;
+    wild.largest_speed = 50;
     try
     {
         guard.check(wild, 1, {8e-4, 1, "fixed by the scene"}, 0.25);
