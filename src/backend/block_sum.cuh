@@ -14,10 +14,10 @@ struct LargerValue
 };
 
 /// Combines `width` values of each of a block's `threads` threads in a fixed order: a tree in each warp, then the warps
-/// one after the other; 0 combined with 0 must give 0. `shared` holds threads / 32 * width doubles, not in use by
-/// others. All threads must call it.
-template<int threads, int width, class Combine>
-__device__ void block_combine(const double* values, double* shared, double* out, Combine combine)
+/// one after the other; 0 combined with 0 must give 0. Calls keep(which, value) from thread `which` of the block.
+/// `shared` holds threads / 32 * width doubles, not in use by others. All threads must call it.
+template<int threads, int width, class Combine, class Keep>
+__device__ void block_combine(const double* values, double* shared, Combine combine, Keep keep)
 {
     constexpr int warps = threads / 32;
     for (int w = 0; w < width; ++w)
@@ -37,20 +37,20 @@ __device__ void block_combine(const double* values, double* shared, double* out,
     {
         double value = shared[threadIdx.x];
         for (int warp = 1; warp < warps; ++warp) { value = combine(value, shared[warp * width + threadIdx.x]); }
-        out[threadIdx.x] = value;
+        keep(static_cast<int>(threadIdx.x), value);
     }
 }
 
-template<int threads, int width>
-__device__ void block_sum(const double* values, double* shared, double* out)
+template<int threads, int width, class Keep>
+__device__ void block_sum(const double* values, double* shared, Keep keep)
 {
-    block_combine<threads, width>(values, shared, out, AddValues{});
+    block_combine<threads, width>(values, shared, AddValues{}, keep);
 }
 
-template<int threads, int width>
-__device__ void block_largest(const double* values, double* shared, double* out)
+template<int threads, int width, class Keep>
+__device__ void block_largest(const double* values, double* shared, Keep keep)
 {
-    block_combine<threads, width>(values, shared, out, LargerValue{});
+    block_combine<threads, width>(values, shared, LargerValue{}, keep);
 }
 
 } // namespace tread

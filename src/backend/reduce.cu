@@ -16,9 +16,10 @@ struct Larger
     __device__ double operator()(double a, double b) const { return a > b ? a : b; }
 };
 
-constexpr int fold_threads = 256;
+constexpr int fold_threads = 1024;
+constexpr int fold_lanes   = 4; ///< loads in flight of a thread
 
-/// One block a column: each thread folds a fixed stride of rows, then a fixed tree folds the threads.
+/// One block a column: each thread folds fixed strides of rows, then a fixed tree folds the threads.
 template<class Combine>
 struct FoldColumn
 {
@@ -31,12 +32,7 @@ struct FoldColumn
     __device__ void operator()(std::int64_t column) const
     {
         __shared__ double partial[fold_threads];
-        double            value = 0;
-        for (std::int64_t i = threadIdx.x; i < count; i += fold_threads)
-        {
-            value = combine(value, rows[i * width + column]);
-        }
-        partial[threadIdx.x] = value;
+        partial[threadIdx.x] = fold_stride(column);
         __syncthreads();
         for (unsigned half = fold_threads / 2; half > 0; half /= 2)
         {
@@ -47,6 +43,20 @@ struct FoldColumn
             __syncthreads();
         }
         if (threadIdx.x == 0) { out[column] = partial[0]; }
+    }
+
+    __device__ double fold_stride(std::int64_t column) const
+    {
+        double value[fold_lanes] = {};
+        for (std::int64_t first = threadIdx.x; first < count; first += fold_lanes * fold_threads)
+        {
+            for (int lane = 0; lane < fold_lanes; ++lane)
+            {
+                const std::int64_t row = first + lane * fold_threads;
+                if (row < count) { value[lane] = combine(value[lane], rows[row * width + column]); }
+            }
+        }
+        return combine(combine(value[0], value[1]), combine(value[2], value[3]));
     }
 };
 

@@ -96,7 +96,10 @@ void Driver<Exec, Real>::end_phase()
 template<class Exec, class Real>
 void Driver<Exec, Real>::advance()
 {
-    step_         = choose_step(scene_.time, simulation_.limits(), simulation_.pace(), step_.dt);
+    if (simulation_.measured())
+    {
+        step_ = choose_step(scene_.time, simulation_.limits(), simulation_.pace(), step_.dt);
+    }
     TimeStep step = step_;
     step.dt       = fitted(step.dt, phases_.latest_end() - time_);
     warn_once(step);

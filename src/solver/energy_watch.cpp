@@ -12,9 +12,9 @@ EnergyWatch::EnergyWatch(double mass, double wave_speed)
 {
 }
 
-void EnergyWatch::add(const SandReport& sand, std::int64_t steps)
+void EnergyWatch::add(const SandReport& sand)
 {
-    const double strain  = sand.points[mpm::point_strain];
+    const double strain  = sand.last_points[mpm::point_strain];
     const bool   started = strain_ >= 0;
     const double stored  = started ? strain - strain_ : 0;
     strain_              = strain;
@@ -24,10 +24,10 @@ void EnergyWatch::add(const SandReport& sand, std::int64_t steps)
     const double stress_work = sand.grid[mpm::grid_kinetic_after] - sand.grid[mpm::grid_kinetic_before] +
                                sand.grid[mpm::grid_damped] + sand.grid[mpm::grid_wall_loss] +
                                sand.grid[mpm::grid_friction] - gravity - contact;
-    const double kept = std::pow(1 - 1 / memory, static_cast<double>(steps));
+    const double kept = std::pow(1 - 1 / memory, static_cast<double>(sand.steps));
     appeared_         = kept * appeared_ + stress_work + stored + sand.points[mpm::point_plastic_work];
     received_         = kept * received_ + std::abs(gravity) + std::abs(contact);
-    held_             = std::max({kept * held_, strain + sand.points[mpm::point_kinetic], floor_});
+    held_             = std::max({kept * held_, strain + sand.last_points[mpm::point_kinetic], floor_});
 }
 
 } // namespace tread::solver

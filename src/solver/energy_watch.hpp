@@ -16,8 +16,8 @@ public:
     /// `mass` kg, `wave_speed` m/s: less energy than that of a strain of 1e-10 in all of the sand is none.
     EnergyWatch(double mass, double wave_speed);
 
-    /// `sand`: sums over `steps` steps, stores and peaks after the last of them. The first call sets the start.
-    void add(const SandReport& sand, std::int64_t steps);
+    /// The first call sets the start.
+    void add(const SandReport& sand);
 
     /// J, that appeared without a source.
     double appeared() const { return appeared_; }

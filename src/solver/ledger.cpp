@@ -12,6 +12,12 @@ double mass(const Census& census) { return census.sand.mass + census.rigid.mass;
 
 Vec3<double> momentum(const Census& census) { return census.sand.momentum + census.rigid.momentum; }
 
+/// W, of weight and stress on the points' velocity after a step, from sums by mpm::GridSum and mpm::PointSum.
+double power(const double* grid, const double* points)
+{
+    return grid[mpm::grid_gravity_power] - points[mpm::point_stress_power];
+}
+
 } // namespace
 
 Ledger::Ledger(Vec3<double> gravity, const Census& start)
@@ -30,14 +36,20 @@ double Ledger::stored(const Census& now) const
 
 double Ledger::gravity_energy(const Census& now) const { return now.rigid.gravity - gravity_.dot(now.sand.moment); }
 
-void Ledger::step(double dt, const SandReport& sand, const RigidReport& rigid, double contact_friction,
-                  double moving_mass)
+void Ledger::steps(double dt, std::int64_t steps, const SandReport& sand, const RigidReport& rigid,
+                   double contact_friction, double moving_mass)
 {
-    time_ += dt;
-    const double kinetic = sand.points[mpm::point_kinetic];
+    const double span = dt * static_cast<double>(steps);
+    time_ += span;
+    // Each step loses what the points held before it, less what the grid held, and what the grid holds after it, less
+    // what the points do: of the points' energies only the first and the last are left of the sum, and of the powers
+    // before the steps all but the last power and the one before them are those after the steps.
+    const double kinetic = sand.last_points[mpm::point_kinetic], last_power = power(sand.last_grid, sand.last_points);
     transfer_ += kinetic_points_ - kinetic + sand.grid[mpm::grid_kinetic_after] - sand.grid[mpm::grid_kinetic_before];
-    transfer_ += 0.5 * dt * (power_ - sand.grid[mpm::grid_power_before] + sand.points[mpm::point_contact_power]);
-    power_          = sand.grid[mpm::grid_gravity_power] - sand.points[mpm::point_stress_power];
+    transfer_ += 0.5 * dt *
+                 (power_ + power(sand.grid, sand.points) - last_power - sand.grid[mpm::grid_power_before] +
+                  sand.points[mpm::point_contact_power]);
+    power_          = last_power;
     half_step_      = 0.5 * dt * power_;
     kinetic_points_ = kinetic;
     plastic_ += sand.points[mpm::point_plastic_work];
@@ -45,7 +57,7 @@ void Ledger::step(double dt, const SandReport& sand, const RigidReport& rigid, d
     friction_ += contact_friction + rigid.friction + sand.grid[mpm::grid_friction] + sand.grid[mpm::grid_wall_loss];
     restitution_ += rigid.restitution;
     work_in_ += rigid.driver_work;
-    impulse_ += moving_mass * dt * gravity_ + Vec3<double>(sand.grid + mpm::grid_wall_impulse) +
+    impulse_ += moving_mass * span * gravity_ + Vec3<double>(sand.grid + mpm::grid_wall_impulse) +
                 Vec3<double>(sand.grid + mpm::grid_damping_impulse) + rigid.wall_impulse + rigid.damping_impulse +
                 rigid.driver_impulse;
 }

@@ -65,8 +65,9 @@ class Ledger
 public:
     Ledger(Vec3<double> gravity, const Census& start);
 
-    /// Books one step. `contact_friction`: J lost to sand-body friction in the step.
-    void step(double dt, const SandReport& sand, const RigidReport& rigid, double contact_friction, double moving_mass);
+    /// Books `steps` steps of dt (s) each. `contact_friction`: J lost to sand-body friction in them.
+    void steps(double dt, std::int64_t steps, const SandReport& sand, const RigidReport& rigid, double contact_friction,
+               double moving_mass);
 
     EnergyRow       energy(const Census& now);
     BalanceRow      balance(const Census& now);

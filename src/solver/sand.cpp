@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solver/materials.hpp"
 
@@ -17,9 +18,9 @@ constexpr double mass_floor_share = 1e-20;
 /// After so many new lists the order in memory is renewed: points of a cell that stand far apart in memory cost reads.
 constexpr int relists_an_order = 64;
 
-/// Room for a census, or for the sums and peaks of a step.
-constexpr std::int64_t totals_size = std::int64_t{mpm::census_count} + std::int64_t{mpm::grid_sums} +
-                                     std::int64_t{mpm::point_sums} + std::int64_t{mpm::point_peaks};
+/// Room for a census, or for what a report reads.
+constexpr std::int64_t totals_size = std::int64_t{mpm::census_count} + std::int64_t{mpm::tally_width(mpm::grid_sums)} +
+                                     std::int64_t{mpm::tally_width(mpm::point_sums)} + std::int64_t{mpm::point_peaks};
 
 template<class Real>
 std::vector<Real> cast(const std::vector<double>& values)
@@ -56,6 +57,13 @@ std::vector<Out> interleaved(const Array<Exec, T>& field, const mpm::Points<Exec
         for (std::size_t c = 0; c < width; ++c) { rows[i * width + c] = static_cast<Out>(planes[c * stride + i]); }
     }
     return rows;
+}
+
+/// Copies `count` values; gives what comes after them.
+const double* take(const double* from, int count, double* to)
+{
+    std::copy(from, from + count, to);
+    return from + count;
 }
 
 } // namespace
@@ -120,14 +128,23 @@ mpm::PagesView Sand<Exec, Real>::pages() const
 template<class Exec, class Real>
 void Sand<Exec, Real>::order()
 {
-    if (stir_ == mpm::Stir::none) { return; }
-    if (stir_ == mpm::Stir::moved && relists_ < relists_an_order)
+    if (listed_) { return; }
+    listed_ = true;
+    if (steps_ > 0)
     {
-        mpm::relist_points(exec_, pages_, moves(), relist_scratch_);
-        ++relists_;
+        list_anew();
+        return;
     }
+    if (stir_ == mpm::Stir::none) { return; }
+    if (stir_ == mpm::Stir::moved && relists_ < relists_an_order) { list_anew(); }
     else { order_in_memory(); }
-    stir_ = mpm::Stir::none;
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::list_anew()
+{
+    mpm::relist_points(exec_, pages_, moves(), relist_scratch_);
+    ++relists_;
 }
 
 template<class Exec, class Real>
@@ -138,12 +155,21 @@ void Sand<Exec, Real>::order_in_memory()
     const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
     tiles_.resize(point_pages * mpm::node_channels * mpm::tile_nodes);
     motion_.resize(node_pages * mpm::motion_channels * mpm::page_cells);
-    grid_rows_.resize(node_pages * mpm::grid_sums);
-    point_rows_.resize(point_pages * mpm::point_sums);
+    grid_rows_.resize(node_pages * mpm::tally_width(mpm::grid_sums));
+    point_rows_.resize(point_pages * mpm::tally_width(mpm::point_sums));
     peak_rows_.resize(point_pages * mpm::point_peaks);
+    clear_tallies();
     if (cell_means_) { cell_divergence_.resize(point_pages * mpm::page_cells); }
     moves_to_.resize(points_.count);
     move_counts_.resize(point_pages * mpm::move_counts);
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::clear_tallies()
+{
+    grid_rows_.fill_zero();
+    point_rows_.fill_zero();
+    peak_rows_.fill_zero();
 }
 
 template<class Exec, class Real>
@@ -177,25 +203,33 @@ void Sand<Exec, Real>::gather(double dt)
     const mpm::GatherStep<Real> step{static_cast<Real>(dt), materials_.data(), pic_rates_.data(),
                                      cell_divergence_.data()};
     mpm::gather(exec_, points_.view(), pages(), motion_.data(), step, moves(), point_rows_.data(), peak_rows_.data());
+    listed_ = false;
+    ++steps_;
 }
 
 template<class Exec, class Real>
 SandReport Sand<Exec, Real>::report()
 {
     const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
+    constexpr int      grid_width = mpm::tally_width(mpm::grid_sums), point_width = mpm::tally_width(mpm::point_sums);
     double*            grid   = totals_.data();
-    double*            points = grid + mpm::grid_sums;
-    double*            peaks  = points + mpm::point_sums;
-    sum_rows(exec_, grid_rows_.data(), node_pages, mpm::grid_sums, grid);
-    sum_rows(exec_, point_rows_.data(), point_pages, mpm::point_sums, points);
+    double*            points = grid + grid_width;
+    double*            peaks  = points + point_width;
+    sum_rows(exec_, grid_rows_.data(), node_pages, grid_width, grid);
+    sum_rows(exec_, point_rows_.data(), point_pages, point_width, points);
     largest_of_rows(exec_, peak_rows_.data(), point_pages, mpm::point_peaks, peaks);
-    const auto read = [](const Exec& exec, auto& to, const double* from) { copy_to_host(exec, to, from, sizeof(to)); };
-    SandReport report;
-    read(exec_, report.grid, grid);
-    read(exec_, report.points, points);
-    read(exec_, report.peaks, peaks);
+    double read[grid_width + point_width + mpm::point_peaks];
+    copy_to_host(exec_, read, grid, sizeof(read));
+
+    SandReport    report;
+    const double* from = read;
+    for (double* to : {report.grid, report.last_grid}) { from = take(from, mpm::grid_sums, to); }
+    for (double* to : {report.points, report.last_points}) { from = take(from, mpm::point_sums, to); }
+    take(from, mpm::point_peaks, report.peaks);
     report.largest_speed = std::sqrt(report.peaks[mpm::peak_speed_squared]);
-    stir_                = static_cast<mpm::Stir>(static_cast<int>(report.peaks[mpm::peak_stir]));
+    report.steps         = std::exchange(steps_, 0);
+    stir_                = report.stir();
+    clear_tallies();
     return report;
 }
 

@@ -16,13 +16,18 @@
 namespace tread::solver
 {
 
-/// What one step did to the sand, summed over its pages.
+/// What the steps since the last report did to the sand.
 struct SandReport
 {
-    double grid[mpm::grid_sums]    = {}; ///< by mpm::GridSum
-    double points[mpm::point_sums] = {}; ///< by mpm::PointSum
-    double peaks[mpm::point_peaks] = {}; ///< by mpm::PointPeak
-    double largest_speed           = 0;  ///< m/s, of a point
+    std::int64_t steps                        = 0;
+    double       grid[mpm::grid_sums]         = {}; ///< by mpm::GridSum, of all these steps
+    double       last_grid[mpm::grid_sums]    = {}; ///< of the last of them
+    double       points[mpm::point_sums]      = {}; ///< by mpm::PointSum
+    double       last_points[mpm::point_sums] = {};
+    double       peaks[mpm::point_peaks]      = {}; ///< by mpm::PointPeak
+    double       largest_speed                = 0;  ///< m/s, of a point
+
+    mpm::Stir stir() const { return static_cast<mpm::Stir>(static_cast<int>(peaks[mpm::peak_stir])); }
 };
 
 /// What the sand holds.
@@ -48,8 +53,8 @@ public:
     mpm::PagesView           pages() const;
     const mpm::GridGeometry& geometry() const { return geometry_; }
 
-    /// 1. Lists points by page and cell, if one has left its cell since; orders them in memory when one has gone beyond
-    /// the listed pages, or after many such changes.
+    /// 1. Lists points by page and cell, unless the last report says that none has left its cell; orders them in memory
+    /// when it says that one comes near pages that are not listed, and after many such changes. Does not wait.
     void order();
 
     /// 4. P2G.
@@ -61,10 +66,11 @@ public:
     /// 6. G2P and stress.
     void gather(double dt);
 
-    /// Of the last step; waits for it.
+    /// Of the steps since the last report; waits for them. Due before a point can have run ahead of the listed pages: a
+    /// report of several steps whose stir() is Stir::lost comes too late.
     SandReport report();
 
-    /// Of the present state, ordered or not since the last step; waits for it.
+    /// Of the present state; waits for it.
     SandCensus census();
 
     /// Of the last census, kg.
@@ -79,6 +85,8 @@ public:
 private:
     void           upload(const World& world, mpm::PointFields fields);
     void           order_in_memory();
+    void           list_anew();
+    void           clear_tallies();
     mpm::MovesView moves();
 
     Exec                                       exec_;
@@ -104,7 +112,9 @@ private:
     bool                                       cell_means_; ///< of the volumetric strain
     Array<Exec, Real>                          cell_divergence_;
     double                                     mass_    = 0;
-    mpm::Stir                                  stir_    = mpm::Stir::lost; ///< since the points were last listed
+    std::int64_t                               steps_   = 0;               ///< since the last report
+    mpm::Stir                                  stir_    = mpm::Stir::lost; ///< in those before it
+    bool                                       listed_  = false;           ///< since the last step
     int                                        relists_ = 0;               ///< since they were last ordered in memory
 };
 

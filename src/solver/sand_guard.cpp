@@ -20,18 +20,22 @@ void SandGuard::allow(const TimeStep& step, double time) const
     if (courant(step) > hopeless_courant) { fail("no sand is stable at this step", step, time); }
 }
 
-void SandGuard::check(const SandReport& sand, std::int64_t steps, const TimeStep& step, double time)
+void SandGuard::check(const SandReport& sand, const TimeStep& step, double time)
 {
-    if (sand.peaks[mpm::peak_stir] >= static_cast<double>(mpm::Stir::not_finite))
+    if (sand.stir() == mpm::Stir::not_finite)
     {
         fail("a point of the sand has a velocity or stress that is not a number", step, time);
+    }
+    if (sand.stir() == mpm::Stir::lost && sand.steps > 1)
+    {
+        fail(fmt::format("a point of the sand has gone more than a cell in {} steps", sand.steps), step, time);
     }
     const double speed = sand.largest_speed;
     if (speed * step.dt > limits_.spacing)
     {
         fail(fmt::format("a point of the sand moves {:.3g} m/s, more than a cell a step", speed), step, time);
     }
-    energy_.add(sand, steps);
+    energy_.add(sand);
     if (energy_.alarmed())
     {
         fail(fmt::format(

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,8 @@ namespace
 {
 
 constexpr double longest_substep = 0.8; ///< of sqrt(m / sum K): beyond it a contact gains energy (prototypes 1.7)
+constexpr double unseen_travel   = 0.5; ///< of a spacing: what sand may move before it is measured again
+constexpr int    most_unmeasured = 8;   ///< steps
 constexpr double least_gradient  = 0.5; ///< |grad phi| in contact under which a point is past the medial axis
 
 Vec3<double> vector(const scene::Vector3& v) { return {v[0], v[1], v[2]}; }
@@ -62,6 +65,7 @@ void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, d
 template<class Exec, class Real>
 void Simulation<Exec, Real>::step(const TimeStep& step, double time, StageClock& clock)
 {
+    if (unmeasured_ > 0 && step.dt != last_.dt) { measure(); } // the books take steps of one length together
     if (sand_)
     {
         guard_->allow(step, time);
@@ -89,7 +93,12 @@ void Simulation<Exec, Real>::step(const TimeStep& step, double time, StageClock&
         clock.run(exec_, stage::grid, [&] { sand_->update_grid(step.dt, damping_); });
         clock.run(exec_, stage::gather, [&] { sand_->gather(step.dt); });
     }
-    clock.run(exec_, stage::measure, [&] { measure(step, time); });
+    last_      = step;
+    last_time_ = time;
+    if (++unmeasured_ >= measure_every_)
+    {
+        clock.run(exec_, stage::measure, [&] { measure(); });
+    }
 }
 
 template<class Exec, class Real>
@@ -111,12 +120,27 @@ void Simulation<Exec, Real>::substeps(const TimeStep& step, StageClock& clock)
     }
 }
 
+/// Where nothing but sand moves, several steps may pass before it is measured: as many as no point needs for half a
+/// cell. A step that is over its limits is watched.
 template<class Exec, class Real>
-void Simulation<Exec, Real>::measure(const TimeStep& step, double time)
+void Simulation<Exec, Real>::choose_measuring()
 {
-    const SandReport  sand  = sand_ ? sand_->report() : SandReport{};
-    const RigidReport rigid = rigid_ ? rigid_->report(time) : RigidReport{};
-    if (guard_) { guard_->check(sand, 1, step, time); }
+    measure_every_ = 1;
+    if (rigid_ || !sand_ || over_limit(last_, limits_, pace_)) { return; }
+    const double travel = pace_.largest_speed * last_.dt;
+    measure_every_      = static_cast<std::int64_t>(
+        std::clamp(unseen_travel * scene_.grid.spacing / travel, 1.0, static_cast<double>(most_unmeasured)));
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::measure()
+{
+    const TimeStep&    step  = last_;
+    const double       time  = last_time_;
+    const std::int64_t steps = std::exchange(unmeasured_, 0);
+    const SandReport   sand  = sand_ ? sand_->report() : SandReport{};
+    const RigidReport  rigid = rigid_ ? rigid_->report(time) : RigidReport{};
+    if (guard_) { guard_->check(sand, step, time); }
     pace_.largest_speed    = std::max(sand.largest_speed, rigid.largest_speed);
     pace_.shortest_contact = rigid.shortest_contact;
     pace_.overlap          = rigid.overlap;
@@ -144,13 +168,16 @@ void Simulation<Exec, Real>::measure(const TimeStep& step, double time)
                                              contacts.flattest.value, least_gradient));
         }
     }
-    unbalanced_ = weight_ > 0 ? (sand.grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
-    ledger_->step(step.dt, sand, rigid, contact_friction, (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
+    unbalanced_ = weight_ > 0 ? (sand.last_grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
+    ledger_->steps(step.dt, steps, sand, rigid, contact_friction,
+                   (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
+    choose_measuring();
 }
 
 template<class Exec, class Real>
 Census Simulation<Exec, Real>::census()
 {
+    if (unmeasured_ > 0) { measure(); }
     Census now;
     if (sand_) { now.sand = sand_->census(); }
     if (rigid_) { now.rigid = rigid_->census(); }

@@ -46,9 +46,14 @@ public:
     void command(const std::vector<BodyCommand>& commands, double damping);
 
     /// One MPM step of `step.dt` with its contact substeps (design: one step). NumericalError, with what, where and
-    /// which limit, when the state cannot be trusted any more; `time` is for that message.
+    /// which limit, when the state cannot be trusted any more; `time` is for that message. Sand without bodies is
+    /// measured every few steps, which pace() and unbalanced() then follow.
     void step(const TimeStep& step, double time, StageClock& clock);
 
+    /// Whether pace() is of the last step: only then is there reason to choose another dt.
+    bool measured() const { return unmeasured_ == 0; }
+
+    /// Of the present state; measures first.
     Census census();
 
     /// The named bodies; force and torque are means since the last begin_mean().
@@ -67,7 +72,8 @@ public:
 
 private:
     void substeps(const TimeStep& step, StageClock& clock);
-    void measure(const TimeStep& step, double time);
+    void measure();
+    void choose_measuring();
 
     Exec                                exec_;
     const scene::Scene&                 scene_;
@@ -79,6 +85,10 @@ private:
     double                              weight_; ///< N, of sand and rocks
     double                              unbalanced_ = 1;
     double                              damping_    = 0;
+    TimeStep                            last_;              ///< step, and
+    double                              last_time_     = 0; ///< s, when it began
+    std::int64_t                        unmeasured_    = 0; ///< steps since the last measuring
+    std::int64_t                        measure_every_ = 1; ///< steps
     std::optional<Sand<Exec, Real>>     sand_;
     std::optional<Rigid<Exec>>          rigid_;
     std::optional<Coupling<Exec, Real>> coupling_;

@@ -81,6 +81,10 @@ Column settle(const Exec& exec, const std::string& text, double share)
         column.horizontal.push_back(-end[i]);
         column.vertical.push_back(-end[2 * stride + i]);
     }
+    sand.report();
+    sand.order();
+    sand.scatter();
+    sand.update_grid(experiment.dt(), 0);
     column.reaction = sand.report().grid[mpm::grid_wall_impulse + 2] / experiment.dt();
     column.weight   = sand.census().mass * gravity;
     return column;

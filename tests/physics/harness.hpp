@@ -50,7 +50,10 @@ public:
 private:
     void advance()
     {
-        step_    = solver::choose_step(scene_.time, simulation_.limits(), simulation_.pace(), step_.dt);
+        if (simulation_.measured())
+        {
+            step_ = solver::choose_step(scene_.time, simulation_.limits(), simulation_.pace(), step_.dt);
+        }
         step_.dt = solver::fitted(step_.dt, phases_.latest_end() - time_);
         std::vector<solver::BodyCommand> commands;
         for (std::size_t b = 0; b < scene_.bodies.size(); ++b)

@@ -29,7 +29,8 @@ struct CountPage
         {
             count_point(points, pages.point_at[at], materials, row);
         }
-        block_sum<census_threads, census_count>(row, shared, rows + page * census_count);
+        double* out = rows + page * census_count;
+        block_sum<census_threads, census_count>(row, shared, [=](int which, double value) { out[which] = value; });
     }
 };
 

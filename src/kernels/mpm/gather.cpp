@@ -12,14 +12,13 @@ namespace
 
 template<class Real>
 void gather_page(const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-                 const GatherStep<Real>& step, const MovesView& moves, std::int64_t page, double* sums, double* peaks)
+                 const GatherStep<Real>& step, const MovesView& moves, std::int64_t page, double* tally, double* peaks)
 {
     std::int32_t* count = moves.count + page * move_counts;
     std::fill(count, count + move_counts, 0);
     if (pages.first_point[page] == pages.first_point[page + 1])
     {
-        std::fill(sums, sums + point_sums, 0.0);
-        std::fill(peaks, peaks + point_peaks, 0.0);
+        std::fill(tally + point_sums, tally + tally_width(point_sums), 0.0);
         return;
     }
     Real tile[tile_nodes][lanes] = {};
@@ -28,10 +27,9 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
         const Real* source = tile_source(motion, pages.node_page_of + 8 * page, node);
         for (int c = 0; c < motion_channels; ++c) { tile[node][c] = source[c * page_cells]; }
     }
-    const Index3 low     = page_coordinates(pages.point_page_key[page]);
-    const Real   spacing = static_cast<Real>(pages.spacing);
-    for (int s = 0; s < point_sums; ++s) { sums[s] = 0; }
-    for (int p = 0; p < point_peaks; ++p) { peaks[p] = 0; }
+    const Index3 low              = page_coordinates(pages.point_page_key[page]);
+    const Real   spacing          = static_cast<Real>(pages.spacing);
+    double       sums[point_sums] = {};
     for (std::int64_t at = pages.first_point[page]; at < pages.first_point[page + 1]; ++at)
     {
         const std::int64_t i       = pages.point_at[at];
@@ -44,16 +42,20 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
         count[move.direction] += move.direction != own_page;
         count[stirred_points] += move.stir != Stir::none;
     }
+    for (int s = 0; s < point_sums; ++s) { book(tally, point_sums, s, sums[s]); }
 }
 
 } // namespace
 
 template<class Real>
 void gather(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-            const GatherStep<Real>& step, const MovesView& moves, double* sums, double* peaks)
+            const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks)
 {
     const auto item = [=](std::int64_t page)
-    { gather_page(points, pages, motion, step, moves, page, sums + page * point_sums, peaks + page * point_peaks); };
+    {
+        gather_page(points, pages, motion, step, moves, page, tallies + page * tally_width(point_sums),
+                    peaks + page * point_peaks);
+    };
     for_each_heavy(cpu, "gather", pages.point_pages, item);
 }
 

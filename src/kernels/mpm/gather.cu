@@ -155,7 +155,7 @@ struct GatherPage
     const Real*      motion;
     GatherStep<Real> step;
     MovesView        moves;
-    double*          sums;
+    double*          tallies;
     double*          peaks;
 
     __device__ void operator()(std::int64_t page) const
@@ -187,16 +187,18 @@ struct GatherPage
             moves.to[at]               = packed(move);
             if (move.stir != Stir::none) { count_move(move, count); }
         }
-        block_sum<threads, point_sums>(sum, shared_sums, sums + page * point_sums);
-        block_largest<threads, point_peaks>(peak, shared_peaks, peaks + page * point_peaks);
+        double* row  = tallies + page * tally_width(point_sums);
+        double* most = peaks + page * point_peaks;
+        block_sum<threads, point_sums>(sum, shared_sums, [=](int s, double value) { book(row, point_sums, s, value); });
+        block_largest<threads, point_peaks>(peak, shared_peaks,
+                                            [=](int p, double value) { most[p] = fmax(most[p], value); });
         if (threadIdx.x < move_counts) { moves.count[page * move_counts + threadIdx.x] = count[threadIdx.x]; }
     }
 
     /// Nothing happens on a page without points.
     __device__ void clear(std::int64_t page) const
     {
-        if (threadIdx.x < point_sums) { sums[page * point_sums + threadIdx.x] = 0; }
-        if (threadIdx.x < point_peaks) { peaks[page * point_peaks + threadIdx.x] = 0; }
+        if (threadIdx.x < point_sums) { tallies[page * tally_width(point_sums) + point_sums + threadIdx.x] = 0; }
         if (threadIdx.x < move_counts) { moves.count[page * move_counts + threadIdx.x] = 0; }
     }
 
@@ -212,13 +214,13 @@ struct GatherPage
 
 template<class Real>
 void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-            const GatherStep<Real>& step, const MovesView& moves, double* sums, double* peaks)
+            const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks)
 {
     const auto launch = [&](auto threads, auto moment)
     {
         for_each_block<threads, threads_an_sm<Real> / threads>(
             gpu, "gather", pages.point_pages,
-            GatherPage<threads, Real, decltype(moment)>{points, pages, motion, step, moves, sums, peaks});
+            GatherPage<threads, Real, decltype(moment)>{points, pages, motion, step, moves, tallies, peaks});
     };
     const auto with_threads = [&](auto threads)
     {

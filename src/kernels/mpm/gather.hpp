@@ -6,6 +6,7 @@
 #include "kernels/mpm/moves.hpp"
 #include "kernels/mpm/pages.hpp"
 #include "kernels/mpm/points.hpp"
+#include "kernels/mpm/tally.hpp"
 
 namespace tread::mpm
 {
@@ -20,7 +21,7 @@ struct GatherStep
         cell_divergence; ///< 1/s, of average_divergence: the laws' volumetric strain rate; null = the point's own
 };
 
-/// Per page, fp64: what the points' update did.
+/// Per page, fp64: what the points' update did in a step.
 enum PointSum : int
 {
     point_kinetic,       ///< J, after the step
@@ -32,7 +33,7 @@ enum PointSum : int
     point_sums
 };
 
-/// Per page, fp64, for the largest over all pages.
+/// Per page, fp64, largest since they were cleared.
 enum PointPeak : int
 {
     peak_speed_squared, ///< m2/s2
@@ -41,13 +42,13 @@ enum PointPeak : int
 };
 
 /// G2P: velocity (FLIP with PIC part, or APIC), position, stress and plastic state of every point; for coupled scenes
-/// also the interpolated grid velocity and the support acceleration. sums[point page][PointSum], peaks[point
-/// page][PointPeak]; `moves`: where every point is now.
+/// also the interpolated grid velocity and the support acceleration. Books the step in the page's tally of PointSum,
+/// and in peaks[point page][PointPeak]; `moves`: where every point is now.
 template<class Real>
 void gather(const Cpu&, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-            const GatherStep<Real>& step, const MovesView& moves, double* sums, double* peaks);
+            const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks);
 template<class Real>
 void gather(const Gpu&, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-            const GatherStep<Real>& step, const MovesView& moves, double* sums, double* peaks);
+            const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks);
 
 } // namespace tread::mpm

@@ -17,7 +17,7 @@ struct UpdatePage
     const Real*    tiles;
     GridStep<Real> step;
     Real*          motion;
-    double*        sums;
+    double*        tallies;
 
     __device__ void operator()(std::int64_t page) const
     {
@@ -31,7 +31,8 @@ struct UpdatePage
         sum_tiles(tile_pages, tiles, place, channels);
         update_node(step, node_at(page_coordinates(pages.node_page_key[page]), place), channels,
                     motion + page * motion_channels * page_cells + place, sum);
-        block_sum<page_cells, grid_sums>(sum, shared, sums + page * grid_sums);
+        double* row = tallies + page * tally_width(grid_sums);
+        block_sum<page_cells, grid_sums>(sum, shared, [=](int s, double value) { book(row, grid_sums, s, value); });
     }
 };
 
@@ -43,18 +44,19 @@ struct UpdateWallPage
     const Real*    tiles;
     GridStep<Real> step;
     Real*          motion;
-    double*        sums;
+    double*        tallies;
 
     __device__ void operator()(std::int64_t page) const
     {
-        __shared__ double shared[page_cells / 32 * grid_sums], total[grid_sums];
+        __shared__ double shared[page_cells / 32 * grid_sums];
         const Index3      at = page_coordinates(pages.node_page_key[page]);
         if (!touches_wall(step.walls, at)) { return; }
         const Index3 node           = node_at(at, static_cast<int>(threadIdx.x));
         double       sum[grid_sums] = {};
         if (owns_pairs(step.walls, node)) { update_owned(pages, {at, page}, tiles, step, node, motion, sum); }
-        block_sum<page_cells, grid_sums>(sum, shared, total);
-        if (threadIdx.x < grid_sums) { sums[page * grid_sums + threadIdx.x] += total[threadIdx.x]; }
+        double* row = tallies + page * tally_width(grid_sums);
+        block_sum<page_cells, grid_sums>(sum, shared,
+                                         [=](int s, double value) { book_more(row, grid_sums, s, value); });
     }
 };
 
@@ -62,18 +64,18 @@ struct UpdateWallPage
 
 template<class Real>
 void update_grid(const Gpu& gpu, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
-                 double* sums)
+                 double* tallies)
 {
     for_each_block<page_cells>(gpu, "update grid", pages.node_pages,
-                               UpdatePage<Real>{pages, tiles, step, motion, sums});
+                               UpdatePage<Real>{pages, tiles, step, motion, tallies});
 }
 
 template<class Real>
 void update_walls(const Gpu& gpu, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
-                  double* sums)
+                  double* tallies)
 {
     for_each_block<page_cells>(gpu, "update walls", pages.node_pages,
-                               UpdateWallPage<Real>{pages, tiles, step, motion, sums});
+                               UpdateWallPage<Real>{pages, tiles, step, motion, tallies});
 }
 
 template void update_grid(const Gpu&, const PagesView&, const float*, const GridStep<float>&, float*, double*);

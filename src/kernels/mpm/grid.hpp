@@ -3,6 +3,7 @@
 #include "backend/array.hpp"
 #include "kernels/mpm/pages.hpp"
 #include "kernels/mpm/scatter_kern.hpp"
+#include "kernels/mpm/tally.hpp"
 
 namespace tread::mpm
 {
@@ -37,7 +38,7 @@ struct GridStep
 /// Components of a node's result: velocity after the step (3), its change in the step (3).
 constexpr int motion_channels = 6;
 
-/// Per page, fp64: what the grid did to energy and momentum in the step.
+/// Per page, fp64: what the grid did to energy and momentum in a step.
 enum GridSum : int
 {
     grid_kinetic_before,                          ///< J, after P2G
@@ -55,23 +56,23 @@ enum GridSum : int
 };
 
 /// Sums the tiles that reach each node, in a fixed order, and updates its velocity (Eq. 2 of the paper, lumped mass):
-/// motion[node page][channel][place], sums[node page][GridSum]. Nodes within one spacing of a wall are left for
-/// update_walls, which must follow where any wall is not open.
+/// motion[node page][channel][place]; books the step in the page's tally of GridSum. Nodes within one spacing of a wall
+/// are left for update_walls, which must follow where any wall is not open.
 template<class Real>
 void update_grid(const Cpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
-                 double* sums);
+                 double* tallies);
 template<class Real>
 void update_grid(const Gpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
-                 double* sums);
+                 double* tallies);
 
 /// Finishes the nodes within one spacing of a wall: the splines' velocity vanishes on the wall's plane for every linear
-/// profile, whatever the wall holds (wall_kern.hpp). Adds to the sums of the pages on the wall.
+/// profile, whatever the wall holds (wall_kern.hpp). Books more of the step in the tallies of the pages on the wall.
 template<class Real>
 void update_walls(const Cpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
-                  double* sums);
+                  double* tallies);
 template<class Real>
 void update_walls(const Gpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
-                  double* sums);
+                  double* tallies);
 
 /// Whether any wall holds anything.
 inline bool has_walls(const GridWalls& walls)

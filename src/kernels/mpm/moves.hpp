@@ -12,6 +12,7 @@ enum class Stir : std::int32_t
 {
     none,      ///< same cell
     moved,     ///< another cell of a page that is listed
+    rim,       ///< a cell beside a page that is not listed: the points should be ordered anew soon
     lost,      ///< no listed page: the points must be ordered anew
     not_finite ///< position, velocity or stress
 };
@@ -35,6 +36,21 @@ struct MovesView
     std::int32_t*  count; ///< [point pages][move_counts]
 };
 
+/// Whether a page beside a cell (`place` of `page`) is not listed.
+TREAD_HD bool at_rim(const PagesView& pages, std::int64_t page, int place)
+{
+    const int at[] = {place & 3, place >> 2 & 3, place >> 4};
+    int       step[3];
+    for (int c = 0; c < 3; ++c) { step[c] = at[c] == 0 ? -1 : at[c] == page_edge - 1 ? 1 : 0; }
+    for (int octant = 1; octant < 8; ++octant)
+    {
+        const int direction =
+            own_page + step[0] * (octant & 1) + 3 * step[1] * (octant >> 1 & 1) + 9 * step[2] * (octant >> 2);
+        if (pages.neighbour[page * directions + direction] < 0 && direction != own_page) { return true; }
+    }
+    return false;
+}
+
 /// Of a point of cell `before` that is at `position` now. One that has no listed page to go to stays in its own until
 /// all are ordered anew.
 TREAD_HD Move move_to(const PagesView& pages, std::int64_t page, Index3 before, const Vec3<double>& position)
@@ -48,9 +64,10 @@ TREAD_HD Move move_to(const PagesView& pages, std::int64_t page, Index3 before, 
     const int    x = to.x - from.x, y = to.y - from.y, z = to.z - from.z;
     const Move   stay{own_page, place_in_page(before), Stir::lost};
     if (x < -1 || x > 1 || y < -1 || y > 1 || z < -1 || z > 1) { return stay; }
-    const int direction = own_page + x + 3 * y + 9 * z;
-    if (pages.neighbour[page * directions + direction] < 0) { return stay; }
-    return {direction, place_in_page(now), Stir::moved};
+    const int          direction = own_page + x + 3 * y + 9 * z;
+    const std::int32_t reached   = pages.neighbour[page * directions + direction];
+    if (reached < 0) { return stay; }
+    return {direction, place_in_page(now), at_rim(pages, reached, place_in_page(now)) ? Stir::rim : Stir::moved};
 }
 
 TREAD_HD std::uint16_t packed(const Move& move)

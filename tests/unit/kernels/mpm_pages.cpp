@@ -209,7 +209,8 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
     materials.assign({make_material(make_elasticity<double>(1e6, 0.3, 1600))});
     pic_rates.assign({0.0});
     const std::int64_t       page_count = pages.point_page_key.size(), node_pages = pages.node_page_key.size();
-    Array<TypeParam, double> motion(this->exec(), "motion"), sums(this->exec(), "sums", page_count * point_sums),
+    Array<TypeParam, double> motion(this->exec(), "motion"),
+        sums(this->exec(), "sums", page_count * tally_width(point_sums)),
         peaks(this->exec(), "peaks", page_count * point_peaks);
     std::vector<double> uniform(static_cast<std::size_t>(node_pages * motion_channels * page_cells), 0.0);
     for (std::size_t i = 0; i < uniform.size(); ++i)
@@ -223,6 +224,8 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
     for (int step = 0; step < 6; ++step) // 1.7 spacings: within the pages that are listed
     {
         const MovesView moves{to.data(), counts.data()};
+        sums.fill_zero();
+        peaks.fill_zero();
         gather(this->exec(), points.view(), pages.view(this->spacing, 0.5), motion.data(),
                GatherStep<double>{dt, materials.data(), pic_rates.data()}, moves, sums.data(), peaks.data());
         double     worst = 0;
@@ -231,7 +234,8 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
         {
             worst = std::max(worst, rows[row + peak_stir]);
         }
-        ASSERT_EQ(worst, static_cast<double>(Stir::moved)) << "step " << step;
+        ASSERT_GE(worst, static_cast<double>(Stir::moved)) << "step " << step;
+        ASSERT_LE(worst, static_cast<double>(Stir::rim)) << "step " << step;
         relist_points(this->exec(), pages, moves, scratch);
         this->expect_listed(points, pages, count);
     }
