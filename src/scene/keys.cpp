@@ -77,11 +77,12 @@ Keys<Numerics> numerics_keys()
     return {
         optional("precision", "", &Numerics::precision, word<Precision>({"single", "double"}),
                  "Of velocities, stresses and grid sums; positions always resolve 1e-10 m."),
-        optional("transfer", "", &Numerics::transfer, word<Transfer>({"flip", "apic"}),
+        optional("transfer", "", &Numerics::transfer, word<Transfer>({"flip", "apic", "aflip"}),
                  "How velocity goes between points and grid."),
         optional("pic_rate", "c_p/h", &Numerics::pic_rate, number_or("auto", at_least(0)),
                  "PIC part of FLIP per unit time. \"auto\": 0.2 for granular materials, 0.04 for elastic ones.")
-            .when("transfer = \"flip\"", [](const Numerics& numerics) { return numerics.transfer == Transfer::flip; }),
+            .when("transfer = \"flip\" or \"aflip\"",
+                  [](const Numerics& numerics) { return numerics.transfer != Transfer::apic; }),
         optional("shape_functions", "", &Numerics::shape_functions, word<ShapeFunctions>({"quadratic", "linear"}),
                  "B-splines of the grid."),
         optional("point_motion", "", &Numerics::point_motion, word<PointMotion>({"supported", "ballistic", "frozen"}),

@@ -29,7 +29,8 @@ enum class Precision
 enum class Transfer
 {
     flip,
-    apic
+    apic,
+    aflip
 };
 enum class ShapeFunctions
 {

@@ -77,12 +77,17 @@ private:
     double gravity_energy(const Census& now) const;
     double stored(const Census& now) const;
 
+    /// J, the half step of a run that is not stable. Symplectic Euler keeps stores and half step together even then:
+    /// one grows as the other falls.
+    double gained(const Census& now) const;
+
     Vec3<double>    gravity_;
     Census          start_;
     double          start_energy_ = 0;
     double          time_         = 0;
     double          kinetic_points_;
     double          power_ = 0, half_step_ = 0; ///< W, of the sand's forces on its points; J
+    double          stress_half_step_ = 0;
     double          plastic_ = 0, friction_ = 0, restitution_ = 0, damping_ = 0, transfer_ = 0, work_in_ = 0;
     Vec3<double>    impulse_ = Vec3<double>::Zero();
     io::ErrorReport errors_;

@@ -1,7 +1,10 @@
 #include "solver/materials.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <set>
 
 #include "scene/contacts.hpp"
 
@@ -161,16 +164,21 @@ double compression_wave_speed(const scene::Material& material)
     return std::sqrt(modulus / material.density);
 }
 
-std::vector<double> pic_rates(const scene::Scene& scene)
+double pic_rate(const scene::Scene& scene, const HostPoints& points)
 {
-    std::vector<double> rates;
-    for (const scene::Material& material : scene.materials)
+    if (scene.numerics.transfer == scene::Transfer::apic) { return std::numeric_limits<double>::infinity(); }
+    const std::set<std::uint8_t> present(points.material.begin(), points.material.end());
+    double                       largest = 0;
+    for (const std::uint8_t m : present)
     {
-        const bool   granular = scene::is_granular(material.model);
-        const double factor   = scene.numerics.pic_rate.value_or(granular ? 0.2 : 0.04);
-        rates.push_back(factor * compression_wave_speed(material) / scene.grid.spacing);
+        const scene::Material& material = scene.materials[m];
+        const bool             granular = scene::is_granular(material.model);
+        const double           factor   = scene.numerics.pic_rate.value_or(granular ? 0.2 : 0.04);
+        largest = std::max(largest, factor * compression_wave_speed(material) / scene.grid.spacing);
     }
-    return rates;
+    return largest;
 }
+
+double pic_share(double rate, double dt) { return std::isinf(rate) ? 1 : rate * dt / (1 + rate * dt); }
 
 } // namespace tread::solver

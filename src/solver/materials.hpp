@@ -6,6 +6,7 @@
 #include "kernels/dem/templates.hpp"
 #include "kernels/mpm/material_parameters.hpp"
 #include "scene/scene.hpp"
+#include "solver/world.hpp"
 
 namespace tread::solver
 {
@@ -24,9 +25,13 @@ double active_stress(const scene::Material& material, double vertical);
 /// Speed of compression waves sqrt((lambda + 2 mu) / rho), m/s.
 double compression_wave_speed(const scene::Material& material);
 
-/// PIC part of FLIP per unit time, 1/s, by material: the scene's pic_rate, or 0.2 c_p/h for granular and 0.04 c_p/h for
-/// elastic materials.
-std::vector<double> pic_rates(const scene::Scene& scene);
+/// Rate at which the points' velocities are drawn to the grid's, 1/s: the scene's pic_rate, or 0.2 c_p/h for granular
+/// and 0.04 c_p/h for elastic materials, the largest of the materials of `points`: one for all, since rates by material
+/// lose momentum where materials share nodes. Infinite for APIC.
+double pic_rate(const scene::Scene& scene, const HostPoints& points);
+
+/// The share of a step of dt (s) at that rate: between 0 and 1, and the same per unit time at any small dt.
+double pic_share(double rate, double dt);
 
 /// The kernels' words for the scene's.
 contact::RadiusRule  radius_rule(scene::PointRadius rule);

@@ -15,7 +15,7 @@ Plan make_plan(const scene::Scene& scene, const World& world)
     plan.coupling     = plan.sand && plan.bodies;
     plan.body_contact = plan.bodies && (world.bodies.size() > 1 || !world.planes.empty());
     plan.plasticity   = plan.sand && std::any_of(scene.materials.begin(), scene.materials.end(), plastic);
-    plan.affine       = plan.sand && scene.numerics.transfer == scene::Transfer::apic;
+    plan.affine       = plan.sand && scene.numerics.transfer != scene::Transfer::flip;
     plan.damping      = std::any_of(scene.phases.begin(), scene.phases.end(), damped);
     plan.rocks        = static_cast<std::int64_t>(world.bodies.size()) > world.bodies.named;
     plan.snapshots    = scene.output.snapshots_every > 0;

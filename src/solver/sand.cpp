@@ -90,12 +90,11 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     , census_rows_(exec, "point census")
     , totals_(exec, "sand totals", totals_size)
     , materials_(exec, "materials")
-    , pic_rates_(exec, "pic rates")
+    , pic_rate_(pic_rate(scene, world.points))
     , cell_means_(scene.numerics.volume_strain == scene::VolumeStrain::cell_average)
     , cell_divergence_(exec, "cell divergence")
 {
     materials_.assign(law_parameters<Real>(scene));
-    pic_rates_.assign(cast<Real>(pic_rates(scene)));
     upload(world, fields);
 }
 
@@ -200,8 +199,8 @@ void Sand<Exec, Real>::gather(double dt)
     {
         mpm::average_divergence(exec_, points_.view(), pages(), motion_.data(), cell_divergence_.data());
     }
-    const mpm::GatherStep<Real> step{static_cast<Real>(dt), materials_.data(), pic_rates_.data(),
-                                     cell_divergence_.data()};
+    const mpm::GatherStep<Real> step{static_cast<Real>(dt), materials_.data(),
+                                     static_cast<Real>(pic_share(pic_rate_, dt)), cell_divergence_.data()};
     mpm::gather(exec_, points_.view(), pages(), motion_.data(), step, moves(), point_rows_.data(), peak_rows_.data());
     listed_ = false;
     ++steps_;

@@ -108,7 +108,7 @@ private:
     Array<Exec, double>                        census_rows_;
     Array<Exec, double>                        totals_;
     Array<Exec, mpm::MaterialParameters<Real>> materials_;
-    Array<Exec, Real>                          pic_rates_;
+    double                                     pic_rate_;
     bool                                       cell_means_; ///< of the volumetric strain
     Array<Exec, Real>                          cell_divergence_;
     double                                     mass_    = 0;

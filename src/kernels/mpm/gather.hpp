@@ -16,9 +16,9 @@ struct GatherStep
 {
     Real                            dt;        ///< s
     const MaterialParameters<Real>* materials; ///< by PointsView::material
-    const Real*                     pic_rate;  ///< 1/s, by material: FLIP's part of PIC per unit time
-    const Real*
-        cell_divergence; ///< 1/s, of average_divergence: the laws' volumetric strain rate; null = the point's own
+    Real                            pic;       ///< share of the grid's velocity in the points', rest FLIP; 1 = APIC
+    /// 1/s, of average_divergence: the laws' volumetric strain rate; null = the point's own.
+    const Real* cell_divergence;
 };
 
 /// Per page, fp64: what the points' update did in a step.

@@ -92,16 +92,14 @@ TREAD_HD void set_affine(const PointsView<Real>& points, std::int64_t i, const S
     }
 }
 
-/// Velocity after the step: FLIP drawn towards PIC at a rate per unit time, so that the filter does not depend on dt
-/// (prototypes: an unfiltered FLIP fluidises sand at small steps); APIC takes the grid's velocity.
+/// Velocity after the step: FLIP with a share of the grid's. The share is the same for all materials: of points that
+/// share nodes, sum m (v_grid - v_flip) = 0 holds for all together, not for each, so that rates by material would not
+/// conserve momentum.
 template<class Real>
 TREAD_HD Vec3<Real> transferred_velocity(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen,
-                                         Real pic_rate, Real dt)
+                                         Real pic)
 {
-    if (points.affine.data != nullptr) { return seen.velocity; }
-    const Vec3<Real> flip = points.velocity.get(i) + seen.change;
-    const Real       pic  = pic_rate * dt / (Real(1) + pic_rate * dt);
-    return flip + pic * (seen.velocity - flip);
+    return (Real(1) - pic) * (points.velocity.get(i) + seen.change) + pic * seen.velocity;
 }
 
 template<class Real>
@@ -166,7 +164,7 @@ TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const
                            const PagesView& pages, std::int64_t page, const GatherStep<Real>& step, double* sums,
                            double* peaks)
 {
-    const Vec3<Real> velocity = transferred_velocity(points, i, seen, step.pic_rate[points.material[i]], step.dt);
+    const Vec3<Real> velocity = transferred_velocity(points, i, seen, step.pic);
     points.velocity.set(i, velocity);
     if (points.affine.data != nullptr) { set_affine(points, i, seen, pages.spacing, pages.stencil_shift); }
     if (points.contact_force.data != nullptr) { keep_for_contact(points, i, seen, step.dt, sums); }

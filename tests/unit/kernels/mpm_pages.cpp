@@ -205,9 +205,7 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
     start = points.position.to_host();
 
     Array<TypeParam, MaterialParameters<double>> materials(this->exec(), "materials");
-    Array<TypeParam, double>                     pic_rates(this->exec(), "pic rates");
     materials.assign({make_material(make_elasticity<double>(1e6, 0.3, 1600))});
-    pic_rates.assign({0.0});
     const std::int64_t       page_count = pages.point_page_key.size(), node_pages = pages.node_page_key.size();
     Array<TypeParam, double> motion(this->exec(), "motion"),
         sums(this->exec(), "sums", page_count * tally_width(point_sums)),
@@ -227,7 +225,7 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
         sums.fill_zero();
         peaks.fill_zero();
         gather(this->exec(), points.view(), pages.view(this->spacing, 0.5), motion.data(),
-               GatherStep<double>{dt, materials.data(), pic_rates.data()}, moves, sums.data(), peaks.data());
+               GatherStep<double>{dt, materials.data(), 0.0, nullptr}, moves, sums.data(), peaks.data());
         double     worst = 0;
         const auto rows  = peaks.to_host();
         for (std::size_t row = 0; row < rows.size(); row += point_peaks)
