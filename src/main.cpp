@@ -69,6 +69,14 @@ ExitCode code_of(const std::exception& error)
     return machine ? ExitCode::environment : ExitCode::numerical;
 }
 
+std::string text_of(const std::exception& error)
+{
+    return dynamic_cast<const std::bad_alloc*>(&error) == nullptr
+               ? error.what()
+               : "out of host memory while the scene was built or written: fewer points or rocks, a coarser grid, or a "
+                 "machine with more memory";
+}
+
 /// Rank 0 speaks for all: an error is thrown by every rank, or by none.
 template<class Command>
 ExitCode on_ranks(const Command& command)
@@ -83,7 +91,7 @@ ExitCode on_ranks(const Command& command)
     }
     catch (const std::exception& error)
     {
-        if (world.rank() == 0) { std::cerr << "tread: error: " << error.what() << std::endl; }
+        if (world.rank() == 0) { std::cerr << "tread: error: " << text_of(error) << std::endl; }
         code = code_of(error);
     }
     return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
@@ -308,7 +316,7 @@ int main(int argc, char** argv)
     }
     catch (const std::exception& error)
     {
-        std::cerr << "tread: error: " << error.what() << std::endl;
+        std::cerr << "tread: error: " << text_of(error) << std::endl;
         return static_cast<int>(code_of(error));
     }
 }

@@ -106,7 +106,7 @@ private:
     void take(std::int64_t capacity)
     {
         if (capacity == 0) { return; }
-        data_     = static_cast<T*>(allocate(exec_, bytes(capacity)));
+        data_     = static_cast<T*>(allocate(exec_, name_, bytes(capacity)));
         capacity_ = capacity;
         exec_.counters->allocated(name_, static_cast<std::int64_t>(bytes(capacity)));
     }

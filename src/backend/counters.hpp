@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -27,6 +28,14 @@ public:
         current_ -= bytes;
     }
 
+    /// What the run as a whole was estimated to want, for the message of an allocation that fails; 0 = not known.
+    void         expect(std::int64_t bytes) { expected_ = bytes; }
+    std::int64_t expected_bytes() const { return expected_; }
+
+    /// An allocation that would take more than this in all fails as if the memory were full.
+    void limit(std::int64_t bytes) { limit_ = bytes; }
+    bool has_room(std::int64_t bytes) const { return bytes <= limit_ - current_; }
+
     std::int64_t current_bytes() const { return current_; }
     std::int64_t peak_bytes() const { return peak_; }
 
@@ -48,8 +57,10 @@ private:
 
     Table        launches_;
     Table        bytes_;
-    std::int64_t current_ = 0;
-    std::int64_t peak_    = 0;
+    std::int64_t current_  = 0;
+    std::int64_t peak_     = 0;
+    std::int64_t expected_ = 0;
+    std::int64_t limit_    = std::numeric_limits<std::int64_t>::max();
 };
 
 } // namespace tread

@@ -2,21 +2,50 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <limits>
 #include <string>
 
-#include "base/errors.hpp"
+#include <fmt/format.h>
+
+#include "backend/counters.hpp"
+#include "base/bytes_text.hpp"
 
 namespace tread
 {
 
-void* allocate(const Cpu&, std::size_t bytes)
+EnvironmentError out_of_memory(const char* memory, const char* name, std::size_t bytes, std::int64_t free,
+                               const Counters& counters)
+{
+    const std::string in_all = counters.expected_bytes() > 0 ? fmt::format(", and is estimated to want {} in all",
+                                                                           bytes_text(counters.expected_bytes()))
+                                                             : "";
+    return EnvironmentError(
+        fmt::format("out of {} memory: '{}' wants {}, {} is free; the run holds {}{}: fewer points, a "
+                    "coarser grid, or a machine with more memory",
+                    memory, name, bytes_text(static_cast<std::int64_t>(bytes)), bytes_text(free),
+                    bytes_text(counters.current_bytes()), in_all));
+}
+
+std::int64_t free_bytes(const Cpu&)
+{
+    std::ifstream facts("/proc/meminfo");
+    std::string   word;
+    std::int64_t  kibibytes = 0;
+    while (facts >> word)
+    {
+        if (word == "MemAvailable:" && facts >> kibibytes) { return 1024 * kibibytes; }
+    }
+    return std::numeric_limits<std::int64_t>::max(); // not Linux, or no /proc: nothing is known
+}
+
+void* allocate(const Cpu& cpu, const char* name, std::size_t bytes)
 {
     constexpr std::size_t alignment = 64;
-    void*                 memory    = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-    if (memory == nullptr && bytes > 0)
-    {
-        throw EnvironmentError("out of host memory: " + std::to_string(bytes) + " bytes wanted at once");
-    }
+    const std::size_t     rounded   = (bytes + alignment - 1) / alignment * alignment;
+    const bool            allowed   = cpu.counters->has_room(static_cast<std::int64_t>(bytes));
+    void*                 memory    = allowed ? std::aligned_alloc(alignment, rounded) : nullptr;
+    if (memory == nullptr && bytes > 0) { throw out_of_memory("host", name, bytes, free_bytes(cpu), *cpu.counters); }
     return memory;
 }
 

@@ -1,19 +1,26 @@
+#include "backend/counters.hpp"
 #include "backend/cuda_check.cuh"
 #include "backend/memory.hpp"
 
 namespace tread
 {
 
-void* allocate(const Gpu&, std::size_t bytes)
+std::int64_t free_bytes(const Gpu&)
 {
-    void*             memory = nullptr;
-    const cudaError_t status = cudaMalloc(&memory, bytes);
+    std::size_t free = 0, total = 0;
+    check_cuda(cudaMemGetInfo(&free, &total), "memory of the device");
+    return static_cast<std::int64_t>(free);
+}
+
+void* allocate(const Gpu& gpu, const char* name, std::size_t bytes)
+{
+    void*             memory  = nullptr;
+    const bool        allowed = gpu.counters->has_room(static_cast<std::int64_t>(bytes));
+    const cudaError_t status  = allowed ? cudaMalloc(&memory, bytes) : cudaErrorMemoryAllocation;
     if (status == cudaErrorMemoryAllocation)
     {
-        std::size_t free = 0, total = 0;
-        cudaMemGetInfo(&free, &total);
-        throw EnvironmentError("out of device memory: " + std::to_string(bytes) + " bytes wanted at once, " +
-                               std::to_string(free) + " of " + std::to_string(total) + " free");
+        cudaGetLastError(); // a run that ends for want of memory leaves no error behind
+        throw out_of_memory("device", name, bytes, free_bytes(gpu), *gpu.counters);
     }
     check_cuda(status, "cudaMalloc");
     return memory;

@@ -1,16 +1,26 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "backend/execution.hpp"
+#include "base/errors.hpp"
 
 // Raw memory of a backend. Array is the owner; nothing else calls allocate and release.
 namespace tread
 {
 
-/// Throws EnvironmentError with the size wanted and the size free when there is not enough.
-void* allocate(const Cpu&, std::size_t bytes);
-void* allocate(const Gpu&, std::size_t bytes);
+/// Memory for what `name` says; out_of_memory when there is not enough.
+void* allocate(const Cpu&, const char* name, std::size_t bytes);
+void* allocate(const Gpu&, const char* name, std::size_t bytes);
+
+/// Bytes that the backend's memory still has, of this and of all other processes.
+std::int64_t free_bytes(const Cpu&);
+std::int64_t free_bytes(const Gpu&);
+
+/// What did not fit into `memory` ("host", "device"), how much is free, what the run holds and wants in all.
+EnvironmentError out_of_memory(const char* memory, const char* name, std::size_t bytes, std::int64_t free,
+                               const Counters& counters);
 
 void release(const Cpu&, void* memory);
 void release(const Gpu&, void* memory);

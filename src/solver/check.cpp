@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "base/bytes_text.hpp"
 #include "solver/bed.hpp"
 #include "solver/estimate.hpp"
 #include "solver/run.hpp"
@@ -8,14 +9,6 @@ namespace tread::solver
 {
 namespace
 {
-
-std::string bytes_text(std::int64_t bytes)
-{
-    const double value = static_cast<double>(bytes);
-    if (value < 1e6) { return fmt::format("{:.1f} kB", value / 1e3); }
-    if (value < 1e9) { return fmt::format("{:.1f} MB", value / 1e6); }
-    return fmt::format("{:.2f} GB", value / 1e9);
-}
 
 std::string shape_lines(const World& world)
 {
@@ -58,6 +51,7 @@ std::string check(const scene::Scene& scene)
                         bytes_text(wants.disk_bytes));
     text += fmt::format("dt {:.4g} s at the start (limit: {}), at most {:.4g} s simulated: {:.3g} steps at that dt\n",
                         wants.dt, wants.limit, wants.time, wants.steps);
+    if (plan.sand) { text += fmt::format("sand {:.0f} bytes a point, pages included\n", wants.bytes_a_point); }
     text += "partition: one rank\n";
     return text;
 }

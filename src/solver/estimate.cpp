@@ -1,9 +1,16 @@
 #include "solver/estimate.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <set>
+#include <unordered_set>
 
-#include "kernels/mpm/grid.hpp"
+#include <fmt/format.h>
+
+#include "base/bytes_text.hpp"
+#include "base/errors.hpp"
+#include "kernels/mpm/census.hpp"
+#include "kernels/mpm/gather.hpp"
+#include "kernels/mpm/moves.hpp"
 #include "kernels/mpm/pages.hpp"
 #include "solver/pace_limits.hpp"
 
@@ -12,35 +19,97 @@ namespace tread::solver
 namespace
 {
 
-/// Bytes of a point's fields (kernels/mpm/points.hpp) and of its share of the ordering's scratch.
+using mpm::Index3;
+
+std::int64_t bytes_of_real(const scene::Scene& scene)
+{
+    return scene.numerics.precision == scene::Precision::single_ ? 4 : 8;
+}
+
+/// Of a point's fields (kernels/mpm/points.hpp), its place in the lists, and its share of the ordering's scratch.
 std::int64_t bytes_per_point(const scene::Scene& scene, const Plan& plan)
 {
-    const std::int64_t real  = scene.numerics.precision == scene::Precision::single_ ? 4 : 8;
-    std::int64_t       bytes = 2 * 3 * 8 + (3 + 6 + 3) * real + 4 + 1;
-    if (plan.affine) { bytes += 9 * real; }
-    if (plan.plasticity) { bytes += 3 * real; }
-    if (plan.coupling) { bytes += 9 * real; }
-    constexpr std::int64_t ordering = 8 + 4 + 4 + 16;
-    const std::int64_t     buffers  = 3 * 8 + 9 * real + 4 + 1;
-    return bytes + ordering + buffers;
+    const std::int64_t real   = bytes_of_real(scene);
+    std::int64_t       fields = 2 * 3 * 8 + (3 + 6 + 3) * real + 4 + 1;
+    if (plan.affine) { fields += 9 * real; }
+    if (plan.plasticity) { fields += 3 * real; }
+    if (plan.coupling) { fields += 9 * real; }
+    constexpr std::int64_t lists = 4 + 1 + 4 + 1 + 2, keys = 8 + 4 + 4, sort = 16;
+    const std::int64_t     buffers = 8 + real + 4 + 1;
+    return fields + lists + keys + sort + buffers;
 }
 
-std::int64_t count_pages(const World& world)
+struct PageCounts
 {
-    std::set<std::uint64_t> pages;
+    std::int64_t holding; ///< points
+    std::int64_t points;  ///< point pages: those and their neighbours within reach
+    std::int64_t nodes;
+};
+
+/// Pages within a cell's reach, as order_points lists them: along each axis its own and that beyond the nearer face.
+template<class Add>
+void add_reached(mpm::Index3 cell, const mpm::GridGeometry& geometry, const Add& add)
+{
+    const auto   nearer = [](std::int32_t at) { return (at & 3) < mpm::page_edge / 2 ? -1 : 1; };
+    const Index3 page   = mpm::page_of(cell);
+    const double edge   = mpm::page_edge * geometry.spacing;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+        const Index3 reached{page.x + (corner & 1) * nearer(cell.x), page.y + (corner >> 1 & 1) * nearer(cell.y),
+                             page.z + (corner >> 2) * nearer(cell.z)};
+        const double corner_at[] = {reached.x * edge, reached.y * edge, reached.z * edge};
+        const double margin      = 3 * geometry.spacing;
+        bool         kept        = true;
+        for (int c = 0; c < 3; ++c)
+        {
+            kept = kept && corner_at[c] + edge >= -margin && (c == 2 || corner_at[c] <= geometry.size[c] + margin);
+        }
+        if (kept || corner == 0) { add(mpm::page_key(reached)); }
+    }
+}
+
+PageCounts count_pages(const World& world)
+{
+    std::unordered_set<std::uint64_t> holding, points, nodes;
+    std::uint64_t                     last = mpm::no_page; // points stand cell by cell along x
     for (const Vec3<double>& x : world.points.position)
     {
-        pages.insert(
-            mpm::page_key(mpm::page_of(mpm::cell_of(x, 1 / world.geometry.spacing, world.geometry.stencil_shift))));
+        const Index3 cell = mpm::cell_of(x, 1 / world.geometry.spacing, world.geometry.stencil_shift);
+        if (mpm::cell_key(cell) == last) { continue; }
+        last = mpm::cell_key(cell);
+        holding.insert(mpm::page_key(mpm::page_of(cell)));
+        add_reached(cell, world.geometry, [&](std::uint64_t key) { points.insert(key); });
     }
-    return static_cast<std::int64_t>(pages.size());
+    for (const std::uint64_t key : points)
+    {
+        const Index3 page = mpm::page_coordinates(key);
+        for (int octant = 0; octant < 8; ++octant)
+        {
+            nodes.insert(mpm::page_key({page.x + (octant & 1), page.y + (octant >> 1 & 1), page.z + (octant >> 2)}));
+        }
+    }
+    return {static_cast<std::int64_t>(holding.size()), static_cast<std::int64_t>(points.size()),
+            static_cast<std::int64_t>(nodes.size())};
 }
 
-std::int64_t bytes_per_page(const scene::Scene& scene)
+/// Tiles, lists and sums of the pages (kernels/mpm/pages.hpp, solver/sand.cpp), and the keys they are found by.
+std::int64_t page_bytes(const scene::Scene& scene, const PageCounts& pages)
 {
-    const std::int64_t real = scene.numerics.precision == scene::Precision::single_ ? 4 : 8;
-    return (mpm::node_channels * mpm::tile_nodes + 2 * mpm::motion_channels * mpm::page_cells) * real +
-           8 * (mpm::grid_sums + mpm::page_cells + 20);
+    const std::int64_t real = bytes_of_real(scene);
+    const std::int64_t point_page =
+        mpm::node_channels * mpm::tile_nodes * real + 2 * 4 * (mpm::page_cells + 1) + 8 +
+        4 * (mpm::directions + mpm::move_counts + 8) +
+        8 * (std::int64_t{mpm::point_sums} + std::int64_t{mpm::point_peaks} + std::int64_t{mpm::census_count});
+    const std::int64_t node_page =
+        mpm::motion_channels * mpm::page_cells * real + 8 * (std::int64_t{mpm::grid_sums} + 1) + 4 * 8;
+    const std::int64_t found = std::max(mpm::directions * pages.holding, 8 * pages.points);
+    return pages.points * point_page + pages.nodes * node_page + found * (8 + 4);
+}
+
+std::int64_t sand_bytes(const scene::Scene& scene, const World& world, const Plan& plan)
+{
+    const auto points = static_cast<std::int64_t>(world.points.size());
+    return points * bytes_per_point(scene, plan) + page_bytes(scene, count_pages(world));
 }
 
 std::int64_t template_bytes(const World& world)
@@ -65,6 +134,15 @@ double longest_time(const scene::Scene& scene)
 
 } // namespace
 
+void require_room(const char* memory, std::int64_t wanted, std::int64_t free)
+{
+    if (0.9 * static_cast<double>(wanted) <= static_cast<double>(free)) { return; }
+    throw EnvironmentError(
+        fmt::format("out of {} memory: the scene wants about {}, {} is free: fewer points, a coarser "
+                    "grid, or a machine with more memory",
+                    memory, bytes_text(wanted), bytes_text(free)));
+}
+
 Estimate estimate(const scene::Scene& scene, const World& world, const Plan& plan)
 {
     constexpr std::int64_t bytes_per_body = 800, snapshot_bytes_per_point = 100, snapshot_bytes_per_body = 140;
@@ -76,7 +154,9 @@ Estimate estimate(const scene::Scene& scene, const World& world, const Plan& pla
     wants.memory_bytes = bodies * bytes_per_body + template_bytes(world);
     if (plan.sand)
     {
-        wants.memory_bytes += points * bytes_per_point(scene, plan) + count_pages(world) * bytes_per_page(scene);
+        const std::int64_t sand = sand_bytes(scene, world, plan);
+        wants.memory_bytes += sand;
+        wants.bytes_a_point = static_cast<double>(sand) / static_cast<double>(points);
     }
     const double snapshots = plan.snapshots ? 2 + wants.time / scene.output.snapshots_every : 0;
     const double rows      = 2 + wants.time / scene.output.every;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "backend/memory.hpp"
 #include "base/version.hpp"
 #include "io/progress.hpp"
 #include "scene/resolved.hpp"
@@ -116,11 +117,15 @@ ExitCode run_precision(const Exec& exec, Job& job)
 
 ExitCode run_backend(Backend backend, Job& job)
 {
-    Counters counters;
+    Counters           counters;
+    const std::int64_t wanted = estimate(job.scene, job.world, job.plan).memory_bytes;
+    counters.expect(wanted);
     ExitCode code = ExitCode::finished;
     if (backend == Backend::cpu)
     {
-        code                        = run_precision(Cpu{&counters}, job);
+        const Cpu cpu{&counters};
+        require_room("host", wanted, free_bytes(cpu));
+        code                        = run_precision(cpu, job);
         job.summary.peak_host_bytes = counters.peak_bytes();
     }
 #ifdef TREAD_WITH_CUDA
@@ -128,6 +133,7 @@ ExitCode run_backend(Backend backend, Job& job)
     {
         const Device device(0, counters);
         job.summary.devices.push_back(device_facts(0).name);
+        require_room("device", wanted, free_bytes(device.gpu()));
         code                          = run_precision(device.gpu(), job);
         job.summary.peak_device_bytes = counters.peak_bytes();
     }

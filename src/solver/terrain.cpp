@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -70,6 +71,18 @@ void remove_inside(HostPoints& points, const Space& space)
     keep_points(points, kept);
 }
 
+/// Lists of points are 32-bit.
+void require_countable(const HostPoints& points)
+{
+    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+    if (points.size() > most)
+    {
+        throw InputError(fmt::format("[[terrain]]: over {} points; accepted: at most that many on one device; coarsen "
+                                     "[grid] spacing or points_per_cell",
+                                     most));
+    }
+}
+
 void fill(const Space& space, const std::array<Sites, 3>& axes, const PointKind& kind, HostPoints& points)
 {
     // Points go layer by layer, the surfaces' levels are asked for once a column.
@@ -94,6 +107,7 @@ void fill(const Space& space, const std::array<Sites, 3>& axes, const PointKind&
             const auto& [low, high] = level[column];
             if (low <= x[2] && x[2] < high && contains(space.region, x)) { append(points, x, kind); }
         }
+        require_countable(points);
     }
 }
 
