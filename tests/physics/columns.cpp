@@ -139,6 +139,25 @@ TYPED_TEST(Columns, HydrostaticOnSlipAndFixedFloors)
     }
 }
 
+/// Linear splines know one stress a cell, that of its middle: a quarter of a cell's weight off at the points. There is
+/// no node beyond the wall, and none is missed.
+TYPED_TEST(Columns, HydrostaticWithLinearSplines)
+{
+    for (const std::string floor : {"slip", "fixed"})
+    {
+        const double spacing = 0.005, most = 0.25 * spacing / height + base_stress / young;
+        std::string  text = column_text(spacing, elastic, "bottom = \"" + floor + "\", top = \"open\"");
+        text.insert(text.find("precision"), "shape_functions = \"linear\"\n");
+        const Column column = settle(this->exec(), text, 0);
+        const double error  = worst(column, 2 * spacing, height);
+        test::report("stress, error over base (linear, " + floor + " floor)", error, 0, most,
+                     "a quarter cell's weight");
+        test::report("floor reaction over weight", column.reaction / column.weight, 1, 1e-3, "at rest");
+        EXPECT_LT(error, most);
+        EXPECT_NEAR(column.reaction / column.weight, 1, 1e-3);
+    }
+}
+
 /// verification C2: K = nu / (1 - nu) if that is over Ka; sand yields, and K = Ka, if not. The last twentieth of the
 /// load comes on in the run; what overshoots, sqrt((1 - 0.7) / (1 + 0.7)) of it, comes off elastically again, so that a
 /// plastic K keeps (1 - K0 / Ka) of that: 0.5 %.

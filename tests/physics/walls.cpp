@@ -94,6 +94,25 @@ TYPED_TEST(WallsOfSand, BlockSlidesByCoulombsLaw)
     }
 }
 
+/// What friction takes is its force times the way, and it stands in the books as friction.
+TYPED_TEST(WallsOfSand, FrictionIsInTheLedger)
+{
+    const double                slope = std::numbers::pi / 4;
+    test::Experiment<TypeParam> slide(this->exec(), block_text(45, "bottom = \"frictional\", friction = 0.3", 0.5));
+    const Motion                start = motion(slide);
+    slide.run();
+    const Motion            end = motion(slide);
+    const auto              now = slide.simulation().census();
+    const solver::EnergyRow row = slide.simulation().ledger().energy(now);
+    const double work = 0.3 * now.sand.mass * gravity * std::cos(slope) * (end.position[0] - start.position[0]);
+    test::report("friction in J", row.friction, work, 0.03 * work,
+                 "force 1 %, and its foot shears back by up to a cell's strain");
+    EXPECT_NEAR(row.friction, work, 0.03 * work);
+    const double error = slide.simulation().ledger().balance(now).impulse_error;
+    test::report("impulse error over weight x time", error, 0, 1e-10, "fp64 rounding (verification D4)");
+    EXPECT_LT(error, 1e-10);
+}
+
 /// verification A5: under atan 0.3 = 16.7 degrees it stays, but for the shear that its own weight gives it.
 TYPED_TEST(WallsOfSand, BlockSticksBelowTheAngleOfFriction)
 {
