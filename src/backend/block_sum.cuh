@@ -16,13 +16,13 @@ struct LargerValue
 /// Combines `width` values of each of a block's `threads` threads in a fixed order: a tree in each warp, then the warps
 /// one after the other; 0 combined with 0 must give 0. Calls keep(which, value) from thread `which` of the block.
 /// `shared` holds threads / 32 * width doubles, not in use by others. All threads must call it.
-template<int threads, int width, class Combine, class Keep>
-__device__ void block_combine(const double* values, double* shared, Combine combine, Keep keep)
+template<int threads, int width, class Value, class Combine, class Keep>
+__device__ void block_combine(const Value* values, double* shared, Combine combine, Keep keep)
 {
     constexpr int warps = threads / 32;
     for (int w = 0; w < width; ++w)
     {
-        double value = values[w];
+        double value = static_cast<double>(values[w]);
         if (__any_sync(0xffffffffu, value != 0)) // many sums are zero on most pages
         {
             for (int half = 16; half > 0; half /= 2)
@@ -41,14 +41,14 @@ __device__ void block_combine(const double* values, double* shared, Combine comb
     }
 }
 
-template<int threads, int width, class Keep>
-__device__ void block_sum(const double* values, double* shared, Keep keep)
+template<int threads, int width, class Value, class Keep>
+__device__ void block_sum(const Value* values, double* shared, Keep keep)
 {
     block_combine<threads, width>(values, shared, AddValues{}, keep);
 }
 
-template<int threads, int width, class Keep>
-__device__ void block_largest(const double* values, double* shared, Keep keep)
+template<int threads, int width, class Value, class Keep>
+__device__ void block_largest(const Value* values, double* shared, Keep keep)
 {
     block_combine<threads, width>(values, shared, LargerValue{}, keep);
 }

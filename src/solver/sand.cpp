@@ -82,6 +82,8 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     , relist_scratch_(exec)
     , moves_to_(exec, "point moves")
     , move_counts_(exec, "page moves")
+    , stirred_in_(exec, "last step with moves", 1)
+    , wall_pages_(exec, "wall pages")
     , tiles_(exec, "tiles")
     , motion_(exec, "grid motion")
     , grid_rows_(exec, "grid sums")
@@ -95,6 +97,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     , cell_divergence_(exec, "cell divergence")
 {
     materials_.assign(law_parameters<Real>(scene));
+    stirred_in_.fill_zero();
     upload(world, fields);
 }
 
@@ -159,6 +162,10 @@ void Sand<Exec, Real>::order_in_memory()
     peak_rows_.resize(point_pages * mpm::point_peaks);
     clear_tallies();
     if (cell_means_) { cell_divergence_.resize(point_pages * mpm::page_cells); }
+    if (mpm::has_walls(walls_))
+    {
+        mpm::list_wall_pages(exec_, pages(), walls_, wall_pages_, order_scratch_.marks, order_scratch_.sort);
+    }
     moves_to_.resize(points_.count);
     move_counts_.resize(point_pages * mpm::move_counts);
 }
@@ -174,7 +181,7 @@ void Sand<Exec, Real>::clear_tallies()
 template<class Exec, class Real>
 mpm::MovesView Sand<Exec, Real>::moves()
 {
-    return {moves_to_.data(), move_counts_.data()};
+    return {moves_to_.data(), move_counts_.data(), stirred_in_.data(), step_};
 }
 
 template<class Exec, class Real>
@@ -189,12 +196,14 @@ void Sand<Exec, Real>::update_grid(double dt, double damping)
     const mpm::GridStep<Real> step{static_cast<Real>(dt), gravity_, static_cast<Real>(damping), mass_floor_, walls_};
     mpm::update_grid(exec_, pages(), tiles_.data(), step, motion_.data(), grid_rows_.data());
     if (!mpm::has_walls(walls_)) { return; }
-    mpm::update_walls(exec_, pages(), tiles_.data(), step, motion_.data(), grid_rows_.data());
+    mpm::update_walls(exec_, pages(), {wall_pages_.data(), wall_pages_.size()}, tiles_.data(), step, motion_.data(),
+                      grid_rows_.data());
 }
 
 template<class Exec, class Real>
 void Sand<Exec, Real>::gather(double dt)
 {
+    ++step_;
     if (cell_means_)
     {
         mpm::average_divergence(exec_, points_.view(), pages(), motion_.data(), cell_divergence_.data());

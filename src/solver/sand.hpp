@@ -11,6 +11,7 @@
 #include "kernels/mpm/order.hpp"
 #include "kernels/mpm/relist.hpp"
 #include "kernels/mpm/scatter.hpp"
+#include "kernels/mpm/wall_pages.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
@@ -100,6 +101,8 @@ private:
     mpm::RelistScratch<Exec>                   relist_scratch_;
     Array<Exec, std::uint16_t>                 moves_to_;
     Array<Exec, std::int32_t>                  move_counts_;
+    Array<Exec, std::int64_t>                  stirred_in_;
+    Array<Exec, std::int32_t>                  wall_pages_;
     Array<Exec, Real>                          tiles_;
     Array<Exec, Real>                          motion_;
     Array<Exec, double>                        grid_rows_;
@@ -112,6 +115,7 @@ private:
     bool                                       cell_means_; ///< of the volumetric strain
     Array<Exec, Real>                          cell_divergence_;
     double                                     mass_    = 0;
+    std::int64_t                               step_    = 0;               ///< number of the last one
     std::int64_t                               steps_   = 0;               ///< since the last report
     mpm::Stir                                  stir_    = mpm::Stir::lost; ///< in those before it
     bool                                       listed_  = false;           ///< since the last step

@@ -42,6 +42,11 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
         count[move.direction] += move.direction != own_page;
         count[stirred_points] += move.stir != Stir::none;
     }
+    if (count[stirred_points] > 0)
+    {
+#pragma omp atomic write
+        *moves.stirred_in = moves.step;
+    }
     for (int s = 0; s < point_sums; ++s) { book(tally, point_sums, s, sums[s]); }
 }
 

@@ -172,7 +172,7 @@ struct GatherPage
         if (threadIdx.x < move_counts) { count[threadIdx.x] = 0; }
         load_tile<threads>(motion, pages.node_page_of + 8 * page, tile);
         __syncthreads();
-        double             sum[point_sums] = {}, peak[point_peaks] = {};
+        Real               sum[point_sums] = {}, peak[point_peaks] = {}; // of a few points
         const Index3       low     = page_coordinates(pages.point_page_key[page]);
         const Real         spacing = static_cast<Real>(pages.spacing);
         const std::int64_t end     = pages.first_point[page + 1];
@@ -193,6 +193,7 @@ struct GatherPage
         block_largest<threads, point_peaks>(peak, shared_peaks,
                                             [=](int p, double value) { most[p] = fmax(most[p], value); });
         if (threadIdx.x < move_counts) { moves.count[page * move_counts + threadIdx.x] = count[threadIdx.x]; }
+        if (threadIdx.x == 0 && count[stirred_points] > 0) { *moves.stirred_in = moves.step; }
     }
 
     /// Nothing happens on a page without points.

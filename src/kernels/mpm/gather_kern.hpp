@@ -102,15 +102,15 @@ TREAD_HD Vec3<Real> transferred_velocity(const PointsView<Real>& points, std::in
     return (Real(1) - pic) * (points.velocity.get(i) + seen.change) + pic * seen.velocity;
 }
 
-template<class Real>
+template<class Real, class Sum>
 TREAD_HD void keep_for_contact(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen, Real dt,
-                               double* sums)
+                               Sum* sums)
 {
     const Vec3<Real> force = points.contact_force.get(i);
     points.grid_velocity.set(i, seen.velocity);
     points.support.set(i, seen.change / dt - force / points.mass[i]);
-    sums[point_contact_power] += double(force.dot(seen.velocity - seen.change));
-    sums[point_contact_work] += double(dt) * double(force.dot(seen.velocity - Real(0.5) * seen.change));
+    sums[point_contact_power] += Sum(force.dot(seen.velocity - seen.change));
+    sums[point_contact_work] += Sum(dt) * Sum(force.dot(seen.velocity - Real(0.5) * seen.change));
 }
 
 /// Power of `stress` (Pa) on the symmetric part of `gradient` (1/s), W/m3.
@@ -123,9 +123,9 @@ TREAD_HD Real stress_power(const Sym3<Real>& stress, const Mat3<Real>& gradient)
 }
 
 /// Gives the new stress.
-template<class Real>
+template<class Real, class Sum>
 TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t i, const Mat3<Real>& gradient,
-                                    const GatherStep<Real>& step, double* sums)
+                                    const GatherStep<Real>& step, Sum* sums)
 {
     const MaterialParameters<Real>& material = step.materials[points.material[i]];
     const Real                      ratio    = points.volume_ratio[i] * (Real(1) + step.dt * gradient.trace());
@@ -137,15 +137,15 @@ TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t
     }
     const StressUpdate<Real> update = update_stress(material, points.stress.get(i), state, gradient, step.dt);
     points.stress.set(i, update.stress);
-    sums[point_stress_power] += double(points.volume[i] * stress_power(update.stress, gradient));
-    sums[point_strain] += double(points.volume[i] * elastic_energy_density(material, update.stress));
+    sums[point_stress_power] += Sum(points.volume[i] * stress_power(update.stress, gradient));
+    sums[point_strain] += Sum(points.volume[i] * elastic_energy_density(material, update.stress));
     if (points.plastic_shear != nullptr)
     {
         points.plastic_shear[i] = update.state.plastic_shear;
         points.plastic_rate[i]  = update.state.plastic_rate;
         points.volume_gap[i]    = update.state.volume_gap;
         const Real work         = update.plastic_work + update.work_to_mean;
-        if (work != 0) { sums[point_plastic_work] += double(work * points.volume[i]); }
+        if (work != 0) { sums[point_plastic_work] += Sum(work * points.volume[i]); }
     }
     return update.stress;
 }
@@ -159,10 +159,10 @@ TREAD_HD Mat3<Real> law_gradient(const Mat3<Real>& gradient, const Real* cell_di
 }
 
 /// The whole G2P of one point of a page, up to where it is then.
-template<class Real>
+template<class Real, class Sum>
 TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen, Index3 cell,
-                           const PagesView& pages, std::int64_t page, const GatherStep<Real>& step, double* sums,
-                           double* peaks)
+                           const PagesView& pages, std::int64_t page, const GatherStep<Real>& step, Sum* sums,
+                           Sum* peaks)
 {
     const Vec3<Real> velocity = transferred_velocity(points, i, seen, step.pic);
     points.velocity.set(i, velocity);
@@ -176,12 +176,12 @@ TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const
     points.position.set(i, position);
 
     const Real speed_squared = velocity.squaredNorm(), checked = speed_squared + stress.sum();
-    sums[point_kinetic] += double(Real(0.5) * points.mass[i] * speed_squared);
+    sums[point_kinetic] += Sum(Real(0.5) * points.mass[i] * speed_squared);
     const bool finite = checked - checked == 0;
     const Move move =
         finite ? move_to(pages, page, cell, position) : Move{own_page, place_in_page(cell), Stir::not_finite};
-    peaks[peak_speed_squared] = std::fmax(peaks[peak_speed_squared], finite ? double(speed_squared) : 0);
-    peaks[peak_stir]          = std::fmax(peaks[peak_stir], static_cast<double>(move.stir));
+    peaks[peak_speed_squared] = std::fmax(peaks[peak_speed_squared], finite ? Sum(speed_squared) : Sum(0));
+    peaks[peak_stir]          = std::fmax(peaks[peak_stir], static_cast<Sum>(move.stir));
     return move;
 }
 

@@ -65,23 +65,33 @@ template<class Real>
 void update_grid(const Gpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
                  double* tallies);
 
+/// Node pages by number, of `count`.
+struct PageList
+{
+    const std::int32_t* page;
+    std::int64_t        count;
+};
+
 /// Finishes the nodes within one spacing of a wall: the splines' velocity vanishes on the wall's plane for every linear
-/// profile, whatever the wall holds (wall_kern.hpp). Books more of the step in the tallies of the pages on the wall.
+/// profile, whatever the wall holds (wall_kern.hpp). `wall_pages`: of list_wall_pages. Books more of the step in the
+/// tallies of those pages.
 template<class Real>
-void update_walls(const Cpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
-                  double* tallies);
+void update_walls(const Cpu&, const PagesView& pages, const PageList& wall_pages, const Real* tiles,
+                  const GridStep<Real>& step, Real* motion, double* tallies);
 template<class Real>
-void update_walls(const Gpu&, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
-                  double* tallies);
+void update_walls(const Gpu&, const PagesView& pages, const PageList& wall_pages, const Real* tiles,
+                  const GridStep<Real>& step, Real* motion, double* tallies);
+
+/// Whether any wall across an axis holds anything.
+inline bool has_walls(const GridWalls& walls, int axis)
+{
+    return walls.rule[axis][0] != WallRule::open || walls.rule[axis][1] != WallRule::open;
+}
 
 /// Whether any wall holds anything.
 inline bool has_walls(const GridWalls& walls)
 {
-    for (const auto& axis : walls.rule)
-    {
-        if (axis[0] != WallRule::open || axis[1] != WallRule::open) { return true; }
-    }
-    return false;
+    return has_walls(walls, 0) || has_walls(walls, 1) || has_walls(walls, 2);
 }
 
 } // namespace tread::mpm

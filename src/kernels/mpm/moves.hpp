@@ -32,8 +32,12 @@ constexpr int move_counts    = directions + 1;
 /// Of all points, by their places in the list of before the step.
 struct MovesView
 {
-    std::uint16_t* to;    ///< [points], place in the page + 64 * direction
-    std::int32_t*  count; ///< [point pages][move_counts]
+    std::uint16_t* to;         ///< [points], place in the page + 64 * direction
+    std::int32_t*  count;      ///< [point pages][move_counts]
+    std::int64_t*  stirred_in; ///< the last step in which a point changed its cell
+    std::int64_t   step;       ///< number of the step
+
+    TREAD_HD bool stirred() const { return *stirred_in == step; }
 };
 
 /// Whether a page beside a cell (`place` of `page`) is not listed.

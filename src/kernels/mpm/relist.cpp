@@ -68,6 +68,8 @@ void relist_page(const Relisting& job, std::int64_t page)
 
 } // namespace
 
+bool may_have_stirred(const Cpu&, const MovesView& moves) { return moves.stirred(); }
+
 void relist_pages(const Cpu& cpu, const Relisting& job)
 {
     for_each_heavy(cpu, "relist points", job.old.point_pages, [=](std::int64_t page) { relist_page(job, page); });

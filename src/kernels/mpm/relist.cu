@@ -18,7 +18,7 @@ struct RelistPages
         __shared__ std::int32_t next[relist_warps][page_cells];
         const int               warp = static_cast<int>(threadIdx.x) / 32;
         const std::int64_t      page = block * relist_warps + warp;
-        if (page >= job.old.point_pages) { return; }
+        if (page >= job.old.point_pages || !job.moves.stirred()) { return; }
         const bool     arrive  = lane() < directions && arrivals(job.old, job.moves, page, lane()) > 0;
         const unsigned sources = __ballot_sync(0xffffffffu, arrive);
         if (sources == 0 && job.moves.count[page * move_counts + stirred_points] == 0) { copy_list(page); }
@@ -118,6 +118,8 @@ private:
 };
 
 } // namespace
+
+bool may_have_stirred(const Gpu&, const MovesView&) { return true; }
 
 void relist_pages(const Gpu& gpu, const Relisting& job)
 {

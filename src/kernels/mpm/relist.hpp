@@ -7,7 +7,7 @@
 namespace tread::mpm
 {
 
-/// What relist_points writes before it becomes the pages' own; kept between calls.
+/// What relist_points writes before the pages take it over; kept between calls.
 template<class Exec>
 struct RelistScratch
 {
@@ -29,8 +29,8 @@ struct RelistScratch
 
 /// Lists every point in the cell that it moved to; no point moves in memory. In a cell those that stayed in the page
 /// come first, then those from neighbours by direction, each in the order of the old list.
-/// Pre: `moves` is of the present list and no point is lost (Stir). Post: every point is listed in the range of its
-/// cell.
+/// Does nothing where no point changed its cell; the host does not ask. Pre: `moves` is of the present list and no
+/// point is lost (Stir). Post: every point is listed in the range of its cell.
 template<class Exec>
 void relist_points(const Exec& exec, Pages<Exec>& pages, const MovesView& moves, RelistScratch<Exec>& scratch);
 

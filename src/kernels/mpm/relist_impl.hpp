@@ -10,21 +10,47 @@
 namespace tread::mpm
 {
 
+/// Whether points may have changed their cells, as far as the host knows without waiting.
+bool may_have_stirred(const Cpu& cpu, const MovesView& moves);
+bool may_have_stirred(const Gpu& gpu, const MovesView& moves);
+
 /// Writes list and cell ranges of every page.
 void relist_pages(const Cpu& cpu, const Relisting& job);
 void relist_pages(const Gpu& gpu, const Relisting& job);
 
-struct CloseCells
+/// The new list becomes the pages' own.
+struct TakeOver
 {
-    const std::int32_t* points;
-    std::int32_t*       last;
+    MovesView           moves;
+    std::int64_t        point_pages;
+    std::int64_t        points;
+    const std::int32_t* first_point;
+    const std::int32_t* cell_first_point;
+    const std::int32_t* point_at;
+    const std::uint8_t* place_at;
+    std::int32_t*       own_first_point;
+    std::int32_t*       own_cell_first_point;
+    std::int32_t*       own_point_at;
+    std::uint8_t*       own_place_at;
 
-    TREAD_HD void operator()(std::int64_t) const { *last = *points; }
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        if (!moves.stirred()) { return; }
+        const std::int64_t cells = point_pages * page_cells;
+        if (i <= point_pages) { own_first_point[i] = first_point[i]; }
+        if (i <= cells) { own_cell_first_point[i] = i < cells ? cell_first_point[i] : first_point[point_pages]; }
+        if (i < points)
+        {
+            own_point_at[i] = point_at[i];
+            own_place_at[i] = place_at[i];
+        }
+    }
 };
 
 template<class Exec>
 void relist_points(const Exec& exec, Pages<Exec>& pages, const MovesView& moves, RelistScratch<Exec>& scratch)
 {
+    if (!may_have_stirred(exec, moves)) { return; }
     const PagesView    old   = pages.view(1, 0);
     const std::int64_t count = old.point_pages;
     scratch.first_point.resize(count + 1);
@@ -33,14 +59,13 @@ void relist_points(const Exec& exec, Pages<Exec>& pages, const MovesView& moves,
     scratch.place_at.resize(pages.place_at.size());
     for_each(exec, "count pages", count + 1, CountAfter{old, moves, scratch.first_point.data()});
     scan_in_place(exec, scratch.first_point, scratch.sort);
-    for_each(exec, "close cells", 1,
-             CloseCells{scratch.first_point.data() + count, scratch.cell_first_point.data() + count * page_cells});
     relist_pages(exec, {old, moves, scratch.first_point.data(), scratch.cell_first_point.data(),
                         scratch.point_at.data(), scratch.place_at.data()});
-    pages.first_point.swap(scratch.first_point);
-    pages.cell_first_point.swap(scratch.cell_first_point);
-    pages.point_at.swap(scratch.point_at);
-    pages.place_at.swap(scratch.place_at);
+    const std::int64_t points = pages.point_at.size();
+    for_each(exec, "take over list", std::max(points, count * page_cells + 1),
+             TakeOver{moves, count, points, scratch.first_point.data(), scratch.cell_first_point.data(),
+                      scratch.point_at.data(), scratch.place_at.data(), pages.first_point.data(),
+                      pages.cell_first_point.data(), pages.point_at.data(), pages.place_at.data()});
 }
 
 } // namespace tread::mpm

@@ -34,6 +34,7 @@ struct CountAfter
 
     TREAD_HD void operator()(std::int64_t page) const
     {
+        if (!moves.stirred()) { return; }
         count[page] = 0;
         if (page == pages.point_pages) { return; }
         std::int32_t points = pages.first_point[page + 1] - pages.first_point[page];

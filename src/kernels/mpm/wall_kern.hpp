@@ -74,20 +74,6 @@ TREAD_HD bool may_hold(const GridWalls& walls, Index3 node, int component)
     return false;
 }
 
-/// Whether the node stands on the plane of every wall that pairs it: then it owns all nodes within a spacing of it
-/// along those walls' normals, and no other node owns them.
-TREAD_HD bool owns_pairs(const GridWalls& walls, Index3 node)
-{
-    bool owns = false;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        const WallPlace place = wall_place(walls, axis, along(node, axis));
-        if (place.paired && place.depth != 0) { return false; }
-        owns = owns || place.paired;
-    }
-    return owns;
-}
-
 /// Nodes outside, on and inside a wall's plane. Those that are not there, or too light, have no mass.
 template<class Real>
 struct WallGroup

@@ -3,9 +3,8 @@
 #include "backend/sort.hpp"
 #include "kernels/mpm/grid_kern.hpp"
 
-// The second half of the step of the nodes beside walls: owner after owner (owns_pairs), each with the up to 27 nodes
-// that are its own, so that owners do not depend on each other; within an owner axis after axis, so that edges and
-// corners of the domain obey all their walls.
+// The second half of the step of the nodes beside walls: axis after axis, so that edges and corners of the domain obey
+// all their walls, the groups across a wall's plane are held (they share no node); then every node is finished.
 namespace tread::mpm
 {
 
@@ -56,86 +55,40 @@ TREAD_HD FoundGroup<Real> find_group(const PagesView& pages, const HomePage& hom
     return found;
 }
 
-/// How far an owner's nodes reach from it along each axis, 0 or 1.
-struct Reach
+/// If a node stands on the plane of a wall across `axis`, the wall on its group.
+template<class Real>
+TREAD_HD void hold_group(const PagesView& pages, const HomePage& home, const GridWalls& walls, Index3 node, int axis,
+                         Real* motion, double* sums)
 {
-    int x, y, z;
-};
-
-TREAD_HD Reach reach_of(const GridWalls& walls, Index3 owner)
-{
-    return {wall_place(walls, 0, owner.x).paired ? 1 : 0, wall_place(walls, 1, owner.y).paired ? 1 : 0,
-            wall_place(walls, 2, owner.z).paired ? 1 : 0};
-}
-
-/// Calls f(node) for every node within reach of `owner`.
-template<class F>
-TREAD_HD void for_each_node(Index3 owner, Reach reach, F f)
-{
-    for (int z = -reach.z; z <= reach.z; ++z)
+    const WallPlace place = wall_place(walls, axis, along(node, axis));
+    if (!place.paired || place.depth != 0) { return; }
+    FoundGroup<Real> found = find_group(pages, home, node, axis, place.end, motion);
+    book_friction(hold(walls, axis, place.end, found.group), sums);
+    for (int i = 0; i < 3; ++i)
     {
-        for (int y = -reach.y; y <= reach.y; ++y)
-        {
-            for (int x = -reach.x; x <= reach.x; ++x) { f(Index3{owner.x + x, owner.y + y, owner.z + z}); }
-        }
+        if (found.group.mass[i] > 0) { write_velocity(found.group.velocity[i], found.motion[i]); }
     }
 }
 
-/// The wall that pairs `owner` along `axis` on all its groups.
+/// If walls hold a node together with others, the end of its step. `tile_pages`: of its page, by octant.
 template<class Real>
-TREAD_HD void hold_groups(const PagesView& pages, const HomePage& home, const GridWalls& walls, Index3 owner, int axis,
+TREAD_HD void finish_held(const std::int32_t* tile_pages, const Real* tiles, const GridStep<Real>& step, Index3 node,
                           Real* motion, double* sums)
 {
-    const WallPlace place = wall_place(walls, axis, along(owner, axis));
-    if (!place.paired) { return; }
-    Reach reach                                           = reach_of(walls, owner);
-    (axis == 0 ? reach.x : axis == 1 ? reach.y : reach.z) = 0;
-    const auto hold_group                                 = [&](Index3 middle)
-    {
-        FoundGroup<Real> found = find_group(pages, home, middle, axis, place.end, motion);
-        book_friction(hold(walls, axis, place.end, found.group), sums);
-        for (int i = 0; i < 3; ++i)
-        {
-            if (found.group.mass[i] > 0) { write_velocity(found.group.velocity[i], found.motion[i]); }
-        }
-    };
-    for_each_node(owner, reach, hold_group);
+    if (!held_by(step.walls, node).paired || unfinished_mass(motion) == 0) { return; }
+    Real channels[node_channels];
+    sum_tiles(tile_pages, tiles, place_in_page(node), channels);
+    finish_node(step, begin_node(step, node, channels), read_velocity(motion), motion, sums);
 }
 
-/// Finishes all nodes that a node of page `home` owns.
-template<class Real>
-TREAD_HD void update_owned(const PagesView& pages, const HomePage& home, const Real* tiles, const GridStep<Real>& step,
-                           Index3 owner, Real* motion, double* sums)
-{
-    for (int axis = 0; axis < 3; ++axis) { hold_groups(pages, home, step.walls, owner, axis, motion, sums); }
-    const auto finish = [&](Index3 node)
-    {
-        const std::int64_t page = page_holding(pages, home, node);
-        if (page < 0) { return; }
-        Real* kept = motion_of(motion, page, node);
-        if (unfinished_mass(kept) == 0) { return; }
-        std::int32_t tile_pages[octants];
-        for (int octant = 0; octant < octants; ++octant) { tile_pages[octant] = tile_page(pages, page, octant); }
-        Real channels[node_channels];
-        sum_tiles(tile_pages, tiles, place_in_page(node), channels);
-        finish_node(step, begin_node(step, node, channels), read_velocity(kept), kept, sums);
-    };
-    for_each_node(owner, reach_of(step.walls, owner), finish);
-}
-
-/// Whether any node of a page may own pairs.
-TREAD_HD bool touches_wall(const GridWalls& walls, Index3 page)
+/// Whether walls hold nodes of a page together with others.
+TREAD_HD bool is_wall_page(const GridWalls& walls, Index3 page)
 {
     for (int axis = 0; axis < 3; ++axis)
     {
-        if (is_thin(walls, axis)) { continue; }
-        const std::int32_t first = along(page, axis) * page_edge, wall[2] = {0, walls.last_node[axis]};
-        for (int end = 0; end < 2; ++end)
+        for (int i = 0; i < page_edge; ++i)
         {
-            if (walls.rule[axis][end] != WallRule::open && wall[end] >= first && wall[end] < first + page_edge)
-            {
-                return true;
-            }
+            if (wall_place(walls, axis, along(page, axis) * page_edge + i).paired) { return true; }
         }
     }
     return false;

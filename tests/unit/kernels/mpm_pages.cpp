@@ -218,10 +218,12 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
     motion.assign(uniform);
     Array<TypeParam, std::uint16_t> to(this->exec(), "to", count);
     Array<TypeParam, std::int32_t>  counts(this->exec(), "counts", page_count * move_counts);
+    Array<TypeParam, std::int64_t>  stirred_in(this->exec(), "stirred in", 1);
+    stirred_in.assign({-1});
 
     for (int step = 0; step < 6; ++step) // 1.7 spacings: within the pages that are listed
     {
-        const MovesView moves{to.data(), counts.data()};
+        const MovesView moves{to.data(), counts.data(), stirred_in.data(), step};
         sums.fill_zero();
         peaks.fill_zero();
         gather(this->exec(), points.view(), pages.view(this->spacing, 0.5), motion.data(),
