@@ -9,7 +9,7 @@
 #include "kernels/mpm/law_kern.hpp"
 
 // What the stress could be measured by, compared on one point: figures of docs/stress_measure.md. A measure has a
-// State<Real> and step(material, state, l), l = velocity gradient x dt, and gives the Cauchy stress.
+// State<Real> and step(material, state, l), l = velocity gradient x dt, and gives the Kirchhoff stress.
 namespace
 {
 
@@ -20,18 +20,18 @@ template<class Real>
 using Law = MaterialParameters<Real>;
 
 template<class Real>
-struct CauchyState
+struct TurnedState
 {
     Sym3<Real>         stress = Sym3<Real>::Zero(); ///< Pa
     PlasticState<Real> plastic{};
 };
 
-/// The product's: Cauchy stress turned by the increment of Hughes and Winget.
+/// The product's: stress turned by the increment of Hughes and Winget.
 struct HughesWinget
 {
     static constexpr const char* name = "Hughes-Winget";
     template<class Real>
-    using State = CauchyState<Real>;
+    using State = TurnedState<Real>;
 
     template<class Real>
     static void step(const Law<Real>& law, State<Real>& state, const Mat3<Real>& l)
@@ -48,12 +48,12 @@ StressUpdate<Real> returned(const Law<Real>& law, const Sym3<Real>& trial, const
     return respond(law, law.mohr_coulomb, trial, plastic, Real(1));
 }
 
-/// Cauchy stress with the explicit rate W s - s W.
+/// The explicit rate W s - s W.
 struct Jaumann
 {
     static constexpr const char* name = "Jaumann rate";
     template<class Real>
-    using State = CauchyState<Real>;
+    using State = TurnedState<Real>;
 
     template<class Real>
     static void step(const Law<Real>& law, State<Real>& state, const Mat3<Real>& l)
@@ -71,9 +71,8 @@ struct Jaumann
 template<class Real>
 struct HenckyState
 {
-    Sym3<Real>         stress = Sym3<Real>::Zero(); ///< Pa, Cauchy; follows from the rest
+    Sym3<Real>         stress = Sym3<Real>::Zero(); ///< Pa; follows from the rest
     Sym3<Real>         strain = Sym3<Real>::Zero(); ///< b_e - 1
-    Real               volume = 1;                  ///< ratio
     PlasticState<Real> plastic{};
 };
 
@@ -98,8 +97,7 @@ struct Hencky
         const Mat3<Real>           e = full_matrix(state.strain), le = l * e, lt = l.transpose();
         const Mat3<Real>           change = l + lt + l * lt + le + le.transpose() + le * lt;
         const SymmetricEigen<Real> eigen  = symmetric_eigen(Sym3<Real>(state.strain + lower(change)));
-        state.volume *= (Mat3<Real>::Identity() + l).determinant();
-        Vec3<Real> log;
+        Vec3<Real>                 log;
         for (int i = 0; i < 3; ++i) { log[i] = Real(0.5) * std::log1p(eigen.values[i]); }
         Sym3<Real> principal         = Sym3<Real>::Zero();
         principal.template head<3>() = log;
@@ -114,7 +112,7 @@ struct Hencky
             kept[i]           = std::expm1(2 * strain);
         }
         state.strain = from_principal(kept, eigen.axes);
-        state.stress = from_principal(Vec3<Real>(tau / state.volume), eigen.axes);
+        state.stress = from_principal(tau, eigen.axes);
     }
 
     template<class Real>
@@ -140,7 +138,7 @@ struct HenckyMidpoint
 };
 
 template<class Real>
-void set_stress(const Law<Real>&, CauchyState<Real>& state, const Vec3<double>& stress)
+void set_stress(const Law<Real>&, TurnedState<Real>& state, const Vec3<double>& stress)
 {
     state = {};
     for (int i = 0; i < 3; ++i) { state.stress[i] = static_cast<Real>(stress[i]); }
@@ -234,7 +232,7 @@ double cycle_work(double amplitude, int steps)
             const Sym3<double> before = state.stress;
             Measure::step(law, state, std::is_same_v<Measure, Hencky> ? plain : l);
             const Mat3<double> mean = full_matrix(Sym3<double>(0.5 * (before + state.stress)));
-            work += mean.cwiseProduct(0.5 * (l + l.transpose())).sum() * middle.determinant();
+            work += mean.cwiseProduct(0.5 * (l + l.transpose())).sum();
             largest = std::max(largest, work);
             f       = next;
         }
