@@ -90,7 +90,7 @@ TYPED_TEST(FootingPhysics, LimitsOfTheLawsMakeNoEnergy)
 {
     const std::string cone        = "model = \"drucker-prager\"\ndrucker_prager_fit = \"plane-strain\"\n",
                       hexagon     = "model = \"mohr-coulomb\"\n";
-    const std::string strengths[] = {"friction_angle_deg = 0.0", "friction_angle_deg = 0.0\ncohesion = 500.0",
+    const std::string strengths[] = {"friction_angle_deg = 0.0", "friction_angle_deg = 0.0\ncohesion = 100.0",
                                      "friction_angle_deg = 30.0"};
     for (const std::string& law : {hexagon, cone})
     {
