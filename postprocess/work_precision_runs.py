@@ -117,7 +117,8 @@ def rows_of(options, name):
 
 
 def against_finest(rows):
-    """A case without a closed form is measured against its own most expensive run in double precision."""
+    """A case without a closed form is measured against its own most expensive run in double precision; that run and its
+    twin in single say nothing then."""
     open_rows = [row for row in rows if not row["reference"]]
     if not open_rows:
         return
@@ -126,7 +127,8 @@ def against_finest(rows):
     for row in open_rows:
         row["reference"] = f"{value:.6g} m, the finest run"
         row["error"] = abs(row["error"] / value - 1)
-    rows.remove(finest)
+    same = ("spacing", "points_per_cell", "transfer")
+    rows[:] = [row for row in rows if row not in open_rows or any(row[key] != finest[key] for key in same)]
 
 
 def main():
@@ -140,7 +142,7 @@ def main():
         against_finest(of_case)
         rows += of_case
     with open(options.output, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, FIELDS)
+        writer = csv.DictWriter(file, FIELDS, lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
     print(options.output)

@@ -95,10 +95,11 @@ PageCounts count_pages(const World& world)
 /// Tiles, lists and sums of the pages (kernels/mpm/pages.hpp, solver/sand.cpp), and the keys they are found by.
 std::int64_t page_bytes(const scene::Scene& scene, const PageCounts& pages)
 {
-    const std::int64_t real = bytes_of_real(scene);
+    const std::int64_t real  = bytes_of_real(scene);
+    const bool         means = scene.numerics.volume_strain == scene::VolumeStrain::cell_average;
     const std::int64_t point_page =
-        mpm::node_channels * mpm::tile_nodes * real + 2 * 4 * (mpm::page_cells + 1) + 8 +
-        4 * (mpm::directions + mpm::move_counts + 8) +
+        mpm::node_channels * mpm::tile_nodes * real + (means ? mpm::page_cells * real : 0) +
+        2 * 4 * (mpm::page_cells + 1) + 8 + 4 * (mpm::directions + mpm::move_counts + 8) +
         8 * (std::int64_t{mpm::point_sums} + std::int64_t{mpm::point_peaks} + std::int64_t{mpm::census_count});
     const std::int64_t node_page =
         mpm::motion_channels * mpm::page_cells * real + 8 * (std::int64_t{mpm::grid_sums} + 1) + 4 * 8;
