@@ -77,10 +77,14 @@ Keys<Numerics> numerics_keys()
     return {
         optional("precision", "", &Numerics::precision, word<Precision>({"single", "double"}),
                  "Of velocities, stresses and grid sums; positions always resolve 1e-10 m."),
-        optional("transfer", "", &Numerics::transfer, word<Transfer>({"flip", "apic", "aflip"}),
-                 "How velocity goes between points and grid."),
-        optional("pic_rate", "c_p/h", &Numerics::pic_rate, number_or("auto", at_least(0)),
-                 "PIC part of FLIP per unit time. \"auto\": 0.2 for granular materials, 0.04 for elastic ones.")
+        optional(
+            "transfer", "", &Numerics::transfer, word<Transfer>({"flip", "apic", "aflip"}),
+            "How velocity goes between points and grid; \"aflip\" is FLIP that also gives the grid its points' affine "
+            "velocities, as APIC does: docs/transfers.md."),
+        optional(
+            "pic_rate", "c_p/h", &Numerics::pic_rate, number_or("auto", at_least(0)),
+            "PIC part of FLIP per unit time. \"auto\": 0.2 for granular materials, 0.04 for elastic ones; the largest "
+            "of the materials of the sand holds for all of it.")
             .when("transfer = \"flip\" or \"aflip\"",
                   [](const Numerics& numerics) { return numerics.transfer != Transfer::apic; }),
         optional("shape_functions", "", &Numerics::shape_functions, word<ShapeFunctions>({"quadratic", "linear"}),

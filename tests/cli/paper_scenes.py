@@ -162,9 +162,7 @@ class PaperScenes(CommandTest):
         self.driven("curiosity_rock", 170.8 * 3.72, 0.16)
 
     def test_curiosity_core(self):
-        # Base and core have different wave speeds and so different rates of the transfer's PIC part; where they share
-        # nodes that does not conserve momentum: 1e-4 of weight and time.
-        self.driven("curiosity_core", 170.8 * 3.72, 0.16, momentum_error=5e-4)
+        self.driven("curiosity_core", 170.8 * 3.72, 0.16)
 
     # 3.4 ------------------------------------------------------------------------------------------------------------
 

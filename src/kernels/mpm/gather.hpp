@@ -41,9 +41,9 @@ enum PointPeak : int
     point_peaks
 };
 
-/// G2P: velocity (FLIP with PIC part, or APIC), position, stress and plastic state of every point; for coupled scenes
-/// also the interpolated grid velocity and the support acceleration. Books the step in the page's tally of PointSum,
-/// and in peaks[point page][PointPeak]; `moves`: where every point is now.
+/// G2P: velocity (FLIP with PIC part, APIC, AFLIP), position, stress and plastic state of every point; for coupled
+/// scenes also the interpolated grid velocity and the support acceleration. Books the step in the page's tally of
+/// PointSum, and in peaks[point page][PointPeak]; `moves`: where every point is now.
 template<class Real>
 void gather(const Cpu&, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
             const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks);

@@ -23,7 +23,7 @@ struct PointsView
     std::uint32_t*    id;           ///< unique, for ever
     std::uint8_t*     material;
 
-    Planes<Real, 9> affine; ///< 1/s, row-major; APIC only, else null
+    Planes<Real, 9> affine; ///< 1/s, row-major; APIC and AFLIP only, else null
 
     // Plastic materials only, else null.
     Real* plastic_shear; ///< equivalent plastic shear strain

@@ -1,0 +1,157 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "harness.hpp"
+
+// Momentum and motion of points, to rounding.
+namespace
+{
+
+using namespace tread;
+
+template<class Exec>
+class Conservation : public test::BackendTest<Exec>
+{
+};
+TYPED_TEST_SUITE(Conservation, test::Backends, test::BackendNames);
+
+/// Three materials of different wave speed fall on each other: their points share nodes.
+TYPED_TEST(Conservation, MomentumOfSeveralMaterials)
+{
+    for (const char* transfer : {"flip", "apic", "aflip"})
+    {
+        const std::string           text = R"(
+title = "three materials"
+[domain]
+size    = [0.4, 0.4, 0.8]
+gravity = [0.5, 0.0, -9.81]
+walls   = { x = "slip", y = "slip", bottom = "fixed", top = "open" }
+[grid]
+spacing = 0.05
+[[material]]
+name = "soft"
+model = "mohr-coulomb"
+density = 1500.0
+young = 1.0e6
+poisson = 0.3
+friction_angle_deg = 30.0
+[[material]]
+name = "stiff"
+model = "mohr-coulomb"
+density = 1700.0
+young = 9.0e6
+poisson = 0.2
+friction_angle_deg = 38.0
+cohesion = 100.0
+[[material]]
+name = "block"
+model = "elastic"
+density = 2500.0
+young = 4.0e6
+poisson = 0.25
+[[terrain]]
+material = "stiff"
+region = { box = [[0.0, 0.0, 0.0], [0.4, 0.4, 0.1]] }
+[[terrain]]
+material = "soft"
+region = { box = [[0.0, 0.0, 0.1], [0.4, 0.4, 0.2]] }
+[[terrain]]
+material = "block"
+region = { box = [[0.1, 0.1, 0.25], [0.3, 0.3, 0.4]] }
+[[phase]]
+name = "fall"
+duration = 0.15
+[numerics]
+precision = "double"
+)";
+        test::Experiment<TypeParam> run(this->exec(), text + "transfer = \"" + transfer + "\"\n");
+        run.run();
+        const double error = run.simulation().ledger().balance(run.simulation().census()).impulse_error;
+        test::report(fmt::format("impulse error over weight x time, {}", transfer), error, 0, 1e-10,
+                     "fp64 rounding (verification D4)");
+        EXPECT_LT(error, 1e-10);
+    }
+}
+
+std::string lone_point(double x, double gravity, const std::string& numerics, const std::string& dt, double duration)
+{
+    return fmt::format(R"(
+title = "lone point"
+[domain]
+size    = [1000.0, 1.0, 8.0]
+gravity = [0.0, 0.0, {}]
+[grid]
+spacing = 0.05
+[time]
+dt = {}
+[numerics]
+{}
+[[material]]
+name = "sand"
+model = "mohr-coulomb"
+density = 1600.0
+young = 1.0e6
+poisson = 0.3
+friction_angle_deg = 30.0
+[[terrain]]
+material = "sand"
+region = {{ box = [[{}, 0.5, 2.0], [{}, 0.525, 2.025]] }}
+[[phase]]
+name = "fly"
+duration = {}
+)",
+                       gravity, dt, numerics, x, x + 0.025, duration);
+}
+
+template<class Exec, class Real>
+void throw_it(test::Experiment<Exec, Real>& run, const Vec3<double>& velocity)
+{
+    auto& points = run.simulation().sand().points();
+    ASSERT_EQ(points.count, 1);
+    points.velocity.assign(
+        {static_cast<Real>(velocity[0]), static_cast<Real>(velocity[1]), static_cast<Real>(velocity[2])});
+    points.stress.assign(std::vector<Real>(6, Real(0)));
+}
+
+/// verification E8: x + v t, z + w t - g t (t + dt) / 2, which is symplectic Euler's own parabola.
+TYPED_TEST(Conservation, LonePointFliesAParabola)
+{
+    for (const char* transfer : {"flip", "apic", "aflip"})
+    {
+        const std::string           numerics = fmt::format("precision = \"double\"\ntransfer = \"{}\"", transfer);
+        test::Experiment<TypeParam> run(this->exec(), lone_point(900, -9.81, numerics, "0.0009765625", 0.5));
+        throw_it(run, {0.7, 0.2, 3});
+        const Vec3<double> start = run.simulation().sand().positions()[0];
+        run.run();
+        const double       t = run.time();
+        const Vec3<double> there =
+            start + t * Vec3<double>(0.7, 0.2, 3) - Vec3<double>(0, 0, 0.5 * 9.81 * t * (t + 0.0009765625));
+        const double off = (run.simulation().sand().positions()[0] - there).norm();
+        // 512 steps, each rounded at x = 900 m: 1e-13 m.
+        test::report(fmt::format("off the parabola in m, {}", transfer), off, 0, 1e-10, "rounding at 900 m, 512 steps");
+        EXPECT_LT(off, 1e-10);
+    }
+}
+
+/// 1 mm/s in steps of 10 us at x = 900 m: 1e-8 m a step, of which a single-precision position would keep nothing.
+template<class Real, class Exec>
+void creep(const Exec& exec, const std::string& precision, int steps)
+{
+    const double                 duration = steps * 1e-5;
+    test::Experiment<Exec, Real> run(exec, lone_point(900, 0, "precision = \"" + precision + "\"", "1.0e-5", duration));
+    throw_it(run, {1e-3, 0, 0});
+    const double start = run.simulation().sand().positions()[0][0];
+    run.run();
+    const double moved = run.simulation().sand().positions()[0][0] - start, expected = 1e-3 * duration;
+    test::report("creep in m, " + precision, moved, expected, 1e-3 * expected, "0.1 %");
+    EXPECT_NEAR(moved, expected, 1e-3 * expected);
+}
+
+TYPED_TEST(Conservation, CreepFarFromTheOriginIsKept)
+{
+    creep<double>(this->exec(), "double", 20000);
+    creep<float>(this->exec(), "single", 20000);
+}
+
+} // namespace
