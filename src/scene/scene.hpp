@@ -131,7 +131,7 @@ struct TimeOptions
 struct Numerics
 {
     Precision             precision = Precision::single_;
-    Transfer              transfer  = Transfer::flip;
+    Transfer              transfer  = Transfer::aflip;
     std::optional<double> pic_rate; ///< PIC part of FLIP per unit time, in units of c_p/h; nothing = by material
     ShapeFunctions        shape_functions = ShapeFunctions::quadratic;
     PointMotion           point_motion    = PointMotion::supported;

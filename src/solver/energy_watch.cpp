@@ -12,12 +12,14 @@ EnergyWatch::EnergyWatch(double mass, double wave_speed)
 {
 }
 
-void EnergyWatch::add(const SandReport& sand)
+void EnergyWatch::add(const SandReport& sand, double dt)
 {
-    const double strain  = sand.last_points[mpm::point_strain];
-    const bool   started = strain_ >= 0;
-    const double stored  = started ? strain - strain_ : 0;
-    strain_              = strain;
+    const double strain    = sand.last_points[mpm::point_strain];
+    const bool   started   = strain_ >= 0;
+    const double stored    = started ? strain - strain_ : 0;
+    strain_                = strain;
+    const double half_step = sand.half_step_transfer(dt, power_);
+    power_                 = sand.power();
     if (!started) { return; }
 
     const double gravity = sand.grid[mpm::grid_gravity_work], contact = sand.points[mpm::point_contact_work];
@@ -25,7 +27,7 @@ void EnergyWatch::add(const SandReport& sand)
                                sand.grid[mpm::grid_damped] + sand.grid[mpm::grid_wall_loss] +
                                sand.grid[mpm::grid_friction] - gravity - contact;
     const double kept = std::pow(1 - 1 / memory, static_cast<double>(sand.steps));
-    appeared_         = kept * appeared_ + stress_work + stored + sand.points[mpm::point_plastic_work];
+    appeared_         = kept * appeared_ + stress_work + stored + sand.points[mpm::point_plastic_work] + half_step;
     received_         = kept * received_ + std::abs(gravity) + std::abs(contact);
     held_             = std::max({kept * held_, strain + sand.last_points[mpm::point_kinetic], floor_});
 }

@@ -2,22 +2,23 @@
 
 #include <cstdint>
 
-#include "solver/sand.hpp"
+#include "solver/sand_report.hpp"
 
 namespace tread::solver
 {
 
 /// Watches for energy that appears in the sand without a source, the mark of a step that is too long. The stress of an
-/// exact step does as much work on the grid as the strain energy falls by, less what plastic flow takes; what it does
-/// beyond that has appeared. All is forgotten at the rate of 1/memory a step.
+/// exact step does as much work on the grid as the strain energy falls by, less what plastic flow takes, and less what
+/// the transfer takes from half a step of its power; what it does beyond that has appeared. All is forgotten at the
+/// rate of 1/memory a step.
 class EnergyWatch
 {
 public:
     /// `mass` kg, `wave_speed` m/s: less energy than that of a strain of 1e-10 in all of the sand is none.
     EnergyWatch(double mass, double wave_speed);
 
-    /// The first call sets the start.
-    void add(const SandReport& sand);
+    /// `dt`: s, of the report's steps. The first call sets the start.
+    void add(const SandReport& sand, double dt);
 
     /// J, that appeared without a source.
     double appeared() const { return appeared_; }
@@ -34,6 +35,7 @@ public:
 private:
     double floor_;
     double strain_   = -1; ///< J, after the last step; negative before the first
+    double power_    = 0;  ///< W, SandReport::power() after it
     double appeared_ = 0, held_ = 0, received_ = 0;
 };
 

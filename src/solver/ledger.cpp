@@ -15,12 +15,6 @@ double mass(const Census& census) { return census.sand.mass + census.rigid.mass;
 
 Vec3<double> momentum(const Census& census) { return census.sand.momentum + census.rigid.momentum; }
 
-/// W, of weight and stress on the points' velocity after a step, from sums by mpm::GridSum and mpm::PointSum.
-double power(const double* grid, const double* points)
-{
-    return grid[mpm::grid_gravity_power] - points[mpm::point_stress_power];
-}
-
 } // namespace
 
 Ledger::Ledger(Vec3<double> gravity, const Census& start)
@@ -45,14 +39,11 @@ void Ledger::steps(double dt, std::int64_t steps, const SandReport& sand, const 
     const double span = dt * static_cast<double>(steps);
     time_ += span;
     // Each step loses what the points held before it, less what the grid held, and what the grid holds after it, less
-    // what the points do: of the points' energies only the first and the last are left of the sum, and of the powers
-    // before the steps all but the last power and the one before them are those after the steps.
-    const double kinetic = sand.last_points[mpm::point_kinetic], last_power = power(sand.last_grid, sand.last_points);
-    transfer_ += kinetic_points_ - kinetic + sand.grid[mpm::grid_kinetic_after] - sand.grid[mpm::grid_kinetic_before];
-    transfer_ += 0.5 * dt *
-                 (power_ + power(sand.grid, sand.points) - last_power - sand.grid[mpm::grid_power_before] +
-                  sand.points[mpm::point_contact_power]);
-    power_            = last_power;
+    // what the points do: of the points' energies only the first and the last are left of the sum.
+    const double kinetic = sand.last_points[mpm::point_kinetic];
+    transfer_ += kinetic_points_ - kinetic + sand.grid[mpm::grid_kinetic_after] - sand.grid[mpm::grid_kinetic_before] +
+                 sand.half_step_transfer(dt, power_);
+    power_            = sand.power();
     half_step_        = 0.5 * dt * power_;
     stress_half_step_ = -0.5 * dt * sand.last_points[mpm::point_stress_power];
     kinetic_points_   = kinetic;

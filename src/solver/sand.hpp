@@ -12,24 +12,11 @@
 #include "kernels/mpm/relist.hpp"
 #include "kernels/mpm/scatter.hpp"
 #include "kernels/mpm/wall_pages.hpp"
+#include "solver/sand_report.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
 {
-
-/// What the steps since the last report did to the sand.
-struct SandReport
-{
-    std::int64_t steps                        = 0;
-    double       grid[mpm::grid_sums]         = {}; ///< by mpm::GridSum, of all these steps
-    double       last_grid[mpm::grid_sums]    = {}; ///< of the last of them
-    double       points[mpm::point_sums]      = {}; ///< by mpm::PointSum
-    double       last_points[mpm::point_sums] = {};
-    double       peaks[mpm::point_peaks]      = {}; ///< by mpm::PointPeak
-    double       largest_speed                = 0;  ///< m/s, of a point
-
-    mpm::Stir stir() const { return static_cast<mpm::Stir>(static_cast<int>(peaks[mpm::peak_stir])); }
-};
 
 /// What the sand holds.
 struct SandCensus

@@ -20,7 +20,7 @@ void SandGuard::allow(const TimeStep& step, double time) const
     if (courant(step) > hopeless_courant) { fail("no sand is stable at this step", step, time); }
 }
 
-void SandGuard::check(const SandReport& sand, const TimeStep& step, double time)
+void SandGuard::check(const SandReport& sand, const TimeStep& step, double time) const
 {
     if (sand.stir() == mpm::Stir::not_finite)
     {
@@ -35,7 +35,11 @@ void SandGuard::check(const SandReport& sand, const TimeStep& step, double time)
     {
         fail(fmt::format("a point of the sand moves {:.3g} m/s, more than a cell a step", speed), step, time);
     }
-    energy_.add(sand);
+}
+
+void SandGuard::watch(const SandReport& sand, const TimeStep& step, double time)
+{
+    energy_.add(sand, step.dt);
     if (energy_.alarmed())
     {
         fail(fmt::format(

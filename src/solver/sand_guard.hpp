@@ -18,9 +18,12 @@ public:
     /// NumericalError when no sand is stable at such a step, before it does harm. `time` (s) is for the message.
     void allow(const TimeStep& step, double time) const;
 
-    /// `sand`: what the steps that end with `step` did. NumericalError, with what grew and which limit, when the state
-    /// cannot be trusted any more.
-    void check(const SandReport& sand, const TimeStep& step, double time);
+    /// `sand`: what the steps that end with `step` did. NumericalError, with what and which limit, when a point's state
+    /// is none.
+    void check(const SandReport& sand, const TimeStep& step, double time) const;
+
+    /// NumericalError when energy has grown without a source. Once a report.
+    void watch(const SandReport& sand, const TimeStep& step, double time);
 
     /// c_p dt/h from which on sand was destroyed whatever its points a cell (verification catalogue E: 0.82 at 1 a
     /// cell, 0.98 at 8). Where a scene is loose enough to live with more, its energy tells nothing.

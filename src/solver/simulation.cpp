@@ -171,6 +171,7 @@ void Simulation<Exec, Real>::measure()
     unbalanced_ = weight_ > 0 ? (sand.last_grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
     ledger_->steps(step.dt, steps, sand, rigid, contact_friction,
                    (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
+    if (guard_) { guard_->watch(sand, step, time); }
     choose_measuring();
 }
 

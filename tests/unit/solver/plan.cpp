@@ -67,10 +67,17 @@ bool any_with(const std::set<std::string>& names, const std::vector<std::string>
 TEST(LeftOut, SandAloneKnowsNoBodies)
 {
     const Used used = run_steps(load_text(test::sand_text));
-    EXPECT_FALSE(any_with(
-        used.arrays, {"body", "bodies", "pair", "contact", "candidate", "template", "private", "support", "affine"}));
+    EXPECT_FALSE(
+        any_with(used.arrays, {"body", "bodies", "pair", "contact", "candidate", "template", "private", "support"}));
     EXPECT_FALSE(any_with(used.kernels, {"body", "bodies", "pair", "contact", "candidate", "integrate"}));
     EXPECT_TRUE(used.kernels.count("scatter"));
+}
+
+TEST(LeftOut, PlainFlipHasNoAffineVelocities)
+{
+    EXPECT_TRUE(run_steps(load_text(test::sand_text)).arrays.count("point affine velocity"));
+    EXPECT_FALSE(
+        any_with(run_steps(load_text(test::sand_text + "\n[numerics]\ntransfer = \"flip\"\n")).arrays, {"affine"}));
 }
 
 TEST(LeftOut, RocksAloneKnowNoGrid)

@@ -55,11 +55,11 @@ double growth_at_alarm(double growth, int steps)
 {
     Swing       swing(growth, steps);
     EnergyWatch watch(1.0, 10.0);
-    watch.add(swing.next());
+    watch.add(swing.next(), 1e-4);
     const double start = swing.energy();
     for (int i = 0; i < 20000 / steps; ++i)
     {
-        watch.add(swing.next());
+        watch.add(swing.next(), 1e-4);
         if (watch.alarmed()) { return swing.energy() / start; }
     }
     return std::numeric_limits<double>::infinity();
@@ -95,12 +95,12 @@ TEST(EnergyWatch, WorkOfGravityAndContactsIsASource)
         pushed.points[mpm::point_plastic_work] = 2.5;
         pushed.points[mpm::point_contact_work] = 2;
         pushed.grid[mpm::grid_gravity_work]    = 1;
-        watch.add(pushed);
+        watch.add(pushed, 1e-4);
         ASSERT_FALSE(watch.alarmed()) << i;
     }
     EXPECT_NEAR(watch.appeared(), 0, 1e-9 * watch.scale());
     pushed.points[mpm::point_plastic_work] = 20; // of 3 J
-    for (int i = 0; i < 2000 && !watch.alarmed(); ++i) { watch.add(pushed); }
+    for (int i = 0; i < 2000 && !watch.alarmed(); ++i) { watch.add(pushed, 1e-4); }
     EXPECT_TRUE(watch.alarmed());
 }
 

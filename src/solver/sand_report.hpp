@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/mpm/gather.hpp"
+#include "kernels/mpm/grid.hpp"
+
+namespace tread::solver
+{
+
+/// What the steps since the last report did to the sand.
+struct SandReport
+{
+    std::int64_t steps                        = 0;
+    double       grid[mpm::grid_sums]         = {}; ///< by mpm::GridSum, of all these steps
+    double       last_grid[mpm::grid_sums]    = {}; ///< of the last of them
+    double       points[mpm::point_sums]      = {}; ///< by mpm::PointSum
+    double       last_points[mpm::point_sums] = {};
+    double       peaks[mpm::point_peaks]      = {}; ///< by mpm::PointPeak
+    double       largest_speed                = 0;  ///< m/s, of a point
+
+    mpm::Stir stir() const { return static_cast<mpm::Stir>(static_cast<int>(peaks[mpm::peak_stir])); }
+
+    /// W, of weight and stress on the points' velocity after the last step.
+    double power() const;
+
+    /// J, what half a step (dt, s) of that power loses between each step's end and the next P2G, where the velocities
+    /// are those of the grid: the transfer's part in what `half_step` stores. `first`: W, power() of the report before.
+    double half_step_transfer(double dt, double first) const;
+};
+
+} // namespace tread::solver
