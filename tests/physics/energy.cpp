@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "base/errors.hpp"
 #include "harness.hpp"
 
 // The sand's books: every joule has its place (design section 7).
@@ -95,13 +94,24 @@ TYPED_TEST(SandEnergy, BooksOfAnImpactClose)
 }
 
 /// A run that gains energy must show it: the same column, elastic, with one point a cell at a Courant number of 0.96,
-/// where such sand is destroyed (verification E: from 0.82 on), until it is stopped.
+/// where such sand is destroyed (verification E: from 0.82 on), carried on without the guard that would stop it.
 TYPED_TEST(SandEnergy, BooksOfAnUnstableRunDoNotClose)
 {
-    test::Experiment<TypeParam> run(this->exec(), trough(elastic, column, 0.4, 1) + "[time]\ndt = 1.65e-3\n");
-    EXPECT_THROW(run.run(), NumericalError);
-    run.simulation().ledger().energy(run.simulation().census());
-    const double worst = std::abs(run.simulation().ledger().errors().energy);
+    constexpr double            dt = 1.65e-3;
+    test::Experiment<TypeParam> run(this->exec(), trough(elastic, column, 0.4, 1));
+    auto&                       sand  = run.simulation().sand();
+    solver::Ledger&             books = run.simulation().ledger();
+    double                      worst = 0;
+    for (int step = 0; step < 40; ++step)
+    {
+        sand.order();
+        sand.scatter();
+        sand.update_grid(dt, 0);
+        sand.gather(dt);
+        books.steps(dt, 1, sand.report(), {}, 0, sand.mass());
+        books.energy(run.simulation().census());
+        worst = std::max(worst, std::abs(books.errors().energy));
+    }
     test::report("unaccounted over the largest energy, unstable", worst, 1, 0.5,
                  "half the largest energy or more: no closing by force");
     EXPECT_GT(worst, 0.5);
