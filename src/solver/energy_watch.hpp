@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "solver/sand_report.hpp"
@@ -8,8 +9,9 @@ namespace tread::solver
 {
 
 /// Watches for energy that appears in the sand without a source, the mark of a step that is too long. The stress of an
-/// exact step does as much work on the grid as the strain energy falls by, less what plastic flow takes, and less what
-/// the transfer takes from half a step of its power; what it does beyond that has appeared. All is forgotten at the
+/// exact step does as much work on the grid as the strain energy falls by, less what plastic flow takes; what it does
+/// beyond that has appeared. Velocities are known half a step away from stresses only, and a transfer that filters much
+/// takes its part of that half step: energy has appeared if it has with and without that part. All is forgotten at the
 /// rate of 1/memory a step.
 class EnergyWatch
 {
@@ -21,13 +23,13 @@ public:
     void add(const SandReport& sand, double dt);
 
     /// J, that appeared without a source.
-    double appeared() const { return appeared_; }
+    double appeared() const { return std::min(appeared_, appeared_ + half_steps_); }
 
     /// J, what the sand held at most, and what gravity and contacts did.
     double scale() const { return held_ + received_; }
 
     /// True when the state is wrong: before its energy has doubled without a source.
-    bool alarmed() const { return appeared_ > tolerance * scale(); }
+    bool alarmed() const { return appeared() > tolerance * scale(); }
 
     static constexpr double memory    = 1000; ///< steps
     static constexpr double tolerance = 0.5;
@@ -36,7 +38,7 @@ private:
     double floor_;
     double strain_   = -1; ///< J, after the last step; negative before the first
     double power_    = 0;  ///< W, SandReport::power() after it
-    double appeared_ = 0, held_ = 0, received_ = 0;
+    double appeared_ = 0, half_steps_ = 0, held_ = 0, received_ = 0;
 };
 
 } // namespace tread::solver
