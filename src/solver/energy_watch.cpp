@@ -18,8 +18,8 @@ void EnergyWatch::add(const SandReport& sand, double dt)
     const bool   started   = strain_ >= 0;
     const double stored    = started ? strain - strain_ : 0;
     strain_                = strain;
-    const double half_step = sand.half_step_transfer(dt, power_);
-    power_                 = sand.power();
+    const double half_step = sand.half_step_transfer(dt, half_step_);
+    half_step_             = 0.5 * dt * sand.power();
     if (!started) { return; }
 
     const double gravity = sand.grid[mpm::grid_gravity_work], contact = sand.points[mpm::point_contact_work];

@@ -36,8 +36,8 @@ public:
 
 private:
     double floor_;
-    double strain_   = -1; ///< J, after the last step; negative before the first
-    double power_    = 0;  ///< W, SandReport::power() after it
+    double strain_    = -1; ///< J, after the last step; negative before the first
+    double half_step_ = 0;  ///< J, of SandReport::power() after it
     double appeared_ = 0, half_steps_ = 0, held_ = 0, received_ = 0;
 };
 

@@ -42,9 +42,8 @@ void Ledger::steps(double dt, std::int64_t steps, const SandReport& sand, const 
     // what the points do: of the points' energies only the first and the last are left of the sum.
     const double kinetic = sand.last_points[mpm::point_kinetic];
     transfer_ += kinetic_points_ - kinetic + sand.grid[mpm::grid_kinetic_after] - sand.grid[mpm::grid_kinetic_before] +
-                 sand.half_step_transfer(dt, power_);
-    power_            = sand.power();
-    half_step_        = 0.5 * dt * power_;
+                 sand.half_step_transfer(dt, half_step_);
+    half_step_        = 0.5 * dt * sand.power();
     stress_half_step_ = -0.5 * dt * sand.last_points[mpm::point_stress_power];
     kinetic_points_   = kinetic;
     plastic_ += sand.points[mpm::point_plastic_work];

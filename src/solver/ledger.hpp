@@ -86,7 +86,7 @@ private:
     double          start_energy_ = 0;
     double          time_         = 0;
     double          kinetic_points_;
-    double          power_ = 0, half_step_ = 0; ///< W, of the sand's forces on its points; J
+    double          half_step_        = 0; ///< J
     double          stress_half_step_ = 0;
     double          plastic_ = 0, friction_ = 0, restitution_ = 0, damping_ = 0, transfer_ = 0, work_in_ = 0;
     Vec3<double>    impulse_ = Vec3<double>::Zero();

@@ -14,10 +14,10 @@ double power_of(const double* grid, const double* points)
 
 double SandReport::power() const { return power_of(last_grid, last_points); }
 
-double SandReport::half_step_transfer(double dt, double first) const
+double SandReport::half_step_transfer(double dt, double held) const
 {
-    const double before_steps = first + power_of(grid, points) - power(); // of the step before each
-    return 0.5 * dt * (before_steps - grid[mpm::grid_power_before] + points[mpm::point_contact_power]);
+    const double between = power_of(grid, points) - power(); // of all steps but the last
+    return held + 0.5 * dt * (between - grid[mpm::grid_power_before] + points[mpm::point_contact_power]);
 }
 
 } // namespace tread::solver

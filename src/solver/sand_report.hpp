@@ -24,9 +24,10 @@ struct SandReport
     /// W, of weight and stress on the points' velocity after the last step.
     double power() const;
 
-    /// J, what half a step (dt, s) of that power loses between each step's end and the next P2G, where the velocities
-    /// are those of the grid: the transfer's part in what `half_step` stores. `first`: W, power() of the report before.
-    double half_step_transfer(double dt, double first) const;
+    /// J, what half a step of that power loses between each step's end and the next P2G, where the velocities are those
+    /// of the grid: the transfer's part in what `half_step` stores. `dt`: s, of these steps; `held`: J, half a step of
+    /// power() before them, of a step as long as it then was.
+    double half_step_transfer(double dt, double held) const;
 };
 
 } // namespace tread::solver
