@@ -36,6 +36,9 @@ int main(int argc, char** argv)
                                     {"drucker-prager", scene::MaterialModel::drucker_prager}});
     add_word<bench::SandState>(*mpm_command, "--state", mpm.state,
                                {{"settled", bench::SandState::settled}, {"collapsing", bench::SandState::collapsing}});
+    add_word<scene::Transfer>(
+        *mpm_command, "--transfer", mpm.transfer,
+        {{"flip", scene::Transfer::flip}, {"apic", scene::Transfer::apic}, {"aflip", scene::Transfer::aflip}});
     add_word<scene::Precision>(*mpm_command, "--precision", mpm.precision,
                                {{"single", scene::Precision::single_}, {"double", scene::Precision::double_}});
     add_word<bench::Backend>(*mpm_command, "--backend", mpm.backend,

@@ -60,6 +60,7 @@ scene::Scene make_scene(const MpmCase& what, const Lattice& points)
     scene.domain.walls = {scene::WallKind::slip, scene::WallKind::slip, scene::WallKind::fixed, scene::WallKind::open};
     scene.grid.spacing = spacing;
     scene.numerics.precision = what.precision;
+    scene.numerics.transfer  = what.transfer;
     scene::Material sand;
     sand.name               = "sand";
     sand.model              = what.law;
@@ -116,7 +117,7 @@ class SandBench
 public:
     SandBench(const Exec& exec, const MpmCase& what, const scene::Scene& scene, const solver::World& world)
         : exec_(exec)
-        , sand_(exec, scene, world, {false, scene::is_granular(what.law), false})
+        , sand_(exec, scene, world, {what.transfer != scene::Transfer::flip, scene::is_granular(what.law), false})
         , dt_((what.per_cell == 1 ? 0.35 : 0.5) * spacing / solver::compression_wave_speed(scene.materials[0]))
     {
     }

@@ -25,6 +25,7 @@ struct MpmCase
     int                  per_cell  = 8; ///< 1, 8, 27, 64
     scene::MaterialModel law       = scene::MaterialModel::mohr_coulomb;
     SandState            state     = SandState::settled;
+    scene::Transfer      transfer  = scene::Transfer::aflip;
     scene::Precision     precision = scene::Precision::single_;
     Backend              backend   = Backend::cpu;
     int                  steps     = 200; ///< timed, three times

@@ -10,11 +10,11 @@ namespace tread::mpm
 namespace
 {
 
-/// Measured on an H200: the kernel waits for memory, and more warps hide more of it than the spilled registers cost
-/// (fp32, 4e6 points, 8 a cell: 8.6e9 points/s with 512 threads, 10.5e9 with 768; fp64: 6.0e9 with 512, 4.1e9 with
-/// 768).
+/// Measured on an H200: the kernel waits, and more warps hide more of it than the registers that they spill cost. fp32,
+/// 1e7 points at rest, 8 a cell, points/s for 512, 640, 768, 896 threads: AFLIP 6.7e9, 6.9e9, 6.1e9, 4.9e9; FLIP 7.9e9,
+/// 8.4e9, 8.2e9, 8.1e9.
 template<class Real>
-constexpr int threads_an_sm = sizeof(Real) == 4 ? 896 : 512;
+constexpr int threads_an_sm = sizeof(Real) == 4 ? 640 : 512;
 
 /// Fewer pages than this leave multiprocessors idle unless each page has many threads.
 constexpr std::int64_t few_pages = 1024;

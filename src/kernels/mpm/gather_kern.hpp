@@ -131,10 +131,7 @@ TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t
     const Real                      ratio    = points.volume_ratio[i] * (Real(1) + step.dt * gradient.trace());
     points.volume_ratio[i]                   = ratio;
     PlasticState<Real> state{};
-    if (points.plastic_shear != nullptr)
-    {
-        state = {points.plastic_shear[i], points.plastic_rate[i], points.volume_gap[i]};
-    }
+    if (points.plastic_shear != nullptr) { state = {points.plastic_shear[i], Real(0), points.volume_gap[i]}; }
     const StressUpdate<Real> update = update_stress(material, points.stress.get(i), state, gradient, step.dt);
     points.stress.set(i, update.stress);
     sums[point_stress_power] += Sum(points.volume[i] * stress_power(update.stress, gradient));

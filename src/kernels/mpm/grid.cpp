@@ -17,11 +17,13 @@ void update_grid(const Cpu& cpu, const PagesView& pages, const Real* tiles, cons
         Real*        here           = motion + page * motion_channels * page_cells;
         std::int32_t tile_pages[octants];
         for (int octant = 0; octant < octants; ++octant) { tile_pages[octant] = tile_page(pages, page, octant); }
+        const bool walls = has_held_nodes(step.walls, at);
         for (int place = 0; place < page_cells; ++place)
         {
             Real channels[node_channels];
             sum_tiles(tile_pages, tiles, place, channels);
-            update_node(step, node_at(at, place), channels, here + place, sum);
+            if (walls) { update_node(step, node_at(at, place), channels, here + place, sum); }
+            else { update_free_node(step, node_at(at, place), channels, here + place, sum); }
         }
         for (int s = 0; s < grid_sums; ++s) { book(tallies + page * tally_width(grid_sums), grid_sums, s, sum[s]); }
     };

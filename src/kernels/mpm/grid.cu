@@ -29,8 +29,10 @@ struct UpdatePage
         Real   channels[node_channels];
         double sum[grid_sums] = {};
         sum_tiles(tile_pages, tiles, place, channels);
-        update_node(step, node_at(page_coordinates(pages.node_page_key[page]), place), channels,
-                    motion + page * motion_channels * page_cells + place, sum);
+        const Index3 at   = page_coordinates(pages.node_page_key[page]);
+        Real*        here = motion + page * motion_channels * page_cells + place;
+        if (has_held_nodes(step.walls, at)) { update_node(step, node_at(at, place), channels, here, sum); }
+        else { update_free_node(step, node_at(at, place), channels, here, sum); }
         double* row = tallies + page * tally_width(grid_sums);
         block_sum<page_cells, grid_sums>(sum, shared, [=](int s, double value) { book(row, grid_sums, s, value); });
     }

@@ -65,28 +65,40 @@ TREAD_HD NodeStep<Real> begin_node(const GridStep<Real>& step, Index3 at, const 
     return node;
 }
 
-/// Writes velocity and change to motion[c * 64], adds to `sums`.
+/// Writes velocity and change to motion[c * 64], adds to `sums` what every node does.
+template<class Real>
+TREAD_HD void finish_free_node(const GridStep<Real>& step, const NodeStep<Real>& node, const Vec3<Real>& after,
+                               Real* motion, double* sums)
+{
+    const Vec3<Real> change = after - node.before, middle = Real(0.5) * (node.before + after);
+    sums[grid_kinetic_before] += double(Real(0.5) * node.mass * node.before.squaredNorm());
+    sums[grid_kinetic_after] += double(Real(0.5) * node.mass * after.squaredNorm());
+    sums[grid_power_before] += double(node.force.dot(node.before));
+    sums[grid_gravity_power] += double(node.mass * step.gravity.dot(after));
+    sums[grid_gravity_work] += double(node.mass * step.dt * step.gravity.dot(middle));
+    sums[grid_net_force] += double(node.mass * change.norm() / step.dt);
+    if (step.damping > 0)
+    {
+        sums[grid_damped] -= double(step.dt * node.damping.dot(middle));
+        for (int c = 0; c < 3; ++c) { sums[grid_damping_impulse + c] += double(step.dt * node.damping[c]); }
+    }
+    for (int c = 0; c < 3; ++c)
+    {
+        motion[c * page_cells]       = after[c];
+        motion[(3 + c) * page_cells] = change[c];
+    }
+}
+
+/// The same, and what walls did to the node.
 template<class Real>
 TREAD_HD void finish_node(const GridStep<Real>& step, const NodeStep<Real>& node, const Vec3<Real>& after, Real* motion,
                           double* sums)
 {
-    const Vec3<Real> change = after - node.before, middle = Real(0.5) * (node.before + after);
-    const double     m = double(node.mass);
-    sums[grid_kinetic_before] += 0.5 * m * double(node.before.squaredNorm());
-    sums[grid_kinetic_after] += 0.5 * m * double(after.squaredNorm());
-    sums[grid_power_before] += double(node.force.dot(node.before));
-    sums[grid_gravity_power] += m * double(step.gravity.dot(after));
-    sums[grid_damped] -= double(step.dt * node.damping.dot(middle));
+    finish_free_node(step, node, after, motion, sums);
+    const Vec3<Real> middle = Real(0.5) * (node.before + after);
+    const double     m      = double(node.mass);
     sums[grid_wall_loss] -= m * double((after - node.moved).dot(middle));
-    sums[grid_gravity_work] += m * double(step.dt * step.gravity.dot(middle));
-    sums[grid_net_force] += double(node.mass * change.norm() / step.dt);
-    for (int c = 0; c < 3; ++c)
-    {
-        sums[grid_wall_impulse + c] += m * double(after[c] - node.moved[c]);
-        sums[grid_damping_impulse + c] += double(step.dt * node.damping[c]);
-        motion[c * page_cells]       = after[c];
-        motion[(3 + c) * page_cells] = change[c];
-    }
+    for (int c = 0; c < 3; ++c) { sums[grid_wall_impulse + c] += m * double(after[c] - node.moved[c]); }
 }
 
 template<class Real>
@@ -108,18 +120,34 @@ TREAD_HD Real& unfinished_mass(Real* motion)
     return motion[3 * page_cells];
 }
 
-/// One node's step, or, of a node that walls hold together with others, its first part. `channels`: what sum_tiles
-/// gave.
+/// A node that the sand has left stands still.
+template<class Real>
+TREAD_HD void clear_node(Real* motion)
+{
+    for (int c = 0; c < motion_channels; ++c) { motion[c * page_cells] = 0; }
+}
+
+/// One node's step where no wall may hold it. `channels`: what sum_tiles gave.
+template<class Real>
+TREAD_HD void update_free_node(const GridStep<Real>& step, Index3 node, const Real* channels, Real* motion,
+                               double* sums)
+{
+    const NodeStep<Real> begun = begin_node(step, node, channels);
+    if (begun.mass == 0) { clear_node(motion); }
+    else { finish_free_node(step, begun, begun.moved, motion, sums); }
+}
+
+/// One node's step, or, of a node that walls hold together with others, its first part.
 template<class Real>
 TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* channels, Real* motion, double* sums)
 {
     const NodeStep<Real> begun = begin_node(step, node, channels);
-    const Held           held  = held_by(step.walls, node);
     if (begun.mass == 0)
     {
-        for (int c = 0; c < motion_channels; ++c) { motion[c * page_cells] = 0; }
+        clear_node(motion);
         return;
     }
+    const Held       held  = held_by(step.walls, node);
     const Vec3<Real> after = held.alone ? hold_alone(step.walls, node, begun.mass, begun.moved, sums) : begun.moved;
     if (!held.paired)
     {

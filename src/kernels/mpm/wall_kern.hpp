@@ -63,6 +63,20 @@ TREAD_HD Held held_by(const GridWalls& walls, Index3 node)
     return held;
 }
 
+/// Whether any wall may hold a node of the page at `page`.
+TREAD_HD bool has_held_nodes(const GridWalls& walls, Index3 page)
+{
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        const std::int32_t first = along(page, axis) * page_edge;
+        if (wall_place(walls, axis, first).end >= 0 || wall_place(walls, axis, first + page_edge - 1).end >= 0)
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// Whether a wall that pairs the node may hold this component of its velocity.
 TREAD_HD bool may_hold(const GridWalls& walls, Index3 node, int component)
 {
