@@ -44,7 +44,6 @@ walls   = {{ x = "slip", y = "slip", bottom = "fixed", top = "open" }}
 spacing = {1}
 [numerics]
 precision = "double"
-pic_rate  = 0.0
 [[material]]
 name = "sand"
 model = "mohr-coulomb"
