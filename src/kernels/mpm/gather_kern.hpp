@@ -174,7 +174,7 @@ TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const
 
     const Real speed_squared = velocity.squaredNorm(), checked = speed_squared + stress.sum();
     sums[point_kinetic] += Sum(Real(0.5) * points.mass[i] * speed_squared);
-    const bool finite = checked - checked == 0;
+    const bool finite = std::isfinite(checked);
     const Move move =
         finite ? move_to(pages, page, cell, position) : Move{own_page, place_in_page(cell), Stir::not_finite};
     peaks[peak_speed_squared] = std::fmax(peaks[peak_speed_squared], finite ? Sum(speed_squared) : Sum(0));
