@@ -25,7 +25,7 @@ FIELDS = ("case", "quantity", "spacing", "points_per_cell", "transfer", "precisi
 
 
 def column_stress(run):
-    """Largest error of sigma_zz against the weight above, over that at the floor, per layer of points."""
+    """Root mean square error of sigma_zz against the weight above, over that at the floor, per layer of points."""
     last = run.points(run.snapshots[-1])
     scene = run.scene
     weight = scene["material"][0]["density"] * -scene["domain"]["gravity"][2]
