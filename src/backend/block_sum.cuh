@@ -1,5 +1,7 @@
 #pragma once
 
+#include "backend/warp.cuh"
+
 namespace tread
 {
 
@@ -23,11 +25,11 @@ __device__ void block_combine(const Value* values, double* shared, Combine combi
     for (int w = 0; w < width; ++w)
     {
         double value = static_cast<double>(values[w]);
-        if (__any_sync(0xffffffffu, value != 0)) // many sums are zero on most pages
+        if (__any_sync(all_lanes, value != 0)) // many sums are zero on most pages
         {
             for (int half = 16; half > 0; half /= 2)
             {
-                value = combine(value, __shfl_xor_sync(0xffffffffu, value, half));
+                value = combine(value, __shfl_xor_sync(all_lanes, value, half));
             }
         }
         if (threadIdx.x % 32 == 0) { shared[threadIdx.x / 32 * width + w] = value; }

@@ -28,7 +28,7 @@ void EnergyWatch::add(const SandReport& sand, double dt)
                                sand.grid[mpm::grid_friction] - gravity - contact;
     const double kept = std::pow(1 - 1 / memory, static_cast<double>(sand.steps));
     appeared_         = kept * appeared_ + stress_work + stored + sand.points[mpm::point_plastic_work];
-    half_steps_       = kept * half_steps_ + half_step;
+    transferred_      = kept * transferred_ + half_step;
     received_         = kept * received_ + std::abs(gravity) + std::abs(contact);
     held_             = std::max({kept * held_, strain + sand.last_points[mpm::point_kinetic], floor_});
 }

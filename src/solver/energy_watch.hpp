@@ -23,7 +23,7 @@ public:
     void add(const SandReport& sand, double dt);
 
     /// J, that appeared without a source.
-    double appeared() const { return std::min(appeared_, appeared_ + half_steps_); }
+    double appeared() const { return std::min(appeared_, appeared_ + transferred_); }
 
     /// J, what the sand held at most, and what gravity and contacts did.
     double scale() const { return held_ + received_; }
@@ -38,7 +38,7 @@ private:
     double floor_;
     double strain_    = -1; ///< J, after the last step; negative before the first
     double half_step_ = 0;  ///< J, of SandReport::power() after it
-    double appeared_ = 0, half_steps_ = 0, held_ = 0, received_ = 0;
+    double appeared_ = 0, transferred_ = 0, held_ = 0, received_ = 0;
 };
 
 } // namespace tread::solver

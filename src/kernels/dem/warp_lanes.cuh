@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "backend/launch.cuh"
+#include "backend/warp.cuh"
 
 namespace tread::dem
 {
@@ -11,8 +12,8 @@ namespace tread::dem
 /// every lane.
 struct WarpLanes
 {
-    static constexpr unsigned     everyone = 0xffffffffu;
-    static constexpr std::int32_t size     = 32;
+    static constexpr unsigned     everyone = all_lanes;
+    static constexpr std::int32_t size     = warp_size;
 
     __device__ std::int32_t lane() const { return static_cast<std::int32_t>(threadIdx.x) % size; }
     __device__ std::int32_t lanes() const { return size; }

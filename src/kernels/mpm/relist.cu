@@ -1,4 +1,5 @@
 #include "backend/launch.cuh"
+#include "backend/warp.cuh"
 #include "kernels/mpm/relist_impl.hpp"
 
 namespace tread::mpm
@@ -20,7 +21,7 @@ struct RelistPages
         const std::int64_t      page = block * relist_warps + warp;
         if (page >= job.old.point_pages || !job.moves.stirred()) { return; }
         const bool     arrive  = lane() < directions && arrivals(job.old, job.moves, page, lane()) > 0;
-        const unsigned sources = __ballot_sync(0xffffffffu, arrive);
+        const unsigned sources = __ballot_sync(all_lanes, arrive);
         if (sources == 0 && job.moves.count[page * move_counts + stirred_points] == 0) { copy_list(page); }
         else { relist(page, sources, next[warp]); }
     }
@@ -89,7 +90,7 @@ private:
         std::int32_t       sum = low + high;
         for (int step = 1; step < 32; step *= 2)
         {
-            const std::int32_t before = __shfl_up_sync(0xffffffffu, sum, step);
+            const std::int32_t before = __shfl_up_sync(all_lanes, sum, step);
             if (lane() >= step) { sum += before; }
         }
         const std::int32_t start = job.first_point[page] + sum - low - high;
@@ -104,7 +105,7 @@ private:
     /// The lanes of one place follow each other in the order of the lanes.
     __device__ void put(bool listed, int place, std::int32_t at, std::int32_t* next) const
     {
-        const unsigned lanes = __match_any_sync(0xffffffffu, listed ? place : page_cells);
+        const unsigned lanes = __match_any_sync(all_lanes, listed ? place : page_cells);
         if (listed)
         {
             const std::int32_t to = next[place] + __popc(lanes & ((1u << lane()) - 1));
