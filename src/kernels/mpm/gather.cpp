@@ -10,9 +10,30 @@ namespace tread::mpm
 namespace
 {
 
+/// Four numbers of a NodeMotion fill a register.
+constexpr int gather_width = 4;
+
 template<class Real>
+using Tile = NodeMotion<Real, gather_width>[tile_nodes];
+
+template<class Real>
+void load_tile(const Real* motion, const std::int32_t* neighbours, Tile<Real>& tile)
+{
+    for (int node = 0; node < tile_nodes; ++node)
+    {
+        const Real* source = tile_source(motion, neighbours, node);
+        for (int c = 0; c < 3; ++c)
+        {
+            tile[node].velocity[c] = source[c * page_cells];
+            tile[node].change[c]   = source[(3 + c) * page_cells];
+        }
+    }
+}
+
+template<class Real, class Moment>
 void gather_page(const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-                 const GatherStep<Real>& step, const MovesView& moves, std::int64_t page, double* tally, double* peaks)
+                 const GatherStep<Real>& step, const MovesView& moves, std::int64_t page, double* tally, double* peaks,
+                 Moment)
 {
     std::int32_t* count = moves.count + page * move_counts;
     std::fill(count, count + move_counts, 0);
@@ -21,12 +42,8 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
         std::fill(tally + point_sums, tally + tally_width(point_sums), 0.0);
         return;
     }
-    Real tile[tile_nodes][lanes] = {};
-    for (int node = 0; node < tile_nodes; ++node)
-    {
-        const Real* source = tile_source(motion, pages.node_page_of + 8 * page, node);
-        for (int c = 0; c < motion_channels; ++c) { tile[node][c] = source[c * page_cells]; }
-    }
+    Tile<Real> tile = {};
+    load_tile(motion, pages.node_page_of + 8 * page, tile);
     const Index3 low              = page_coordinates(pages.point_page_key[page]);
     const Real   spacing          = static_cast<Real>(pages.spacing);
     double       sums[point_sums] = {};
@@ -36,9 +53,11 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
         const Index3       cell    = node_at(low, pages.place_at[at]);
         const auto         stencil = stencil_above<Real>(cell, points.position.get(i), pages.inverse_spacing,
                                                  pages.inverse_spacing, pages.stencil_shift);
-        const auto         seen = see(stencil, spacing, [&](int node) -> const Real(&)[lanes] { return tile[node]; });
-        const Move         move = update_point(points, i, seen, stencil.base, pages, page, step, sums, peaks);
-        moves.to[at]            = packed(move);
+        const auto*        lowest  = tile + tile_base(stencil.base);
+        const auto         seen    = see(
+                       stencil, spacing, [=](int a, int b, int c) { return lowest[tile_offset(a, b, c)]; }, Moment{});
+        const Move move = update_point(points, i, seen, stencil.base, pages, page, step, sums, peaks);
+        moves.to[at]    = packed(move);
         count[move.direction] += move.direction != own_page;
         count[stirred_points] += move.stir != Stir::none;
     }
@@ -56,12 +75,17 @@ template<class Real>
 void gather(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
             const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks)
 {
-    const auto item = [=](std::int64_t page)
+    const auto launch = [&](auto moment)
     {
-        gather_page(points, pages, motion, step, moves, page, tallies + page * tally_width(point_sums),
-                    peaks + page * point_peaks);
+        const auto item = [=](std::int64_t page)
+        {
+            gather_page(points, pages, motion, step, moves, page, tallies + page * tally_width(point_sums),
+                        peaks + page * point_peaks, moment);
+        };
+        for_each_heavy(cpu, "gather", pages.point_pages, item);
     };
-    for_each_heavy(cpu, "gather", pages.point_pages, item);
+    if (points.affine.data != nullptr) { launch(WithMoment{}); }
+    else { launch(WithoutMoment{}); }
 }
 
 template void gather(const Cpu&, const PointsView<float>&, const PagesView&, const float*, const GatherStep<float>&,

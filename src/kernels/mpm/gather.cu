@@ -19,14 +19,6 @@ constexpr int threads_an_sm = sizeof(Real) == 4 ? 640 : 512;
 /// Fewer pages than this leave multiprocessors idle unless each page has many threads.
 constexpr std::int64_t few_pages = 1024;
 
-/// Without APIC nothing reads the moment.
-struct WithoutMoment
-{
-};
-struct WithMoment
-{
-};
-
 /// Where shared memory keeps tile node (x, y, z): with this pitch the 16 cells of a layer, each at the same one of its
 /// nodes, touch all banks.
 constexpr int gather_row   = 12;
@@ -66,85 +58,19 @@ __device__ void load_tile(const Real* motion, const std::int32_t* node_page, Mot
     }
 }
 
-/// Partial sums of the velocity over rows and layers of nodes, and of its products with slopes and offsets.
+/// The motion of a stencil's nodes, from shared memory.
 template<class Real>
-struct Partial
+struct NodesOfTile
 {
-    Real velocity[3], by_x[3], by_y[3], by_z[3], change[3];
-    Real at_x[3], at_y[3], at_z[3];
-};
+    const MotionNode<Real>* lowest;
 
-/// The sums of see(), one axis after the other: a third of the operations.
-template<class Real, class Moment>
-__device__ Seen<Real> see_tile(const Stencil<Real>& s, Real spacing, const MotionNode<Real>* tile, Moment)
-{
-    constexpr bool moment = std::is_same_v<Moment, WithMoment>;
-    Partial<Real>  all{};
-    const int      base = gather_slot(s.base.x & 3, s.base.y & 3, s.base.z & 3);
-#pragma unroll
-    for (int c = 0; c < 3; ++c)
+    __device__ NodeMotion<Real, 3> operator()(int a, int b, int c) const
     {
-        Partial<Real> layer{};
-#pragma unroll
-        for (int b = 0; b < 3; ++b)
-        {
-            Partial<Real> row{};
-#pragma unroll
-            for (int a = 0; a < 3; ++a)
-            {
-                const MotionNode<Real> node   = tile[base + gather_slot(a, b, c)];
-                const Real             weight = s.weight[0][a], slope = s.slope[0][a];
-#pragma unroll
-                for (int i = 0; i < 3; ++i)
-                {
-                    row.velocity[i] += weight * node.channel[i];
-                    row.by_x[i] += slope * node.channel[i];
-                    row.change[i] += weight * node.channel[3 + i];
-                    if (moment) { row.at_x[i] += (Real(a) - s.fraction[0]) * weight * node.channel[i]; }
-                }
-            }
-            const Real weight = s.weight[1][b], slope = s.slope[1][b];
-#pragma unroll
-            for (int i = 0; i < 3; ++i)
-            {
-                layer.velocity[i] += weight * row.velocity[i];
-                layer.by_x[i] += weight * row.by_x[i];
-                layer.by_y[i] += slope * row.velocity[i];
-                layer.change[i] += weight * row.change[i];
-                if (moment)
-                {
-                    layer.at_x[i] += weight * row.at_x[i];
-                    layer.at_y[i] += (Real(b) - s.fraction[1]) * weight * row.velocity[i];
-                }
-            }
-        }
-        const Real weight = s.weight[2][c], slope = s.slope[2][c];
-#pragma unroll
-        for (int i = 0; i < 3; ++i)
-        {
-            all.velocity[i] += weight * layer.velocity[i];
-            all.by_x[i] += weight * layer.by_x[i];
-            all.by_y[i] += weight * layer.by_y[i];
-            all.by_z[i] += slope * layer.velocity[i];
-            all.change[i] += weight * layer.change[i];
-            if (moment)
-            {
-                all.at_x[i] += weight * layer.at_x[i];
-                all.at_y[i] += weight * layer.at_y[i];
-                all.at_z[i] += (Real(c) - s.fraction[2]) * weight * layer.velocity[i];
-            }
-        }
+        const MotionNode<Real> node = lowest[gather_slot(a, b, c)];
+        return {{node.channel[0], node.channel[1], node.channel[2]},
+                {node.channel[3], node.channel[4], node.channel[5]}};
     }
-    Seen<Real> seen{};
-    for (int i = 0; i < 3; ++i)
-    {
-        seen.velocity[i] = all.velocity[i];
-        seen.change[i]   = all.change[i];
-        seen.gradient.row(i) << all.by_x[i], all.by_y[i], all.by_z[i];
-        if (moment) { seen.moment.row(i) << spacing * all.at_x[i], spacing * all.at_y[i], spacing * all.at_z[i]; }
-    }
-    return seen;
-}
+};
 
 /// One block a page: its tile in shared memory, its points dealt to the threads in order.
 template<int threads, class Real, class Moment>
@@ -178,13 +104,15 @@ struct GatherPage
         const std::int64_t end     = pages.first_point[page + 1];
         for (std::int64_t at = pages.first_point[page] + threadIdx.x; at < end; at += threads)
         {
-            const std::int64_t i       = pages.point_at[at];
-            const Index3       cell    = node_at(low, pages.place_at[at]);
-            const auto         stencil = stencil_above<Real>(cell, points.position.get(i), pages.inverse_spacing,
+            const std::int64_t      i       = pages.point_at[at];
+            const Index3            cell    = node_at(low, pages.place_at[at]);
+            const auto              stencil = stencil_above<Real>(cell, points.position.get(i), pages.inverse_spacing,
                                                      pages.inverse_spacing, pages.stencil_shift);
-            const auto         seen    = see_tile(stencil, spacing, tile, Moment{});
-            const Move         move    = update_point(points, i, seen, stencil.base, pages, page, step, sum, peak);
-            moves.to[at]               = packed(move);
+            const Index3            base    = stencil.base;
+            const NodesOfTile<Real> nodes{tile + gather_slot(base.x & 3, base.y & 3, base.z & 3)};
+            const auto              seen = see(stencil, spacing, nodes, Moment{});
+            const Move              move = update_point(points, i, seen, stencil.base, pages, page, step, sum, peak);
+            moves.to[at]                 = packed(move);
             if (move.stir != Stir::none) { count_move(move, count); }
         }
         double* row  = tallies + page * tally_width(point_sums);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <type_traits>
+
 #include "kernels/mpm/gather.hpp"
 #include "kernels/mpm/law_kern.hpp"
 #include "kernels/mpm/stencil_kern.hpp"
@@ -27,49 +30,103 @@ struct Seen
     Mat3<Real> moment;   ///< m2/s, sum of weight v (x_node - x_point)^T; APIC only
 };
 
-/// tile(node) gives a pointer to the lanes of a tile node: velocity (3), change (3), two pads.
-template<class Real, class Tile>
-TREAD_HD Seen<Real> see(const Stencil<Real>& s, Real spacing, Tile tile)
+/// A node's velocity after the step and its change in the step, m/s: three components each, and what more fills a
+/// vector register.
+template<class Real, int numbers>
+struct NodeMotion
 {
-    Real      sum[lanes] = {}, slope[3][lanes] = {}, moment[3][lanes] = {};
-    const int base = tile_base(s.base);
+    static constexpr int width = numbers;
+
+    Real velocity[width], change[width];
+};
+
+/// Partial sums of the motion over rows and layers of nodes, and of the velocity's products with slopes and offsets.
+template<class Real, int width>
+struct Partial
+{
+    Real velocity[width], by_x[width], by_y[width], by_z[width], change[width];
+    Real at_x[width], at_y[width], at_z[width];
+};
+
+/// sum += factor * value. One rounding on both backends.
+template<class Real, int width>
+TREAD_HD void add_scaled(Real factor, const Real (&value)[width], Real (&sum)[width])
+{
+    for (int i = 0; i < width; ++i) { sum[i] = std::fma(factor, value[i], sum[i]); }
+}
+
+/// Without APIC nothing reads the moment.
+struct WithoutMoment
+{
+};
+struct WithMoment
+{
+};
+
+/// Adds up the motion that node(a, b, c) gives of each node of a stencil, one axis after the other: a third of the
+/// operations of a sum over nodes.
+template<class Real, class Node, class Moment>
+TREAD_HD auto sum_motion(const Stencil<Real>& s, Node node, Moment)
+{
+    constexpr bool moment = std::is_same_v<Moment, WithMoment>;
+    using Sums            = Partial<Real, decltype(node(0, 0, 0))::width>;
+    Sums all{};
     for (int c = 0; c < 3; ++c)
     {
+        Sums layer{};
         for (int b = 0; b < 3; ++b)
         {
-            const Real plane = s.weight[1][b] * s.weight[2][c];
-            const Real py = s.slope[1][b] * s.weight[2][c], pz = s.weight[1][b] * s.slope[2][c];
-            const Real oy = (Real(b) - s.fraction[1]) * spacing, oz = (Real(c) - s.fraction[2]) * spacing;
+            Sums row{};
             for (int a = 0; a < 3; ++a)
             {
-                const Real  weight = s.weight[0][a] * plane;
-                const Real  dx = s.slope[0][a] * plane, dy = s.weight[0][a] * py, dz = s.weight[0][a] * pz;
-                const Real  ox   = (Real(a) - s.fraction[0]) * spacing;
-                const auto& node = tile(base + tile_offset(a, b, c));
-                for (int l = 0; l < lanes; ++l)
-                {
-                    const Real value = node[l];
-                    const Real share = weight * value;
-                    sum[l] += share;
-                    slope[0][l] += dx * value;
-                    slope[1][l] += dy * value;
-                    slope[2][l] += dz * value;
-                    moment[0][l] += ox * share;
-                    moment[1][l] += oy * share;
-                    moment[2][l] += oz * share;
-                }
+                const auto motion = node(a, b, c);
+                const Real weight = s.weight[0][a];
+                add_scaled(weight, motion.velocity, row.velocity);
+                add_scaled(s.slope[0][a], motion.velocity, row.by_x);
+                add_scaled(weight, motion.change, row.change);
+                if (moment) { add_scaled((Real(a) - s.fraction[0]) * weight, motion.velocity, row.at_x); }
+            }
+            const Real weight = s.weight[1][b];
+            add_scaled(weight, row.velocity, layer.velocity);
+            add_scaled(weight, row.by_x, layer.by_x);
+            add_scaled(s.slope[1][b], row.velocity, layer.by_y);
+            add_scaled(weight, row.change, layer.change);
+            if (moment)
+            {
+                add_scaled(weight, row.at_x, layer.at_x);
+                add_scaled((Real(b) - s.fraction[1]) * weight, row.velocity, layer.at_y);
             }
         }
+        const Real weight = s.weight[2][c];
+        add_scaled(weight, layer.velocity, all.velocity);
+        add_scaled(weight, layer.by_x, all.by_x);
+        add_scaled(weight, layer.by_y, all.by_y);
+        add_scaled(s.slope[2][c], layer.velocity, all.by_z);
+        add_scaled(weight, layer.change, all.change);
+        if (moment)
+        {
+            add_scaled(weight, layer.at_x, all.at_x);
+            add_scaled(weight, layer.at_y, all.at_y);
+            add_scaled((Real(c) - s.fraction[2]) * weight, layer.velocity, all.at_z);
+        }
     }
-    Seen<Real> seen;
+    return all;
+}
+
+/// node(a, b, c) gives the NodeMotion of a node of the stencil.
+template<class Real, class Node, class Moment>
+TREAD_HD Seen<Real> see(const Stencil<Real>& s, Real spacing, Node node, Moment)
+{
+    const auto sum = sum_motion(s, node, Moment{});
+    Seen<Real> seen{};
     for (int i = 0; i < 3; ++i)
     {
-        seen.velocity[i] = sum[i];
-        seen.change[i]   = sum[3 + i];
-        for (int j = 0; j < 3; ++j)
+        seen.velocity[i] = sum.velocity[i];
+        seen.change[i]   = sum.change[i];
+        seen.gradient.row(i) << sum.by_x[i], sum.by_y[i], sum.by_z[i];
+        if (std::is_same_v<Moment, WithMoment>)
         {
-            seen.gradient(i, j) = slope[j][i];
-            seen.moment(i, j)   = moment[j][i];
+            seen.moment.row(i) << spacing * sum.at_x[i], spacing * sum.at_y[i], spacing * sum.at_z[i];
         }
     }
     return seen;
