@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bit>
+
 #include "backend/warp.cuh"
 
 namespace tread
@@ -7,39 +9,84 @@ namespace tread
 
 struct AddValues
 {
-    __device__ double operator()(double a, double b) const { return a + b; }
+    template<class Value>
+    __device__ Value operator()(Value a, Value b) const
+    {
+        return a + b;
+    }
 };
 
 struct LargerValue
 {
-    __device__ double operator()(double a, double b) const { return a > b ? a : b; }
+    template<class Value>
+    __device__ Value operator()(Value a, Value b) const
+    {
+        return a > b ? a : b;
+    }
 };
 
-/// Combines `width` values of each of a block's `threads` threads in a fixed order: a tree in each warp, then the warps
-/// one after the other; 0 combined with 0 must give 0. Calls keep(which, value) from thread `which` of the block.
-/// `shared` holds threads / 32 * width doubles, not in use by others. All threads must call it.
+/// Lanes of a warp that hold one of `width` combined values.
+template<int width>
+constexpr int lanes_a_slot = warp_size / static_cast<int>(std::bit_ceil(static_cast<unsigned>(width)));
+
+/// Which value lane `lane` has after warp_combine.
+template<int width>
+__device__ int warp_slot(int lane)
+{
+    return lane / lanes_a_slot<width>;
+}
+
+/// Whether a lane is the first of those with its value.
+template<int width>
+__device__ bool is_slot_head(int lane)
+{
+    return lane % lanes_a_slot<width> == 0;
+}
+
+/// Combines the first `width` values of each lane of a warp in a fixed order; lane l gets value warp_slot(l). All at
+/// once: with every exchange a lane hands half of its values on, so that 16 values take 16 exchanges instead of 80.
+template<int width, class Value, class Combine>
+__device__ Value warp_combine(const Value* values, Combine combine)
+{
+    constexpr int slots = warp_size / lanes_a_slot<width>;
+    const int     lane  = static_cast<int>(threadIdx.x) % warp_size;
+    Value         part[slots];
+#pragma unroll
+    for (int w = 0; w < slots; ++w) { part[w] = w < width ? values[w] : Value(0); }
+    int across = warp_size / 2;
+#pragma unroll
+    for (int half = slots / 2; half > 0; half /= 2, across /= 2)
+    {
+        const bool upper = (lane & across) != 0;
+#pragma unroll
+        for (int w = 0; w < half; ++w)
+        {
+            const Value kept = upper ? part[w + half] : part[w], handed = upper ? part[w] : part[w + half];
+            part[w] = combine(kept, __shfl_xor_sync(all_lanes, handed, across));
+        }
+    }
+#pragma unroll
+    for (; across > 0; across /= 2) { part[0] = combine(part[0], __shfl_xor_sync(all_lanes, part[0], across)); }
+    return part[0];
+}
+
+/// Combines `width` values of each of a block's `threads` threads in a fixed order: warp_combine, then, in fp64, the
+/// warps one after the other. Calls keep(which, value) from thread `which` of the block. `shared` holds threads / 32 *
+/// width doubles, not in use by others. All threads must call it.
 template<int threads, int width, class Value, class Combine, class Keep>
 __device__ void block_combine(const Value* values, double* shared, Combine combine, Keep keep)
 {
-    constexpr int warps = threads / 32;
-    for (int w = 0; w < width; ++w)
-    {
-        double value = static_cast<double>(values[w]);
-        if (__any_sync(all_lanes, value != 0)) // many sums are zero on most pages
-        {
-            for (int half = 16; half > 0; half /= 2)
-            {
-                value = combine(value, __shfl_xor_sync(all_lanes, value, half));
-            }
-        }
-        if (threadIdx.x % 32 == 0) { shared[threadIdx.x / 32 * width + w] = value; }
-    }
+    constexpr int warps = threads / warp_size;
+    const int     lane = static_cast<int>(threadIdx.x) % warp_size, warp = static_cast<int>(threadIdx.x) / warp_size;
+    const Value   value = warp_combine<width>(values, combine);
+    const int     which = warp_slot<width>(lane);
+    if (which < width && is_slot_head<width>(lane)) { shared[warp * width + which] = static_cast<double>(value); }
     __syncthreads();
     if (threadIdx.x < width)
     {
-        double value = shared[threadIdx.x];
-        for (int warp = 1; warp < warps; ++warp) { value = combine(value, shared[warp * width + threadIdx.x]); }
-        keep(static_cast<int>(threadIdx.x), value);
+        double total = shared[threadIdx.x];
+        for (int w = 1; w < warps; ++w) { total = combine(total, shared[w * width + threadIdx.x]); }
+        keep(static_cast<int>(threadIdx.x), total);
     }
 }
 

@@ -10,7 +10,7 @@ namespace tread
 {
 
 template<class F>
-__global__ void for_each_kernel(std::int64_t n, F f)
+__global__ void for_each_kernel(std::int64_t n, const __grid_constant__ F f)
 {
     const std::int64_t i = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
     if (i < n) { f(i); }
@@ -28,7 +28,7 @@ void for_each(const Gpu& gpu, const char* name, std::int64_t n, F f)
 }
 
 template<int threads, int blocks_an_sm, class F>
-__global__ void __launch_bounds__(threads, blocks_an_sm) for_each_block_kernel(F f)
+__global__ void __launch_bounds__(threads, blocks_an_sm) for_each_block_kernel(const __grid_constant__ F f)
 {
     f(static_cast<std::int64_t>(blockIdx.x));
 }

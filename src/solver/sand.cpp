@@ -15,8 +15,8 @@ namespace
 /// underflow in fp32: a larger one would hold nodes back that move with the sand, and strain what falls freely.
 constexpr double mass_floor_share = 1e-20;
 
-/// After so many new lists the order in memory is renewed: points of a cell that stand far apart in memory cost reads.
-constexpr int relists_an_order = 64;
+/// After so many new lists the points are moved in memory: those of a cell that stand far apart cost reads.
+constexpr int relists_an_order = 16;
 
 /// Room for a census, or for what a report reads.
 constexpr std::int64_t totals_size = std::int64_t{mpm::census_count} + std::int64_t{mpm::tally_width(mpm::grid_sums)} +
@@ -83,7 +83,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     , moves_to_(exec, "point moves")
     , move_counts_(exec, "page moves")
     , stirred_in_(exec, "last step with moves", 1)
-    , wall_pages_(exec, "wall pages")
+    , wall_pages_(exec)
     , tiles_(exec, "tiles")
     , motion_(exec, "grid motion")
     , grid_rows_(exec, "grid sums")
@@ -138,8 +138,15 @@ void Sand<Exec, Real>::order()
         return;
     }
     if (stir_ == mpm::Stir::none) { return; }
-    if (stir_ == mpm::Stir::moved && relists_ < relists_an_order) { list_anew(); }
-    else { order_in_memory(); }
+    if (stir_ != mpm::Stir::moved)
+    {
+        order_in_memory();
+        return;
+    }
+    list_anew();
+    if (relists_ < relists_an_order) { return; }
+    mpm::renew_order(exec_, points_, pages_, order_scratch_);
+    relists_ = 0;
 }
 
 template<class Exec, class Real>
@@ -162,10 +169,7 @@ void Sand<Exec, Real>::order_in_memory()
     peak_rows_.resize(point_pages * mpm::point_peaks);
     clear_tallies();
     if (cell_means_) { cell_divergence_.resize(point_pages * mpm::page_cells); }
-    if (mpm::has_walls(walls_))
-    {
-        mpm::list_wall_pages(exec_, pages(), walls_, wall_pages_, order_scratch_.marks, order_scratch_.sort);
-    }
+    if (mpm::has_walls(walls_)) { mpm::list_wall_pages(exec_, pages(), walls_, wall_pages_, order_scratch_.sort); }
     moves_to_.resize(points_.count);
     move_counts_.resize(point_pages * mpm::move_counts);
 }
@@ -194,10 +198,8 @@ template<class Exec, class Real>
 void Sand<Exec, Real>::update_grid(double dt, double damping)
 {
     const mpm::GridStep<Real> step{static_cast<Real>(dt), gravity_, static_cast<Real>(damping), mass_floor_, walls_};
-    mpm::update_grid(exec_, pages(), tiles_.data(), step, motion_.data(), grid_rows_.data());
-    if (!mpm::has_walls(walls_)) { return; }
-    mpm::update_walls(exec_, pages(), {wall_pages_.data(), wall_pages_.size()}, tiles_.data(), step, motion_.data(),
-                      grid_rows_.data());
+    mpm::update_grid(exec_, pages(), wall_pages_.view(), tiles_.data(), step, motion_.data(), grid_rows_.data());
+    mpm::update_walls(exec_, pages(), wall_pages_.view(), step, motion_.data(), grid_rows_.data());
 }
 
 template<class Exec, class Real>

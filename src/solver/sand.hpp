@@ -89,7 +89,7 @@ private:
     Array<Exec, std::uint16_t>                 moves_to_;
     Array<Exec, std::int32_t>                  move_counts_;
     Array<Exec, std::int64_t>                  stirred_in_;
-    Array<Exec, std::int32_t>                  wall_pages_;
+    mpm::WallPages<Exec, Real>                 wall_pages_;
     Array<Exec, Real>                          tiles_;
     Array<Exec, Real>                          motion_;
     Array<Exec, double>                        grid_rows_;

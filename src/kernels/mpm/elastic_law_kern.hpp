@@ -32,7 +32,7 @@ TREAD_HD Real elastic_product(const Elasticity<Real>& elasticity, const Sym3<Rea
     const Real mean = (a[0] + a[1] + a[2]) * Real(1.0 / 3), other = (b[0] + b[1] + b[2]) * Real(1.0 / 3);
     Real       product = 0;
     for (int i = 0; i < 3; ++i) { product += (a[i] - mean) * (b[i] - other) + Real(2) * a[3 + i] * b[3 + i]; }
-    return mean * other / elasticity.bulk_modulus + product / (Real(2) * elasticity.shear_modulus);
+    return mean * other * elasticity.bulk_compliance + product * elasticity.shear_compliance;
 }
 
 /// p^2/(2K) + s:s/(4G), J/m3: the energy that the stress can give back, without further state.

@@ -14,6 +14,10 @@ struct Elasticity
     Real shear_modulus; ///< Pa
     Real bulk_modulus;  ///< Pa
     Real wave_speed;    ///< m/s, of compression waves
+
+    // What divides in every step.
+    Real bulk_compliance;  ///< 1/Pa, 1/K
+    Real shear_compliance; ///< 1/Pa, 1/(2 G)
 };
 
 /// `young` > 0 in Pa, -1 < `poisson` < 0.5, `density` > 0 in kg/m3. Computed in fp64, then rounded to Real.
@@ -22,8 +26,14 @@ Elasticity<Real> make_elasticity(double young, double poisson, double density)
 {
     const double shear = young / (2 * (1 + poisson));
     const double lame  = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
-    return {static_cast<Real>(density), static_cast<Real>(lame), static_cast<Real>(shear),
-            static_cast<Real>(lame + 2 * shear / 3), static_cast<Real>(std::sqrt((lame + 2 * shear) / density))};
+    const double bulk  = lame + 2 * shear / 3;
+    return {static_cast<Real>(density),
+            static_cast<Real>(lame),
+            static_cast<Real>(shear),
+            static_cast<Real>(bulk),
+            static_cast<Real>(std::sqrt((lame + 2 * shear) / density)),
+            static_cast<Real>(1 / bulk),
+            static_cast<Real>(1 / (2 * shear))};
 }
 
 } // namespace tread::mpm

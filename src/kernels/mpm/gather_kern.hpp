@@ -20,6 +20,33 @@ TREAD_HD const Real* tile_source(const Real* motion, const std::int32_t* neighbo
            ((x & 3) | (y & 3) << 2 | (z & 3) << 4);
 }
 
+/// What the update of a point reads of it.
+template<class Real>
+struct PointState
+{
+    Vec3<double> position;
+    Vec3<Real>   velocity;
+    Sym3<Real>   stress;
+    Real         mass, volume, volume_ratio;
+    Real         plastic_shear, volume_gap; ///< 0 where no material is plastic
+    std::uint8_t material;
+};
+
+template<class Real>
+TREAD_HD PointState<Real> read_point(const PointsView<Real>& points, std::int64_t i)
+{
+    const bool plastic = points.plastic_shear != nullptr;
+    return {points.position.get(i),
+            points.velocity.get(i),
+            points.stress.get(i),
+            points.mass[i],
+            points.volume[i],
+            points.volume_ratio[i],
+            plastic ? points.plastic_shear[i] : Real(0),
+            plastic ? points.volume_gap[i] : Real(0),
+            points.material[i]};
+}
+
 /// What a point sees of the grid.
 template<class Real>
 struct Seen
@@ -153,19 +180,18 @@ TREAD_HD void set_affine(const PointsView<Real>& points, std::int64_t i, const S
 /// share nodes, sum m (v_grid - v_flip) = 0 holds for all together, not for each, so that rates by material would not
 /// conserve momentum.
 template<class Real>
-TREAD_HD Vec3<Real> transferred_velocity(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen,
-                                         Real pic)
+TREAD_HD Vec3<Real> transferred_velocity(const Vec3<Real>& before, const Seen<Real>& seen, Real pic)
 {
-    return (Real(1) - pic) * (points.velocity.get(i) + seen.change) + pic * seen.velocity;
+    return (Real(1) - pic) * (before + seen.change) + pic * seen.velocity;
 }
 
 template<class Real, class Sum>
-TREAD_HD void keep_for_contact(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen, Real dt,
-                               Sum* sums)
+TREAD_HD void keep_for_contact(const PointsView<Real>& points, std::int64_t i, Real mass, const Seen<Real>& seen,
+                               Real dt, Sum* sums)
 {
     const Vec3<Real> force = points.contact_force.get(i);
     points.grid_velocity.set(i, seen.velocity);
-    points.support.set(i, seen.change / dt - force / points.mass[i]);
+    points.support.set(i, seen.change / dt - force / mass);
     sums[point_contact_power] += Sum(force.dot(seen.velocity - seen.change));
     sums[point_contact_work] += Sum(dt) * Sum(force.dot(seen.velocity - Real(0.5) * seen.change));
 }
@@ -181,25 +207,23 @@ TREAD_HD Real stress_power(const Sym3<Real>& stress, const Mat3<Real>& gradient)
 
 /// Gives the new stress.
 template<class Real, class Sum>
-TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t i, const Mat3<Real>& gradient,
-                                    const GatherStep<Real>& step, Sum* sums)
+TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t i, const PointState<Real>& point,
+                                    const Mat3<Real>& gradient, const GatherStep<Real>& step, Sum* sums)
 {
-    const MaterialParameters<Real>& material = step.materials[points.material[i]];
-    const Real                      ratio    = points.volume_ratio[i] * (Real(1) + step.dt * gradient.trace());
-    points.volume_ratio[i]                   = ratio;
-    PlasticState<Real> state{};
-    if (points.plastic_shear != nullptr) { state = {points.plastic_shear[i], Real(0), points.volume_gap[i]}; }
-    const StressUpdate<Real> update = update_stress(material, points.stress.get(i), state, gradient, step.dt);
+    const MaterialParameters<Real>& material = step.materials[point.material];
+    points.volume_ratio[i]                   = point.volume_ratio * (Real(1) + step.dt * gradient.trace());
+    const PlasticState<Real> state{point.plastic_shear, Real(0), point.volume_gap};
+    const StressUpdate<Real> update = update_stress(material, point.stress, state, gradient, step.dt);
     points.stress.set(i, update.stress);
-    sums[point_stress_power] += Sum(points.volume[i] * stress_power(update.stress, gradient));
-    sums[point_strain] += Sum(points.volume[i] * elastic_energy_density(material, update.stress));
+    sums[point_stress_power] += Sum(point.volume * stress_power(update.stress, gradient));
+    sums[point_strain] += Sum(point.volume * elastic_energy_density(material, update.stress));
     if (points.plastic_shear != nullptr)
     {
         points.plastic_shear[i] = update.state.plastic_shear;
         points.plastic_rate[i]  = update.state.plastic_rate;
         points.volume_gap[i]    = update.state.volume_gap;
         const Real work         = update.plastic_work + update.work_to_mean;
-        if (work != 0) { sums[point_plastic_work] += Sum(work * points.volume[i]); }
+        if (work != 0) { sums[point_plastic_work] += Sum(work * point.volume); }
     }
     return update.stress;
 }
@@ -214,23 +238,23 @@ TREAD_HD Mat3<Real> law_gradient(const Mat3<Real>& gradient, const Real* cell_di
 
 /// The whole G2P of one point of a page, up to where it is then.
 template<class Real, class Sum>
-TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen, Index3 cell,
-                           const PagesView& pages, std::int64_t page, const GatherStep<Real>& step, Sum* sums,
-                           Sum* peaks)
+TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const PointState<Real>& point,
+                           const Seen<Real>& seen, Index3 cell, const PagesView& pages, std::int64_t page,
+                           const GatherStep<Real>& step, Sum* sums, Sum* peaks)
 {
-    const Vec3<Real> velocity = transferred_velocity(points, i, seen, step.pic);
+    const Vec3<Real> velocity = transferred_velocity(point.velocity, seen, step.pic);
     points.velocity.set(i, velocity);
     if (points.affine.data != nullptr) { set_affine(points, i, seen, pages.spacing, pages.stencil_shift); }
-    if (points.contact_force.data != nullptr) { keep_for_contact(points, i, seen, step.dt, sums); }
+    if (points.contact_force.data != nullptr) { keep_for_contact(points, i, point.mass, seen, step.dt, sums); }
     const std::int64_t place = page * page_cells + place_in_page(cell);
     const Sym3<Real>   stress =
-        update_material(points, i, law_gradient(seen.gradient, step.cell_divergence, place), step, sums);
+        update_material(points, i, point, law_gradient(seen.gradient, step.cell_divergence, place), step, sums);
 
-    const Vec3<double> position = points.position.get(i) + double(step.dt) * seen.velocity.template cast<double>();
+    const Vec3<double> position = point.position + double(step.dt) * seen.velocity.template cast<double>();
     points.position.set(i, position);
 
     const Real speed_squared = velocity.squaredNorm(), checked = speed_squared + stress.sum();
-    sums[point_kinetic] += Sum(Real(0.5) * points.mass[i] * speed_squared);
+    sums[point_kinetic] += Sum(Real(0.5) * point.mass * speed_squared);
     const bool finite = std::isfinite(checked);
     const Move move =
         finite ? move_to(pages, page, cell, position) : Move{own_page, place_in_page(cell), Stir::not_finite};

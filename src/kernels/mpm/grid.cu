@@ -9,121 +9,205 @@ namespace tread::mpm
 namespace
 {
 
-/// One block a node page, one thread a node.
-template<class Real>
-struct UpdatePage
-{
-    PagesView      pages;
-    const Real*    tiles;
-    GridStep<Real> step;
-    Real*          motion;
-    double*        tallies;
+constexpr int grid_warps   = 4;
+constexpr int grid_threads = grid_warps * warp_size;
+constexpr int grid_blocks  = 8; ///< an SM
 
-    __device__ void operator()(std::int64_t page) const
+/// Of a lane's two nodes, neighbours along x.
+template<class Real>
+using Pair = Pack<Real, 2>;
+
+/// A warp a node page, a lane two nodes.
+template<class Real>
+struct UpdatePages
+{
+    PagesView           pages;
+    WallPagesView<Real> wall_pages;
+    const Real*         tiles;
+    GridStep<Real>      step;
+    Real*               motion;
+    double*             tallies;
+
+    __device__ void operator()(std::int64_t block) const
     {
-        __shared__ double shared[page_cells / 32 * grid_sums];
-        __shared__ std::int32_t tile_pages[octants];
-        const int               place = static_cast<int>(threadIdx.x);
-        if (place < octants) { tile_pages[place] = tile_page(pages, page, place); }
-        __syncthreads();
-        Real   channels[node_channels];
-        double sum[grid_sums] = {};
-        sum_tiles(tile_pages, tiles, place, channels);
-        const Index3 at   = page_coordinates(pages.node_page_key[page]);
-        Real*        here = motion + page * motion_channels * page_cells + place;
-        if (has_held_nodes(step.walls, at)) { update_node(step, node_at(at, place), channels, here, sum); }
-        else { update_free_node(step, node_at(at, place), channels, here, sum); }
+        const std::int64_t page = block * grid_warps + threadIdx.x / warp_size;
+        if (page >= pages.node_pages) { return; }
+        const int          lane                    = static_cast<int>(threadIdx.x) % warp_size;
+        const std::int32_t tile                    = lane < octants ? tile_page(pages, page, lane) : -1;
+        const std::int32_t wall_page               = wall_pages.number(page);
+        Pair<Real>         channels[node_channels] = {};
+        sum_pairs(tile, lane, channels);
         double* row = tallies + page * tally_width(grid_sums);
-        block_sum<page_cells, grid_sums>(sum, shared, [=](int s, double value) { book(row, grid_sums, s, value); });
+        Real*   out = motion + page * motion_channels * page_cells + 2 * lane;
+        if (wall_page < 0) { update_free(channels, lane, out, row); }
+        else { update_held(page, wall_page, channels, lane, out, row); }
+    }
+
+    /// sum_tiles for two nodes; lane `octant` brings the page of that tile. All loads of a channel at once, and of as
+    /// many channels as registers allow.
+    __device__ void sum_pairs(std::int32_t tile_of_lane, int lane, Pair<Real>* total) const
+    {
+        const int   x = 2 * (lane & 1), y = lane >> 1 & 3, z = lane >> 3;
+        const Real* tile[octants];
+#pragma unroll
+        for (int octant = 0; octant < octants; ++octant)
+        {
+            const std::int32_t page = __shfl_sync(all_lanes, tile_of_lane, octant);
+            const bool         reaches =
+                page >= 0 && x < octant_edge(octant, 0) && y < octant_edge(octant, 1) && z < octant_edge(octant, 2);
+            tile[octant] = !reaches ? nullptr
+                                    : tiles + std::int64_t(page) * node_channels * tile_nodes + octant_start(octant) +
+                                          x + octant_edge(octant, 0) * (y + octant_edge(octant, 1) * z);
+        }
+#pragma unroll
+        for (int c = 0; c < node_channels; ++c)
+        {
+            Pair<Real> part[octants];
+#pragma unroll
+            for (int octant = 0; octant < octants; ++octant)
+            {
+                part[octant] = tile[octant] == nullptr
+                                   ? Pair<Real>{}
+                                   : *reinterpret_cast<const Pair<Real>*>(tile[octant] + c * tile_nodes);
+            }
+#pragma unroll
+            for (int octant = 0; octant < octants; ++octant)
+            {
+                total[c].at[0] += part[octant].at[0];
+                total[c].at[1] += part[octant].at[1];
+            }
+        }
+    }
+
+    __device__ void update_free(const Pair<Real>* channels, int lane, Real* out, double* row) const
+    {
+        Real             sum[grid_sums] = {};
+        NodeEnd<Real> node[2];
+#pragma unroll
+        for (int n = 0; n < 2; ++n) { node[n] = update_free_node(step, of_node(channels, n).at, sum); }
+        write_pair(node, out);
+        if (step.damping > 0) { book_warp<grid_wall_loss>(sum, lane, row); }
+        else { book_warp<grid_damped>(sum, lane, row); }
+    }
+
+    __device__ void update_held(std::int64_t page, std::int32_t wall_page, const Pair<Real>* channels, int lane,
+                                Real* out, double* row) const
+    {
+        Real             sum[grid_sums] = {};
+        NodeEnd<Real> node[2];
+        const Index3     at         = page_coordinates(pages.node_page_key[page]);
+        WallNode<Real>*  wall_nodes = wall_pages.node + std::int64_t(wall_page) * page_cells + 2 * lane;
+        for (int n = 0; n < 2; ++n)
+        {
+            node[n] = update_node(step, node_at(at, 2 * lane + n), of_node(channels, n).at, wall_nodes[n], sum);
+        }
+        write_pair(node, out);
+        book_warp<grid_sums>(sum, lane, row);
+    }
+
+    __device__ static Pack<Real, 8> of_node(const Pair<Real>* channels, int n)
+    {
+        Pack<Real, 8> node;
+        for (int c = 0; c < node_channels; ++c) { node.at[c] = channels[c].at[n]; }
+        return node;
+    }
+
+    __device__ static void write_pair(const NodeEnd<Real>* node, Real* out)
+    {
+        for (int c = 0; c < 3; ++c)
+        {
+            *reinterpret_cast<Pair<Real>*>(out + c * page_cells)       = {{node[0].velocity[c], node[1].velocity[c]}};
+            *reinterpret_cast<Pair<Real>*>(out + (3 + c) * page_cells) = {{node[0].change[c], node[1].change[c]}};
+        }
+    }
+
+    /// Books the first `count` sums; the others are zero.
+    template<int count>
+    __device__ static void book_warp(const Real* sum, int lane, double* row)
+    {
+        const Real value = warp_combine<count>(sum, AddValues{});
+        const int  which = warp_slot<count>(lane);
+        if (which < count && is_slot_head<count>(lane)) { book(row, grid_sums, which, static_cast<double>(value)); }
+        if (lane >= count && lane < grid_sums) { row[grid_sums + lane] = 0; }
     }
 };
 
-/// One block a wall page, one thread a node. An axis: what is across it is held; none: the nodes are finished.
+constexpr int wall_threads = 128;
+
+/// A block a wall page.
 template<class Real>
-struct WallPage
+struct UpdateWallPage
 {
-    PagesView      pages;
-    PageList       wall_pages;
-    const Real*    tiles;
-    GridStep<Real> step;
-    Real*          motion;
-    double*        tallies;
+    PagesView           pages;
+    WallPagesView<Real> wall_pages;
+    GridStep<Real>      step;
+    Real*               motion;
+    double*             tallies;
 
-    __device__ HomePage home(std::int64_t i) const
+    __device__ void operator()(std::int64_t number) const
     {
-        const std::int64_t page = wall_pages.page[i];
-        return {page_coordinates(pages.node_page_key[page]), page};
-    }
-
-    __device__ void book_page(std::int64_t page, const double* sum) const
-    {
-        __shared__ double shared[page_cells / 32 * grid_sums];
-        double*           row = tallies + page * tally_width(grid_sums);
-        block_sum<page_cells, grid_sums>(sum, shared,
-                                         [=](int s, double value) { book_more(row, grid_sums, s, value); });
-    }
-};
-
-template<class Real>
-struct HoldPage : WallPage<Real>
-{
-    int axis;
-
-    __device__ void operator()(std::int64_t i) const
-    {
-        const HomePage at             = this->home(i);
-        double         sum[grid_sums] = {};
-        hold_group(this->pages, at, this->step.walls, node_at(at.at, static_cast<int>(threadIdx.x)), axis, this->motion,
-                   sum);
-        this->book_page(at.number, sum);
-    }
-};
-
-template<class Real>
-struct FinishPage : WallPage<Real>
-{
-    __device__ void operator()(std::int64_t i) const
-    {
-        __shared__ std::int32_t tile_pages[octants];
-        const HomePage          at             = this->home(i);
-        double                  sum[grid_sums] = {};
-        const int               place          = static_cast<int>(threadIdx.x);
-        if (place < octants) { tile_pages[place] = tile_page(this->pages, at.number, place); }
+        __shared__ WallNode<Real> nodes[wall_region_nodes];
+        __shared__ double         shared[wall_threads / warp_size * grid_sums];
+        const std::int64_t        page           = wall_pages.page[number];
+        const Index3              at             = page_coordinates(pages.node_page_key[page]);
+        const WallRegion          region         = wall_region(step.walls, at);
+        Real                      sum[grid_sums] = {};
+        const int                 first          = static_cast<int>(threadIdx.x);
+        for (int item = first; item < region.nodes; item += wall_threads)
+        {
+            nodes[item] = wall_node(wall_pages, number, region_node(region, item));
+        }
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            if (!region.paired[axis]) { continue; }
+            __syncthreads();
+            for (int end = 0; end < 2; ++end)
+            {
+                const int plane = wall_plane(step.walls, at, region, axis, end);
+                if (plane == no_plane) { continue; }
+                for (int item = first; item < region.nodes >> region.bits[axis]; item += wall_threads)
+                {
+                    hold_group(step.walls, region, axis, end, plane, item, nodes, sum);
+                }
+            }
+        }
         __syncthreads();
-        const Index3 node = node_at(at.at, place);
-        finish_held(tile_pages, this->tiles, this->step, node, motion_of(this->motion, at.number, node), sum);
-        this->book_page(at.number, sum);
+        if (first < page_cells)
+        {
+            Real* here = motion + page * motion_channels * page_cells + first;
+            finish_wall_node(step, nodes[region_item(region, first)], here, sum);
+        }
+        double* row = tallies + page * tally_width(grid_sums);
+        block_sum<wall_threads, grid_sums>(sum, shared,
+                                           [=](int s, double value) { book_more(row, grid_sums, s, value); });
     }
 };
 
 } // namespace
 
 template<class Real>
-void update_grid(const Gpu& gpu, const PagesView& pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
-                 double* tallies)
+void update_grid(const Gpu& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages, const Real* tiles,
+                 const GridStep<Real>& step, Real* motion, double* tallies)
 {
-    for_each_block<page_cells>(gpu, "update grid", pages.node_pages,
-                               UpdatePage<Real>{pages, tiles, step, motion, tallies});
+    for_each_block<grid_threads, grid_blocks>(gpu, "update grid", (pages.node_pages + grid_warps - 1) / grid_warps,
+                                              UpdatePages<Real>{pages, wall_pages, tiles, step, motion, tallies});
 }
 
 template<class Real>
-void update_walls(const Gpu& gpu, const PagesView& pages, const PageList& wall_pages, const Real* tiles,
+void update_walls(const Gpu& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
                   const GridStep<Real>& step, Real* motion, double* tallies)
 {
-    const WallPage<Real> page{pages, wall_pages, tiles, step, motion, tallies};
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        if (!has_walls(step.walls, axis)) { continue; }
-        for_each_block<page_cells>(gpu, "hold walls", wall_pages.count, HoldPage<Real>{page, axis});
-    }
-    for_each_block<page_cells>(gpu, "finish walls", wall_pages.count, FinishPage<Real>{page});
+    for_each_block<wall_threads>(gpu, "update walls", wall_pages.count,
+                                 UpdateWallPage<Real>{pages, wall_pages, step, motion, tallies});
 }
 
-template void update_grid(const Gpu&, const PagesView&, const float*, const GridStep<float>&, float*, double*);
-template void update_grid(const Gpu&, const PagesView&, const double*, const GridStep<double>&, double*, double*);
-template void update_walls(const Gpu&, const PagesView&, const PageList&, const float*, const GridStep<float>&, float*,
+template void update_grid(const Gpu&, const PagesView&, const WallPagesView<float>&, const float*,
+                          const GridStep<float>&, float*, double*);
+template void update_grid(const Gpu&, const PagesView&, const WallPagesView<double>&, const double*,
+                          const GridStep<double>&, double*, double*);
+template void update_walls(const Gpu&, const PagesView&, const WallPagesView<float>&, const GridStep<float>&, float*,
                            double*);
-template void update_walls(const Gpu&, const PagesView&, const PageList&, const double*, const GridStep<double>&,
-                           double*, double*);
+template void update_walls(const Gpu&, const PagesView&, const WallPagesView<double>&, const GridStep<double>&, double*,
+                           double*);
 
 } // namespace tread::mpm

@@ -42,10 +42,19 @@ struct NodeStep
     Vec3<Real> moved   = Vec3<Real>::Zero(); ///< m/s, by all forces but those of walls
 };
 
-/// `channels`: what sum_tiles gave. Local damping is a share of the force that is out of balance. What acts on a node
-/// beside a wall is balanced by its mirror image and the wall, not by the node: damped, it would never come to rest.
+/// What a step leaves at a node. One that the sand has left stands still.
 template<class Real>
-TREAD_HD NodeStep<Real> begin_node(const GridStep<Real>& step, Index3 at, const Real* channels)
+struct NodeEnd
+{
+    Vec3<Real> velocity = Vec3<Real>::Zero(); ///< m/s, after the step
+    Vec3<Real> change   = Vec3<Real>::Zero(); ///< m/s, in the step
+};
+
+/// `channels`: what sum_tiles gave. Local damping is a share of the force that is out of balance, but not of the
+/// components in the set `held` (bit c): what acts on a node beside a wall is balanced by its mirror image and the
+/// wall, not by the node; damped, it would never come to rest.
+template<class Real>
+TREAD_HD NodeStep<Real> begin_node(const GridStep<Real>& step, unsigned held, const Real* channels)
 {
     NodeStep<Real> node;
     if (channels[0] <= step.mass_floor) { return node; }
@@ -57,7 +66,7 @@ TREAD_HD NodeStep<Real> begin_node(const GridStep<Real>& step, Index3 at, const 
     {
         for (int c = 0; c < 3; ++c)
         {
-            if (may_hold(step.walls, at, c)) { continue; }
+            if ((held >> c & 1U) != 0) { continue; }
             node.damping[c] = local_damping(step.damping, node.force[c], node.before[c]);
         }
     }
@@ -65,97 +74,105 @@ TREAD_HD NodeStep<Real> begin_node(const GridStep<Real>& step, Index3 at, const 
     return node;
 }
 
-/// Writes velocity and change to motion[c * 64], adds to `sums` what every node does.
-template<class Real>
-TREAD_HD void finish_free_node(const GridStep<Real>& step, const NodeStep<Real>& node, const Vec3<Real>& after,
-                               Real* motion, double* sums)
+/// What forces do. `after`: m/s, right in all components that are damped.
+template<class Real, class Sum>
+TREAD_HD void book_forces(const GridStep<Real>& step, const NodeStep<Real>& node, const Vec3<Real>& after, Sum* sums)
 {
-    const Vec3<Real> change = after - node.before, middle = Real(0.5) * (node.before + after);
-    sums[grid_kinetic_before] += double(Real(0.5) * node.mass * node.before.squaredNorm());
-    sums[grid_kinetic_after] += double(Real(0.5) * node.mass * after.squaredNorm());
-    sums[grid_power_before] += double(node.force.dot(node.before));
-    sums[grid_gravity_power] += double(node.mass * step.gravity.dot(after));
-    sums[grid_gravity_work] += double(node.mass * step.dt * step.gravity.dot(middle));
-    sums[grid_net_force] += double(node.mass * change.norm() / step.dt);
+    sums[grid_kinetic_before] += Sum(Real(0.5) * node.mass * node.before.squaredNorm());
+    sums[grid_power_before] += Sum(node.force.dot(node.before));
     if (step.damping > 0)
     {
-        sums[grid_damped] -= double(step.dt * node.damping.dot(middle));
-        for (int c = 0; c < 3; ++c) { sums[grid_damping_impulse + c] += double(step.dt * node.damping[c]); }
-    }
-    for (int c = 0; c < 3; ++c)
-    {
-        motion[c * page_cells]       = after[c];
-        motion[(3 + c) * page_cells] = change[c];
+        sums[grid_damped] -= Sum(Real(0.5) * step.dt * node.damping.dot(node.before + after));
+        for (int c = 0; c < 3; ++c) { sums[grid_damping_impulse + c] += Sum(step.dt * node.damping[c]); }
     }
 }
 
-/// The same, and what walls did to the node.
-template<class Real>
-TREAD_HD void finish_node(const GridStep<Real>& step, const NodeStep<Real>& node, const Vec3<Real>& after, Real* motion,
-                          double* sums)
+/// The end of a node's step.
+template<class Real, class Sum>
+TREAD_HD NodeEnd<Real> finish_node(const GridStep<Real>& step, Real mass, const Vec3<Real>& before,
+                                      const Vec3<Real>& after, Sum* sums)
 {
-    finish_free_node(step, node, after, motion, sums);
-    const Vec3<Real> middle = Real(0.5) * (node.before + after);
-    const double     m      = double(node.mass);
-    sums[grid_wall_loss] -= m * double((after - node.moved).dot(middle));
-    for (int c = 0; c < 3; ++c) { sums[grid_wall_impulse + c] += m * double(after[c] - node.moved[c]); }
+    const Vec3<Real> change = after - before;
+    const Vec3<Real> weight = mass * step.gravity;
+    sums[grid_kinetic_after] += Sum(Real(0.5) * mass * after.squaredNorm());
+    sums[grid_gravity_power] += Sum(weight.dot(after));
+    sums[grid_gravity_work] += Sum(Real(0.5) * step.dt * weight.dot(before + after));
+    sums[grid_net_force] += Sum(mass * change.norm() / step.dt);
+    return {after, change};
 }
 
-template<class Real>
-TREAD_HD void write_velocity(const Vec3<Real>& velocity, Real* motion)
+/// What walls did to a node that forces had `moved`.
+template<class Real, class Sum>
+TREAD_HD void book_walls(Real mass, const Vec3<Real>& before, const Vec3<Real>& moved, const Vec3<Real>& after,
+                         Sum* sums)
 {
-    for (int c = 0; c < 3; ++c) { motion[c * page_cells] = velocity[c]; }
-}
-
-template<class Real>
-TREAD_HD Vec3<Real> read_velocity(const Real* motion)
-{
-    return {motion[0], motion[page_cells], motion[2 * page_cells]};
-}
-
-/// Of a node that others finish, the mass stands where its change will.
-template<class Real>
-TREAD_HD Real& unfinished_mass(Real* motion)
-{
-    return motion[3 * page_cells];
-}
-
-/// A node that the sand has left stands still.
-template<class Real>
-TREAD_HD void clear_node(Real* motion)
-{
-    for (int c = 0; c < motion_channels; ++c) { motion[c * page_cells] = 0; }
+    const Vec3<Real> impulse = mass * (after - moved);
+    sums[grid_wall_loss] -= Sum(Real(0.5) * impulse.dot(before + after));
+    for (int c = 0; c < 3; ++c) { sums[grid_wall_impulse + c] += Sum(impulse[c]); }
 }
 
 /// One node's step where no wall may hold it. `channels`: what sum_tiles gave.
-template<class Real>
-TREAD_HD void update_free_node(const GridStep<Real>& step, Index3 node, const Real* channels, Real* motion,
-                               double* sums)
+template<class Real, class Sum>
+TREAD_HD NodeEnd<Real> update_free_node(const GridStep<Real>& step, const Real* channels, Sum* sums)
 {
-    const NodeStep<Real> begun = begin_node(step, node, channels);
-    if (begun.mass == 0) { clear_node(motion); }
-    else { finish_free_node(step, begun, begun.moved, motion, sums); }
+    const NodeStep<Real> begun = begin_node(step, 0, channels);
+    if (begun.mass == 0) { return {}; }
+    book_forces(step, begun, begun.moved, sums);
+    return finish_node(step, begun.mass, begun.before, begun.moved, sums);
 }
 
-/// One node's step, or, of a node that walls hold together with others, its first part.
-template<class Real>
-TREAD_HD void update_node(const GridStep<Real>& step, Index3 node, const Real* channels, Real* motion, double* sums)
+/// One node's step on a wall page. Of a node that walls hold together with others only the first part: `wall_node` is
+/// then its mass and velocity so far, and what is returned, for finish_held, its velocity without walls and before.
+template<class Real, class Sum>
+TREAD_HD NodeEnd<Real> update_node(const GridStep<Real>& step, Index3 node, const Real* channels,
+                                      WallNode<Real>& wall_node, Sum* sums)
 {
-    const NodeStep<Real> begun = begin_node(step, node, channels);
-    if (begun.mass == 0)
-    {
-        clear_node(motion);
-        return;
-    }
+    wall_node                  = {};
+    const NodeStep<Real> begun = begin_node(step, held_components(step.walls, node), channels);
+    if (begun.mass == 0) { return {}; }
     const Held       held  = held_by(step.walls, node);
     const Vec3<Real> after = held.alone ? hold_alone(step.walls, node, begun.mass, begun.moved, sums) : begun.moved;
-    if (!held.paired)
+    book_forces(step, begun, after, sums);
+    if (held.paired)
     {
-        finish_node(step, begun, after, motion, sums);
-        return;
+        wall_node = {{begun.mass, after[0], after[1], after[2]}};
+        return {begun.moved, begun.before};
     }
-    write_velocity(after, motion);
-    unfinished_mass(motion) = begun.mass;
+    book_walls(begun.mass, begun.before, begun.moved, after, sums);
+    return finish_node(step, begun.mass, begun.before, after, sums);
+}
+
+/// The end of the step of a node that walls hold at `after` (m/s). `begun`: what update_node returned.
+template<class Real, class Sum>
+TREAD_HD NodeEnd<Real> finish_held(const GridStep<Real>& step, Real mass, const NodeEnd<Real>& begun,
+                                      const Vec3<Real>& after, Sum* sums)
+{
+    const Vec3<Real>& moved  = begun.velocity;
+    const Vec3<Real>& before = begun.change;
+    book_walls(mass, before, moved, after, sums);
+    return finish_node(step, mass, before, after, sums);
+}
+
+template<class Real>
+TREAD_HD void write_motion(const NodeEnd<Real>& node, Real* motion)
+{
+    for (int c = 0; c < 3; ++c)
+    {
+        motion[c * page_cells]       = node.velocity[c];
+        motion[(3 + c) * page_cells] = node.change[c];
+    }
+}
+
+template<class Real>
+TREAD_HD NodeEnd<Real> read_motion(const Real* motion)
+{
+    NodeEnd<Real> node;
+    for (int c = 0; c < 3; ++c)
+    {
+        node.velocity[c] = motion[c * page_cells];
+        node.change[c]   = motion[(3 + c) * page_cells];
+    }
+    return node;
 }
 
 } // namespace tread::mpm

@@ -55,6 +55,13 @@ TREAD_HD bool inside_inscribed_cone(const MohrCoulomb<Real>& law, Real mean, Rea
     return limit >= 0 && j2 * (Real(1) + s * s * Real(1.0 / 3)) <= limit * limit;
 }
 
+/// True only if the state is elastic, from principal values that are not exact: axes cost more than they do.
+template<class Real>
+TREAD_HD bool surely_inside(const MohrCoulomb<Real>& law, const PrincipalRange<Real>& range)
+{
+    return yield_function(law, range.major + range.error, range.minor - range.error) < 0;
+}
+
 /// Largest and smallest principal stress on the yield surface, Pa.
 template<class Real>
 struct YieldPair
@@ -112,8 +119,8 @@ TREAD_HD PlasticFlow<Real> plastic_flow(const Elasticity<Real>& elasticity, cons
 {
     const Vec3<Real> drop        = trial - stress;
     const Real       mean        = drop.sum() * Real(1.0 / 3);
-    const Vec3<Real> e           = (drop.array() - mean) / (Real(2) * elasticity.shear_modulus);
-    const Real       volume      = mean / elasticity.bulk_modulus;
+    const Vec3<Real> e           = (drop.array() - mean) * elasticity.shear_compliance;
+    const Real       volume      = mean * elasticity.bulk_compliance;
     const Real       stress_mean = stress.sum() * Real(1.0 / 3);
     return {std::sqrt(Real(2.0 / 3) * e.squaredNorm()), volume,
             stress_mean * volume + e.dot(Vec3<Real>(stress.array() - stress_mean))};
@@ -126,20 +133,16 @@ TREAD_HD StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const Mo
                                     const Sym3<Real>& trial, const PlasticState<Real>& state, Real dt)
 {
     StressUpdate<Real> update{trial, {state.plastic_shear, Real(0), state.volume_gap}, Real(0)};
-    Real               mean   = (trial[0] + trial[1] + trial[2]) * Real(1.0 / 3);
-    const Real         closed = close_gap(mean, elasticity.bulk_modulus, update.state.volume_gap);
-    mean += closed;
-    Real j2 = 0;
-    for (int i = 0; i < 3; ++i)
-    {
-        update.stress[i] += closed;
-        const Real deviator = update.stress[i] - mean;
-        j2 += Real(0.5) * deviator * deviator + trial[3 + i] * trial[3 + i];
-    }
-    const bool opens = beyond_apex(mean, law.apex_tension);
-    if (!opens && inside_inscribed_cone(law, mean, j2)) { return update; }
+    Deviator<Real>     deviator = deviator_of(trial);
+    const Real         closed   = close_gap(deviator.mean, elasticity.bulk_modulus, update.state.volume_gap);
+    deviator.mean += closed;
+    for (int i = 0; i < 3; ++i) { update.stress[i] += closed; }
+    const bool opens = beyond_apex(deviator.mean, law.apex_tension);
+    if (!opens && inside_inscribed_cone(law, deviator.mean, deviator.j2)) { return update; }
+    const IsolatedValue<Real> isolated = isolated_value(deviator);
+    if (!opens && surely_inside(law, principal_range(deviator.mean, isolated))) { return update; }
 
-    const SymmetricEigen<Real> eigen = symmetric_eigen(update.stress);
+    const SymmetricEigen<Real> eigen = symmetric_eigen(deviator.mean, isolated);
     const Real                 major = eigen.values[0], minor = eigen.values[2];
     if (!opens &&
         yield_function(law, major, minor) <= yield_tolerance<Real> * (std::abs(major) + std::abs(minor) + law.cohesion))

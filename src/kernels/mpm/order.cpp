@@ -8,5 +8,7 @@ template void order_points(const Cpu&, Points<Cpu, float>&, Pages<Cpu>&, const G
                            OrderScratch<Cpu, float>&);
 template void order_points(const Cpu&, Points<Cpu, double>&, Pages<Cpu>&, const GridGeometry&,
                            OrderScratch<Cpu, double>&);
+template void renew_order(const Cpu&, Points<Cpu, float>&, Pages<Cpu>&, OrderScratch<Cpu, float>&);
+template void renew_order(const Cpu&, Points<Cpu, double>&, Pages<Cpu>&, OrderScratch<Cpu, double>&);
 
 } // namespace tread::mpm

@@ -8,5 +8,7 @@ template void order_points(const Gpu&, Points<Gpu, float>&, Pages<Gpu>&, const G
                            OrderScratch<Gpu, float>&);
 template void order_points(const Gpu&, Points<Gpu, double>&, Pages<Gpu>&, const GridGeometry&,
                            OrderScratch<Gpu, double>&);
+template void renew_order(const Gpu&, Points<Gpu, float>&, Pages<Gpu>&, OrderScratch<Gpu, float>&);
+template void renew_order(const Gpu&, Points<Gpu, double>&, Pages<Gpu>&, OrderScratch<Gpu, double>&);
 
 } // namespace tread::mpm

@@ -53,4 +53,8 @@ template<class Exec, class Real>
 void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, const GridGeometry& geometry,
                   OrderScratch<Exec, Real>& scratch);
 
+/// Moves the points in memory to where the list has them; lists and tables of pages stay.
+template<class Exec, class Real>
+void renew_order(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, OrderScratch<Exec, Real>& scratch);
+
 } // namespace tread::mpm

@@ -98,6 +98,13 @@ struct ListInOrder
     }
 };
 
+struct ListAsInMemory
+{
+    std::int32_t* point_at;
+
+    TREAD_HD void operator()(std::int64_t i) const { point_at[i] = static_cast<std::int32_t>(i); }
+};
+
 struct FirstOfCell
 {
     const std::uint64_t* keys;
@@ -243,25 +250,24 @@ void gather_field(const Exec& exec, Array<Exec, T>& field, Array<Exec, T>& buffe
     }
 }
 
+/// Point i becomes the one that is at order[i].
 template<class Exec, class Real>
-void gather_points(const Exec& exec, Points<Exec, Real>& points, OrderScratch<Exec, Real>& scratch)
+void gather_points(const Exec& exec, Points<Exec, Real>& points, const std::int32_t* order,
+                   OrderScratch<Exec, Real>& scratch)
 {
     const auto gather = [&](auto& field, int components)
     {
         using T = std::remove_reference_t<decltype(*field.data())>;
-        if constexpr (std::is_same_v<T, Real>)
-        {
-            gather_field(exec, field, scratch.real, points, components, scratch.order.data());
-        }
+        if constexpr (std::is_same_v<T, Real>) { gather_field(exec, field, scratch.real, points, components, order); }
         else if constexpr (std::is_same_v<T, double>)
         {
-            gather_field(exec, field, scratch.wide, points, components, scratch.order.data());
+            gather_field(exec, field, scratch.wide, points, components, order);
         }
         else if constexpr (std::is_same_v<T, std::uint32_t>)
         {
-            gather_field(exec, field, scratch.word, points, components, scratch.order.data());
+            gather_field(exec, field, scratch.word, points, components, order);
         }
-        else { gather_field(exec, field, scratch.byte, points, components, scratch.order.data()); }
+        else { gather_field(exec, field, scratch.byte, points, components, order); }
     };
     points.for_each_field(gather);
 }
@@ -346,9 +352,16 @@ void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pag
     for_each(exec, "point keys", n,
              order_steps::MakeKeys<Real>{points.view(), geometry, scratch.keys.data(), scratch.order.data()});
     sort_by_key(exec, scratch.keys, scratch.order, scratch.sort);
-    gather_points(exec, points, scratch);
+    gather_points(exec, points, scratch.order.data(), scratch);
     build_point_pages(exec, points, pages, geometry, scratch);
     build_node_pages(exec, pages, scratch);
+}
+
+template<class Exec, class Real>
+void renew_order(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, OrderScratch<Exec, Real>& scratch)
+{
+    gather_points(exec, points, pages.point_at.data(), scratch);
+    for_each(exec, "list points", points.count, order_steps::ListAsInMemory{pages.point_at.data()});
 }
 
 } // namespace tread::mpm

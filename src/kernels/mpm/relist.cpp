@@ -70,6 +70,12 @@ void relist_page(const Relisting& job, std::int64_t page)
 
 bool may_have_stirred(const Cpu&, const MovesView& moves) { return moves.stirred(); }
 
+void start_pages(const Cpu& cpu, const PagesView& old, const MovesView& moves, RelistScratch<Cpu>& scratch)
+{
+    for_each(cpu, "count pages", old.point_pages + 1, CountAfter{old, moves, scratch.first_point.data()});
+    scan_in_place(cpu, scratch.first_point, scratch.sort);
+}
+
 void relist_pages(const Cpu& cpu, const Relisting& job)
 {
     for_each_heavy(cpu, "relist points", job.old.point_pages, [=](std::int64_t page) { relist_page(job, page); });

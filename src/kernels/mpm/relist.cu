@@ -1,3 +1,5 @@
+#include <cub/block/block_scan.cuh>
+
 #include "backend/launch.cuh"
 #include "backend/warp.cuh"
 #include "kernels/mpm/relist_impl.hpp"
@@ -118,7 +120,48 @@ private:
     }
 };
 
+constexpr int start_threads = 1024;
+
+/// Pages that one block counts and scans in less time than three launches take.
+constexpr std::int64_t few_pages = 8 * start_threads;
+
+struct StartFewPages
+{
+    PagesView     pages;
+    MovesView     moves;
+    std::int32_t* first_point;
+
+    __device__ void operator()(std::int64_t) const
+    {
+        using Scan = cub::BlockScan<std::int32_t, start_threads>;
+        __shared__ typename Scan::TempStorage storage;
+        if (!moves.stirred()) { return; }
+        std::int32_t before = 0;
+        for (std::int64_t first = 0; first <= pages.point_pages; first += start_threads)
+        {
+            const std::int64_t page  = first + threadIdx.x;
+            std::int32_t       start = page < pages.point_pages ? count_after(pages, moves, page) : 0, all = 0;
+            Scan(storage).ExclusiveSum(start, start, all);
+            if (page <= pages.point_pages) { first_point[page] = before + start; }
+            before += all;
+            __syncthreads();
+        }
+    }
+};
+
 } // namespace
+
+void start_pages(const Gpu& gpu, const PagesView& old, const MovesView& moves, RelistScratch<Gpu>& scratch)
+{
+    std::int32_t* first_point = scratch.first_point.data();
+    if (old.point_pages <= few_pages)
+    {
+        for_each_block<start_threads>(gpu, "start pages", 1, StartFewPages{old, moves, first_point});
+        return;
+    }
+    for_each(gpu, "count pages", old.point_pages + 1, CountAfter{old, moves, first_point});
+    scan_in_place(gpu, scratch.first_point, scratch.sort);
+}
 
 bool may_have_stirred(const Gpu&, const MovesView&) { return true; }
 

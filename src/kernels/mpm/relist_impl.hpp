@@ -14,9 +14,16 @@ namespace tread::mpm
 bool may_have_stirred(const Cpu& cpu, const MovesView& moves);
 bool may_have_stirred(const Gpu& gpu, const MovesView& moves);
 
+/// Writes first_point: the points before each page and, last, all, after the moves.
+void start_pages(const Cpu& cpu, const PagesView& old, const MovesView& moves, RelistScratch<Cpu>& scratch);
+void start_pages(const Gpu& gpu, const PagesView& old, const MovesView& moves, RelistScratch<Gpu>& scratch);
+
 /// Writes list and cell ranges of every page.
 void relist_pages(const Cpu& cpu, const Relisting& job);
 void relist_pages(const Gpu& gpu, const Relisting& job);
+
+/// Each thread takes over every so many entries: where nothing moved, there should be few threads to find that out.
+constexpr std::int64_t take_over_stride = 1 << 18;
 
 /// The new list becomes the pages' own.
 struct TakeOver
@@ -24,6 +31,7 @@ struct TakeOver
     MovesView           moves;
     std::int64_t        point_pages;
     std::int64_t        points;
+    std::int64_t        items;
     const std::int32_t* first_point;
     const std::int32_t* cell_first_point;
     const std::int32_t* point_at;
@@ -33,9 +41,14 @@ struct TakeOver
     std::int32_t*       own_point_at;
     std::uint8_t*       own_place_at;
 
-    TREAD_HD void operator()(std::int64_t i) const
+    TREAD_HD void operator()(std::int64_t first) const
     {
         if (!moves.stirred()) { return; }
+        for (std::int64_t i = first; i < items; i += take_over_stride) { take_over(i); }
+    }
+
+    TREAD_HD void take_over(std::int64_t i) const
+    {
         const std::int64_t cells = point_pages * page_cells;
         if (i <= point_pages) { own_first_point[i] = first_point[i]; }
         if (i <= cells) { own_cell_first_point[i] = i < cells ? cell_first_point[i] : first_point[point_pages]; }
@@ -57,13 +70,12 @@ void relist_points(const Exec& exec, Pages<Exec>& pages, const MovesView& moves,
     scratch.cell_first_point.resize(count * page_cells + 1);
     scratch.point_at.resize(pages.point_at.size());
     scratch.place_at.resize(pages.place_at.size());
-    for_each(exec, "count pages", count + 1, CountAfter{old, moves, scratch.first_point.data()});
-    scan_in_place(exec, scratch.first_point, scratch.sort);
+    start_pages(exec, old, moves, scratch);
     relist_pages(exec, {old, moves, scratch.first_point.data(), scratch.cell_first_point.data(),
                         scratch.point_at.data(), scratch.place_at.data()});
-    const std::int64_t points = pages.point_at.size();
-    for_each(exec, "take over list", std::max(points, count * page_cells + 1),
-             TakeOver{moves, count, points, scratch.first_point.data(), scratch.cell_first_point.data(),
+    const std::int64_t points = pages.point_at.size(), items = std::max(points, count * page_cells + 1);
+    for_each(exec, "take over list", std::min(items, take_over_stride),
+             TakeOver{moves, count, points, items, scratch.first_point.data(), scratch.cell_first_point.data(),
                       scratch.point_at.data(), scratch.place_at.data(), pages.first_point.data(),
                       pages.cell_first_point.data(), pages.point_at.data(), pages.place_at.data()});
 }

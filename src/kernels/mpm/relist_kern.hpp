@@ -25,7 +25,17 @@ TREAD_HD std::int32_t arrivals(const PagesView& pages, const MovesView& moves, s
     return moves.count[std::int64_t(from) * move_counts + directions - 1 - direction];
 }
 
-/// Points in the page after the moves.
+/// Points in a page after the moves.
+TREAD_HD std::int32_t count_after(const PagesView& pages, const MovesView& moves, std::int64_t page)
+{
+    std::int32_t points = pages.first_point[page + 1] - pages.first_point[page];
+    for (int d = 0; d < directions; ++d)
+    {
+        points += arrivals(pages, moves, page, d) - moves.count[page * move_counts + d];
+    }
+    return points;
+}
+
 struct CountAfter
 {
     PagesView     pages;
@@ -35,14 +45,7 @@ struct CountAfter
     TREAD_HD void operator()(std::int64_t page) const
     {
         if (!moves.stirred()) { return; }
-        count[page] = 0;
-        if (page == pages.point_pages) { return; }
-        std::int32_t points = pages.first_point[page + 1] - pages.first_point[page];
-        for (int d = 0; d < directions; ++d)
-        {
-            points += arrivals(pages, moves, page, d) - moves.count[page * move_counts + d];
-        }
-        count[page] = points;
+        count[page] = page < pages.point_pages ? count_after(pages, moves, page) : 0;
     }
 };
 

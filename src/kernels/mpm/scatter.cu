@@ -16,23 +16,27 @@ constexpr std::int64_t full_page = 128;
 template<class Real>
 void scatter(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, Real* tiles)
 {
-    const auto with_load = [&](auto load)
+    const auto launch = [&](auto load)
     {
-        using Load = decltype(load);
+        using Brings = decltype(load);
         if (points.count < full_page * pages.point_pages)
         {
             for_each_block<warp_size>(gpu, "scatter", pages.point_pages,
-                                      ScatterSparsePage<Real, Load>{points, pages, tiles});
+                                      ScatterSparsePage<Real, Brings>{points, pages, tiles});
         }
         else
         {
             for_each_block<scatter_threads, 8>(gpu, "scatter", pages.point_pages,
-                                               ScatterPage<Real, Load>{points, pages, tiles});
+                                               ScatterPage<Real, Brings>{points, pages, tiles});
         }
     };
-    if (points.affine.data != nullptr) { with_load(AffineLoad{}); }
-    else if (points.contact_force.data != nullptr) { with_load(ContactLoad{}); }
-    else { with_load(PlainLoad{}); }
+    const auto with_force = [&](auto force)
+    {
+        if (points.affine.data != nullptr) { launch(Load<force, true>{}); }
+        else { launch(Load<force, false>{}); }
+    };
+    if (points.contact_force.data != nullptr) { with_force(std::true_type{}); }
+    else { with_force(std::false_type{}); }
 }
 
 template void scatter(const Gpu&, const PointsView<float>&, const PagesView&, float*);

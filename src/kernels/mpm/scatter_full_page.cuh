@@ -17,23 +17,22 @@ template<class Real>
 using Quad = Pack<Real, 4>;
 
 /// What a point brings to its nodes, as it stands in shared memory: mass and momentum, -V tau/h, weight and slope
-/// (per spacing) of each of its three nodes along each axis; then what only some scenes need: contact force, place
-/// above its lowest node, m h C.
+/// (per spacing) of each of its three nodes along each axis; then what only some scenes need: contact force, m h C,
+/// with which momentum is that of the point's affine field at its lowest node.
 enum Brought : int
 {
-    brought_mass     = 0,
-    brought_stress   = 4,
-    brought_splines  = 10,
-    brought_force    = brought_splines + 18,
-    brought_fraction = brought_force + 3,
-    brought_affine   = brought_fraction + 3
+    brought_mass    = 0,
+    brought_stress  = 4,
+    brought_splines = 10,
+    brought_force   = brought_splines + 18,
+    brought_affine  = brought_force + 4
 };
 
 /// Numbers that a point brings: an odd number of quads, so that lanes write their points without bank conflicts.
-template<class Load>
-constexpr int brought_width = Load::affine  ? brought_affine + 10
-                              : Load::force ? brought_force + 8
-                                            : brought_force;
+template<class Brings>
+constexpr int brought_width = Brings::affine  ? brought_affine + 12
+                              : Brings::force ? brought_force + 8
+                                              : brought_force;
 
 /// A warp for each of the four layers of cells of a page; its stencils reach three of the tile's layers of nodes.
 constexpr int scatter_warps   = page_edge;
@@ -49,19 +48,19 @@ struct WarpTile
 };
 
 /// Points loaded at a time: as many as fit into 48 KiB of shared memory beside the tiles of four warps.
-template<class Real, class Load>
+template<class Real, class Brings>
 __host__ __device__ constexpr int batch()
 {
     constexpr std::size_t room = 49152 / scatter_warps - sizeof(WarpTile<Real>);
     int                   size = warp_size;
-    while (sizeof(Real) * brought_width<Load> * static_cast<std::size_t>(size) > room) { size /= 2; }
+    while (sizeof(Real) * brought_width<Brings> * static_cast<std::size_t>(size) > room) { size /= 2; }
     return size;
 }
 
 /// One lane of a warp: of every point's 27 nodes it has one, (column, row, layer). Along x its column is that node of
 /// the point's three whose coordinate is `column` modulo 3, so that from one cell to the next two thirds of the lanes
 /// keep their node, and with it the sums in their registers.
-template<class Real, class Load>
+template<class Real, class Brings>
 class NodeLane
 {
 public:
@@ -104,7 +103,7 @@ public:
         const Real       weight     = x.at[0] * yz;
         const Real       slope[]    = {x.at[1] * yz, y.at[1] * (x.at[0] * z.at[0]), z.at[1] * (x.at[0] * y.at[0])};
         Real             momentum[] = {mass.at[1], mass.at[2], mass.at[3]};
-        if constexpr (Load::affine) { turn(point, momentum); }
+        if constexpr (Brings::affine) { turn(point, momentum); }
         moving_.at[0] += weight * mass.at[0];
         for (int i = 0; i < 3; ++i) { moving_.at[1 + i] += weight * momentum[i]; }
         const Real stress[3][3] = {{normal.at[0], shear.at[1], shear.at[0]},
@@ -113,7 +112,7 @@ public:
         for (int i = 0; i < 3; ++i)
         {
             for (int j = 0; j < 3; ++j) { force_.at[i] += slope[j] * stress[i][j]; }
-            if constexpr (Load::force) { force_.at[i] += weight * point[brought_force + i]; }
+            if constexpr (Brings::force) { force_.at[i] += weight * point[brought_force + i]; }
         }
     }
 
@@ -127,16 +126,16 @@ public:
 private:
     __device__ static Pair<Real> pair(const Real* at) { return *reinterpret_cast<const Pair<Real>*>(at); }
 
-    /// Adds the affine velocity's momentum at the lane's node, which is (offset, row, layer) - fraction from the point.
+    /// Adds the affine velocity's momentum at the lane's node, which is (offset, row, layer) above the lowest.
     __device__ void turn(const Real* point, Real* momentum) const
     {
-        const Real x = Real(offset_) - point[brought_fraction], y = Real(row_) - point[brought_fraction + 1],
-                   z       = Real(layer_) - point[brought_fraction + 2];
-        const Real* affine = point + brought_affine;
-        for (int i = 0; i < 3; ++i)
-        {
-            momentum[i] += x * affine[3 * i] + y * affine[3 * i + 1] + z * affine[3 * i + 2];
-        }
+        const Real       x = Real(offset_), y = Real(row_), z = Real(layer_);
+        const auto*      quad = reinterpret_cast<const Quad<Real>*>(point + brought_affine);
+        const Quad<Real> low = quad[0], high = quad[1];
+        const Real       last = point[brought_affine + 8];
+        momentum[0] += x * low.at[0] + y * low.at[3] + z * high.at[2];
+        momentum[1] += x * low.at[1] + y * high.at[0] + z * high.at[3];
+        momentum[2] += x * low.at[2] + y * high.at[1] + z * last;
     }
 
     WarpTile<Real>& tile_;
@@ -149,11 +148,11 @@ private:
 /// One block a page. Each warp takes the points of its layer of cells in the order of the list, a batch at a time: a
 /// lane loads a point into shared memory, then all lanes add every point, each to its own node. Plain additions in a
 /// fixed order, no atomics.
-template<class Real, class Load>
+template<class Real, class Brings>
 struct ScatterPage
 {
-    static constexpr int points_a_batch = batch<Real, Load>();
-    static constexpr int quads          = brought_width<Load> / 4;
+    static constexpr int points_a_batch = batch<Real, Brings>();
+    static constexpr int quads          = brought_width<Brings> / 4;
 
     using Tile = WarpTile<Real>;
 
@@ -181,7 +180,7 @@ struct ScatterPage
 
     __device__ void add_points(std::int64_t page, int warp, int lane, Tile& tile, Quad<Real> (*staged)[quads]) const
     {
-        NodeLane<Real, Load> node(lane, tile);
+        NodeLane<Real, Brings> node(lane, tile);
 
         const Index3        low   = page_coordinates(pages.point_page_key[page]);
         const std::int32_t* range = pages.cell_first_point + page * page_cells + warp * layer_cells;
@@ -234,8 +233,8 @@ struct ScatterPage
             }
         }
         for (int c = 0; c < 6; ++c) { brought[brought_stress + c] = stress[c]; }
-        if constexpr (Load::force) { stage_force(i, brought); }
-        if constexpr (Load::affine) { stage_affine(i, s, mass, brought); }
+        if constexpr (Brings::force) { stage_force(i, brought); }
+        if constexpr (Brings::affine) { stage_affine(i, s, mass, brought); }
     }
 
     __device__ void stage_force(std::int64_t i, Real* brought) const
@@ -248,10 +247,14 @@ struct ScatterPage
     __device__ void stage_affine(std::int64_t i, const Stencil<Real>& s, Real mass, Real* brought) const
     {
         const Real lever = mass * static_cast<Real>(pages.spacing);
-        for (int c = 0; c < 3; ++c) { brought[brought_fraction + c] = s.fraction[c]; }
-        for (int c = 0; c < 9; ++c)
+        for (int c = 0; c < 3; ++c)
         {
-            brought[brought_affine + c] = lever * points.affine.data[c * points.affine.stride + i];
+            for (int axis = 0; axis < 3; ++axis)
+            {
+                const Real affine = lever * points.affine.data[(3 * c + axis) * points.affine.stride + i];
+                brought[brought_affine + 3 * axis + c] = affine;
+                brought[brought_mass + 1 + c] -= s.fraction[axis] * affine;
+            }
         }
     }
 

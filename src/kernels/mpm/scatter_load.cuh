@@ -5,18 +5,12 @@
 namespace tread::mpm
 {
 
-/// Sand alone; sand that bodies touch; APIC, whose momentum varies over a point's stencil.
-struct PlainLoad
+/// What points bring besides mass, momentum and stress: the force of bodies that touch them; with APIC and AFLIP, a
+/// momentum that varies over a point's stencil.
+template<bool with_force, bool with_affine>
+struct Load
 {
-    static constexpr bool force = false, affine = false;
-};
-struct ContactLoad
-{
-    static constexpr bool force = true, affine = false;
-};
-struct AffineLoad
-{
-    static constexpr bool force = true, affine = true;
+    static constexpr bool force = with_force, affine = with_affine;
 };
 
 /// Nodes of one layer of a tile.

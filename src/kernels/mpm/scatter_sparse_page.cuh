@@ -15,7 +15,7 @@ constexpr int sparse_nodes = 5 * sparse_layer + 6 * sparse_row;
 
 /// A warp a page, a lane a point, no two points of one cell at a time: in each of 27 rounds every lane adds to another
 /// node. First the first points of all cells, then the second ones, and so on.
-template<class Real, class Load>
+template<class Real, class Brings>
 struct ScatterSparsePage
 {
     using Tile = Real[node_channels][sparse_nodes];
@@ -102,14 +102,14 @@ struct ScatterSparsePage
         for (int k = 0; k < 4; ++k) { value[k] = plane * load.value[k]; }
         for (int k = 0; k < 3; ++k)
         {
-            if (Load::affine)
+            if (Brings::affine)
             {
                 value[1 + k] += plane * spacing *
                                 ((Real(b) - s.fraction[1]) * load.per_offset[1][1 + k] +
                                  (Real(c) - s.fraction[2]) * load.per_offset[2][1 + k]);
             }
             value[4 + k] = by_y * load.per_slope[1][4 + k] + by_z * load.per_slope[2][4 + k];
-            if (Load::force) { value[4 + k] += plane * load.value[4 + k]; }
+            if (Brings::force) { value[4 + k] += plane * load.value[4 + k]; }
             by_x[k] = plane * load.per_slope[0][4 + k];
         }
 #pragma unroll
@@ -122,7 +122,7 @@ struct ScatterSparsePage
             for (int k = 0; k < 3; ++k)
             {
                 Real momentum = value[1 + k];
-                if (Load::affine)
+                if (Brings::affine)
                 {
                     momentum += plane * spacing * (Real(a) - s.fraction[0]) * load.per_offset[0][1 + k];
                 }

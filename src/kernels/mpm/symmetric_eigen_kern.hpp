@@ -41,7 +41,7 @@ TREAD_HD Vec3<Real> null_vector(const Sym3<Real>& m)
         largest = std::abs(yy);
     }
     if (std::abs(zz) > largest) { column = Vec3<Real>(xz, yz, zz); }
-    return column / std::sqrt(column.squaredNorm());
+    return column * (Real(1) / std::sqrt(column.squaredNorm()));
 }
 
 template<class Real>
@@ -78,11 +78,80 @@ TREAD_HD PlaneEigen<Real> plane_eigen(const Sym3<Real>& m, const Vec3<Real>& nor
     Real             x = 1, y = 0;
     if (norm > std::numeric_limits<Real>::epsilon() * std::numeric_limits<Real>::epsilon())
     {
-        x = (half >= 0 ? large : uw) / norm;
-        y = (half >= 0 ? uw : large) / norm;
+        const Real inverse = Real(1) / norm;
+        x                  = (half >= 0 ? large : uw) * inverse;
+        y                  = (half >= 0 ? uw : large) * inverse;
     }
     const Real mean = Real(0.5) * (uu + ww);
     return {mean + radius, mean - radius, x * u + y * w, x * w - y * u};
+}
+
+/// Mean of a tensor and what is left without it.
+template<class Real>
+struct Deviator
+{
+    Real       mean;
+    Sym3<Real> tensor;
+    Real       j2;
+};
+
+/// The mean is taken out twice: the first difference of an almost spherical tensor has a trace as large as itself, from
+/// rounding.
+template<class Real>
+TREAD_HD Deviator<Real> deviator_of(const Sym3<Real>& tensor)
+{
+    constexpr Real third   = Real(1.0 / 3);
+    const Real     rounded = (tensor[0] + tensor[1] + tensor[2]) * third;
+    Deviator<Real> deviator{rounded, tensor, 0};
+    Sym3<Real>&    s = deviator.tensor;
+    for (int i = 0; i < 3; ++i) { s[i] -= rounded; }
+    const Real rest = (s[0] + s[1] + s[2]) * third;
+    deviator.mean += rest;
+    for (int i = 0; i < 3; ++i) { s[i] -= rest; }
+    for (int i = 0; i < 3; ++i) { deviator.j2 += Real(0.5) * s[i] * s[i] + s[3 + i] * s[3 + i]; }
+    return deviator;
+}
+
+/// The most isolated principal value of a deviator, size * root; |root| in [sqrt 3, 2].
+template<class Real>
+struct IsolatedValue
+{
+    Real       size; ///< sqrt(J2/3); 0 where its square underflows
+    Real       root;
+    Sym3<Real> scaled; ///< deviator over size
+};
+
+template<class Real>
+TREAD_HD IsolatedValue<Real> isolated_value(const Deviator<Real>& deviator)
+{
+    const Real third_j2 = deviator.j2 * Real(1.0 / 3);
+    if (third_j2 <= std::numeric_limits<Real>::min()) { return {Real(0), Real(2), Sym3<Real>::Zero()}; }
+    const Real       size = std::sqrt(third_j2);
+    const Sym3<Real> s    = deviator.tensor * (Real(1) / size);
+    const Real       determinant =
+        s[0] * (s[1] * s[2] - s[3] * s[3]) - s[5] * (s[5] * s[2] - s[3] * s[4]) + s[4] * (s[5] * s[3] - s[1] * s[4]);
+    const Real r = Real(0.5) * std::abs(determinant);
+    return {size, std::copysign(isolated_root(r > Real(1) ? Real(1) : r), determinant), s};
+}
+
+/// Largest and smallest principal value, without axes, and an upper bound of their error.
+template<class Real>
+struct PrincipalRange
+{
+    Real major, minor, error;
+};
+
+/// The other roots of the cubic are (-x +- sqrt(12 - 3 x^2))/2 for the isolated root x. Near x = 2, where they meet,
+/// rounding of x comes out as its square root.
+template<class Real>
+TREAD_HD PrincipalRange<Real> principal_range(Real mean, const IsolatedValue<Real>& isolated)
+{
+    constexpr Real precision = sizeof(Real) == sizeof(float) ? Real(2e-3) : Real(1e-7);
+    const Real     x = std::abs(isolated.root), inside = Real(12) - Real(3) * x * x;
+    const Real     far   = Real(0.5) * (x + std::sqrt(inside > 0 ? inside : Real(0)));
+    const Real     alone = mean + isolated.size * isolated.root,
+               other     = mean - std::copysign(isolated.size * far, isolated.root);
+    return {isolated.root > 0 ? alone : other, isolated.root > 0 ? other : alone, isolated.size * precision};
 }
 
 /// Eigen-decomposition of a symmetric 3 x 3 tensor without iteration over rotations: the most isolated principal value
@@ -90,52 +159,42 @@ TREAD_HD PlaneEigen<Real> plane_eigen(const Sym3<Real>& m, const Vec3<Real>& nor
 /// which is exact for close and equal values (Scherzinger and Dohrmann 2008, Comput. Methods Appl. Mech. Eng.
 /// 197:4007). A deviator whose square underflows counts as zero. NaN in, NaN out.
 template<class Real>
-TREAD_HD SymmetricEigen<Real> symmetric_eigen(const Sym3<Real>& tensor)
+TREAD_HD SymmetricEigen<Real> symmetric_eigen(Real mean, const IsolatedValue<Real>& isolated)
 {
-    // Twice: the first difference of an almost spherical tensor has a trace as large as itself, from rounding.
-    const Real rounded  = (tensor[0] + tensor[1] + tensor[2]) / Real(3);
-    Sym3<Real> deviator = tensor;
-    for (int i = 0; i < 3; ++i) { deviator[i] -= rounded; }
-    const Real rest = (deviator[0] + deviator[1] + deviator[2]) / Real(3), mean = rounded + rest;
-    for (int i = 0; i < 3; ++i) { deviator[i] -= rest; }
-    Real third_j2 = 0; // J2/3
-    for (int i = 0; i < 3; ++i)
-    {
-        third_j2 += deviator[i] * deviator[i] / Real(6) + deviator[3 + i] * deviator[3 + i] / Real(3);
-    }
-    if (third_j2 <= std::numeric_limits<Real>::min()) { return {Vec3<Real>::Constant(mean), Mat3<Real>::Identity()}; }
-
-    const Real       size = std::sqrt(third_j2);
-    const Sym3<Real> s    = deviator / size;
-    const Real       determinant =
-        s[0] * (s[1] * s[2] - s[3] * s[3]) - s[5] * (s[5] * s[2] - s[3] * s[4]) + s[4] * (s[5] * s[3] - s[1] * s[4]);
-    const Real r        = Real(0.5) * std::abs(determinant);
-    const Real root     = std::copysign(isolated_root(r > Real(1) ? Real(1) : r), determinant);
-    Sym3<Real> singular = s;
+    if (isolated.size == 0) { return {Vec3<Real>::Constant(mean), Mat3<Real>::Identity()}; }
+    const Real size = isolated.size, root = isolated.root;
+    Sym3<Real> singular = isolated.scaled;
     for (int i = 0; i < 3; ++i) { singular[i] -= root; }
     const Vec3<Real>       axis  = null_vector(singular);
-    const PlaneEigen<Real> plane = plane_eigen(s, axis);
+    const PlaneEigen<Real> plane = plane_eigen(isolated.scaled, axis);
 
     SymmetricEigen<Real> eigen;
-    const Real           isolated = mean + size * root, high = mean + size * plane.high, low = mean + size * plane.low;
+    const Real           alone = mean + size * root, high = mean + size * plane.high, low = mean + size * plane.low;
     if (root > 0)
     {
-        eigen.values << isolated, high, low;
+        eigen.values << alone, high, low;
         eigen.axes << axis, plane.high_axis, plane.low_axis;
     }
     else
     {
-        eigen.values << high, low, isolated;
+        eigen.values << high, low, alone;
         eigen.axes << plane.high_axis, plane.low_axis, axis;
     }
     return eigen;
+}
+
+template<class Real>
+TREAD_HD SymmetricEigen<Real> symmetric_eigen(const Sym3<Real>& tensor)
+{
+    const Deviator<Real> deviator = deviator_of(tensor);
+    return symmetric_eigen(deviator.mean, isolated_value(deviator));
 }
 
 /// Sum of values[i] axes_i axes_i^T. The mean is added apart, so that the axes' rounding acts on the deviator alone.
 template<class Real>
 TREAD_HD Sym3<Real> from_principal(const Vec3<Real>& values, const Mat3<Real>& axes)
 {
-    const Real       mean = values.sum() / Real(3);
+    const Real       mean = values.sum() * Real(1.0 / 3);
     const Mat3<Real> m    = axes * Vec3<Real>(values.array() - mean).asDiagonal() * axes.transpose();
     Sym3<Real>       tensor;
     tensor << mean + m(0, 0), mean + m(1, 1), mean + m(2, 2), m(1, 2), m(0, 2), m(0, 1);

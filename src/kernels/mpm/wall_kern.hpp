@@ -77,15 +77,30 @@ TREAD_HD bool has_held_nodes(const GridWalls& walls, Index3 page)
     return false;
 }
 
-/// Whether a wall that pairs the node may hold this component of its velocity.
-TREAD_HD bool may_hold(const GridWalls& walls, Index3 node, int component)
+/// Whether walls hold nodes of the page at `page` together with others across an axis: those on a wall's plane and
+/// beside it.
+TREAD_HD bool has_paired_nodes(const GridWalls& walls, Index3 page, int axis)
 {
+    if (is_thin(walls, axis)) { return false; }
+    for (int end = 0; end < 2; ++end)
+    {
+        const int plane = (end == 0 ? 0 : walls.last_node[axis]) - along(page, axis) * page_edge;
+        if (walls.rule[axis][end] != WallRule::open && plane >= -1 && plane <= page_edge) { return true; }
+    }
+    return false;
+}
+
+/// The components (bit c) of its velocity that walls which pair the node may hold.
+TREAD_HD unsigned held_components(const GridWalls& walls, Index3 node)
+{
+    unsigned held = 0;
     for (int axis = 0; axis < 3; ++axis)
     {
         const WallPlace place = wall_place(walls, axis, along(node, axis));
-        if (place.paired && (axis == component || walls.rule[axis][place.end] != WallRule::slip)) { return true; }
+        if (!place.paired) { continue; }
+        held |= walls.rule[axis][place.end] == WallRule::slip ? 1U << axis : 7U;
     }
-    return false;
+    return held;
 }
 
 /// Nodes outside, on and inside a wall's plane. Those that are not there, or too light, have no mass.
@@ -167,15 +182,16 @@ TREAD_HD double hold(const GridWalls& walls, int axis, int end, WallGroup<Real>&
 }
 
 /// Friction is part of what walls take, which the end of the node's step books as a whole.
-TREAD_HD void book_friction(double friction, double* sums)
+template<class Sum>
+TREAD_HD void book_friction(double friction, Sum* sums)
 {
-    sums[grid_friction] += friction;
-    sums[grid_wall_loss] -= friction;
+    sums[grid_friction] += Sum(friction);
+    sums[grid_wall_loss] -= Sum(friction);
 }
 
 /// What walls do to a node alone. Adds what friction takes to `sums`.
-template<class Real>
-TREAD_HD Vec3<Real> hold_alone(const GridWalls& walls, Index3 node, Real mass, const Vec3<Real>& velocity, double* sums)
+template<class Real, class Sum>
+TREAD_HD Vec3<Real> hold_alone(const GridWalls& walls, Index3 node, Real mass, const Vec3<Real>& velocity, Sum* sums)
 {
     WallGroup<Real> group;
     group.mass[1]     = mass;

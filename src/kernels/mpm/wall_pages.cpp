@@ -6,7 +6,9 @@
 namespace tread::mpm
 {
 
-template void list_wall_pages(const Cpu&, const PagesView&, const GridWalls&, Array<Cpu, std::int32_t>&,
-                              Array<Cpu, std::int32_t>&, SortScratch<Cpu>&);
+template void list_wall_pages(const Cpu&, const PagesView&, const GridWalls&, WallPages<Cpu, float>&,
+                              SortScratch<Cpu>&);
+template void list_wall_pages(const Cpu&, const PagesView&, const GridWalls&, WallPages<Cpu, double>&,
+                              SortScratch<Cpu>&);
 
 } // namespace tread::mpm

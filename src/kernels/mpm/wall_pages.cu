@@ -6,7 +6,9 @@
 namespace tread::mpm
 {
 
-template void list_wall_pages(const Gpu&, const PagesView&, const GridWalls&, Array<Gpu, std::int32_t>&,
-                              Array<Gpu, std::int32_t>&, SortScratch<Gpu>&);
+template void list_wall_pages(const Gpu&, const PagesView&, const GridWalls&, WallPages<Gpu, float>&,
+                              SortScratch<Gpu>&);
+template void list_wall_pages(const Gpu&, const PagesView&, const GridWalls&, WallPages<Gpu, double>&,
+                              SortScratch<Gpu>&);
 
 } // namespace tread::mpm

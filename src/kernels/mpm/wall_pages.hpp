@@ -1,15 +1,14 @@
 #pragma once
 
 #include "backend/sort.hpp"
-#include "kernels/mpm/grid.hpp"
+#include "kernels/mpm/walls.hpp"
 
 namespace tread::mpm
 {
 
-/// Lists the node pages whose nodes walls hold together with others (numbers in the list of node pages, ascending).
-/// `marks` and `scratch` are kept between calls.
-template<class Exec>
-void list_wall_pages(const Exec& exec, const PagesView& pages, const GridWalls& walls, Array<Exec, std::int32_t>& list,
-                     Array<Exec, std::int32_t>& marks, SortScratch<Exec>& scratch);
+/// Lists the node pages of which walls may hold nodes, and makes room for those. `scratch` is kept between calls.
+template<class Exec, class Real>
+void list_wall_pages(const Exec& exec, const PagesView& pages, const GridWalls& walls,
+                     WallPages<Exec, Real>& wall_pages, SortScratch<Exec>& scratch);
 
 } // namespace tread::mpm
