@@ -49,14 +49,14 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
     double       sums[point_sums] = {};
     for (std::int64_t at = pages.first_point[page]; at < pages.first_point[page + 1]; ++at)
     {
-        const std::int64_t i      = pages.point_at[at];
-        const Index3       cell   = node_at(low, pages.place_at[at]);
-        const auto         point  = read_point(points, i);
-        const auto stencil = stencil_above<Real>(cell, point.position, pages.inverse_spacing, pages.inverse_spacing,
+        const std::int64_t i     = pages.point_at[at];
+        const Index3       cell  = node_at(low, pages.place_at[at]);
+        const auto         point = read_point(points, i);
+        const auto  stencil = stencil_above<Real>(cell, point.position, pages.inverse_spacing, pages.inverse_spacing,
                                                  pages.stencil_shift);
-        const auto* lowest = tile + tile_base(stencil.base);
-        const auto  seen   = see(
-            stencil, spacing, [=](int a, int b, int c) { return lowest[tile_offset(a, b, c)]; }, Moment{});
+        const auto* lowest  = tile + tile_base(stencil.base);
+        const auto  seen    = see(
+                stencil, spacing, [=](int a, int b, int c) { return lowest[tile_offset(a, b, c)]; }, Moment{});
         const Move move = update_point(points, i, point, seen, stencil.base, pages, page, step, sums, peaks);
         moves.to[at]    = packed(move);
         count[move.direction] += move.direction != own_page;

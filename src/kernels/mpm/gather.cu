@@ -12,51 +12,53 @@ namespace tread::mpm
 namespace
 {
 
-/// Measured on an H200: the kernel waits, and more warps hide more of it than the registers that they spill cost. fp32,
-/// 1e7 points at rest, 8 a cell, points/s for 512, 640, 768, 896 threads: AFLIP 6.7e9, 6.9e9, 6.1e9, 4.9e9; FLIP 7.9e9,
-/// 8.4e9, 8.2e9, 8.1e9.
-template<class Real>
+/// Registers for so many threads on a multiprocessor: with more of them the kernel spills what it keeps of a point.
 constexpr int threads_an_sm = 512;
 
 /// Fewer pages than this leave multiprocessors idle unless each page has many threads.
 constexpr std::int64_t few_pages = 1024;
 
-/// Where shared memory keeps tile node (x, y, z): with this pitch the 16 cells of a layer, each at the same one of its
-/// nodes, touch all banks.
-constexpr int gather_row   = 12;
-constexpr int gather_layer = gather_row * tile_edge;
-constexpr int gather_nodes = gather_layer * tile_edge;
+/// Pages with fewer points than this on average have one warp, which waits for no other.
+constexpr std::int64_t full_page = 128;
 
-__device__ int gather_slot(int x, int y, int z) { return x + gather_row * y + gather_layer * z; }
+/// Where shared memory keeps channel 0 of tile node (x, y, z): with this pitch the 16 cells of a layer, each at the
+/// same one of its nodes, touch all banks with two channels each.
+constexpr int gather_row  = 40;
+constexpr int gather_size = gather_row * tile_edge * tile_edge;
 
-/// One tile node in shared memory, aligned so that its channels come in pairs.
+__device__ int gather_slot(int x, int y, int z) { return motion_channels * x + gather_row * (y + tile_edge * z); }
+
+/// Two channels of a node.
 template<class Real>
-struct alignas(2 * sizeof(Real)) MotionNode
-{
-    Real channel[motion_channels];
-};
+using Pair = Pack<Real, 2>;
 
-/// Brings the motion of a page's tile into shared memory: a thread a row of nodes, or several with some channels each.
+/// Brings the motion of a page's tile into shared memory, two channels of a row of nodes at a time.
 template<int threads, class Real>
-__device__ void load_tile(const Real* motion, const std::int32_t* node_page, MotionNode<Real>* tile)
+__device__ void load_tile(const Real* motion, const std::int32_t* node_page, Real* tile)
 {
-    constexpr int rows = tile_edge * tile_edge, beyond = tile_edge - page_edge;
-    constexpr int teams = threads / rows < motion_channels ? threads / rows : motion_channels;
-    const int     y = static_cast<int>(threadIdx.x) % tile_edge, z = static_cast<int>(threadIdx.x) % rows / tile_edge;
-    const int     team = static_cast<int>(threadIdx.x) / rows;
-    if (team >= teams) { return; }
-    const std::int32_t* page = node_page + (y / page_edge << 1 | z / page_edge << 2);
-    const Real*         here = motion + page_edge * (y % page_edge + page_edge * (z % page_edge));
-    const Real*         low  = here + std::int64_t(page[0]) * motion_channels * page_cells;
-    const Real*         high = here + std::int64_t(page[1]) * motion_channels * page_cells;
-    MotionNode<Real>*   node = tile + gather_slot(0, y, z);
-#pragma unroll
-    for (int c = team; c < motion_channels; c += teams)
+    constexpr int pairs = motion_channels / 2, rows = tile_edge * tile_edge, beyond = tile_edge - page_edge;
+#pragma unroll 2
+    for (int item = static_cast<int>(threadIdx.x); item < pairs * rows; item += threads)
     {
-        const auto four = *reinterpret_cast<const Pack<Real, page_edge>*>(low + c * page_cells);
-        const auto two  = *reinterpret_cast<const Pack<Real, beyond>*>(high + c * page_cells);
-        for (int x = 0; x < page_edge; ++x) { node[x].channel[c] = four.at[x]; }
-        for (int x = 0; x < beyond; ++x) { node[page_edge + x].channel[c] = two.at[x]; }
+        const int           channel = item % pairs * 2, y = item / pairs % tile_edge, z = item / (pairs * tile_edge);
+        const std::int32_t* page = node_page + (y / page_edge << 1 | z / page_edge << 2);
+        const Real* here = motion + page_edge * (y % page_edge + page_edge * (z % page_edge)) + channel * page_cells;
+        const Real* low  = here + std::int64_t(page[0]) * motion_channels * page_cells;
+        const Real* high = here + std::int64_t(page[1]) * motion_channels * page_cells;
+        Pack<Real, page_edge> four[2];
+        Pack<Real, beyond>    two[2];
+        for (int c = 0; c < 2; ++c)
+        {
+            four[c] = *reinterpret_cast<const Pack<Real, page_edge>*>(low + c * page_cells);
+            two[c]  = *reinterpret_cast<const Pack<Real, beyond>*>(high + c * page_cells);
+        }
+        Real* row = tile + gather_slot(0, y, z) + channel;
+        for (int x = 0; x < tile_edge; ++x)
+        {
+            *reinterpret_cast<Pair<Real>*>(row + motion_channels * x) =
+                x < page_edge ? Pair<Real>{{four[0].at[x], four[1].at[x]}}
+                              : Pair<Real>{{two[0].at[x - page_edge], two[1].at[x - page_edge]}};
+        }
     }
 }
 
@@ -64,13 +66,13 @@ __device__ void load_tile(const Real* motion, const std::int32_t* node_page, Mot
 template<class Real>
 struct NodesOfTile
 {
-    const MotionNode<Real>* lowest;
+    const Real* lowest;
 
     __device__ NodeMotion<Real, 3> operator()(int a, int b, int c) const
     {
-        const MotionNode<Real> node = lowest[gather_slot(a, b, c)];
-        return {{node.channel[0], node.channel[1], node.channel[2]},
-                {node.channel[3], node.channel[4], node.channel[5]}};
+        const auto*      node = reinterpret_cast<const Pair<Real>*>(lowest + gather_slot(a, b, c));
+        const Pair<Real> low = node[0], middle = node[1], high = node[2];
+        return {{low.at[0], low.at[1], middle.at[0]}, {middle.at[1], high.at[0], high.at[1]}};
     }
 };
 
@@ -165,12 +167,16 @@ struct GatherPage
             clear(page);
             return;
         }
-        __shared__ MotionNode<Real> tile[gather_nodes];
+        __shared__ alignas(16) Real tile[gather_size];
         __shared__ Waiting<threads, Real> waiting;
         __shared__ double                 shared_sums[threads / 32 * point_sums];
         __shared__ double                 shared_peaks[threads / 32 * point_peaks];
         __shared__ std::int32_t count[move_counts];
         if (threadIdx.x < move_counts) { count[threadIdx.x] = 0; }
+        double*      row    = tallies + page * tally_width(point_sums);
+        double*      most   = peaks + page * point_peaks;
+        const double booked = threadIdx.x < point_sums ? row[threadIdx.x] : 0;
+        const double before = threadIdx.x < point_peaks ? most[threadIdx.x] : 0;
         at += threadIdx.x;
         Listed       next     = listed(at, end);
         std::uint8_t material = fetch(next, at < end, waiting);
@@ -197,11 +203,14 @@ struct GatherPage
             moves.to[at]    = packed(move);
             if (move.stir != Stir::none) { count_move(move, count); }
         }
-        double* row  = tallies + page * tally_width(point_sums);
-        double* most = peaks + page * point_peaks;
-        block_sum<threads, point_sums>(sum, shared_sums, [=](int s, double value) { book(row, point_sums, s, value); });
+        block_sum<threads, point_sums>(sum, shared_sums,
+                                       [=](int s, double value)
+                                       {
+                                           row[s]              = booked + value;
+                                           row[point_sums + s] = value;
+                                       });
         block_largest<threads, point_peaks>(peak, shared_peaks,
-                                            [=](int p, double value) { most[p] = fmax(most[p], value); });
+                                            [=](int p, double value) { most[p] = fmax(before, value); });
         if (threadIdx.x < move_counts) { moves.count[page * move_counts + threadIdx.x] = count[threadIdx.x]; }
         if (threadIdx.x == 0 && count[stirred_points] > 0) { *moves.stirred_in = moves.step; }
     }
@@ -244,7 +253,7 @@ void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pag
 {
     const auto launch = [&](auto threads, auto moment)
     {
-        for_each_block<threads, threads_an_sm<Real> / threads>(
+        for_each_block<threads, threads_an_sm / threads>(
             gpu, "gather", pages.point_pages,
             GatherPage<threads, Real, decltype(moment)>{points, pages, motion, step, moves, tallies, peaks});
     };
@@ -255,6 +264,7 @@ void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pag
     };
     constexpr int many_threads = sizeof(Real) == 4 ? 256 : 128;
     if (pages.point_pages < few_pages) { with_threads(std::integral_constant<int, many_threads>{}); }
+    else if (points.count < full_page * pages.point_pages) { with_threads(std::integral_constant<int, warp_size>{}); }
     else { with_threads(std::integral_constant<int, 64>{}); }
 }
 

@@ -33,22 +33,26 @@ struct UpdatePages
         const std::int64_t page = block * grid_warps + threadIdx.x / warp_size;
         if (page >= pages.node_pages) { return; }
         const int          lane                    = static_cast<int>(threadIdx.x) % warp_size;
-        const std::int32_t tile                    = lane < octants ? tile_page(pages, page, lane) : -1;
+        const std::int32_t tile                    = lane < octants ? pages.point_page_of[octants * page + lane] : -1;
         const std::int32_t wall_page               = wall_pages.number(page);
+        double*            row                     = tallies + page * tally_width(grid_sums);
+        const double       booked                  = lane < grid_sums ? row[lane] : 0;
         Pair<Real>         channels[node_channels] = {};
         sum_pairs(tile, lane, channels);
-        double* row = tallies + page * tally_width(grid_sums);
-        Real*   out = motion + page * motion_channels * page_cells + 2 * lane;
-        if (wall_page < 0) { update_free(channels, lane, out, row); }
-        else { update_held(page, wall_page, channels, lane, out, row); }
+        Real* out = motion + page * motion_channels * page_cells + 2 * lane;
+        if (wall_page < 0) { update_free(channels, lane, out, booked, row); }
+        else { update_held(page, wall_page, channels, lane, out, booked, row); }
     }
 
     /// sum_tiles for two nodes; lane `octant` brings the page of that tile. All loads of a channel at once, and of as
-    /// many channels as registers allow.
+    /// many channels as registers allow; a tile is read before it is known whether its page has points: what comes is
+    /// not used then.
     __device__ void sum_pairs(std::int32_t tile_of_lane, int lane, Pair<Real>* total) const
     {
-        const int   x = 2 * (lane & 1), y = lane >> 1 & 3, z = lane >> 3;
-        const Real* tile[octants];
+        const bool points = tile_of_lane >= 0 && pages.first_point[tile_of_lane] < pages.first_point[tile_of_lane + 1];
+        const unsigned filled = __ballot_sync(all_lanes, points);
+        const int      x = 2 * (lane & 1), y = lane >> 1 & 3, z = lane >> 3;
+        const Real*    tile[octants];
 #pragma unroll
         for (int octant = 0; octant < octants; ++octant)
         {
@@ -68,41 +72,42 @@ struct UpdatePages
             {
                 part[octant] = tile[octant] == nullptr
                                    ? Pair<Real>{}
-                                   : *reinterpret_cast<const Pair<Real>*>(tile[octant] + c * tile_nodes);
+                                   : *reinterpret_cast<const Pair<Real>*>(tile[octant] + c * octant_nodes(octant));
             }
 #pragma unroll
             for (int octant = 0; octant < octants; ++octant)
             {
+                if ((filled >> octant & 1U) == 0) { continue; }
                 total[c].at[0] += part[octant].at[0];
                 total[c].at[1] += part[octant].at[1];
             }
         }
     }
 
-    __device__ void update_free(const Pair<Real>* channels, int lane, Real* out, double* row) const
+    __device__ void update_free(const Pair<Real>* channels, int lane, Real* out, double booked, double* row) const
     {
-        Real             sum[grid_sums] = {};
+        Real          sum[grid_sums] = {};
         NodeEnd<Real> node[2];
 #pragma unroll
         for (int n = 0; n < 2; ++n) { node[n] = update_free_node(step, of_node(channels, n).at, sum); }
         write_pair(node, out);
-        if (step.damping > 0) { book_warp<grid_wall_loss>(sum, lane, row); }
-        else { book_warp<grid_damped>(sum, lane, row); }
+        if (step.damping > 0) { book_warp<grid_wall_loss>(sum, lane, booked, row); }
+        else { book_warp<grid_damped>(sum, lane, booked, row); }
     }
 
     __device__ void update_held(std::int64_t page, std::int32_t wall_page, const Pair<Real>* channels, int lane,
-                                Real* out, double* row) const
+                                Real* out, double booked, double* row) const
     {
-        Real             sum[grid_sums] = {};
-        NodeEnd<Real> node[2];
-        const Index3     at         = page_coordinates(pages.node_page_key[page]);
-        WallNode<Real>*  wall_nodes = wall_pages.node + std::int64_t(wall_page) * page_cells + 2 * lane;
+        Real            sum[grid_sums] = {};
+        NodeEnd<Real>   node[2];
+        const Index3    at         = page_coordinates(pages.node_page_key[page]);
+        WallNode<Real>* wall_nodes = wall_pages.node + std::int64_t(wall_page) * page_cells + 2 * lane;
         for (int n = 0; n < 2; ++n)
         {
             node[n] = update_node(step, node_at(at, 2 * lane + n), of_node(channels, n).at, wall_nodes[n], sum);
         }
         write_pair(node, out);
-        book_warp<grid_sums>(sum, lane, row);
+        book_warp<grid_sums>(sum, lane, booked, row);
     }
 
     __device__ static Pack<Real, 8> of_node(const Pair<Real>* channels, int n)
@@ -121,18 +126,20 @@ struct UpdatePages
         }
     }
 
-    /// Books the first `count` sums; the others are zero.
+    /// Books the first `count` sums; the others are zero. `booked`: what the lane's sum was before.
     template<int count>
-    __device__ static void book_warp(const Real* sum, int lane, double* row)
+    __device__ static void book_warp(const Real* sum, int lane, double booked, double* row)
     {
-        const Real value = warp_combine<count>(sum, AddValues{});
-        const int  which = warp_slot<count>(lane);
-        if (which < count && is_slot_head<count>(lane)) { book(row, grid_sums, which, static_cast<double>(value)); }
-        if (lane >= count && lane < grid_sums) { row[grid_sums + lane] = 0; }
+        const Real   all   = warp_combine<count>(sum, AddValues{});
+        const Real   own   = __shfl_sync(all_lanes, all, lane * lanes_a_slot<count> % warp_size);
+        const double value = lane < count ? static_cast<double>(own) : 0;
+        if (lane >= grid_sums) { return; }
+        row[lane]             = booked + value;
+        row[grid_sums + lane] = value;
     }
 };
 
-constexpr int wall_threads = 128;
+constexpr int wall_threads = 64;
 
 /// A block a wall page.
 template<class Real>

@@ -27,7 +27,7 @@ TREAD_HD void sum_tiles(const std::int32_t* tile_pages, const Real* tiles, int p
         if (tile_pages[octant] < 0) { continue; }
         const Real* tile = tiles + std::int64_t(tile_pages[octant]) * node_channels * tile_nodes +
                            octant_start(octant) + x + octant_edge(octant, 0) * (y + octant_edge(octant, 1) * z);
-        for (int c = 0; c < node_channels; ++c) { total[c] += tile[c * tile_nodes]; }
+        for (int c = 0; c < node_channels; ++c) { total[c] += tile[c * octant_nodes(octant)]; }
     }
 }
 
@@ -90,7 +90,7 @@ TREAD_HD void book_forces(const GridStep<Real>& step, const NodeStep<Real>& node
 /// The end of a node's step.
 template<class Real, class Sum>
 TREAD_HD NodeEnd<Real> finish_node(const GridStep<Real>& step, Real mass, const Vec3<Real>& before,
-                                      const Vec3<Real>& after, Sum* sums)
+                                   const Vec3<Real>& after, Sum* sums)
 {
     const Vec3<Real> change = after - before;
     const Vec3<Real> weight = mass * step.gravity;
@@ -125,7 +125,7 @@ TREAD_HD NodeEnd<Real> update_free_node(const GridStep<Real>& step, const Real* 
 /// then its mass and velocity so far, and what is returned, for finish_held, its velocity without walls and before.
 template<class Real, class Sum>
 TREAD_HD NodeEnd<Real> update_node(const GridStep<Real>& step, Index3 node, const Real* channels,
-                                      WallNode<Real>& wall_node, Sum* sums)
+                                   WallNode<Real>& wall_node, Sum* sums)
 {
     wall_node                  = {};
     const NodeStep<Real> begun = begin_node(step, held_components(step.walls, node), channels);
@@ -145,7 +145,7 @@ TREAD_HD NodeEnd<Real> update_node(const GridStep<Real>& step, Index3 node, cons
 /// The end of the step of a node that walls hold at `after` (m/s). `begun`: what update_node returned.
 template<class Real, class Sum>
 TREAD_HD NodeEnd<Real> finish_held(const GridStep<Real>& step, Real mass, const NodeEnd<Real>& begun,
-                                      const Vec3<Real>& after, Sum* sums)
+                                   const Vec3<Real>& after, Sum* sums)
 {
     const Vec3<Real>& moved  = begun.velocity;
     const Vec3<Real>& before = begun.change;

@@ -39,10 +39,10 @@ void scatter_page(const PointsView<Real>& points, const PagesView& pages, std::i
     }
     for (int node = 0; node < tile_nodes; ++node)
     {
-        const int slot = tile_slot(node % tile_edge, node / tile_edge % tile_edge, node / (tile_edge * tile_edge));
+        const TileSlot slot = tile_slot(node % tile_edge, node / tile_edge % tile_edge, node / (tile_edge * tile_edge));
         for (int channel = 0; channel < node_channels; ++channel)
         {
-            out[channel * tile_nodes + slot] = tile[node][channel];
+            out[slot.first + channel * slot.stride] = tile[node][channel];
         }
     }
 }

@@ -266,19 +266,20 @@ struct ScatterPage
             const int column = item % layer_nodes, x = column % tile_edge, y = column / tile_edge;
             if (item < layer_nodes)
             {
-                write_column<4>(column, x, y, out, [&](int w, int n) { return tile[w].moving[n]; });
+                write_column<0, 4>(column, x, y, out, [&](int w, int n) { return tile[w].moving[n]; });
             }
             else
             {
-                write_column<3>(column, x, y, out + 4 * tile_nodes, [&](int w, int n) { return tile[w].force[n]; });
+                write_column<4, 3>(column, x, y, out, [&](int w, int n) { return tile[w].force[n]; });
             }
         }
     }
 
-    template<int channels, class Value>
+    template<int first, int channels, class Value>
     __device__ static void write_column(int column, int x, int y, Real* out, Value value)
     {
-        const int low = tile_slot(x, y, 0), high = tile_slot(x, y, page_edge), step = tile_slot(x, y, 1) - low;
+        const TileSlot low = tile_slot(x, y, 0), high = tile_slot(x, y, page_edge);
+        const int      step = tile_slot(x, y, 1).first - low.first;
 #pragma unroll
         for (int z = 0; z < tile_edge; ++z)
         {
@@ -291,8 +292,9 @@ struct ScatterPage
                 const Quad<Real> part = value(warp, column + above * layer_nodes);
                 for (int c = 0; c < channels; ++c) { sum.at[c] += part.at[c]; }
             }
-            Real* to = out + (z < page_edge ? low + z * step : high + (z - page_edge) * step);
-            for (int c = 0; c < channels; ++c) { to[c * tile_nodes] = sum.at[c]; }
+            const TileSlot slot = z < page_edge ? low : high;
+            Real*          to   = out + slot.first + z % page_edge * step + first * slot.stride;
+            for (int c = 0; c < channels; ++c) { to[c * slot.stride] = sum.at[c]; }
         }
     }
 };

@@ -2,13 +2,13 @@
 
 #include "kernels/mpm/points.hpp"
 #include "kernels/mpm/stencil_kern.hpp"
+#include "kernels/mpm/tile_kern.hpp"
 
 namespace tread::mpm
 {
 
-/// What a node receives: mass, momentum (3), force (3); the eighth lane pads to a vector register.
-constexpr int node_channels = 7;
-constexpr int lanes         = 8;
+/// Channels of a node and one that pads to a vector register.
+constexpr int lanes = 8;
 
 /// A point's share of every node of its stencil is weight * (value + offset . per_offset) + slope . per_slope.
 template<class Real>

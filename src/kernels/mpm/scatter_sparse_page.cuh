@@ -138,14 +138,15 @@ struct ScatterSparsePage
         __syncwarp();
         for (int item = lane; item < node_channels * layer_nodes; item += warp_size)
         {
-            const int   channel = item / layer_nodes, x = item % tile_edge, y = item % layer_nodes / tile_edge;
-            const int   low = tile_slot(x, y, 0), high = tile_slot(x, y, page_edge), step = tile_slot(x, y, 1) - low;
-            const Real* column = tile[channel] + x + sparse_row * y;
-            Real*       to     = out + channel * tile_nodes;
-            for (int z = 0; z < page_edge; ++z) { to[low + z * step] = column[z * sparse_layer]; }
-            for (int z = page_edge; z < tile_edge; ++z)
+            const int      channel = item / layer_nodes, x = item % tile_edge, y = item % layer_nodes / tile_edge;
+            const TileSlot low = tile_slot(x, y, 0), high = tile_slot(x, y, page_edge);
+            const int      step   = tile_slot(x, y, 1).first - low.first;
+            const Real*    column = tile[channel] + x + sparse_row * y;
+#pragma unroll
+            for (int z = 0; z < tile_edge; ++z)
             {
-                to[high + (z - page_edge) * step] = column[z * sparse_layer];
+                const TileSlot slot                                            = z < page_edge ? low : high;
+                out[slot.first + z % page_edge * step + channel * slot.stride] = column[z * sparse_layer];
             }
         }
     }

@@ -74,27 +74,4 @@ TREAD_HD int tile_base(Index3 base) { return (base.x & 3) + tile_edge * ((base.y
 /// Place of node (i, j, k) of a stencil relative to its lowest.
 TREAD_HD int tile_offset(int i, int j, int k) { return i + tile_edge * (j + tile_edge * k); }
 
-/// The part of a tile that belongs to the node page at + (o & 1, o >> 1 & 1, o >> 2): its edges, and where it starts. A
-/// finished tile keeps its parts one after the other, so that a node page reads each in one piece.
-constexpr int          octants = 8;
-TREAD_HD constexpr int octant_edge(int octant, int axis)
-{
-    return (octant >> axis & 1) != 0 ? tile_edge - page_edge : page_edge;
-}
-TREAD_HD constexpr int octant_start(int octant)
-{
-    const int z = octant >> 2, y = octant >> 1 & 1, x = octant & 1;
-    const int height = octant_edge(octant, 2);
-    return z * page_edge * tile_edge * tile_edge + y * height * page_edge * tile_edge +
-           x * height * octant_edge(octant, 1) * page_edge;
-}
-
-/// Where a finished tile keeps node (i, j, k).
-TREAD_HD int tile_slot(int i, int j, int k)
-{
-    const int octant = (i / page_edge) | (j / page_edge) << 1 | (k / page_edge) << 2;
-    return octant_start(octant) + i % page_edge +
-           octant_edge(octant, 0) * (j % page_edge + octant_edge(octant, 1) * (k % page_edge));
-}
-
 } // namespace tread::mpm

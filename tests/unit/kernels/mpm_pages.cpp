@@ -273,7 +273,20 @@ TYPED_TEST(PagesTest, ScatterKeepsMassMomentumAndForceFree)
     scatter(this->exec(), points.view(), pages.view(this->spacing, 0.5), tiles.data());
     const auto values                = tiles.to_host();
     double     totals[node_channels] = {};
-    for (std::size_t i = 0; i < values.size(); ++i) { totals[i / tile_nodes % node_channels] += values[i]; }
+    const auto for_each_value        = [&](auto visit)
+    {
+        for (std::int64_t at = 0; at < page_count * tile_nodes * node_channels; ++at)
+        {
+            const auto node    = static_cast<int>(at / node_channels % tile_nodes),
+                       channel = static_cast<int>(at % node_channels);
+            const TileSlot slot =
+                tile_slot(node % tile_edge, node / tile_edge % tile_edge, node / (tile_edge * tile_edge));
+            const auto page = at / (tile_nodes * node_channels);
+            visit(channel, values[static_cast<std::size_t>(page * tile_nodes * node_channels + slot.first +
+                                                           channel * slot.stride)]);
+        }
+    };
+    for_each_value([&](int channel, double value) { totals[channel] += value; });
     double     mass = 0, momentum[3] = {}, largest_force = 0;
     const auto m = points.mass.to_host(), v = points.velocity.to_host();
     for (std::size_t i = 0; i < 2000; ++i)
@@ -281,10 +294,11 @@ TYPED_TEST(PagesTest, ScatterKeepsMassMomentumAndForceFree)
         mass += m[i];
         for (std::size_t c = 0; c < 3; ++c) { momentum[c] += m[i] * v[c * 2000 + i]; }
     }
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-        if (i / tile_nodes % node_channels >= 4) { largest_force = std::max(largest_force, std::abs(values[i])); }
-    }
+    for_each_value(
+        [&](int channel, double value)
+        {
+            if (channel >= 4) { largest_force = std::max(largest_force, std::abs(value)); }
+        });
     std::cout << "scatter: mass error " << std::abs(totals[0] / mass - 1) << ", internal force sum " << totals[4]
               << " of nodes up to " << largest_force << "; tolerance 1e-12 (rounding of 54,000 shares)\n";
     EXPECT_NEAR(totals[0] / mass, 1, 1e-12);
