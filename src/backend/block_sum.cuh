@@ -53,11 +53,13 @@ __device__ Value warp_combine(const Value* values, Combine combine)
     Value         part[slots];
 #pragma unroll
     for (int w = 0; w < slots; ++w) { part[w] = w < width ? values[w] : Value(0); }
-    int across = warp_size / 2;
+    constexpr int steps = 5, halvings = std::countr_zero(static_cast<unsigned>(slots));
 #pragma unroll
-    for (int half = slots / 2; half > 0; half /= 2, across /= 2)
+    for (int step = 0; step < steps; ++step)
     {
+        const int  across = warp_size >> (step + 1), half = slots >> (step + 1);
         const bool upper = (lane & across) != 0;
+        if (step >= halvings) { part[0] = combine(part[0], __shfl_xor_sync(all_lanes, part[0], across)); }
 #pragma unroll
         for (int w = 0; w < half; ++w)
         {
@@ -65,8 +67,6 @@ __device__ Value warp_combine(const Value* values, Combine combine)
             part[w] = combine(kept, __shfl_xor_sync(all_lanes, handed, across));
         }
     }
-#pragma unroll
-    for (; across > 0; across /= 2) { part[0] = combine(part[0], __shfl_xor_sync(all_lanes, part[0], across)); }
     return part[0];
 }
 

@@ -17,7 +17,7 @@ struct Larger
 };
 
 constexpr int fold_threads = 1024;
-constexpr int fold_lanes   = 4; ///< loads in flight of a thread
+constexpr int fold_lanes   = 16; ///< loads in flight of a thread: there are few blocks
 
 /// One block a column: each thread folds fixed strides of rows, then a fixed tree folds the threads.
 template<class Combine>
@@ -50,13 +50,20 @@ struct FoldColumn
         double value[fold_lanes] = {};
         for (std::int64_t first = threadIdx.x; first < count; first += fold_lanes * fold_threads)
         {
+#pragma unroll
             for (int lane = 0; lane < fold_lanes; ++lane)
             {
                 const std::int64_t row = first + lane * fold_threads;
                 if (row < count) { value[lane] = combine(value[lane], rows[row * width + column]); }
             }
         }
-        return combine(combine(value[0], value[1]), combine(value[2], value[3]));
+#pragma unroll
+        for (int half = fold_lanes / 2; half > 0; half /= 2)
+        {
+#pragma unroll
+            for (int lane = 0; lane < half; ++lane) { value[lane] = combine(value[lane], value[lane + half]); }
+        }
+        return value[0];
     }
 };
 

@@ -1,5 +1,7 @@
 #include "kernels/mpm/gather.hpp"
 
+#include <algorithm>
+
 #include <cuda_pipeline.h>
 
 #include "backend/block_sum.cuh"
@@ -13,7 +15,8 @@ namespace
 {
 
 /// Registers for so many threads on a multiprocessor: with more of them the kernel spills what it keeps of a point.
-constexpr int threads_an_sm = 512;
+template<class Moment>
+constexpr int threads_an_sm = std::is_same_v<Moment, WithMoment> ? 384 : 512;
 
 /// Fewer pages than this leave multiprocessors idle unless each page has many threads.
 constexpr std::int64_t few_pages = 1024;
@@ -32,34 +35,55 @@ __device__ int gather_slot(int x, int y, int z) { return motion_channels * x + g
 template<class Real>
 using Pair = Pack<Real, 2>;
 
-/// Brings the motion of a page's tile into shared memory, two channels of a row of nodes at a time.
+/// Two channels of a row of tile nodes.
+template<class Real>
+struct RowPair
+{
+    Pack<Real, page_edge>             low[2];
+    Pack<Real, tile_edge - page_edge> high[2];
+};
+
+/// Brings the motion of a page's tile into shared memory: all loads of a thread first, then its stores.
 template<int threads, class Real>
 __device__ void load_tile(const Real* motion, const std::int32_t* node_page, Real* tile)
 {
-    constexpr int pairs = motion_channels / 2, rows = tile_edge * tile_edge, beyond = tile_edge - page_edge;
-#pragma unroll 2
-    for (int item = static_cast<int>(threadIdx.x); item < pairs * rows; item += threads)
+    constexpr int pairs = motion_channels / 2, items = pairs * tile_edge * tile_edge;
+    constexpr int turns = (items + threads - 1) / threads;
+    RowPair<Real> part[turns];
+    const auto    for_each_turn = [](auto visit)
     {
-        const int           channel = item % pairs * 2, y = item / pairs % tile_edge, z = item / (pairs * tile_edge);
-        const std::int32_t* page = node_page + (y / page_edge << 1 | z / page_edge << 2);
-        const Real* here = motion + page_edge * (y % page_edge + page_edge * (z % page_edge)) + channel * page_cells;
-        const Real* low  = here + std::int64_t(page[0]) * motion_channels * page_cells;
-        const Real* high = here + std::int64_t(page[1]) * motion_channels * page_cells;
-        Pack<Real, page_edge> four[2];
-        Pack<Real, beyond>    two[2];
-        for (int c = 0; c < 2; ++c)
+#pragma unroll
+        for (int turn = 0; turn < turns; ++turn)
         {
-            four[c] = *reinterpret_cast<const Pack<Real, page_edge>*>(low + c * page_cells);
-            two[c]  = *reinterpret_cast<const Pack<Real, beyond>*>(high + c * page_cells);
+            const int item = static_cast<int>(threadIdx.x) + turn * threads;
+            if (item < items) { visit(turn, item % pairs * 2, item / pairs % tile_edge, item / (pairs * tile_edge)); }
         }
-        Real* row = tile + gather_slot(0, y, z) + channel;
-        for (int x = 0; x < tile_edge; ++x)
+    };
+    for_each_turn(
+        [&](int turn, int channel, int y, int z)
         {
-            *reinterpret_cast<Pair<Real>*>(row + motion_channels * x) =
-                x < page_edge ? Pair<Real>{{four[0].at[x], four[1].at[x]}}
-                              : Pair<Real>{{two[0].at[x - page_edge], two[1].at[x - page_edge]}};
-        }
-    }
+            const std::int32_t* page = node_page + (y / page_edge << 1 | z / page_edge << 2);
+            const int   place        = channel * page_cells + page_edge * (y % page_edge + page_edge * (z % page_edge));
+            const Real* low          = motion + std::int64_t(page[0]) * motion_channels * page_cells + place;
+            const Real* high         = motion + std::int64_t(page[1]) * motion_channels * page_cells + place;
+            for (int c = 0; c < 2; ++c)
+            {
+                part[turn].low[c]  = *reinterpret_cast<const Pack<Real, page_edge>*>(low + c * page_cells);
+                part[turn].high[c] = *reinterpret_cast<const Pack<Real, tile_edge - page_edge>*>(high + c * page_cells);
+            }
+        });
+    for_each_turn(
+        [&](int turn, int channel, int y, int z)
+        {
+            Real* row = tile + gather_slot(0, y, z) + channel;
+            for (int x = 0; x < tile_edge; ++x)
+            {
+                *reinterpret_cast<Pair<Real>*>(row + motion_channels * x) =
+                    x < page_edge
+                        ? Pair<Real>{{part[turn].low[0].at[x], part[turn].low[1].at[x]}}
+                        : Pair<Real>{{part[turn].high[0].at[x - page_edge], part[turn].high[1].at[x - page_edge]}};
+            }
+        });
 }
 
 /// The motion of a stencil's nodes, from shared memory.
@@ -253,7 +277,7 @@ void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pag
 {
     const auto launch = [&](auto threads, auto moment)
     {
-        for_each_block<threads, threads_an_sm / threads>(
+        for_each_block<threads, std::max(1, threads_an_sm<decltype(moment)> / threads)>(
             gpu, "gather", pages.point_pages,
             GatherPage<threads, Real, decltype(moment)>{points, pages, motion, step, moves, tallies, peaks});
     };

@@ -1,5 +1,7 @@
 #include "kernels/mpm/grid.hpp"
 
+#include <cuda_pipeline.h>
+
 #include "backend/block_sum.cuh"
 #include "backend/launch.cuh"
 #include "kernels/mpm/wall_step_kern.hpp"
@@ -11,7 +13,9 @@ namespace
 
 constexpr int grid_warps   = 4;
 constexpr int grid_threads = grid_warps * warp_size;
-constexpr int grid_blocks  = 8; ///< an SM
+/// On a multiprocessor: fp64 needs twice the registers.
+template<class Real>
+constexpr int grid_blocks = sizeof(Real) == 4 ? 8 : 4;
 
 /// Of a lane's two nodes, neighbours along x.
 template<class Real>
@@ -32,54 +36,69 @@ struct UpdatePages
     {
         const std::int64_t page = block * grid_warps + threadIdx.x / warp_size;
         if (page >= pages.node_pages) { return; }
-        const int          lane                    = static_cast<int>(threadIdx.x) % warp_size;
-        const std::int32_t tile                    = lane < octants ? pages.point_page_of[octants * page + lane] : -1;
-        const std::int32_t wall_page               = wall_pages.number(page);
-        double*            row                     = tallies + page * tally_width(grid_sums);
-        const double       booked                  = lane < grid_sums ? row[lane] : 0;
-        Pair<Real>         channels[node_channels] = {};
-        sum_pairs(tile, lane, channels);
+        const int                   lane = static_cast<int>(threadIdx.x) % warp_size;
+        __shared__ alignas(16) Real nodes[grid_warps][node_channels * tile_nodes];
+        Real*                       parts     = nodes[threadIdx.x / warp_size];
+        const std::int32_t          tile      = lane < octants ? pages.point_page_of[octants * page + lane] : -1;
+        const std::int32_t          wall_page = wall_pages.number(page);
+        double*                     row       = tallies + page * tally_width(grid_sums);
+        const double                booked    = lane < grid_sums ? row[lane] : 0;
+        fetch_parts(tile, lane, parts);
+        const bool     points = tile >= 0 && pages.first_point[tile] < pages.first_point[tile + 1];
+        const unsigned filled = __ballot_sync(all_lanes, points);
+        __pipeline_wait_prior(0);
+        __syncwarp();
+        Pair<Real> channels[node_channels] = {};
+        sum_pairs(filled, lane, parts, channels);
         Real* out = motion + page * motion_channels * page_cells + 2 * lane;
         if (wall_page < 0) { update_free(channels, lane, out, booked, row); }
         else { update_held(page, wall_page, channels, lane, out, booked, row); }
     }
 
-    /// sum_tiles for two nodes; lane `octant` brings the page of that tile. All loads of a channel at once, and of as
-    /// many channels as registers allow; a tile is read before it is known whether its page has points: what comes is
-    /// not used then.
-    __device__ void sum_pairs(std::int32_t tile_of_lane, int lane, Pair<Real>* total) const
+    /// Brings what the tiles around keep for the page: octant by octant one piece of memory, which stands in `parts` as
+    /// in its tile. Lane `octant` has the page of the tile. It is not yet known whether that has points: if not, what
+    /// comes is not used.
+    __device__ void fetch_parts(std::int32_t tile_of_lane, int lane, Real* parts) const
     {
-        const bool points = tile_of_lane >= 0 && pages.first_point[tile_of_lane] < pages.first_point[tile_of_lane + 1];
-        const unsigned filled = __ballot_sync(all_lanes, points);
-        const int      x = 2 * (lane & 1), y = lane >> 1 & 3, z = lane >> 3;
-        const Real*    tile[octants];
+        constexpr int width = 16 / sizeof(Real), pieces = node_channels * tile_nodes / width;
+#pragma unroll
+        for (int first = 0; first < pieces; first += warp_size)
+        {
+            const int          at     = (first + lane) * width;
+            const int          octant = octant_at(at);
+            const std::int32_t page   = __shfl_sync(all_lanes, tile_of_lane, octant);
+            if (first + lane >= pieces || page < 0) { continue; }
+            __pipeline_memcpy_async(parts + at, tiles + std::int64_t(page) * node_channels * tile_nodes + at, 16);
+        }
+        __pipeline_commit();
+    }
+
+    /// The octant in which a tile keeps number `at`.
+    __device__ static int octant_at(int at)
+    {
+        int octant = 0;
+#pragma unroll
+        for (int o = 1; o < octants; ++o) { octant += at >= octant_start(o); }
+        return octant;
+    }
+
+    /// sum_tiles for two nodes.
+    __device__ static void sum_pairs(unsigned filled, int lane, const Real* parts, Pair<Real>* total)
+    {
+        const int x = 2 * (lane & 1), y = lane >> 1 & 3, z = lane >> 3;
 #pragma unroll
         for (int octant = 0; octant < octants; ++octant)
         {
-            const std::int32_t page = __shfl_sync(all_lanes, tile_of_lane, octant);
-            const bool         reaches =
-                page >= 0 && x < octant_edge(octant, 0) && y < octant_edge(octant, 1) && z < octant_edge(octant, 2);
-            tile[octant] = !reaches ? nullptr
-                                    : tiles + std::int64_t(page) * node_channels * tile_nodes + octant_start(octant) +
-                                          x + octant_edge(octant, 0) * (y + octant_edge(octant, 1) * z);
-        }
+            if (x >= octant_edge(octant, 0) || y >= octant_edge(octant, 1) || z >= octant_edge(octant, 2)) { continue; }
+            if ((filled >> octant & 1U) == 0) { continue; }
+            const Real* part =
+                parts + octant_start(octant) + x + octant_edge(octant, 0) * (y + octant_edge(octant, 1) * z);
 #pragma unroll
-        for (int c = 0; c < node_channels; ++c)
-        {
-            Pair<Real> part[octants];
-#pragma unroll
-            for (int octant = 0; octant < octants; ++octant)
+            for (int c = 0; c < node_channels; ++c)
             {
-                part[octant] = tile[octant] == nullptr
-                                   ? Pair<Real>{}
-                                   : *reinterpret_cast<const Pair<Real>*>(tile[octant] + c * octant_nodes(octant));
-            }
-#pragma unroll
-            for (int octant = 0; octant < octants; ++octant)
-            {
-                if ((filled >> octant & 1U) == 0) { continue; }
-                total[c].at[0] += part[octant].at[0];
-                total[c].at[1] += part[octant].at[1];
+                const auto two = *reinterpret_cast<const Pair<Real>*>(part + c * octant_nodes(octant));
+                total[c].at[0] += two.at[0];
+                total[c].at[1] += two.at[1];
             }
         }
     }
@@ -102,6 +121,7 @@ struct UpdatePages
         NodeEnd<Real>   node[2];
         const Index3    at         = page_coordinates(pages.node_page_key[page]);
         WallNode<Real>* wall_nodes = wall_pages.node + std::int64_t(wall_page) * page_cells + 2 * lane;
+#pragma unroll
         for (int n = 0; n < 2; ++n)
         {
             node[n] = update_node(step, node_at(at, 2 * lane + n), of_node(channels, n).at, wall_nodes[n], sum);
@@ -164,10 +184,12 @@ struct UpdateWallPage
         {
             nodes[item] = wall_node(wall_pages, number, region_node(region, item));
         }
+#pragma unroll
         for (int axis = 0; axis < 3; ++axis)
         {
             if (!region.paired[axis]) { continue; }
             __syncthreads();
+#pragma unroll
             for (int end = 0; end < 2; ++end)
             {
                 const int plane = wall_plane(step.walls, at, region, axis, end);
@@ -196,8 +218,9 @@ template<class Real>
 void update_grid(const Gpu& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages, const Real* tiles,
                  const GridStep<Real>& step, Real* motion, double* tallies)
 {
-    for_each_block<grid_threads, grid_blocks>(gpu, "update grid", (pages.node_pages + grid_warps - 1) / grid_warps,
-                                              UpdatePages<Real>{pages, wall_pages, tiles, step, motion, tallies});
+    for_each_block<grid_threads, grid_blocks<Real>>(gpu, "update grid",
+                                                    (pages.node_pages + grid_warps - 1) / grid_warps,
+                                                    UpdatePages<Real>{pages, wall_pages, tiles, step, motion, tallies});
 }
 
 template<class Real>
