@@ -25,6 +25,11 @@ void sum_rows(const Cpu& cpu, const double* rows, std::int64_t count, int width,
     fold_rows(rows, count, width, out, [](double a, double b) { return a + b; });
 }
 
+void sum_rows(const Cpu& cpu, const double* rows, std::int64_t count, int width, double* out, Array<Cpu, double>&)
+{
+    sum_rows(cpu, rows, count, width, out);
+}
+
 void largest_of_rows(const Cpu& cpu, const double* rows, std::int64_t count, int width, double* out)
 {
     cpu.counters->launched("largest of rows");

@@ -17,7 +17,7 @@ struct Larger
 };
 
 constexpr int fold_threads = 1024;
-constexpr int fold_lanes   = 16; ///< loads in flight of a thread: there are few blocks
+constexpr int fold_lanes   = 4; ///< loads in flight of a thread
 
 /// One block a column: each thread folds fixed strides of rows, then a fixed tree folds the threads.
 template<class Combine>
@@ -67,7 +67,53 @@ struct FoldColumn
     }
 };
 
+constexpr int          chunk_threads = 256;
+constexpr std::int64_t chunks        = 256;
+constexpr std::int64_t many_rows     = 16 * chunks;
+
+/// One block a chunk of rows; a thread sums every so many of them in one column, so that rows are read whole.
+struct SumChunk
+{
+    const double* rows;
+    std::int64_t  count;
+    int           width;
+    double*       out;
+
+    __device__ void operator()(std::int64_t chunk) const
+    {
+        __shared__ double  partial[chunk_threads];
+        const int          lines = chunk_threads / width, column = static_cast<int>(threadIdx.x) % width;
+        const std::int64_t end = (chunk + 1) * count / chunks;
+        double             sum = 0;
+        if (static_cast<int>(threadIdx.x) < lines * width)
+        {
+            for (std::int64_t row = chunk * count / chunks + threadIdx.x / width; row < end; row += lines)
+            {
+                sum += rows[row * width + column];
+            }
+        }
+        partial[threadIdx.x] = sum;
+        __syncthreads();
+        if (static_cast<int>(threadIdx.x) >= width) { return; }
+        for (int line = 1; line < lines; ++line) { sum += partial[line * width + column]; }
+        out[chunk * width + column] = sum;
+    }
+};
+
 } // namespace
+
+void sum_rows(const Gpu& gpu, const double* rows, std::int64_t count, int width, double* out,
+              Array<Gpu, double>& scratch)
+{
+    if (count < many_rows)
+    {
+        sum_rows(gpu, rows, count, width, out);
+        return;
+    }
+    scratch.resize(chunks * width);
+    for_each_block<chunk_threads>(gpu, "sum chunks of rows", chunks, SumChunk{rows, count, width, scratch.data()});
+    sum_rows(gpu, scratch.data(), chunks, width, out);
+}
 
 void sum_rows(const Gpu& gpu, const double* rows, std::int64_t count, int width, double* out)
 {

@@ -91,6 +91,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     , peak_rows_(exec, "point peaks")
     , census_rows_(exec, "point census")
     , totals_(exec, "sand totals", totals_size)
+    , sums_scratch_(exec, "sand sums scratch")
     , materials_(exec, "materials")
     , pic_rate_(pic_rate(scene, world.points))
     , cell_means_(scene.numerics.volume_strain == scene::VolumeStrain::cell_average)
@@ -225,8 +226,8 @@ SandReport Sand<Exec, Real>::report()
     double*            grid   = totals_.data();
     double*            points = grid + grid_width;
     double*            peaks  = points + point_width;
-    sum_rows(exec_, grid_rows_.data(), node_pages, grid_width, grid);
-    sum_rows(exec_, point_rows_.data(), point_pages, point_width, points);
+    sum_rows(exec_, grid_rows_.data(), node_pages, grid_width, grid, sums_scratch_);
+    sum_rows(exec_, point_rows_.data(), point_pages, point_width, points, sums_scratch_);
     largest_of_rows(exec_, peak_rows_.data(), point_pages, mpm::point_peaks, peaks);
     double read[grid_width + point_width + mpm::point_peaks];
     copy_to_host(exec_, read, grid, sizeof(read));

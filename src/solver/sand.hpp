@@ -97,6 +97,7 @@ private:
     Array<Exec, double>                        peak_rows_;
     Array<Exec, double>                        census_rows_;
     Array<Exec, double>                        totals_;
+    Array<Exec, double>                        sums_scratch_;
     Array<Exec, mpm::MaterialParameters<Real>> materials_;
     double                                     pic_rate_;
     bool                                       cell_means_; ///< of the volumetric strain
