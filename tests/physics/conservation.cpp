@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "harness.hpp"
+#include "lone_point.hpp"
 
 // Momentum and motion of points, to rounding.
 namespace
@@ -74,54 +74,14 @@ precision = "double"
     }
 }
 
-std::string lone_point(double x, double gravity, const std::string& numerics, const std::string& dt, double duration)
-{
-    return fmt::format(R"(
-title = "lone point"
-[domain]
-size    = [1000.0, 1.0, 8.0]
-gravity = [0.0, 0.0, {}]
-[grid]
-spacing = 0.05
-[time]
-dt = {}
-[numerics]
-{}
-[[material]]
-name = "sand"
-model = "mohr-coulomb"
-density = 1600.0
-young = 1.0e6
-poisson = 0.3
-friction_angle_deg = 30.0
-[[terrain]]
-material = "sand"
-region = {{ box = [[{}, 0.5, 2.0], [{}, 0.525, 2.025]] }}
-[[phase]]
-name = "fly"
-duration = {}
-)",
-                       gravity, dt, numerics, x, x + 0.025, duration);
-}
-
-template<class Exec, class Real>
-void throw_it(test::Experiment<Exec, Real>& run, const Vec3<double>& velocity)
-{
-    auto& points = run.simulation().sand().points();
-    ASSERT_EQ(points.count, 1);
-    points.velocity.assign(
-        {static_cast<Real>(velocity[0]), static_cast<Real>(velocity[1]), static_cast<Real>(velocity[2])});
-    points.stress.assign(std::vector<Real>(6, Real(0)));
-}
-
 /// verification E8: x + v t, z + w t - g t (t + dt) / 2, which is symplectic Euler's own parabola.
 TYPED_TEST(Conservation, LonePointFliesAParabola)
 {
     for (const char* transfer : {"flip", "apic", "aflip"})
     {
         const std::string           numerics = fmt::format("precision = \"double\"\ntransfer = \"{}\"", transfer);
-        test::Experiment<TypeParam> run(this->exec(), lone_point(900, -9.81, numerics, "0.0009765625", 0.5));
-        throw_it(run, {0.7, 0.2, 3});
+        test::Experiment<TypeParam> run(this->exec(), test::lone_point(900, -9.81, numerics, "0.0009765625", 0.5));
+        test::throw_it(run, {0.7, 0.2, 3});
         const Vec3<double> start = run.simulation().sand().positions()[0];
         run.run();
         const double       t = run.time();
@@ -134,24 +94,10 @@ TYPED_TEST(Conservation, LonePointFliesAParabola)
     }
 }
 
-/// 1 mm/s in steps of 10 us at x = 900 m: 1e-8 m a step, of which a single-precision position would keep nothing.
-template<class Real, class Exec>
-void creep(const Exec& exec, const std::string& precision, int steps)
-{
-    const double                 duration = steps * 1e-5;
-    test::Experiment<Exec, Real> run(exec, lone_point(900, 0, "precision = \"" + precision + "\"", "1.0e-5", duration));
-    throw_it(run, {1e-3, 0, 0});
-    const double start = run.simulation().sand().positions()[0][0];
-    run.run();
-    const double moved = run.simulation().sand().positions()[0][0] - start, expected = 1e-3 * duration;
-    test::report("creep in m, " + precision, moved, expected, 1e-3 * expected, "0.1 %");
-    EXPECT_NEAR(moved, expected, 1e-3 * expected);
-}
-
 TYPED_TEST(Conservation, CreepFarFromTheOriginIsKept)
 {
-    creep<double>(this->exec(), "double", 20000);
-    creep<float>(this->exec(), "single", 20000);
+    test::creep<double>(this->exec(), "double", 20000);
+    test::creep<float>(this->exec(), "single", 20000);
 }
 
 } // namespace
