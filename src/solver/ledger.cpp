@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tread::solver
 {
@@ -27,14 +28,14 @@ Ledger::Ledger(Vec3<double> gravity, const Census& start)
 
 double Ledger::stored(const Census& now) const
 {
-    return now.sand.kinetic + half_step_ + now.sand.strain + now.rigid.kinetic + now.rigid.contact + now.sand_contact +
-           gravity_energy(now);
+    return now.sand.kinetic + half_step_ + body_half_step_ + now.sand.strain + now.rigid.kinetic + now.rigid.contact +
+           now.sand_contact + gravity_energy(now);
 }
 
 double Ledger::gravity_energy(const Census& now) const { return now.rigid.gravity - gravity_.dot(now.sand.moment); }
 
 void Ledger::steps(double dt, std::int64_t steps, const SandReport& sand, const RigidReport& rigid,
-                   double contact_friction, double moving_mass)
+                   const ContactReport& contact, double moving_mass)
 {
     const double span = dt * static_cast<double>(steps);
     time_ += span;
@@ -46,9 +47,13 @@ void Ledger::steps(double dt, std::int64_t steps, const SandReport& sand, const 
     half_step_        = 0.5 * dt * sand.power();
     stress_half_step_ = -0.5 * dt * sand.last_points[mpm::point_stress_power];
     kinetic_points_   = kinetic;
+    transfer_ += body_half_step_ - 0.5 * rigid.substep * std::exchange(weight_power_, rigid.weight_power);
+    body_half_step_ = 0.5 * rigid.substep * rigid.weight_power;
     plastic_ += sand.points[mpm::point_plastic_work];
     damping_ += sand.grid[mpm::grid_damped] + rigid.damped;
-    friction_ += contact_friction + rigid.friction + sand.grid[mpm::grid_friction] + sand.grid[mpm::grid_wall_loss];
+    friction_ += contact.friction + rigid.friction + sand.grid[mpm::grid_friction] + sand.grid[mpm::grid_wall_loss];
+    coupling_ -= rigid.sand_work + sand.points[mpm::point_contact_work] + contact.friction + contact.energy -
+                 std::exchange(contact_energy_, contact.energy);
     restitution_ += rigid.restitution;
     work_in_ += rigid.driver_work;
     impulse_ += moving_mass * span * gravity_ + Vec3<double>(sand.grid + mpm::grid_wall_impulse) +
@@ -59,7 +64,7 @@ void Ledger::steps(double dt, std::int64_t steps, const SandReport& sand, const 
 double Ledger::gained(const Census& now) const
 {
     const bool stable = std::abs(stress_half_step_) <= unresolved_share * (now.sand.kinetic + now.sand.strain);
-    return stable ? 0 : half_step_;
+    return (stable ? 0 : half_step_) + std::min(coupling_, 0.0);
 }
 
 EnergyRow Ledger::energy(const Census& now)
@@ -70,14 +75,15 @@ EnergyRow Ledger::energy(const Census& now)
     row.kinetic_bodies = now.rigid.kinetic;
     row.contact        = now.rigid.contact + now.sand_contact;
     row.gravity        = gravity_energy(now);
-    row.half_step      = half_step_;
+    row.half_step      = half_step_ + body_half_step_;
     row.plastic        = plastic_;
     row.friction       = friction_;
     row.restitution    = restitution_;
     row.damping        = damping_;
     row.transfer       = transfer_;
+    row.coupling       = coupling_;
     row.work_in        = work_in_;
-    row.total          = stored(now) + plastic_ + friction_ + restitution_ + damping_ + transfer_ - work_in_;
+    row.total = stored(now) + plastic_ + friction_ + restitution_ + damping_ + transfer_ + coupling_ - work_in_;
 
     const double fallen = gravity_energy(start_) - row.gravity;
     for (const double exchange :

@@ -18,9 +18,19 @@ struct RigidReport
     double       restitution      = 0;                    ///< J, body-body normal damping, of the step
     double       damped           = 0;                    ///< J, taken by local damping in the step
     double       driver_work      = 0;                    ///< J, done by what holds and drives bodies, of the step
+    double       sand_work        = 0;                    ///< J, done by sand, of the step
+    double       weight_power     = 0;                    ///< W, of the weight on the velocity after the step
+    double       substep          = 0;                    ///< s
     Vec3<double> wall_impulse     = Vec3<double>::Zero(); ///< N s, of the step
     Vec3<double> damping_impulse  = Vec3<double>::Zero();
     Vec3<double> driver_impulse   = Vec3<double>::Zero();
+};
+
+/// What the contacts of sand with bodies did in one step.
+struct ContactReport
+{
+    double friction = 0; ///< J, lost in the step
+    double energy   = 0; ///< J, elastic, held at its end
 };
 
 /// What the bodies hold.
@@ -49,7 +59,10 @@ struct EnergyRow
     /// the power of stress and weight brings the sum of stores from first to second order in dt.
     double half_step = 0;
     double plastic = 0, friction = 0, restitution = 0, damping = 0, transfer = 0, work_in = 0;
-    double total = 0; ///< stores and losses less work_in: constant if nothing is unaccounted
+    /// What contact forces took from sand and bodies and neither friction nor the contacts' springs have: the substeps
+    /// see other velocities than the grid's mean over the step. Of first order in dt.
+    double coupling = 0;
+    double total    = 0; ///< stores and losses less work_in: constant if nothing is unaccounted
 };
 
 struct BalanceRow
@@ -65,9 +78,9 @@ class Ledger
 public:
     Ledger(Vec3<double> gravity, const Census& start);
 
-    /// Books `steps` steps of dt (s) each. `contact_friction`: J lost to sand-body friction in them.
-    void steps(double dt, std::int64_t steps, const SandReport& sand, const RigidReport& rigid, double contact_friction,
-               double moving_mass);
+    /// Books `steps` steps of dt (s) each.
+    void steps(double dt, std::int64_t steps, const SandReport& sand, const RigidReport& rigid,
+               const ContactReport& contact, double moving_mass);
 
     EnergyRow       energy(const Census& now);
     BalanceRow      balance(const Census& now);
@@ -89,7 +102,10 @@ private:
     double          half_step_        = 0; ///< J
     double          stress_half_step_ = 0;
     double          plastic_ = 0, friction_ = 0, restitution_ = 0, damping_ = 0, transfer_ = 0, work_in_ = 0;
-    Vec3<double>    impulse_ = Vec3<double>::Zero();
+    double          coupling_ = 0, contact_energy_ = 0;
+    double          body_half_step_ = 0; ///< J
+    double          weight_power_   = 0; ///< W, on bodies
+    Vec3<double>    impulse_        = Vec3<double>::Zero();
     io::ErrorReport errors_;
     double          largest_exchange_ = 0;
 };

@@ -26,7 +26,7 @@ std::vector<io::Column> energy_columns()
 {
     std::vector<io::Column> columns = {{"time", 1, "s"}};
     for (const char* name : {"kinetic_points", "strain", "kinetic_bodies", "contact", "gravity", "half_step", "plastic",
-                             "friction", "restitution", "damping", "transfer", "work_in", "total"})
+                             "friction", "restitution", "damping", "transfer", "coupling", "work_in", "total"})
     {
         columns.push_back({name, 1, "J"});
     }
@@ -82,7 +82,7 @@ void Recorder::write(double time, const std::vector<BodyRow>& bodies, const Ener
     }
     series_.append("/energy", {time, energy.kinetic_points, energy.strain, energy.kinetic_bodies, energy.contact,
                                energy.gravity, energy.half_step, energy.plastic, energy.friction, energy.restitution,
-                               energy.damping, energy.transfer, energy.work_in, energy.total});
+                               energy.damping, energy.transfer, energy.coupling, energy.work_in, energy.total});
     std::vector<double> row = {time, balance.mass};
     append(row, balance.momentum);
     row.push_back(balance.impulse_error);

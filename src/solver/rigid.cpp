@@ -61,7 +61,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     , sums_(exec, "body sums", dem::body_total_width)
     , released_(static_cast<std::size_t>(named_), false)
 {
-    upload(world);
+    upload(world, plan);
     properties_.assign(pair_properties(scene));
     planes_.assign(world.planes);
     law_             = {templates_.views(),
@@ -81,7 +81,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
 }
 
 template<class Exec>
-void Rigid<Exec>::upload(const World& world)
+void Rigid<Exec>::upload(const World& world, const Plan& plan)
 {
     const HostBodies&          host = world.bodies;
     const std::size_t          n    = host.size();
@@ -117,6 +117,9 @@ void Rigid<Exec>::upload(const World& world)
     bodies_.force.resize(count);
     bodies_.torque.resize(count);
     bodies_.stiffness.resize(count);
+    if (!plan.coupling) { return; }
+    bodies_.sand_force.resize(count);
+    bodies_.sand_torque.resize(count);
 }
 
 template<class Exec>
@@ -198,6 +201,7 @@ void Rigid<Exec>::move(double dt, double damping)
 {
     if (named_ > 0) { dem::add_impulses(exec_, bodies_.view(), impulses_.data(), named_, dt); }
     mean_time_ += dt;
+    substep_ = dt;
     if (damping > 0) { dem::integrate_damped(exec_, bodies_.view(), totals_.data(), gravity_, damping, dt); }
     else { dem::integrate(exec_, bodies_.view(), totals_.data(), gravity_, dt); }
 }
@@ -226,15 +230,18 @@ RigidReport Rigid<Exec>::report(double time)
     }
     take_totals(report);
     dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity_.data());
-    const double* activity = reinterpret_cast<const double*>(activity_.data());
-    double        values[2];
-    largest_of_rows(exec_, activity, activity_.size(), 2, sums_.data());
-    copy_to_host(exec_, values, sums_.data(), sizeof(values));
-    report.largest_speed = values[0];
-    sum_rows(exec_, activity, activity_.size(), 2, sums_.data());
-    copy_to_host(exec_, values, sums_.data(), sizeof(values));
-    report.net_force = values[1];
-    if (!std::isfinite(report.net_force) || !std::isfinite(values[0]))
+    const double*     activity = reinterpret_cast<const double*>(activity_.data());
+    constexpr int     width    = sizeof(dem::BodyActivity) / sizeof(double);
+    dem::BodyActivity found;
+    largest_of_rows(exec_, activity, activity_.size(), width, sums_.data());
+    copy_to_host(exec_, &found, sums_.data(), sizeof(found));
+    report.largest_speed = found.speed;
+    sum_rows(exec_, activity, activity_.size(), width, sums_.data());
+    copy_to_host(exec_, &found, sums_.data(), sizeof(found));
+    report.net_force    = found.net_force;
+    report.weight_power = found.weight_power;
+    report.substep      = substep_;
+    if (!std::isfinite(report.net_force) || !std::isfinite(found.speed))
     {
         throw NumericalError(fmt::format("t = {:.6g} s: a body's velocity or force is not a number", time));
     }
@@ -254,8 +261,11 @@ void Rigid<Exec>::take_totals(RigidReport& report)
     report.friction        = now.friction - taken_.friction;
     report.restitution     = now.restitution - taken_.restitution;
     report.damped          = now.damping - taken_.damping;
-    report.driver_work     = now.holding_work - taken_.holding_work + command_work_;
-    taken_                 = now;
+    // A velocity that is given is given as one of half a substep ago, like all of them.
+    report.driver_work =
+        now.holding_work - taken_.holding_work + command_work_ + 0.5 * substep_ * gravity_.dot(command_impulse_);
+    report.sand_work = now.sand_work - taken_.sand_work;
+    taken_           = now;
     command_impulse_.setZero();
     command_work_ = 0;
 }

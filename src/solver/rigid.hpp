@@ -60,7 +60,7 @@ public:
     io::BodyFields       fields() const;
 
 private:
-    void   upload(const World& world);
+    void   upload(const World& world, const Plan& plan);
     void   take_totals(RigidReport& report);
     double guard(double time);
 
@@ -84,6 +84,7 @@ private:
     dem::BodyLaw                     law_{};
     std::vector<bool>                released_;            ///< named bodies that were free once
     double                           mean_time_       = 0; ///< s, since begin_mean()
+    double                           substep_         = 0; ///< s, the last
     double                           command_work_    = 0; ///< J, of commands since the last report
     Vec3<double>                     command_impulse_ = Vec3<double>::Zero();
     dem::BodyTotal                   taken_{}; ///< totals at the last report

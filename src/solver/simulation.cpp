@@ -153,12 +153,12 @@ void Simulation<Exec, Real>::measure()
                         "{} at which its contacts gain energy: more substeps, or a smaller dt",
                         time, substep, substep / pace_.shortest_contact, longest_substep));
     }
-    double contact_friction = 0;
+    ContactReport books;
     if (coupling_)
     {
         const contact::Summary& contacts = coupling_->summary();
         pace_.stiffest_point             = contacts.stiffest.value;
-        contact_friction                 = contacts.dissipated;
+        books                            = {contacts.dissipated, contacts.energy};
         if (contacts.live > 0 && contacts.flattest.value < least_gradient)
         {
             throw NumericalError(fmt::format("t = {:.6g} s: point {} is so deep in body {} that its nearest surface is "
@@ -169,8 +169,7 @@ void Simulation<Exec, Real>::measure()
         }
     }
     unbalanced_ = weight_ > 0 ? (sand.last_grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
-    ledger_->steps(step.dt, steps, sand, rigid, contact_friction,
-                   (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
+    ledger_->steps(step.dt, steps, sand, rigid, books, (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
     if (guard_) { guard_->watch(sand, step, time); }
     choose_measuring();
 }

@@ -114,6 +114,9 @@ struct AddToBody
         bodies.force[b] += sum.force;
         bodies.torque[b] += sum.torque;
         bodies.stiffness[b] += sum.stiffness;
+        if (bodies.sand_force == nullptr) { return; }
+        bodies.sand_force[b]  = sum.force;
+        bodies.sand_torque[b] = sum.torque;
     }
 };
 

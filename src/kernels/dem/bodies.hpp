@@ -42,6 +42,8 @@ struct BodiesView
     Vec3<double>*  force;            ///< N, contact, of the current substep (gravity not included)
     Vec3<double>*  torque;           ///< N m, about the centre of mass
     double*        stiffness;        ///< N/m, sum over live contacts of K, of the current substep
+    Vec3<double>*  sand_force;       ///< N, what of `force` comes from sand; null in a scene where none touches bodies
+    Vec3<double>*  sand_torque;      ///< N m, likewise
 };
 
 /// Owner of what BodiesView shows.
@@ -64,15 +66,17 @@ struct Bodies
         , force(exec, "body force")
         , torque(exec, "body torque")
         , stiffness(exec, "body stiffness")
+        , sand_force(exec, "body sand force")
+        , sand_torque(exec, "body sand torque")
     {
     }
 
     BodiesView view()
     {
-        return {position.size(), position.data(), orientation.data(),     velocity.data(), angular_velocity.data(),
-                mass.data(),     inertia.data(),  inverse_inertia.data(), scale.data(),    shape.data(),
-                material.data(), locked.data(),   damped.data(),          force.data(),    torque.data(),
-                stiffness.data()};
+        return {position.size(),  position.data(),   orientation.data(),     velocity.data(), angular_velocity.data(),
+                mass.data(),      inertia.data(),    inverse_inertia.data(), scale.data(),    shape.data(),
+                material.data(),  locked.data(),     damped.data(),          force.data(),    torque.data(),
+                stiffness.data(), sand_force.data(), sand_torque.data()};
     }
 
     Array<Exec, Vec3<double>>  position;
@@ -90,6 +94,8 @@ struct Bodies
     Array<Exec, Vec3<double>>  force;
     Array<Exec, Vec3<double>>  torque;
     Array<Exec, double>        stiffness;
+    Array<Exec, Vec3<double>>  sand_force;  ///< empty in a scene where no sand touches bodies
+    Array<Exec, Vec3<double>>  sand_torque; ///< likewise
 };
 
 } // namespace tread::dem

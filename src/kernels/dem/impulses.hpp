@@ -19,8 +19,9 @@ void add_impulses(const Gpu&, const BodiesView& bodies, ContactImpulse* impulses
 /// Of one body, for sums and largest values over bodies.
 struct BodyActivity
 {
-    double speed;     ///< m/s, largest of any of its points: |v| + |omega| times the bounding radius
-    double net_force; ///< N, |contact force + weight| of a body that is free to move, else 0
+    double speed;        ///< m/s, largest of any of its points: |v| + |omega| times the bounding radius
+    double net_force;    ///< N, |contact force + weight| of a body that is free to move, else 0
+    double weight_power; ///< W, of the weight on the body
 };
 
 /// Gravity in m/s2; `bounding_radii` in m, by body.

@@ -28,9 +28,10 @@ struct Measure
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        activity[b].speed     = bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * bounding_radii[b];
-        const bool fixed      = (bodies.locked[b] & lock_all) == lock_all;
-        activity[b].net_force = fixed ? 0.0 : (bodies.force[b] + bodies.mass[b] * gravity).norm();
+        activity[b].speed        = bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * bounding_radii[b];
+        activity[b].weight_power = bodies.mass[b] * gravity.dot(bodies.velocity[b]);
+        const bool fixed         = (bodies.locked[b] & lock_all) == lock_all;
+        activity[b].net_force    = fixed ? 0.0 : (bodies.force[b] + bodies.mass[b] * gravity).norm();
     }
 };
 

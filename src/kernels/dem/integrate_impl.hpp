@@ -16,6 +16,9 @@ struct Clear
         bodies.force[b]     = Vec3<double>::Zero();
         bodies.torque[b]    = Vec3<double>::Zero();
         bodies.stiffness[b] = 0;
+        if (bodies.sand_force == nullptr) { return; }
+        bodies.sand_force[b]  = Vec3<double>::Zero();
+        bodies.sand_torque[b] = Vec3<double>::Zero();
     }
 };
 

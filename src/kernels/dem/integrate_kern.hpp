@@ -90,6 +90,7 @@ TREAD_HD void integrate_translation(const BodiesView& bodies, std::int64_t b, co
     total.holding_impulse += holding;
     total.damping -= dt * damped.dot(mean);
     total.holding_work += holding.dot(mean);
+    if (bodies.sand_force != nullptr) { total.sand_work += dt * bodies.sand_force[b].dot(mean); }
     bodies.velocity[b] = after;
     bodies.position[b] += dt * after;
 }
@@ -118,6 +119,7 @@ TREAD_HD void integrate_rotation(const BodiesView& bodies, std::int64_t b, const
 
     const Vec3<double> mean = 0.5 * (before + kicked);
     total.damping -= dt * damped.dot(mean);
+    if (bodies.sand_torque != nullptr) { total.sand_work += dt * bodies.sand_torque[b].dot(mean); }
     if ((locked & locked_rotation) != 0)
     {
         const Vec3<double> reached = at_end * (inertia * (at_end.transpose() * after));

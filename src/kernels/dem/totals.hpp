@@ -20,11 +20,12 @@ struct BodyTotal
     double       restitution;     ///< lost to normal damping, likewise
     double       damping;         ///< lost to the local damping
     double       holding_work;    ///< done on the body by what keeps its locked freedoms
+    double       sand_work;       ///< done on the body by sand
 };
 
 /// Doubles in a BodyTotal, for sums over rows.
 inline constexpr int body_total_width = sizeof(BodyTotal) / sizeof(double);
-static_assert(body_total_width == 13);
+static_assert(body_total_width == 14);
 
 template<class Exec>
 using BodyTotals = Array<Exec, BodyTotal>;

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include "books.hpp"
+
+// The books of sand and bodies together (design section 7).
+namespace
+{
+
+using namespace tread;
+
+template<class Exec>
+class CouplingEnergy : public test::BackendTest<Exec>
+{
+};
+TYPED_TEST_SUITE(CouplingEnergy, test::Backends, test::BackendNames);
+
+/// A stone ball of 15 cm, free to turn, that strikes sand at 1 m/s and slides over it; `time` are lines of that table.
+std::string ball_on_sand(const std::string& time)
+{
+    return R"(
+title = "ball on sand"
+[domain]
+size    = [0.4, 0.4, 0.6]
+gravity = [0.0, 0.0, -9.81]
+walls   = { x = "slip", y = "slip", bottom = "fixed", top = "open" }
+[grid]
+spacing = 0.05
+[numerics]
+precision = "double"
+[time]
+)" + time + R"(
+[[material]]
+name = "sand"
+model = "mohr-coulomb"
+density = 1600.0
+young = 1.0e6
+poisson = 0.3
+friction_angle_deg = 30.0
+[[material]]
+name = "stone"
+model = "elastic"
+density = 2500.0
+young = 1.0e7
+poisson = 0.3
+[[terrain]]
+material = "sand"
+region = { box = [[0.0, 0.0, 0.0], [0.4, 0.4, 0.2]] }
+[[shape]]
+name = "ball"
+generate = { kind = "sphere" }
+sdf_cells = 32
+[[body]]
+name = "ball"
+shape = "ball"
+diameter = 0.15
+density = 2500.0
+material = "stone"
+position = [0.2, 0.2, 0.3]
+velocity = [0.3, 0.0, -1.0]
+[[phase]]
+name = "drop"
+duration = 0.15
+)";
+}
+
+/// With the automatic step, which changes with the contacts, and with many substeps. What one side gets the other
+/// gives: momentum to rounding, though each impulse reaches the body in its substep and the sand over the step.
+TYPED_TEST(CouplingEnergy, BooksOfADroppedBallClose)
+{
+    for (const std::string time : {"dt = \"auto\"", "dt = 1.0e-3\nsubsteps = 7"})
+    {
+        test::Experiment<TypeParam> drop(this->exec(), ball_on_sand(time));
+        const double                error = test::largest_unaccounted(drop);
+        test::report("unaccounted over the largest energy, " + time, error, 0, test::closes, "design 7");
+        EXPECT_LT(error, test::closes);
+        const double impulse = drop.simulation().ledger().balance(drop.simulation().census()).impulse_error;
+        test::report("impulse error over weight x time, " + time, impulse, 0, 1e-10, "fp64 rounding (D4)");
+        EXPECT_LT(impulse, 1e-10);
+    }
+}
+
+/// What substeps and grid see differently vanishes with the step.
+TYPED_TEST(CouplingEnergy, CouplingFallsWithTheTimeStep)
+{
+    const auto coupling = [&](const std::string& dt)
+    {
+        test::Experiment<TypeParam> drop(this->exec(), ball_on_sand("dt = " + dt));
+        drop.run();
+        return drop.simulation().ledger().energy(drop.simulation().census()).coupling;
+    };
+    const double coarse = coupling("1.0e-3"), middle = coupling("5.0e-4"), fine = coupling("2.5e-4");
+    const auto   why =
+        fmt::format("first order in dt, a quarter to spare; {:.3g}, {:.3g}, {:.3g} J of 4.3 J", coarse, middle, fine);
+    test::report("coupling at 1 ms over that at 0.5 ms", coarse / middle, 2, 0.5, why);
+    test::report("coupling at 0.5 ms over that at 0.25 ms", middle / fine, 2, 0.5, why);
+    EXPECT_NEAR(coarse / middle, 2, 0.5);
+    EXPECT_NEAR(middle / fine, 2, 0.5);
+}
+
+} // namespace
