@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Error against run time, from a CSV of work_precision_runs.py: a plot with the Pareto front marked, and the front as a table.
+"""Error against processor time, from a CSV of work_precision_runs.py: a plot with the Pareto front marked, and the front as a table.
 
 Needs Debian's python3-numpy and python3-matplotlib.
 """
@@ -34,7 +34,7 @@ class Outcome:
     precision: str
     points: int
     steps: int
-    wall_s: float
+    cpu_s: float
     error: float
     reference: str
 
@@ -65,7 +65,7 @@ def read(path):
 def pareto_front(outcomes):
     """Those that nothing else beats in both time and error, by time."""
     front, best = [], float("inf")
-    for outcome in sorted(outcomes, key=lambda row: (row.wall_s, row.error)):
+    for outcome in sorted(outcomes, key=lambda row: (row.cpu_s, row.error)):
         if outcome.error < best:
             front.append(outcome)
             best = outcome.error
@@ -75,12 +75,12 @@ def pareto_front(outcomes):
 def plot_panel(axis, title, outcomes, colours):
     for row in outcomes:
         filled = row.precision == "single"
-        axis.scatter(row.wall_s, max(row.error, SMALLEST), marker=MARKERS.get(row.points_per_cell, "x"), s=45,
+        axis.scatter(row.cpu_s, max(row.error, SMALLEST), marker=MARKERS.get(row.points_per_cell, "x"), s=45,
                      edgecolors=colours[row.transfer], facecolors=colours[row.transfer] if filled else "none", zorder=2)
     front = pareto_front(outcomes)
-    axis.step([row.wall_s for row in front], [max(row.error, SMALLEST) for row in front], where="post", color="#999999",
+    axis.step([row.cpu_s for row in front], [max(row.error, SMALLEST) for row in front], where="post", color="#999999",
               linewidth=1.5, zorder=1)
-    axis.set(xscale="log", yscale="log", xlabel="run time  [s]", ylabel=title[1])
+    axis.set(xscale="log", yscale="log", xlabel="processor time  [s]", ylabel=title[1])
     axis.set_title(f"{title[0]} ({outcomes[0].reference})", fontsize=11)
     axis.grid(color="#cccccc", linewidth=0.6)
     axis.set_axisbelow(True)
@@ -106,12 +106,12 @@ def figure_of(panels):
 
 
 def print_fronts(panels):
-    print(f"{'case':<10} {'spacing':>8} {'a cell':>6} {'transfer':<8} {'precision':<9} {'points':>8} {'steps':>7} {'wall s':>9} "
+    print(f"{'case':<10} {'spacing':>8} {'a cell':>6} {'transfer':<8} {'precision':<9} {'points':>8} {'steps':>7} {'cpu s':>9} "
           f"{'error':>10}  quantity")
     for panel in panels.values():
         for row in pareto_front(panel):
             print(f"{row.case:<10} {row.spacing:>8g} {row.points_per_cell:>6} {row.transfer:<8} {row.precision:<9} "
-                  f"{row.points:>8} {row.steps:>7} {row.wall_s:>9.3g} {row.error:>10.3g}  {row.quantity}")
+                  f"{row.points:>8} {row.steps:>7} {row.cpu_s:>9.3g} {row.error:>10.3g}  {row.quantity}")
 
 
 def main():
