@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "backend/launch.hpp"
+#include "backend/quad.hpp"
 #include "kernels/mpm/gather_kern.hpp"
 
 namespace tread::mpm
@@ -10,11 +11,8 @@ namespace tread::mpm
 namespace
 {
 
-/// Four numbers of a NodeMotion fill a register.
-constexpr int gather_width = 4;
-
 template<class Real>
-using Tile = NodeMotion<Real, gather_width>[tile_nodes];
+using Tile = NodeMotion<Quad<Real>>[tile_nodes];
 
 template<class Real>
 void load_tile(const Real* motion, const std::int32_t* neighbours, Tile<Real>& tile)
@@ -24,8 +22,8 @@ void load_tile(const Real* motion, const std::int32_t* neighbours, Tile<Real>& t
         const Real* source = tile_source(motion, neighbours, node);
         for (int c = 0; c < 3; ++c)
         {
-            tile[node].velocity[c] = source[c * page_cells];
-            tile[node].change[c]   = source[(3 + c) * page_cells];
+            tile[node].velocity.set(c, source[c * page_cells]);
+            tile[node].change.set(c, source[(3 + c) * page_cells]);
         }
     }
 }
@@ -55,8 +53,9 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
         const auto  stencil = stencil_above<Real>(cell, point.position, pages.inverse_spacing, pages.inverse_spacing,
                                                  pages.stencil_shift);
         const auto* lowest  = tile + tile_base(stencil.base);
-        const auto  seen    = see(
-                stencil, spacing, [=](int a, int b, int c) { return lowest[tile_offset(a, b, c)]; }, Moment{});
+        const auto  nodes   = [=](int a, int b, int c) -> const NodeMotion<Quad<Real>>&
+        { return lowest[tile_offset(a, b, c)]; };
+        const auto seen = see(stencil, spacing, nodes, Moment{});
         const Move move = update_point(points, i, point, seen, stencil.base, pages, page, step, sums, peaks);
         moves.to[at]    = packed(move);
         count[move.direction] += move.direction != own_page;

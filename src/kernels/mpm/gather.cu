@@ -1,6 +1,7 @@
 #include "kernels/mpm/gather.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <cuda_pipeline.h>
 
@@ -92,11 +93,11 @@ struct NodesOfTile
 {
     const Real* lowest;
 
-    __device__ NodeMotion<Real, 3> operator()(int a, int b, int c) const
+    __device__ NodeMotion<std::array<Real, 3>> operator()(int a, int b, int c) const
     {
         const auto*      node = reinterpret_cast<const Pair<Real>*>(lowest + gather_slot(a, b, c));
         const Pair<Real> low = node[0], middle = node[1], high = node[2];
-        return {{low.at[0], low.at[1], middle.at[0]}, {middle.at[1], high.at[0], high.at[1]}};
+        return {{{low.at[0], low.at[1], middle.at[0]}}, {{middle.at[1], high.at[0], high.at[1]}}};
     }
 };
 

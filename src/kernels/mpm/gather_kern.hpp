@@ -57,30 +57,21 @@ struct Seen
     Mat3<Real> moment;   ///< m2/s, sum of weight v (x_node - x_point)^T; APIC only
 };
 
-/// A node's velocity after the step and its change in the step, m/s: three components each, and what more fills a
-/// vector register.
-template<class Real, int numbers>
+/// A node's velocity after the step and its change in the step, m/s. `Numbers`: three components and what fills a
+/// vector register, by [].
+template<class Numbers>
 struct NodeMotion
 {
-    static constexpr int width = numbers;
-
-    Real velocity[width], change[width];
+    Numbers velocity, change;
 };
 
 /// Partial sums of the motion over rows and layers of nodes, and of the velocity's products with slopes and offsets.
-template<class Real, int width>
+template<class Numbers>
 struct Partial
 {
-    Real velocity[width], by_x[width], by_y[width], by_z[width], change[width];
-    Real at_x[width], at_y[width], at_z[width];
+    Numbers velocity, by_x, by_y, by_z, change;
+    Numbers at_x, at_y, at_z;
 };
-
-/// sum += factor * value. One rounding on both backends.
-template<class Real, int width>
-TREAD_HD void add_scaled(Real factor, const Real (&value)[width], Real (&sum)[width])
-{
-    for (int i = 0; i < width; ++i) { sum[i] = std::fma(factor, value[i], sum[i]); }
-}
 
 /// Without APIC nothing reads the moment.
 struct WithoutMoment
@@ -96,7 +87,7 @@ template<class Real, class Node, class Moment>
 TREAD_HD auto sum_motion(const Stencil<Real>& s, Node node, Moment)
 {
     constexpr bool moment = std::is_same_v<Moment, WithMoment>;
-    using Sums            = Partial<Real, decltype(node(0, 0, 0))::width>;
+    using Sums            = Partial<decltype(node(0, 0, 0).velocity)>;
     Sums all{};
     for (int c = 0; c < 3; ++c)
     {
@@ -106,8 +97,8 @@ TREAD_HD auto sum_motion(const Stencil<Real>& s, Node node, Moment)
             Sums row{};
             for (int a = 0; a < 3; ++a)
             {
-                const auto motion = node(a, b, c);
-                const Real weight = s.weight[0][a];
+                const auto& motion = node(a, b, c);
+                const Real  weight = s.weight[0][a];
                 add_scaled(weight, motion.velocity, row.velocity);
                 add_scaled(s.slope[0][a], motion.velocity, row.by_x);
                 add_scaled(weight, motion.change, row.change);

@@ -54,23 +54,4 @@ TREAD_HD PointLoad<Real> point_load(const PointsView<Real>& points, std::int64_t
     return load;
 }
 
-/// Share of node (a, b, c) of the stencil; offsets are (a - fraction) * spacing.
-template<class Real>
-TREAD_HD void node_share(const PointLoad<Real>& load, const Stencil<Real>& s, Real spacing, int a, int b, int c,
-                         Real* share)
-{
-    const Real plane  = s.weight[1][b] * s.weight[2][c];
-    const Real weight = s.weight[0][a] * plane;
-    const Real dx = s.slope[0][a] * plane, dy = s.weight[0][a] * s.slope[1][b] * s.weight[2][c],
-               dz = s.weight[0][a] * s.weight[1][b] * s.slope[2][c];
-    const Real ox = (Real(a) - s.fraction[0]) * spacing * weight, oy = (Real(b) - s.fraction[1]) * spacing * weight,
-               oz = (Real(c) - s.fraction[2]) * spacing * weight;
-    for (int l = 0; l < lanes; ++l)
-    {
-        share[l] = weight * load.value[l] + dx * load.per_slope[0][l] + dy * load.per_slope[1][l] +
-                   dz * load.per_slope[2][l] + ox * load.per_offset[0][l] + oy * load.per_offset[1][l] +
-                   oz * load.per_offset[2][l];
-    }
-}
-
 } // namespace tread::mpm

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "kernels/mpm/pages.hpp"
 
 namespace tread::mpm
@@ -66,6 +68,14 @@ TREAD_HD Stencil<Real> stencil_above(Index3 base, const Vec3<double>& position, 
                      stencil.slope[axis]);
     }
     return stencil;
+}
+
+/// sum += factor * value for each of an array or vector of numbers, rounded once on both backends.
+template<class Real, class Numbers>
+TREAD_HD void add_scaled(Real factor, const Numbers& value, Numbers& sum)
+{
+    constexpr int count = sizeof(Numbers) / sizeof(Real);
+    for (int i = 0; i < count; ++i) { sum[i] = std::fma(factor, value[i], sum[i]); }
 }
 
 /// Place in the page's tile of the stencil's lowest node.
