@@ -96,6 +96,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     , pic_rate_(pic_rate(scene, world.points))
     , cell_means_(scene.numerics.volume_strain == scene::VolumeStrain::cell_average)
     , cell_divergence_(exec, "cell divergence")
+    , shared_stress_(exec, "point stress of cell pressure")
 {
     materials_.assign(law_parameters<Real>(scene));
     stirred_in_.fill_zero();
@@ -169,7 +170,11 @@ void Sand<Exec, Real>::order_in_memory()
     point_rows_.resize(point_pages * mpm::tally_width(mpm::point_sums));
     peak_rows_.resize(point_pages * mpm::point_peaks);
     clear_tallies();
-    if (cell_means_) { cell_divergence_.resize(point_pages * mpm::page_cells); }
+    if (cell_means_)
+    {
+        cell_divergence_.resize(point_pages * mpm::page_cells);
+        shared_stress_.resize(points_.stress.size());
+    }
     if (mpm::has_walls(walls_)) { mpm::list_wall_pages(exec_, pages(), walls_, wall_pages_, order_scratch_.sort); }
     moves_to_.resize(points_.count);
     move_counts_.resize(point_pages * mpm::move_counts);
@@ -192,7 +197,14 @@ mpm::MovesView Sand<Exec, Real>::moves()
 template<class Exec, class Real>
 void Sand<Exec, Real>::scatter()
 {
-    mpm::scatter(exec_, points_.view(), pages(), tiles_.data());
+    mpm::PointsView<Real> points = points_.view();
+    if (cell_means_)
+    {
+        const Planes<Real, 6> shared{shared_stress_.data(), points_.stride};
+        mpm::share_pressure(exec_, points, pages(), shared);
+        points.stress = shared;
+    }
+    mpm::scatter(exec_, points, pages(), tiles_.data());
 }
 
 template<class Exec, class Real>

@@ -5,6 +5,7 @@
 #include "backend/reduce.hpp"
 #include "io/snapshot.hpp"
 #include "kernels/mpm/cell_divergence.hpp"
+#include "kernels/mpm/cell_stress.hpp"
 #include "kernels/mpm/census.hpp"
 #include "kernels/mpm/gather.hpp"
 #include "kernels/mpm/grid.hpp"
@@ -100,8 +101,9 @@ private:
     Array<Exec, double>                        sums_scratch_;
     Array<Exec, mpm::MaterialParameters<Real>> materials_;
     double                                     pic_rate_;
-    bool                                       cell_means_; ///< of the volumetric strain
+    bool                                       cell_means_; ///< of volumetric strain, and of pressure
     Array<Exec, Real>                          cell_divergence_;
+    Array<Exec, Real>                          shared_stress_;
     double                                     mass_    = 0;
     std::int64_t                               step_    = 0;               ///< number of the last one
     std::int64_t                               steps_   = 0;               ///< since the last report

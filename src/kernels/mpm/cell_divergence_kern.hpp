@@ -53,7 +53,7 @@ TREAD_HD Real mean_divergence(const PointsView<Real>& points, const PagesView& p
         const std::int64_t i       = pages.point_at[at];
         const auto         stencil = stencil_above<Real>(node, points.position.get(i), pages.inverse_spacing,
                                                  pages.inverse_spacing, pages.stencil_shift);
-        const Real         share   = points.volume[i] * points.volume_ratio[i];
+        const Real         share   = points.volume[i];
         volume += share;
         flow += share * divergence_at(stencil, tile);
     }
