@@ -34,6 +34,7 @@ std::int64_t bytes_per_point(const scene::Scene& scene, const Plan& plan)
     if (plan.affine) { fields += 9 * real; }
     if (plan.plasticity) { fields += 3 * real; }
     if (plan.coupling) { fields += 9 * real; }
+    if (scene.numerics.volume_strain == scene::VolumeStrain::cell_average) { fields += 6 * real; }
     constexpr std::int64_t lists = 4 + 1 + 4 + 1 + 2, keys = 8 + 4 + 4, sort = 16;
     const std::int64_t     buffers = 8 + real + 4 + 1;
     return fields + lists + keys + sort + buffers;
