@@ -6,11 +6,12 @@
 namespace tread::mpm
 {
 
-/// Volume-weighted mean of the velocity divergence over the points of every cell, 1/s, into
+/// Mean of the velocity divergence over the points of every cell, weighted by their initial volumes, 1/s, into
 /// cell_divergence[64 * point page + place in the page]; 0 where there are no points. `motion` as gather reads it,
 /// before it moves the points. With the law's volumetric strain from these means the points of a cell are one
 /// constraint on its nodes' velocities instead of one each, and flow that keeps its volume does not lock (selective
-/// reduced integration: Hughes 1980, Int. J. Numer. Methods Eng. 15:1413).
+/// reduced integration: Hughes 1980, Int. J. Numer. Methods Eng. 15:1413). P2G must share pressure alike
+/// (cell_stress.hpp).
 template<class Real>
 void average_divergence(const Cpu&, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
                         Real* cell_divergence);
