@@ -64,6 +64,7 @@ TEST(Memory, EstimateIsTrueWithinATenth)
     expect_true_estimate<float>(test::sand_text, {single});
     expect_true_estimate<float>(finer(test::sand_text), {single});
     expect_true_estimate<float>(finer(test::sand_text), {single, "terrain[0].points_per_cell=1"});
+    expect_true_estimate<float>(test::sand_text, {single, "numerics.volume_strain=cell-average"});
     expect_true_estimate<double>(finer(test::sand_text), {two});
     expect_true_estimate<double>(finer(test::sand_text), {two, apic});
     expect_true_estimate<float>(finer(test::roller_text), {single});
