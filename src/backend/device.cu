@@ -21,12 +21,9 @@ DeviceFacts device_facts(int device)
 }
 
 Device::Device(int device, Counters& counters)
-    : gpu_{nullptr, &counters, false}
+    : gpu_{nullptr, &counters}
 {
     check_cuda(cudaSetDevice(device), "choice of the device");
-    int major = 0;
-    check_cuda(cudaDeviceGetAttribute(&major, cudaDevAttrComputeCapabilityMajor, device), "properties of the device");
-    gpu_.overlaps_launches = major >= 9;
     check_cuda(cudaStreamCreate(&gpu_.stream), "stream of the device");
 }
 

@@ -27,7 +27,6 @@ struct Gpu
 {
     CUstream_st* stream;
     Counters*    counters;
-    bool         overlaps_launches; ///< a kernel is brought to the multiprocessors while the one before it ends
 };
 
 } // namespace tread

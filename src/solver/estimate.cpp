@@ -12,6 +12,7 @@
 #include "kernels/mpm/gather.hpp"
 #include "kernels/mpm/moves.hpp"
 #include "kernels/mpm/pages.hpp"
+#include "kernels/mpm/wall_kern.hpp"
 #include "solver/pace_limits.hpp"
 
 namespace tread::solver
@@ -35,9 +36,8 @@ std::int64_t bytes_per_point(const scene::Scene& scene, const Plan& plan)
     if (plan.plasticity) { fields += 3 * real; }
     if (plan.coupling) { fields += 9 * real; }
     if (scene.numerics.volume_strain == scene::VolumeStrain::cell_average) { fields += 6 * real; }
-    constexpr std::int64_t lists = 4 + 1 + 4 + 1 + 2, keys = 8 + 4 + 4, sort = 16;
-    const std::int64_t     buffers = 8 + real + 4 + 1;
-    return fields + lists + keys + sort + buffers;
+    constexpr std::int64_t lists = 4 + 1 + 2, keys = 8 + 4, sort = 16;
+    return fields + lists + keys + sort;
 }
 
 struct PageCounts
@@ -45,6 +45,7 @@ struct PageCounts
     std::int64_t holding; ///< points
     std::int64_t points;  ///< point pages: those and their neighbours within reach
     std::int64_t nodes;
+    std::int64_t walls; ///< node pages of which walls may hold nodes
 };
 
 /// Pages within a cell's reach, as order_points lists them: along each axis its own and that beyond the nearer face.
@@ -89,23 +90,26 @@ PageCounts count_pages(const World& world)
             nodes.insert(mpm::page_key({page.x + (octant & 1), page.y + (octant >> 1 & 1), page.z + (octant >> 2)}));
         }
     }
+    const auto held = [&](std::uint64_t key)
+    { return mpm::has_held_nodes(world.grid_walls, mpm::page_coordinates(key)); };
     return {static_cast<std::int64_t>(holding.size()), static_cast<std::int64_t>(points.size()),
-            static_cast<std::int64_t>(nodes.size())};
+            static_cast<std::int64_t>(nodes.size()), std::count_if(nodes.begin(), nodes.end(), held)};
 }
 
 /// Tiles, lists and sums of the pages (kernels/mpm/pages.hpp, solver/sand.cpp), and the keys they are found by.
 std::int64_t page_bytes(const scene::Scene& scene, const PageCounts& pages)
 {
-    const std::int64_t real  = bytes_of_real(scene);
-    const bool         means = scene.numerics.volume_strain == scene::VolumeStrain::cell_average;
-    const std::int64_t point_page =
-        mpm::node_channels * mpm::tile_nodes * real + (means ? mpm::page_cells * real : 0) +
-        2 * 4 * (mpm::page_cells + 1) + 8 + 4 * (mpm::directions + mpm::move_counts + 8) +
-        8 * (std::int64_t{mpm::point_sums} + std::int64_t{mpm::point_peaks} + std::int64_t{mpm::census_count});
-    const std::int64_t node_page =
-        mpm::motion_channels * mpm::page_cells * real + 8 * (std::int64_t{mpm::grid_sums} + 1) + 4 * 8;
-    const std::int64_t found = std::max(mpm::directions * pages.holding, 8 * pages.points);
-    return pages.points * point_page + pages.nodes * node_page + found * (8 + 4);
+    const std::int64_t real       = bytes_of_real(scene);
+    const bool         means      = scene.numerics.volume_strain == scene::VolumeStrain::cell_average;
+    const std::int64_t point_page = mpm::node_channels * mpm::tile_nodes * real + (means ? mpm::page_cells * real : 0) +
+                                    2 * 4 * (mpm::page_cells + 1) + 8 + 4 * (mpm::directions + mpm::move_counts + 8) +
+                                    8 * (std::int64_t{mpm::tally_width(mpm::point_sums)} +
+                                         std::int64_t{mpm::point_peaks} + std::int64_t{mpm::census_count});
+    const std::int64_t node_page = mpm::motion_channels * mpm::page_cells * real +
+                                   8 * (std::int64_t{mpm::tally_width(mpm::grid_sums)} + 1) + 4 * 8 + 4;
+    const std::int64_t wall_page = 4 * (1 + mpm::directions) + 4 * mpm::page_cells * real;
+    const std::int64_t found     = std::max(mpm::directions * pages.holding, 8 * pages.points);
+    return pages.points * point_page + pages.nodes * node_page + pages.walls * wall_page + found * (8 + 4);
 }
 
 std::int64_t sand_bytes(const scene::Scene& scene, const World& world, const Plan& plan)

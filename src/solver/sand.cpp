@@ -16,7 +16,7 @@ namespace
 constexpr double mass_floor_share = 1e-20;
 
 /// After so many new lists the points are moved in memory: those of a cell that stand far apart cost reads.
-constexpr int relists_an_order = 16;
+constexpr int relists_an_order = 32;
 
 /// Room for a census, or for what a report reads.
 constexpr std::int64_t totals_size = std::int64_t{mpm::census_count} + std::int64_t{mpm::tally_width(mpm::grid_sums)} +
@@ -154,7 +154,7 @@ void Sand<Exec, Real>::order()
 template<class Exec, class Real>
 void Sand<Exec, Real>::list_anew()
 {
-    mpm::relist_points(exec_, pages_, moves(), relist_scratch_);
+    mpm::relist_points(exec_, pages_, moves(), relist_scratch_, order_scratch_.keys);
     ++relists_;
 }
 

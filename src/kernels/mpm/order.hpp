@@ -23,26 +23,16 @@ struct OrderScratch
         : sort(exec)
         , keys(exec, "order keys")
         , order(exec, "order")
-        , marks(exec, "order marks")
         , neighbour_keys(exec, "order neighbour keys")
         , neighbour_order(exec, "order neighbour order")
-        , wide(exec, "order scratch fp64")
-        , real(exec, "order scratch fields")
-        , word(exec, "order scratch ids")
-        , byte(exec, "order scratch materials")
     {
     }
 
     SortScratch<Exec>          sort;
     Array<Exec, std::uint64_t> keys;
     Array<Exec, std::int32_t>  order;
-    Array<Exec, std::int32_t>  marks;
     Array<Exec, std::uint64_t> neighbour_keys;
     Array<Exec, std::int32_t>  neighbour_order;
-    Array<Exec, double>        wide;
-    Array<Exec, Real>          real;
-    Array<Exec, std::uint32_t> word;
-    Array<Exec, std::uint8_t>  byte;
 };
 
 /// Orders points in memory by page and cell, stably, and rebuilds the page tables. Points more than two cells outside

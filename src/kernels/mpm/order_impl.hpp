@@ -236,40 +236,28 @@ struct FindAround
 
 } // namespace order_steps
 
-/// One plane after the other, so that the buffer is as small as one.
+/// One plane after the other, so that the buffer is as small as one: the sort's, which is over.
 template<class Exec, class Real, class T>
-void gather_field(const Exec& exec, Array<Exec, T>& field, Array<Exec, T>& buffer, const Points<Exec, Real>& points,
-                  int components, const std::int32_t* order)
+void gather_field(const Exec& exec, Array<Exec, T>& field, const Points<Exec, Real>& points, int components,
+                  const std::int32_t* order, SortScratch<Exec>& scratch)
 {
-    buffer.resize(points.count);
+    static_assert(sizeof(T) <= sizeof(*scratch.keys.data()));
+    scratch.keys.resize(points.count);
+    T* buffer = reinterpret_cast<T*>(scratch.keys.data());
     for (int c = 0; c < components; ++c)
     {
         T* plane = field.data() + c * points.stride;
-        for_each(exec, "gather points", points.count, order_steps::Gather<T>{plane, buffer.data(), order});
-        copy(exec, plane, buffer.data(), static_cast<std::size_t>(points.count) * sizeof(T));
+        for_each(exec, "gather points", points.count, order_steps::Gather<T>{plane, buffer, order});
+        copy(exec, plane, buffer, static_cast<std::size_t>(points.count) * sizeof(T));
     }
 }
 
 /// Point i becomes the one that is at order[i].
 template<class Exec, class Real>
-void gather_points(const Exec& exec, Points<Exec, Real>& points, const std::int32_t* order,
-                   OrderScratch<Exec, Real>& scratch)
+void gather_points(const Exec& exec, Points<Exec, Real>& points, const std::int32_t* order, SortScratch<Exec>& scratch)
 {
-    const auto gather = [&](auto& field, int components)
-    {
-        using T = std::remove_reference_t<decltype(*field.data())>;
-        if constexpr (std::is_same_v<T, Real>) { gather_field(exec, field, scratch.real, points, components, order); }
-        else if constexpr (std::is_same_v<T, double>)
-        {
-            gather_field(exec, field, scratch.wide, points, components, order);
-        }
-        else if constexpr (std::is_same_v<T, std::uint32_t>)
-        {
-            gather_field(exec, field, scratch.word, points, components, order);
-        }
-        else { gather_field(exec, field, scratch.byte, points, components, order); }
-    };
-    points.for_each_field(gather);
+    points.for_each_field([&](auto& field, int components)
+                          { gather_field(exec, field, points, components, order, scratch); });
 }
 
 /// The pages of the sorted keys, each once, to `page_key`; keys below `shift` bits do not count.
@@ -278,10 +266,11 @@ void write_pages(const Exec& exec, const Array<Exec, std::uint64_t>& keys, int s
                  Array<Exec, std::uint64_t>& page_key, OrderScratch<Exec, Real>& scratch)
 {
     using namespace order_steps;
-    scratch.marks.resize(keys.size());
-    for_each(exec, "mark pages", keys.size(), MarkFirstOfPage{keys.data(), scratch.marks.data(), shift});
-    page_key.resize(exclusive_scan(exec, scratch.marks, scratch.sort));
-    for_each(exec, "write pages", keys.size(), WritePages{keys.data(), scratch.marks.data(), page_key.data(), shift});
+    scratch.sort.values.resize(keys.size());
+    for_each(exec, "mark pages", keys.size(), MarkFirstOfPage{keys.data(), scratch.sort.values.data(), shift});
+    page_key.resize(exclusive_scan(exec, scratch.sort.values, scratch.sort));
+    for_each(exec, "write pages", keys.size(),
+             WritePages{keys.data(), scratch.sort.values.data(), page_key.data(), shift});
 }
 
 /// Point pages and their neighbours, ranges of pages and cells, from the sorted keys of the points.
@@ -352,7 +341,7 @@ void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pag
     for_each(exec, "point keys", n,
              order_steps::MakeKeys<Real>{points.view(), geometry, scratch.keys.data(), scratch.order.data()});
     sort_by_key(exec, scratch.keys, scratch.order, scratch.sort);
-    gather_points(exec, points, scratch.order.data(), scratch);
+    gather_points(exec, points, scratch.order.data(), scratch.sort);
     build_point_pages(exec, points, pages, geometry, scratch);
     build_node_pages(exec, pages, scratch);
 }
@@ -360,7 +349,7 @@ void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pag
 template<class Exec, class Real>
 void renew_order(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, OrderScratch<Exec, Real>& scratch)
 {
-    gather_points(exec, points, pages.point_at.data(), scratch);
+    gather_points(exec, points, pages.point_at.data(), scratch.sort);
     for_each(exec, "list points", points.count, order_steps::ListAsInMemory{pages.point_at.data()});
 }
 

@@ -81,6 +81,6 @@ void relist_pages(const Cpu& cpu, const Relisting& job)
     for_each_heavy(cpu, "relist points", job.old.point_pages, [=](std::int64_t page) { relist_page(job, page); });
 }
 
-template void relist_points(const Cpu&, Pages<Cpu>&, const MovesView&, RelistScratch<Cpu>&);
+template void relist_points(const Cpu&, Pages<Cpu>&, const MovesView&, RelistScratch<Cpu>&, Array<Cpu, std::uint64_t>&);
 
 } // namespace tread::mpm

@@ -171,6 +171,6 @@ void relist_pages(const Gpu& gpu, const Relisting& job)
                                       RelistPages{job});
 }
 
-template void relist_points(const Gpu&, Pages<Gpu>&, const MovesView&, RelistScratch<Gpu>&);
+template void relist_points(const Gpu&, Pages<Gpu>&, const MovesView&, RelistScratch<Gpu>&, Array<Gpu, std::uint64_t>&);
 
 } // namespace tread::mpm

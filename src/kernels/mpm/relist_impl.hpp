@@ -61,23 +61,24 @@ struct TakeOver
 };
 
 template<class Exec>
-void relist_points(const Exec& exec, Pages<Exec>& pages, const MovesView& moves, RelistScratch<Exec>& scratch)
+void relist_points(const Exec& exec, Pages<Exec>& pages, const MovesView& moves, RelistScratch<Exec>& scratch,
+                   Array<Exec, std::uint64_t>& room)
 {
     if (!may_have_stirred(exec, moves)) { return; }
     const PagesView    old   = pages.view(1, 0);
     const std::int64_t count = old.point_pages;
     scratch.first_point.resize(count + 1);
     scratch.cell_first_point.resize(count * page_cells + 1);
-    scratch.point_at.resize(pages.point_at.size());
-    scratch.place_at.resize(pages.place_at.size());
-    start_pages(exec, old, moves, scratch);
-    relist_pages(exec, {old, moves, scratch.first_point.data(), scratch.cell_first_point.data(),
-                        scratch.point_at.data(), scratch.place_at.data()});
     const std::int64_t points = pages.point_at.size(), items = std::max(points, count * page_cells + 1);
+    room.resize(points);
+    auto* point_at = reinterpret_cast<std::int32_t*>(room.data());
+    auto* place_at = reinterpret_cast<std::uint8_t*>(point_at + points);
+    start_pages(exec, old, moves, scratch);
+    relist_pages(exec, {old, moves, scratch.first_point.data(), scratch.cell_first_point.data(), point_at, place_at});
     for_each(exec, "take over list", std::min(items, take_over_stride),
              TakeOver{moves, count, points, items, scratch.first_point.data(), scratch.cell_first_point.data(),
-                      scratch.point_at.data(), scratch.place_at.data(), pages.first_point.data(),
-                      pages.cell_first_point.data(), pages.point_at.data(), pages.place_at.data()});
+                      point_at, place_at, pages.first_point.data(), pages.cell_first_point.data(),
+                      pages.point_at.data(), pages.place_at.data()});
 }
 
 } // namespace tread::mpm

@@ -201,6 +201,7 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
     Pages<TypeParam>                pages(this->exec());
     OrderScratch<TypeParam, double> order_scratch(this->exec());
     RelistScratch<TypeParam>        scratch(this->exec());
+    Array<TypeParam, std::uint64_t> room(this->exec(), "room");
     order_points(this->exec(), points, pages, GridGeometry{this->spacing, 0.5, {4, 4, 4}}, order_scratch);
     start = points.position.to_host();
 
@@ -236,7 +237,7 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
         }
         ASSERT_GE(worst, static_cast<double>(Stir::moved)) << "step " << step;
         ASSERT_LE(worst, static_cast<double>(Stir::rim)) << "step " << step;
-        relist_points(this->exec(), pages, moves, scratch);
+        relist_points(this->exec(), pages, moves, scratch, room);
         this->expect_listed(points, pages, count);
     }
     EXPECT_NEAR(points.position.to_host()[0], start[0] + 6 * dt * speed, 1e-12); // in memory where it was
