@@ -42,8 +42,9 @@ public:
     mpm::PagesView           pages() const;
     const mpm::GridGeometry& geometry() const { return geometry_; }
 
-    /// 1. Lists points by page and cell, unless the last report says that none has left its cell; orders them in memory
-    /// when it says that one comes near pages that are not listed, and after many such changes. Does not wait.
+    /// 1. Lists points by page and cell, unless the last report says that none has left its cell; after many such lists
+    /// moves them in memory to where the list has them, without waiting. Sorts them and makes the pages anew, and
+    /// waits, when the report says that one comes near pages that are not listed.
     void order();
 
     /// 4. P2G.

@@ -31,8 +31,8 @@ struct MpmCase
     int                  steps     = 200; ///< timed, three times
 };
 
-/// Times whole MPM steps of pure sand, ordering included, and its kernels one by one; prints points a second, bytes
-/// counted and their share of `copy_rate` (bytes a second, read and write, of a device copy measured in the same run).
+/// Times whole MPM steps of pure sand, ordering included, and its kernels one by one; prints points a second and the
+/// bytes a point that were allocated.
 void run_mpm(const MpmCase& what);
 
 } // namespace tread::bench

@@ -289,9 +289,7 @@ name = "fall"
 damping = 0.3
 duration = 0.2
 )");
-    auto                        stress = fall.simulation().sand().points().stress.to_host();
-    std::fill(stress.begin(), stress.end(), 0.0);
-    fall.simulation().sand().points().stress.assign(stress);
+    fall.simulation().sand().points().stress.fill_zero();
     fall.run();
     const solver::Census end   = fall.simulation().census();
     const double         speed = -end.sand.momentum[2] / end.sand.mass, expected = 0.7 * 9.81 * fall.time();

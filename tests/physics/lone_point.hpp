@@ -48,7 +48,7 @@ void throw_it(Experiment<Exec, Real>& run, const Vec3<double>& velocity)
     ASSERT_EQ(points.count, 1);
     points.velocity.assign(
         {static_cast<Real>(velocity[0]), static_cast<Real>(velocity[1]), static_cast<Real>(velocity[2])});
-    points.stress.assign(std::vector<Real>(6, Real(0)));
+    points.stress.fill_zero();
 }
 
 /// 1 mm/s in steps of 10 us at x = 900 m: 1e-8 m a step, of which a single-precision position would keep nothing.

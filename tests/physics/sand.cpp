@@ -42,9 +42,7 @@ name = "fall"
 duration = 0.3
 )";
     test::Experiment<TypeParam> fall(this->exec(), text);
-    auto                        zero = fall.simulation().sand().points().stress.to_host();
-    std::fill(zero.begin(), zero.end(), 0.0); // it starts in the air, not in a bed
-    fall.simulation().sand().points().stress.assign(zero);
+    fall.simulation().sand().points().stress.fill_zero(); // it starts in the air, not in a bed
     const solver::Census start = fall.simulation().census();
     fall.run();
     const solver::Census end  = fall.simulation().census();

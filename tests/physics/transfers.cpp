@@ -55,16 +55,15 @@ void set_off(test::Experiment<Exec>& run, Velocity velocity)
 {
     auto&             points = run.simulation().sand().points();
     const auto        x      = points.position.to_host();
-    auto              v = points.velocity.to_host(), stress = points.stress.to_host();
-    const std::size_t n = x.size() / 3;
+    auto              v      = points.velocity.to_host();
+    const std::size_t n      = x.size() / 3;
     for (std::size_t i = 0; i < n; ++i)
     {
         const Vec3<double> at = velocity(Vec3<double>(x[i], x[n + i], x[2 * n + i]));
         for (std::size_t c = 0; c < 3; ++c) { v[c * n + i] = at[static_cast<Eigen::Index>(c)]; }
     }
-    std::fill(stress.begin(), stress.end(), 0.0);
     points.velocity.assign(v);
-    points.stress.assign(stress);
+    points.stress.fill_zero();
 }
 
 /// verification C1 with free ends, which need no wall: a bar of 20 cells in its first mode, T = 2 L / c = 0.02 s, ten

@@ -171,9 +171,7 @@ TYPED_TEST(WallsOfSand, BlockLeavesTheFloor)
     {
         test::Experiment<TypeParam> fly(this->exec(), block_text(0, "bottom = \"" + floor + "\"", 0.2));
         auto&                       points = fly.simulation().sand().points();
-        auto                        stress = points.stress.to_host();
-        std::fill(stress.begin(), stress.end(), 0.0);
-        points.stress.assign(stress);
+        points.stress.fill_zero();
         auto       v = points.velocity.to_host();
         const auto n = v.size() / 3;
         std::fill(v.begin() + static_cast<std::ptrdiff_t>(2 * n), v.end(), 2.0);
@@ -228,10 +226,7 @@ TYPED_TEST(WallsOfSand, HighWallsMirrorLowOnes)
     const auto lean = [&](int cells, bool up)
     {
         test::Experiment<TypeParam> bed(this->exec(), corner_text(cells, up));
-        auto&                       points = bed.simulation().sand().points();
-        auto                        stress = points.stress.to_host();
-        std::fill(stress.begin(), stress.end(), 0.0);
-        points.stress.assign(stress);
+        bed.simulation().sand().points().stress.fill_zero();
         const Motion start = motion(bed);
         bed.run();
         return Vec3<double>(motion(bed).position - start.position);
