@@ -125,6 +125,10 @@ MeasuredTemplate make_measured_template(const scene::Shape& shape, const std::st
     result.nodes           = std::visit(MakeNodes{result.mesh, shape.node_spacing}, shape.source);
     result.box             = bounds(result.mesh);
     result.bounding_radius = bounding_radius(result.mesh);
+    if (std::holds_alternative<scene::SphereGenerator>(shape.source))
+    {
+        result.sphere_radius = result.equivalent_radius;
+    }
     if (const auto* wheel = std::get_if<scene::WheelGenerator>(&shape.source))
     {
         result.is_wheel          = true;

@@ -80,6 +80,7 @@ struct ShapeTemplate
     Bounds             box;
     double             bounding_radius;   ///< m, about the centre of mass
     double             equivalent_radius; ///< m, of the sphere of equal volume; R of the contact law (wheels: radius)
+    double             sphere_radius;     ///< m, of a generated sphere; 0 of any other shape
     bool               is_wheel;
     WheelGeometry      wheel; ///< meaningful if is_wheel
     SignRule           sign;  ///< how inside was told from outside

@@ -37,6 +37,7 @@ dem::TemplateView measures(const shape::ShapeTemplate& form)
     view.high              = form.box.high;
     view.bounding_radius   = form.bounding_radius;
     view.equivalent_radius = form.equivalent_radius;
+    view.sphere_radius     = form.sphere_radius;
     return view;
 }
 

@@ -3,6 +3,7 @@
 #include "kernels/dem/body_contact.hpp"
 #include "kernels/dem/body_contact_kern.hpp"
 #include "kernels/dem/pair_law_kern.hpp"
+#include "kernels/dem/sphere_contact_kern.hpp"
 
 // The two item functions of a substep's body contacts. Both are written for lanes that share one item: a single one on
 // the CPU, a warp's 32 on the GPU (body_contact.cpp, body_contact.cu).
@@ -38,22 +39,26 @@ struct EvaluatePair
     template<class Lanes>
     TREAD_HD PairResponse between_bodies(std::int64_t a, std::int64_t b, const Lanes& lanes, Patch& patch) const
     {
-        const PairLaw         pair = law_between(bodies, law, a, b);
-        const Instance        of_a = instance_of(bodies, law.templates, a, bodies.position[a]);
-        const Instance        of_b = instance_of(bodies, law.templates, b, bodies.position[a]);
-        const Side<BodyField> side_a{of_a, {of_b}, 0.5, 1.0}, side_b{of_b, {of_a}, 0.5, -1.0};
-
-        Stiffness          found{0, 0};
-        const LiveClusters live_a = find_live(pair, side_a, lanes, found);
-        const LiveClusters live_b = find_live(pair, side_b, lanes, found);
-        if ((live_a | live_b) == 0) { return release(pair, patch); }
-        found = together(found, lanes);
-
+        const PairLaw        pair = law_between(bodies, law, a, b);
+        const Instance       of_a = instance_of(bodies, law.templates, a, bodies.position[a]);
+        const Instance       of_b = instance_of(bodies, law.templates, b, bodies.position[a]);
         const Spins          spins{bodies.angular_velocity[a], bodies.angular_velocity[b]};
         const RelativeMotion motion{bodies.velocity[a] - bodies.velocity[b] + spins.b.cross(of_b.centre),
                                     spins.a - spins.b};
-        const double         relaxation = relaxation_time(pair, found.sum);
-        PatchSums            sums       = PatchSums::zero();
+        if (is_sphere(of_a) && is_sphere(of_b))
+        {
+            return respond_as_spheres(pair, contact_of_spheres(of_a, of_b), motion, spins, of_b.centre, patch, dt);
+        }
+
+        const Side<BodyField> side_a{of_a, {of_b}, 0.5, 1.0}, side_b{of_b, {of_a}, 0.5, -1.0};
+        Stiffness             found{0, 0};
+        const LiveClusters    live_a = find_live(pair, side_a, lanes, found);
+        const LiveClusters    live_b = find_live(pair, side_b, lanes, found);
+        if ((live_a | live_b) == 0) { return release(pair, patch); }
+        found = together(found, lanes);
+
+        const double relaxation = relaxation_time(pair, found.sum);
+        PatchSums    sums       = PatchSums::zero();
         add_nodes(pair, side_a, motion, relaxation, live_a, lanes, sums);
         add_nodes(pair, side_b, motion, relaxation, live_b, lanes, sums);
         sums.reduce(lanes);
@@ -63,10 +68,18 @@ struct EvaluatePair
     template<class Lanes>
     TREAD_HD PairResponse against_plane(std::int64_t a, std::int64_t p, const Lanes& lanes, Patch& patch) const
     {
-        const Plane&           plane = law.planes[p];
-        const PairLaw          pair  = law_against(bodies, law, a, plane);
-        const Instance         of_a  = instance_of(bodies, law.templates, a, bodies.position[a]);
-        const PlaneField       wall{plane.normal, plane.offset - plane.normal.dot(bodies.position[a])};
+        const Plane&         plane = law.planes[p];
+        const PairLaw        pair  = law_against(bodies, law, a, plane);
+        const Instance       of_a  = instance_of(bodies, law.templates, a, bodies.position[a]);
+        const PlaneField     wall{plane.normal, plane.offset - plane.normal.dot(bodies.position[a])};
+        const Spins          spins{bodies.angular_velocity[a], Vec3<double>::Zero()};
+        const RelativeMotion motion{bodies.velocity[a], spins.a};
+        const Vec3<double>   no_arm = Vec3<double>::Zero();
+        if (is_sphere(of_a))
+        {
+            return respond_as_spheres(pair, contact_with_plane(of_a, wall), motion, spins, no_arm, patch, dt);
+        }
+
         const Side<PlaneField> side{of_a, wall, 1.0, 1.0};
 
         Stiffness          found{0, 0};
@@ -74,12 +87,10 @@ struct EvaluatePair
         if (live == 0) { return release(pair, patch); }
         found = together(found, lanes);
 
-        const Spins          spins{bodies.angular_velocity[a], Vec3<double>::Zero()};
-        const RelativeMotion motion{bodies.velocity[a], spins.a};
-        PatchSums            sums = PatchSums::zero();
+        PatchSums sums = PatchSums::zero();
         add_nodes(pair, side, motion, relaxation_time(pair, found.sum), live, lanes, sums);
         sums.reduce(lanes);
-        return respond(pair, sums, found, motion, spins, Vec3<double>::Zero(), patch, dt);
+        return respond(pair, sums, found, motion, spins, no_arm, patch, dt);
     }
 };
 

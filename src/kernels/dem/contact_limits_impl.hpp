@@ -7,6 +7,7 @@
 #include "backend/reduce.hpp"
 #include "kernels/dem/contact_limits.hpp"
 #include "kernels/dem/pair_law_kern.hpp"
+#include "kernels/dem/sphere_contact_kern.hpp"
 
 // The steps of contact_limits.hpp, the same on both backends; contact_limits.cpp and .cu bring in for_each.
 namespace tread::dem::contact_limits
@@ -28,17 +29,42 @@ struct ExpectContacts
         expected[b] = sum;
     }
 
-    /// Two nodes, of the coarser side.
     TREAD_HD double first_touch(std::int64_t p) const
     {
         if (pairs.patch[p].stiffness > 0) { return 0; }
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-        if (b >= bodies.count)
+        if (b >= bodies.count) { return touch_of_plane(a, law.planes[b - bodies.count]); }
+        const PairLaw pair = law_between(bodies, law, a, b);
+        if (exact(a) && exact(b))
         {
-            return 2.0 * node_area[a] *
-                   traction_at(law_against(bodies, law, a, law.planes[b - bodies.count]), 0.0).slope;
+            const Vec3<double> along = (bodies.position[b] - bodies.position[a]).normalized();
+            return touch_of_spheres(pair, along.dot(bodies.velocity[a] - bodies.velocity[b]));
         }
-        return std::fmax(node_area[a], node_area[b]) * traction_at(law_between(bodies, law, a, b), 0.0).slope;
+        return touch_of_nodes(pair, std::fmax(node_area[a], node_area[b]));
+    }
+
+private:
+    /// Whether body b is an exact sphere.
+    TREAD_HD bool exact(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
+
+    TREAD_HD double touch_of_plane(std::int64_t a, const Plane& plane) const
+    {
+        const PairLaw pair = law_against(bodies, law, a, plane);
+        if (exact(a)) { return touch_of_spheres(pair, -plane.normal.dot(bodies.velocity[a])); }
+        return touch_of_nodes(pair, 2.0 * node_area[a]);
+    }
+
+    /// Two nodes, of the coarser side; `area`: m2, of both.
+    TREAD_HD static double touch_of_nodes(const PairLaw& pair, double area)
+    {
+        return area * traction_at(pair, 0.0).slope;
+    }
+
+    /// At the end of the impact to come.
+    TREAD_HD static double touch_of_spheres(const PairLaw& pair, double approach)
+    {
+        const double overlap = hertz_impact_overlap(pair, std::fmax(approach, 0.0));
+        return hertz_stiffness(pair, std::fmax(overlap, pair.linear_overlap));
     }
 };
 

@@ -29,6 +29,7 @@ struct TemplateView
     Vec3<double>        high;
     double              bounding_radius;
     double              equivalent_radius; ///< R of the contact law
+    double              sphere_radius;     ///< m, of an exact sphere; 0 of any other shape
 };
 
 /// What a pair of materials needs in the contact laws; symmetric in the pair.

@@ -33,6 +33,7 @@ struct SolidShape
     Vec3<double>                half              = Vec3<double>::Zero();
     double                      bounding_radius   = 0;
     double                      equivalent_radius = 0;
+    double                      sphere_radius     = 0; ///< of an exact sphere
 };
 
 template<class Distance>
@@ -136,6 +137,14 @@ inline SolidShape unit_sphere(int level, int cells)
         shape.areas.push_back(area);
     }
     make_clusters(shape);
+    return shape;
+}
+
+/// A sphere of radius 1 m in closed form; its nodes are only there for other shapes.
+inline SolidShape exact_sphere()
+{
+    SolidShape shape    = unit_sphere(1, 16);
+    shape.sphere_radius = 1;
     return shape;
 }
 
@@ -310,6 +319,7 @@ private:
             view.high              = shape.half;
             view.bounding_radius   = shape.bounding_radius;
             view.equivalent_radius = shape.equivalent_radius;
+            view.sphere_radius     = shape.sphere_radius;
             views.push_back(view);
         }
         templates_.assign(views);

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "kernels/dem/body_contact_kern.hpp"
+
+// Contact of two exact spheres, or of one and a plane: Hertz's law in closed form, the paper's Eq. 14, in place of sums
+// over nodes. The record of friction and what follows from it are those of every other pair.
+namespace tread::dem
+{
+
+TREAD_HD bool is_sphere(const Instance& body) { return body.shape->sphere_radius > 0; }
+
+TREAD_HD double sphere_radius(const Instance& body) { return body.scale * body.shape->sphere_radius; }
+
+/// Where two surfaces touch, relative to the centre of a.
+struct SphereContact
+{
+    Vec3<double> normal;  ///< unit, towards a
+    double       overlap; ///< m; not positive: apart
+    double       depth;   ///< m, from the centre of a to the middle of the overlap
+};
+
+TREAD_HD SphereContact contact_of_spheres(const Instance& a, const Instance& b)
+{
+    const double       distance = b.centre.norm();
+    const Vec3<double> normal = distance > 0 ? Vec3<double>(b.centre / -distance) : Vec3<double>(Vec3<double>::UnitZ());
+    const double       overlap = sphere_radius(a) + sphere_radius(b) - distance;
+    return {normal, overlap, sphere_radius(a) - 0.5 * overlap};
+}
+
+/// The wall does not give way: its plane is where the contact acts.
+TREAD_HD SphereContact contact_with_plane(const Instance& a, const PlaneField& wall)
+{
+    const double overlap = sphere_radius(a) + wall.offset;
+    return {wall.normal, overlap, sphere_radius(a) - overlap};
+}
+
+/// dF/dd of Hertz's law, N/m: 2 E* a with a = sqrt(R* d).
+TREAD_HD double hertz_stiffness(const PairLaw& law, double overlap)
+{
+    return 2.0 * law.effective_young * std::sqrt(law.effective_radius * overlap);
+}
+
+/// The largest overlap (m) of an impact at `speed` (m/s): k d^2.5 = 5/4 m v^2 with k = 4/3 E* sqrt(R*).
+TREAD_HD double hertz_impact_overlap(const PairLaw& law, double speed)
+{
+    const double k = 4.0 / 3.0 * law.effective_young * std::sqrt(law.effective_radius);
+    return law.reduced_mass > 0 ? std::pow(1.25 * law.reduced_mass * speed * speed / k, 0.4) : 0.0;
+}
+
+/// What the nodes of a patch would sum to, all in its middle: the record of friction adds the arm of Hertz's pressure
+/// itself. Damped by 2 zeta sqrt(5/6 m* K) v, without attraction, the contact gives back what a linear one of the same
+/// zeta does (Antypov and Elliott 2011, EPL 94:50004).
+TREAD_HD PatchSums sphere_sums(const PairLaw& law, const SphereContact& contact, const RelativeMotion& motion)
+{
+    const double       stiffness  = hertz_stiffness(law, contact.overlap);
+    const double       elastic    = 2.0 / 3.0 * stiffness * contact.overlap;
+    const Vec3<double> n          = contact.normal;
+    const Vec3<double> place      = -contact.depth * n;
+    const double       rate       = -n.dot(motion.at(place));
+    const double       relaxation = std::sqrt(5.0 / 6.0) * relaxation_time(law, stiffness);
+    const double       damping    = std::fmax(stiffness * relaxation * rate, -elastic);
+
+    PatchSums sums = PatchSums::zero();
+    sums.weight    = elastic + damping;
+    sums.force     = sums.weight * n;
+    sums.first     = sums.weight * place;
+    sums.second    = sums.weight * contact.depth * contact.depth *
+                  Sym3<double>(n[0] * n[0], n[1] * n[1], n[2] * n[2], n[1] * n[2], n[0] * n[2], n[0] * n[1]);
+    sums.energy  = 0.4 * elastic * contact.overlap;
+    sums.damping = damping * rate;
+    return sums;
+}
+
+TREAD_HD PairResponse respond_as_spheres(const PairLaw& law, const SphereContact& contact, const RelativeMotion& motion,
+                                         const Spins& spins, const Vec3<double>& arm, Patch& patch, double dt)
+{
+    if (!(contact.overlap > 0)) { return release(law, patch); }
+    const Stiffness found{hertz_stiffness(law, contact.overlap), contact.overlap};
+    return respond(law, sphere_sums(law, contact, motion), found, motion, spins, arm, patch, dt);
+}
+
+} // namespace tread::dem
