@@ -124,10 +124,15 @@ double damping_ratio(double restitution)
 {
     const auto gives = [](double zeta)
     {
-        const double w = std::sqrt(1 - zeta * zeta);
-        return std::exp(-(zeta / w) * (std::numbers::pi - std::atan2(2 * zeta * w, 1 - 2 * zeta * zeta)));
+        if (zeta < 1)
+        {
+            const double w = std::sqrt(1 - zeta * zeta);
+            return std::exp(-(zeta / w) * (std::numbers::pi - std::atan2(2 * zeta * w, 1 - 2 * zeta * zeta)));
+        }
+        const double s = std::sqrt(zeta * zeta - 1);
+        return s > 0 ? std::exp(-2 * zeta / s * std::atanh(s / zeta)) : std::exp(-2.0);
     };
-    double low = 0, high = 0.9999;
+    double low = 0, high = 4;
     for (int bisection = 0; bisection < 60; ++bisection)
     {
         const double middle                        = 0.5 * (low + high);

@@ -185,6 +185,14 @@ double Rigid<Exec>::shortest_contact()
 }
 
 template<class Exec>
+double Rigid<Exec>::live_contacts()
+{
+    const std::vector<dem::PairResponse> responses = pairs_.response.to_host();
+    return static_cast<double>(std::count_if(responses.begin(), responses.end(),
+                                             [](const dem::PairResponse& pair) { return pair.overlap > 0; }));
+}
+
+template<class Exec>
 void Rigid<Exec>::clear_wrenches()
 {
     dem::clear_wrenches(exec_, bodies_.view());

@@ -45,6 +45,9 @@ public:
     /// The least sqrt(m / sum K) over bodies, of contacts that are live or may come in the step, s; 0 = none.
     double shortest_contact();
 
+    /// Pairs that touch; waits for them.
+    double live_contacts();
+
     // 3. A substep.
     void clear_wrenches();
     void contact(double dt);

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/errors.hpp"
+#include "dem.hpp"
 #include "mpm.hpp"
 
 // Benchmarks: print figures, assert none.
@@ -43,12 +44,22 @@ int main(int argc, char** argv)
                                {{"single", scene::Precision::single_}, {"double", scene::Precision::double_}});
     add_word<bench::Backend>(*mpm_command, "--backend", mpm.backend,
                              {{"cpu", bench::Backend::cpu}, {"cuda", bench::Backend::cuda}});
+    bench::DemCase dem;
+    CLI::App*      dem_command = app.add_subcommand("dem", "Substeps of a scene's bodies");
+    dem_command->add_option("SCENE", dem.scene, "TOML file")->required();
+    dem_command->add_option("--set", dem.overrides, "a.b=c, as of tread run")->expected(1)->take_all();
+    dem_command->add_option("--settle", dem.settle, "s, before anything is timed");
+    dem_command->add_option("--substeps", dem.substeps, "Between two searches for pairs");
+    dem_command->add_option("--steps", dem.steps, "Timed steps of so many substeps, three times");
+    add_word<bench::Backend>(*dem_command, "--backend", dem.backend,
+                             {{"cpu", bench::Backend::cpu}, {"cuda", bench::Backend::cuda}});
     app.require_subcommand(1);
     CLI11_PARSE(app, argc, argv);
     mpm.points = static_cast<std::int64_t>(points);
     try
     {
-        bench::run_mpm(mpm);
+        if (dem_command->parsed()) { bench::run_dem(dem); }
+        else { bench::run_mpm(mpm); }
     }
     catch (const std::exception& error)
     {

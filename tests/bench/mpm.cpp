@@ -9,12 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "base/errors.hpp"
 #include "solver/materials.hpp"
 #include "solver/sand.hpp"
-#ifdef TREAD_WITH_CUDA
-#include "backend/device.hpp"
-#endif
 
 namespace tread::bench
 {
@@ -225,18 +221,7 @@ void run_with(const Exec& exec, const MpmCase& what)
 
 void run_mpm(const MpmCase& what)
 {
-    Counters counters;
-    if (what.backend == Backend::cpu)
-    {
-        run_with(Cpu{&counters}, what);
-        return;
-    }
-#ifdef TREAD_WITH_CUDA
-    const Device device(0, counters);
-    run_with(device.gpu(), what);
-#else
-    throw EnvironmentError("--backend cuda: this build has no GPU backend");
-#endif
+    on_backend(what.backend, [&](const auto& exec) { run_with(exec, what); });
 }
 
 } // namespace tread::bench

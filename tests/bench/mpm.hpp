@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "backend_choice.hpp"
 #include "scene/scene.hpp"
 
 namespace tread::bench
@@ -11,12 +12,6 @@ enum class SandState
 {
     settled,   ///< a bed at rest between slip walls
     collapsing ///< a column that falls apart
-};
-
-enum class Backend
-{
-    cpu,
-    cuda
 };
 
 struct MpmCase

@@ -6,6 +6,9 @@ namespace tread::dem
 namespace
 {
 
+/// Lanes that share a pair: most pairs list about as many nodes.
+constexpr int pair_lanes = 8;
+
 /// A thread for an ordinary body, which has a few pairs; a warp for a large one, which may have thousands.
 struct GatherOrdinary
 {
@@ -23,7 +26,11 @@ struct GatherLarge
     body_contact::GatherBody gather;
     const std::int32_t*      large;
 
-    __device__ void operator()(std::int64_t l, const WarpLanes& lanes) const { gather(large[l], lanes); }
+    template<class Lanes>
+    __device__ void operator()(std::int64_t l, const Lanes& lanes) const
+    {
+        gather(large[l], lanes);
+    }
 };
 
 } // namespace
@@ -31,10 +38,11 @@ struct GatherLarge
 void add_body_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
                        BodyTotal* totals, double dt)
 {
-    for_each_warp(gpu, "body contacts", pairs.key.size(), body_contact::EvaluatePair{bodies, law, pairs.view(), dt});
+    for_each_group<pair_lanes>(gpu, "body contacts", pairs.key.size(),
+                               body_contact::EvaluatePair{bodies, law, pairs.view(), dt});
     const body_contact::GatherBody gather{bodies, pairs.view(), totals, dt};
     for_each(gpu, "gather body contacts", bodies.count, GatherOrdinary{gather, pairs.is_large.data()});
-    for_each_warp(gpu, "gather large bodies", pairs.large.size(), GatherLarge{gather, pairs.large.data()});
+    for_each_group<warp_size>(gpu, "gather large bodies", pairs.large.size(), GatherLarge{gather, pairs.large.data()});
 }
 
 } // namespace tread::dem

@@ -21,9 +21,10 @@ struct EvaluatePair
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
     {
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-        Patch              patch = pairs.patch[p];
-        const PairResponse response =
-            b < bodies.count ? between_bodies(a, b, lanes, patch) : against_plane(a, b - bodies.count, lanes, patch);
+        const NodeRun      nodes{pairs.node, pairs.first_node[p], pairs.first_node[p + 1]};
+        Patch              patch    = pairs.patch[p];
+        const PairResponse response = b < bodies.count ? between_bodies(a, b, nodes, lanes, patch)
+                                                       : against_plane(a, b - bodies.count, nodes, lanes, patch);
         if (lanes.lane() != 0) { return; }
         pairs.patch[p]    = patch;
         pairs.response[p] = response;
@@ -31,13 +32,8 @@ struct EvaluatePair
     }
 
     template<class Lanes>
-    TREAD_HD static Stiffness together(const Stiffness& own, const Lanes& lanes)
-    {
-        return {lanes.sum(own.sum), lanes.largest(own.overlap)};
-    }
-
-    template<class Lanes>
-    TREAD_HD PairResponse between_bodies(std::int64_t a, std::int64_t b, const Lanes& lanes, Patch& patch) const
+    TREAD_HD PairResponse between_bodies(std::int64_t a, std::int64_t b, const NodeRun& nodes, const Lanes& lanes,
+                                         Patch& patch) const
     {
         const PairLaw        pair = law_between(bodies, law, a, b);
         const Instance       of_a = instance_of(bodies, law.templates, a, bodies.position[a]);
@@ -49,29 +45,17 @@ struct EvaluatePair
         {
             return respond_as_spheres(pair, contact_of_spheres(of_a, of_b), motion, spins, of_b.centre, patch, dt);
         }
-
-        const Side<BodyField> side_a{of_a, {of_b}, 0.5, 1.0}, side_b{of_b, {of_a}, 0.5, -1.0};
-        Stiffness             found{0, 0};
-        const LiveClusters    live_a = find_live(pair, side_a, lanes, found);
-        const LiveClusters    live_b = find_live(pair, side_b, lanes, found);
-        if ((live_a | live_b) == 0) { return release(pair, patch); }
-        found = together(found, lanes);
-
-        const double relaxation = relaxation_time(pair, found.sum);
-        PatchSums    sums       = PatchSums::zero();
-        add_nodes(pair, side_a, motion, relaxation, live_a, lanes, sums);
-        add_nodes(pair, side_b, motion, relaxation, live_b, lanes, sums);
-        sums.reduce(lanes);
-        return respond(pair, sums, found, motion, spins, of_b.centre, patch, dt);
+        return over_nodes(pair, sides_of(of_a, of_b), nodes, motion, spins, of_b.centre, lanes, patch);
     }
 
     template<class Lanes>
-    TREAD_HD PairResponse against_plane(std::int64_t a, std::int64_t p, const Lanes& lanes, Patch& patch) const
+    TREAD_HD PairResponse against_plane(std::int64_t a, std::int64_t p, const NodeRun& nodes, const Lanes& lanes,
+                                        Patch& patch) const
     {
         const Plane&         plane = law.planes[p];
         const PairLaw        pair  = law_against(bodies, law, a, plane);
         const Instance       of_a  = instance_of(bodies, law.templates, a, bodies.position[a]);
-        const PlaneField     wall{plane.normal, plane.offset - plane.normal.dot(bodies.position[a])};
+        const PlaneField     wall  = field_of(plane, bodies.position[a]);
         const Spins          spins{bodies.angular_velocity[a], Vec3<double>::Zero()};
         const RelativeMotion motion{bodies.velocity[a], spins.a};
         const Vec3<double>   no_arm = Vec3<double>::Zero();
@@ -79,18 +63,26 @@ struct EvaluatePair
         {
             return respond_as_spheres(pair, contact_with_plane(of_a, wall), motion, spins, no_arm, patch, dt);
         }
+        return over_nodes(pair, OneSide{{of_a, wall, 1.0, 1.0}}, nodes, motion, spins, no_arm, lanes, patch);
+    }
 
-        const Side<PlaneField> side{of_a, wall, 1.0, 1.0};
+    template<class Sides, class Lanes>
+    TREAD_HD PairResponse over_nodes(const PairLaw& pair, const Sides& sides, const NodeRun& run,
+                                     const RelativeMotion& motion, const Spins& spins, const Vec3<double>& arm,
+                                     const Lanes& lanes, Patch& patch) const
+    {
+        if (run.first == run.end) { return release(pair, patch); }
+        const LaneNodes<Sides, Lanes> nodes(sides, run, lanes);
+        Stiffness                     own{0, 0};
+        nodes([&](const NodeInField& node) { add_stiffness(pair, node, own); });
+        const Stiffness found{lanes.sum(own.sum), lanes.largest(own.overlap)};
+        if (!(found.overlap > 0)) { return release(pair, patch); }
 
-        Stiffness          found{0, 0};
-        const LiveClusters live = find_live(pair, side, lanes, found);
-        if (live == 0) { return release(pair, patch); }
-        found = together(found, lanes);
-
-        PatchSums sums = PatchSums::zero();
-        add_nodes(pair, side, motion, relaxation_time(pair, found.sum), live, lanes, sums);
+        const double relaxation = relaxation_time(pair, found.sum);
+        PatchSums    sums       = PatchSums::zero();
+        nodes([&](const NodeInField& node) { add_node(pair, node, motion, relaxation, sums); });
         sums.reduce(lanes);
-        return respond(pair, sums, found, motion, spins, no_arm, patch, dt);
+        return respond(pair, sums, found, motion, spins, arm, patch, dt);
     }
 };
 

@@ -43,6 +43,9 @@ struct BodyField
         return furthest + sdf_uncertainty(*body.shape, body.scale, furthest);
     }
 
+    /// m, on the field at places that come inside when they move by at most half of `travel`.
+    TREAD_HD double bound_of_node(double travel) const { return search_bound(*body.shape, body.scale, 0, travel); }
+
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const
     {
         const Vec3<double> local  = body.rotation.transpose() * (y - body.centre) / body.scale;
@@ -60,6 +63,7 @@ struct PlaneField
     TREAD_HD double distance_from_centre(const Vec3<double>&) const { return 0; }
     TREAD_HD double reach() const { return 0; }
     TREAD_HD double bound(double r) const { return r; }
+    TREAD_HD double bound_of_node(double travel) const { return travel; }
 
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const { return {normal.dot(y) - offset, normal}; }
 };
@@ -83,15 +87,27 @@ struct Side
         return share * owner.scale * owner.scale * owner.shape->node_areas[i];
     }
 
-    /// False only if no node of the cluster can be inside the other body (its distance has slope 1).
-    TREAD_HD bool near(std::int32_t cluster) const
+    /// False only if no node of the cluster can come inside the other body when the two move by at most half of
+    /// `travel` (its distance has slope 1).
+    TREAD_HD bool near(std::int32_t cluster, double travel) const
     {
         const Vec3<double> y = owner.centre + owner.rotation * (owner.scale * owner.shape->cluster_centres[cluster]);
-        const double       r = owner.scale * owner.shape->cluster_radii[cluster];
+        const double       r = owner.scale * owner.shape->cluster_radii[cluster] + travel;
         if (field.distance_from_centre(y) > r + field.reach()) { return false; }
         return field(y).distance <= field.bound(r);
     }
+
+    TREAD_HD bool near_node(std::int32_t i, double travel) const
+    {
+        return field(node(i)).distance <= field.bound_of_node(travel);
+    }
 };
+
+/// A wall as the centre of body a sees it.
+TREAD_HD PlaneField field_of(const Plane& plane, const Vec3<double>& centre)
+{
+    return {plane.normal, plane.offset - plane.normal.dot(centre)};
+}
 
 /// What one thread does alone; the GPU deals the clusters and nodes of a pair to the 32 lanes of a warp instead.
 struct OneLane
@@ -105,52 +121,55 @@ struct OneLane
 
 inline constexpr std::int32_t cluster_size = 32; ///< nodes, shape::SurfaceNodes
 
-/// Clusters with a node inside the other body: bit (cluster mod 64), so that the second walk skips nearly all others.
-using LiveClusters = std::uint64_t;
-
-TREAD_HD LiveClusters cluster_bit(std::int32_t cluster) { return LiveClusters{1} << (cluster & 63); }
-
-template<class Field, class Lanes, class Visit>
-TREAD_HD void visit_cluster(const Side<Field>& side, const Lanes& lanes, std::int32_t cluster, Visit visit)
-{
-    const std::int32_t first = cluster * cluster_size, nodes = side.owner.shape->node_count;
-    const std::int32_t last = first + cluster_size < nodes ? first + cluster_size : nodes;
-    for (std::int32_t i = first + lanes.lane(); i < last; i += lanes.lanes()) { visit(i); }
-}
-
 struct Stiffness
 {
     double sum;     ///< N/m, of w p'(d) over the nodes inside
     double overlap; ///< m, the largest
 };
 
-/// First walk, adds this lane's nodes to `found`.
-template<class Field, class Lanes>
-TREAD_HD LiveClusters find_live(const PairLaw& law, const Side<Field>& side, const Lanes& lanes, Stiffness& found)
+/// A node at its place in the other side's field.
+struct NodeInField
 {
-    LiveClusters       live     = 0;
-    const std::int32_t clusters = side.owner.shape->cluster_count;
-    for (std::int32_t base = 0; base < clusters; base += lanes.lanes())
+    Vec3<double> place;    ///< m, relative to the centre of a
+    Vec3<double> gradient; ///< of the field
+    double       overlap;  ///< m; not positive: outside
+    double       weight;   ///< m2, its share of area
+    double       sign;     ///< +1 of a node of a, -1 of b
+};
+
+template<class Field>
+TREAD_HD NodeInField in_field(const Side<Field>& side, std::int32_t i)
+{
+    const Vec3<double> place  = side.node(i);
+    const SdfSample    sample = side.field(place);
+    return {place, sample.gradient, -sample.distance, side.weight(i), side.sign};
+}
+
+/// The two sides of a pair of bodies, or the one of a body against a wall, as the list of nodes names their nodes.
+struct TwoSides
+{
+    Side<BodyField> a, b;
+
+    TREAD_HD NodeInField operator()(std::int32_t node) const
     {
-        const std::int32_t own  = base + lanes.lane();
-        std::uint32_t      near = lanes.vote(own < clusters && side.near(own));
-        for (std::int32_t cluster = base; near != 0; ++cluster, near >>= 1)
-        {
-            if ((near & 1u) == 0) { continue; }
-            bool touched = false;
-            visit_cluster(side, lanes, cluster,
-                          [&](std::int32_t i)
-                          {
-                              const double overlap = -side.field(side.node(i)).distance;
-                              if (!(overlap > 0)) { return; }
-                              touched = true;
-                              found.sum += side.weight(i) * traction_at(law, overlap).slope;
-                              found.overlap = overlap > found.overlap ? overlap : found.overlap;
-                          });
-            if (lanes.vote(touched) != 0) { live |= cluster_bit(cluster); }
-        }
+        return node >= 0 ? in_field(a, node) : in_field(b, ~node);
     }
-    return live;
+};
+struct OneSide
+{
+    Side<PlaneField> a;
+
+    TREAD_HD NodeInField operator()(std::int32_t node) const { return in_field(a, node); }
+};
+
+/// Both bodies have nodes, each with half its area.
+TREAD_HD TwoSides sides_of(const Instance& a, const Instance& b) { return {{a, {b}, 0.5, 1.0}, {b, {a}, 0.5, -1.0}}; }
+
+TREAD_HD void add_stiffness(const PairLaw& law, const NodeInField& node, Stiffness& found)
+{
+    if (!(node.overlap > 0)) { return; }
+    found.sum += node.weight * traction_at(law, node.overlap).slope;
+    found.overlap = node.overlap > found.overlap ? node.overlap : found.overlap;
 }
 
 /// Sums over the nodes inside; y = place relative to the centre of a, f = length of the node's force.
@@ -198,41 +217,62 @@ struct RelativeMotion
 /// Force of one node inside: w (p(d) + damping) grad phi, never attraction. Proportional to the node's own stiffness,
 /// the damping gives the same restitution on flat faces as on spheres (prototypes 1.5); d' = -grad phi . v exactly.
 /// relaxation = 2 zeta sqrt(m*/K), s.
-template<class Field>
-TREAD_HD void add_node(const PairLaw& law, const Side<Field>& side, const RelativeMotion& motion, double relaxation,
-                       std::int32_t i, PatchSums& sums)
+TREAD_HD void add_node(const PairLaw& law, const NodeInField& node, const RelativeMotion& motion, double relaxation,
+                       PatchSums& sums)
 {
-    const Vec3<double> y      = side.node(i);
-    const SdfSample    sample = side.field(y);
-    if (!(sample.distance < 0)) { return; }
-    const double   weight   = side.weight(i);
-    const Traction traction = traction_at(law, -sample.distance);
-    const double   rate     = -side.sign * sample.gradient.dot(motion.at(y));
-    const double   elastic  = weight * traction.pressure;
-    const double   damping  = std::fmax(weight * traction.slope * relaxation * rate, -elastic);
+    if (!(node.overlap > 0)) { return; }
+    const Vec3<double>& y        = node.place;
+    const Traction      traction = traction_at(law, node.overlap);
+    const double        rate     = -node.sign * node.gradient.dot(motion.at(y));
+    const double        elastic  = node.weight * traction.pressure;
+    const double        damping  = std::fmax(node.weight * traction.slope * relaxation * rate, -elastic);
 
-    const Vec3<double> force  = side.sign * (elastic + damping) * sample.gradient;
+    const Vec3<double> force  = node.sign * (elastic + damping) * node.gradient;
     const double       length = force.norm();
     sums.force += force;
     sums.moment += y.cross(force);
     sums.weight += length;
     sums.first += length * y;
     sums.second += length * Sym3<double>(y[0] * y[0], y[1] * y[1], y[2] * y[2], y[1] * y[2], y[0] * y[2], y[0] * y[1]);
-    sums.energy += weight * traction.energy;
+    sums.energy += node.weight * traction.energy;
     sums.damping += damping * rate;
 }
 
-/// Second walk, over the clusters that the first found.
-template<class Field, class Lanes>
-TREAD_HD void add_nodes(const PairLaw& law, const Side<Field>& side, const RelativeMotion& motion, double relaxation,
-                        LiveClusters live, const Lanes& lanes, PatchSums& sums)
+/// Nodes of the list that one pair has.
+struct NodeRun
 {
-    for (std::int32_t cluster = 0; live != 0 && cluster < side.owner.shape->cluster_count; ++cluster)
+    const std::int32_t* node;
+    std::int32_t        first, end;
+};
+
+/// Calls visit(node) for this lane's nodes. The first one, mostly the only one, is looked up once for several walks.
+template<class Sides, class Lanes>
+struct LaneNodes
+{
+    const Sides& sides;
+    NodeRun      run;
+    Lanes        lanes;
+    NodeInField  own;
+
+    TREAD_HD LaneNodes(const Sides& of, const NodeRun& nodes, const Lanes& shared)
+        : sides(of)
+        , run(nodes)
+        , lanes(shared)
+        , own{Vec3<double>::Zero(), Vec3<double>::Zero(), 0, 0, 0}
     {
-        if ((live & cluster_bit(cluster)) == 0) { continue; }
-        visit_cluster(side, lanes, cluster, [&](std::int32_t i) { add_node(law, side, motion, relaxation, i, sums); });
+        if (run.first + lanes.lane() < run.end) { own = sides(run.node[run.first + lanes.lane()]); }
     }
-}
+
+    template<class Visit>
+    TREAD_HD void operator()(Visit visit) const
+    {
+        visit(own);
+        for (std::int32_t i = run.first + lanes.lane() + lanes.lanes(); i < run.end; i += lanes.lanes())
+        {
+            visit(sides(run.node[i]));
+        }
+    }
+};
 
 /// sum f |y - x_c|^2 in the plane normal to n, over sum f.
 TREAD_HD double spread_about(const PatchSums& sums, const Vec3<double>& centre, const Vec3<double>& normal)

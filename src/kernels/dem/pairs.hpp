@@ -40,6 +40,9 @@ struct PairsView
     const std::int32_t*  first;     ///< [bodies + 1], the run of pairs whose first body is this one
     const std::int32_t*  by_second; ///< pairs ordered by their second body
     const std::int32_t*  second;    ///< [bodies + 1], the run in by_second of this body
+
+    const std::int32_t* first_node; ///< [pairs + 1], the run of nodes that may touch, of each pair
+    const std::int32_t* node;       ///< i of the first body, ~i of the second
 };
 
 /// Owner of what PairsView shows, and of the search's scratch. A checkpoint stores key and patch.
@@ -66,14 +69,16 @@ struct Pairs
         , found(exec, "pairs found")
         , second_key(exec, "pair second bodies")
         , measure(exec, "pair measures")
+        , first_node(exec, "nodes of pairs")
+        , node(exec, "pair nodes")
         , sort(exec)
     {
     }
 
     PairsView view()
     {
-        return {key.size(),  key.data(),   patch.data(),     response.data(),
-                peak.data(), first.data(), by_second.data(), second.data()};
+        return {key.size(),   key.data(),       patch.data(),  response.data(),   peak.data(),
+                first.data(), by_second.data(), second.data(), first_node.data(), node.data()};
     }
 
     Array<Exec, std::uint64_t> key;
@@ -97,6 +102,8 @@ struct Pairs
     Array<Exec, std::int32_t>  found;
     Array<Exec, std::uint64_t> second_key;
     Array<Exec, double>        measure;
+    Array<Exec, std::int32_t>  first_node;
+    Array<Exec, std::int32_t>  node;
     SortScratch<Exec>          sort;
 };
 
@@ -107,7 +114,8 @@ void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bod
 
 /// Every pair of bodies, and of body and wall, that may touch within the next dt (s, of the MPM step): whose bounding
 /// spheres, grown by twice what the body's velocity moves it and a skin of 1 % of its radius, meet; for bodies also by
-/// the distance of each centre from the other's surface. Patches of pairs that stay in the list are kept.
+/// the distance of each centre from the other's surface. Patches of pairs that stay in the list are kept. Of each pair
+/// also the nodes that may come inside the other body or wall within the same time (contact_nodes.hpp).
 template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "backend/reduce.hpp"
+#include "kernels/dem/contact_nodes.hpp"
 #include "kernels/dem/pairs_kern.hpp"
 
 // The steps of find_pairs, the same on both backends; pairs.cpp and pairs.cu bring in for_each and instantiate.
@@ -226,6 +227,7 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     pairs.key.resize(exclusive_scan(exec, pairs.found, pairs.sort));
     for_each(exec, "write pairs", bodies.count, WritePairs{search, pairs.found.data(), pairs.key.data()});
     order_pairs(exec, pairs, bodies);
+    list_contact_nodes(exec, pairs, bodies, law, dt);
 }
 
 } // namespace tread::dem

@@ -8,22 +8,26 @@
 namespace tread::dem
 {
 
-/// The 32 lanes of a warp, which share one item (see OneLane). Every sum is a butterfly: fixed order, same bits in
-/// every lane.
-struct WarpLanes
+/// `size` neighbouring lanes of a warp, which share one item (see OneLane). Every sum is a butterfly: fixed order, same
+/// bits in every lane.
+template<int size>
+struct GroupLanes
 {
-    static constexpr unsigned     everyone = all_lanes;
-    static constexpr std::int32_t size     = warp_size;
+    static_assert(warp_size % size == 0);
 
     __device__ std::int32_t lane() const { return static_cast<std::int32_t>(threadIdx.x) % size; }
     __device__ std::int32_t lanes() const { return size; }
-    __device__ std::uint32_t vote(bool value) const { return __ballot_sync(everyone, value); }
+
+    __device__ std::uint32_t vote(bool value) const
+    {
+        return __ballot_sync(everyone(), value) >> first() & (all_lanes >> (warp_size - size));
+    }
 
     __device__ double sum(double value) const
     {
         for (int distance = size / 2; distance > 0; distance /= 2)
         {
-            value += __shfl_xor_sync(everyone, value, distance);
+            value += __shfl_xor_sync(everyone(), value, distance);
         }
         return value;
     }
@@ -32,22 +36,28 @@ struct WarpLanes
     {
         for (int distance = size / 2; distance > 0; distance /= 2)
         {
-            value = fmax(value, __shfl_xor_sync(everyone, value, distance));
+            value = fmax(value, __shfl_xor_sync(everyone(), value, distance));
         }
         return value;
     }
+
+private:
+    /// The group's first lane in its warp.
+    __device__ static int first() { return static_cast<int>(threadIdx.x) % warp_size / size * size; }
+
+    __device__ static unsigned everyone() { return all_lanes >> (warp_size - size) << first(); }
 };
 
-/// Runs f(i, WarpLanes) for i in [0, n), one warp an item.
-template<class F>
-void for_each_warp(const Gpu& gpu, const char* name, std::int64_t n, F f)
+/// Runs f(i, GroupLanes<size>) for i in [0, n), `size` lanes an item.
+template<int size, class F>
+void for_each_group(const Gpu& gpu, const char* name, std::int64_t n, F f)
 {
-    constexpr int threads = 128, warps = threads / WarpLanes::size;
-    for_each_block<threads>(gpu, name, (n + warps - 1) / warps,
+    constexpr int threads = 128, groups = threads / size;
+    for_each_block<threads>(gpu, name, (n + groups - 1) / groups,
                             [=] __device__(std::int64_t block)
                             {
-                                const std::int64_t i = block * warps + threadIdx.x / WarpLanes::size;
-                                if (i < n) { f(i, WarpLanes{}); }
+                                const std::int64_t i = block * groups + threadIdx.x / size;
+                                if (i < n) { f(i, GroupLanes<size>{}); }
                             });
 }
 

@@ -199,6 +199,62 @@ TYPED_TEST(BodyContact, OffCentreImpactKeepsMomentumSpinAndEnergy)
     }
 }
 
+/// Boxes and spheres of nodes about a decimetre apart, fast enough to meet within the time.
+std::vector<Solid> fast_pair(Random& random)
+{
+    const auto anywhere = [&](double size) -> Vec3<double>
+    { return size * Vec3<double>(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
+    std::vector<Solid> solids;
+    for (int i = 0; i < 2; ++i)
+    {
+        Solid solid       = solid_sphere(0.1, 2000, anywhere(0.12));
+        solid.shape       = random.uniform(0, 1) < 0.5 ? 0 : 1;
+        solid.orientation = random_turn(random);
+        solid.velocity    = anywhere(8);
+        solid.spin        = anywhere(40);
+        solids.push_back(solid);
+    }
+    return solids;
+}
+
+TYPED_TEST(BodyContact, NoNodeIsMissedByTheList)
+{
+    constexpr double dt = 2e-3;
+    Random           random(3);
+    SolidShape       box = box_solid({0.8, 1, 1.2}, 10, 40);
+    const dem::Plane ground{{0, 0, 1}, -0.15, false};
+    int              touching = 0;
+    std::int64_t     listed = 0, all = 0;
+    double           worst = 0;
+    for (int trial = 0; trial < 200; ++trial)
+    {
+        SolidNumbers numbers;
+        numbers.planes = {ground};
+        typename TestFixture::Scene scene(this->exec(), {unit_sphere(3, 40), box}, fast_pair(random), numbers);
+        scene.find(dt);
+        clear_wrenches(this->exec(), scene.bodies.view());
+        integrate(this->exec(), scene.bodies.view(), scene.totals.data(), numbers.gravity, dt);
+        scene.contact(dt);
+        const auto from_list = scene.bodies.force.to_host();
+        listed += scene.pairs.node.size();
+        scene.find(10); // all nodes
+        scene.contact(dt);
+        const auto from_all = scene.bodies.force.to_host();
+        all += scene.pairs.node.size();
+        for (std::size_t b = 0; b < 2; ++b)
+        {
+            touching += from_all[b].norm() > 0;
+            worst = std::max(worst, (from_list[b] - from_all[b]).norm() / std::max(from_all[b].norm(), 1.0));
+        }
+    }
+    std::printf("%d bodies in contact; forces from %lld listed of %lld nodes differ by %.1e, tolerance 1e-12 (order of "
+                "the sums)\n",
+                touching, static_cast<long long>(listed), static_cast<long long>(all), worst);
+    EXPECT_GT(touching, 100);
+    EXPECT_LT(2 * listed, all);
+    EXPECT_LT(worst, 1e-12);
+}
+
 TYPED_TEST(BodyContact, TwoRunsGiveTheSameBits)
 {
     SolidNumbers numbers;

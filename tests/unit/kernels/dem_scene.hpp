@@ -210,14 +210,16 @@ inline dem::PairProperties properties(double young, double poisson, double sides
     return {young / (1 - poisson * poisson) / sides, shear / (2 - poisson) / sides, friction, zeta};
 }
 
-/// zeta of a restitution (prototypes 1), by bisection.
+/// zeta of a restitution (prototypes 1; beyond 1 the same equation's other branch), by bisection.
 inline double damping_ratio(double restitution)
 {
-    double low = 0, high = 0.9999;
+    double low = 0, high = 3.9;
     for (int step = 0; step < 60; ++step)
     {
-        const double zeta = 0.5 * (low + high), w = std::sqrt(1 - zeta * zeta);
-        const double e = std::exp(-zeta / w * (std::numbers::pi - std::atan2(2 * zeta * w, 1 - 2 * zeta * zeta)));
+        const double zeta = 0.5 * (low + high), w = std::sqrt(std::abs(1 - zeta * zeta));
+        const double e                 = zeta < 1
+                                             ? std::exp(-zeta / w * (std::numbers::pi - std::atan2(2 * zeta * w, 1 - 2 * zeta * zeta)))
+                                             : std::exp(-2 * zeta / w * std::atanh(w / zeta));
         (e > restitution ? low : high) = zeta;
     }
     return low;

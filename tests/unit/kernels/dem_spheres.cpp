@@ -111,7 +111,7 @@ struct Oblique
     double spin;       ///< rad/s
 };
 
-template<class Fixture, class Exec>
+template<class Scene, class Exec>
 Oblique oblique_impact(const Exec& exec, double angle)
 {
     constexpr double radius = 2.5e-3, speed = 3.9, dt = 6.1e-6 / 1000;
@@ -123,7 +123,7 @@ Oblique oblique_impact(const Exec& exec, double angle)
     numbers.planes   = {ground};
     Solid ball       = solid_sphere(radius, 4000, {0, 0, radius});
     ball.velocity    = speed * Vec3<double>(std::sin(angle * degree), 0, -std::cos(angle * degree));
-    typename Fixture::Scene scene(exec, {exact_sphere()}, {ball}, numbers);
+    Scene scene(exec, {exact_sphere()}, {ball}, numbers);
     scene.run(dt, 4000);
     const double after = scene.bodies.velocity.to_host()[0][0];
     return {after / ball.velocity[0], scene.bodies.angular_velocity.to_host()[0][1]};
@@ -132,19 +132,22 @@ Oblique oblique_impact(const Exec& exec, double angle)
 TYPED_TEST(Spheres, ObliqueImpactsSlideOrGrip)
 {
     constexpr double radius = 2.5e-3, speed = 3.9, friction = 0.092, restitution = 0.98;
-    for (const double angle : {40.0, 60.0, 80.0}) // slide throughout, above 32.5 degrees: exact
+    // Above 32.5 degrees they slide throughout: exact, but for the overlap, 8.1 um of the radius at 3.9 m/s, by which
+    // the arm of the spin is shorter.
+    constexpr double shorter = 8.1e-6 / radius;
+    for (const double angle : {40.0, 60.0, 80.0})
     {
-        const Oblique found  = oblique_impact<TestFixture>(this->exec(), angle);
+        const Oblique found  = oblique_impact<typename TestFixture::Scene>(this->exec(), angle);
         const double  normal = speed * std::cos(angle * degree);
         expect_close("sliding: tangential restitution", found.tangential,
                      1 - friction * (1 + restitution) / std::tan(angle * degree), 1e-3);
-        expect_close("sliding: spin", found.spin, 2.5 * friction * (1 + restitution) * normal / radius, 1e-3);
+        expect_close("sliding: spin", found.spin, 2.5 * friction * (1 + restitution) * normal / radius, 1e-3 + shorter);
     }
     // A2's integrator of the same law without tangential damping: 5 %
     for (const auto& [angle, tangential, spin] :
          {std::array{15.0, 0.630, 373.6}, std::array{20.0, 0.612, 517.6}, std::array{25.0, 0.629, 611.0}})
     {
-        const Oblique found = oblique_impact<TestFixture>(this->exec(), angle);
+        const Oblique found = oblique_impact<typename TestFixture::Scene>(this->exec(), angle);
         expect_close("gripping: tangential restitution", found.tangential, tangential, 0.05);
         expect_close("gripping: spin", found.spin, spin, 0.05);
     }

@@ -1,0 +1,141 @@
+#pragma once
+
+#include <bit>
+
+#include "kernels/dem/contact_nodes.hpp"
+#include "kernels/dem/pairs_kern.hpp"
+#include "kernels/dem/sphere_contact_kern.hpp"
+
+// The item function of list_contact_nodes, for lanes that share a pair; contact_nodes.cpp and .cu bring in the lanes.
+namespace tread::dem::contact_nodes
+{
+
+/// Bits of a vote.
+TREAD_HD int count_bits(std::uint32_t bits)
+{
+#if defined(__CUDA_ARCH__)
+    return __popc(bits);
+#else
+    return std::popcount(bits);
+#endif
+}
+
+struct Count
+{
+    std::int32_t found = 0;
+
+    template<class Lanes>
+    TREAD_HD void operator()(bool near, std::int32_t, const Lanes& lanes)
+    {
+        found += count_bits(lanes.vote(near));
+    }
+};
+
+struct Write
+{
+    std::int32_t* place;
+
+    template<class Lanes>
+    TREAD_HD void operator()(bool near, std::int32_t node, const Lanes& lanes)
+    {
+        const std::uint32_t all = lanes.vote(near);
+        if (near) { place[count_bits(all & ((std::uint32_t{1} << lanes.lane()) - 1))] = node; }
+        place += count_bits(all);
+    }
+};
+
+/// Shows take(near, name of the node, lanes) every node of the clusters that may come inside; all lanes together.
+template<class Field, class Name, class Lanes, class Take>
+TREAD_HD void walk(const Side<Field>& side, double travel, Name name, const Lanes& lanes, Take& take)
+{
+    const std::int32_t clusters = side.owner.shape->cluster_count, nodes = side.owner.shape->node_count;
+    for (std::int32_t base = 0; base < clusters; base += lanes.lanes())
+    {
+        const std::int32_t own  = base + lanes.lane();
+        std::uint32_t      near = lanes.vote(own < clusters && side.near(own, travel));
+        for (std::int32_t cluster = base; near != 0; ++cluster, near >>= 1)
+        {
+            if ((near & 1u) == 0) { continue; }
+            const std::int32_t last = cluster * cluster_size + cluster_size;
+            for (std::int32_t first = cluster * cluster_size; first < last; first += lanes.lanes())
+            {
+                const std::int32_t i = first + lanes.lane();
+                take(i < nodes && side.near_node(i, travel), name(i), lanes);
+            }
+        }
+    }
+}
+
+struct Walk
+{
+    BodiesView bodies;
+    BodyLaw    law;
+    PairsView  pairs;
+    double     dt;
+
+    template<class Lanes, class Take>
+    TREAD_HD void operator()(std::int64_t p, const Lanes& lanes, Take& take) const
+    {
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        const Instance     of_a   = instance_of(bodies, law.templates, a, bodies.position[a]);
+        const double       travel = reach_of(bodies, law.templates, a, dt).travel;
+        const auto         first  = [](std::int32_t i) { return i; };
+        const auto         second = [](std::int32_t i) { return ~i; };
+        if (b >= bodies.count)
+        {
+            if (is_sphere(of_a)) { return; }
+            const PlaneField wall = field_of(law.planes[b - bodies.count], bodies.position[a]);
+            walk(Side<PlaneField>{of_a, wall, 1.0, 1.0}, travel, first, lanes, take);
+            return;
+        }
+        const Instance of_b = instance_of(bodies, law.templates, b, bodies.position[a]);
+        if (is_sphere(of_a) && is_sphere(of_b)) { return; }
+        const TwoSides sides    = sides_of(of_a, of_b);
+        const double   together = travel + reach_of(bodies, law.templates, b, dt).travel;
+        walk(sides.a, together, first, lanes, take);
+        walk(sides.b, together, second, lanes, take);
+    }
+};
+
+struct CountNodes
+{
+    Walk          walk;
+    std::int32_t* found; ///< [pairs + 1]
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
+    {
+        Count count;
+        if (p < walk.pairs.count) { walk(p, lanes, count); }
+        if (lanes.lane() == 0) { found[p] = count.found; }
+    }
+};
+
+struct WriteNodes
+{
+    Walk                walk;
+    const std::int32_t* first; ///< [pairs + 1]
+    std::int32_t*       node;
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
+    {
+        if (first[p] == first[p + 1]) { return; }
+        Write write{node + first[p]};
+        walk(p, lanes, write);
+    }
+};
+
+/// `run`(name, items, item function) runs an item function with a backend's lanes.
+template<class Exec, class Run>
+void list_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt, Run run)
+{
+    const std::int64_t count = pairs.key.size();
+    pairs.first_node.resize(count + 1);
+    const Walk walk{bodies, law, pairs.view(), dt};
+    run("count pair nodes", count + 1, CountNodes{walk, pairs.first_node.data()});
+    pairs.node.resize(exclusive_scan(exec, pairs.first_node, pairs.sort));
+    run("write pair nodes", count, WriteNodes{walk, pairs.first_node.data(), pairs.node.data()});
+}
+
+} // namespace tread::dem::contact_nodes

@@ -1,0 +1,144 @@
+#include "dem.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scene/load.hpp"
+#include "solver/rigid.hpp"
+
+namespace tread::bench
+{
+namespace
+{
+
+constexpr double share_of_contact = 0.2; ///< a substep's of sqrt(m / sum K), as solver::choose_step takes
+constexpr double damping          = 0.3; ///< while the bed settles
+
+template<class Exec>
+class DemBench
+{
+public:
+    DemBench(const Exec& exec, const scene::Scene& scene, const solver::World& world, int substeps)
+        : exec_(exec)
+        , rigid_(exec, scene, world, solver::make_plan(scene, world))
+        , substeps_(substeps)
+    {
+        rigid_.find_pairs(1e-4);
+        choose_substep();
+    }
+
+    void settle(double time)
+    {
+        double at = 0;
+        while (at < time)
+        {
+            step(damping);
+            at += substeps_ * dt_;
+            choose_substep();
+        }
+        rigid_.report(at);
+    }
+
+    double substep() const { return dt_; }
+    double live_contacts() { return rigid_.live_contacts(); }
+
+    /// Seconds a substep, pairs included.
+    double time_substeps(int steps)
+    {
+        const double seconds = timed(
+            [&]
+            {
+                for (int i = 0; i < steps; ++i) { step(0); }
+            });
+        return seconds / (steps * substeps_);
+    }
+
+    void print_parts(int steps, double bodies)
+    {
+        double search = 0, contact = 0, move = 0;
+        for (int i = 0; i < steps; ++i)
+        {
+            search += timed([&] { rigid_.find_pairs(substeps_ * dt_); });
+            for (int s = 0; s < substeps_; ++s)
+            {
+                rigid_.clear_wrenches();
+                contact += timed([&] { rigid_.contact(dt_); });
+                move += timed([&] { rigid_.move(dt_, 0); });
+            }
+        }
+        const auto print = [&](const char* name, double seconds)
+        {
+            std::cout << fmt::format("    {:<8} {:9.1f} us a substep  {:8.3f}e6 body-steps/s\n", name, 1e6 * seconds,
+                                     1e-6 * bodies / seconds);
+        };
+        print("pairs", search / (steps * substeps_));
+        print("contact", contact / (steps * substeps_));
+        print("move", move / (steps * substeps_));
+    }
+
+private:
+    void step(double local_damping)
+    {
+        rigid_.find_pairs(substeps_ * dt_);
+        for (int s = 0; s < substeps_; ++s)
+        {
+            rigid_.clear_wrenches();
+            rigid_.contact(dt_);
+            rigid_.move(dt_, local_damping);
+        }
+    }
+
+    void choose_substep()
+    {
+        constexpr double free_flight = 1e-4; // s
+        const double     contact     = rigid_.shortest_contact();
+        dt_                          = contact > 0 ? share_of_contact * contact : free_flight;
+    }
+
+    template<class F>
+    double timed(F f)
+    {
+        synchronize(exec_);
+        const auto start = std::chrono::steady_clock::now();
+        f();
+        synchronize(exec_);
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    Exec                exec_;
+    solver::Rigid<Exec> rigid_;
+    int                 substeps_;
+    double              dt_ = 0;
+};
+
+template<class Exec>
+void run_on(const Exec& exec, const DemCase& what, const scene::Scene& scene, const solver::World& world)
+{
+    const auto     count = static_cast<double>(world.bodies.size());
+    DemBench<Exec> bench(exec, scene, world, what.substeps);
+    bench.settle(what.settle);
+    std::vector<double> times(3);
+    for (double& time : times) { time = bench.time_substeps(what.steps); }
+    std::sort(times.begin(), times.end());
+    std::cout << fmt::format("{:.0f} bodies, {:.1f} live contacts each, substep {:.2e} s: {:.1f} us a substep, "
+                             "{:.1f}e6 body-steps/s, {:.0f} bytes a body\n",
+                             count, bench.live_contacts() / count, bench.substep(), 1e6 * times[1],
+                             1e-6 * count / times[1], static_cast<double>(exec.counters->peak_bytes()) / count);
+    bench.print_parts(what.steps, count);
+    std::cout << std::flush;
+}
+
+} // namespace
+
+void run_dem(const DemCase& what)
+{
+    const scene::Scene  scene = scene::load_scene(what.scene, what.overrides);
+    const solver::World world = solver::build_world(scene);
+    on_backend(what.backend, [&](const auto& exec) { run_on(exec, what, scene, world); });
+}
+
+} // namespace tread::bench

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "backend_choice.hpp"
+
+namespace tread::bench
+{
+
+struct DemCase
+{
+    std::string              scene;          ///< TOML file; only its bodies count
+    std::vector<std::string> overrides;      ///< as of --set
+    double                   settle   = 0.5; ///< s, with local damping, before anything is timed
+    int                      substeps = 20;  ///< between two searches for pairs
+    int                      steps    = 16;  ///< of so many substeps, timed three times
+    Backend                  backend  = Backend::cpu;
+};
+
+/// Times the bodies of a scene, settled first: substeps with their share of the search for pairs, and each part;
+/// prints body-steps a second, live contacts and bytes a body.
+void run_dem(const DemCase& what);
+
+} // namespace tread::bench
