@@ -10,6 +10,7 @@
 #include "kernels/dem/body_contact.hpp"
 #include "kernels/dem/contact_limits.hpp"
 #include "kernels/dem/integrate.hpp"
+#include "kernels/dem/move.hpp"
 #include "kernels/dem/sums.hpp"
 #include "solver/materials.hpp"
 
@@ -185,11 +186,12 @@ double Rigid<Exec>::shortest_contact()
 }
 
 template<class Exec>
-double Rigid<Exec>::live_contacts()
+ContactCount Rigid<Exec>::count_contacts()
 {
     const std::vector<dem::PairResponse> responses = pairs_.response.to_host();
-    return static_cast<double>(std::count_if(responses.begin(), responses.end(),
-                                             [](const dem::PairResponse& pair) { return pair.overlap > 0; }));
+    const auto                           live =
+        std::count_if(responses.begin(), responses.end(), [](const auto& pair) { return pair.overlap > 0; });
+    return {static_cast<double>(responses.size()), static_cast<double>(live), static_cast<double>(pairs_.node.size())};
 }
 
 template<class Exec>
@@ -201,15 +203,21 @@ void Rigid<Exec>::clear_wrenches()
 template<class Exec>
 void Rigid<Exec>::contact(double dt)
 {
-    dem::add_body_contacts(exec_, pairs_, bodies_.view(), law_, totals_.data(), dt);
+    dem::evaluate_contacts(exec_, pairs_, bodies_.view(), law_, dt);
 }
 
 template<class Exec>
 void Rigid<Exec>::move(double dt, double damping)
 {
-    if (named_ > 0) { dem::add_impulses(exec_, bodies_.view(), impulses_.data(), named_, dt); }
     mean_time_ += dt;
     substep_ = dt;
+    if (contacts_)
+    {
+        dem::move_bodies(exec_, pairs_, bodies_.view(), totals_.data(), {impulses_.data(), named_},
+                         {gravity_, damping, dt});
+        return;
+    }
+    if (named_ > 0) { dem::add_impulses(exec_, bodies_.view(), impulses_.data(), named_, dt); }
     if (damping > 0) { dem::integrate_damped(exec_, bodies_.view(), totals_.data(), gravity_, damping, dt); }
     else { dem::integrate(exec_, bodies_.view(), totals_.data(), gravity_, dt); }
 }

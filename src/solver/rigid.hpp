@@ -18,6 +18,13 @@
 namespace tread::solver
 {
 
+struct ContactCount
+{
+    double listed;
+    double live;
+    double nodes;
+};
+
 /// The rigid bodies of a scene on one backend: their state, their pairs, and the calls of a substep.
 template<class Exec>
 class Rigid
@@ -45,8 +52,8 @@ public:
     /// The least sqrt(m / sum K) over bodies, of contacts that are live or may come in the step, s; 0 = none.
     double shortest_contact();
 
-    /// Pairs that touch; waits for them.
-    double live_contacts();
+    /// Pairs that are listed, those of them that touch, and the nodes that are listed; waits for them.
+    ContactCount count_contacts();
 
     // 3. A substep.
     void clear_wrenches();

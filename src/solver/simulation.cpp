@@ -107,9 +107,9 @@ void Simulation<Exec, Real>::substeps(const TimeStep& step, StageClock& clock)
     const double dt = step.dt / static_cast<double>(step.substeps);
     for (std::int64_t substep = 0; substep < step.substeps; ++substep)
     {
-        rigid_->clear_wrenches();
         if (coupling_)
         {
+            rigid_->clear_wrenches();
             clock.run(exec_, stage::sand_contact, [&] { coupling_->substep(rigid_->view(), dt); });
         }
         if (plan_.body_contact)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "backend/counters.hpp"
+#include "backend/execution.hpp"
 #include "base/errors.hpp"
 #ifdef TREAD_WITH_CUDA
 #include "backend/device.hpp"

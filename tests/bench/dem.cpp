@@ -43,8 +43,8 @@ public:
         rigid_.report(at);
     }
 
-    double substep() const { return dt_; }
-    double live_contacts() { return rigid_.live_contacts(); }
+    double               substep() const { return dt_; }
+    solver::ContactCount contacts() { return rigid_.count_contacts(); }
 
     /// Seconds a substep, pairs included.
     double time_substeps(int steps)
@@ -65,7 +65,6 @@ public:
             search += timed([&] { rigid_.find_pairs(substeps_ * dt_); });
             for (int s = 0; s < substeps_; ++s)
             {
-                rigid_.clear_wrenches();
                 contact += timed([&] { rigid_.contact(dt_); });
                 move += timed([&] { rigid_.move(dt_, 0); });
             }
@@ -86,7 +85,6 @@ private:
         rigid_.find_pairs(substeps_ * dt_);
         for (int s = 0; s < substeps_; ++s)
         {
-            rigid_.clear_wrenches();
             rigid_.contact(dt_);
             rigid_.move(dt_, local_damping);
         }
@@ -124,10 +122,12 @@ void run_on(const Exec& exec, const DemCase& what, const scene::Scene& scene, co
     std::vector<double> times(3);
     for (double& time : times) { time = bench.time_substeps(what.steps); }
     std::sort(times.begin(), times.end());
-    std::cout << fmt::format("{:.0f} bodies, {:.1f} live contacts each, substep {:.2e} s: {:.1f} us a substep, "
-                             "{:.1f}e6 body-steps/s, {:.0f} bytes a body\n",
-                             count, bench.live_contacts() / count, bench.substep(), 1e6 * times[1],
-                             1e-6 * count / times[1], static_cast<double>(exec.counters->peak_bytes()) / count);
+    const solver::ContactCount contacts = bench.contacts();
+    std::cout << fmt::format(
+        "{:.0f} bodies, a body: {:.2f} pairs, {:.2f} touch, {:.2f} nodes; substep {:.2e} s: {:.1f} us, "
+        "{:.1f}e6 body-steps/s, {:.0f} bytes a body\n",
+        count, contacts.listed / count, contacts.live / count, contacts.nodes / count, bench.substep(), 1e6 * times[1],
+        1e-6 * count / times[1], static_cast<double>(exec.counters->peak_bytes()) / count);
     bench.print_parts(what.steps, count);
     std::cout << std::flush;
 }

@@ -6,43 +6,56 @@ namespace tread::dem
 namespace
 {
 
-/// Lanes that share a pair: most pairs list about as many nodes.
-constexpr int pair_lanes = 8;
+constexpr int pair_threads = 128, pair_blocks_an_sm = 2;
 
-/// A thread for an ordinary body, which has a few pairs; a warp for a large one, which may have thousands.
-struct GatherOrdinary
+/// Reads or writes `count` records of a block together, so that neighbouring threads touch neighbouring words: a record
+/// is many words long, and a thread that reads one alone touches a line for each.
+template<class T>
+__device__ void copy_words(double* to, const double* from, std::int64_t count)
 {
-    body_contact::GatherBody gather;
-    const std::int32_t*      is_large;
+    static_assert(sizeof(T) % sizeof(double) == 0);
+    constexpr int words = sizeof(T) / sizeof(double);
+    for (std::int64_t i = threadIdx.x; i < count * words; i += pair_threads) { to[i] = from[i]; }
+}
 
-    __device__ void operator()(std::int64_t b) const
-    {
-        if (is_large[b] == 0) { gather(b, OneLane{}); }
-    }
-};
-
-struct GatherLarge
+struct EvaluateBlock
 {
-    body_contact::GatherBody gather;
-    const std::int32_t*      large;
+    body_contact::EvaluatePair evaluate;
 
-    template<class Lanes>
-    __device__ void operator()(std::int64_t l, const Lanes& lanes) const
+    __device__ void operator()(std::int64_t block) const
     {
-        gather(large[l], lanes);
+        __shared__ double  shared[pair_threads * sizeof(PairResponse) / sizeof(double)];
+        const PairsView&   pairs = evaluate.pairs;
+        const std::int64_t begin = block * pair_threads, p = begin + threadIdx.x;
+        const std::int64_t count = min(static_cast<long>(pair_threads), static_cast<long>(pairs.count - begin));
+        const bool         mine  = p < pairs.count;
+
+        auto* patches   = reinterpret_cast<Patch*>(shared);
+        auto* responses = reinterpret_cast<PairResponse*>(shared);
+        copy_words<Patch>(shared, reinterpret_cast<const double*>(pairs.patch + begin), count);
+        __syncthreads();
+        PairResponse response = no_response();
+        if (mine)
+        {
+            response      = evaluate.respond_of(p, OneLane{}, patches[threadIdx.x]);
+            pairs.peak[p] = fmax(pairs.peak[p], response.overlap);
+        }
+        __syncthreads();
+        copy_words<Patch>(reinterpret_cast<double*>(pairs.patch + begin), shared, count);
+        __syncthreads();
+        if (mine) { responses[threadIdx.x] = response; }
+        __syncthreads();
+        copy_words<PairResponse>(reinterpret_cast<double*>(pairs.response + begin), shared, count);
     }
 };
 
 } // namespace
 
-void add_body_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
-                       BodyTotal* totals, double dt)
+void evaluate_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    for_each_group<pair_lanes>(gpu, "body contacts", pairs.key.size(),
-                               body_contact::EvaluatePair{bodies, law, pairs.view(), dt});
-    const body_contact::GatherBody gather{bodies, pairs.view(), totals, dt};
-    for_each(gpu, "gather body contacts", bodies.count, GatherOrdinary{gather, pairs.is_large.data()});
-    for_each_group<warp_size>(gpu, "gather large bodies", pairs.large.size(), GatherLarge{gather, pairs.large.data()});
+    const std::int64_t count = pairs.key.size();
+    for_each_block<pair_threads, pair_blocks_an_sm>(gpu, "body contacts", (count + pair_threads - 1) / pair_threads,
+                                                    EvaluateBlock{{bodies, law, pairs.view(), dt}});
 }
 
 } // namespace tread::dem

@@ -1,17 +1,13 @@
 #pragma once
 
 #include "kernels/dem/pairs.hpp"
-#include "kernels/dem/totals.hpp"
 
 namespace tread::dem
 {
 
-/// Contacts of all listed pairs at the bodies' present places: adds each body's force, torque and stiffness to what
-/// stands there (integrate.hpp clears them), advances the patches by dt (s, of the substep), and adds wall impulses and
-/// losses to the bodies' `totals`. Every sum has a fixed order. Allocates nothing.
-void add_body_contacts(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, BodyTotal* totals,
-                       double dt);
-void add_body_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, BodyTotal* totals,
-                       double dt);
+/// First half of a substep: what every listed pair answers at the bodies' present places (pairs.response), its patch
+/// advanced by dt (s, of the substep). move.hpp adds the answers up. Allocates nothing.
+void evaluate_contacts(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+void evaluate_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
 
 } // namespace tread::dem

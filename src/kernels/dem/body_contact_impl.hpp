@@ -5,8 +5,7 @@
 #include "kernels/dem/pair_law_kern.hpp"
 #include "kernels/dem/sphere_contact_kern.hpp"
 
-// The two item functions of a substep's body contacts. Both are written for lanes that share one item: a single one on
-// the CPU, a warp's 32 on the GPU (body_contact.cpp, body_contact.cu).
+// The item function of a substep's body contacts; body_contact.cpp and body_contact.cu bring in the schedule.
 namespace tread::dem::body_contact
 {
 
@@ -20,15 +19,21 @@ struct EvaluatePair
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
     {
-        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-        const NodeRun      nodes{pairs.node, pairs.first_node[p], pairs.first_node[p + 1]};
         Patch              patch    = pairs.patch[p];
-        const PairResponse response = b < bodies.count ? between_bodies(a, b, nodes, lanes, patch)
-                                                       : against_plane(a, b - bodies.count, nodes, lanes, patch);
+        const PairResponse response = respond_of(p, lanes, patch);
         if (lanes.lane() != 0) { return; }
         pairs.patch[p]    = patch;
         pairs.response[p] = response;
         pairs.peak[p]     = std::fmax(pairs.peak[p], response.overlap);
+    }
+
+    template<class Lanes>
+    TREAD_HD PairResponse respond_of(std::int64_t p, const Lanes& lanes, Patch& patch) const
+    {
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        const NodeRun      nodes{pairs.node, pairs.first_node[p], pairs.first_node[p + 1]};
+        return b < bodies.count ? between_bodies(a, b, nodes, lanes, patch)
+                                : against_plane(a, b - bodies.count, nodes, lanes, patch);
     }
 
     template<class Lanes>
@@ -83,79 +88,6 @@ struct EvaluatePair
         nodes([&](const NodeInField& node) { add_node(pair, node, motion, relaxation, sums); });
         sums.reduce(lanes);
         return respond(pair, sums, found, motion, spins, arm, patch, dt);
-    }
-};
-
-/// What the contacts do to one body.
-struct BodyShare
-{
-    Vec3<double> force;
-    Vec3<double> torque;
-    double       stiffness;
-    Vec3<double> wall_force;
-    double       friction;
-    double       restitution;
-
-    template<class Lanes>
-    TREAD_HD void reduce(const Lanes& lanes)
-    {
-        for (int c = 0; c < 3; ++c)
-        {
-            force[c]      = lanes.sum(force[c]);
-            torque[c]     = lanes.sum(torque[c]);
-            wall_force[c] = lanes.sum(wall_force[c]);
-        }
-        stiffness   = lanes.sum(stiffness);
-        friction    = lanes.sum(friction);
-        restitution = lanes.sum(restitution);
-    }
-};
-
-/// Adds the pairs of one body in the order of the list: first those in which it comes first.
-struct GatherBody
-{
-    BodiesView bodies;
-    PairsView  pairs;
-    BodyTotal* totals;
-    double     dt;
-
-    template<class Lanes>
-    TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
-    {
-        BodyShare share{Vec3<double>::Zero(), Vec3<double>::Zero(), 0, Vec3<double>::Zero(), 0, 0};
-        for (std::int64_t p = pairs.first[b] + lanes.lane(); p < pairs.first[b + 1]; p += lanes.lanes())
-        {
-            add_first(pairs.response[p], second_of(pairs.key[p]) >= bodies.count, share);
-        }
-        for (std::int64_t i = pairs.second[b] + lanes.lane(); i < pairs.second[b + 1]; i += lanes.lanes())
-        {
-            const PairResponse& response = pairs.response[pairs.by_second[i]];
-            share.force -= response.force;
-            share.torque += response.torque_b;
-            share.stiffness += response.stiffness;
-        }
-        share.reduce(lanes);
-        if (lanes.lane() == 0) { store(b, share); }
-    }
-
-    TREAD_HD static void add_first(const PairResponse& response, bool wall, BodyShare& share)
-    {
-        share.force += response.force;
-        share.torque += response.torque_a;
-        share.stiffness += response.stiffness;
-        share.friction += response.friction;
-        share.restitution += response.restitution;
-        if (wall) { share.wall_force += response.force; }
-    }
-
-    TREAD_HD void store(std::int64_t b, const BodyShare& share) const
-    {
-        bodies.force[b] += share.force;
-        bodies.torque[b] += share.torque;
-        bodies.stiffness[b] += share.stiffness;
-        totals[b].wall_impulse += dt * share.wall_force;
-        totals[b].friction += share.friction;
-        totals[b].restitution += share.restitution;
     }
 };
 

@@ -3,16 +3,29 @@
 
 namespace tread::dem
 {
-
-void list_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+namespace
 {
-    const auto run = [&](const char* name, std::int64_t items, const auto& item)
-    {
-        constexpr std::int64_t worth_threads = 64;
-        for_each_heavy(
-            cpu, name, items, [=](std::int64_t p) { item(p, OneLane{}); }, worth_threads);
-    };
-    contact_nodes::list_nodes(cpu, pairs, bodies, law, dt, run);
+
+template<class Item>
+void for_each_pair(const Cpu& cpu, const char* name, std::int64_t pairs, const Item& item)
+{
+    constexpr std::int64_t worth_threads = 64;
+    for_each_heavy(
+        cpu, name, pairs, [=](std::int64_t p) { item(p, OneLane{}); }, worth_threads);
+}
+
+} // namespace
+
+void count_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    for_each_pair(cpu, "count pair nodes", pairs.key.size(),
+                  contact_nodes::CountNodes{{bodies, law, pairs.view()}, pairs.first_node.data()});
+}
+
+void list_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    for_each_pair(cpu, "write pair nodes", pairs.key.size(),
+                  contact_nodes::WriteNodes{{bodies, law, pairs.view()}, pairs.first_node.data(), pairs.node.data()});
 }
 
 } // namespace tread::dem

@@ -4,11 +4,20 @@
 namespace tread::dem
 {
 
-void list_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+/// Lanes that share a pair: as many as a body of 162 nodes has clusters, or close to it.
+constexpr int node_lanes = 8;
+
+void count_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    const auto run = [&](const char* name, std::int64_t items, const auto& item)
-    { for_each_group<warp_size>(gpu, name, items, item); };
-    contact_nodes::list_nodes(gpu, pairs, bodies, law, dt, run);
+    for_each_group<node_lanes>(gpu, "count pair nodes", pairs.key.size(),
+                               contact_nodes::CountNodes{{bodies, law, pairs.view()}, pairs.first_node.data()});
+}
+
+void list_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    for_each_group<node_lanes>(
+        gpu, "write pair nodes", pairs.key.size(),
+        contact_nodes::WriteNodes{{bodies, law, pairs.view()}, pairs.first_node.data(), pairs.node.data()});
 }
 
 } // namespace tread::dem

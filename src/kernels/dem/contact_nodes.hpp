@@ -2,13 +2,18 @@
 
 #include "kernels/dem/pairs.hpp"
 
+// Of every pair the nodes that may come inside the other side, in the order of the template's nodes, first those of the
+// first body. None is missed while no body moves further than pairs.travel. Exact spheres among themselves and against
+// walls have none.
 namespace tread::dem
 {
 
-/// Lists of every pair the nodes that may come inside the other side within dt (s), in the order of the template's
-/// nodes, first those of the first body: pairs.first_node and pairs.node. None is missed while no body moves further
-/// than reach_of (pairs_kern.hpp) allows. Exact spheres among themselves and against walls have none.
-void list_contact_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
-void list_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+/// pairs.first_node[p] = how many nodes pair p has, or -1 if it touches without any: exact spheres.
+void count_contact_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+void count_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+
+/// Fills pairs.node, when pairs.first_node is where each pair's run begins.
+void list_contact_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+void list_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 } // namespace tread::dem

@@ -10,6 +10,8 @@
 namespace tread::dem::contact_nodes
 {
 
+inline constexpr std::int32_t without_nodes = -1;
+
 /// Bits of a vote.
 TREAD_HD int count_bits(std::uint32_t bits)
 {
@@ -71,27 +73,34 @@ struct Walk
     BodiesView bodies;
     BodyLaw    law;
     PairsView  pairs;
-    double     dt;
+
+    /// Whether the pair's contact is that of exact spheres, or of one and a wall.
+    TREAD_HD bool closed_form(std::int64_t p) const
+    {
+        const std::int64_t b = second_of(pairs.key[p]);
+        return is_sphere(first_of(pairs.key[p])) && (b >= bodies.count || is_sphere(b));
+    }
+
+    TREAD_HD bool is_sphere(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
 
     template<class Lanes, class Take>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes, Take& take) const
     {
+        if (closed_form(p)) { return; }
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
         const Instance     of_a   = instance_of(bodies, law.templates, a, bodies.position[a]);
-        const double       travel = reach_of(bodies, law.templates, a, dt).travel;
+        const double       travel = pairs.travel[a];
         const auto         first  = [](std::int32_t i) { return i; };
         const auto         second = [](std::int32_t i) { return ~i; };
         if (b >= bodies.count)
         {
-            if (is_sphere(of_a)) { return; }
             const PlaneField wall = field_of(law.planes[b - bodies.count], bodies.position[a]);
             walk(Side<PlaneField>{of_a, wall, 1.0, 1.0}, travel, first, lanes, take);
             return;
         }
-        const Instance of_b = instance_of(bodies, law.templates, b, bodies.position[a]);
-        if (is_sphere(of_a) && is_sphere(of_b)) { return; }
+        const Instance of_b     = instance_of(bodies, law.templates, b, bodies.position[a]);
         const TwoSides sides    = sides_of(of_a, of_b);
-        const double   together = travel + reach_of(bodies, law.templates, b, dt).travel;
+        const double   together = travel + pairs.travel[b];
         walk(sides.a, together, first, lanes, take);
         walk(sides.b, together, second, lanes, take);
     }
@@ -100,14 +109,14 @@ struct Walk
 struct CountNodes
 {
     Walk          walk;
-    std::int32_t* found; ///< [pairs + 1]
+    std::int32_t* found; ///< [pairs]
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
     {
         Count count;
-        if (p < walk.pairs.count) { walk(p, lanes, count); }
-        if (lanes.lane() == 0) { found[p] = count.found; }
+        walk(p, lanes, count);
+        if (lanes.lane() == 0) { found[p] = walk.closed_form(p) ? without_nodes : count.found; }
     }
 };
 
@@ -125,17 +134,5 @@ struct WriteNodes
         walk(p, lanes, write);
     }
 };
-
-/// `run`(name, items, item function) runs an item function with a backend's lanes.
-template<class Exec, class Run>
-void list_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt, Run run)
-{
-    const std::int64_t count = pairs.key.size();
-    pairs.first_node.resize(count + 1);
-    const Walk walk{bodies, law, pairs.view(), dt};
-    run("count pair nodes", count + 1, CountNodes{walk, pairs.first_node.data()});
-    pairs.node.resize(exclusive_scan(exec, pairs.first_node, pairs.sort));
-    run("write pair nodes", count, WriteNodes{walk, pairs.first_node.data(), pairs.node.data()});
-}
 
 } // namespace tread::dem::contact_nodes

@@ -41,6 +41,7 @@ struct PairsView
     const std::int32_t*  by_second; ///< pairs ordered by their second body
     const std::int32_t*  second;    ///< [bodies + 1], the run in by_second of this body
 
+    const double*       travel;     ///< m, of every body, that the list allows for
     const std::int32_t* first_node; ///< [pairs + 1], the run of nodes that may touch, of each pair
     const std::int32_t* node;       ///< i of the first body, ~i of the second
 };
@@ -63,6 +64,7 @@ struct Pairs
         , node_area(exec, "body node area")
         , last_key(exec, "last pair keys")
         , last_patch(exec, "last pair patches")
+        , travel(exec, "body travel")
         , reach(exec, "body reach")
         , cell_key(exec, "body cells")
         , cell_body(exec, "bodies by cell")
@@ -77,8 +79,8 @@ struct Pairs
 
     PairsView view()
     {
-        return {key.size(),   key.data(),       patch.data(),  response.data(),   peak.data(),
-                first.data(), by_second.data(), second.data(), first_node.data(), node.data()};
+        return {key.size(),       key.data(),    patch.data(),  response.data(),   peak.data(), first.data(),
+                by_second.data(), second.data(), travel.data(), first_node.data(), node.data()};
     }
 
     Array<Exec, std::uint64_t> key;
@@ -96,6 +98,7 @@ struct Pairs
 
     Array<Exec, std::uint64_t> last_key;
     Array<Exec, Patch>         last_patch;
+    Array<Exec, double>        travel;
     Array<Exec, double>        reach;
     Array<Exec, std::uint64_t> cell_key;
     Array<Exec, std::int32_t>  cell_body;
@@ -112,10 +115,9 @@ struct Pairs
 template<class Exec>
 void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates);
 
-/// Every pair of bodies, and of body and wall, that may touch within the next dt (s, of the MPM step): whose bounding
-/// spheres, grown by twice what the body's velocity moves it and a skin of 1 % of its radius, meet; for bodies also by
-/// the distance of each centre from the other's surface. Patches of pairs that stay in the list are kept. Of each pair
-/// also the nodes that may come inside the other body or wall within the same time (contact_nodes.hpp).
+/// Every pair of bodies, and of body and wall, that may touch within the next dt (s, of the MPM step), and of each the
+/// nodes that may come inside the other side (contact_nodes.hpp): none is missed while no point of a body moves further
+/// than pairs.travel. Patches of pairs that stay in the list are kept.
 template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
 

@@ -37,11 +37,13 @@ struct WriteReach
     const TemplateView* templates;
     const std::int32_t* is_large;
     double              dt;
+    double*             travel;
     double*             reach;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        reach[b] = is_large[b] != 0 ? 0.0 : reach_of(bodies, templates, b, dt).total();
+        travel[b] = travel_of(bodies, templates, b, dt);
+        reach[b]  = is_large[b] != 0 ? 0.0 : reach_of(bodies, templates, travel, b).total();
     }
 };
 
@@ -93,11 +95,31 @@ struct WritePairs
     }
 };
 
-struct CountUp
+struct MarkPairs
 {
-    std::int32_t* values;
+    std::int64_t        count;
+    const std::int32_t* nodes;
+    std::int32_t*       kept; ///< [pairs + 1]
 
-    TREAD_HD void operator()(std::int64_t i) const { values[i] = static_cast<std::int32_t>(i); }
+    TREAD_HD void operator()(std::int64_t p) const { kept[p] = p < count && nodes[p] != 0 ? 1 : 0; }
+};
+
+struct KeepPairs
+{
+    std::int64_t         count;
+    const std::uint64_t* key;
+    const std::int32_t*  nodes; ///< of each pair; below 0: none, but kept
+    const std::int32_t*  place; ///< [pairs + 1], after the scan
+    std::uint64_t*       kept_key;
+    std::int32_t*        kept_nodes; ///< and a zero for the scan's end
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        if (p == count) { kept_nodes[place[p]] = 0; }
+        if (p == count || place[p] == place[p + 1]) { return; }
+        kept_key[place[p]]   = key[p];
+        kept_nodes[place[p]] = nodes[p] > 0 ? nodes[p] : 0;
+    }
 };
 
 /// The patch of a pair that was in the last list, and its place in the order by second body.
@@ -141,10 +163,11 @@ template<class Exec>
 double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates,
                   double dt)
 {
+    pairs.travel.resize(bodies.count);
     pairs.reach.resize(bodies.count);
     pairs.measure.resize(1);
     for_each(exec, "body reach", bodies.count,
-             WriteReach{bodies, templates, pairs.is_large.data(), dt, pairs.reach.data()});
+             WriteReach{bodies, templates, pairs.is_large.data(), dt, pairs.travel.data(), pairs.reach.data()});
     largest_of_rows(exec, pairs.reach.data(), bodies.count, 1, pairs.measure.data());
     const double cell_size = std::max(2.0 * read(exec, pairs.measure.data()), 1e-12);
 
@@ -157,17 +180,56 @@ double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 }
 
 template<class Exec>
+void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double cell_size)
+{
+    const PairSearch search{bodies,
+                            law,
+                            pairs.travel.data(),
+                            cell_size,
+                            pairs.cell_key.data(),
+                            pairs.cell_body.data(),
+                            pairs.large.data(),
+                            pairs.large.size(),
+                            pairs.is_large.data()};
+    pairs.found.resize(bodies.count + 1);
+    for_each(exec, "count pairs", bodies.count + 1, CountPairs{search, pairs.found.data()});
+    pairs.key.resize(exclusive_scan(exec, pairs.found, pairs.sort));
+    for_each(exec, "write pairs", bodies.count, WritePairs{search, pairs.found.data(), pairs.key.data()});
+
+    pairs.by_second.resize(pairs.key.size()); // travels along, means nothing yet
+    sort_by_key(exec, pairs.key, pairs.by_second, pairs.sort);
+}
+
+/// Leaves out the pairs that no node can join: bounding spheres meet far more often than surfaces.
+template<class Exec>
+void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    const std::int64_t count = pairs.key.size();
+    pairs.first_node.resize(count + 1);
+    count_contact_nodes(exec, pairs, bodies, law);
+    pairs.found.resize(count + 1);
+    for_each(exec, "mark pairs", count + 1, MarkPairs{count, pairs.first_node.data(), pairs.found.data()});
+    const std::int64_t kept = exclusive_scan(exec, pairs.found, pairs.sort);
+    pairs.second_key.resize(kept);
+    pairs.by_second.resize(kept + 1);
+    for_each(exec, "keep pairs", count + 1,
+             KeepPairs{count, pairs.key.data(), pairs.first_node.data(), pairs.found.data(), pairs.second_key.data(),
+                       pairs.by_second.data()});
+    pairs.key.swap(pairs.second_key);
+    pairs.first_node.swap(pairs.by_second);
+    pairs.node.resize(exclusive_scan(exec, pairs.first_node, pairs.sort));
+    list_contact_nodes(exec, pairs, bodies, law);
+}
+
+template<class Exec>
 void order_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     const std::int64_t count = pairs.key.size();
-    pairs.by_second.resize(count);
-    for_each(exec, "count pairs up", count, CountUp{pairs.by_second.data()});
-    sort_by_key(exec, pairs.key, pairs.by_second, pairs.sort);
-
     pairs.patch.resize(count);
     pairs.response.resize(count);
     pairs.peak.resize(count);
     pairs.second_key.resize(count);
+    pairs.by_second.resize(count);
     for_each(exec, "recall pairs", count,
              Recall{pairs.view(), pairs.last_key.size(), pairs.last_key.data(), pairs.last_patch.data(),
                     pairs.second_key.data(), pairs.by_second.data()});
@@ -212,22 +274,10 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     using namespace pair_steps;
     pairs.key.swap(pairs.last_key);
     pairs.patch.swap(pairs.last_patch);
-    const double     cell_size = fill_cells(exec, pairs, bodies, law.templates, dt);
-    const PairSearch search{bodies,
-                            law,
-                            dt,
-                            cell_size,
-                            pairs.cell_key.data(),
-                            pairs.cell_body.data(),
-                            pairs.large.data(),
-                            pairs.large.size(),
-                            pairs.is_large.data()};
-    pairs.found.resize(bodies.count + 1);
-    for_each(exec, "count pairs", bodies.count + 1, CountPairs{search, pairs.found.data()});
-    pairs.key.resize(exclusive_scan(exec, pairs.found, pairs.sort));
-    for_each(exec, "write pairs", bodies.count, WritePairs{search, pairs.found.data(), pairs.key.data()});
+    const double cell_size = fill_cells(exec, pairs, bodies, law.templates, dt);
+    search(exec, pairs, bodies, law, cell_size);
+    keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
-    list_contact_nodes(exec, pairs, bodies, law, dt);
 }
 
 } // namespace tread::dem

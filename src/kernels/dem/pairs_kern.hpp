@@ -8,21 +8,28 @@
 namespace tread::dem
 {
 
+/// m, that any point of a body may move until the pairs are found anew: twice what it can in the next dt (s), a skin (a
+/// body at rest may be set going), and some more for a list that lasts several steps.
+TREAD_HD double travel_of(const BodiesView& bodies, const TemplateView* templates, std::int64_t b, double dt)
+{
+    constexpr double skin = 0.01, more_steps = 16, most_more = 0.04; // skins in radii
+    const double     radius = templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
+    const double     step   = dt * (bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius);
+    return 2.0 * step + skin * radius + std::fmin(more_steps * step, most_more * radius);
+}
+
 /// A body as the search sees it.
 struct Reach
 {
     double bounding; ///< m, radius of the bounding sphere
-    double travel;   ///< m, twice what the body can move in the step, and the skin
+    double travel;   ///< m
 
     TREAD_HD double total() const { return bounding + travel; }
 };
 
-TREAD_HD Reach reach_of(const BodiesView& bodies, const TemplateView* templates, std::int64_t b, double dt)
+TREAD_HD Reach reach_of(const BodiesView& bodies, const TemplateView* templates, const double* travel, std::int64_t b)
 {
-    constexpr double skin   = 0.01; ///< of the radius: a body at rest may be set going within the step
-    const double     radius = templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
-    const double     speed  = bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius;
-    return {radius, 2.0 * dt * speed + skin * radius};
+    return {templates[bodies.shape[b]].bounding_radius * bodies.scale[b], travel[b]};
 }
 
 /// Whether the surface of body b's template can come within the other's grown bounding sphere. What is inside the
@@ -30,27 +37,28 @@ TREAD_HD Reach reach_of(const BodiesView& bodies, const TemplateView* templates,
 TREAD_HD bool surface_near(const BodiesView& bodies, const TemplateView* templates, std::int64_t b,
                            const Vec3<double>& centre, double reach)
 {
-    const TemplateView& shape    = templates[bodies.shape[b]];
-    const double        scale    = bodies.scale[b];
-    const double        furthest = reach + surface_uncertainty(shape, scale);
+    const TemplateView& shape = templates[bodies.shape[b]];
+    if (shape.sphere_radius > 0) { return true; } // the bounding spheres have said it
+    const double scale    = bodies.scale[b];
+    const double furthest = reach + surface_uncertainty(shape, scale);
     return sample_body_sdf(shape, scale, bodies.position[b], bodies.orientation[b], centre).distance <=
            furthest + sdf_uncertainty(shape, scale, furthest);
 }
 
-TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates, std::int64_t a, std::int64_t b,
-                        double dt)
+TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates, const double* travel, std::int64_t a,
+                        std::int64_t b)
 {
-    const Reach  of_a = reach_of(bodies, templates, a, dt), of_b = reach_of(bodies, templates, b, dt);
+    const Reach  of_a = reach_of(bodies, templates, travel, a), of_b = reach_of(bodies, templates, travel, b);
     const double together = of_a.total() + of_b.total();
     if ((bodies.position[a] - bodies.position[b]).squaredNorm() > together * together) { return false; }
     return surface_near(bodies, templates, a, bodies.position[b], of_b.total() + of_a.travel) &&
            surface_near(bodies, templates, b, bodies.position[a], of_a.total() + of_b.travel);
 }
 
-TREAD_HD bool may_touch_plane(const BodiesView& bodies, const TemplateView* templates, std::int64_t b,
-                              const Plane& plane, double dt)
+TREAD_HD bool may_touch_plane(const BodiesView& bodies, const TemplateView* templates, const double* travel,
+                              std::int64_t b, const Plane& plane)
 {
-    return plane.normal.dot(bodies.position[b]) - plane.offset <= reach_of(bodies, templates, b, dt).total();
+    return plane.normal.dot(bodies.position[b]) - plane.offset <= reach_of(bodies, templates, travel, b).total();
 }
 
 /// Cells of the search grid: 21 bits an axis, x lowest, so that neighbours along x have consecutive keys.
@@ -74,7 +82,7 @@ struct PairSearch
 {
     BodiesView           bodies;
     BodyLaw              law;
-    double               dt;
+    const double*        travel;
     double               cell_size; ///< m, at least twice the largest reach in the grid
     const std::uint64_t* cell_key;  ///< ascending
     const std::int32_t*  cell_body;
@@ -97,7 +105,7 @@ struct PairSearch
                  i < gridded && cell_key[i] <= last; ++i)
             {
                 const std::int64_t b = cell_body[i];
-                if (b > a && may_touch(bodies, law.templates, a, b, dt)) { visit(pair_key(a, b)); }
+                if (b > a && may_touch(bodies, law.templates, travel, a, b)) { visit(pair_key(a, b)); }
             }
         }
     }
@@ -109,12 +117,15 @@ struct PairSearch
         for (std::int64_t l = 0; l < large_count; ++l)
         {
             const std::int64_t b = large[l];
-            if ((is_large[a] != 0 && b <= a) || !may_touch(bodies, law.templates, a, b, dt)) { continue; }
+            if ((is_large[a] != 0 && b <= a) || !may_touch(bodies, law.templates, travel, a, b)) { continue; }
             visit(a < b ? pair_key(a, b) : pair_key(b, a));
         }
         for (std::int32_t p = 0; p < law.plane_count; ++p)
         {
-            if (may_touch_plane(bodies, law.templates, a, law.planes[p], dt)) { visit(pair_key(a, bodies.count + p)); }
+            if (may_touch_plane(bodies, law.templates, travel, a, law.planes[p]))
+            {
+                visit(pair_key(a, bodies.count + p));
+            }
         }
     }
 };

@@ -48,10 +48,11 @@ TREAD_HD double held_energy(const PairLaw& law, const Patch& patch)
            spring_energy(patch.torsion * patch.torsion, patch.twist_stiffness);
 }
 
-/// Turned about the unit normal by a small angle (rad), length kept.
+/// Turned about the unit normal by a small angle (rad), length kept: Cayley's form, off by angle^3/12.
 TREAD_HD Vec3<double> turn_about(const Vec3<double>& force, const Vec3<double>& normal, double angle)
 {
-    return std::cos(angle) * force + std::sin(angle) * normal.cross(force);
+    const double half = 0.5 * angle, over = 1.0 / (1.0 + half * half);
+    return over * ((1.0 - half * half) * force + angle * normal.cross(force));
 }
 
 /// 1, or what brings `value` down to `cap`.
@@ -63,10 +64,9 @@ TREAD_HD double cap_factor(double value, double cap) { return value > cap ? cap 
 /// slip, 3 pi/16 mu F a = 0.94 mu F r with r^2 = 0.4 a^2 = 0.4 R* d.
 TREAD_HD Friction update_patch(const PairLaw& law, const PatchState& state, Patch& patch, double dt)
 {
-    const double held = held_energy(law, patch);
-    const double depth =
-        std::pow(0.75 * state.load / (law.effective_young * std::sqrt(law.effective_radius)), 2.0 / 3.0);
-    const double       arm_squared  = state.spread + 0.4 * law.effective_radius * depth;
+    const double       held = held_energy(law, patch);
+    const double       root = std::cbrt(0.75 * state.load / (law.effective_young * std::sqrt(law.effective_radius)));
+    const double       arm_squared  = state.spread + 0.4 * law.effective_radius * root * root;
     const double       k_tangential = law.shear_ratio * state.stiffness;
     const double       k_twist      = k_tangential * arm_squared;
     const double       cap          = law.friction * state.load;

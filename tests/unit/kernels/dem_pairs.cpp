@@ -38,11 +38,11 @@ std::vector<Solid> crowd(int count)
     return solids;
 }
 
-/// What find_pairs promises for spheres, whose bounding sphere is their surface.
+/// What find_pairs promises for exact spheres, whose bounding sphere is their surface (dem::travel_of).
 double grown(const Solid& solid)
 {
-    const double r = solid.scale;
-    return r + 2 * step * (solid.velocity.norm() + solid.spin.norm() * r) + 0.01 * r;
+    const double r = solid.scale, way = step * (solid.velocity.norm() + solid.spin.norm() * r);
+    return r + 2 * way + 0.01 * r + std::min(16 * way, 0.04 * r);
 }
 
 std::vector<std::uint64_t> brute_force(const std::vector<Solid>& solids, const std::vector<dem::Plane>& planes)
@@ -76,7 +76,7 @@ TYPED_TEST(BodyPairs, AreThoseOfBruteForce)
     const std::vector<Solid> solids = crowd(900);
     SolidNumbers             numbers;
     numbers.planes = {{{0, 0, 1}, 0.0, false}, {{-1, 0, 0}, -0.5, true}};
-    typename TestFixture::Scene scene(this->exec(), {unit_sphere(0, 20)}, solids, numbers);
+    typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, solids, numbers);
     scene.find(step);
     const std::vector<std::uint64_t> expected = brute_force(solids, numbers.planes);
     EXPECT_GT(expected.size(), 500u);
@@ -87,7 +87,7 @@ TYPED_TEST(BodyPairs, AreThoseOfBruteForce)
 TYPED_TEST(BodyPairs, KnowThePairsOfEachBody)
 {
     const std::vector<Solid>    solids = crowd(300);
-    typename TestFixture::Scene scene(this->exec(), {unit_sphere(0, 20)}, solids, {});
+    typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, solids, {});
     scene.find(step);
     const auto                keys  = scene.pairs.key.to_host();
     const auto                first = scene.pairs.first.to_host(), second = scene.pairs.second.to_host();
@@ -115,7 +115,7 @@ TYPED_TEST(BodyPairs, KnowThePairsOfEachBody)
 TYPED_TEST(BodyPairs, KeepTheirPatchWhileListed)
 {
     std::vector<Solid>          solids = crowd(300);
-    typename TestFixture::Scene scene(this->exec(), {unit_sphere(0, 20)}, solids, {});
+    typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, solids, {});
     scene.find(step);
     const auto              before = scene.pairs.key.to_host();
     std::vector<dem::Patch> patches(before.size(), dem::no_patch());

@@ -13,6 +13,7 @@
 #include "kernels/dem/body_contact.hpp"
 #include "kernels/dem/contact_limits.hpp"
 #include "kernels/dem/integrate.hpp"
+#include "kernels/dem/move.hpp"
 #include "kernels/dem/sums.hpp"
 
 // A few rigid bodies with analytic shapes and walls, for the tests of the body-body contact.
@@ -274,17 +275,18 @@ public:
         for (int step = 0; step < count; ++step)
         {
             if (substeps_++ % every == 0) { find_pairs(exec_, pairs, bodies.view(), law(), dt * every); }
-            contact(dt);
-            integrate(exec_, bodies.view(), totals.data(), numbers.gravity, dt);
+            evaluate_contacts(exec_, pairs, bodies.view(), law(), dt);
+            move_bodies(exec_, pairs, bodies.view(), totals.data(), {nullptr, 0}, {numbers.gravity, 0, dt});
         }
     }
 
     void find(double dt) { find_pairs(exec_, pairs, bodies.view(), law(), dt); }
 
+    /// The bodies' forces as they stand: a move of no duration.
     void contact(double dt)
     {
-        clear_wrenches(exec_, bodies.view());
-        add_body_contacts(exec_, pairs, bodies.view(), law(), totals.data(), dt);
+        evaluate_contacts(exec_, pairs, bodies.view(), law(), dt);
+        move_bodies(exec_, pairs, bodies.view(), totals.data(), {nullptr, 0}, {numbers.gravity, 0, 0});
     }
 
     dem::BodySums sums() { return sum_bodies(exec_, pairs, bodies.view(), totals, numbers.gravity); }

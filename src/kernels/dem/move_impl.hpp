@@ -1,0 +1,114 @@
+#pragma once
+
+#include "kernels/dem/body_contact_kern.hpp"
+#include "kernels/dem/integrate_impl.hpp"
+#include "kernels/dem/move.hpp"
+
+// The item functions of move.hpp; move.cpp and move.cu bring in the schedule.
+namespace tread::dem::moving
+{
+
+/// What the contacts do to one body.
+struct BodyShare
+{
+    Vec3<double> force;
+    Vec3<double> torque;
+    double       stiffness;
+    Vec3<double> wall_force;
+    double       friction;
+    double       restitution;
+
+    template<class Lanes>
+    TREAD_HD void reduce(const Lanes& lanes)
+    {
+        for (int c = 0; c < 3; ++c)
+        {
+            force[c]      = lanes.sum(force[c]);
+            torque[c]     = lanes.sum(torque[c]);
+            wall_force[c] = lanes.sum(wall_force[c]);
+        }
+        stiffness   = lanes.sum(stiffness);
+        friction    = lanes.sum(friction);
+        restitution = lanes.sum(restitution);
+    }
+};
+
+/// Adds the pairs of one body in the order of the list: first those in which it comes first.
+struct GatherBody
+{
+    BodiesView bodies;
+    PairsView  pairs;
+    BodyTotal* totals;
+    double     dt;
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
+    {
+        BodyShare share{Vec3<double>::Zero(), Vec3<double>::Zero(), 0, Vec3<double>::Zero(), 0, 0};
+        for (std::int64_t p = pairs.first[b] + lanes.lane(); p < pairs.first[b + 1]; p += lanes.lanes())
+        {
+            add_first(pairs.response[p], second_of(pairs.key[p]) >= bodies.count, share);
+        }
+        for (std::int64_t i = pairs.second[b] + lanes.lane(); i < pairs.second[b + 1]; i += lanes.lanes())
+        {
+            const PairResponse& response = pairs.response[pairs.by_second[i]];
+            share.force -= response.force;
+            share.torque += response.torque_b;
+            share.stiffness += response.stiffness;
+        }
+        share.reduce(lanes);
+        if (lanes.lane() == 0) { store(b, share); }
+    }
+
+    TREAD_HD static void add_first(const PairResponse& response, bool wall, BodyShare& share)
+    {
+        share.force += response.force;
+        share.torque += response.torque_a;
+        share.stiffness += response.stiffness;
+        share.friction += response.friction;
+        share.restitution += response.restitution;
+        if (wall) { share.wall_force += response.force; }
+    }
+
+    TREAD_HD void store(std::int64_t b, const BodyShare& share) const
+    {
+        const bool sand     = bodies.sand_force != nullptr;
+        bodies.force[b]     = sand ? Vec3<double>(bodies.force[b] + share.force) : share.force;
+        bodies.torque[b]    = sand ? Vec3<double>(bodies.torque[b] + share.torque) : share.torque;
+        bodies.stiffness[b] = share.stiffness + (sand ? bodies.stiffness[b] : 0.0);
+        totals[b].wall_impulse += dt * share.wall_force;
+        totals[b].friction += share.friction;
+        totals[b].restitution += share.restitution;
+    }
+};
+
+/// Gathers, books the impulse of a named body, and moves the body by integration::Free or integration::Damped.
+template<class Integrate>
+struct Move
+{
+    GatherBody          gather;
+    const std::int32_t* is_large;
+    NamedImpulses       named;
+    Integrate           integrate;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        if (is_large[b] == 0) { gather(b, OneLane{}); }
+        if (b < named.count)
+        {
+            named.impulse[b].linear += gather.dt * gather.bodies.force[b];
+            named.impulse[b].angular += gather.dt * gather.bodies.torque[b];
+        }
+        integrate(b);
+    }
+};
+
+/// Calls run with the integration that the motion asks for.
+template<class Run>
+void with_integration(const BodiesView& bodies, BodyTotal* totals, const Motion& motion, Run run)
+{
+    if (motion.damping > 0) { run(integration::Damped{bodies, totals, motion.gravity, motion.damping, motion.dt}); }
+    else { run(integration::Free{bodies, totals, motion.gravity, motion.dt}); }
+}
+
+} // namespace tread::dem::moving
