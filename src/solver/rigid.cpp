@@ -176,7 +176,7 @@ template<class Exec>
 void Rigid<Exec>::find_pairs(double dt)
 {
     dem::find_pairs(exec_, pairs_, bodies_.view(), law_, dt);
-    dem::expect_contacts(exec_, pairs_, bodies_.view(), law_);
+    dem::expect_contacts(exec_, pairs_, bodies_.view(), law_, dt);
 }
 
 template<class Exec>

@@ -4,9 +4,14 @@
 namespace tread::dem
 {
 
-void expect_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+void expect_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    contact_limits::expect(cpu, pairs, bodies, law);
+    const AnticipatePair   anticipate    = contact_limits::anticipate(pairs, bodies, law, dt);
+    constexpr std::int64_t worth_threads = 512; // as for the contacts themselves
+    for_each_heavy(
+        cpu, "anticipated contacts", pairs.key.size(), [=](std::int64_t p) { anticipate(p, OneLane{}); },
+        worth_threads);
+    contact_limits::add_up(cpu, pairs, bodies, law);
 }
 
 double smallest_contact_time(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies)

@@ -1,12 +1,14 @@
 #include "backend/launch.cuh"
 #include "kernels/dem/contact_limits_impl.hpp"
+#include "kernels/dem/warp_lanes.cuh"
 
 namespace tread::dem
 {
 
-void expect_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+void expect_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    contact_limits::expect(gpu, pairs, bodies, law);
+    for_each_warp(gpu, "anticipated contacts", pairs.key.size(), contact_limits::anticipate(pairs, bodies, law, dt));
+    contact_limits::add_up(gpu, pairs, bodies, law);
 }
 
 double smallest_contact_time(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies)

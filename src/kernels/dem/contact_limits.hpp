@@ -8,10 +8,12 @@
 namespace tread::dem
 {
 
-/// pairs.expected_stiffness of every body: the sum, over its listed pairs that do not touch yet, of the stiffness that
-/// a first touch has (two nodes in the linear part of the traction), N/m. Once a step, after find_pairs.
-void expect_contacts(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-void expect_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+/// pairs.expected_stiffness of every body, N/m: the sum over its listed pairs of the stiffness that they are about to
+/// have. It is that of the nodes which are inside, or will be within two steps of dt (s) if their motion goes on, and
+/// for pairs that do not touch yet at least that of a first touch (two nodes in the linear part of the traction).
+/// Pairs that touch and hardly move are left to bodies.stiffness. Once a step, after find_pairs.
+void expect_contacts(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+void expect_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
 
 /// The least sqrt(m/K) (s) over the bodies that can move, K = the larger of the body's live stiffness and of what
 /// expect_contacts found; 0 without any contact, live or expected. A substep of 0.2 times that keeps energy

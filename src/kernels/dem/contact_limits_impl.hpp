@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "backend/reduce.hpp"
+#include "kernels/dem/approach_kern.hpp"
 #include "kernels/dem/contact_limits.hpp"
-#include "kernels/dem/pair_law_kern.hpp"
-#include "kernels/dem/sphere_contact_kern.hpp"
 
 // The steps of contact_limits.hpp, the same on both backends; contact_limits.cpp and .cu bring in for_each.
 namespace tread::dem::contact_limits
@@ -19,15 +18,18 @@ struct ExpectContacts
     BodyLaw       law;
     PairsView     pairs;
     const double* node_area;
+    const double* anticipated; ///< N/m, of the pairs
     double*       expected;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
         double sum = 0;
-        for (std::int64_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p) { sum += first_touch(p); }
-        for (std::int64_t i = pairs.second[b]; i < pairs.second[b + 1]; ++i) { sum += first_touch(pairs.by_second[i]); }
+        for (std::int64_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p) { sum += of_pair(p); }
+        for (std::int64_t i = pairs.second[b]; i < pairs.second[b + 1]; ++i) { sum += of_pair(pairs.by_second[i]); }
         expected[b] = sum;
     }
+
+    TREAD_HD double of_pair(std::int64_t p) const { return std::fmax(first_touch(p), anticipated[p]); }
 
     TREAD_HD double first_touch(std::int64_t p) const
     {
@@ -96,12 +98,22 @@ struct WriteOverlap
     }
 };
 
+/// What AnticipatePair writes, to be handed to add_up.
 template<class Exec>
-void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+AnticipatePair anticipate(Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+{
+    constexpr double steps = 2.05; // the present one, and the next, for which dt is chosen and may grow by 5 %
+    pairs.measure.resize(pairs.key.size());
+    return {bodies, law, pairs.view(), steps * dt, pairs.measure.data()};
+}
+
+template<class Exec>
+void add_up(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     pairs.expected_stiffness.resize(bodies.count);
     for_each(exec, "expected contacts", bodies.count,
-             ExpectContacts{bodies, law, pairs.view(), pairs.node_area.data(), pairs.expected_stiffness.data()});
+             ExpectContacts{bodies, law, pairs.view(), pairs.node_area.data(), pairs.measure.data(),
+                            pairs.expected_stiffness.data()});
 }
 
 template<class Exec>

@@ -280,7 +280,7 @@ TYPED_TEST(BodyContact, StiffnessIsExpectedBeforeItIsFelt)
     EXPECT_EQ(smallest_contact_time(this->exec(), scene.pairs, scene.bodies.view()), 0);
 
     scene.find(10 * dt);
-    expect_contacts(this->exec(), scene.pairs, scene.bodies.view(), scene.law());
+    expect_contacts(this->exec(), scene.pairs, scene.bodies.view(), scene.law(), dt);
     // two nodes at d0 of the pair's half-weighted nodes: K = A E*/(pi sqrt(R* d0))
     const double effective = 1e7 / 0.91 / 2, area = 4 * std::numbers::pi * radius * radius / 162, knee = 1e-3 * 0.1;
     const double stiffness = area * effective / (std::numbers::pi * std::sqrt(0.1 * knee));
@@ -289,9 +289,11 @@ TYPED_TEST(BodyContact, StiffnessIsExpectedBeforeItIsFelt)
                 1e-9);
 
     scene.run(dt, 1000, 10); // 20 ms: past the deepest point, 22 of 200 mm
-    expect_contacts(this->exec(), scene.pairs, scene.bodies.view(), scene.law());
+    expect_contacts(this->exec(), scene.pairs, scene.bodies.view(), scene.law(), dt);
     const double live = scene.bodies.stiffness.to_host()[0];
-    EXPECT_NEAR(smallest_contact_time(this->exec(), scene.pairs, scene.bodies.view()), std::sqrt(mass / live), 1e-9);
+    // bodies that part are expected where they are now, not where they were when forces were last summed
+    const double next = std::sqrt(mass / live);
+    EXPECT_NEAR(smallest_contact_time(this->exec(), scene.pairs, scene.bodies.view()), next, 0.01 * next);
     const dem::Overlap overlap = largest_overlap(this->exec(), scene.pairs, scene.bodies.view(), scene.law());
     EXPECT_GT(overlap.ratio, 0.08);
     EXPECT_LT(overlap.ratio, 0.12);
