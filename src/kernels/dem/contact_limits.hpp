@@ -8,10 +8,9 @@
 namespace tread::dem
 {
 
-/// pairs.expected_stiffness of every body, N/m: the sum over its listed pairs of the stiffness that they are about to
-/// have. It is that of the nodes which are inside, or will be within two steps of dt (s) if their motion goes on, and
-/// for pairs that do not touch yet at least that of a first touch (two nodes in the linear part of the traction).
-/// Pairs that touch and hardly move are left to bodies.stiffness. Once a step, after find_pairs.
+/// pairs.expected_stiffness of every body, N/m: the larger of two sums over its listed pairs. One is of first touches
+/// (two nodes in the linear part of the traction) of those that are apart; the other of what touches and of the nodes
+/// that come inside within two steps of dt (s) if their motion goes on. Once a step, after find_pairs.
 void expect_contacts(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
 void expect_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
 

@@ -18,18 +18,29 @@ struct ExpectContacts
     BodyLaw       law;
     PairsView     pairs;
     const double* node_area;
-    const double* anticipated; ///< N/m, of the pairs
+    const double* entering; ///< N/m, of the pairs
     double*       expected;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        double sum = 0;
-        for (std::int64_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p) { sum += of_pair(p); }
-        for (std::int64_t i = pairs.second[b]; i < pairs.second[b + 1]; ++i) { sum += of_pair(pairs.by_second[i]); }
-        expected[b] = sum;
+        Sums sums{0, 0};
+        for (std::int64_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p) { add(p, sums); }
+        for (std::int64_t i = pairs.second[b]; i < pairs.second[b + 1]; ++i) { add(pairs.by_second[i], sums); }
+        expected[b] = std::fmax(sums.touches, sums.approach);
     }
 
-    TREAD_HD double of_pair(std::int64_t p) const { return std::fmax(first_touch(p), anticipated[p]); }
+private:
+    struct Sums
+    {
+        double touches;  ///< N/m, first touches of pairs that are apart; in a bed most of them will not come to be
+        double approach; ///< N/m, what touches and what comes nearer
+    };
+
+    TREAD_HD void add(std::int64_t p, Sums& sums) const
+    {
+        sums.touches += first_touch(p);
+        sums.approach += pairs.patch[p].stiffness + entering[p];
+    }
 
     TREAD_HD double first_touch(std::int64_t p) const
     {
@@ -45,7 +56,6 @@ struct ExpectContacts
         return touch_of_nodes(pair, std::fmax(node_area[a], node_area[b]));
     }
 
-private:
     /// Whether body b is an exact sphere.
     TREAD_HD bool exact(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
 

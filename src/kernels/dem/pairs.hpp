@@ -90,7 +90,7 @@ struct Pairs
     Array<Exec, std::int32_t>  first;
     Array<Exec, std::int32_t>  by_second;
     Array<Exec, std::int32_t>  second;
-    Array<Exec, double>        expected_stiffness; ///< N/m, of each body's pairs that do not touch yet
+    Array<Exec, double>        expected_stiffness; ///< N/m, of each body (contact_limits.hpp)
 
     Array<Exec, std::int32_t> large;     ///< bodies that never enter the cell grid
     Array<Exec, std::int32_t> is_large;  ///< of every body
