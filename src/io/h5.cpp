@@ -1,5 +1,6 @@
 #include "io/h5.hpp"
 
+#include <array>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -69,6 +70,12 @@ void select_rows(const File& file, const Handle& space, hsize_t first, hsize_t c
 Handle open_dataset(const File& file, const std::string& name)
 {
     return {checked(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), file.path(), "opening " + name), H5Dclose};
+}
+
+Handle open_attribute(const File& file, const std::string& object, const std::string& name)
+{
+    const hid_t id = H5Aopen_by_name(file.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    return {checked(id, file.path(), fmt::format("opening attribute {} of {}", name, object)), H5Aclose};
 }
 
 void write_attribute_data(const File& file, const std::string& object, const std::string& name, hid_t type,
@@ -184,6 +191,60 @@ template void write(const File&, const std::string&, const std::vector<std::int3
 template void write(const File&, const std::string&, const std::vector<std::int64_t>&, int, const Rows&);
 template void write(const File&, const std::string&, const std::vector<std::uint32_t>&, int, const Rows&);
 template void write(const File&, const std::string&, const std::vector<std::uint8_t>&, int, const Rows&);
+
+template<class T>
+std::vector<T> read(const File& file, const std::string& name, int width)
+{
+    const std::string      what    = "reading " + name;
+    const Handle           dataset = open_dataset(file, name);
+    const Handle           space{H5Dget_space(dataset.id()), H5Sclose};
+    const int              rank = H5Sget_simple_extent_ndims(space.id());
+    std::array<hsize_t, 2> size{0, 1};
+    if (rank == (width == 1 ? 1 : 2)) { H5Sget_simple_extent_dims(space.id(), size.data(), nullptr); }
+    if (size[1] != static_cast<hsize_t>(width) || rank != (width == 1 ? 1 : 2))
+    {
+        throw EnvironmentError(fmt::format("{}: {} failed: it has not {} columns", file.path(), what, width));
+    }
+    std::vector<T> values(size[0] * size[1]);
+    check(H5Dread(dataset.id(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), file, what);
+    return values;
+}
+
+template std::vector<double>       read(const File&, const std::string&, int);
+template std::vector<std::int32_t> read(const File&, const std::string&, int);
+
+std::int64_t count_members(const File& file, const std::string& group)
+{
+    H5G_info_t   info;
+    const Handle at{checked(H5Gopen2(file.id(), group.c_str(), H5P_DEFAULT), file.path(), "opening " + group),
+                    H5Gclose};
+    check(H5Gget_info(at.id(), &info), file, "reading " + group);
+    return static_cast<std::int64_t>(info.nlinks);
+}
+
+std::string read_text_attribute(const File& file, const std::string& object, const std::string& name)
+{
+    const auto   what      = fmt::format("reading attribute {} of {}", name, object);
+    const Handle attribute = open_attribute(file, object, name);
+    const Handle type{H5Aget_type(attribute.id()), H5Tclose};
+    if (H5Tis_variable_str(type.id()) <= 0)
+    {
+        throw EnvironmentError(fmt::format("{}: {} failed: it is no text", file.path(), what));
+    }
+    char* text = nullptr;
+    check(H5Aread(attribute.id(), type.id(), &text), file, what);
+    std::string value = text == nullptr ? "" : text;
+    H5free_memory(text);
+    return value;
+}
+
+double read_number_attribute(const File& file, const std::string& object, const std::string& name)
+{
+    double       value     = 0;
+    const Handle attribute = open_attribute(file, object, name);
+    check(H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &value), file, "reading attribute " + name);
+    return value;
+}
 
 void create_growing(const File& file, const std::string& name, int width)
 {

@@ -99,6 +99,17 @@ void write(const File& file, const std::string& name, const std::vector<T>& valu
     write(file, name, values, width, Rows{count, 0, count});
 }
 
+/// What `write` wrote, by this process alone. The data set must have `width` columns.
+template<class T>
+std::vector<T> read(const File& file, const std::string& name, int width);
+
+/// How many objects a group holds.
+std::int64_t count_members(const File& file, const std::string& group);
+
+/// Attributes that write_attribute wrote.
+std::string read_text_attribute(const File& file, const std::string& object, const std::string& name);
+double      read_number_attribute(const File& file, const std::string& object, const std::string& name);
+
 /// An empty data set of doubles that grows by append_rows.
 void create_growing(const File& file, const std::string& name, int width);
 

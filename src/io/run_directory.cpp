@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 constexpr const char* scene_file = "scene.toml";
 
 // Everything that a run writes, besides scene.toml.
-constexpr std::array<const char*, 5> run_files = {"log.txt", "summary.json", "timeseries.h5", "snapshots",
-                                                  "checkpoints"};
+constexpr std::array<const char*, 6> run_files = {"log.txt",   "summary.json", "timeseries.h5",
+                                                  "snapshots", "checkpoints",  "bed.h5"};
 
 bool holds_run(const fs::path& directory)
 {

@@ -30,6 +30,7 @@ public:
     std::string        log() const { return path_ + "/log.txt"; }
     std::string        summary() const { return path_ + "/summary.json"; }
     std::string        time_series() const { return path_ + "/timeseries.h5"; }
+    std::string        bed() const { return path_ + "/bed.h5"; }
     std::string        snapshots() const { return path_ + "/snapshots"; }
 
 private:

@@ -52,7 +52,8 @@ Json phases_of(const Summary& summary)
                           {"start", phase.start},
                           {"time", phase.time},
                           {"settled", phase.settled ? Json(*phase.settled) : Json()},
-                          {"unbalanced", phase.unbalanced}});
+                          {"unbalanced", phase.unbalanced},
+                          {"packing_fraction", phase.packing_fraction ? Json(*phase.packing_fraction) : Json()}});
     }
     return phases;
 }

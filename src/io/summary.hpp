@@ -38,11 +38,12 @@ struct ErrorReport
 /// A phase that ended.
 struct PhaseReport
 {
-    std::string         name;
-    double              start = 0;      ///< s
-    double              time  = 0;      ///< s that it took
-    std::optional<bool> settled;        ///< whether it ended in equilibrium; null if it was not to
-    double              unbalanced = 0; ///< force that is out of balance over the weight, at its end
+    std::string           name;
+    double                start = 0;        ///< s
+    double                time  = 0;        ///< s that it took
+    std::optional<bool>   settled;          ///< whether it ended in equilibrium; null if it was not to
+    double                unbalanced = 0;   ///< force that is out of balance over the weight, at its end
+    std::optional<double> packing_fraction; ///< of the bed of rocks that it settled; null if it settled none
 };
 
 /// What a [[terrain]] table holds at the start, after later tables and rocks took their place.

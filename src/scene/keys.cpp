@@ -171,27 +171,36 @@ Keys<Terrain> terrain_keys()
 
 Keys<Rocks> rocks_keys()
 {
-    const std::string one_of = "exactly one of count, solid_fraction";
+    const std::string one_of = "exactly one of count, solid_fraction", drawn = "`from` left out";
+    const auto        are_drawn = [](const Rocks& rocks) { return rocks.from.empty(); };
     return {
         required("shape", "", &Rocks::shape, name(),
                  "The name of a [[shape]]. Each rock draws its form from the shape's `variants`."),
         required("material", "", &Rocks::material, name(), "The name of an elastic or rigid [[material]]."),
-        optional("count", "", &Rocks::count, integer_given(1, 100'000'000), "How many.", one_of),
+        optional(
+            "from", "", &Rocks::from, path(),
+            "A bed that another run saved (`[output] bed_after`): the rocks of this shape and material in it, where "
+            "they lay, at rest, with their contacts, so that friction holds. A relative path starts at the scene "
+            "file. Shape and material must be those of the bed; `[[contact]]` may differ.",
+            "the rocks are drawn and placed"),
+        optional("count", "", &Rocks::count, integer_given(1, 100'000'000), "How many.", one_of).when(drawn, are_drawn),
         optional(
             "solid_fraction", "", &Rocks::solid_fraction, number_or("", above_up_to(0, 1)),
             "Volume of the rocks over the volume of the region between `floor` and `height`; the drawn rocks whose "
             "volume comes nearest. Random places jam at about 0.3 for one size, higher for graded ones.",
-            one_of),
-        rocks_diameter_key(),
-        rocks_region_key(),
-        rocks_height_key(),
-        rocks_floor_key(),
+            one_of)
+            .when(drawn, are_drawn),
+        rocks_diameter_key().when(drawn, are_drawn),
+        rocks_region_key().when(drawn, are_drawn),
+        rocks_height_key().when(drawn, are_drawn),
+        rocks_floor_key().when(drawn, are_drawn),
         optional(
             "placement", "", &Rocks::placement, word<Placement>({"replace", "rain", "grid"}),
             "Rocks never overlap. \"replace\": at random, in place of the points there; \"rain\": at random, where "
             "there is no sand, to fall from; \"grid\": on a lattice, where there is no sand."),
         optional("seed", "", &Rocks::seed, integer<std::uint64_t>(0),
-                 "Of the random sizes, forms, places and orientations."),
+                 "Of the random sizes, forms, places and orientations.")
+            .when(drawn, are_drawn),
     };
 }
 
@@ -242,6 +251,10 @@ Keys<Output> output_keys()
         optional("every", "s", &Output::every, number(above(0)), "Simulated time between rows of the time series."),
         optional("snapshots_every", "s", &Output::snapshots_every, number(at_least(0)),
                  "Simulated time between snapshots; 0 writes none."),
+        optional("bed_after", "", &Output::bed_after, name(),
+                 "The phase at whose end the rocks are saved as bed.h5 in the run's directory, for `[[rocks]] from` of "
+                 "other scenes. Only without [[terrain]]; named bodies are not saved.",
+                 "no bed is saved"),
     };
 }
 

@@ -79,16 +79,16 @@ void complete_wall_friction(Scene& scene, const Node& document)
     }
 }
 
-/// Makes a path absolute; a problem at `file` if there is no such file.
+/// Makes a path absolute; a problem at the key if there is no such file.
 void complete_path(const Scene& scene, std::string& path, const Node& file, const std::string& label,
-                   const std::string& accepted, Problems& problems)
+                   const std::string& key, const std::string& accepted, Problems& problems)
 {
     const auto absolute = (std::filesystem::path(scene.directory) / path).lexically_normal();
     path                = absolute.string();
     std::error_code error;
     if (!std::filesystem::is_regular_file(absolute, error))
     {
-        problems.push_back({file.where, label, "file", fmt::format("there is no file {}", path), accepted});
+        problems.push_back({file.where, label, key, fmt::format("there is no file {}", path), accepted});
     }
 }
 
@@ -99,7 +99,7 @@ void complete_meshes(Scene& scene, const Node& document, Problems& problems)
         auto*       mesh = std::get_if<MeshFile>(&scene.shapes[i].source);
         const Node* file = find(std::get<NodeArray>(find(document, "shape")->value)[i], "file");
         if (mesh == nullptr || file == nullptr) { continue; }
-        complete_path(scene, mesh->path, *file, table_label(document, "shape", i), "STL or OBJ", problems);
+        complete_path(scene, mesh->path, *file, table_label(document, "shape", i), "file", "STL or OBJ", problems);
     }
 }
 
@@ -111,8 +111,19 @@ void complete_height(const Scene& scene, std::optional<Height>& height, const No
     const Node* given  = find(table, key);
     const Node* file   = given != nullptr ? find(*given, "file") : nullptr;
     if (raster == nullptr || file == nullptr) { return; }
-    complete_path(scene, raster->path, *file, label + "." + key, "PGM or CSV", problems);
+    complete_path(scene, raster->path, *file, label + "." + key, "file", "PGM or CSV", problems);
     if (!raster->extent) { raster->extent = PlanExtent{{{0, 0}, {scene.domain.size[0], scene.domain.size[1]}}}; }
+}
+
+void complete_beds(Scene& scene, const Node& document, Problems& problems)
+{
+    for (std::size_t i = 0; i < scene.rocks.size(); ++i)
+    {
+        const Node* from = find(std::get<NodeArray>(find(document, "rocks")->value)[i], "from");
+        if (from == nullptr || scene.rocks[i].from.empty()) { continue; }
+        complete_path(scene, scene.rocks[i].from, *from, table_label(document, "rocks", i), "from", "bed.h5 of a run",
+                      problems);
+    }
 }
 
 template<class T>
@@ -142,6 +153,7 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
     complete_materials(scene);
     complete_wall_friction(scene, document);
     complete_meshes(scene, document, problems);
+    complete_beds(scene, document, problems);
     complete_places(scene, scene.terrain, document, "terrain", problems);
     complete_places(scene, scene.rocks, document, "rocks", problems);
     validate(scene, document, problems);

@@ -84,6 +84,12 @@ void check_phases(const Scene& scene, Checker& checker)
     }
 }
 
+void check_output(const Scene& scene, Checker& checker)
+{
+    if (scene.output.bed_after.empty()) { return; }
+    checker.require_known({"output"}, "bed_after", scene.output.bed_after, names_in(scene.phases), "[[phase]]");
+}
+
 void check_contact(const Scene& scene, std::size_t index, const std::vector<std::string>& families, Checker& checker)
 {
     const TableAt at{"contact", index};
@@ -127,6 +133,7 @@ void validate_references(const Scene& scene, Checker& checker)
     check_materials(scene, checker);
     check_shapes(scene, checker);
     check_phases(scene, checker);
+    check_output(scene, checker);
     check_families(scene, checker);
 }
 

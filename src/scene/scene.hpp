@@ -338,7 +338,8 @@ struct Rocks
 {
     std::string                 shape;
     std::string                 material;
-    std::optional<std::int64_t> count;          ///< exactly one of count, solid_fraction
+    std::string                 from;  ///< absolute path of a saved bed; empty = the rocks are drawn and placed
+    std::optional<std::int64_t> count; ///< exactly one of count, solid_fraction
     std::optional<double>       solid_fraction; ///< volume of the rocks over that of the region
     Diameter                    diameter = 0.0;
     Region                      region;
@@ -394,6 +395,8 @@ struct Output
 {
     double every           = 0.02; ///< s, time series
     double snapshots_every = 0;    ///< s; 0 = none
+
+    std::string bed_after; ///< phase at whose end the rocks are saved; empty = none
 
     bool operator==(const Output&) const = default;
 };

@@ -125,7 +125,7 @@ void require_terrain_to_replace(const Scene& scene, Checker& checker)
 {
     for (std::size_t i = 0; i < scene.rocks.size(); ++i)
     {
-        if (scene.rocks[i].placement == Placement::replace)
+        if (scene.rocks[i].from.empty() && scene.rocks[i].placement == Placement::replace)
         {
             checker.report({"rocks", i}, "placement", "\"replace\" needs a [[terrain]] to replace",
                            "\"rain\" | \"grid\"");
@@ -247,6 +247,16 @@ void validate_contents(const Scene& scene, Checker& checker)
     }
     if (absent("terrain")) { require_terrain_to_replace(scene, checker); }
     else { validate_spacing(scene, checker); }
+    if (scene.output.bed_after.empty()) { return; }
+    if (!absent("terrain"))
+    {
+        checker.report({"output"}, "bed_after", "a bed is of rocks alone, and there is [[terrain]]",
+                       "a scene without [[terrain]]");
+    }
+    if (absent("rocks"))
+    {
+        checker.report({"output"}, "bed_after", "there are no rocks to save", "a scene with [[rocks]]");
+    }
 }
 
 } // namespace tread::scene

@@ -289,6 +289,18 @@ Value<std::string> text()
     return {"string", [](const Node& node) { return read_string(node); }, write_string};
 }
 
+Value<std::string> path()
+{
+    const auto read = [](const Node& node)
+    {
+        const std::string& given = read_string(node);
+        if (given.empty()) { throw BadValue{"is empty"}; }
+        return given;
+    };
+    return {"path of a file", read,
+            [](const std::string& value) { return value.empty() ? std::string() : write_string(value); }};
+}
+
 Value<std::string> name()
 {
     return {"name of letters, digits, '_' and '-'", [](const Node& node) { return read_name(node); },

@@ -89,6 +89,9 @@ Value<bool> boolean();
 /// Any string.
 Value<std::string> text();
 
+/// A string that is not empty; absence stands for the empty one.
+Value<std::string> path();
+
 /// A string of letters, digits, '_' and '-', so that it may stand in paths, HDF5 names and --set arguments.
 Value<std::string> name();
 

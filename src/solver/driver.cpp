@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "io/progress.hpp"
+#include "solver/packing.hpp"
+#include "solver/saved_bed.hpp"
 
 namespace tread::solver
 {
@@ -36,6 +38,7 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , scene_(scene)
     , world_(world)
     , plan_(plan)
+    , directory_(directory)
     , simulation_(simulation)
     , phases_(scene)
     , recorder_(directory, scene, world)
@@ -90,7 +93,24 @@ void Driver<Exec, Real>::end_phase()
     else { log_.info(line); }
     std::optional<bool> settled;
     if (end.kind != EndKind::duration) { settled = end.kind == EndKind::settled; }
-    ended_.push_back({phases_.phase().name, phases_.start(), end.after, settled, end.unbalanced});
+    io::PhaseReport report{phases_.phase().name, phases_.start(), end.after, settled, end.unbalanced, std::nullopt};
+    const bool      saves = phases_.phase().name == scene_.output.bed_after;
+    if (plan_.rocks && !plan_.sand && (settled || saves))
+    {
+        report.packing_fraction = packing_fraction(world_, simulation_.body_fields());
+        log_.info(fmt::format("packing fraction of the rocks {:.4f}", *report.packing_fraction));
+    }
+    ended_.push_back(report);
+    if (saves) { write_bed(); }
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::write_bed()
+{
+    const io::BedFile bed = make_bed(scene_, world_, simulation_.body_fields(), simulation_.contacts());
+    on_root(communicator_, [&] { io::write_bed(directory_.bed(), bed); });
+    log_.info(fmt::format("bed of {} rocks with {} contacts: {}", bed.size(), bed.contacts.stiffness.size(),
+                          directory_.bed()));
 }
 
 template<class Exec, class Real>

@@ -29,6 +29,7 @@ private:
     void   write_due();
     void   write_row();
     void   write_snapshot();
+    void   write_bed();
     void   say_progress();
     void   warn_once(const TimeStep& step);
     double end_time() const;
@@ -38,6 +39,7 @@ private:
     const scene::Scene&               scene_;
     const World&                      world_;
     Plan                              plan_;
+    io::RunDirectory                  directory_;
     Simulation<Exec, Real>&           simulation_;
     PhaseClock                        phases_;
     Recorder                          recorder_;

@@ -79,6 +79,25 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     if (contacts_) { dem::classify_bodies(exec_, pairs_, bodies_.view(), templates_.views()); }
     dem::clear_wrenches(exec_, bodies_.view());
     begin_mean();
+    restore_contacts();
+}
+
+/// As the search's last list: what it finds again keeps its record.
+template<class Exec>
+void Rigid<Exec>::restore_contacts()
+{
+    if (world_.contacts.empty()) { return; }
+    std::vector<std::uint64_t> keys;
+    std::vector<dem::Patch>    patches;
+    keys.reserve(world_.contacts.size());
+    patches.reserve(world_.contacts.size());
+    for (const ContactRecord& contact : world_.contacts)
+    {
+        keys.push_back(contact.key);
+        patches.push_back(contact.patch);
+    }
+    pairs_.key.assign(keys);
+    pairs_.patch.assign(patches);
 }
 
 template<class Exec>
@@ -284,6 +303,19 @@ void Rigid<Exec>::take_totals(RigidReport& report)
     taken_           = now;
     command_impulse_.setZero();
     command_work_ = 0;
+}
+
+template<class Exec>
+std::vector<ContactRecord> Rigid<Exec>::contacts() const
+{
+    const std::vector<std::uint64_t> keys    = pairs_.key.to_host();
+    const std::vector<dem::Patch>    patches = pairs_.patch.to_host();
+    std::vector<ContactRecord>       found;
+    for (std::size_t p = 0; p < keys.size(); ++p)
+    {
+        if (patches[p].stiffness > 0) { found.push_back({keys[p], patches[p]}); }
+    }
+    return found;
 }
 
 template<class Exec>

@@ -64,6 +64,9 @@ public:
     /// finite place: `time` (s) is for that message.
     RigidReport report(double time);
 
+    /// Of the pairs of the last step that touch.
+    std::vector<ContactRecord> contacts() const;
+
     RigidCensus          census();
     std::vector<BodyRow> named_bodies();
     void                 begin_mean();
@@ -71,6 +74,7 @@ public:
 
 private:
     void   upload(const World& world, const Plan& plan);
+    void   restore_contacts();
     void   take_totals(RigidReport& report);
     double guard(double time);
 

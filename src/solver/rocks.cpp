@@ -29,6 +29,8 @@ namespace
         table, rocks.shape, placed, asked, text_of(rocks.region), solids / volume(rocks_space(scene, table))));
 }
 
+} // namespace
+
 void make_room(const scene::Scene& scene, std::size_t table, std::size_t first, World& world)
 {
     const scene::Rocks&       rocks    = scene.rocks[table];
@@ -45,8 +47,6 @@ void make_room(const scene::Scene& scene, std::size_t table, std::size_t first, 
     }
 }
 
-} // namespace
-
 Space rocks_space(const scene::Scene& scene, std::size_t table)
 {
     const scene::Rocks& rocks = scene.rocks[table];
@@ -60,14 +60,11 @@ std::vector<scene::Shape> rocks_family(const scene::Scene& scene, std::size_t ta
 
 void place_rocks(const scene::Scene& scene, std::size_t table, const std::vector<RockDraw>& rocks, World& world)
 {
-    const std::size_t first  = world.bodies.size();
     const Space       space  = rocks_space(scene, table);
     const std::size_t placed = scene.rocks[table].placement == scene::Placement::grid
                                    ? place_on_lattice(scene, table, space, rocks, world)
                                    : place_at_random(scene, table, space, rocks, world);
     if (placed < rocks.size()) { refuse(scene, table, rocks, placed); }
-    world.bodies.rocks_end.push_back(world.bodies.size());
-    make_room(scene, table, first, world);
 }
 
 } // namespace tread::solver

@@ -15,9 +15,12 @@ std::vector<scene::Shape> rocks_family(const scene::Scene& scene, std::size_t ta
 
 /// Adds the drawn rocks of a [[rocks]] table to the world: at random or on a lattice in the table's space, with random
 /// orientations, the same for a seed on every machine. A rock lies whole in the space by its surface nodes, and keeps
-/// 1 % of the smaller radius from every other body, by the surface nodes of both. With placement "replace" the points
-/// with phi < r_p are removed; otherwise sand in the way is an InputError. InputError, with how many were placed, if
-/// not all find room.
+/// 1 % of the smaller radius from every other body, by the surface nodes of both. InputError, with how many were
+/// placed, if not all find room.
 void place_rocks(const scene::Scene& scene, std::size_t table, const std::vector<RockDraw>& rocks, World& world);
+
+/// Makes room in the sand for a table's rocks, the bodies from `first` on: with placement "replace" the points with
+/// phi < r_p are removed; otherwise sand in the way is an InputError.
+void make_room(const scene::Scene& scene, std::size_t table, std::size_t first, World& world);
 
 } // namespace tread::solver

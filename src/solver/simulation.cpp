@@ -48,6 +48,7 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     if (plan.body_contact)
     {
         rigid_->find_pairs(choose_step(scene.time, limits_, pace_, 0).dt);
+        if (!world.contacts.empty()) { rigid_->contact(0); } // the books begin with what the contacts hold
         pace_.shortest_contact = rigid_->shortest_contact();
     }
     const Census start = census();
@@ -201,6 +202,12 @@ template<class Exec, class Real>
 io::PointFields Simulation<Exec, Real>::point_fields()
 {
     return sand_ ? sand_->fields() : io::PointFields{};
+}
+
+template<class Exec, class Real>
+std::vector<ContactRecord> Simulation<Exec, Real>::contacts()
+{
+    return rigid_ ? rigid_->contacts() : std::vector<ContactRecord>{};
 }
 
 template<class Exec, class Real>

@@ -63,6 +63,9 @@ public:
     io::PointFields point_fields();
     io::BodyFields  body_fields();
 
+    /// Of bodies with bodies and walls.
+    std::vector<ContactRecord> contacts();
+
     /// Height of the terrain's surface away from the named bodies, m: the median over columns of cells of their highest
     /// point and half a point's size; 0 without sand.
     double surface_height();

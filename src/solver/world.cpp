@@ -15,6 +15,7 @@
 #include "solver/materials.hpp"
 #include "solver/region.hpp"
 #include "solver/rocks.hpp"
+#include "solver/saved_bed.hpp"
 #include "solver/terrain.hpp"
 
 namespace tread::solver
@@ -83,11 +84,16 @@ scene::Shape body_shape(const scene::Scene& scene, const scene::Body& body)
     return shape::members(shape::find_shape(scene, body.shape)).front();
 }
 
-std::vector<std::vector<RockDraw>> draw_all_rocks(const scene::Scene& scene)
+std::vector<std::vector<RockDraw>> draw_all_rocks(const scene::Scene& scene, const SavedBeds& beds)
 {
     std::vector<std::vector<RockDraw>> draws;
     for (std::size_t table = 0; table < scene.rocks.size(); ++table)
     {
+        if (!scene.rocks[table].from.empty())
+        {
+            draws.push_back(beds.draws(table));
+            continue;
+        }
         const auto members = rocks_family(scene, table).size();
         draws.push_back(draw_rocks(scene.rocks[table], volume(rocks_space(scene, table)), members));
     }
@@ -250,6 +256,20 @@ void require_clear_of_sand(const scene::Scene& scene, const World& world)
     }
 }
 
+void add_rocks(const scene::Scene& scene, const std::vector<std::vector<RockDraw>>& draws, SavedBeds& beds,
+               World& world)
+{
+    for (std::size_t table = 0; table < scene.rocks.size(); ++table)
+    {
+        const std::size_t first = world.bodies.size();
+        if (scene.rocks[table].from.empty()) { place_rocks(scene, table, draws[table], world); }
+        else { beds.place(table, world); }
+        world.bodies.rocks_end.push_back(world.bodies.size());
+        make_room(scene, table, first, world);
+    }
+    beds.finish(world);
+}
+
 } // namespace
 
 int material_index(const scene::Scene& scene, const std::string& name)
@@ -274,15 +294,16 @@ World build_world(const scene::Scene& scene)
     const bool linear = scene.numerics.shape_functions == scene::ShapeFunctions::linear;
     world.geometry    = {
            scene.grid.spacing, linear ? 0.0 : 0.5, {scene.domain.size[0], scene.domain.size[1], scene.domain.size[2]}};
-    world.grid_walls    = grid_walls(scene);
-    world.planes        = body_planes(scene);
-    const auto draws    = draw_all_rocks(scene);
+    world.grid_walls = grid_walls(scene);
+    world.planes     = body_planes(scene);
+    SavedBeds  beds(scene);
+    const auto draws    = draw_all_rocks(scene, beds);
     world.templates     = make_templates(scene, wanted_shapes(scene, draws));
     world.points        = make_terrain(scene);
     world.point_spacing = terrain_spacing(scene);
     for (const scene::Body& body : scene.bodies) { add_body(scene, body, world); }
     require_clear_of_sand(scene, world);
-    for (std::size_t table = 0; table < scene.rocks.size(); ++table) { place_rocks(scene, table, draws[table], world); }
+    add_rocks(scene, draws, beds, world);
     set_geostatic_stress(scene, world.bodies, world.points);
     return world;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "backend/vector.hpp"
+#include "kernels/dem/patch_kern.hpp"
 #include "kernels/dem/templates.hpp"
 #include "kernels/mpm/grid.hpp"
 #include "kernels/mpm/order.hpp"
@@ -49,6 +50,13 @@ struct HostBodies
     std::size_t size() const { return position.size(); }
 };
 
+/// What a pair in contact remembers: the key of kernels/dem/pairs.hpp, walls counted on from the bodies.
+struct ContactRecord
+{
+    std::uint64_t key;
+    dem::Patch    patch;
+};
+
 struct World
 {
     mpm::GridGeometry                 geometry;
@@ -57,6 +65,7 @@ struct World
     std::vector<shape::ShapeTemplate> templates;
     HostPoints                        points;
     HostBodies                        bodies;
+    std::vector<ContactRecord>        contacts;      ///< that the bodies start with, by ascending key
     double                            point_spacing; ///< m, smallest distance of neighbouring points; 0 without sand
 };
 

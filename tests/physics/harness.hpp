@@ -3,6 +3,7 @@
 #include <functional>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "backend.hpp"
@@ -20,14 +21,25 @@ public:
     using Simulation = solver::Simulation<Exec, Real>;
 
     Experiment(const Exec& exec, const std::string& text)
-        : scene_(load_text(text))
-        , world_(solver::build_world(scene_))
+        : Experiment(exec, load_text(text))
+    {
+    }
+
+    Experiment(const Exec& exec, const scene::Scene& scene)
+        : Experiment(exec, scene, solver::build_world(scene))
+    {
+    }
+
+    Experiment(const Exec& exec, scene::Scene scene, solver::World world)
+        : scene_(std::move(scene))
+        , world_(std::move(world))
         , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_))
         , phases_(scene_)
     {
     }
 
     Simulation&          simulation() { return simulation_; }
+    const scene::Scene&  scene() const { return scene_; }
     const solver::World& world() const { return world_; }
     double               time() const { return time_; }
     double               dt() const { return step_.dt; }

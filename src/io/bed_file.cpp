@@ -1,0 +1,153 @@
+#include "io/bed_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "io/files.hpp"
+#include "io/h5.hpp"
+
+namespace tread::io
+{
+namespace
+{
+
+constexpr const char* format_name = "tread bed 1";
+
+template<class T>
+void write_with_unit(const h5::File& file, const std::string& name, const std::vector<T>& values, int width,
+                     const std::string& unit)
+{
+    h5::write(file, name, values, width);
+    h5::write_attribute(file, name, "units", unit);
+}
+
+void write_kinds(const h5::File& file, const std::vector<BedKind>& kinds)
+{
+    h5::create_group(file, "/kinds");
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+    {
+        const std::string group = fmt::format("/kinds/{}", k);
+        h5::create_group(file, group);
+        h5::write_attribute(file, group, "shape", kinds[k].shape);
+        h5::write_attribute(file, group, "member", kinds[k].member);
+        h5::write_attribute(file, group, "material", kinds[k].material);
+        h5::write_attribute(file, group, "volume", kinds[k].volume);
+        h5::write_attribute(file, group, "density", kinds[k].density);
+        h5::write_attribute(file, group, "young", kinds[k].young);
+        h5::write_attribute(file, group, "poisson", kinds[k].poisson);
+    }
+}
+
+std::vector<BedKind> read_kinds(const h5::File& file)
+{
+    std::vector<BedKind> kinds;
+    const std::int64_t   count = h5::count_members(file, "/kinds");
+    for (std::int64_t k = 0; k < count; ++k)
+    {
+        const std::string group  = fmt::format("/kinds/{}", k);
+        const auto        text   = [&](const char* name) { return h5::read_text_attribute(file, group, name); };
+        const auto        number = [&](const char* name) { return h5::read_number_attribute(file, group, name); };
+        kinds.push_back({text("shape"), text("member"), text("material"), number("volume"), number("density"),
+                         number("young"), number("poisson")});
+    }
+    return kinds;
+}
+
+[[noreturn]] void refuse(const std::string& path, const char* what)
+{
+    throw EnvironmentError(fmt::format("{}: the bed is damaged: {}", path, what));
+}
+
+void require_rows(const std::string& path, std::size_t rows, const std::vector<std::size_t>& sizes)
+{
+    if (std::any_of(sizes.begin(), sizes.end(), [&](std::size_t size) { return size != rows; }))
+    {
+        refuse(path, "its columns have not the same length");
+    }
+}
+
+void require_in_range(const std::string& path, const BedFile& bed)
+{
+    const auto         finite   = [](double value) { return std::isfinite(value); };
+    const auto         positive = [](double value) { return std::isfinite(value) && value > 0; };
+    const BedContacts& contacts = bed.contacts;
+    const auto         all      = [](const auto& values, const auto& holds)
+    { return std::all_of(values.begin(), values.end(), holds); };
+    const auto known = [&](std::int32_t kind)
+    { return kind >= 0 && static_cast<std::size_t>(kind) < bed.kinds.size(); };
+    if (!all(bed.kind, known)) { refuse(path, "a rock is of no kind"); }
+    if (!all(bed.position, finite) || !all(bed.orientation, finite) || !all(bed.scale, positive) ||
+        !all(bed.diameter, positive))
+    {
+        refuse(path, "a rock has no finite place or size");
+    }
+    constexpr std::int64_t walls = 6;
+    const auto             count = static_cast<std::int64_t>(bed.size());
+    for (std::size_t i = 0; i < contacts.stiffness.size(); ++i)
+    {
+        const std::int64_t a = contacts.pair[2 * i], b = contacts.pair[2 * i + 1];
+        if (a < 0 || a >= b || a >= count || b >= count + walls) { refuse(path, "a contact names no pair"); }
+    }
+    for (const auto* values :
+         {&contacts.tangential, &contacts.normal, &contacts.torsion, &contacts.stiffness, &contacts.twist_stiffness})
+    {
+        if (!all(*values, finite)) { refuse(path, "a contact is not finite"); }
+    }
+}
+
+} // namespace
+
+void write_bed(const std::string& path, const BedFile& bed)
+{
+    const std::string temporary = path + ".tmp";
+    h5::File          file      = h5::File::create(temporary);
+    h5::write_attribute(file, "/", "format", format_name);
+    write_kinds(file, bed.kinds);
+    h5::create_group(file, "/rocks");
+    write_with_unit(file, "/rocks/kind", bed.kind, 1, "1");
+    write_with_unit(file, "/rocks/position", bed.position, 3, "m");
+    write_with_unit(file, "/rocks/orientation", bed.orientation, 4, "1");
+    write_with_unit(file, "/rocks/scale", bed.scale, 1, "1");
+    write_with_unit(file, "/rocks/diameter", bed.diameter, 1, "m");
+    h5::create_group(file, "/contacts");
+    write_with_unit(file, "/contacts/pair", bed.contacts.pair, 2, "1");
+    write_with_unit(file, "/contacts/tangential", bed.contacts.tangential, 3, "N");
+    write_with_unit(file, "/contacts/normal", bed.contacts.normal, 3, "1");
+    write_with_unit(file, "/contacts/torsion", bed.contacts.torsion, 1, "N m");
+    write_with_unit(file, "/contacts/stiffness", bed.contacts.stiffness, 1, "N/m");
+    write_with_unit(file, "/contacts/twist_stiffness", bed.contacts.twist_stiffness, 1, "N m/rad");
+    file.close();
+    rename_file(temporary, path);
+}
+
+BedFile read_bed(const std::string& path)
+{
+    const h5::File file = h5::File::open(path);
+    if (h5::read_text_attribute(file, "/", "format") != format_name) { refuse(path, "it has another format"); }
+    BedFile bed;
+    bed.kinds       = read_kinds(file);
+    bed.kind        = h5::read<std::int32_t>(file, "/rocks/kind", 1);
+    bed.position    = h5::read<double>(file, "/rocks/position", 3);
+    bed.orientation = h5::read<double>(file, "/rocks/orientation", 4);
+    bed.scale       = h5::read<double>(file, "/rocks/scale", 1);
+    bed.diameter    = h5::read<double>(file, "/rocks/diameter", 1);
+    require_rows(path, bed.size(),
+                 {bed.position.size() / 3, bed.orientation.size() / 4, bed.scale.size(), bed.diameter.size()});
+    BedContacts& contacts    = bed.contacts;
+    contacts.pair            = h5::read<std::int32_t>(file, "/contacts/pair", 2);
+    contacts.tangential      = h5::read<double>(file, "/contacts/tangential", 3);
+    contacts.normal          = h5::read<double>(file, "/contacts/normal", 3);
+    contacts.torsion         = h5::read<double>(file, "/contacts/torsion", 1);
+    contacts.stiffness       = h5::read<double>(file, "/contacts/stiffness", 1);
+    contacts.twist_stiffness = h5::read<double>(file, "/contacts/twist_stiffness", 1);
+    require_rows(path, contacts.stiffness.size(),
+                 {contacts.pair.size() / 2, contacts.tangential.size() / 3, contacts.normal.size() / 3,
+                  contacts.torsion.size(), contacts.twist_stiffness.size()});
+    require_in_range(path, bed);
+    return bed;
+}
+
+} // namespace tread::io

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+// bed.h5: rocks at rest, as one run leaves them and another starts with them.
+namespace tread::io
+{
+
+/// Rocks that share a template and a material.
+struct BedKind
+{
+    std::string shape;    ///< the [[shape]] that the rocks were drawn from
+    std::string member;   ///< the rock of that family: its template
+    std::string material; ///< of the scene that made the bed
+    double      volume;   ///< m3, of the template at scale 1
+    double      density;  ///< kg/m3
+    double      young;    ///< Pa
+    double      poisson;
+};
+
+/// Pairs in contact: records of friction (kernels/dem/patch_kern.hpp). A rock is numbered by its row; a wall of the
+/// domain by the rocks' count and 0 to 5: x low, x high, y low, y high, bottom, top.
+struct BedContacts
+{
+    std::vector<std::int32_t> pair;            ///< [n][2]
+    std::vector<double>       tangential;      ///< [n][3] N, on the first
+    std::vector<double>       normal;          ///< [n][3] towards the first
+    std::vector<double>       torsion;         ///< [n] N m, on the first about the normal
+    std::vector<double>       stiffness;       ///< [n] N/m
+    std::vector<double>       twist_stiffness; ///< [n] N m/rad
+};
+
+struct BedFile
+{
+    std::vector<BedKind>      kinds;
+    std::vector<std::int32_t> kind;        ///< [n] of kinds
+    std::vector<double>       position;    ///< [n][3] m, centre of mass
+    std::vector<double>       orientation; ///< [n][4] quaternion w, x, y, z, body to world
+    std::vector<double>       scale;       ///< [n] of the template
+    std::vector<double>       diameter;    ///< [n] m, of the sphere of equal volume
+    BedContacts               contacts;
+
+    std::size_t size() const { return kind.size(); }
+};
+
+/// The file appears when it is whole. EnvironmentError when it cannot be written.
+void write_bed(const std::string& path, const BedFile& bed);
+
+/// EnvironmentError when it cannot be read, is no bed, or numbers in it are out of their range.
+BedFile read_bed(const std::string& path);
+
+} // namespace tread::io
