@@ -91,8 +91,8 @@ void require_in_range(const std::string& path, const BedFile& bed)
         const std::int64_t a = contacts.pair[2 * i], b = contacts.pair[2 * i + 1];
         if (a < 0 || a >= b || a >= count || b >= count + walls) { refuse(path, "a contact names no pair"); }
     }
-    for (const auto* values :
-         {&contacts.tangential, &contacts.normal, &contacts.torsion, &contacts.stiffness, &contacts.twist_stiffness})
+    for (const auto* values : {&contacts.tangential, &contacts.normal, &contacts.torsion, &contacts.stiffness,
+                               &contacts.twist_stiffness, &contacts.rolling, &contacts.rolling_stiffness})
     {
         if (!all(*values, finite)) { refuse(path, "a contact is not finite"); }
     }
@@ -119,6 +119,8 @@ void write_bed(const std::string& path, const BedFile& bed)
     write_with_unit(file, "/contacts/torsion", bed.contacts.torsion, 1, "N m");
     write_with_unit(file, "/contacts/stiffness", bed.contacts.stiffness, 1, "N/m");
     write_with_unit(file, "/contacts/twist_stiffness", bed.contacts.twist_stiffness, 1, "N m/rad");
+    write_with_unit(file, "/contacts/rolling", bed.contacts.rolling, 3, "N m");
+    write_with_unit(file, "/contacts/rolling_stiffness", bed.contacts.rolling_stiffness, 1, "N m/rad");
     file.close();
     rename_file(temporary, path);
 }
@@ -136,16 +138,19 @@ BedFile read_bed(const std::string& path)
     bed.diameter    = h5::read<double>(file, "/rocks/diameter", 1);
     require_rows(path, bed.size(),
                  {bed.position.size() / 3, bed.orientation.size() / 4, bed.scale.size(), bed.diameter.size()});
-    BedContacts& contacts    = bed.contacts;
-    contacts.pair            = h5::read<std::int32_t>(file, "/contacts/pair", 2);
-    contacts.tangential      = h5::read<double>(file, "/contacts/tangential", 3);
-    contacts.normal          = h5::read<double>(file, "/contacts/normal", 3);
-    contacts.torsion         = h5::read<double>(file, "/contacts/torsion", 1);
-    contacts.stiffness       = h5::read<double>(file, "/contacts/stiffness", 1);
-    contacts.twist_stiffness = h5::read<double>(file, "/contacts/twist_stiffness", 1);
+    BedContacts& contacts      = bed.contacts;
+    contacts.pair              = h5::read<std::int32_t>(file, "/contacts/pair", 2);
+    contacts.tangential        = h5::read<double>(file, "/contacts/tangential", 3);
+    contacts.normal            = h5::read<double>(file, "/contacts/normal", 3);
+    contacts.torsion           = h5::read<double>(file, "/contacts/torsion", 1);
+    contacts.stiffness         = h5::read<double>(file, "/contacts/stiffness", 1);
+    contacts.twist_stiffness   = h5::read<double>(file, "/contacts/twist_stiffness", 1);
+    contacts.rolling           = h5::read<double>(file, "/contacts/rolling", 3);
+    contacts.rolling_stiffness = h5::read<double>(file, "/contacts/rolling_stiffness", 1);
     require_rows(path, contacts.stiffness.size(),
                  {contacts.pair.size() / 2, contacts.tangential.size() / 3, contacts.normal.size() / 3,
-                  contacts.torsion.size(), contacts.twist_stiffness.size()});
+                  contacts.torsion.size(), contacts.twist_stiffness.size(), contacts.rolling.size() / 3,
+                  contacts.rolling_stiffness.size()});
     require_in_range(path, bed);
     return bed;
 }

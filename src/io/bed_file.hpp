@@ -30,6 +30,9 @@ struct BedContacts
     std::vector<double>       torsion;         ///< [n] N m, on the first about the normal
     std::vector<double>       stiffness;       ///< [n] N/m
     std::vector<double>       twist_stiffness; ///< [n] N m/rad
+
+    std::vector<double> rolling;           ///< [n][3] N m, on the first; zero where nothing resists rolling
+    std::vector<double> rolling_stiffness; ///< [n] N m/rad
 };
 
 struct BedFile

@@ -147,6 +147,10 @@ Keys<Contact> contact_keys()
                  "0.3; with \"wall\" 0.5"),
         optional("restitution", "", &Contact::restitution, number(between(0, 1)),
                  "Coefficient of restitution between bodies and with walls; points have none."),
+        optional(
+            "rolling_friction", "", &Contact::rolling_friction, number(between(0, 1)),
+            "Coefficient mu_r of the moment that resists rolling, at most mu_r R* F, between bodies and with walls "
+            "that have friction; points have none. A ball stays on a slope of up to atan(mu_r)."),
     };
 }
 

@@ -166,6 +166,8 @@ struct Contact
     double                     friction    = 0.3;
     double                     restitution = 0.5; ///< body-body only
 
+    double rolling_friction = 0; ///< mu_r, body-body only
+
     bool operator==(const Contact&) const = default;
 };
 

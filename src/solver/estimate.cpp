@@ -151,7 +151,7 @@ void require_room(const char* memory, std::int64_t wanted, std::int64_t free)
 
 Estimate estimate(const scene::Scene& scene, const World& world, const Plan& plan)
 {
-    constexpr std::int64_t bytes_per_body = 800, snapshot_bytes_per_point = 100, snapshot_bytes_per_body = 140;
+    constexpr std::int64_t bytes_per_body = 880, snapshot_bytes_per_point = 100, snapshot_bytes_per_body = 140;
     constexpr std::int64_t bytes_per_row = 200;
     const auto             points        = static_cast<std::int64_t>(world.points.size());
     const auto             bodies        = static_cast<std::int64_t>(world.bodies.size());

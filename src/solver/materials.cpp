@@ -65,7 +65,8 @@ mpm::MaterialParameters<Real> law_of(const scene::Material& material)
 
 dem::PairProperties pair(const scene::Contact& contact, Compliance a, Compliance b)
 {
-    return {1 / (a.normal + b.normal), 1 / (a.shear + b.shear), contact.friction, damping_ratio(contact.restitution)};
+    return {1 / (a.normal + b.normal), 1 / (a.shear + b.shear), contact.friction, damping_ratio(contact.restitution),
+            contact.rolling_friction};
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "kernels/dem/contact_limits.hpp"
 #include "kernels/dem/integrate.hpp"
 #include "kernels/dem/move.hpp"
+#include "kernels/dem/pairs_kern.hpp"
 #include "kernels/dem/sums.hpp"
 #include "solver/materials.hpp"
 
@@ -20,6 +22,7 @@ namespace
 {
 
 constexpr double deepest_overlap = 0.5; ///< of a radius: beyond it a contact's direction means nothing
+constexpr double longest_leap    = 1;   ///< of the smallest radius, in a substep
 
 std::vector<double> bounding_radii(const World& world)
 {
@@ -60,10 +63,14 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     , bounding_radii_(exec, "body bounding radii")
     , activity_(exec, "body activity")
     , sums_(exec, "body sums", dem::body_total_width)
+    , strays_(exec)
     , released_(static_cast<std::size_t>(named_), false)
 {
     upload(world, plan);
-    properties_.assign(pair_properties(scene));
+    const std::vector<dem::PairProperties> properties = pair_properties(scene);
+    properties_.assign(properties);
+    pairs_.resists_rolling =
+        std::any_of(properties.begin(), properties.end(), [](const auto& pair) { return pair.rolling_friction > 0; });
     planes_.assign(world.planes);
     law_             = {templates_.views(),
                         {properties_.data(), static_cast<std::int32_t>(scene.materials.size() + 1)},
@@ -74,7 +81,9 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     totals_.resize(count);
     totals_.fill_zero();
     activity_.resize(count);
-    bounding_radii_.assign(bounding_radii(world));
+    const std::vector<double> radii = bounding_radii(world);
+    bounding_radii_.assign(radii);
+    smallest_skin_ = dem::search_skin * *std::min_element(radii.begin(), radii.end());
     impulses_.resize(named_);
     if (contacts_) { dem::classify_bodies(exec_, pairs_, bodies_.view(), templates_.views()); }
     dem::clear_wrenches(exec_, bodies_.view());
@@ -89,15 +98,19 @@ void Rigid<Exec>::restore_contacts()
     if (world_.contacts.empty()) { return; }
     std::vector<std::uint64_t> keys;
     std::vector<dem::Patch>    patches;
+    std::vector<dem::Rolling>  rolling;
+    rolling.reserve(world_.contacts.size());
     keys.reserve(world_.contacts.size());
     patches.reserve(world_.contacts.size());
     for (const ContactRecord& contact : world_.contacts)
     {
         keys.push_back(contact.key);
         patches.push_back(contact.patch);
+        rolling.push_back(contact.rolling);
     }
     pairs_.key.assign(keys);
     pairs_.patch.assign(patches);
+    if (pairs_.resists_rolling) { pairs_.rolling.assign(rolling); }
 }
 
 template<class Exec>
@@ -185,6 +198,8 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
         command_impulse_ += mass * (velocity - velocity_before);
         command_work_ += 0.5 * mass * (velocity.squaredNorm() - velocity_before.squaredNorm()) +
                          0.5 * (spin.dot(inertia * spin) - spin_before.dot(inertia * spin_before));
+        commanded_speed_ =
+            std::max(commanded_speed_, velocity.norm() + spin.norm() * world_.bodies.scale[b] * form.bounding_radius);
         copy_from_host(exec_, bodies_.velocity.data() + b, &velocity, sizeof(velocity));
         copy_from_host(exec_, bodies_.angular_velocity.data() + b, &spin, sizeof(spin));
         copy_from_host(exec_, bodies_.locked.data() + b, &command.locked, sizeof(command.locked));
@@ -196,6 +211,30 @@ void Rigid<Exec>::find_pairs(double dt)
 {
     dem::find_pairs(exec_, pairs_, bodies_.view(), law_, dt);
     dem::expect_contacts(exec_, pairs_, bodies_.view(), law_, dt);
+    dem::mark_places(exec_, strays_, bodies_.view(), law_.templates, dt);
+}
+
+template<class Exec>
+bool Rigid<Exec>::watch(double dt, double speed)
+{
+    constexpr double hit_twice = 4;
+    const double     fastest   = std::max(speed, std::exchange(commanded_speed_, 0.0));
+    watched_                   = dt * (hit_twice * fastest + gravity_.norm() * dt) > smallest_skin_;
+    return watched_;
+}
+
+template<class Exec>
+bool Rigid<Exec>::strayed()
+{
+    return dem::largest_stray(exec_, strays_, bodies_.view(), law_.templates) > 1;
+}
+
+template<class Exec>
+void Rigid<Exec>::find_pairs_again(double dt, double time)
+{
+    require_finite(time);
+    overlap_ = std::max(overlap_, guard(time)); // the search forgets the peaks of the pairs
+    find_pairs(dt);
 }
 
 template<class Exec>
@@ -254,15 +293,59 @@ double Rigid<Exec>::guard(double time)
                     time, name(worst.first), wall ? "a wall" : name(worst.second), worst.ratio, deepest_overlap));
 }
 
+/// A body whose velocity or force is not a number has lost its way; the first of them is named.
+template<class Exec>
+void Rigid<Exec>::require_finite(double time)
+{
+    const std::vector<Vec3<double>> position = bodies_.position.to_host(), velocity = bodies_.velocity.to_host(),
+                                    spin = bodies_.angular_velocity.to_host(), force = bodies_.force.to_host(),
+                                    torque = bodies_.torque.to_host();
+    for (std::size_t b = 0; b < position.size(); ++b)
+    {
+        const auto values = {&position[b], &velocity[b], &spin[b], &force[b], &torque[b]};
+        if (std::all_of(values.begin(), values.end(),
+                        [](const Vec3<double>* value) { return std::isfinite(value->norm()); }))
+        {
+            continue;
+        }
+        throw NumericalError(fmt::format("t = {:.6g} s: the position, velocity or force of body {} is not a number",
+                                         time, name(static_cast<std::int64_t>(b))));
+    }
+}
+
+/// After a step in which nobody watched: a body may have met one that the list of pairs does not have.
+template<class Exec>
+void Rigid<Exec>::require_listed(double time)
+{
+    if (watched_) { return; }
+    const double largest = dem::largest_stray(exec_, strays_, bodies_.view(), law_.templates);
+    if (largest <= 1) { return; }
+    if (std::isinf(largest)) { require_finite(time); }
+    const std::vector<double> shares = strays_.share.to_host();
+    const auto                body   = std::find(shares.begin(), shares.end(), largest) - shares.begin();
+    throw NumericalError(fmt::format("t = {:.6g} s: body {} moved {:.3g} times as far in a step as the search for its "
+                                     "contacts allowed (at most 1): a smaller dt",
+                                     time, name(body), largest));
+}
+
+/// A body that leaps over the smallest one in a substep leaps over its contact.
+template<class Exec>
+void Rigid<Exec>::require_resolved(double time, double speed)
+{
+    const double smallest = smallest_skin_ / dem::search_skin, leap = speed * substep_;
+    if (leap <= longest_leap * smallest) { return; }
+    const std::vector<dem::BodyActivity> activity = activity_.to_host();
+    const auto                           body =
+        std::find_if(activity.begin(), activity.end(), [&](const auto& one) { return one.speed == speed; });
+    throw NumericalError(fmt::format("t = {:.6g} s: body {} moves {:.4g} m in a substep, {:.3g} of the smallest body's "
+                                     "radius (at most {}): more substeps, or a smaller dt",
+                                     time, name(body - activity.begin()), leap, leap / smallest, longest_leap));
+}
+
 template<class Exec>
 RigidReport Rigid<Exec>::report(double time)
 {
     RigidReport report;
-    if (contacts_)
-    {
-        report.overlap          = guard(time);
-        report.shortest_contact = shortest_contact();
-    }
     take_totals(report);
     dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity_.data());
     const double*     activity = reinterpret_cast<const double*>(activity_.data());
@@ -278,7 +361,15 @@ RigidReport Rigid<Exec>::report(double time)
     report.substep      = substep_;
     if (!std::isfinite(report.net_force) || !std::isfinite(found.speed))
     {
-        throw NumericalError(fmt::format("t = {:.6g} s: a body's velocity or force is not a number", time));
+        require_finite(time);
+        throw NumericalError(fmt::format("t = {:.6g} s: the sum of the forces on bodies is not a number", time));
+    }
+    if (contacts_)
+    {
+        require_resolved(time, report.largest_speed);
+        require_listed(time);
+        report.overlap          = std::max(std::exchange(overlap_, 0.0), guard(time));
+        report.shortest_contact = shortest_contact();
     }
     return report;
 }
@@ -310,10 +401,12 @@ std::vector<ContactRecord> Rigid<Exec>::contacts() const
 {
     const std::vector<std::uint64_t> keys    = pairs_.key.to_host();
     const std::vector<dem::Patch>    patches = pairs_.patch.to_host();
+    const std::vector<dem::Rolling>  rolling = pairs_.rolling.to_host();
     std::vector<ContactRecord>       found;
     for (std::size_t p = 0; p < keys.size(); ++p)
     {
-        if (patches[p].stiffness > 0) { found.push_back({keys[p], patches[p]}); }
+        if (!(patches[p].stiffness > 0)) { continue; }
+        found.push_back({keys[p], patches[p], pairs_.resists_rolling ? rolling[p] : dem::no_rolling()});
     }
     return found;
 }

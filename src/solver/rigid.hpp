@@ -7,6 +7,7 @@
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/impulses.hpp"
 #include "kernels/dem/pairs.hpp"
+#include "kernels/dem/strays.hpp"
 #include "kernels/dem/totals.hpp"
 #include "solver/device_templates.hpp"
 #include "solver/ledger.hpp"
@@ -49,6 +50,17 @@ public:
     /// 2. Pairs of bodies, and of bodies and walls, that may touch in the step.
     void find_pairs(double dt);
 
+    /// Before the substeps: whether a body may, within a step of dt (s), go further than find_pairs allowed for, when
+    /// the fastest of anything goes at `speed` (m/s) at its start: a light body that is hit leaves at up to twice that,
+    /// and one that is hit by such a one again at four times.
+    bool watch(double dt, double speed);
+
+    /// Whether one has: then the list of pairs does not hold any more.
+    bool strayed();
+
+    /// Finds the pairs anew in the middle of a step, for the rest of it, dt (s); `time` (s) is for messages.
+    void find_pairs_again(double dt, double time);
+
     /// The least sqrt(m / sum K) over bodies, of contacts that are live or may come in the step, s; 0 = none.
     double shortest_contact();
 
@@ -75,6 +87,9 @@ public:
 private:
     void   upload(const World& world, const Plan& plan);
     void   restore_contacts();
+    void   require_finite(double time);
+    void   require_listed(double time);
+    void   require_resolved(double time, double speed);
     void   take_totals(RigidReport& report);
     double guard(double time);
 
@@ -95,6 +110,11 @@ private:
     Array<Exec, double>              bounding_radii_;
     Array<Exec, dem::BodyActivity>   activity_;
     Array<Exec, double>              sums_;
+    dem::Strays<Exec>                strays_;
+    double                           smallest_skin_ = 0; ///< m, what the search allows a body at rest
+    bool                             watched_ = false; ///< of the present step: strayed() is asked before each substep
+    double                           commanded_speed_ = 0; ///< m/s, the largest that commands gave in this step
+    double                           overlap_         = 0; ///< largest over radius before find_pairs_again
     dem::BodyLaw                     law_{};
     std::vector<bool>                released_;            ///< named bodies that were free once
     double                           mean_time_       = 0; ///< s, since begin_mean()

@@ -28,11 +28,12 @@ int wall_number(const dem::Plane& plane)
 }
 
 /// Seen from the pair's other body.
-dem::Patch turned_over(dem::Patch patch)
+ContactRecord turned_over(ContactRecord contact)
 {
-    patch.tangential = -patch.tangential;
-    patch.normal     = -patch.normal;
-    return patch;
+    contact.patch.tangential = -contact.patch.tangential;
+    contact.patch.normal     = -contact.patch.normal;
+    contact.rolling.moment   = -contact.rolling.moment;
+    return contact;
 }
 
 void append(std::vector<double>& values, const Vec3<double>& vector)
@@ -40,20 +41,25 @@ void append(std::vector<double>& values, const Vec3<double>& vector)
     values.insert(values.end(), vector.data(), vector.data() + 3);
 }
 
-void append(io::BedContacts& contacts, std::int32_t first, std::int32_t second, const dem::Patch& patch)
+void append(io::BedContacts& contacts, std::int32_t first, std::int32_t second, const ContactRecord& record)
 {
+    const dem::Patch& patch = record.patch;
     contacts.pair.insert(contacts.pair.end(), {first, second});
     append(contacts.tangential, patch.tangential);
     append(contacts.normal, patch.normal);
     contacts.torsion.push_back(patch.torsion);
     contacts.stiffness.push_back(patch.stiffness);
     contacts.twist_stiffness.push_back(patch.twist_stiffness);
+    append(contacts.rolling, record.rolling.moment);
+    contacts.rolling_stiffness.push_back(record.rolling.stiffness);
 }
 
-dem::Patch patch_of(const io::BedContacts& contacts, std::size_t i)
+ContactRecord record_of(const io::BedContacts& contacts, std::size_t i)
 {
-    return {Vec3<double>(contacts.tangential.data() + 3 * i), Vec3<double>(contacts.normal.data() + 3 * i),
-            contacts.torsion[i], contacts.stiffness[i], contacts.twist_stiffness[i]};
+    return {0,
+            {Vec3<double>(contacts.tangential.data() + 3 * i), Vec3<double>(contacts.normal.data() + 3 * i),
+             contacts.torsion[i], contacts.stiffness[i], contacts.twist_stiffness[i]},
+            {Vec3<double>(contacts.rolling.data() + 3 * i), contacts.rolling_stiffness[i]}};
 }
 
 std::vector<io::BedKind> kinds_of_table(const scene::Scene& scene, std::size_t table, const World& world)
@@ -124,7 +130,7 @@ io::BedFile make_bed(const scene::Scene& scene, const World& world, const io::Bo
         if (a < named || b < named) { continue; }
         const auto second =
             b < count ? b - named : count - named + static_cast<std::size_t>(wall_number(world.planes[b - count]));
-        append(bed.contacts, static_cast<std::int32_t>(a - named), static_cast<std::int32_t>(second), contact.patch);
+        append(bed.contacts, static_cast<std::int32_t>(a - named), static_cast<std::int32_t>(second), contact);
     }
     return bed;
 }
@@ -288,9 +294,33 @@ void SavedBeds::place(std::size_t table, World& world)
     }
 }
 
+void SavedBeds::add_contacts(const Bed& bed, World& world)
+{
+    const io::BedContacts& contacts = bed.file.contacts;
+    const auto             rocks    = static_cast<std::int32_t>(bed.file.size());
+    const auto             count    = static_cast<std::int64_t>(world.bodies.size());
+    for (std::size_t i = 0; i < contacts.stiffness.size(); ++i)
+    {
+        const std::int64_t a      = bed.body[static_cast<std::size_t>(contacts.pair[2 * i])];
+        const std::int32_t second = contacts.pair[2 * i + 1];
+        ContactRecord      record = record_of(contacts, i);
+        if (second < rocks)
+        {
+            const std::int64_t b = bed.body[static_cast<std::size_t>(second)];
+            record.key           = dem::pair_key(std::min(a, b), std::max(a, b));
+            world.contacts.push_back(a < b ? record : turned_over(record));
+            continue;
+        }
+        const auto wall = std::find_if(world.planes.begin(), world.planes.end(),
+                                       [&](const dem::Plane& plane) { return wall_number(plane) == second - rocks; });
+        if (wall == world.planes.end()) { continue; }
+        record.key = dem::pair_key(a, count + (wall - world.planes.begin()));
+        world.contacts.push_back(record);
+    }
+}
+
 void SavedBeds::finish(World& world) const
 {
-    const auto count = static_cast<std::int64_t>(world.bodies.size());
     for (const auto& [path, bed] : beds_)
     {
         const auto left = std::find(bed.body.begin(), bed.body.end(), -1);
@@ -303,26 +333,7 @@ void SavedBeds::finish(World& world) const
                                          "material \"{}\", on which others may lie; accepted: a table for each",
                                          path, kind.shape, kind.material));
         }
-        const io::BedContacts& contacts = bed.file.contacts;
-        const auto             rocks    = static_cast<std::int32_t>(bed.file.size());
-        for (std::size_t i = 0; i < contacts.stiffness.size(); ++i)
-        {
-            const std::int64_t a      = bed.body[static_cast<std::size_t>(contacts.pair[2 * i])];
-            const std::int32_t second = contacts.pair[2 * i + 1];
-            const dem::Patch   patch  = patch_of(contacts, i);
-            if (second < rocks)
-            {
-                const std::int64_t b = bed.body[static_cast<std::size_t>(second)];
-                world.contacts.push_back(
-                    {dem::pair_key(std::min(a, b), std::max(a, b)), a < b ? patch : turned_over(patch)});
-                continue;
-            }
-            const auto wall =
-                std::find_if(world.planes.begin(), world.planes.end(),
-                             [&](const dem::Plane& plane) { return wall_number(plane) == second - rocks; });
-            if (wall == world.planes.end()) { continue; }
-            world.contacts.push_back({dem::pair_key(a, count + (wall - world.planes.begin())), patch});
-        }
+        add_contacts(bed, world);
     }
     std::sort(world.contacts.begin(), world.contacts.end(),
               [](const ContactRecord& a, const ContactRecord& b) { return a.key < b.key; });

@@ -42,6 +42,7 @@ private:
         std::vector<std::int64_t> body; ///< of each rock of the file; -1 while no table has taken it
     };
 
+    static void              add_contacts(const Bed& bed, World& world);
     const Bed&               bed(std::size_t table) const;
     std::vector<std::size_t> taken(std::size_t table) const;
     [[noreturn]] void        refuse(std::size_t table, const std::string& what) const;

@@ -83,7 +83,7 @@ void Simulation<Exec, Real>::step(const TimeStep& step, double time, StageClock&
             [&]
             { coupling_->begin_step(sand_->view(), sand_->pages(), rigid_->view(), step.dt, pace_.largest_speed); });
     }
-    if (rigid_) { substeps(step, clock); }
+    if (rigid_) { substeps(step, time, clock); }
     if (coupling_)
     {
         clock.run(exec_, stage::sand_contact, [&] { coupling_->finish_step(sand_->view(), step.dt); });
@@ -103,11 +103,21 @@ void Simulation<Exec, Real>::step(const TimeStep& step, double time, StageClock&
 }
 
 template<class Exec, class Real>
-void Simulation<Exec, Real>::substeps(const TimeStep& step, StageClock& clock)
+void Simulation<Exec, Real>::substeps(const TimeStep& step, double time, StageClock& clock)
 {
-    const double dt = step.dt / static_cast<double>(step.substeps);
+    const double dt      = step.dt / static_cast<double>(step.substeps);
+    const bool   watched = plan_.body_contact && rigid_->watch(step.dt, pace_.largest_speed);
     for (std::int64_t substep = 0; substep < step.substeps; ++substep)
     {
+        if (watched && substep > 0)
+        {
+            const double done = dt * static_cast<double>(substep);
+            clock.run(exec_, stage::pairs,
+                      [&]
+                      {
+                          if (rigid_->strayed()) { rigid_->find_pairs_again(step.dt - done, time + done); }
+                      });
+        }
         if (coupling_)
         {
             rigid_->clear_wrenches();

@@ -74,7 +74,7 @@ public:
     const Ledger& ledger() const { return *ledger_; }
 
 private:
-    void substeps(const TimeStep& step, StageClock& clock);
+    void substeps(const TimeStep& step, double time, StageClock& clock);
     void measure();
     void choose_measuring();
 

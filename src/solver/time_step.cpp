@@ -45,11 +45,20 @@ Bound smallest_bound(const PaceLimits& limits, const Pace& pace)
     return least;
 }
 
-std::int64_t needed_substeps(double dt, const Pace& pace)
+std::int64_t needed_substeps(double dt, const PaceLimits& limits, const Pace& pace)
 {
-    if (pace.shortest_contact <= 0) { return 1; }
-    return std::max<std::int64_t>(1,
-                                  static_cast<std::int64_t>(std::ceil(dt / (contact_safety * pace.shortest_contact))));
+    double needed = 1;
+    if (pace.shortest_contact > 0)
+    {
+        needed = std::max(needed, std::ceil(dt / (contact_safety * pace.shortest_contact)));
+    }
+    if (limits.smallest_body > 0)
+    {
+        // The rounding of a dt that is at the same bound must not double the substeps.
+        const double travel = dt * pace.largest_speed / (travel_bound * limits.smallest_body);
+        needed              = std::max(needed, std::ceil(travel - 1e-9));
+    }
+    return static_cast<std::int64_t>(needed);
 }
 
 } // namespace
@@ -64,7 +73,7 @@ TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits
         step              = {bound.dt, 1, bound.name};
         if (last_dt > 0 && step.dt > growth * last_dt) { step = {growth * last_dt, 1, "growth"}; }
     }
-    step.substeps = options.substeps ? *options.substeps : needed_substeps(step.dt, pace);
+    step.substeps = options.substeps ? *options.substeps : needed_substeps(step.dt, limits, pace);
     return step;
 }
 

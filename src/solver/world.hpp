@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "backend/vector.hpp"
-#include "kernels/dem/patch_kern.hpp"
+#include "kernels/dem/rolling_kern.hpp"
 #include "kernels/dem/templates.hpp"
 #include "kernels/mpm/grid.hpp"
 #include "kernels/mpm/order.hpp"
@@ -55,6 +55,7 @@ struct ContactRecord
 {
     std::uint64_t key;
     dem::Patch    patch;
+    dem::Rolling  rolling = dem::no_rolling();
 };
 
 struct World

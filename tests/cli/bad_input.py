@@ -134,6 +134,69 @@ class BadMesh(CommandTest):
         self.assertEqual(self.files(), ["scene.toml"])
 
 
+class BadBed(CommandTest):
+    """Beds of rocks that are saved, and that other scenes start from."""
+
+    BALLS = """
+[[shape]]
+name     = "ball"
+generate = { kind = "sphere", nodes = 42 }
+[[rocks]]
+shape     = "ball"
+material  = "steel"
+count     = 2
+diameter  = 0.05
+placement = "rain"
+region    = { box = [[0.0, 0.0, 0.2], [0.4, 0.4, 0.4]] }
+"""
+    FROM = BALLS[: BALLS.index("count")] + 'from     = "bed.h5"\n'
+    NO_SAND = re.sub(r"\[\[terrain\]\]\n.*\n.*\n", "", SCENE)
+
+    def refuse(self, text, mentions):
+        scene = self.write("scene.toml", text)
+        before = self.files()
+        result = self.tread("run", scene, "--output", self.output)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        for part in mentions:
+            self.assertIn(part, result.stderr)
+        self.assertEqual(self.files(), before, "files were written")
+
+    def saving(self, text, phase):
+        return text.replace("[output]", f'[output]\nbed_after = "{phase}"')
+
+    def test_unknown_phase(self):
+        self.refuse(self.saving(self.NO_SAND + self.BALLS, "reset"), ["bed_after", "reset", "rest"])
+
+    def test_bed_with_sand(self):
+        self.refuse(self.saving(SCENE + self.BALLS, "rest"), ["bed_after", "terrain"])
+
+    def test_bed_without_rocks(self):
+        self.refuse(self.saving(self.NO_SAND + BODY, "rest"), ["bed_after", "rocks"])
+
+    def test_missing_bed(self):
+        self.refuse(SCENE + self.FROM, ["rocks[0]", "from", "bed.h5"])
+
+    def test_no_bed(self):
+        (self.directory / "bed.h5").write_text("no bed")
+        self.refuse(SCENE + self.FROM, ["[[rocks]] 0", "from", "bed.h5", "accepted"])
+
+    def test_drawn_and_from_a_bed(self):
+        (self.directory / "bed.h5").write_text("no bed")
+        self.refuse(SCENE + self.FROM + "count = 2\n", ["count", "`from`"])
+
+    def test_rolling_friction(self):
+        contact = '[[contact]]\nbetween = ["steel", "wall"]\nrolling_friction = 1.5\n'
+        self.refuse(SCENE + contact, ["rolling_friction", "<= 1"])
+
+    def test_saved_bed_starts_another_scene(self):
+        result = self.tread("run", self.write("first.toml", self.saving(self.NO_SAND + self.BALLS, "rest")), "--output",
+                            self.directory / "first", "--backend", "cpu")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        again = (self.NO_SAND + self.FROM).replace("bed.h5", "first/bed.h5")
+        result = self.tread("run", self.write("again.toml", again), "--output", self.output, "--backend", "cpu")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+
 class BadPlace(CommandTest):
     """The scene is right; where it should run is not."""
 

@@ -134,7 +134,7 @@ TYPED_TEST(Beds, SavedHeapStaysAtRestInAnotherScene)
     io::write_bed(path, saved);
 
     const scene::Scene scene = test::load_text(other_text(path));
-    solver::World      world = build_world(scene);
+    solver::World      world = solver::build_world(scene);
     ASSERT_EQ(world.bodies.size(), saved.size() + 1);
     ASSERT_EQ(world.contacts.size(), saved.contacts.stiffness.size());
     EXPECT_GE(world.contacts.size(), saved.size()) << "every rock lies on something";

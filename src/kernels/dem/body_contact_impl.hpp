@@ -20,11 +20,23 @@ struct EvaluatePair
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
     {
         Patch              patch    = pairs.patch[p];
-        const PairResponse response = respond_of(p, lanes, patch);
+        PairResponse response = respond_of(p, lanes, patch);
         if (lanes.lane() != 0) { return; }
+        if (pairs.rolling != nullptr) { resist_rolling(p, patch, response); }
         pairs.patch[p]    = patch;
         pairs.response[p] = response;
         pairs.peak[p]     = std::fmax(pairs.peak[p], response.overlap);
+    }
+
+    /// `patch` = the pair's, after the substep; that before it is still in the list.
+    TREAD_HD void resist_rolling(std::int64_t p, const Patch& patch, PairResponse& response) const
+    {
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        const bool         wall = b >= bodies.count;
+        const PairLaw      pair =
+            wall ? law_against(bodies, law, a, law.planes[b - bodies.count]) : law_between(bodies, law, a, b);
+        const Spins spins{bodies.angular_velocity[a], wall ? Vec3<double>::Zero() : bodies.angular_velocity[b]};
+        add_rolling(pair, pairs.patch[p], patch, spins, response, pairs.rolling[p], dt);
     }
 
     template<class Lanes>

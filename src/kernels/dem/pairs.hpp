@@ -6,6 +6,7 @@
 #include "backend/sort.hpp"
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/body_contact_kern.hpp"
+#include "kernels/dem/rolling_kern.hpp"
 #include "kernels/dem/templates.hpp"
 
 // Which bodies may touch which, and which walls, during one MPM step: found once, frozen during the substeps.
@@ -40,6 +41,7 @@ struct PairsView
     const std::int32_t*  first;     ///< [bodies + 1], the run of pairs whose first body is this one
     const std::int32_t*  by_second; ///< pairs ordered by their second body
     const std::int32_t*  second;    ///< [bodies + 1], the run in by_second of this body
+    Rolling*             rolling;   ///< null where no pair of materials has rolling friction
 
     const double*       travel;     ///< m, of every body, that the list allows for
     const std::int32_t* first_node; ///< [pairs + 1], the run of nodes that may touch, of each pair
@@ -58,6 +60,7 @@ struct Pairs
         , first(exec, "pairs of first body")
         , by_second(exec, "pairs by second body")
         , second(exec, "pairs of second body")
+        , rolling(exec, "pair rolling moments")
         , expected_stiffness(exec, "body expected stiffness")
         , large(exec, "large bodies")
         , is_large(exec, "large body marks")
@@ -65,6 +68,7 @@ struct Pairs
         , last_key(exec, "last pair keys")
         , last_patch(exec, "last pair patches")
         , travel(exec, "body travel")
+        , last_rolling(exec, "last pair rolling moments")
         , reach(exec, "body reach")
         , cell_key(exec, "body cells")
         , cell_body(exec, "bodies by cell")
@@ -79,8 +83,10 @@ struct Pairs
 
     PairsView view()
     {
-        return {key.size(),       key.data(),    patch.data(),  response.data(),   peak.data(), first.data(),
-                by_second.data(), second.data(), travel.data(), first_node.data(), node.data()};
+        return {key.size(),        key.data(),    patch.data(),
+                response.data(),   peak.data(),   first.data(),
+                by_second.data(),  second.data(), resists_rolling ? rolling.data() : nullptr,
+                travel.data(),     first_node.data(), node.data()};
     }
 
     Array<Exec, std::uint64_t> key;
@@ -90,6 +96,7 @@ struct Pairs
     Array<Exec, std::int32_t>  first;
     Array<Exec, std::int32_t>  by_second;
     Array<Exec, std::int32_t>  second;
+    Array<Exec, Rolling>       rolling;            ///< empty unless resists_rolling
     Array<Exec, double>        expected_stiffness; ///< N/m, of each body (contact_limits.hpp)
 
     Array<Exec, std::int32_t> large;     ///< bodies that never enter the cell grid
@@ -99,6 +106,7 @@ struct Pairs
     Array<Exec, std::uint64_t> last_key;
     Array<Exec, Patch>         last_patch;
     Array<Exec, double>        travel;
+    Array<Exec, Rolling>       last_rolling;
     Array<Exec, double>        reach;
     Array<Exec, std::uint64_t> cell_key;
     Array<Exec, std::int32_t>  cell_body;
@@ -108,6 +116,7 @@ struct Pairs
     Array<Exec, std::int32_t>  first_node;
     Array<Exec, std::int32_t>  node;
     SortScratch<Exec>          sort;
+    bool                       resists_rolling = false; ///< some pair of materials has rolling friction
 };
 
 /// Once, and again when bodies come, go or change places: sorts them by size. A body more than 4 times larger than the

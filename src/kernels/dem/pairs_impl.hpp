@@ -129,6 +129,7 @@ struct Recall
     std::int64_t         last_count;
     const std::uint64_t* last_key;
     const Patch*         last_patch;
+    const Rolling*       last_rolling;
     std::uint64_t*       second_key;
     std::int32_t*        by_second;
 
@@ -136,10 +137,11 @@ struct Recall
     {
         const std::int64_t last = find_sorted(last_key, last_count, pairs.key[p]);
         pairs.patch[p]          = last < 0 ? no_patch() : last_patch[last];
-        pairs.response[p]       = no_response();
-        pairs.peak[p]           = 0;
-        second_key[p]           = static_cast<std::uint64_t>(second_of(pairs.key[p]));
-        by_second[p]            = static_cast<std::int32_t>(p);
+        if (pairs.rolling != nullptr) { pairs.rolling[p] = last < 0 ? no_rolling() : last_rolling[last]; }
+        pairs.response[p] = no_response();
+        pairs.peak[p]     = 0;
+        second_key[p]     = static_cast<std::uint64_t>(second_of(pairs.key[p]));
+        by_second[p]      = static_cast<std::int32_t>(p);
     }
 };
 
@@ -226,13 +228,14 @@ void order_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     const std::int64_t count = pairs.key.size();
     pairs.patch.resize(count);
+    if (pairs.resists_rolling) { pairs.rolling.resize(count); }
     pairs.response.resize(count);
     pairs.peak.resize(count);
     pairs.second_key.resize(count);
     pairs.by_second.resize(count);
     for_each(exec, "recall pairs", count,
              Recall{pairs.view(), pairs.last_key.size(), pairs.last_key.data(), pairs.last_patch.data(),
-                    pairs.second_key.data(), pairs.by_second.data()});
+                    pairs.last_rolling.data(), pairs.second_key.data(), pairs.by_second.data()});
     sort_by_key(exec, pairs.second_key, pairs.by_second, pairs.sort);
 
     pairs.first.resize(bodies.count + 1);
@@ -274,6 +277,7 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     using namespace pair_steps;
     pairs.key.swap(pairs.last_key);
     pairs.patch.swap(pairs.last_patch);
+    pairs.rolling.swap(pairs.last_rolling);
     const double cell_size = fill_cells(exec, pairs, bodies, law.templates, dt);
     search(exec, pairs, bodies, law, cell_size);
     keep_pairs_with_nodes(exec, pairs, bodies, law);

@@ -8,14 +8,17 @@
 namespace tread::dem
 {
 
-/// m, that any point of a body may move until the pairs are found anew: twice what it can in the next dt (s), a skin (a
-/// body at rest may be set going), and some more for a list that lasts several steps.
+/// Of the bounding radius: a body at rest may be set going within the step.
+inline constexpr double search_skin = 0.01;
+
+/// m, that any point of a body may move until the pairs are found anew: twice what it can in the next dt (s), the skin,
+/// and some more for a list that lasts several steps.
 TREAD_HD double travel_of(const BodiesView& bodies, const TemplateView* templates, std::int64_t b, double dt)
 {
-    constexpr double skin = 0.01, more_steps = 16, most_more = 0.04; // skins in radii
+    constexpr double more_steps = 16, most_more = 0.04; // of the radius
     const double     radius = templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
     const double     step   = dt * (bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius);
-    return 2.0 * step + skin * radius + std::fmin(more_steps * step, most_more * radius);
+    return 2.0 * step + search_skin * radius + std::fmin(more_steps * step, most_more * radius);
 }
 
 /// A body as the search sees it.

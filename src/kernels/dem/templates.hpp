@@ -39,6 +39,8 @@ struct PairProperties
     double effective_shear; ///< G*, 1/G* = sum (2 - nu)/G
     double friction;        ///< Coulomb
     double damping_ratio;   ///< zeta of the body-body law, from the restitution
+
+    double rolling_friction = 0; ///< mu_r, of the moment that resists rolling
 };
 
 /// materials x materials, row-major; the last row and column is the domain's wall (rigid).

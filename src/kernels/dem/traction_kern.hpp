@@ -20,6 +20,7 @@ struct PairLaw
     double friction;         ///< Coulomb
     double damping_ratio;    ///< zeta, normal and tangential
     double reduced_mass;     ///< kg, m*; 0 if neither side can move
+    double rolling_friction; ///< mu_r
 };
 
 /// inverse_radii = 1/R_a + 1/R_b, inverse_masses = 1/m_a + 1/m_b.
@@ -36,7 +37,8 @@ TREAD_HD PairLaw pair_law(const PairProperties& pair, const ContactOptions& opti
             4.0 * pair.effective_shear / pair.effective_young,
             pair.friction,
             pair.damping_ratio,
-            inverse_masses > 0 ? 1.0 / inverse_masses : 0.0};
+            inverse_masses > 0 ? 1.0 / inverse_masses : 0.0,
+            pair.rolling_friction};
 }
 
 /// p(d), Pa; p'(d), Pa/m; and the potential psi with psi' = p, J/m2.

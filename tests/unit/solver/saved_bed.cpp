@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "io/bed_file.hpp"
+#include "kernels/dem/pairs.hpp"
 #include "scene_text.hpp"
 #include "solver/packing.hpp"
 #include "solver/saved_bed.hpp"

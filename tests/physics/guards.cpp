@@ -1,0 +1,174 @@
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "harness.hpp"
+#include "solver/rigid.hpp"
+
+// What stops a run of bodies that has gone wrong, and what must not be missed by one that has not.
+namespace
+{
+
+using namespace tread;
+
+template<class Exec>
+class Guards : public test::BackendTest<Exec>
+{
+};
+TYPED_TEST_SUITE(Guards, test::Backends, test::BackendNames);
+
+std::string ball(const char* name, double diameter, double mass, const std::string& position,
+                 const std::string& velocity)
+{
+    return fmt::format(R"([[body]]
+name     = "{}"
+shape    = "ball"
+material = "steel"
+diameter = {}
+mass     = {}
+position = {}
+velocity = {}
+)",
+                       name, diameter, mass, position, velocity);
+}
+
+std::string text(double duration, double dt, int substeps, const std::string& bodies)
+{
+    return fmt::format(R"(
+title = "guards"
+[domain]
+size    = [4.0, 1.0, 1.0]
+gravity = [0.0, 0.0, 0.0]
+walls   = {{ x = "open", y = "open", bottom = "open", top = "open" }}
+[time]
+dt       = {}
+substeps = {}
+[[material]]
+name    = "steel"
+model   = "elastic"
+density = 7800.0
+young   = 1.0e7
+poisson = 0.3
+[[contact]]
+between     = ["steel", "steel"]
+restitution = 1.0
+[[shape]]
+name      = "ball"
+generate  = {{ kind = "sphere", nodes = 162 }}
+sdf_cells = 24
+{}
+[[phase]]
+name     = "go"
+duration = {}
+)",
+                       dt, substeps, bodies, duration);
+}
+
+/// A heavy ball hits a light one at rest, which leaves at twice its speed and meets a third within the same long step.
+/// The third is 5 % of a radius away, over what a search allows two bodies at rest. One step of 96 substeps must do
+/// what 96 steps of one do, and they find the pairs anew each time.
+TYPED_TEST(Guards, BodyThatIsHitWithinAStepMissesNoContact)
+{
+    const std::string balls = ball("heavy", 0.1, 1000, "[1.0, 0.5, 0.5]", "[2.0, 0.0, 0.0]") +
+                              ball("light", 0.1, 1, "[1.1001, 0.5, 0.5]", "[0.0, 0.0, 0.0]") +
+                              ball("third", 0.1, 1, "[1.2026, 0.5, 0.5]", "[0.0, 0.0, 0.0]");
+    constexpr double dt   = 1.6e-3;
+    const auto       ends = [&](double step, int substeps)
+    {
+        test::Experiment<TypeParam> experiment(this->exec(), text(dt, step, substeps, balls));
+        experiment.run();
+        return experiment.simulation().named_bodies();
+    };
+    const auto long_step = ends(dt, 96), short_steps = ends(dt / 96, 1);
+    test::report("velocity of the third ball, m/s", long_step[2].velocity[0], short_steps[2].velocity[0], 0,
+                 "the same substeps; a contact that is missed leaves it at rest");
+    EXPECT_GT(short_steps[2].velocity[0], 0.5);
+    for (std::size_t b = 0; b < 3; ++b)
+    {
+        EXPECT_NEAR(long_step[b].velocity[0], short_steps[b].velocity[0], 1e-9);
+        EXPECT_NEAR(long_step[b].position[0], short_steps[b].position[0], 1e-12);
+    }
+}
+
+template<class Call>
+std::string stop(const Call& call)
+{
+    try
+    {
+        call();
+    }
+    catch (const NumericalError& error)
+    {
+        EXPECT_EQ(error.code(), ExitCode::numerical);
+        return error.what();
+    }
+    return "went on";
+}
+
+TYPED_TEST(Guards, BodyThatLeapsOverAnotherStopsTheRunByName)
+{
+    const std::string balls = ball("sleeper", 0.1, 1, "[3.0, 0.5, 0.5]", "[0.0, 0.0, 0.0]") +
+                              ball("bullet", 0.1, 1, "[1.0, 0.5, 0.5]", "[600.0, 0.0, 0.0]");
+    const std::string found = stop(
+        [&]
+        {
+            test::Experiment<TypeParam> experiment(this->exec(), text(0.01, 1e-3, 10, balls));
+            experiment.run();
+        });
+    EXPECT_NE(found.find("'bullet'"), std::string::npos) << found;
+    EXPECT_NE(found.find("t = "), std::string::npos) << found;
+    EXPECT_NE(found.find("in a substep"), std::string::npos) << found;
+}
+
+/// What is not a number anywhere in a body's state stops the step in which it appears.
+TYPED_TEST(Guards, NotANumberIsNamedAtOnce)
+{
+    const TypeParam   exec  = this->exec();
+    const std::string balls = ball("first", 0.1, 1, "[1.0, 0.5, 0.5]", "[0.0, 0.0, 0.0]") +
+                              ball("second", 0.1, 1, "[2.0, 0.5, 0.5]", "[0.0, 0.0, 0.0]");
+    const scene::Scene  scene = test::load_text(text(0.01, 1e-3, 1, balls));
+    const solver::World world = solver::build_world(scene);
+    const Vec3<double>  lost(0, std::numeric_limits<double>::quiet_NaN(), 0);
+    for (auto array : {&dem::BodiesView::velocity, &dem::BodiesView::angular_velocity, &dem::BodiesView::position})
+    {
+        solver::Rigid<TypeParam> rigid(exec, scene, world, make_plan(scene, world));
+        rigid.command(std::vector<solver::BodyCommand>(2));
+        rigid.find_pairs(1e-3);
+        copy_from_host(exec, rigid.view().*array + 1, &lost, sizeof(lost));
+        rigid.clear_wrenches();
+        rigid.contact(1e-3);
+        rigid.move(1e-3, 0);
+        const std::string found = stop([&] { rigid.report(0.25); });
+        EXPECT_NE(found.find("'second'"), std::string::npos) << found;
+        EXPECT_NE(found.find("t = 0.25"), std::string::npos) << found;
+        EXPECT_NE(found.find("not a number"), std::string::npos) << found;
+    }
+}
+
+/// The last guard: a body that nobody watched, and that is further than its search allowed.
+TYPED_TEST(Guards, BodyBeyondItsSearchStopsTheRunByName)
+{
+    const TypeParam   exec  = this->exec();
+    const std::string balls = ball("first", 0.1, 1, "[1.0, 0.5, 0.5]", "[0.0, 0.0, 0.0]") +
+                              ball("second", 0.1, 1, "[2.0, 0.5, 0.5]", "[0.0, 0.0, 0.0]");
+    const scene::Scene       scene = test::load_text(text(0.01, 1e-3, 1, balls));
+    const solver::World      world = solver::build_world(scene);
+    solver::Rigid<TypeParam> rigid(exec, scene, world, make_plan(scene, world));
+    rigid.command(std::vector<solver::BodyCommand>(2));
+    rigid.find_pairs(1e-3);
+    ASSERT_FALSE(rigid.watch(1e-3, 0));
+    const Vec3<double> thrown(0, 5, 0); // 5 mm in the step; 1 % of 50 mm are allowed
+    copy_from_host(exec, rigid.view().velocity + 1, &thrown, sizeof(thrown));
+    rigid.clear_wrenches();
+    rigid.contact(1e-3);
+    rigid.move(1e-3, 0);
+    EXPECT_TRUE(rigid.strayed());
+    const std::string found = stop([&] { rigid.report(0.25); });
+    EXPECT_NE(found.find("'second'"), std::string::npos) << found;
+    EXPECT_NE(found.find("search"), std::string::npos) << found;
+}
+
+} // namespace
