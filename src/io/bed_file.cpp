@@ -34,7 +34,7 @@ void write_kinds(const h5::File& file, const std::vector<BedKind>& kinds)
         h5::write_attribute(file, group, "shape", kinds[k].shape);
         h5::write_attribute(file, group, "member", kinds[k].member);
         h5::write_attribute(file, group, "material", kinds[k].material);
-        h5::write_attribute(file, group, "volume", kinds[k].volume);
+        h5::write_attribute(file, group, "inertia", kinds[k].inertia);
         h5::write_attribute(file, group, "density", kinds[k].density);
         h5::write_attribute(file, group, "young", kinds[k].young);
         h5::write_attribute(file, group, "poisson", kinds[k].poisson);
@@ -50,7 +50,7 @@ std::vector<BedKind> read_kinds(const h5::File& file)
         const std::string group  = fmt::format("/kinds/{}", k);
         const auto        text   = [&](const char* name) { return h5::read_text_attribute(file, group, name); };
         const auto        number = [&](const char* name) { return h5::read_number_attribute(file, group, name); };
-        kinds.push_back({text("shape"), text("member"), text("material"), number("volume"), number("density"),
+        kinds.push_back({text("shape"), text("member"), text("material"), number("inertia"), number("density"),
                          number("young"), number("poisson")});
     }
     return kinds;

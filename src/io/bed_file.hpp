@@ -14,7 +14,7 @@ struct BedKind
     std::string shape;    ///< the [[shape]] that the rocks were drawn from
     std::string member;   ///< the rock of that family: its template
     std::string material; ///< of the scene that made the bed
-    double      volume;   ///< m3, of the template at scale 1
+    double      inertia;  ///< kg m2, trace of that of the template at scale 1 and density 1: tells forms apart
     double      density;  ///< kg/m3
     double      young;    ///< Pa
     double      poisson;

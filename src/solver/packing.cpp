@@ -113,7 +113,7 @@ double packing_fraction(const World& world, const io::BodyFields& bodies)
         solids += rock.form->unit.volume * std::pow(rock.scale, 3);
         mean_diameter += rock.scale * volume_diameter(*rock.form) / static_cast<double>(rocks.size());
     }
-    constexpr double columns_a_rock = 16;
+    constexpr double columns_a_rock = 32;
     Columns          columns        = columns_under(rocks, mean_diameter / columns_a_rock);
     for (const Stone& rock : rocks) { raise(columns, rock); }
     const double below = std::accumulate(columns.top.begin(), columns.top.end(), 0.0) * columns.edge * columns.edge;

@@ -69,8 +69,8 @@ std::vector<io::BedKind> kinds_of_table(const scene::Scene& scene, std::size_t t
     std::vector<io::BedKind> kinds;
     for (const auto& form : world.templates)
     {
-        kinds.push_back({scene.rocks[table].shape, form.name, material.name, form.unit.volume, material.density,
-                         material.young, material.poisson});
+        kinds.push_back({scene.rocks[table].shape, form.name, material.name, form.unit.inertia.trace(),
+                         material.density, material.young, material.poisson});
     }
     return kinds;
 }
@@ -214,7 +214,7 @@ void SavedBeds::require_same_kind(std::size_t table, const io::BedKind& kind, co
         refuse(table, fmt::format("{} is {:.10g} in the scene and {:.10g} in the bed; accepted: the bed's", what, ours,
                                   theirs));
     };
-    require(("the volume of shape \"" + form.name + "\"").c_str(), form.unit.volume, kind.volume);
+    require(("the moment of inertia of shape \"" + form.name + "\"").c_str(), form.unit.inertia.trace(), kind.inertia);
     const std::string of = " of material \"" + material.name + "\"";
     require(("density" + of).c_str(), material.density, kind.density);
     require(("young" + of).c_str(), material.young, kind.young);

@@ -50,7 +50,7 @@ substeps = {}
 name    = "steel"
 model   = "elastic"
 density = 7800.0
-young   = 1.0e7
+young   = 1.0e10
 poisson = 0.3
 [[contact]]
 between     = ["steel", "steel"]
