@@ -89,6 +89,9 @@ Keys<Numerics> numerics_keys()
                   [](const Numerics& numerics) { return numerics.transfer != Transfer::apic; }),
         optional("shape_functions", "", &Numerics::shape_functions, word<ShapeFunctions>({"quadratic", "linear"}),
                  "B-splines of the grid."),
+        optional("narrow_phase", "", &Numerics::narrow_phase, word<NarrowPhase>({"sdf", "rays"}),
+                 "How deep a surface node is in another body: by that body's distance field, or by the length of a ray "
+                 "along the node's inward normal to that body's triangles: docs/rays.md."),
         optional("point_motion", "", &Numerics::point_motion, word<PointMotion>({"supported", "ballistic", "frozen"}),
                  "How a point moves within the contact substeps of a step: held up by the grid's acceleration, freely, "
                  "or not at all (the paper's)."),

@@ -128,12 +128,20 @@ struct TimeOptions
     bool operator==(const TimeOptions&) const = default;
 };
 
+/// How bodies tell how deep their surface nodes are in each other.
+enum class NarrowPhase
+{
+    sdf, ///< by the other one's distance field
+    rays ///< by a ray from each node to the other one's triangles
+};
+
 struct Numerics
 {
     Precision             precision = Precision::single_;
     Transfer              transfer  = Transfer::aflip;
     std::optional<double> pic_rate; ///< PIC part of FLIP per unit time, in units of c_p/h; nothing = by material
     ShapeFunctions        shape_functions = ShapeFunctions::quadratic;
+    NarrowPhase           narrow_phase    = NarrowPhase::sdf;
     PointMotion           point_motion    = PointMotion::supported;
     HertzFactor           hertz           = HertzFactor::standard;
     PointRadius           point_radius    = PointRadius::sphere;

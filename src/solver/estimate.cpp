@@ -8,6 +8,7 @@
 
 #include "base/bytes_text.hpp"
 #include "base/errors.hpp"
+#include "kernels/dem/ray_kern.hpp"
 #include "kernels/mpm/census.hpp"
 #include "kernels/mpm/gather.hpp"
 #include "kernels/mpm/moves.hpp"
@@ -128,6 +129,19 @@ std::int64_t template_bytes(const World& world)
     return bytes;
 }
 
+/// The mesh for rays: a triangle, at most one box for it, and 32 bytes a node.
+std::int64_t ray_bytes(const World& world)
+{
+    std::int64_t bytes = 0;
+    for (const auto& form : world.templates)
+    {
+        bytes +=
+            static_cast<std::int64_t>((sizeof(dem::RayTriangle) + sizeof(dem::RayBox)) * form.mesh.triangles.size() +
+                                      32 * form.nodes.positions.size());
+    }
+    return bytes;
+}
+
 double longest_time(const scene::Scene& scene)
 {
     double time = 0;
@@ -157,7 +171,7 @@ Estimate estimate(const scene::Scene& scene, const World& world, const Plan& pla
     const auto             bodies        = static_cast<std::int64_t>(world.bodies.size());
     Estimate               wants{};
     wants.time         = longest_time(scene);
-    wants.memory_bytes = bodies * bytes_per_body + template_bytes(world);
+    wants.memory_bytes = bodies * bytes_per_body + template_bytes(world) + (plan.rays ? ray_bytes(world) : 0);
     if (plan.sand)
     {
         const std::int64_t sand = sand_bytes(scene, world, plan);

@@ -14,6 +14,7 @@ Plan make_plan(const scene::Scene& scene, const World& world)
     plan.bodies       = world.bodies.size() > 0;
     plan.coupling     = plan.sand && plan.bodies;
     plan.body_contact = plan.bodies && (world.bodies.size() > 1 || !world.planes.empty());
+    plan.rays         = world.bodies.size() > 1 && scene.numerics.narrow_phase == scene::NarrowPhase::rays;
     plan.plasticity   = plan.sand && std::any_of(scene.materials.begin(), scene.materials.end(), plastic);
     plan.affine       = plan.sand && scene.numerics.transfer != scene::Transfer::flip;
     plan.damping      = std::any_of(scene.phases.begin(), scene.phases.end(), damped);

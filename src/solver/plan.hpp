@@ -24,6 +24,7 @@ struct Plan
     bool bodies;       ///< wheels or rocks
     bool coupling;     ///< sand-body contact
     bool body_contact; ///< body-body or body-wall contact
+    bool rays;         ///< bodies that may meet do so by rays
     bool plasticity;   ///< return mapping
     bool affine;       ///< APIC
     bool damping;      ///< local damping in some phase

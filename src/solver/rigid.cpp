@@ -54,6 +54,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     , named_(world.bodies.named)
     , contacts_(plan.body_contact)
     , templates_(exec, world.templates)
+    , rays_(exec, plan.rays ? world.templates : std::vector<shape::ShapeTemplate>{})
     , bodies_(exec)
     , pairs_(exec)
     , properties_(exec, "pair properties")
@@ -76,7 +77,8 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
                         {properties_.data(), static_cast<std::int32_t>(scene.materials.size() + 1)},
                         planes_.data(),
                         static_cast<std::int32_t>(world.planes.size()),
-                        {hertz_factor(scene.numerics.hertz), scene.numerics.linear_overlap}};
+                        {hertz_factor(scene.numerics.hertz), scene.numerics.linear_overlap},
+                        rays_.views()};
     const auto count = static_cast<std::int64_t>(world.bodies.size());
     totals_.resize(count);
     totals_.fill_zero();

@@ -9,6 +9,7 @@
 #include "kernels/dem/pairs.hpp"
 #include "kernels/dem/strays.hpp"
 #include "kernels/dem/totals.hpp"
+#include "solver/device_rays.hpp"
 #include "solver/device_templates.hpp"
 #include "solver/ledger.hpp"
 #include "solver/phases.hpp"
@@ -101,6 +102,7 @@ private:
     std::int64_t                     named_;
     bool                             contacts_; ///< some body may meet another or a wall
     DeviceTemplates<Exec>            templates_;
+    DeviceRays<Exec>                 rays_;
     dem::Bodies<Exec>                bodies_;
     dem::Pairs<Exec>                 pairs_;
     Array<Exec, dem::PairProperties> properties_;

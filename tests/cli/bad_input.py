@@ -80,6 +80,9 @@ class BadScene(CommandTest):
     def test_unknown_volume_strain(self):
         self.refuse(SCENE + '[numerics]\nvolume_strain = "nodes"\n', ["volume_strain", "cell-average"])
 
+    def test_unknown_narrow_phase(self):
+        self.refuse(SCENE + '[numerics]\nnarrow_phase = "ray"\n', ["narrow_phase", "sdf", "rays"])
+
     def test_misspelt_key(self):
         self.refuse_value("cohesion           = 0.0", "cohession          = 0.0", ["cohession", "cohesion"])
 

@@ -6,10 +6,15 @@ namespace tread::dem
 
 void evaluate_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    const body_contact::EvaluatePair evaluate{bodies, law, pairs.view(), dt};
-    constexpr std::int64_t           worth_threads = 128;
-    for_each_heavy(
-        cpu, "body contacts", pairs.key.size(), [=](std::int64_t p) { evaluate(p, OneLane{}); }, worth_threads);
+    by_narrow_phase(law,
+                    [&](const auto& meet)
+                    {
+                        const body_contact::EvaluatePair evaluate{meet, bodies, law, pairs.view(), dt};
+                        constexpr std::int64_t           worth_threads = 128;
+                        for_each_heavy(
+                            cpu, "body contacts", pairs.key.size(), [=](std::int64_t p) { evaluate(p, OneLane{}); },
+                            worth_threads);
+                    });
 }
 
 } // namespace tread::dem

@@ -18,9 +18,10 @@ __device__ void copy_words(double* to, const double* from, std::int64_t count)
     for (std::int64_t i = threadIdx.x; i < count * words; i += pair_threads) { to[i] = from[i]; }
 }
 
+template<class Meet>
 struct EvaluateBlock
 {
-    body_contact::EvaluatePair evaluate;
+    body_contact::EvaluatePair<Meet> evaluate;
 
     __device__ void operator()(std::int64_t block) const
     {
@@ -53,9 +54,14 @@ struct EvaluateBlock
 
 void evaluate_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    const std::int64_t count = pairs.key.size();
-    for_each_block<pair_threads, pair_blocks_an_sm>(gpu, "body contacts", (count + pair_threads - 1) / pair_threads,
-                                                    EvaluateBlock{{bodies, law, pairs.view(), dt}});
+    const std::int64_t blocks = (pairs.key.size() + pair_threads - 1) / pair_threads;
+    by_narrow_phase(law,
+                    [&](const auto& meet)
+                    {
+                        const body_contact::EvaluatePair evaluate{meet, bodies, law, pairs.view(), dt};
+                        for_each_block<pair_threads, pair_blocks_an_sm>(gpu, "body contacts", blocks,
+                                                                        EvaluateBlock{evaluate});
+                    });
 }
 
 } // namespace tread::dem

@@ -3,14 +3,18 @@
 #include "kernels/dem/body_contact.hpp"
 #include "kernels/dem/body_contact_kern.hpp"
 #include "kernels/dem/pair_law_kern.hpp"
+#include "kernels/dem/ray_field_kern.hpp"
 #include "kernels/dem/sphere_contact_kern.hpp"
 
 // The item function of a substep's body contacts; body_contact.cpp and body_contact.cu bring in the schedule.
 namespace tread::dem::body_contact
 {
 
+/// Meet: how two bodies see each other, MeetByDistance or MeetByRays.
+template<class Meet>
 struct EvaluatePair
 {
+    Meet       meet;
     BodiesView bodies;
     BodyLaw    law;
     PairsView  pairs;
@@ -62,7 +66,7 @@ struct EvaluatePair
         {
             return respond_as_spheres(pair, contact_of_spheres(of_a, of_b), motion, spins, of_b.centre, patch, dt);
         }
-        return over_nodes(pair, sides_of(of_a, of_b), nodes, motion, spins, of_b.centre, lanes, patch);
+        return over_nodes(pair, meet(of_a, of_b), nodes, motion, spins, of_b.centre, lanes, patch);
     }
 
     template<class Lanes>
@@ -91,7 +95,7 @@ struct EvaluatePair
         if (run.first == run.end) { return release(pair, patch); }
         const LaneNodes<Sides, Lanes> nodes(sides, run, lanes);
         Stiffness                     own{0, 0};
-        nodes([&](const NodeInField& node) { add_stiffness(pair, node, own); });
+        nodes([&](const NodeInField& node) { add_stiffness(pair, node, Sides::stiffening(node), own); });
         const Stiffness found{lanes.sum(own.sum), lanes.largest(own.overlap)};
         if (!(found.overlap > 0)) { return release(pair, patch); }
 

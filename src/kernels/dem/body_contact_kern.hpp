@@ -28,6 +28,16 @@ TREAD_HD Instance instance_of(const BodiesView& bodies, const TemplateView* temp
             bodies.position[b] - origin};
 }
 
+/// A node at its place in the other side's field.
+struct NodeInField
+{
+    Vec3<double> place;    ///< m, where its force acts, relative to the centre of a
+    Vec3<double> gradient; ///< minus that of the overlap with the node's place
+    double       overlap;  ///< m; not positive: outside
+    double       weight;   ///< m2, its share of area
+    double       sign;     ///< +1 of a node of a, -1 of b
+};
+
 /// The distance field of a body.
 struct BodyField
 {
@@ -52,6 +62,9 @@ struct BodyField
         const SdfSample    sample = sample_template_sdf(*body.shape, local);
         return {body.scale * sample.distance, body.rotation * sample.gradient};
     }
+
+    /// d2/dx2 of a node's energy over its area times p'(d): |gradient|^2 of a distance.
+    TREAD_HD static double stiffening(const NodeInField&) { return 1; }
 };
 
 /// The distance field of a wall.
@@ -66,9 +79,11 @@ struct PlaneField
     TREAD_HD double bound_of_node(double travel) const { return travel; }
 
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const { return {normal.dot(y) - offset, normal}; }
+
+    TREAD_HD static double stiffening(const NodeInField&) { return 1; }
 };
 
-/// One body's nodes in the other side's field.
+/// One body's nodes in the other side's field. Field: one of those above, or RayField.
 template<class Field>
 struct Side
 {
@@ -127,16 +142,6 @@ struct Stiffness
     double overlap; ///< m, the largest
 };
 
-/// A node at its place in the other side's field.
-struct NodeInField
-{
-    Vec3<double> place;    ///< m, relative to the centre of a
-    Vec3<double> gradient; ///< of the field
-    double       overlap;  ///< m; not positive: outside
-    double       weight;   ///< m2, its share of area
-    double       sign;     ///< +1 of a node of a, -1 of b
-};
-
 template<class Field>
 TREAD_HD NodeInField in_field(const Side<Field>& side, std::int32_t i)
 {
@@ -146,29 +151,39 @@ TREAD_HD NodeInField in_field(const Side<Field>& side, std::int32_t i)
 }
 
 /// The two sides of a pair of bodies, or the one of a body against a wall, as the list of nodes names their nodes.
+template<class Field>
 struct TwoSides
 {
-    Side<BodyField> a, b;
+    Side<Field> a, b;
 
     TREAD_HD NodeInField operator()(std::int32_t node) const
     {
         return node >= 0 ? in_field(a, node) : in_field(b, ~node);
     }
+    TREAD_HD static double stiffening(const NodeInField& node) { return Field::stiffening(node); }
 };
 struct OneSide
 {
     Side<PlaneField> a;
 
     TREAD_HD NodeInField operator()(std::int32_t node) const { return in_field(a, node); }
+    TREAD_HD static double stiffening(const NodeInField& node) { return PlaneField::stiffening(node); }
 };
 
-/// Both bodies have nodes, each with half its area.
-TREAD_HD TwoSides sides_of(const Instance& a, const Instance& b) { return {{a, {b}, 0.5, 1.0}, {b, {a}, 0.5, -1.0}}; }
+/// How two bodies see each other: here by their distance fields, with MeetByRays by rays.
+struct MeetByDistance
+{
+    /// Both bodies have nodes, each with half its area.
+    TREAD_HD TwoSides<BodyField> operator()(const Instance& a, const Instance& b) const
+    {
+        return {{a, {b}, 0.5, 1.0}, {b, {a}, 0.5, -1.0}};
+    }
+};
 
-TREAD_HD void add_stiffness(const PairLaw& law, const NodeInField& node, Stiffness& found)
+TREAD_HD void add_stiffness(const PairLaw& law, const NodeInField& node, double stiffening, Stiffness& found)
 {
     if (!(node.overlap > 0)) { return; }
-    found.sum += node.weight * traction_at(law, node.overlap).slope;
+    found.sum += stiffening * node.weight * traction_at(law, node.overlap).slope;
     found.overlap = node.overlap > found.overlap ? node.overlap : found.overlap;
 }
 

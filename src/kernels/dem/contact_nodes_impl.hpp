@@ -4,6 +4,7 @@
 
 #include "kernels/dem/contact_nodes.hpp"
 #include "kernels/dem/pairs_kern.hpp"
+#include "kernels/dem/ray_field_kern.hpp"
 #include "kernels/dem/sphere_contact_kern.hpp"
 
 // The item function of list_contact_nodes, for lanes that share a pair; contact_nodes.cpp and .cu bring in the lanes.
@@ -68,8 +69,10 @@ TREAD_HD void walk(const Side<Field>& side, double travel, Name name, const Lane
     }
 }
 
+template<class Meet>
 struct Walk
 {
+    Meet       meet;
     BodiesView bodies;
     BodyLaw    law;
     PairsView  pairs;
@@ -99,16 +102,17 @@ struct Walk
             return;
         }
         const Instance of_b     = instance_of(bodies, law.templates, b, bodies.position[a]);
-        const TwoSides sides    = sides_of(of_a, of_b);
+        const auto     sides    = meet(of_a, of_b);
         const double   together = travel + pairs.travel[b];
         walk(sides.a, together, first, lanes, take);
         walk(sides.b, together, second, lanes, take);
     }
 };
 
+template<class Meet>
 struct CountNodes
 {
-    Walk          walk;
+    Walk<Meet>    walk;
     std::int32_t* found; ///< [pairs]
 
     template<class Lanes>
@@ -120,9 +124,10 @@ struct CountNodes
     }
 };
 
+template<class Meet>
 struct WriteNodes
 {
-    Walk                walk;
+    Walk<Meet>          walk;
     const std::int32_t* first; ///< [pairs + 1]
     std::int32_t*       node;
 

@@ -6,6 +6,7 @@
 #include "backend/sort.hpp"
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/body_contact_kern.hpp"
+#include "kernels/dem/ray_kern.hpp"
 #include "kernels/dem/rolling_kern.hpp"
 #include "kernels/dem/templates.hpp"
 
@@ -21,6 +22,7 @@ struct BodyLaw
     const Plane*        planes;
     std::int32_t        plane_count;
     ContactOptions      options;
+    const RayView*      rays = nullptr; ///< of the templates; null: bodies meet by their distance fields
 };
 
 /// Key of a pair, a < b; the wall `plane` has b = bodies + plane.

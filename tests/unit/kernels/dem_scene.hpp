@@ -27,6 +27,10 @@ struct SolidShape
     Vec3<double>                origin  = Vec3<double>::Zero();
     std::array<std::int32_t, 3> nodes{};
     std::vector<float>          values;
+    std::vector<std::int32_t>   slots; ///< of a grid in bricks, with the three below: see shape::SignedDistanceGrid
+    std::vector<float>          corners;
+    std::array<std::int32_t, 3> bricks{};
+    double                      fine_reach = 0;
     std::vector<Vec3<double>>   positions;
     std::vector<double>         areas;
     std::vector<Vec3<double>>   centres; ///< of clusters
@@ -262,11 +266,9 @@ public:
 
     dem::BodyLaw law() const
     {
-        return {templates_.data(),
-                {properties_.data(), 2},
-                planes_.data(),
-                static_cast<std::int32_t>(numbers.planes.size()),
-                numbers.options};
+        return {templates_.data(), {properties_.data(), 2},
+                planes_.data(),    static_cast<std::int32_t>(numbers.planes.size()),
+                numbers.options,   rays};
     }
 
     /// `count` substeps of dt, pairs found anew every `every` of them.
@@ -292,6 +294,7 @@ public:
     dem::BodySums sums() { return sum_bodies(exec_, pairs, bodies.view(), totals, numbers.gravity); }
 
     SolidNumbers          numbers;
+    const dem::RayView*   rays = nullptr; ///< of the shapes, where bodies meet by rays
     dem::Bodies<Exec>     bodies;
     dem::Pairs<Exec>      pairs;
     dem::BodyTotals<Exec> totals;
@@ -312,7 +315,11 @@ private:
             view.sdf_origin  = shape.origin;
             view.sdf_spacing = shape.spacing;
             std::copy(shape.nodes.begin(), shape.nodes.end(), view.sdf_nodes);
-            view.sdf_values        = keep(floats_, shape.values);
+            view.sdf_values     = keep(floats_, shape.values);
+            view.sdf_slots      = shape.slots.empty() ? nullptr : keep(integers_, shape.slots);
+            view.sdf_corners    = keep(floats_, shape.corners);
+            view.sdf_fine_reach = shape.fine_reach;
+            std::copy(shape.bricks.begin(), shape.bricks.end(), view.sdf_bricks);
             view.node_count        = static_cast<std::int32_t>(shape.positions.size());
             view.cluster_count     = static_cast<std::int32_t>(shape.centres.size());
             view.node_positions    = keep(vectors_, shape.positions);
@@ -362,6 +369,7 @@ private:
     Exec                                   exec_;
     std::vector<Array<Exec, float>>        floats_;
     std::vector<Array<Exec, double>>       doubles_;
+    std::vector<Array<Exec, std::int32_t>> integers_;
     std::vector<Array<Exec, Vec3<double>>> vectors_;
     Array<Exec, dem::TemplateView>         templates_;
     Array<Exec, dem::PairProperties>       properties_;

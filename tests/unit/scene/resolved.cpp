@@ -27,6 +27,7 @@ substeps = 7
 precision = "double"
 transfer = "apic"
 shape_functions = "linear"
+narrow_phase = "rays"
 point_motion = "frozen"
 hertz = "paper-eq7"
 point_radius = "semi-domain"

@@ -87,6 +87,18 @@ TEST(LeftOut, RocksAloneKnowNoGrid)
     EXPECT_FALSE(any_with(used.arrays, {"point", "page", "tile", "grid", "cell first", "order", "candidate"}));
     EXPECT_FALSE(any_with(used.kernels, {"scatter", "gather points", "update grid", "point", "page", "candidate"}));
     EXPECT_TRUE(used.kernels.count("body contacts"));
+    EXPECT_FALSE(any_with(used.arrays, {"triangles", "boxes", "normals", "ray"}));
+}
+
+TEST(LeftOut, TrianglesAreThereForRaysAlone)
+{
+    const std::string text = without(test::sand_text, "[[terrain]]") + test::rocks_text + "placement = \"grid\"\n";
+    const Used        used = run_steps(load_text(text + "[numerics]\nnarrow_phase = \"rays\"\n"));
+    for (const char* name :
+         {"template boxes", "template triangles", "template node normals", "template ray lengths", "template rays"})
+    {
+        EXPECT_TRUE(used.arrays.count(name)) << name;
+    }
 }
 
 TEST(LeftOut, ElasticSandHasNoPlasticState)
