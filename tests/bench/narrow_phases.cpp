@@ -16,7 +16,7 @@ using namespace tread::test;
 
 using Scene = SolidScene<Cpu>;
 
-constexpr int    turns = 12;
+constexpr int    turns = 6;
 constexpr double dt = 4e-6, contact_time = 0.04;
 
 /// The two rocks of a turn just before they touch.

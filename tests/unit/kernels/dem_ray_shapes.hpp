@@ -110,8 +110,8 @@ inline std::vector<Solid> off_centre_rocks(const shape::ShapeTemplate& form, Ran
     Solid first = rock_solid(form), second = first;
     first.orientation  = random_turn(random);
     second.orientation = random_turn(random);
-    first.position     = {-0.15, 0, 0};
-    second.position    = {0.15, 0.05, 0.02};
+    first.position     = {-0.135, 0, 0};
+    second.position    = {0.135, 0.05, 0.02};
     first.velocity     = {0.5, 0, 0};
     second.velocity    = {-0.5, 0, 0};
     return {first, second};

@@ -218,6 +218,7 @@ TYPED_TEST(RayContact, HeadOnSpheresApproachHertzWithTheirNodes)
             low    = std::min(low, found.force);
             high   = std::max(high, found.force);
             energy = std::max(energy, std::abs(found.energy));
+            EXPECT_LT(std::abs(found.energy), 1e-4); // a potential; dt is a 1600th of the contact
             EXPECT_LT(found.momentum, 1e-10);
         }
         std::printf("%zu nodes: mean F_max of %d orientations %.1f N (%.0f to %.0f), expected %.1f N: %+.2f %%, "
@@ -239,19 +240,21 @@ TYPED_TEST(RayContact, OffCentreImpactOfDentedRocks)
         {
             Random        random(7);
             double        square = 0, largest = 0, force = 0;
-            constexpr int turns = 4;
+            constexpr int turns = 3;
             for (int turn = 0; turn < turns; ++turn)
             {
                 typename TestFixture::Scene scene(this->exec(), {solid}, off_centre_rocks(form, random), {});
                 scene.rays         = view;
-                const Impact found = impact_of(scene, 1e-5, 0.2);
+                const Impact found = impact_of(scene, 1e-5, 0.14);
                 square += found.energy * found.energy / turns;
                 largest = std::max(largest, std::abs(found.energy));
                 force += found.force / turns;
-                EXPECT_LT(found.momentum, 1e-12);
-                EXPECT_LT(found.spin, 1e-12);
+                EXPECT_LT(found.momentum, 1e-11); // rounding
+                EXPECT_LT(found.spin, 1e-11);
                 EXPECT_GT(found.exchange, 0.1);
             }
+            // Slants and jumps of rays cost some: less than the mean over vertices, 1.2e-1 rms.
+            if (view != nullptr) { EXPECT_LT(std::sqrt(square), 0.12); }
             std::printf("%d nodes by %s: energy changes by %.1e rms, %.1e at most; mean F_max %.1f N\n", nodes,
                         view == nullptr ? "distance field" : "rays", std::sqrt(square), largest, force);
         }

@@ -158,9 +158,9 @@ TEST(Resolved, what_was_read_is_what_was_written)
     EXPECT_EQ(scene.domain.gravity[2], -0.30000000000000004);
     EXPECT_EQ(scene.domain.walls, (Walls{WallKind::fixed, WallKind::open, WallKind::slip, WallKind::frictional, 0.7}));
     EXPECT_EQ(scene.time, (TimeOptions{1e-5, 7}));
-    EXPECT_EQ(scene.numerics,
-              (Numerics{Precision::double_, Transfer::apic, std::nullopt, ShapeFunctions::linear, PointMotion::frozen,
-                        HertzFactor::paper_eq7, PointRadius::semi_domain, 1e-2, VolumeStrain::cell_average}));
+    EXPECT_EQ(scene.numerics, (Numerics{Precision::double_, Transfer::apic, std::nullopt, ShapeFunctions::linear,
+                                        NarrowPhase::rays, PointMotion::frozen, HertzFactor::paper_eq7,
+                                        PointRadius::semi_domain, 1e-2, VolumeStrain::cell_average}));
     EXPECT_EQ(scene.materials[0], (Material{"sand", MaterialModel::drucker_prager, 1600, 1e21, 0.1, 30, 5, 100,
                                             "ripple", ConeFit::plane_strain}));
     EXPECT_EQ(scene.materials[1].family, "steel");
