@@ -166,7 +166,7 @@ struct OneSide
 {
     Side<PlaneField> a;
 
-    TREAD_HD NodeInField operator()(std::int32_t node) const { return in_field(a, node); }
+    TREAD_HD NodeInField   operator()(std::int32_t node) const { return in_field(a, node); }
     TREAD_HD static double stiffening(const NodeInField& node) { return PlaneField::stiffening(node); }
 };
 

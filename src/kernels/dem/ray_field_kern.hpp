@@ -48,7 +48,7 @@ TREAD_HD NodeInField in_field(const Side<RayField>& side, std::int32_t i)
     const Vec3<double> along        = owner.rotation * own.inward[i];
     const Vec3<double> origin       = body.rotation.transpose() * (y - body.centre) / body.scale;
     const Vec3<double> direction    = body.rotation.transpose() * along;
-    const RayHit hit = first_hit(*side.field.other, origin, direction, own.length[i] * owner.scale / body.scale);
+    const RayHit       hit = first_hit(*side.field.other, origin, direction, own.length[i] * owner.scale / body.scale);
     if (!(hit.cosine > 0)) { return {y, Vec3<double>::Zero(), 0, 0, side.sign}; }
     const double depth = hit.length * body.scale;
     return {y + depth * along, body.rotation * hit.normal / std::fmax(hit.cosine, least_cosine), depth, side.weight(i),
