@@ -229,6 +229,55 @@ TYPED_TEST(RayContact, HeadOnSpheresApproachHertzWithTheirNodes)
     }
 }
 
+/// Two dented rocks of 0.2 m that just reach into each other, or not.
+std::vector<Solid> fast_rocks(const shape::ShapeTemplate& form, Random& random)
+{
+    std::vector<Solid> rocks(2, rock_solid(form));
+    for (Solid& rock : rocks)
+    {
+        rock.orientation = random_turn(random);
+        rock.velocity    = 3 * random_vector(random);
+        rock.spin        = 20 * random_vector(random);
+    }
+    rocks[1].position = random.uniform(0.15, 0.22) * random_vector(random).normalized();
+    return rocks;
+}
+
+TYPED_TEST(RayContact, NoNodeIsMissedByTheList)
+{
+    // The grid is coarse: the interpolated surface, by which nodes are listed, is centimetres off the mesh.
+    const shape::ShapeTemplate form = dented_rock(642, 8);
+    const SolidShape           rock = solid_of(form);
+    const Rays<TypeParam>      rays(this->exec(), rays_of(form.mesh, form.nodes.positions));
+    Random                     random(3);
+    int                        touching = 0;
+    std::int64_t               listed = 0, all = 0;
+    double                     worst = 0;
+    for (int trial = 0; trial < 400; ++trial)
+    {
+        const double                dt = trial % 2 == 0 ? 1e-6 : 5e-4; // s: they stand still, and move 2 mm
+        typename TestFixture::Scene scene(this->exec(), {rock}, fast_rocks(form, random), {});
+        scene.rays = rays.views();
+        scene.find(dt);
+        integrate(this->exec(), scene.bodies.view(), scene.totals.data(), Vec3<double>::Zero(), dt);
+        scene.contact(dt);
+        const auto from_list = scene.bodies.force.to_host();
+        listed += scene.pairs.node.size();
+        scene.find(10); // all nodes
+        scene.contact(dt);
+        const auto from_all = scene.bodies.force.to_host();
+        all += scene.pairs.node.size();
+        touching += from_all[0].norm() > 0;
+        worst = std::max(worst, (from_list[0] - from_all[0]).norm() / std::max(from_all[0].norm(), 1.0));
+    }
+    std::printf("%d of 400 pairs in contact; forces from %lld listed of %lld nodes differ by %.1e, tolerance 1e-12 "
+                "(order of the sums)\n",
+                touching, static_cast<long long>(listed), static_cast<long long>(all), worst);
+    EXPECT_GT(touching, 100);
+    EXPECT_LT(2 * listed, all);
+    EXPECT_LT(worst, 1e-12);
+}
+
 TYPED_TEST(RayContact, OffCentreImpactOfDentedRocks)
 {
     for (const int nodes : {162, 642})
