@@ -85,7 +85,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     activity_.resize(count);
     const std::vector<double> radii = bounding_radii(world);
     bounding_radii_.assign(radii);
-    smallest_skin_ = dem::search_skin * *std::min_element(radii.begin(), radii.end());
+    smallest_radius_ = *std::min_element(radii.begin(), radii.end());
     impulses_.resize(named_);
     if (contacts_) { dem::classify_bodies(exec_, pairs_, bodies_.view(), templates_.views()); }
     dem::clear_wrenches(exec_, bodies_.view());
@@ -211,32 +211,37 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
 template<class Exec>
 void Rigid<Exec>::find_pairs(double dt)
 {
-    dem::find_pairs(exec_, pairs_, bodies_.view(), law_, dt);
+    const bool holds = listed_ && dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates,
+                                                           pairs_.travel.data(), dt) <= 1;
+    if (!holds)
+    {
+        dem::find_pairs(exec_, pairs_, bodies_.view(), law_, dt);
+        dem::mark_places(exec_, strays_, bodies_.view());
+        listed_ = true;
+    }
     dem::expect_contacts(exec_, pairs_, bodies_.view(), law_, dt);
-    dem::mark_places(exec_, strays_, bodies_.view(), law_.templates, dt);
 }
 
 template<class Exec>
-bool Rigid<Exec>::watch(double dt, double speed)
+std::int64_t Rigid<Exec>::unwatched_substeps(double dt, std::int64_t substeps, double speed)
 {
     constexpr double hit_twice = 4;
     const double     fastest   = std::max(speed, std::exchange(commanded_speed_, 0.0));
-    watched_                   = dt * (hit_twice * fastest + gravity_.norm() * dt) > smallest_skin_;
-    return watched_;
+    const double     way       = dt * (hit_twice * fastest + gravity_.norm() * dt * static_cast<double>(substeps));
+    const double     reserve   = dem::rest_reserve * smallest_radius_;
+    watched_                   = way * static_cast<double>(substeps) > reserve;
+    return watched_ ? std::max<std::int64_t>(1, static_cast<std::int64_t>(reserve / way)) : substeps;
 }
 
 template<class Exec>
-bool Rigid<Exec>::strayed()
+void Rigid<Exec>::find_pairs_if_strayed(double ahead, double left, double time)
 {
-    return dem::largest_stray(exec_, strays_, bodies_.view(), law_.templates) > 1;
-}
-
-template<class Exec>
-void Rigid<Exec>::find_pairs_again(double dt, double time)
-{
+    const double share =
+        dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), ahead);
+    if (share <= 1) { return; }
     require_finite(time);
     overlap_ = std::max(overlap_, guard(time)); // the search forgets the peaks of the pairs
-    find_pairs(dt);
+    find_pairs(left);
 }
 
 template<class Exec>
@@ -320,7 +325,7 @@ template<class Exec>
 void Rigid<Exec>::require_listed(double time)
 {
     if (watched_) { return; }
-    const double largest = dem::largest_stray(exec_, strays_, bodies_.view(), law_.templates);
+    const double largest = dem::largest_stray(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data());
     if (largest <= 1) { return; }
     if (std::isinf(largest)) { require_finite(time); }
     const std::vector<double> shares = strays_.share.to_host();
@@ -334,14 +339,14 @@ void Rigid<Exec>::require_listed(double time)
 template<class Exec>
 void Rigid<Exec>::require_resolved(double time, double speed)
 {
-    const double smallest = smallest_skin_ / dem::search_skin, leap = speed * substep_;
-    if (leap <= longest_leap * smallest) { return; }
+    const double leap = speed * substep_;
+    if (leap <= longest_leap * smallest_radius_) { return; }
     const std::vector<dem::BodyActivity> activity = activity_.to_host();
     const auto                           body =
         std::find_if(activity.begin(), activity.end(), [&](const auto& one) { return one.speed == speed; });
     throw NumericalError(fmt::format("t = {:.6g} s: body {} moves {:.4g} m in a substep, {:.3g} of the smallest body's "
                                      "radius (at most {}): more substeps, or a smaller dt",
-                                     time, name(body - activity.begin()), leap, leap / smallest, longest_leap));
+                                     time, name(body - activity.begin()), leap, leap / smallest_radius_, longest_leap));
 }
 
 template<class Exec>

@@ -48,19 +48,17 @@ public:
     /// scene's velocity.
     void command(const std::vector<BodyCommand>& commands);
 
-    /// 2. Pairs of bodies, and of bodies and walls, that may touch in the step.
+    /// 2. Pairs of bodies, and of bodies and walls, that may touch in the step: found anew if the list may not hold.
     void find_pairs(double dt);
 
-    /// Before the substeps: whether a body may, within a step of dt (s), go further than find_pairs allowed for, when
-    /// the fastest of anything goes at `speed` (m/s) at its start: a light body that is hit leaves at up to twice that,
-    /// and one that is hit by such a one again at four times.
-    bool watch(double dt, double speed);
+    /// Before `substeps` substeps of dt (s): after how many of them a body may have gone further than find_pairs
+    /// allowed for, when the fastest of anything goes at `speed` (m/s) now: a light body that is hit leaves at up to
+    /// twice that, and one that is hit by such a one again at four times.
+    std::int64_t unwatched_substeps(double dt, std::int64_t substeps, double speed);
 
-    /// Whether one has: then the list of pairs does not hold any more.
-    bool strayed();
-
-    /// Finds the pairs anew in the middle of a step, for the rest of it, dt (s); `time` (s) is for messages.
-    void find_pairs_again(double dt, double time);
+    /// Finds the pairs anew in the middle of a step, for what is left of it (s), if a body might go too far in the next
+    /// `ahead` (s); `time` (s) is for messages.
+    void find_pairs_if_strayed(double ahead, double left, double time);
 
     /// The least sqrt(m / sum K) over bodies, of contacts that are live or may come in the step, s; 0 = none.
     double shortest_contact();
@@ -113,10 +111,11 @@ private:
     Array<Exec, dem::BodyActivity>   activity_;
     Array<Exec, double>              sums_;
     dem::Strays<Exec>                strays_;
-    double                           smallest_skin_ = 0; ///< m, what the search allows a body at rest
-    bool                             watched_ = false; ///< of the present step: strayed() is asked before each substep
-    double                           commanded_speed_ = 0; ///< m/s, the largest that commands gave in this step
-    double                           overlap_         = 0; ///< largest over radius before find_pairs_again
+    double                           smallest_radius_ = 0;     ///< m, of the bounding spheres
+    bool                             listed_          = false; ///< pairs were found
+    bool                             watched_         = false; ///< of the present step: not only at its end
+    double                           commanded_speed_ = 0;     ///< m/s, the largest that commands gave in this step
+    double                           overlap_         = 0;     ///< largest over radius before find_pairs_again
     dem::BodyLaw                     law_{};
     std::vector<bool>                released_;            ///< named bodies that were free once
     double                           mean_time_       = 0; ///< s, since begin_mean()

@@ -33,6 +33,7 @@ ContactRecord turned_over(ContactRecord contact)
     contact.patch.tangential = -contact.patch.tangential;
     contact.patch.normal     = -contact.patch.normal;
     contact.rolling.moment   = -contact.rolling.moment;
+    contact.rolling.normal   = -contact.rolling.normal;
     return contact;
 }
 
@@ -59,7 +60,8 @@ ContactRecord record_of(const io::BedContacts& contacts, std::size_t i)
     return {0,
             {Vec3<double>(contacts.tangential.data() + 3 * i), Vec3<double>(contacts.normal.data() + 3 * i),
              contacts.torsion[i], contacts.stiffness[i], contacts.twist_stiffness[i]},
-            {Vec3<double>(contacts.rolling.data() + 3 * i), contacts.rolling_stiffness[i]}};
+            {Vec3<double>(contacts.rolling.data() + 3 * i), contacts.rolling_stiffness[i],
+             Vec3<double>(contacts.normal.data() + 3 * i)}};
 }
 
 std::vector<io::BedKind> kinds_of_table(const scene::Scene& scene, std::size_t table, const World& world)

@@ -105,17 +105,20 @@ void Simulation<Exec, Real>::step(const TimeStep& step, double time, StageClock&
 template<class Exec, class Real>
 void Simulation<Exec, Real>::substeps(const TimeStep& step, double time, StageClock& clock)
 {
-    const double dt      = step.dt / static_cast<double>(step.substeps);
-    const bool   watched = plan_.body_contact && rigid_->watch(step.dt, pace_.largest_speed);
-    for (std::int64_t substep = 0; substep < step.substeps; ++substep)
+    const double dt        = step.dt / static_cast<double>(step.substeps);
+    const auto   number    = step.substeps;
+    const auto   unwatched = plan_.body_contact ? rigid_->unwatched_substeps(dt, number, pace_.largest_speed) : number;
+    for (std::int64_t substep = 0; substep < number; ++substep)
     {
-        if (watched && substep > 0)
+        if (substep > 0 && substep % unwatched == 0)
         {
-            const double done = dt * static_cast<double>(substep);
+            const std::int64_t left = number - substep;
             clock.run(exec_, stage::pairs,
                       [&]
                       {
-                          if (rigid_->strayed()) { rigid_->find_pairs_again(step.dt - done, time + done); }
+                          rigid_->find_pairs_if_strayed(dt * static_cast<double>(std::min(left, unwatched)),
+                                                        dt * static_cast<double>(left),
+                                                        time + dt * static_cast<double>(substep));
                       });
         }
         if (coupling_)

@@ -9,8 +9,8 @@ namespace tread::dem
 {
 
 /// Sum of w p' (N/m) over a pair's listed nodes that are outside the other side and will be inside within `horizon` (s)
-/// if their motion goes on; 0 for exact spheres, whose first touch is known. However slow: a step too long for the
-/// stiffness multiplies what little energy there is.
+/// if their motion goes on, by the distance fields (rays tell nothing outside); 0 for exact spheres, whose first touch
+/// is known. However slow: a step too long for the stiffness multiplies what little energy there is.
 struct AnticipatePair
 {
     BodiesView bodies;
@@ -42,7 +42,7 @@ private:
         const Vec3<double>&  spin = bodies.angular_velocity[b];
         const RelativeMotion motion{bodies.velocity[a] - bodies.velocity[b] + spin.cross(of_b.centre),
                                     bodies.angular_velocity[a] - spin};
-        return over_nodes(law_between(bodies, law, a, b), sides_of(of_a, of_b), nodes, motion, lanes);
+        return over_nodes(law_between(bodies, law, a, b), MeetByDistance{}(of_a, of_b), nodes, motion, lanes);
     }
 
     template<class Lanes>
@@ -65,7 +65,7 @@ private:
             NodeInField node = sides(run.node[i]);
             if (node.overlap > 0) { continue; }
             node.overlap -= horizon * node.sign * node.gradient.dot(motion.at(node.place));
-            add_stiffness(pair, node, found);
+            add_stiffness(pair, node, Sides::stiffening(node), found);
         }
         return lanes.sum(found.sum);
     }

@@ -12,9 +12,12 @@ void evaluate_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodi
                         const body_contact::EvaluatePair evaluate{meet, bodies, law, pairs.view(), dt};
                         constexpr std::int64_t           worth_threads = 128;
                         for_each_heavy(
-                            cpu, "body contacts", pairs.key.size(), [=](std::int64_t p) { evaluate(p, OneLane{}); },
+                            cpu, "body contacts", pairs.key.size(), [=](std::int64_t p) { evaluate(p); },
                             worth_threads);
                     });
+    if (!pairs.resists_rolling) { return; }
+    for_each(cpu, "resistance to rolling", pairs.key.size(),
+             body_contact::ResistRolling{bodies, law, pairs.view(), dt});
 }
 
 } // namespace tread::dem

@@ -1,3 +1,4 @@
+#include "backend/launch.cuh"
 #include "kernels/dem/body_contact_impl.hpp"
 #include "kernels/dem/warp_lanes.cuh"
 
@@ -6,62 +7,107 @@ namespace tread::dem
 namespace
 {
 
-constexpr int pair_threads = 128, pair_blocks_an_sm = 2;
+constexpr int threads = 128, blocks_an_sm = 4;
 
-/// Reads or writes `count` records of a block together, so that neighbouring threads touch neighbouring words: a record
-/// is many words long, and a thread that reads one alone touches a line for each.
+/// Lanes that share a pair's nodes: most pairs list about as many.
+constexpr int node_lanes = 8;
+
+/// Copies between records and shared memory by all threads of a block, so that neighbours touch neighbouring words: a
+/// record is many words long, and a thread that reads one alone touches a line for each.
 template<class T>
-__device__ void copy_words(double* to, const double* from, std::int64_t count)
+__device__ void copy_words(T* to, const T* from, std::int64_t records)
 {
-    static_assert(sizeof(T) % sizeof(double) == 0);
     constexpr int words = sizeof(T) / sizeof(double);
-    for (std::int64_t i = threadIdx.x; i < count * words; i += pair_threads) { to[i] = from[i]; }
+    static_assert(sizeof(T) == words * sizeof(double));
+    auto*       target = reinterpret_cast<double*>(to);
+    const auto* source = reinterpret_cast<const double*>(from);
+    for (std::int64_t i = threadIdx.x; i < records * words; i += threads) { target[i] = source[i]; }
 }
 
-template<class Meet>
+/// A block takes `size` neighbouring pairs: first groups of lanes add up the nodes of one pair after the other, then
+/// each pair's answer is worked out by one thread.
+template<class Meet, int size>
 struct EvaluateBlock
 {
     body_contact::EvaluatePair<Meet> evaluate;
 
     __device__ void operator()(std::int64_t block) const
     {
-        __shared__ double  shared[pair_threads * sizeof(PairResponse) / sizeof(double)];
-        const PairsView&   pairs = evaluate.pairs;
-        const std::int64_t begin = block * pair_threads, p = begin + threadIdx.x;
-        const std::int64_t count = min(static_cast<long>(pair_threads), static_cast<long>(pairs.count - begin));
-        const bool         mine  = p < pairs.count;
-
-        auto* patches   = reinterpret_cast<Patch*>(shared);
-        auto* responses = reinterpret_cast<PairResponse*>(shared);
-        copy_words<Patch>(shared, reinterpret_cast<const double*>(pairs.patch + begin), count);
-        __syncthreads();
-        PairResponse response = no_response();
-        if (mine)
+        union Shared
         {
-            response      = evaluate.respond_of(p, OneLane{}, patches[threadIdx.x]);
+            __device__ Shared() {}
+
+            struct
+            {
+                NodeSums nodes[size];
+                Patch    patch[size];
+            } in;
+            PairResponse out[size];
+        };
+        __shared__ Shared shared;
+
+        const PairsView&   pairs = evaluate.pairs;
+        const std::int64_t begin = block * size;
+        const auto         count = static_cast<int>(pairs.count - begin < size ? pairs.count - begin : size);
+        copy_words(shared.in.patch, pairs.patch + begin, count);
+        if (pairs.first_node[begin] < pairs.first_node[begin + count]) { sum_nodes(begin, count, shared.in.nodes); }
+        __syncthreads();
+
+        const int    mine     = static_cast<int>(threadIdx.x);
+        PairResponse response = no_response();
+        if (mine < count)
+        {
+            const std::int64_t p     = begin + mine;
+            const bool         empty = pairs.first_node[p] == pairs.first_node[p + 1];
+            response      = evaluate.answer(p, empty ? no_nodes() : shared.in.nodes[mine], shared.in.patch[mine]);
             pairs.peak[p] = fmax(pairs.peak[p], response.overlap);
         }
         __syncthreads();
-        copy_words<Patch>(reinterpret_cast<double*>(pairs.patch + begin), shared, count);
+        copy_words(pairs.patch + begin, shared.in.patch, count);
         __syncthreads();
-        if (mine) { responses[threadIdx.x] = response; }
+        if (mine < count) { shared.out[mine] = response; }
         __syncthreads();
-        copy_words<PairResponse>(reinterpret_cast<double*>(pairs.response + begin), shared, count);
+        copy_words(pairs.response + begin, shared.out, count);
+    }
+
+    __device__ void sum_nodes(std::int64_t begin, int count, NodeSums* shared) const
+    {
+        const GroupLanes<node_lanes> lanes;
+        for (int pair = static_cast<int>(threadIdx.x) / node_lanes; pair < count; pair += threads / node_lanes)
+        {
+            const NodeSums own = evaluate.sum_nodes(begin + pair, lanes);
+            if (lanes.lane() == 0) { shared[pair].stiffness = own.stiffness; }
+            if (!(own.stiffness.overlap > 0)) { continue; }
+            constexpr int words = sizeof(PatchSums) / sizeof(double);
+            double        values[words];
+            own.patch.write_to(values);
+            lanes.sum_all(values, reinterpret_cast<double*>(&shared[pair].patch));
+        }
     }
 };
+
+template<int size, class Meet>
+void evaluate_blocks(const Gpu& gpu, const body_contact::EvaluatePair<Meet>& evaluate)
+{
+    for_each_block<threads, blocks_an_sm>(gpu, "body contacts", (evaluate.pairs.count + size - 1) / size,
+                                          EvaluateBlock<Meet, size>{evaluate});
+}
 
 } // namespace
 
 void evaluate_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    const std::int64_t blocks = (pairs.key.size() + pair_threads - 1) / pair_threads;
+    constexpr std::int64_t many = 100000; // enough for blocks whose every thread answers for a pair
     by_narrow_phase(law,
                     [&](const auto& meet)
                     {
                         const body_contact::EvaluatePair evaluate{meet, bodies, law, pairs.view(), dt};
-                        for_each_block<pair_threads, pair_blocks_an_sm>(gpu, "body contacts", blocks,
-                                                                        EvaluateBlock{evaluate});
+                        if (pairs.key.size() < many) { evaluate_blocks<threads / node_lanes>(gpu, evaluate); }
+                        else { evaluate_blocks<threads>(gpu, evaluate); }
                     });
+    if (!pairs.resists_rolling) { return; }
+    for_each(gpu, "resistance to rolling", pairs.key.size(),
+             body_contact::ResistRolling{bodies, law, pairs.view(), dt});
 }
 
 } // namespace tread::dem

@@ -124,7 +124,7 @@ TREAD_HD PlaneField field_of(const Plane& plane, const Vec3<double>& centre)
     return {plane.normal, plane.offset - plane.normal.dot(centre)};
 }
 
-/// What one thread does alone; the GPU deals the clusters and nodes of a pair to the 32 lanes of a warp instead.
+/// What one thread does alone; the GPU deals the nodes of a pair to lanes instead.
 struct OneLane
 {
     TREAD_HD std::int32_t lane() const { return 0; }
@@ -198,27 +198,34 @@ struct PatchSums
     double       energy;  ///< J
     double       damping; ///< W, lost to normal damping
 
+    TREAD_HD void write_to(double (&values)[18]) const
+    {
+        for (int c = 0; c < 3; ++c)
+        {
+            values[c]     = force[c];
+            values[3 + c] = moment[c];
+            values[7 + c] = first[c];
+        }
+        for (int c = 0; c < 6; ++c) { values[10 + c] = second[c]; }
+        values[6]  = weight;
+        values[16] = energy;
+        values[17] = damping;
+    }
+
     TREAD_HD static PatchSums zero()
     {
         return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0, Vec3<double>::Zero(), Sym3<double>::Zero(), 0, 0};
     }
-
-    /// Adds the lanes, in a fixed order.
-    template<class Lanes>
-    TREAD_HD void reduce(const Lanes& lanes)
-    {
-        for (int c = 0; c < 3; ++c)
-        {
-            force[c]  = lanes.sum(force[c]);
-            moment[c] = lanes.sum(moment[c]);
-            first[c]  = lanes.sum(first[c]);
-        }
-        for (int c = 0; c < 6; ++c) { second[c] = lanes.sum(second[c]); }
-        weight  = lanes.sum(weight);
-        energy  = lanes.sum(energy);
-        damping = lanes.sum(damping);
-    }
 };
+
+/// All that the nodes of a pair say.
+struct NodeSums
+{
+    Stiffness stiffness;
+    PatchSums patch;
+};
+
+TREAD_HD NodeSums no_nodes() { return {{0, 0}, PatchSums::zero()}; }
 
 /// Velocity of a's material relative to b's, at y.
 struct RelativeMotion

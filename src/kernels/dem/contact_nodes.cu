@@ -20,14 +20,14 @@ void count_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bo
 
 void list_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    by_narrow_phase(
-        law,
-        [&](const auto& meet)
-        {
-            const contact_nodes::Walk walk{meet, bodies, law, pairs.view()};
-            for_each_group<node_lanes>(gpu, "write pair nodes", pairs.key.size(),
-                                       contact_nodes::WriteNodes{walk, pairs.first_node.data(), pairs.node.data()});
-        });
+    by_narrow_phase(law,
+                    [&](const auto& meet)
+                    {
+                        const contact_nodes::Walk walk{meet, bodies, law, pairs.view()};
+                        for_each_group<node_lanes>(
+                            gpu, "write pair nodes", pairs.key.size(),
+                            contact_nodes::WriteNodes{walk, pairs.first_node.data(), pairs.node.data()});
+                    });
 }
 
 } // namespace tread::dem

@@ -85,10 +85,10 @@ struct Pairs
 
     PairsView view()
     {
-        return {key.size(),        key.data(),    patch.data(),
-                response.data(),   peak.data(),   first.data(),
-                by_second.data(),  second.data(), resists_rolling ? rolling.data() : nullptr,
-                travel.data(),     first_node.data(), node.data()};
+        return {key.size(),       key.data(),        patch.data(),
+                response.data(),  peak.data(),       first.data(),
+                by_second.data(), second.data(),     resists_rolling ? rolling.data() : nullptr,
+                travel.data(),    first_node.data(), node.data()};
     }
 
     Array<Exec, std::uint64_t> key;

@@ -14,21 +14,22 @@ struct Rolling
 {
     Vec3<double> moment;    ///< N m, on a, normal to the patch's normal
     double       stiffness; ///< N m/rad
+    Vec3<double> normal;    ///< unit, the patch's when the record was last updated
 };
 
-TREAD_HD Rolling no_rolling() { return {Vec3<double>::Zero(), 0.0}; }
+TREAD_HD Rolling no_rolling() { return {Vec3<double>::Zero(), 0.0, Vec3<double>::Zero()}; }
 
 TREAD_HD double held_energy(const Rolling& rolling)
 {
     return spring_energy(rolling.moment.squaredNorm(), rolling.stiffness);
 }
 
-/// Adds the rolling moment to a pair's response and advances its record by dt (s). `from` = the patch before the
-/// substep, `patch` after it. Moment at most mu_r R* F; stiffness 9/4 K (mu_r R*)^2, so that it yields at a rotation of
+/// Adds the rolling moment to a pair's response and advances its record by dt (s); `patch` = the pair's, after
+/// the substep. Moment at most mu_r R* F; stiffness 9/4 K (mu_r R*)^2, so that it yields at a rotation of
 /// 4/9 F/(K mu_r R*); damping ratio that of the pair, of a ball's 7/5 m* R*^2 about its contact. The damper's part acts
 /// inside the cap and is not stored. Only where there is friction: without, nothing rolls.
-TREAD_HD void add_rolling(const PairLaw& law, const Patch& from, const Patch& patch, const Spins& spins,
-                          PairResponse& response, Rolling& rolling, double dt)
+TREAD_HD void add_rolling(const PairLaw& law, const Patch& patch, const Spins& spins, PairResponse& response,
+                          Rolling& rolling, double dt)
 {
     const double       held   = held_energy(rolling);
     const Vec3<double> normal = patch.normal;
@@ -46,7 +47,7 @@ TREAD_HD void add_rolling(const PairLaw& law, const Patch& from, const Patch& pa
         2.0 * law.damping_ratio * law.effective_radius * std::sqrt(stiffness * 1.4 * law.reduced_mass);
     const Vec3<double> spin = spins.a - spins.b, rate = spin - normal * normal.dot(spin);
 
-    Vec3<double> moment = turn_with_normal(rolling.moment, from.normal, normal);
+    Vec3<double> moment = turn_with_normal(rolling.moment, rolling.normal, normal);
     moment              = turn_about(moment, normal, 0.5 * dt * (spins.a + spins.b).dot(normal));
     if (stiffness < rolling.stiffness) { moment *= stiffness / rolling.stiffness; }
     const double turned = spring_energy(moment.squaredNorm(), stiffness);
@@ -57,7 +58,7 @@ TREAD_HD void add_rolling(const PairLaw& law, const Patch& from, const Patch& pa
 
     Vec3<double> total = moment - viscosity * rate;
     total *= cap_factor(total.norm(), cap);
-    rolling = {moment, stiffness};
+    rolling = {moment, stiffness, normal};
     response.torque_a += total;
     response.torque_b -= total;
     response.energy += held_energy(rolling);

@@ -7,10 +7,6 @@
 namespace tread::dem
 {
 
-TREAD_HD bool is_sphere(const Instance& body) { return body.shape->sphere_radius > 0; }
-
-TREAD_HD double sphere_radius(const Instance& body) { return body.scale * body.shape->sphere_radius; }
-
 /// Where two surfaces touch, relative to the centre of a.
 struct SphereContact
 {
@@ -19,19 +15,20 @@ struct SphereContact
     double       depth;   ///< m, from the centre of a to the middle of the overlap
 };
 
-TREAD_HD SphereContact contact_of_spheres(const Instance& a, const Instance& b)
+/// Radii in m; `arm` = centre of b relative to that of a, m.
+TREAD_HD SphereContact contact_of_spheres(double radius_a, double radius_b, const Vec3<double>& arm)
 {
-    const double       distance = b.centre.norm();
-    const Vec3<double> normal = distance > 0 ? Vec3<double>(b.centre / -distance) : Vec3<double>(Vec3<double>::UnitZ());
-    const double       overlap = sphere_radius(a) + sphere_radius(b) - distance;
-    return {normal, overlap, sphere_radius(a) - 0.5 * overlap};
+    const double       distance = arm.norm();
+    const Vec3<double> normal   = distance > 0 ? Vec3<double>(arm / -distance) : Vec3<double>(Vec3<double>::UnitZ());
+    const double       overlap  = radius_a + radius_b - distance;
+    return {normal, overlap, radius_a - 0.5 * overlap};
 }
 
 /// The wall does not give way: its plane is where the contact acts.
-TREAD_HD SphereContact contact_with_plane(const Instance& a, const PlaneField& wall)
+TREAD_HD SphereContact contact_with_plane(double radius, const PlaneField& wall)
 {
-    const double overlap = sphere_radius(a) + wall.offset;
-    return {wall.normal, overlap, sphere_radius(a) - overlap};
+    const double overlap = radius + wall.offset;
+    return {wall.normal, overlap, radius - overlap};
 }
 
 /// dF/dd of Hertz's law, N/m: 2 E* a with a = sqrt(R* d).

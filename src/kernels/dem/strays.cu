@@ -4,15 +4,22 @@
 namespace tread::dem
 {
 
-void mark_places(const Gpu& exec, Strays<Gpu>& strays, const BodiesView& bodies, const TemplateView* templates,
-                 double dt)
+void mark_places(const Gpu& exec, Strays<Gpu>& strays, const BodiesView& bodies)
 {
-    stray_steps::mark(exec, strays, bodies, templates, dt);
+    stray_steps::mark(exec, strays, bodies);
 }
 
-double largest_stray(const Gpu& exec, Strays<Gpu>& strays, const BodiesView& bodies, const TemplateView* templates)
+double largest_stray(const Gpu& exec, Strays<Gpu>& strays, const BodiesView& bodies, const TemplateView* templates,
+                     const double* travel)
 {
-    return stray_steps::largest(exec, strays, bodies, templates);
+    return stray_steps::largest(exec, strays, bodies.count, stray_steps::measure(strays, bodies, templates, travel));
+}
+
+double largest_stray_ahead(const Gpu& exec, Strays<Gpu>& strays, const BodiesView& bodies,
+                           const TemplateView* templates, const double* travel, double ahead)
+{
+    const stray_steps::MeasureAhead item{stray_steps::measure(strays, bodies, templates, travel), ahead};
+    return stray_steps::largest(exec, strays, bodies.count, item);
 }
 
 } // namespace tread::dem

@@ -8,31 +8,38 @@
 namespace tread::dem
 {
 
-/// Where bodies stood when their pairs were found, and what the search allowed them.
+/// Where bodies stood when their pairs were found.
 template<class Exec>
 struct Strays
 {
     explicit Strays(const Exec& exec)
         : position(exec, "body position at search")
         , orientation(exec, "body orientation at search")
-        , allowed(exec, "body travel allowed")
         , share(exec, "body travel shares")
     {
     }
 
     Array<Exec, Vec3<double>> position;
     Array<Exec, Quat>         orientation;
-    Array<Exec, double>       allowed; ///< m
-    Array<Exec, double>       share;   ///< of it that was used, by body, and then the largest
+    Array<Exec, double>       share; ///< of its allowed travel that each body used, and then the largest
 };
 
-/// Remembers the bodies as they are, when find_pairs has searched for the next dt (s).
-void mark_places(const Cpu&, Strays<Cpu>& strays, const BodiesView& bodies, const TemplateView* templates, double dt);
-void mark_places(const Gpu&, Strays<Gpu>& strays, const BodiesView& bodies, const TemplateView* templates, double dt);
+/// Remembers the bodies as they are, after find_pairs.
+void mark_places(const Cpu&, Strays<Cpu>& strays, const BodiesView& bodies);
+void mark_places(const Gpu&, Strays<Gpu>& strays, const BodiesView& bodies);
 
-/// The largest share of its allowed travel that any point of a body has moved since; strays.share holds all. Up to 1 no
-/// pair is missing from the list. Infinite for a body that is nowhere. Waits for the backend.
-double largest_stray(const Cpu&, Strays<Cpu>& strays, const BodiesView& bodies, const TemplateView* templates);
-double largest_stray(const Gpu&, Strays<Gpu>& strays, const BodiesView& bodies, const TemplateView* templates);
+/// The largest share of its allowed travel (m, of every body) that any point of a body has moved since; strays.share
+/// holds all. Up to 1 no pair is missing from the list. Infinite for a body that is nowhere. Waits for the backend.
+double largest_stray(const Cpu&, Strays<Cpu>& strays, const BodiesView& bodies, const TemplateView* templates,
+                     const double* travel);
+double largest_stray(const Gpu&, Strays<Gpu>& strays, const BodiesView& bodies, const TemplateView* templates,
+                     const double* travel);
+
+/// The same when the bodies have gone on for `ahead` (s): twice as far as at their speed, and half the skin of a body
+/// that is at rest now.
+double largest_stray_ahead(const Cpu&, Strays<Cpu>& strays, const BodiesView& bodies, const TemplateView* templates,
+                           const double* travel, double ahead);
+double largest_stray_ahead(const Gpu&, Strays<Gpu>& strays, const BodiesView& bodies, const TemplateView* templates,
+                           const double* travel, double ahead);
 
 } // namespace tread::dem

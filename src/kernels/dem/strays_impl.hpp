@@ -12,18 +12,14 @@ namespace tread::dem::stray_steps
 
 struct Mark
 {
-    BodiesView          bodies;
-    const TemplateView* templates;
-    double              dt;
-    Vec3<double>*       position;
-    Quat*               orientation;
-    double*             allowed;
+    BodiesView    bodies;
+    Vec3<double>* position;
+    Quat*         orientation;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
         position[b]    = bodies.position[b];
         orientation[b] = bodies.orientation[b];
-        allowed[b]     = reach_of(bodies, templates, b, dt).travel;
     }
 };
 
@@ -35,38 +31,62 @@ struct Measure
     const TemplateView* templates;
     const Vec3<double>* position;
     const Quat*         orientation;
-    const double*       allowed;
+    const double*       travel;
     double*             share;
+
+    TREAD_HD double radius(std::int64_t b) const
+    {
+        return templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
+    }
+
+    TREAD_HD double moved(std::int64_t b) const
+    {
+        const double turned = (bodies.orientation[b] * orientation[b].conjugate()).vec().norm();
+        return (bodies.position[b] - position[b]).norm() + 2.0 * turned * radius(b);
+    }
+
+    TREAD_HD void keep(std::int64_t b, double way) const
+    {
+        const double used = way / travel[b];
+        share[b]          = used >= 0 ? used : std::numeric_limits<double>::infinity();
+    }
+
+    TREAD_HD void operator()(std::int64_t b) const { keep(b, moved(b)); }
+};
+
+struct MeasureAhead
+{
+    Measure measure;
+    double  ahead;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const double radius = templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
-        const double turned = (bodies.orientation[b] * orientation[b].conjugate()).vec().norm();
-        const double moved  = (bodies.position[b] - position[b]).norm() + 2.0 * turned * radius;
-        const double used   = moved / allowed[b];
-        share[b]            = used >= 0 ? used : std::numeric_limits<double>::infinity();
+        const double way = ahead * speed_of(measure.bodies, b, measure.radius(b));
+        measure.keep(b, measure.moved(b) + 2.0 * way + rest_reserve * measure.radius(b));
     }
 };
 
 template<class Exec>
-void mark(const Exec& exec, Strays<Exec>& strays, const BodiesView& bodies, const TemplateView* templates, double dt)
+void mark(const Exec& exec, Strays<Exec>& strays, const BodiesView& bodies)
 {
     strays.position.resize(bodies.count);
     strays.orientation.resize(bodies.count);
-    strays.allowed.resize(bodies.count);
-    for_each(exec, "mark places", bodies.count,
-             Mark{bodies, templates, dt, strays.position.data(), strays.orientation.data(), strays.allowed.data()});
+    for_each(exec, "mark places", bodies.count, Mark{bodies, strays.position.data(), strays.orientation.data()});
 }
 
 template<class Exec>
-double largest(const Exec& exec, Strays<Exec>& strays, const BodiesView& bodies, const TemplateView* templates)
+Measure measure(Strays<Exec>& strays, const BodiesView& bodies, const TemplateView* templates, const double* travel)
 {
     strays.share.resize(bodies.count + 1);
-    for_each(exec, "measure strays", bodies.count,
-             Measure{bodies, templates, strays.position.data(), strays.orientation.data(), strays.allowed.data(),
-                     strays.share.data()});
-    double* found = strays.share.data() + bodies.count;
-    largest_of_rows(exec, strays.share.data(), bodies.count, 1, found);
+    return {bodies, templates, strays.position.data(), strays.orientation.data(), travel, strays.share.data()};
+}
+
+template<class Exec, class Item>
+double largest(const Exec& exec, Strays<Exec>& strays, std::int64_t bodies, const Item& item)
+{
+    for_each(exec, "measure strays", bodies, item);
+    double* found = strays.share.data() + bodies;
+    largest_of_rows(exec, strays.share.data(), bodies, 1, found);
     return read(exec, found);
 }
 
