@@ -128,7 +128,7 @@ void Driver<Exec, Real>::advance()
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) { commands.push_back(phases_.command(b, time_ + step.dt)); }
     simulation_.command(commands, phases_.phase().damping);
     clock_.begin_step(steps_);
-    simulation_.step(step, time_, clock_);
+    step = simulation_.step(step, time_, clock_);
     time_ += step.dt;
     ++steps_;
     substeps_ += step.substeps;

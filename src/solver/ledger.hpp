@@ -10,20 +10,19 @@ namespace tread::solver
 /// What the bodies did in one step, summed over them.
 struct RigidReport
 {
-    double       shortest_contact = 0;                    ///< s, min sqrt(m / sum K); 0 = no contact
-    double       overlap          = 0;                    ///< largest, over the smaller radius of the pair
-    double       largest_speed    = 0;                    ///< m/s
-    double       net_force        = 0;                    ///< N, sum over free bodies of |contact + weight|
-    double       friction         = 0;                    ///< J, body-body, of the step
-    double       restitution      = 0;                    ///< J, body-body normal damping, of the step
-    double       damped           = 0;                    ///< J, taken by local damping in the step
-    double       driver_work      = 0;                    ///< J, done by what holds and drives bodies, of the step
-    double       sand_work        = 0;                    ///< J, done by sand, of the step
-    double       weight_power     = 0;                    ///< W, of the weight on the velocity after the step
-    double       substep          = 0;                    ///< s
-    Vec3<double> wall_impulse     = Vec3<double>::Zero(); ///< N s, of the step
-    Vec3<double> damping_impulse  = Vec3<double>::Zero();
-    Vec3<double> driver_impulse   = Vec3<double>::Zero();
+    double       overlap         = 0;                    ///< largest, over the smaller radius of the pair
+    double       largest_speed   = 0;                    ///< m/s
+    double       net_force       = 0;                    ///< N, sum over free bodies of |contact + weight|
+    double       friction        = 0;                    ///< J, body-body, of the step
+    double       restitution     = 0;                    ///< J, body-body normal damping, of the step
+    double       damped          = 0;                    ///< J, taken by local damping in the step
+    double       driver_work     = 0;                    ///< J, done by what holds and drives bodies, of the step
+    double       sand_work       = 0;                    ///< J, done by sand, of the step
+    double       weight_power    = 0;                    ///< W, of the weight on the velocity after the step
+    double       substep         = 0;                    ///< s
+    Vec3<double> wall_impulse    = Vec3<double>::Zero(); ///< N s, of the step
+    Vec3<double> damping_impulse = Vec3<double>::Zero();
+    Vec3<double> driver_impulse  = Vec3<double>::Zero();
 };
 
 /// What the contacts of sand with bodies did in one step.

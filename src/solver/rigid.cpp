@@ -219,7 +219,7 @@ void Rigid<Exec>::find_pairs(double dt)
         dem::mark_places(exec_, strays_, bodies_.view());
         listed_ = true;
     }
-    dem::expect_contacts(exec_, pairs_, bodies_.view(), law_, dt);
+    dem::expect_contacts(exec_, pairs_, bodies_.view(), law_, gravity_, dt);
 }
 
 template<class Exec>
@@ -376,7 +376,6 @@ RigidReport Rigid<Exec>::report(double time)
         require_resolved(time, report.largest_speed);
         require_listed(time);
         report.overlap          = std::max(std::exchange(overlap_, 0.0), guard(time));
-        report.shortest_contact = shortest_contact();
     }
     return report;
 }

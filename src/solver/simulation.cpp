@@ -64,7 +64,7 @@ void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, d
 }
 
 template<class Exec, class Real>
-void Simulation<Exec, Real>::step(const TimeStep& step, double time, StageClock& clock)
+TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& clock)
 {
     if (unmeasured_ > 0 && step.dt != last_.dt) { measure(); } // the books take steps of one length together
     if (sand_)
@@ -75,6 +75,8 @@ void Simulation<Exec, Real>::step(const TimeStep& step, double time, StageClock&
     if (plan_.body_contact)
     {
         clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs(step.dt); });
+        pace_.shortest_contact = rigid_->shortest_contact();
+        step.substeps          = substeps_of(scene_.time, step.dt, limits_, pace_);
     }
     if (coupling_)
     {
@@ -100,6 +102,7 @@ void Simulation<Exec, Real>::step(const TimeStep& step, double time, StageClock&
     {
         clock.run(exec_, stage::measure, [&] { measure(); });
     }
+    return step;
 }
 
 template<class Exec, class Real>
@@ -155,10 +158,8 @@ void Simulation<Exec, Real>::measure()
     const SandReport   sand  = sand_ ? sand_->report() : SandReport{};
     const RigidReport  rigid = rigid_ ? rigid_->report(time) : RigidReport{};
     if (guard_) { guard_->check(sand, step, time); }
-    pace_.largest_speed    = std::max(sand.largest_speed, rigid.largest_speed);
-    pace_.shortest_contact = rigid.shortest_contact;
-    pace_.overlap          = rigid.overlap;
-    // Substeps that the code chooses are right again in the next step; those of the scene stay wrong.
+    pace_.largest_speed  = std::max(sand.largest_speed, rigid.largest_speed);
+    pace_.overlap        = rigid.overlap;
     const double substep = step.dt / static_cast<double>(step.substeps);
     if (scene_.time.substeps && pace_.shortest_contact > 0 && substep > longest_substep * pace_.shortest_contact)
     {

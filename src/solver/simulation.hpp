@@ -48,7 +48,7 @@ public:
     /// One MPM step of `step.dt` with its contact substeps (design: one step). NumericalError, with what, where and
     /// which limit, when the state cannot be trusted any more; `time` is for that message. Sand without bodies is
     /// measured every few steps, which pace() and unbalanced() then follow.
-    void step(const TimeStep& step, double time, StageClock& clock);
+    TimeStep step(TimeStep step, double time, StageClock& clock);
 
     /// Whether pace() is of the last step: only then is there reason to choose another dt.
     bool measured() const { return unmeasured_ == 0; }

@@ -14,8 +14,9 @@ constexpr double contact_safety      = 0.2; ///< of sqrt(m / sum K), prototypes 
 constexpr double contact_warning     = 0.4;
 constexpr double point_contact_bound = 0.5; ///< of k dt^2 / m_p, prototypes 2
 constexpr double point_contact_warn  = 2.0;
-constexpr double travel_bound        = 0.3; ///< of the spacing, or of the smallest body
-constexpr double overlap_warning     = 0.1; ///< of a radius: the head-on case itself reaches 0.11
+constexpr double travel_bound        = 0.3;   ///< of the spacing, or of the smallest body
+constexpr double unseen_fall         = 0.005; ///< of a body's radius: half the skin of its pairs (reach_of)
+constexpr double overlap_warning     = 0.1;   ///< of a radius: the head-on case itself reaches 0.11
 constexpr double growth              = 1.05;
 constexpr double substeps_alone      = 10; ///< substeps a step where no sand sets the step
 
@@ -36,7 +37,14 @@ Bound smallest_bound(const PaceLimits& limits, const Pace& pace)
     if (sand) { bound(limits.courant * limits.spacing / limits.wave_speed, "compression wave"); }
     const double reach = sand ? limits.spacing : limits.smallest_body;
     if (pace.largest_speed > 0) { bound(travel_bound * reach / pace.largest_speed, "speed"); }
-    if (limits.gravity > 0) { bound(std::sqrt(2 * travel_bound * reach / limits.gravity), "free fall"); }
+    if (limits.gravity > 0)
+    {
+        bound(std::sqrt(2 * travel_bound * reach / limits.gravity), "free fall");
+        if (limits.smallest_body > 0)
+        {
+            bound(std::sqrt(2 * unseen_fall * limits.smallest_body / limits.gravity), "free fall");
+        }
+    }
     if (pace.stiffest_point > 0) { bound(std::sqrt(point_contact_bound / pace.stiffest_point), "sand-body contact"); }
     if (!sand && pace.shortest_contact > 0)
     {
@@ -45,8 +53,11 @@ Bound smallest_bound(const PaceLimits& limits, const Pace& pace)
     return least;
 }
 
-std::int64_t needed_substeps(double dt, const PaceLimits& limits, const Pace& pace)
+} // namespace
+
+std::int64_t substeps_of(const scene::TimeOptions& options, double dt, const PaceLimits& limits, const Pace& pace)
 {
+    if (options.substeps) { return *options.substeps; }
     double needed = 1;
     if (pace.shortest_contact > 0)
     {
@@ -61,8 +72,6 @@ std::int64_t needed_substeps(double dt, const PaceLimits& limits, const Pace& pa
     return static_cast<std::int64_t>(needed);
 }
 
-} // namespace
-
 TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace, double last_dt)
 {
     TimeStep step;
@@ -73,7 +82,7 @@ TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits
         step              = {bound.dt, 1, bound.name};
         if (last_dt > 0 && step.dt > growth * last_dt) { step = {growth * last_dt, 1, "growth"}; }
     }
-    step.substeps = options.substeps ? *options.substeps : needed_substeps(step.dt, limits, pace);
+    step.substeps = substeps_of(options, step.dt, limits, pace);
     return step;
 }
 

@@ -9,7 +9,7 @@
 namespace tread::solver
 {
 
-/// What the last step measured, for the choice of the next.
+/// What the last step measured, for the choice of the next; the contacts are those that it began with.
 struct Pace
 {
     double largest_speed    = 0; ///< m/s, of points and bodies
@@ -40,6 +40,9 @@ struct TimeStep
 /// sand-body contact, dt/N <= 0.2 sqrt(m / sum K), v dt/N <= 0.3 of the smallest body. Grows by at most 5 % a step.
 /// Fixed values of the scene are taken as they are.
 TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace, double last_dt);
+
+/// N of a step of dt (s): what its contacts ask for, or the scene.
+std::int64_t substeps_of(const scene::TimeOptions& options, double dt, const PaceLimits& limits, const Pace& pace);
 
 /// The step, made a little shorter for the last steps before `remaining` (s) runs out, so that none of them is tiny:
 /// the support acceleration of points in contact is a change of velocity over dt.

@@ -9,15 +9,17 @@ namespace tread::dem
 {
 
 /// Sum of w p' (N/m) over a pair's listed nodes that are outside the other side and will be inside within `horizon` (s)
-/// if their motion goes on, by the distance fields (rays tell nothing outside); 0 for exact spheres, whose first touch
-/// is known. However slow: a step too long for the stiffness multiplies what little energy there is.
+/// if their motion goes on and nothing holds them against gravity but a lock, by the distance fields (rays tell nothing
+/// outside); 0 for exact spheres, whose first touch is known. However slow: a step too long for the stiffness multiplies
+/// what little energy there is.
 struct AnticipatePair
 {
-    BodiesView bodies;
-    BodyLaw    law;
-    PairsView  pairs;
-    double     horizon;
-    double*    entering;
+    BodiesView   bodies;
+    BodyLaw      law;
+    PairsView    pairs;
+    double       horizon;
+    Vec3<double> fall; ///< m/s, what weight adds to a free body's mean velocity
+    double*      entering;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
@@ -34,13 +36,18 @@ struct AnticipatePair
     }
 
 private:
+    TREAD_HD Vec3<double> mean_velocity(std::int64_t b) const
+    {
+        return bodies.locked[b] == lock_all ? bodies.velocity[b] : Vec3<double>(bodies.velocity[b] + fall);
+    }
+
     template<class Lanes>
     TREAD_HD double between_bodies(std::int64_t a, std::int64_t b, const NodeRun& nodes, const Lanes& lanes) const
     {
         const Instance       of_a = instance_of(bodies, law.templates, a, bodies.position[a]);
         const Instance       of_b = instance_of(bodies, law.templates, b, bodies.position[a]);
         const Vec3<double>&  spin = bodies.angular_velocity[b];
-        const RelativeMotion motion{bodies.velocity[a] - bodies.velocity[b] + spin.cross(of_b.centre),
+        const RelativeMotion motion{mean_velocity(a) - mean_velocity(b) + spin.cross(of_b.centre),
                                     bodies.angular_velocity[a] - spin};
         return over_nodes(law_between(bodies, law, a, b), MeetByDistance{}(of_a, of_b), nodes, motion, lanes);
     }
@@ -50,7 +57,7 @@ private:
     {
         const Plane&         plane = law.planes[p];
         const Instance       of_a  = instance_of(bodies, law.templates, a, bodies.position[a]);
-        const RelativeMotion motion{bodies.velocity[a], bodies.angular_velocity[a]};
+        const RelativeMotion motion{mean_velocity(a), bodies.angular_velocity[a]};
         return over_nodes(law_against(bodies, law, a, plane),
                           OneSide{{of_a, field_of(plane, bodies.position[a]), 1.0, 1.0}}, nodes, motion, lanes);
     }

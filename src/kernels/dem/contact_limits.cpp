@@ -4,9 +4,10 @@
 namespace tread::dem
 {
 
-void expect_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+void expect_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
+                     const Vec3<double>& gravity, double dt)
 {
-    const AnticipatePair   anticipate    = contact_limits::anticipate(pairs, bodies, law, dt);
+    const AnticipatePair   anticipate    = contact_limits::anticipate(pairs, bodies, law, gravity, dt);
     constexpr std::int64_t worth_threads = 512; // as for the contacts themselves
     for_each_heavy(
         cpu, "anticipated contacts", pairs.key.size(), [=](std::int64_t p) { anticipate(p, OneLane{}); },

@@ -5,11 +5,12 @@
 namespace tread::dem
 {
 
-void expect_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+void expect_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
+                     const Vec3<double>& gravity, double dt)
 {
     constexpr int lanes = 8; // as for the contacts themselves
     for_each_group<lanes>(gpu, "anticipated contacts", pairs.key.size(),
-                          contact_limits::anticipate(pairs, bodies, law, dt));
+                          contact_limits::anticipate(pairs, bodies, law, gravity, dt));
     contact_limits::add_up(gpu, pairs, bodies, law);
 }
 

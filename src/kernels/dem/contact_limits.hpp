@@ -10,9 +10,11 @@ namespace tread::dem
 
 /// pairs.expected_stiffness of every body, N/m: the larger of two sums over its listed pairs. One is of first touches
 /// (two nodes in the linear part of the traction) of those that are apart; the other of what touches and of the nodes
-/// that come inside within two steps of dt (s) if their motion goes on. Once a step, after find_pairs.
-void expect_contacts(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
-void expect_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+/// that come inside when they move by twice what velocity and gravity (m/s2) make of them in dt (s). After find_pairs.
+void expect_contacts(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
+                     const Vec3<double>& gravity, double dt);
+void expect_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
+                     const Vec3<double>& gravity, double dt);
 
 /// The least sqrt(m/K) (s) over the bodies that can move, K = the larger of the body's live stiffness and of what
 /// expect_contacts found; 0 without any contact, live or expected. A substep of 0.2 times that keeps energy

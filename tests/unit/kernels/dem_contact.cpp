@@ -280,7 +280,7 @@ TYPED_TEST(BodyContact, StiffnessIsExpectedBeforeItIsFelt)
     EXPECT_EQ(smallest_contact_time(this->exec(), scene.pairs, scene.bodies.view()), 0);
 
     scene.find(10 * dt);
-    expect_contacts(this->exec(), scene.pairs, scene.bodies.view(), scene.law(), dt);
+    expect_contacts(this->exec(), scene.pairs, scene.bodies.view(), scene.law(), Vec3<double>::Zero(), dt);
     // two nodes at d0 of the pair's half-weighted nodes: K = A E*/(pi sqrt(R* d0))
     const double effective = 1e7 / 0.91 / 2, area = 4 * std::numbers::pi * radius * radius / 162, knee = 1e-3 * 0.1;
     const double stiffness = area * effective / (std::numbers::pi * std::sqrt(0.1 * knee));
@@ -289,7 +289,7 @@ TYPED_TEST(BodyContact, StiffnessIsExpectedBeforeItIsFelt)
                 1e-9);
 
     scene.run(dt, 1000, 10); // 20 ms: past the deepest point, 22 of 200 mm
-    expect_contacts(this->exec(), scene.pairs, scene.bodies.view(), scene.law(), dt);
+    expect_contacts(this->exec(), scene.pairs, scene.bodies.view(), scene.law(), Vec3<double>::Zero(), dt);
     const double live = scene.bodies.stiffness.to_host()[0];
     EXPECT_NEAR(smallest_contact_time(this->exec(), scene.pairs, scene.bodies.view()), std::sqrt(mass / live), 1e-9);
     const dem::Overlap overlap = largest_overlap(this->exec(), scene.pairs, scene.bodies.view(), scene.law());
