@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "shape/generators.hpp"
+#include "shape/hull_depth.hpp"
 #include "shape/solid.hpp"
 #include "shape/surface_nodes.hpp"
 #include "shape/template_sdf.hpp"
@@ -125,6 +126,7 @@ MeasuredTemplate make_measured_template(const scene::Shape& shape, const std::st
     result.nodes           = std::visit(MakeNodes{result.mesh, shape.node_spacing}, shape.source);
     result.box             = bounds(result.mesh);
     result.bounding_radius = bounding_radius(result.mesh);
+    result.hull_depth      = hull_depth(result.mesh, result.nodes.positions);
     if (std::holds_alternative<scene::SphereGenerator>(shape.source))
     {
         result.sphere_radius = result.equivalent_radius;

@@ -81,6 +81,7 @@ struct ShapeTemplate
     double             bounding_radius;   ///< m, about the centre of mass
     double             equivalent_radius; ///< m, of the sphere of equal volume; R of the contact law (wheels: radius)
     double             sphere_radius;     ///< m, of a generated sphere; 0 of any other shape
+    double             hull_depth;        ///< m, of the deepest surface node below the convex hull; 0 = convex
     bool               is_wheel;
     WheelGeometry      wheel; ///< meaningful if is_wheel
     SignRule           sign;  ///< how inside was told from outside

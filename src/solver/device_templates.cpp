@@ -1,5 +1,7 @@
 #include "solver/device_templates.hpp"
 
+#include <algorithm>
+
 #include "kernels/dem/sdf_kern.hpp"
 
 namespace tread::solver
@@ -9,6 +11,9 @@ namespace
 
 // Kernels know nothing of shapes, and read what they lay out.
 static_assert(dem::brick_cells == shape::SignedDistanceGrid::brick_cells);
+
+/// Of the radius, below the hull: generated rocks of the default solidity stay within 0.04, grousers go beyond 0.07.
+constexpr double concave_depth = 0.05;
 
 /// Appends `from` to `to`; returns where it starts.
 template<class T>
@@ -38,6 +43,7 @@ dem::TemplateView measures(const shape::ShapeTemplate& form)
     view.bounding_radius   = form.bounding_radius;
     view.equivalent_radius = form.equivalent_radius;
     view.sphere_radius     = form.sphere_radius;
+    view.concave           = form.hull_depth > concave_depth * form.equivalent_radius;
     return view;
 }
 
@@ -80,6 +86,7 @@ DeviceTemplates<Exec>::DeviceTemplates(const Exec& exec, const std::vector<shape
     cluster_radii_.assign(radii);
 
     std::vector<dem::TemplateView> views;
+    views.reserve(templates.size());
     for (std::size_t t = 0; t < templates.size(); ++t)
     {
         dem::TemplateView view = measures(templates[t]);
@@ -93,6 +100,7 @@ DeviceTemplates<Exec>::DeviceTemplates(const Exec& exec, const std::vector<shape
         views.push_back(view);
     }
     views_.assign(views);
+    concave_ = std::any_of(views.begin(), views.end(), [](const auto& view) { return view.concave; });
 }
 
 template class DeviceTemplates<Cpu>;

@@ -19,6 +19,9 @@ public:
 
     const dem::TemplateView* views() const { return views_.data(); }
 
+    /// Whether some template may touch another body in separate places.
+    bool concave() const { return concave_; }
+
 private:
     Array<Exec, float>             sdf_values_;
     Array<Exec, std::int32_t>      sdf_slots_;
@@ -28,6 +31,7 @@ private:
     Array<Exec, Vec3<double>>      cluster_centres_;
     Array<Exec, double>            cluster_radii_;
     Array<Exec, dem::TemplateView> views_;
+    bool                           concave_ = false;
 };
 
 } // namespace tread::solver

@@ -72,6 +72,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     properties_.assign(properties);
     pairs_.resists_rolling =
         std::any_of(properties.begin(), properties.end(), [](const auto& pair) { return pair.rolling_friction > 0; });
+    pairs_.patches.wanted = templates_.concave();
     planes_.assign(world.planes);
     law_             = {templates_.views(),
                         {properties_.data(), static_cast<std::int32_t>(scene.materials.size() + 1)},
@@ -375,7 +376,7 @@ RigidReport Rigid<Exec>::report(double time)
     {
         require_resolved(time, report.largest_speed);
         require_listed(time);
-        report.overlap          = std::max(std::exchange(overlap_, 0.0), guard(time));
+        report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time));
     }
     return report;
 }

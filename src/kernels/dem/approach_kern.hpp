@@ -10,8 +10,8 @@ namespace tread::dem
 
 /// Sum of w p' (N/m) over a pair's listed nodes that are outside the other side and will be inside within `horizon` (s)
 /// if their motion goes on and nothing holds them against gravity but a lock, by the distance fields (rays tell nothing
-/// outside); 0 for exact spheres, whose first touch is known. However slow: a step too long for the stiffness multiplies
-/// what little energy there is.
+/// outside); 0 for exact spheres, whose first touch is known. However slow: a step too long for the stiffness
+/// multiplies what little energy there is.
 struct AnticipatePair
 {
     BodiesView   bodies;

@@ -132,6 +132,7 @@ struct OneLane
     TREAD_HD std::uint32_t vote(bool value) const { return value ? 1u : 0u; } ///< bit l = the value of lane l
     TREAD_HD double        sum(double value) const { return value; }
     TREAD_HD double        largest(double value) const { return value; }
+    TREAD_HD double        from(std::int32_t, double value) const { return value; } ///< of that lane
 };
 
 inline constexpr std::int32_t cluster_size = 32; ///< nodes, shape::SurfaceNodes

@@ -6,6 +6,7 @@
 #include "backend/sort.hpp"
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/body_contact_kern.hpp"
+#include "kernels/dem/patches.hpp"
 #include "kernels/dem/ray_kern.hpp"
 #include "kernels/dem/rolling_kern.hpp"
 #include "kernels/dem/templates.hpp"
@@ -25,13 +26,24 @@ struct BodyLaw
     const RayView*      rays = nullptr; ///< of the templates; null: bodies meet by their distance fields
 };
 
-/// Key of a pair, a < b; the wall `plane` has b = bodies + plane.
+/// The lowest bits of a key number the patches of a pair that touches in several (patches.hpp): 0 of any other.
+inline constexpr int patch_bits = 3;
+
+/// Key of a pair, a < b; the wall `plane` has b = bodies + plane, under 2^29.
 TREAD_HD std::uint64_t pair_key(std::int64_t a, std::int64_t b)
 {
-    return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b);
+    return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b) << patch_bits;
 }
 TREAD_HD std::int64_t first_of(std::uint64_t key) { return static_cast<std::int64_t>(key >> 32); }
-TREAD_HD std::int64_t second_of(std::uint64_t key) { return static_cast<std::int64_t>(key & 0xffffffffu); }
+TREAD_HD std::int64_t second_of(std::uint64_t key)
+{
+    return static_cast<std::int64_t>((key & 0xffffffffu) >> patch_bits);
+}
+TREAD_HD std::int32_t patch_number(std::uint64_t key)
+{
+    return static_cast<std::int32_t>(key & ((std::uint64_t{1} << patch_bits) - 1));
+}
+TREAD_HD bool same_pair(std::uint64_t one, std::uint64_t other) { return one >> patch_bits == other >> patch_bits; }
 
 struct PairsView
 {
@@ -80,6 +92,7 @@ struct Pairs
         , first_node(exec, "nodes of pairs")
         , node(exec, "pair nodes")
         , sort(exec)
+        , patches(exec)
     {
     }
 
@@ -118,6 +131,7 @@ struct Pairs
     Array<Exec, std::int32_t>  first_node;
     Array<Exec, std::int32_t>  node;
     SortScratch<Exec>          sort;
+    Patches<Exec>              patches;
     bool                       resists_rolling = false; ///< some pair of materials has rolling friction
 };
 

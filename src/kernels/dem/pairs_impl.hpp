@@ -122,7 +122,23 @@ struct KeepPairs
     }
 };
 
-/// The patch of a pair that was in the last list, and its place in the order by second body.
+/// What every pair of a new list starts with, and its place in the order by second body.
+struct Renew
+{
+    PairsView      pairs;
+    std::uint64_t* second_key;
+    std::int32_t*  by_second;
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        pairs.response[p] = no_response();
+        pairs.peak[p]     = 0;
+        second_key[p]     = static_cast<std::uint64_t>(second_of(pairs.key[p]));
+        by_second[p]      = static_cast<std::int32_t>(p);
+    }
+};
+
+/// The patch of a pair that was in the last list.
 struct Recall
 {
     PairsView            pairs;
@@ -130,18 +146,12 @@ struct Recall
     const std::uint64_t* last_key;
     const Patch*         last_patch;
     const Rolling*       last_rolling;
-    std::uint64_t*       second_key;
-    std::int32_t*        by_second;
 
     TREAD_HD void operator()(std::int64_t p) const
     {
         const std::int64_t last = find_sorted(last_key, last_count, pairs.key[p]);
         pairs.patch[p]          = last < 0 ? no_patch() : last_patch[last];
         if (pairs.rolling != nullptr) { pairs.rolling[p] = last < 0 ? no_rolling() : last_rolling[last]; }
-        pairs.response[p] = no_response();
-        pairs.peak[p]     = 0;
-        second_key[p]     = static_cast<std::uint64_t>(second_of(pairs.key[p]));
-        by_second[p]      = static_cast<std::int32_t>(p);
     }
 };
 
@@ -179,6 +189,24 @@ double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
              WriteCell{bodies, pairs.is_large.data(), cell_size, pairs.cell_key.data(), pairs.cell_body.data()});
     sort_by_key(exec, pairs.cell_key, pairs.cell_body, pairs.sort);
     return cell_size;
+}
+
+/// All that follows from the keys alone.
+template<class Exec>
+void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    const std::int64_t count = pairs.key.size();
+    pairs.by_second.resize(count);
+    pairs.response.resize(count);
+    pairs.peak.resize(count);
+    pairs.second_key.resize(count);
+    for_each(exec, "renew pairs", count, Renew{pairs.view(), pairs.second_key.data(), pairs.by_second.data()});
+    sort_by_key(exec, pairs.second_key, pairs.by_second, pairs.sort);
+
+    pairs.first.resize(bodies.count + 1);
+    pairs.second.resize(bodies.count + 1);
+    for_each(exec, "pairs of bodies", bodies.count + 1,
+             WriteRuns{count, pairs.key.data(), pairs.second_key.data(), pairs.first.data(), pairs.second.data()});
 }
 
 template<class Exec>
@@ -229,19 +257,10 @@ void order_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
     const std::int64_t count = pairs.key.size();
     pairs.patch.resize(count);
     if (pairs.resists_rolling) { pairs.rolling.resize(count); }
-    pairs.response.resize(count);
-    pairs.peak.resize(count);
-    pairs.second_key.resize(count);
-    pairs.by_second.resize(count);
     for_each(exec, "recall pairs", count,
              Recall{pairs.view(), pairs.last_key.size(), pairs.last_key.data(), pairs.last_patch.data(),
-                    pairs.last_rolling.data(), pairs.second_key.data(), pairs.by_second.data()});
-    sort_by_key(exec, pairs.second_key, pairs.by_second, pairs.sort);
-
-    pairs.first.resize(bodies.count + 1);
-    pairs.second.resize(bodies.count + 1);
-    for_each(exec, "pairs of bodies", bodies.count + 1,
-             WriteRuns{count, pairs.key.data(), pairs.second_key.data(), pairs.first.data(), pairs.second.data()});
+                    pairs.last_rolling.data()});
+    order_again(exec, pairs, bodies);
 }
 
 } // namespace pair_steps
@@ -278,10 +297,12 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     pairs.key.swap(pairs.last_key);
     pairs.patch.swap(pairs.last_patch);
     pairs.rolling.swap(pairs.last_rolling);
+    pairs.patches.place.swap(pairs.patches.last_place);
     const double cell_size = fill_cells(exec, pairs, bodies, law.templates, dt);
     search(exec, pairs, bodies, law, cell_size);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
+    if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }
 }
 
 } // namespace tread::dem

@@ -30,6 +30,7 @@ struct TemplateView
     double              bounding_radius;
     double              equivalent_radius; ///< R of the contact law
     double              sphere_radius;     ///< m, of an exact sphere; 0 of any other shape
+    bool                concave;           ///< enough to touch another body in separate places
 };
 
 /// What a pair of materials needs in the contact laws; symmetric in the pair.

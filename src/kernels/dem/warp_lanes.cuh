@@ -23,6 +23,11 @@ struct GroupLanes
         return __ballot_sync(everyone(), value) >> first() & (all_lanes >> (warp_size - size));
     }
 
+    __device__ double from(std::int32_t lane, double value) const
+    {
+        return __shfl_sync(everyone(), value, first() + lane);
+    }
+
     __device__ double sum(double value) const
     {
         for (int distance = size / 2; distance > 0; distance /= 2)

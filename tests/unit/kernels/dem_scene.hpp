@@ -39,6 +39,7 @@ struct SolidShape
     double                      bounding_radius   = 0;
     double                      equivalent_radius = 0;
     double                      sphere_radius     = 0; ///< of an exact sphere
+    bool                        concave           = false;
 };
 
 template<class Distance>
@@ -331,6 +332,7 @@ private:
             view.bounding_radius   = shape.bounding_radius;
             view.equivalent_radius = shape.equivalent_radius;
             view.sphere_radius     = shape.sphere_radius;
+            view.concave           = shape.concave;
             views.push_back(view);
         }
         templates_.assign(views);
