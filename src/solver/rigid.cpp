@@ -212,8 +212,10 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
 template<class Exec>
 void Rigid<Exec>::find_pairs(double dt)
 {
-    const bool holds = listed_ && dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates,
-                                                           pairs_.travel.data(), dt) <= 1;
+    // A pair's patches are told apart when it is listed: they may come and go while the list holds.
+    const bool holds =
+        listed_ && !pairs_.patches.wanted &&
+        dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), dt) <= 1;
     if (!holds)
     {
         dem::find_pairs(exec_, pairs_, bodies_.view(), law_, dt);

@@ -11,9 +11,9 @@ namespace tread::dem::patches
 /// The two bodies of a listed pair, and what its nodes look like from the first.
 struct Contact
 {
-    PairLaw      law;
-    TwoSides     sides;
-    Mat3<double> to_a; ///< from the world's axes to those of a
+    PairLaw             law;
+    TwoSides<BodyField> sides;
+    Mat3<double>        to_a; ///< from the world's axes to those of a
 
     TREAD_HD Touch touch(const NodeInField& node) const
     {
@@ -32,7 +32,7 @@ TREAD_HD Contact contact_of(const BodiesView& bodies, const BodyLaw& law, std::u
     const std::int64_t a = first_of(key), b = second_of(key);
     const Instance     of_a = instance_of(bodies, law.templates, a, bodies.position[a]);
     const Instance     of_b = instance_of(bodies, law.templates, b, bodies.position[a]);
-    return {law_between(bodies, law, a, b), sides_of(of_a, of_b), of_a.rotation.transpose()};
+    return {law_between(bodies, law, a, b), MeetByDistance{}(of_a, of_b), of_a.rotation.transpose()};
 }
 
 /// Says of every listed node which patch of its pair it is of, where the pair has several, and how many it has.
@@ -271,6 +271,7 @@ private:
         to.twist_stiffness += part * from.twist_stiffness;
         if (rolling == nullptr) { return; }
         rolling[at].moment += part * last_rolling[last].moment;
+        rolling[at].normal = to.normal;
         rolling[at].stiffness += part * last_rolling[last].stiffness;
     }
 
