@@ -44,12 +44,13 @@ private:
     template<class Lanes>
     TREAD_HD double between_bodies(std::int64_t a, std::int64_t b, const NodeRun& nodes, const Lanes& lanes) const
     {
-        const Instance       of_a = instance_of(bodies, law.templates, a, bodies.position[a]);
-        const Instance       of_b = instance_of(bodies, law.templates, b, bodies.position[a]);
+        const Couple         couple{{instance_of(bodies, law.templates, a, bodies.position[a]),
+                                     instance_of(bodies, law.templates, b, bodies.position[a])}};
         const Vec3<double>&  spin = bodies.angular_velocity[b];
-        const RelativeMotion motion{mean_velocity(a) - mean_velocity(b) + spin.cross(of_b.centre),
+        const RelativeMotion motion{mean_velocity(a) - mean_velocity(b) + spin.cross(couple.body[1].centre),
                                     bodies.angular_velocity[a] - spin};
-        return over_nodes(law_between(bodies, law, a, b), MeetByDistance{}(of_a, of_b), nodes, motion, lanes);
+        return over_nodes(law_of(bodies, law, pair_key(a, b)), TwoSides<MeetByDistance>{{}, couple}, nodes, motion,
+                          lanes);
     }
 
     template<class Lanes>
@@ -58,7 +59,7 @@ private:
         const Plane&         plane = law.planes[p];
         const Instance       of_a  = instance_of(bodies, law.templates, a, bodies.position[a]);
         const RelativeMotion motion{mean_velocity(a), bodies.angular_velocity[a]};
-        return over_nodes(law_against(bodies, law, a, plane),
+        return over_nodes(law_of(bodies, law, pair_key(a, bodies.count + p)),
                           OneSide{{of_a, field_of(plane, bodies.position[a]), 1.0, 1.0}}, nodes, motion, lanes);
     }
 
@@ -72,7 +73,7 @@ private:
             NodeInField node = sides(run.node[i]);
             if (node.overlap > 0) { continue; }
             node.overlap -= horizon * node.sign * node.gradient.dot(motion.at(node.place));
-            add_stiffness(pair, node, Sides::stiffening(node), found);
+            if (node.overlap > 0) { add_stiffness(pair, node, Sides::stiffening(node), found); }
         }
         return lanes.sum(found.sum);
     }

@@ -41,6 +41,7 @@ struct EvaluateBlock
             {
                 NodeSums nodes[size];
                 Patch    patch[size];
+                Couple   couple[threads / node_lanes];
             } in;
             PairResponse out[size];
         };
@@ -50,7 +51,10 @@ struct EvaluateBlock
         const std::int64_t begin = block * size;
         const auto         count = static_cast<int>(pairs.count - begin < size ? pairs.count - begin : size);
         copy_words(shared.in.patch, pairs.patch + begin, count);
-        if (pairs.first_node[begin] < pairs.first_node[begin + count]) { sum_nodes(begin, count, shared.in.nodes); }
+        if (pairs.first_node[begin] < pairs.first_node[begin + count])
+        {
+            sum_nodes(begin, count, shared.in.nodes, shared.in.couple);
+        }
         __syncthreads();
 
         const int    mine     = static_cast<int>(threadIdx.x);
@@ -70,12 +74,14 @@ struct EvaluateBlock
         copy_words(pairs.response + begin, shared.out, count);
     }
 
-    __device__ void sum_nodes(std::int64_t begin, int count, NodeSums* shared) const
+    __device__ void sum_nodes(std::int64_t begin, int count, NodeSums* shared, Couple* couples) const
     {
         const GroupLanes<node_lanes> lanes;
-        for (int pair = static_cast<int>(threadIdx.x) / node_lanes; pair < count; pair += threads / node_lanes)
+        const int                    group = static_cast<int>(threadIdx.x) / node_lanes;
+        for (int pair = group; pair < count; pair += threads / node_lanes)
         {
-            const NodeSums own = evaluate.sum_nodes(begin + pair, lanes);
+            lanes.meet();
+            const NodeSums own = evaluate.sum_nodes(begin + pair, lanes, couples[group]);
             if (lanes.lane() == 0) { shared[pair].stiffness = own.stiffness; }
             if (!(own.stiffness.overlap > 0)) { continue; }
             constexpr int words = sizeof(PatchSums) / sizeof(double);

@@ -22,53 +22,49 @@ struct EvaluatePair
 
     TREAD_HD void operator()(std::int64_t p) const
     {
+        Couple             couple;
         Patch              patch    = pairs.patch[p];
-        const PairResponse response = answer(p, sum_nodes(p, OneLane{}), patch);
+        const PairResponse response = answer(p, sum_nodes(p, OneLane{}, couple), patch);
         pairs.patch[p]              = patch;
         pairs.response[p]           = response;
         pairs.peak[p]               = std::fmax(pairs.peak[p], response.overlap);
     }
 
-    /// What a pair's nodes add up to, for lanes that share them.
+    /// What a pair's nodes add up to, for lanes that share them: each lane gets the stiffness of all and its own part
+    /// of the patch's sums.
     template<class Lanes>
-    TREAD_HD NodeSums sum_nodes(std::int64_t p, const Lanes& lanes) const
+    TREAD_HD NodeSums sum_nodes(std::int64_t p, const Lanes& lanes, Couple& couple) const
     {
         const NodeRun nodes{pairs.node, pairs.first_node[p], pairs.first_node[p + 1]};
         if (nodes.first == nodes.end) { return no_nodes(); }
-        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-        const Instance     of_a = instance_of(bodies, law.templates, a, bodies.position[a]);
-        if (b >= bodies.count)
+        const std::int64_t   a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        const PairLaw        pair   = law_of(bodies, law, pairs.key[p]);
+        const RelativeMotion motion = motion_of(a, b, arm_of(a, b));
+        const bool           wall   = b >= bodies.count;
+        for (int body = lanes.lane(); body < (wall ? 1 : 2); body += lanes.lanes())
         {
-            const Plane& plane = law.planes[b - bodies.count];
-            return over(OneSide{{of_a, field_of(plane, bodies.position[a]), 1.0, 1.0}}, nodes,
-                        law_against(bodies, law, a, plane), motion_alone(a), lanes);
+            couple.body[body] = instance_of(bodies, law.templates, body == 0 ? a : b, bodies.position[a]);
         }
-        const Instance of_b = instance_of(bodies, law.templates, b, bodies.position[a]);
-        return over(meet(of_a, of_b), nodes, law_between(bodies, law, a, b), motion_of(a, b, of_b.centre), lanes);
+        lanes.meet();
+        if (wall)
+        {
+            const PlaneField plane = field_of(law.planes[b - bodies.count], bodies.position[a]);
+            return over(OneSide{{couple.body[0], plane, 1.0, 1.0}}, nodes, pair, motion, lanes);
+        }
+        return over(TwoSides<Meet>{meet, couple}, nodes, pair, motion, lanes);
     }
 
     /// The pair's answer; updates its record.
-    TREAD_HD PairResponse answer(std::int64_t p, const NodeSums& nodes, Patch& patch) const
+    TREAD_HD PairResponse answer(std::int64_t p, NodeSums sums, Patch& patch) const
     {
-        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-        if (b >= bodies.count)
-        {
-            const Plane&  plane = law.planes[b - bodies.count];
-            const PairLaw pair  = law_against(bodies, law, a, plane);
-            const Spins   spins{bodies.angular_velocity[a], Vec3<double>::Zero()};
-            const double  radius = exact_radius(a);
-            const auto    touch  = contact_with_plane(radius, field_of(plane, bodies.position[a]));
-            return radius > 0 ? respond_as_spheres(pair, touch, motion_alone(a), spins, Vec3<double>::Zero(), patch, dt)
-                              : respond_with(pair, nodes, motion_alone(a), spins, Vec3<double>::Zero(), patch);
-        }
-        const PairLaw        pair     = law_between(bodies, law, a, b);
-        const Vec3<double>   arm      = bodies.position[b] - bodies.position[a];
-        const RelativeMotion motion   = motion_of(a, b, arm);
-        const Spins          spins    = {bodies.angular_velocity[a], bodies.angular_velocity[b]};
-        const double         radius_a = exact_radius(a), radius_b = exact_radius(b);
-        return radius_a > 0 && radius_b > 0 ? respond_as_spheres(pair, contact_of_spheres(radius_a, radius_b, arm),
-                                                                 motion, spins, arm, patch, dt)
-                                            : respond_with(pair, nodes, motion, spins, arm, patch);
+        const std::int64_t   a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        const PairLaw        pair   = law_of(bodies, law, pairs.key[p]);
+        const Vec3<double>   arm    = arm_of(a, b);
+        const RelativeMotion motion = motion_of(a, b, arm);
+        if (closed_form(a, b)) { sums = sums_of_spheres(pair, touch_of(a, b, arm), motion); }
+        if (!(sums.stiffness.overlap > 0)) { return release(pair, patch); }
+        const Spins spins{bodies.angular_velocity[a], bodies.angular_velocity[a] - motion.spin};
+        return respond(pair, sums, motion, spins, arm, patch, dt);
     }
 
 private:
@@ -78,13 +74,28 @@ private:
         return bodies.scale[b] * law.templates[bodies.shape[b]].sphere_radius;
     }
 
-    TREAD_HD RelativeMotion motion_alone(std::int64_t a) const
+    TREAD_HD bool closed_form(std::int64_t a, std::int64_t b) const
     {
-        return {bodies.velocity[a], bodies.angular_velocity[a]};
+        return exact_radius(a) > 0 && (b >= bodies.count || exact_radius(b) > 0);
+    }
+
+    TREAD_HD SphereContact touch_of(std::int64_t a, std::int64_t b, const Vec3<double>& arm) const
+    {
+        return b < bodies.count
+                   ? contact_of_spheres(exact_radius(a), exact_radius(b), arm)
+                   : contact_with_plane(exact_radius(a), field_of(law.planes[b - bodies.count], bodies.position[a]));
+    }
+
+    /// Centre of b relative to that of a, m; none of a wall.
+    TREAD_HD Vec3<double> arm_of(std::int64_t a, std::int64_t b) const
+    {
+        return b < bodies.count ? Vec3<double>(bodies.position[b] - bodies.position[a])
+                                : Vec3<double>(Vec3<double>::Zero());
     }
 
     TREAD_HD RelativeMotion motion_of(std::int64_t a, std::int64_t b, const Vec3<double>& arm) const
     {
+        if (b >= bodies.count) { return {bodies.velocity[a], bodies.angular_velocity[a]}; }
         const Vec3<double> spin_b = bodies.angular_velocity[b];
         return {bodies.velocity[a] - bodies.velocity[b] + spin_b.cross(arm), bodies.angular_velocity[a] - spin_b};
     }
@@ -93,21 +104,19 @@ private:
     TREAD_HD NodeSums over(const Sides& sides, const NodeRun& run, const PairLaw& pair, const RelativeMotion& motion,
                            const Lanes& lanes) const
     {
-        const LaneNodes<Sides, Lanes> nodes(sides, run, lanes);
-        Stiffness                     own{0, 0};
-        nodes([&](const NodeInField& node) { add_stiffness(pair, node, Sides::stiffening(node), own); });
-        NodeSums found{{lanes.sum(own.sum), lanes.largest(own.overlap)}, PatchSums::zero()};
-        if (!(found.stiffness.overlap > 0)) { return found; }
-        const double relaxation = relaxation_time(pair, found.stiffness.sum);
-        nodes([&](const NodeInField& node) { add_node(pair, node, motion, relaxation, found.patch); });
+        NodeSums   found      = no_nodes();
+        double     relaxation = 0;
+        const auto ready      = [&]
+        {
+            found.stiffness = {lanes.sum(found.stiffness.sum), lanes.largest(found.stiffness.overlap)};
+            relaxation      = relaxation_time(pair, found.stiffness.sum);
+            return found.stiffness.overlap > 0;
+        };
+        walk_twice(
+            sides, run, lanes,
+            [&](const NodeInField& node) { add_stiffness(pair, node, Sides::stiffening(node), found.stiffness); },
+            ready, [&](const NodeInField& node) { add_node(pair, node, motion, relaxation, found.patch); });
         return found;
-    }
-
-    TREAD_HD PairResponse respond_with(const PairLaw& pair, const NodeSums& nodes, const RelativeMotion& motion,
-                                       const Spins& spins, const Vec3<double>& arm, Patch& patch) const
-    {
-        return nodes.stiffness.overlap > 0 ? respond(pair, nodes.patch, nodes.stiffness, motion, spins, arm, patch, dt)
-                                           : release(pair, patch);
     }
 };
 
@@ -123,9 +132,8 @@ struct ResistRolling
     {
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
         const bool         wall = b >= bodies.count;
-        const PairLaw      pair =
-            wall ? law_against(bodies, law, a, law.planes[b - bodies.count]) : law_between(bodies, law, a, b);
-        const Spins spins{bodies.angular_velocity[a], wall ? Vec3<double>::Zero() : bodies.angular_velocity[b]};
+        const PairLaw      pair = law_of(bodies, law, pairs.key[p]);
+        const Spins        spins{bodies.angular_velocity[a], wall ? Vec3<double>::Zero() : bodies.angular_velocity[b]};
         add_rolling(pair, pairs.patch[p], spins, pairs.response[p], pairs.rolling[p], dt);
     }
 };

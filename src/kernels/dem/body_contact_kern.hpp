@@ -41,7 +41,7 @@ struct NodeInField
 /// The distance field of a body.
 struct BodyField
 {
-    Instance body;
+    const Instance& body;
 
     TREAD_HD double distance_from_centre(const Vec3<double>& y) const { return (y - body.centre).norm(); }
     TREAD_HD double reach() const { return body.shape->bounding_radius * body.scale; }
@@ -62,9 +62,6 @@ struct BodyField
         const SdfSample    sample = sample_template_sdf(*body.shape, local);
         return {body.scale * sample.distance, body.rotation * sample.gradient};
     }
-
-    /// d2/dx2 of a node's energy over its area times p'(d): |gradient|^2 of a distance.
-    TREAD_HD static double stiffening(const NodeInField&) { return 1; }
 };
 
 /// The distance field of a wall.
@@ -79,18 +76,16 @@ struct PlaneField
     TREAD_HD double bound_of_node(double travel) const { return travel; }
 
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const { return {normal.dot(y) - offset, normal}; }
-
-    TREAD_HD static double stiffening(const NodeInField&) { return 1; }
 };
 
 /// One body's nodes in the other side's field. Field: one of those above, or RayField.
 template<class Field>
 struct Side
 {
-    Instance owner;
-    Field    field;
-    double   share; ///< of a node's area: 1/2 where both sides have nodes, 1 against a plane
-    double   sign;  ///< +1 if the owner is body a, -1 if it is b
+    const Instance& owner;
+    Field           field;
+    double          share; ///< of a node's area: 1/2 where both sides have nodes, 1 against a plane
+    double          sign;  ///< +1 if the owner is body a, -1 if it is b
 
     TREAD_HD Vec3<double> node(std::int32_t i) const
     {
@@ -133,6 +128,7 @@ struct OneLane
     TREAD_HD double        sum(double value) const { return value; }
     TREAD_HD double        largest(double value) const { return value; }
     TREAD_HD double        from(std::int32_t, double value) const { return value; } ///< of that lane
+    TREAD_HD void          meet() const {} ///< what each wrote is there for all
 };
 
 inline constexpr std::int32_t cluster_size = 32; ///< nodes, shape::SurfaceNodes
@@ -151,39 +147,56 @@ TREAD_HD NodeInField in_field(const Side<Field>& side, std::int32_t i)
     return {place, sample.gradient, -sample.distance, side.weight(i), side.sign};
 }
 
-/// The two sides of a pair of bodies, or the one of a body against a wall, as the list of nodes names their nodes.
-template<class Field>
+/// The two bodies of a pair, where all lanes that share it can read them.
+struct Couple
+{
+    Instance body[2];
+};
+
+/// The two sides of a pair of bodies, as the list of nodes names their nodes. Meet: how bodies see each other.
+template<class Meet>
 struct TwoSides
 {
-    Side<Field> a, b;
+    Meet          meet;
+    const Couple& couple;
+
+    TREAD_HD auto first() const { return meet.side(couple.body[0], couple.body[1], 1.0); }
+    TREAD_HD auto second() const { return meet.side(couple.body[1], couple.body[0], -1.0); }
 
     TREAD_HD NodeInField operator()(std::int32_t node) const
     {
-        return node >= 0 ? in_field(a, node) : in_field(b, ~node);
+        const int owner = node < 0 ? 1 : 0;
+        return in_field(meet.side(couple.body[owner], couple.body[1 - owner], 1.0 - 2.0 * owner),
+                        owner == 1 ? ~node : node);
     }
-    TREAD_HD static double stiffening(const NodeInField& node) { return Field::stiffening(node); }
+    TREAD_HD static double stiffening(const NodeInField& node) { return Meet::stiffening(node); }
 };
+
+/// The one side of a body against a wall.
 struct OneSide
 {
     Side<PlaneField> a;
 
     TREAD_HD NodeInField   operator()(std::int32_t node) const { return in_field(a, node); }
-    TREAD_HD static double stiffening(const NodeInField& node) { return PlaneField::stiffening(node); }
+    TREAD_HD static double stiffening(const NodeInField&) { return 1; }
 };
 
-/// How two bodies see each other: here by their distance fields, with MeetByRays by rays.
+/// Two bodies see each other by their distance fields; with MeetByRays by rays.
 struct MeetByDistance
 {
     /// Both bodies have nodes, each with half its area.
-    TREAD_HD TwoSides<BodyField> operator()(const Instance& a, const Instance& b) const
+    TREAD_HD Side<BodyField> side(const Instance& owner, const Instance& other, double sign) const
     {
-        return {{a, {b}, 0.5, 1.0}, {b, {a}, 0.5, -1.0}};
+        return {owner, {other}, 0.5, sign};
     }
+
+    /// d2/dx2 of a node's energy over its area times p'(d): |gradient|^2 of a distance.
+    TREAD_HD static double stiffening(const NodeInField&) { return 1; }
 };
 
+/// Of a node inside.
 TREAD_HD void add_stiffness(const PairLaw& law, const NodeInField& node, double stiffening, Stiffness& found)
 {
-    if (!(node.overlap > 0)) { return; }
     found.sum += stiffening * node.weight * traction_at(law, node.overlap).slope;
     found.overlap = node.overlap > found.overlap ? node.overlap : found.overlap;
 }
@@ -243,7 +256,6 @@ struct RelativeMotion
 TREAD_HD void add_node(const PairLaw& law, const NodeInField& node, const RelativeMotion& motion, double relaxation,
                        PatchSums& sums)
 {
-    if (!(node.overlap > 0)) { return; }
     const Vec3<double>& y        = node.place;
     const Traction      traction = traction_at(law, node.overlap);
     const double        rate     = -node.sign * node.gradient.dot(motion.at(y));
@@ -268,34 +280,36 @@ struct NodeRun
     std::int32_t        first, end;
 };
 
-/// Calls visit(node) for this lane's nodes. The first one, mostly the only one, is looked up once for several walks.
-template<class Sides, class Lanes>
-struct LaneNodes
+/// Walks twice over this lane's nodes: tell(node) of each, then ready() once, and if that holds add(node) of those that
+/// are inside. The first node, mostly the only one, is looked up once; of the others the second walk looks up what the
+/// first found inside. One place looks nodes up: a GPU would fetch the code of each place for itself.
+template<class Sides, class Lanes, class Tell, class Ready, class Add>
+TREAD_HD void walk_twice(const Sides& sides, const NodeRun& run, const Lanes& lanes, Tell tell, Ready ready, Add add)
 {
-    const Sides& sides;
-    NodeRun      run;
-    Lanes        lanes;
-    NodeInField  own;
-
-    TREAD_HD LaneNodes(const Sides& of, const NodeRun& nodes, const Lanes& shared)
-        : sides(of)
-        , run(nodes)
-        , lanes(shared)
-        , own{Vec3<double>::Zero(), Vec3<double>::Zero(), 0, 0, 0}
+    constexpr std::int32_t remembered = 32;
+    NodeInField            first{Vec3<double>::Zero(), Vec3<double>::Zero(), 0, 0, 0};
+    std::uint32_t          inside = 0;
+    for (int walk = 0; walk < 2; ++walk)
     {
-        if (run.first + lanes.lane() < run.end) { own = sides(run.node[run.first + lanes.lane()]); }
-    }
-
-    template<class Visit>
-    TREAD_HD void operator()(Visit visit) const
-    {
-        visit(own);
-        for (std::int32_t i = run.first + lanes.lane() + lanes.lanes(); i < run.end; i += lanes.lanes())
+        std::int32_t k = 0;
+        for (std::int32_t i = run.first + lanes.lane(); i < run.end; i += lanes.lanes(), ++k)
         {
-            visit(sides(run.node[i]));
+            if (walk == 1 && k < remembered && (inside >> k & 1u) == 0) { continue; }
+            NodeInField node = first;
+            if (walk == 0 || k > 0) { node = sides(run.node[i]); }
+            if (walk == 1)
+            {
+                if (node.overlap > 0) { add(node); }
+                continue;
+            }
+            if (k == 0) { first = node; }
+            if (!(node.overlap > 0)) { continue; }
+            if (k < remembered) { inside |= std::uint32_t{1} << k; }
+            tell(node);
         }
+        if (walk == 0 && !ready()) { return; }
     }
-};
+}
 
 /// sum f |y - x_c|^2 in the plane normal to n, over sum f.
 TREAD_HD double spread_about(const PatchSums& sums, const Vec3<double>& centre, const Vec3<double>& normal)
@@ -333,17 +347,18 @@ struct Spins
 };
 
 /// From the sums to the wrench; updates the record. `arm` = centre of b relative to that of a, m.
-TREAD_HD PairResponse respond(const PairLaw& law, const PatchSums& sums, const Stiffness& found,
-                              const RelativeMotion& motion, const Spins& spins, const Vec3<double>& arm, Patch& patch,
-                              double dt)
+TREAD_HD PairResponse respond(const PairLaw& law, const NodeSums& nodes, const RelativeMotion& motion,
+                              const Spins& spins, const Vec3<double>& arm, Patch& patch, double dt)
 {
-    PairResponse response = no_response();
-    response.force        = sums.force;
-    response.torque_a     = sums.moment;
-    response.stiffness    = found.sum;
-    response.overlap      = found.overlap;
-    response.energy       = sums.energy;
-    response.restitution  = dt * sums.damping;
+    const PatchSums& sums     = nodes.patch;
+    const Stiffness& found    = nodes.stiffness;
+    PairResponse     response = no_response();
+    response.force            = sums.force;
+    response.torque_a         = sums.moment;
+    response.stiffness        = found.sum;
+    response.overlap          = found.overlap;
+    response.energy           = sums.energy;
+    response.restitution      = dt * sums.damping;
 
     const double load = sums.force.norm();
     if (law.friction > 0 && load > 0)

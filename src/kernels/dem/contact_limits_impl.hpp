@@ -46,25 +46,22 @@ private:
     {
         if (pairs.patch[p].stiffness > 0) { return 0; }
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-        if (b >= bodies.count) { return touch_of_plane(a, law.planes[b - bodies.count]); }
-        const PairLaw pair = law_between(bodies, law, a, b);
-        if (exact(a) && exact(b))
-        {
-            const Vec3<double> along = (bodies.position[b] - bodies.position[a]).normalized();
-            return touch_of_spheres(pair, along.dot(bodies.velocity[a] - bodies.velocity[b]));
-        }
-        return touch_of_nodes(pair, std::fmax(node_area[a], node_area[b]));
+        const bool         wall = b >= bodies.count;
+        const PairLaw      pair = law_of(bodies, law, pairs.key[p]);
+        if (exact(a) && (wall || exact(b))) { return touch_of_spheres(pair, approach(a, b)); }
+        return touch_of_nodes(pair, wall ? 2.0 * node_area[a] : std::fmax(node_area[a], node_area[b]));
+    }
+
+    /// m/s, of the first body towards the second or the wall.
+    TREAD_HD double approach(std::int64_t a, std::int64_t b) const
+    {
+        if (b >= bodies.count) { return -law.planes[b - bodies.count].normal.dot(bodies.velocity[a]); }
+        const Vec3<double> along = (bodies.position[b] - bodies.position[a]).normalized();
+        return along.dot(bodies.velocity[a] - bodies.velocity[b]);
     }
 
     /// Whether body b is an exact sphere.
     TREAD_HD bool exact(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
-
-    TREAD_HD double touch_of_plane(std::int64_t a, const Plane& plane) const
-    {
-        const PairLaw pair = law_against(bodies, law, a, plane);
-        if (exact(a)) { return touch_of_spheres(pair, -plane.normal.dot(bodies.velocity[a])); }
-        return touch_of_nodes(pair, 2.0 * node_area[a]);
-    }
 
     /// Two nodes, of the coarser side; `area`: m2, of both.
     TREAD_HD static double touch_of_nodes(const PairLaw& pair, double area)

@@ -91,21 +91,22 @@ struct Walk
     {
         if (closed_form(p)) { return; }
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-        const Instance     of_a   = instance_of(bodies, law.templates, a, bodies.position[a]);
-        const double       travel = pairs.travel[a];
-        const auto         first  = [](std::int32_t i) { return i; };
-        const auto         second = [](std::int32_t i) { return ~i; };
+        Couple             couple;
+        couple.body[0]      = instance_of(bodies, law.templates, a, bodies.position[a]);
+        const double travel = 2.0 * pairs.travel[a]; // Side::near allows for half of it
+        const auto   first  = [](std::int32_t i) { return i; };
+        const auto   second = [](std::int32_t i) { return ~i; };
         if (b >= bodies.count)
         {
             const PlaneField wall = field_of(law.planes[b - bodies.count], bodies.position[a]);
-            walk(Side<PlaneField>{of_a, wall, 1.0, 1.0}, travel, first, lanes, take);
+            walk(Side<PlaneField>{couple.body[0], wall, 1.0, 1.0}, travel, first, lanes, take);
             return;
         }
-        const Instance of_b     = instance_of(bodies, law.templates, b, bodies.position[a]);
-        const auto     sides    = meet(of_a, of_b);
-        const double   together = travel + pairs.travel[b];
-        walk(sides.a, together, first, lanes, take);
-        walk(sides.b, together, second, lanes, take);
+        couple.body[1] = instance_of(bodies, law.templates, b, bodies.position[a]);
+        const TwoSides<Meet> sides{meet, couple};
+        const double         together = travel + 2.0 * pairs.travel[b];
+        walk(sides.first(), together, first, lanes, take);
+        walk(sides.second(), together, second, lanes, take);
     }
 };
 

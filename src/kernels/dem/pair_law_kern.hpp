@@ -16,20 +16,21 @@ TREAD_HD double equivalent_radius(const BodiesView& bodies, const TemplateView* 
     return templates[bodies.shape[b]].equivalent_radius * bodies.scale[b];
 }
 
-TREAD_HD PairLaw law_between(const BodiesView& bodies, const BodyLaw& law, std::int64_t a, std::int64_t b)
+/// Of a listed pair. Against a wall R* is the body's own radius, and a slip wall has no friction.
+TREAD_HD PairLaw law_of(const BodiesView& bodies, const BodyLaw& law, std::uint64_t key)
 {
-    const double radius_a = equivalent_radius(bodies, law.templates, a);
-    const double radius_b = equivalent_radius(bodies, law.templates, b);
-    return pair_law(law.pairs(bodies.material[a], bodies.material[b]), law.options, 1.0 / radius_a + 1.0 / radius_b,
-                    inverse_mass(bodies, a) + inverse_mass(bodies, b));
-}
-
-/// Against a wall: R* is the body's own radius, and a slip wall has no friction.
-TREAD_HD PairLaw law_against(const BodiesView& bodies, const BodyLaw& law, std::int64_t a, const Plane& plane)
-{
-    PairLaw found = pair_law(law.pairs(bodies.material[a], law.pairs.wall()), law.options,
-                             1.0 / equivalent_radius(bodies, law.templates, a), inverse_mass(bodies, a));
-    if (plane.slip) { found.friction = 0; }
+    const std::int64_t a = first_of(key), b = second_of(key);
+    const bool         wall           = b >= bodies.count;
+    double             inverse_radii  = 1.0 / equivalent_radius(bodies, law.templates, a);
+    double             inverse_masses = inverse_mass(bodies, a);
+    if (!wall)
+    {
+        inverse_radii += 1.0 / equivalent_radius(bodies, law.templates, b);
+        inverse_masses += inverse_mass(bodies, b);
+    }
+    PairLaw found = pair_law(law.pairs(bodies.material[a], wall ? law.pairs.wall() : bodies.material[b]), law.options,
+                             inverse_radii, inverse_masses);
+    if (wall && law.planes[b - bodies.count].slip) { found.friction = 0; }
     return found;
 }
 

@@ -8,11 +8,13 @@
 namespace tread::dem
 {
 
-/// Of the bounding radius: a body at rest may be set going within the step.
-inline constexpr double search_skin = 0.01;
+/// What a list of pairs allows a body beyond its own motion, in bounding radii: a body at rest may be set going. At a
+/// step's start at least half of it must be left.
+inline constexpr double search_skin = 0.003, rest_reserve = 0.5 * search_skin;
 
-/// That part of it which a list of pairs must still have left at a step's start.
-inline constexpr double rest_reserve = 0.5 * search_skin;
+/// Steps of a body's motion that a list must have left at a step's start: the present one, and the next, whose contacts
+/// are expected (contact_limits.hpp).
+inline constexpr double steps_ahead = 2.1;
 
 /// m/s, that no point of a body with this bounding radius (m) exceeds.
 TREAD_HD double speed_of(const BodiesView& bodies, std::int64_t b, double radius)
@@ -20,14 +22,14 @@ TREAD_HD double speed_of(const BodiesView& bodies, std::int64_t b, double radius
     return bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius;
 }
 
-/// m, that any point of a body may move until the pairs are found anew: twice what it can in the next dt (s), the skin,
-/// and some more for a list that lasts several steps.
+/// m, that any point of a body may move until the pairs are found anew: what it will in the steps ahead of dt (s), the
+/// skin, and some more for a list that lasts.
 TREAD_HD double travel_of(const BodiesView& bodies, const TemplateView* templates, std::int64_t b, double dt)
 {
-    constexpr double more_steps = 16, most_more = 0.04; // of the radius
+    constexpr double more_steps = 12, most_more = 0.02; // of the radius
     const double     radius = templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
     const double     step   = dt * speed_of(bodies, b, radius);
-    return 2.0 * step + search_skin * radius + std::fmin(more_steps * step, most_more * radius);
+    return steps_ahead * step + search_skin * radius + std::fmin(more_steps * step, most_more * radius);
 }
 
 /// A body as the search sees it.

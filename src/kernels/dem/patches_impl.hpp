@@ -11,9 +11,11 @@ namespace tread::dem::patches
 /// The two bodies of a listed pair, and what its nodes look like from the first.
 struct Contact
 {
-    PairLaw             law;
-    TwoSides<BodyField> sides;
-    Mat3<double>        to_a; ///< from the world's axes to those of a
+    PairLaw      law;
+    Couple       couple;
+    Mat3<double> to_a; ///< from the world's axes to those of a
+
+    TREAD_HD TwoSides<MeetByDistance> sides() const { return {{}, couple}; }
 
     TREAD_HD Touch touch(const NodeInField& node) const
     {
@@ -23,7 +25,7 @@ struct Contact
     /// m, of a node that need not touch.
     TREAD_HD Vec3<double> place(std::int32_t node) const
     {
-        return to_a * (node >= 0 ? sides.a.node(node) : sides.b.node(~node));
+        return to_a * (node >= 0 ? sides().first().node(node) : sides().second().node(~node));
     }
 };
 
@@ -32,7 +34,7 @@ TREAD_HD Contact contact_of(const BodiesView& bodies, const BodyLaw& law, std::u
     const std::int64_t a = first_of(key), b = second_of(key);
     const Instance     of_a = instance_of(bodies, law.templates, a, bodies.position[a]);
     const Instance     of_b = instance_of(bodies, law.templates, b, bodies.position[a]);
-    return {law_between(bodies, law, a, b), MeetByDistance{}(of_a, of_b), of_a.rotation.transpose()};
+    return {law_of(bodies, law, key), {{of_a, of_b}}, of_a.rotation.transpose()};
 }
 
 /// Says of every listed node which patch of its pair it is of, where the pair has several, and how many it has.
@@ -87,7 +89,7 @@ private:
         bool               touches = false;
         if (own < end)
         {
-            const NodeInField node = contact.sides(pairs.node[own]);
+            const NodeInField node = contact.sides()(pairs.node[own]);
             mine                   = contact.touch(node);
             touches                = node.overlap > 0;
             group[own]             = -1;
@@ -217,7 +219,7 @@ private:
         }
         for (std::int32_t i = pairs.first_node[p] + lanes.lane(); i < pairs.first_node[p + 1]; i += lanes.lanes())
         {
-            const NodeInField found = contact.sides(pairs.node[i]);
+            const NodeInField found = contact.sides()(pairs.node[i]);
             if (!(found.overlap > 0)) { continue; }
             const double       stiffness = found.weight * traction_at(contact.law, found.overlap).slope;
             const Vec3<double> at        = contact.to_a * found.place;

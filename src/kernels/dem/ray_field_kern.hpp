@@ -30,8 +30,6 @@ struct RayField
         const Instance& body = solid.body;
         return 0.5 * travel + sdf_uncertainty(*body.shape, body.scale, 0.5 * travel);
     }
-
-    TREAD_HD static double stiffening(const NodeInField& node) { return node.gradient.squaredNorm(); }
 };
 
 /// The node is inside if the first triangle that its ray meets is one where the ray leaves. The ray, its length d
@@ -61,11 +59,12 @@ struct MeetByRays
     const TemplateView* templates;
     const RayView*      rays; ///< of the templates
 
-    TREAD_HD TwoSides<RayField> operator()(const Instance& a, const Instance& b) const
+    TREAD_HD Side<RayField> side(const Instance& owner, const Instance& other, double sign) const
     {
-        const RayView *of_a = rays + (a.shape - templates), *of_b = rays + (b.shape - templates);
-        return {{a, {{b}, of_a, of_b}, 0.5, 1.0}, {b, {{a}, of_b, of_a}, 0.5, -1.0}};
+        return {owner, {{other}, rays + (owner.shape - templates), rays + (other.shape - templates)}, 0.5, sign};
     }
+
+    TREAD_HD static double stiffening(const NodeInField& node) { return node.gradient.squaredNorm(); }
 };
 
 /// Calls act(meet) with the way in which the scene's bodies see each other.

@@ -68,12 +68,10 @@ TREAD_HD PatchSums sphere_sums(const PairLaw& law, const SphereContact& contact,
     return sums;
 }
 
-TREAD_HD PairResponse respond_as_spheres(const PairLaw& law, const SphereContact& contact, const RelativeMotion& motion,
-                                         const Spins& spins, const Vec3<double>& arm, Patch& patch, double dt)
+TREAD_HD NodeSums sums_of_spheres(const PairLaw& law, const SphereContact& contact, const RelativeMotion& motion)
 {
-    if (!(contact.overlap > 0)) { return release(law, patch); }
-    const Stiffness found{hertz_stiffness(law, contact.overlap), contact.overlap};
-    return respond(law, sphere_sums(law, contact, motion), found, motion, spins, arm, patch, dt);
+    if (!(contact.overlap > 0)) { return no_nodes(); }
+    return {{hertz_stiffness(law, contact.overlap), contact.overlap}, sphere_sums(law, contact, motion)};
 }
 
 } // namespace tread::dem

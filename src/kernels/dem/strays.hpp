@@ -35,8 +35,7 @@ double largest_stray(const Cpu&, Strays<Cpu>& strays, const BodiesView& bodies, 
 double largest_stray(const Gpu&, Strays<Gpu>& strays, const BodiesView& bodies, const TemplateView* templates,
                      const double* travel);
 
-/// The same when the bodies have gone on for `ahead` (s): twice as far as at their speed, and half the skin of a body
-/// that is at rest now.
+/// The same when the bodies go on for the steps ahead of `ahead` (s), and with what must be left for a body at rest.
 double largest_stray_ahead(const Cpu&, Strays<Cpu>& strays, const BodiesView& bodies, const TemplateView* templates,
                            const double* travel, double ahead);
 double largest_stray_ahead(const Gpu&, Strays<Gpu>& strays, const BodiesView& bodies, const TemplateView* templates,

@@ -210,8 +210,8 @@ std::vector<Solid> fast_pair(Random& random)
         Solid solid       = solid_sphere(0.1, 2000, anywhere(0.12));
         solid.shape       = random.uniform(0, 1) < 0.5 ? 0 : 1;
         solid.orientation = random_turn(random);
-        solid.velocity    = anywhere(8);
-        solid.spin        = anywhere(40);
+        solid.velocity    = anywhere(2);
+        solid.spin        = anywhere(10);
         solids.push_back(solid);
     }
     return solids;
