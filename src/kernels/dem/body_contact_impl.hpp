@@ -10,6 +10,16 @@
 namespace tread::dem::body_contact
 {
 
+/// What a pair's nodes and its answer have in common.
+struct PairSetting
+{
+    Couple         couple; ///< of a pair of bodies; against a wall only the first
+    PairLaw        law;
+    RelativeMotion motion;
+    Vec3<double>   arm;  ///< m, centre of b relative to that of a; zero against a wall
+    const Plane*   wall; ///< null between bodies
+};
+
 /// Meet: how two bodies see each other, MeetByDistance or MeetByRays.
 template<class Meet>
 struct EvaluatePair
@@ -22,49 +32,65 @@ struct EvaluatePair
 
     TREAD_HD void operator()(std::int64_t p) const
     {
-        Couple             couple;
+        PairSetting setting;
+        set_pair(p, setting);
+        if (pairs.first_node[p] < pairs.first_node[p + 1])
+        {
+            for (int body = 0; body < (setting.wall != nullptr ? 1 : 2); ++body) { set_body(p, body, setting); }
+        }
         Patch              patch    = pairs.patch[p];
-        const PairResponse response = answer(p, sum_nodes(p, OneLane{}, couple), patch);
+        const PairResponse response = answer(p, setting, sum_nodes(p, setting), patch);
         pairs.patch[p]              = patch;
         pairs.response[p]           = response;
         pairs.peak[p]               = std::fmax(pairs.peak[p], response.overlap);
     }
 
-    /// What a pair's nodes add up to, for lanes that share them: each lane gets the stiffness of all and its own part
-    /// of the patch's sums.
-    template<class Lanes>
-    TREAD_HD NodeSums sum_nodes(std::int64_t p, const Lanes& lanes, Couple& couple) const
+    /// All of a setting but its bodies.
+    TREAD_HD void set_pair(std::int64_t p, PairSetting& setting) const
     {
-        const NodeRun nodes{pairs.node, pairs.first_node[p], pairs.first_node[p + 1]};
-        if (nodes.first == nodes.end) { return no_nodes(); }
-        const std::int64_t   a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-        const PairLaw        pair   = law_of(bodies, law, pairs.key[p]);
-        const RelativeMotion motion = motion_of(a, b, arm_of(a, b));
-        const bool           wall   = b >= bodies.count;
-        for (int body = lanes.lane(); body < (wall ? 1 : 2); body += lanes.lanes())
-        {
-            couple.body[body] = instance_of(bodies, law.templates, body == 0 ? a : b, bodies.position[a]);
-        }
-        lanes.meet();
-        if (wall)
-        {
-            const PlaneField plane = field_of(law.planes[b - bodies.count], bodies.position[a]);
-            return over(OneSide{{couple.body[0], plane, 1.0, 1.0}}, nodes, pair, motion, lanes);
-        }
-        return over(TwoSides<Meet>{meet, couple}, nodes, pair, motion, lanes);
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        setting.law    = law_of(bodies, law, pairs.key[p]);
+        setting.motion = {bodies.velocity[a], bodies.angular_velocity[a]};
+        setting.arm    = Vec3<double>::Zero();
+        setting.wall   = b < bodies.count ? nullptr : law.planes + (b - bodies.count);
+        if (b >= bodies.count) { return; }
+        const Vec3<double> spin = bodies.angular_velocity[b];
+        setting.arm             = bodies.position[b] - bodies.position[a];
+        setting.motion.velocity += spin.cross(setting.arm) - bodies.velocity[b];
+        setting.motion.spin -= spin;
+    }
+
+    /// Its first (0) or second (1) body.
+    TREAD_HD void set_body(std::int64_t p, int body, PairSetting& setting) const
+    {
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        setting.couple.body[body] = instance_of(bodies, law.templates, body == 0 ? a : b, bodies.position[a]);
+    }
+
+    /// A node of the pair's list at its place in the other side's field.
+    TREAD_HD NodeInField look_up(std::int64_t p, const PairSetting& setting, std::int32_t node) const
+    {
+        if (setting.wall == nullptr) { return TwoSides<Meet>{meet, setting.couple}(node); }
+        const PlaneField plane = field_of(*setting.wall, bodies.position[first_of(pairs.key[p])]);
+        return OneSide{{setting.couple.body[0], plane, 1.0, 1.0}}(node);
+    }
+
+    TREAD_HD static double stiffening(const PairSetting& setting, const NodeInField& node)
+    {
+        return setting.wall == nullptr ? Meet::stiffening(node) : 1.0;
     }
 
     /// The pair's answer; updates its record.
-    TREAD_HD PairResponse answer(std::int64_t p, NodeSums sums, Patch& patch) const
+    TREAD_HD PairResponse answer(std::int64_t p, const PairSetting& setting, NodeSums sums, Patch& patch) const
     {
-        const std::int64_t   a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-        const PairLaw        pair   = law_of(bodies, law, pairs.key[p]);
-        const Vec3<double>   arm    = arm_of(a, b);
-        const RelativeMotion motion = motion_of(a, b, arm);
-        if (closed_form(a, b)) { sums = sums_of_spheres(pair, touch_of(a, b, arm), motion); }
-        if (!(sums.stiffness.overlap > 0)) { return release(pair, patch); }
-        const Spins spins{bodies.angular_velocity[a], bodies.angular_velocity[a] - motion.spin};
-        return respond(pair, sums, motion, spins, arm, patch, dt);
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        if (exact_radius(a) > 0 && (b >= bodies.count || exact_radius(b) > 0))
+        {
+            sums = sums_of_spheres(setting.law, touch_of(a, b, setting), setting.motion);
+        }
+        if (!(sums.stiffness.overlap > 0)) { return release(setting.law, patch); }
+        const Spins spins{bodies.angular_velocity[a], bodies.angular_velocity[a] - setting.motion.spin};
+        return respond(setting.law, sums, setting.motion, spins, setting.arm, patch, dt);
     }
 
 private:
@@ -74,49 +100,30 @@ private:
         return bodies.scale[b] * law.templates[bodies.shape[b]].sphere_radius;
     }
 
-    TREAD_HD bool closed_form(std::int64_t a, std::int64_t b) const
+    TREAD_HD SphereContact touch_of(std::int64_t a, std::int64_t b, const PairSetting& setting) const
     {
-        return exact_radius(a) > 0 && (b >= bodies.count || exact_radius(b) > 0);
+        return setting.wall == nullptr
+                   ? contact_of_spheres(exact_radius(a), exact_radius(b), setting.arm)
+                   : contact_with_plane(exact_radius(a), field_of(*setting.wall, bodies.position[a]));
     }
 
-    TREAD_HD SphereContact touch_of(std::int64_t a, std::int64_t b, const Vec3<double>& arm) const
+    TREAD_HD NodeSums sum_nodes(std::int64_t p, const PairSetting& setting) const
     {
-        return b < bodies.count
-                   ? contact_of_spheres(exact_radius(a), exact_radius(b), arm)
-                   : contact_with_plane(exact_radius(a), field_of(law.planes[b - bodies.count], bodies.position[a]));
-    }
-
-    /// Centre of b relative to that of a, m; none of a wall.
-    TREAD_HD Vec3<double> arm_of(std::int64_t a, std::int64_t b) const
-    {
-        return b < bodies.count ? Vec3<double>(bodies.position[b] - bodies.position[a])
-                                : Vec3<double>(Vec3<double>::Zero());
-    }
-
-    TREAD_HD RelativeMotion motion_of(std::int64_t a, std::int64_t b, const Vec3<double>& arm) const
-    {
-        if (b >= bodies.count) { return {bodies.velocity[a], bodies.angular_velocity[a]}; }
-        const Vec3<double> spin_b = bodies.angular_velocity[b];
-        return {bodies.velocity[a] - bodies.velocity[b] + spin_b.cross(arm), bodies.angular_velocity[a] - spin_b};
-    }
-
-    template<class Sides, class Lanes>
-    TREAD_HD NodeSums over(const Sides& sides, const NodeRun& run, const PairLaw& pair, const RelativeMotion& motion,
-                           const Lanes& lanes) const
-    {
-        NodeSums   found      = no_nodes();
-        double     relaxation = 0;
-        const auto ready      = [&]
+        NodeSums   sums = no_nodes();
+        const auto each = [&](auto visit)
         {
-            found.stiffness = {lanes.sum(found.stiffness.sum), lanes.largest(found.stiffness.overlap)};
-            relaxation      = relaxation_time(pair, found.stiffness.sum);
-            return found.stiffness.overlap > 0;
+            for (std::int32_t i = pairs.first_node[p]; i < pairs.first_node[p + 1]; ++i)
+            {
+                const NodeInField node = look_up(p, setting, pairs.node[i]);
+                if (node.overlap > 0) { visit(node); }
+            }
         };
-        walk_twice(
-            sides, run, lanes,
-            [&](const NodeInField& node) { add_stiffness(pair, node, Sides::stiffening(node), found.stiffness); },
-            ready, [&](const NodeInField& node) { add_node(pair, node, motion, relaxation, found.patch); });
-        return found;
+        each([&](const NodeInField& node)
+             { add_stiffness(setting.law, node, stiffening(setting, node), sums.stiffness); });
+        if (!(sums.stiffness.overlap > 0)) { return sums; }
+        const double relaxation = relaxation_time(setting.law, sums.stiffness.sum);
+        each([&](const NodeInField& node) { add_node(setting.law, node, setting.motion, relaxation, sums.patch); });
+        return sums;
     }
 };
 

@@ -128,7 +128,6 @@ struct OneLane
     TREAD_HD double        sum(double value) const { return value; }
     TREAD_HD double        largest(double value) const { return value; }
     TREAD_HD double        from(std::int32_t, double value) const { return value; } ///< of that lane
-    TREAD_HD void          meet() const {} ///< what each wrote is there for all
 };
 
 inline constexpr std::int32_t cluster_size = 32; ///< nodes, shape::SurfaceNodes
@@ -147,7 +146,7 @@ TREAD_HD NodeInField in_field(const Side<Field>& side, std::int32_t i)
     return {place, sample.gradient, -sample.distance, side.weight(i), side.sign};
 }
 
-/// The two bodies of a pair, where all lanes that share it can read them.
+/// The two bodies of a pair.
 struct Couple
 {
     Instance body[2];
@@ -279,37 +278,6 @@ struct NodeRun
     const std::int32_t* node;
     std::int32_t        first, end;
 };
-
-/// Walks twice over this lane's nodes: tell(node) of each, then ready() once, and if that holds add(node) of those that
-/// are inside. The first node, mostly the only one, is looked up once; of the others the second walk looks up what the
-/// first found inside. One place looks nodes up: a GPU would fetch the code of each place for itself.
-template<class Sides, class Lanes, class Tell, class Ready, class Add>
-TREAD_HD void walk_twice(const Sides& sides, const NodeRun& run, const Lanes& lanes, Tell tell, Ready ready, Add add)
-{
-    constexpr std::int32_t remembered = 32;
-    NodeInField            first{Vec3<double>::Zero(), Vec3<double>::Zero(), 0, 0, 0};
-    std::uint32_t          inside = 0;
-    for (int walk = 0; walk < 2; ++walk)
-    {
-        std::int32_t k = 0;
-        for (std::int32_t i = run.first + lanes.lane(); i < run.end; i += lanes.lanes(), ++k)
-        {
-            if (walk == 1 && k < remembered && (inside >> k & 1u) == 0) { continue; }
-            NodeInField node = first;
-            if (walk == 0 || k > 0) { node = sides(run.node[i]); }
-            if (walk == 1)
-            {
-                if (node.overlap > 0) { add(node); }
-                continue;
-            }
-            if (k == 0) { first = node; }
-            if (!(node.overlap > 0)) { continue; }
-            if (k < remembered) { inside |= std::uint32_t{1} << k; }
-            tell(node);
-        }
-        if (walk == 0 && !ready()) { return; }
-    }
-}
 
 /// sum f |y - x_c|^2 in the plane normal to n, over sum f.
 TREAD_HD double spread_about(const PatchSums& sums, const Vec3<double>& centre, const Vec3<double>& normal)

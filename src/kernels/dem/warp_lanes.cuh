@@ -28,8 +28,6 @@ struct GroupLanes
         return __shfl_sync(everyone(), value, first() + lane);
     }
 
-    __device__ void meet() const { __syncwarp(everyone()); }
-
     __device__ double sum(double value) const
     {
         for (int distance = size / 2; distance > 0; distance /= 2)
