@@ -1,4 +1,5 @@
 #include "backend/sort.hpp"
+#include "backend/count_limit.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -44,9 +45,10 @@ std::int64_t exclusive_scan(const Cpu& cpu, Array<Cpu, std::int32_t>& values, So
 {
     const std::int64_t n = values.size();
     if (n == 0) { return 0; }
-    const std::int64_t last = values.data()[n - 1];
+    const std::int64_t sum = std::accumulate(values.data(), values.data() + n, std::int64_t{0});
+    require_countable(sum);
     scan_in_place(cpu, values, scratch);
-    return values.data()[n - 1] + last;
+    return sum;
 }
 
 } // namespace tread

@@ -1,5 +1,6 @@
 #include <cub/cub.cuh>
 
+#include "backend/count_limit.hpp"
 #include "backend/cuda_check.cuh"
 #include "backend/sort.hpp"
 
@@ -44,9 +45,11 @@ std::int64_t exclusive_scan(const Gpu& gpu, Array<Gpu, std::int32_t>& values, So
 {
     const std::int64_t n = values.size();
     if (n == 0) { return 0; }
-    const std::int32_t last = read(gpu, values.data() + n - 1);
+    const auto last = static_cast<std::uint32_t>(read(gpu, values.data() + n - 1));
     scan_in_place(gpu, values, scratch);
-    return read(gpu, values.data() + n - 1) + last;
+    const std::uint32_t sum = static_cast<std::uint32_t>(read(gpu, values.data() + n - 1)) + last; // it wraps
+    require_countable(sum);
+    return sum;
 }
 
 } // namespace tread

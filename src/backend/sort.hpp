@@ -32,7 +32,8 @@ void sort_by_key(const Gpu&, Array<Gpu, std::uint64_t>& keys, Array<Gpu, std::in
 void scan_in_place(const Cpu&, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&);
 void scan_in_place(const Gpu&, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>&);
 
-/// The same; returns the sum of all (and waits for it).
+/// The same; returns the sum of all (and waits for it). NumericalError that names the sum where it is over 2^31 - 1,
+/// which the GPU sees of sums under 2^32.
 std::int64_t exclusive_scan(const Cpu&, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&);
 std::int64_t exclusive_scan(const Gpu&, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>&);
 

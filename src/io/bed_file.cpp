@@ -91,8 +91,9 @@ void require_in_range(const std::string& path, const BedFile& bed)
         const std::int64_t a = contacts.pair[2 * i], b = contacts.pair[2 * i + 1];
         if (a < 0 || a >= b || a >= count || b >= count + walls) { refuse(path, "a contact names no pair"); }
     }
-    for (const auto* values : {&contacts.tangential, &contacts.normal, &contacts.torsion, &contacts.stiffness,
-                               &contacts.twist_stiffness, &contacts.rolling, &contacts.rolling_stiffness})
+    for (const auto* values :
+         {&contacts.tangential, &contacts.normal, &contacts.torsion, &contacts.stiffness, &contacts.twist_stiffness,
+          &contacts.place, &contacts.rolling, &contacts.rolling_stiffness})
     {
         if (!all(*values, finite)) { refuse(path, "a contact is not finite"); }
     }
@@ -119,6 +120,7 @@ void write_bed(const std::string& path, const BedFile& bed)
     write_with_unit(file, "/contacts/torsion", bed.contacts.torsion, 1, "N m");
     write_with_unit(file, "/contacts/stiffness", bed.contacts.stiffness, 1, "N/m");
     write_with_unit(file, "/contacts/twist_stiffness", bed.contacts.twist_stiffness, 1, "N m/rad");
+    write_with_unit(file, "/contacts/place", bed.contacts.place, 3, "m");
     write_with_unit(file, "/contacts/rolling", bed.contacts.rolling, 3, "N m");
     write_with_unit(file, "/contacts/rolling_stiffness", bed.contacts.rolling_stiffness, 1, "N m/rad");
     file.close();
@@ -145,12 +147,13 @@ BedFile read_bed(const std::string& path)
     contacts.torsion           = h5::read<double>(file, "/contacts/torsion", 1);
     contacts.stiffness         = h5::read<double>(file, "/contacts/stiffness", 1);
     contacts.twist_stiffness   = h5::read<double>(file, "/contacts/twist_stiffness", 1);
+    contacts.place             = h5::read<double>(file, "/contacts/place", 3);
     contacts.rolling           = h5::read<double>(file, "/contacts/rolling", 3);
     contacts.rolling_stiffness = h5::read<double>(file, "/contacts/rolling_stiffness", 1);
     require_rows(path, contacts.stiffness.size(),
                  {contacts.pair.size() / 2, contacts.tangential.size() / 3, contacts.normal.size() / 3,
-                  contacts.torsion.size(), contacts.twist_stiffness.size(), contacts.rolling.size() / 3,
-                  contacts.rolling_stiffness.size()});
+                  contacts.torsion.size(), contacts.twist_stiffness.size(), contacts.place.size() / 3,
+                  contacts.rolling.size() / 3, contacts.rolling_stiffness.size()});
     require_in_range(path, bed);
     return bed;
 }

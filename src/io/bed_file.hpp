@@ -31,6 +31,9 @@ struct BedContacts
     std::vector<double>       stiffness;       ///< [n] N/m
     std::vector<double>       twist_stiffness; ///< [n] N m/rad
 
+    std::vector<double>
+        place; ///< [n][3] m, from the first's centre in its frame; of pairs that are listed several times
+
     std::vector<double> rolling;           ///< [n][3] N m, on the first; zero where nothing resists rolling
     std::vector<double> rolling_stiffness; ///< [n] N m/rad
 };

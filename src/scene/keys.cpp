@@ -258,10 +258,14 @@ Keys<Output> output_keys()
         optional("every", "s", &Output::every, number(above(0)), "Simulated time between rows of the time series."),
         optional("snapshots_every", "s", &Output::snapshots_every, number(at_least(0)),
                  "Simulated time between snapshots; 0 writes none."),
-        optional("bed_after", "", &Output::bed_after, name(),
-                 "The phase at whose end the rocks are saved as bed.h5 in the run's directory, for `[[rocks]] from` of "
-                 "other scenes. Only without [[terrain]]; named bodies are not saved.",
-                 "no bed is saved"),
+        optional(
+            "bed_after", "", &Output::bed_after, name(),
+            "The phase at whose end the rocks are saved as bed.h5 in the run's directory, for `[[rocks]] from` of "
+            "other scenes. Only without [[terrain]]; named bodies are not saved. What still moves is saved at rest "
+            "where "
+            "it is: forces in equilibrium to 1 % are no rest yet, so end the phase by `duration`, long enough for "
+            "kinetic_bodies in timeseries.h5 to have fallen by many decades (under damping it falls at a steady rate).",
+            "no bed is saved"),
     };
 }
 

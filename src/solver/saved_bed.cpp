@@ -27,9 +27,11 @@ int wall_number(const dem::Plane& plane)
     return -1;
 }
 
-/// Seen from the pair's other body.
-ContactRecord turned_over(ContactRecord contact)
+/// Seen from the pair's other body: `from` = the one that was first, `to` the other.
+ContactRecord turned_over(ContactRecord contact, const HostBodies& bodies, std::size_t from, std::size_t to)
 {
+    const Vec3<double> place = bodies.position[from] + bodies.orientation[from] * contact.place;
+    contact.place            = bodies.orientation[to].conjugate() * (place - bodies.position[to]);
     contact.patch.tangential = -contact.patch.tangential;
     contact.patch.normal     = -contact.patch.normal;
     contact.rolling.moment   = -contact.rolling.moment;
@@ -51,6 +53,7 @@ void append(io::BedContacts& contacts, std::int32_t first, std::int32_t second, 
     contacts.torsion.push_back(patch.torsion);
     contacts.stiffness.push_back(patch.stiffness);
     contacts.twist_stiffness.push_back(patch.twist_stiffness);
+    append(contacts.place, record.place);
     append(contacts.rolling, record.rolling.moment);
     contacts.rolling_stiffness.push_back(record.rolling.stiffness);
 }
@@ -61,7 +64,8 @@ ContactRecord record_of(const io::BedContacts& contacts, std::size_t i)
             {Vec3<double>(contacts.tangential.data() + 3 * i), Vec3<double>(contacts.normal.data() + 3 * i),
              contacts.torsion[i], contacts.stiffness[i], contacts.twist_stiffness[i]},
             {Vec3<double>(contacts.rolling.data() + 3 * i), contacts.rolling_stiffness[i],
-             Vec3<double>(contacts.normal.data() + 3 * i)}};
+             Vec3<double>(contacts.normal.data() + 3 * i)},
+            Vec3<double>(contacts.place.data() + 3 * i)};
 }
 
 std::vector<io::BedKind> kinds_of_table(const scene::Scene& scene, std::size_t table, const World& world)
@@ -310,7 +314,9 @@ void SavedBeds::add_contacts(const Bed& bed, World& world)
         {
             const std::int64_t b = bed.body[static_cast<std::size_t>(second)];
             record.key           = dem::pair_key(std::min(a, b), std::max(a, b));
-            world.contacts.push_back(a < b ? record : turned_over(record));
+            world.contacts.push_back(
+                a < b ? record
+                      : turned_over(record, world.bodies, static_cast<std::size_t>(a), static_cast<std::size_t>(b)));
             continue;
         }
         const auto wall = std::find_if(world.planes.begin(), world.planes.end(),
@@ -337,8 +343,8 @@ void SavedBeds::finish(World& world) const
         }
         add_contacts(bed, world);
     }
-    std::sort(world.contacts.begin(), world.contacts.end(),
-              [](const ContactRecord& a, const ContactRecord& b) { return a.key < b.key; });
+    std::stable_sort(world.contacts.begin(), world.contacts.end(),
+                     [](const ContactRecord& a, const ContactRecord& b) { return a.key < b.key; });
 }
 
 } // namespace tread::solver

@@ -50,12 +50,14 @@ struct HostBodies
     std::size_t size() const { return position.size(); }
 };
 
-/// What a pair in contact remembers: the key of kernels/dem/pairs.hpp, walls counted on from the bodies.
+/// What a pair in contact remembers: the key of kernels/dem/pairs.hpp, walls counted on from the bodies. A pair that
+/// touches in several patches has a record for each, and only then their places count.
 struct ContactRecord
 {
     std::uint64_t key;
     dem::Patch    patch;
     dem::Rolling  rolling = dem::no_rolling();
+    Vec3<double>  place   = Vec3<double>::Zero(); ///< m, from the centre of the first body in its frame
 };
 
 struct World

@@ -39,10 +39,8 @@ TREAD_HD std::int64_t second_of(std::uint64_t key)
 {
     return static_cast<std::int64_t>((key & 0xffffffffu) >> patch_bits);
 }
-TREAD_HD std::int32_t patch_number(std::uint64_t key)
-{
-    return static_cast<std::int32_t>(key & ((std::uint64_t{1} << patch_bits) - 1));
-}
+/// The key without the number of a patch.
+TREAD_HD std::uint64_t whole_pair(std::uint64_t key) { return key >> patch_bits << patch_bits; }
 TREAD_HD bool same_pair(std::uint64_t one, std::uint64_t other) { return one >> patch_bits == other >> patch_bits; }
 
 struct PairsView

@@ -86,8 +86,8 @@ protected:
         , world(build_world(scene))
     {
         const auto wall = static_cast<std::int64_t>(world.bodies.size()) + 4; // x, x, y, y, bottom
-        contacts        = {{dem::pair_key(1, 6), {{1, 2, 3}, {0, 0, 1}, 4, 5, 6}},
-                           {dem::pair_key(2, wall), {{7, 8, 9}, {0, 0, 1}, 10, 11, 12}}};
+        contacts = {{dem::pair_key(1, 6), {{1, 2, 3}, {0, 0, 1}, 4, 5, 6}, dem::no_rolling(), {0.01, 0.02, 0.03}},
+                    {dem::pair_key(2, wall), {{7, 8, 9}, {0, 0, 1}, 10, 11, 12}}};
         io::write_bed(path, make_bed(scene, world, fields_of(world), contacts));
     }
 
@@ -142,6 +142,10 @@ TEST_F(SavedBed, ContactsFollowTheOrderOfTheTables)
     EXPECT_EQ(again.contacts[0].patch.normal, Vec3<double>(0, 0, -1));
     EXPECT_EQ(again.contacts[0].patch.torsion, 4);
     EXPECT_EQ(again.contacts[1].key, dem::pair_key(5, count + 4));
+    // The place of a patch stays where it is in the world.
+    const auto in_world = [](const World& of, std::size_t body, const Vec3<double>& place) -> Vec3<double>
+    { return of.bodies.position[body] + of.bodies.orientation[body] * place; };
+    EXPECT_LT((in_world(again, 1, again.contacts[0].place) - in_world(world, 1, contacts[0].place)).norm(), 1e-14);
     EXPECT_EQ(again.contacts[1].patch.tangential, Vec3<double>(7, 8, 9));
 }
 
