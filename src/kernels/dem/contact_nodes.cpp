@@ -19,22 +19,23 @@ void for_each_pair(const Cpu& cpu, const char* name, std::int64_t pairs, const I
 void count_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
-                    [&](const auto& meet)
+                    [&]<class Meet>(const Meet& meet)
                     {
-                        const contact_nodes::Walk walk{meet, bodies, law, pairs.view()};
+                        const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
                         for_each_pair(cpu, "count pair nodes", pairs.key.size(),
-                                      contact_nodes::CountNodes{walk, pairs.first_node.data()});
+                                      contact_nodes::CountNodes<Meet>{walk, pairs.first_node.data()});
                     });
 }
 
 void list_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
-                    [&](const auto& meet)
+                    [&]<class Meet>(const Meet& meet)
                     {
-                        const contact_nodes::Walk walk{meet, bodies, law, pairs.view()};
-                        for_each_pair(cpu, "write pair nodes", pairs.key.size(),
-                                      contact_nodes::WriteNodes{walk, pairs.first_node.data(), pairs.node.data()});
+                        const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
+                        for_each_pair(
+                            cpu, "write pair nodes", pairs.key.size(),
+                            contact_nodes::WriteNodes<Meet>{walk, pairs.first_node.data(), pairs.node.data()});
                     });
 }
 

@@ -10,23 +10,23 @@ constexpr int node_lanes = 8;
 void count_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
-                    [&](const auto& meet)
+                    [&]<class Meet>(const Meet& meet)
                     {
-                        const contact_nodes::Walk walk{meet, bodies, law, pairs.view()};
+                        const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
                         for_each_group<node_lanes>(gpu, "count pair nodes", pairs.key.size(),
-                                                   contact_nodes::CountNodes{walk, pairs.first_node.data()});
+                                                   contact_nodes::CountNodes<Meet>{walk, pairs.first_node.data()});
                     });
 }
 
 void list_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
-                    [&](const auto& meet)
+                    [&]<class Meet>(const Meet& meet)
                     {
-                        const contact_nodes::Walk walk{meet, bodies, law, pairs.view()};
+                        const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
                         for_each_group<node_lanes>(
                             gpu, "write pair nodes", pairs.key.size(),
-                            contact_nodes::WriteNodes{walk, pairs.first_node.data(), pairs.node.data()});
+                            contact_nodes::WriteNodes<Meet>{walk, pairs.first_node.data(), pairs.node.data()});
                     });
 }
 

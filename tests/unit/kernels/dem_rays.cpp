@@ -111,7 +111,8 @@ TEST(RayHits, MayRunAlongTheAxesAndTheBoxes)
     const dem::RayShape rays = rays_of(cube_mesh(), {});
     for (int place = 0; place < 125; ++place)
     {
-        const Vec3<double> origin = 0.25 * Vec3<double>(place % 5 - 2, place / 5 % 5 - 2, place / 25 - 2);
+        const int          row = place / 5, layer = place / 25;
+        const Vec3<double> origin = 0.25 * Vec3<double>(place % 5 - 2, row % 5 - 2, layer - 2);
         for (int way = 0; way < 6; ++way)
         {
             const int          axis = way % 3, sign = way < 3 ? 1 : -1;
