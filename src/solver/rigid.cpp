@@ -67,6 +67,11 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     , strays_(exec)
     , released_(static_cast<std::size_t>(named_), false)
 {
+    const std::size_t sides = world.bodies.size() + world.planes.size();
+    if (sides > static_cast<std::size_t>(dem::most_bodies))
+    {
+        throw InputError(fmt::format("{} bodies and walls: at most {} can be told apart", sides, dem::most_bodies));
+    }
     upload(world, plan);
     const std::vector<dem::PairProperties> properties = pair_properties(scene);
     properties_.assign(properties);

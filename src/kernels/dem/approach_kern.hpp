@@ -8,10 +8,10 @@
 namespace tread::dem
 {
 
-/// Sum of w p' (N/m) over a pair's listed nodes that are outside the other side and will be inside within `horizon` (s)
-/// if their motion goes on and nothing holds them against gravity but a lock, by the distance fields (rays tell nothing
-/// outside); 0 for exact spheres, whose first touch is known. However slow: a step too long for the stiffness
-/// multiplies what little energy there is.
+/// Sum of w p'(0) (N/m), the steepest, over a pair's listed nodes that are outside the other side and will be inside
+/// within `horizon` (s) if their motion goes on and nothing holds them against gravity but a lock, by the distance
+/// fields (rays tell nothing outside); 0 for exact spheres, whose first touch is known. However slow: a step too long
+/// for the stiffness multiplies what little energy there is.
 struct AnticipatePair
 {
     BodiesView   bodies;
@@ -67,15 +67,16 @@ private:
     TREAD_HD double over_nodes(const PairLaw& pair, const Sides& sides, const NodeRun& run,
                                const RelativeMotion& motion, const Lanes& lanes) const
     {
-        Stiffness found{0, 0};
+        const double first_slope = traction_at(pair, 0.0).slope; // no deeper one is steeper
+        double       found       = 0;
         for (std::int32_t i = run.first + lanes.lane(); i < run.end; i += lanes.lanes())
         {
-            NodeInField node = sides(run.node[i]);
+            const NodeInField node = sides(run.node[i]);
             if (node.overlap > 0) { continue; }
-            node.overlap -= horizon * node.sign * node.gradient.dot(motion.at(node.place));
-            if (node.overlap > 0) { add_stiffness(pair, node, Sides::stiffening(node), found); }
+            const double way = -horizon * node.sign * node.gradient.dot(motion.at(node.place));
+            if (node.overlap + way > 0) { found += Sides::stiffening(node) * node.weight * first_slope; }
         }
-        return lanes.sum(found.sum);
+        return lanes.sum(found);
     }
 };
 

@@ -29,7 +29,10 @@ struct BodyLaw
 /// The lowest bits of a key number the patches of a pair that touches in several (patches.hpp): 0 of any other.
 inline constexpr int patch_bits = 3;
 
-/// Key of a pair, a < b; the wall `plane` has b = bodies + plane, under 2^29.
+/// Bodies and walls that keys can tell apart.
+inline constexpr std::int64_t most_bodies = std::int64_t{1} << (32 - patch_bits);
+
+/// Key of a pair, a < b; the wall `plane` has b = bodies + plane, below most_bodies.
 TREAD_HD std::uint64_t pair_key(std::int64_t a, std::int64_t b)
 {
     return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b) << patch_bits;
