@@ -32,7 +32,7 @@ TEST(Summary, json_holds_every_field)
     summary.stages    = some_stages();
     summary.errors    = {1e-9, 2e-3, std::numeric_limits<double>::quiet_NaN()};
 
-    summary.phases = {{"settle", 0, 0.2, true, 1e-3}, {"drive", 0.2, 0.3, std::nullopt, 0.1}};
+    summary.phases = {{"settle", 0, 0.2, true, 1e-3, 0.6}, {"drive", 0.2, 0.3, std::nullopt, 0.1, std::nullopt}};
 
     summary.bed = {{{"sand", 8, 0.5, 800}}, {{"clast", 5, 0.1, 270, 0.2, 0.01, 0.02, 0.04}}, 1.0 / 6};
 
@@ -77,6 +77,8 @@ TEST(Summary, json_holds_every_field)
     EXPECT_EQ(json["phases"][0]["settled"], true);
     EXPECT_TRUE(json["phases"][1]["settled"].is_null());
     EXPECT_EQ(json["phases"][1]["unbalanced"], 0.1);
+    EXPECT_EQ(json["phases"][0]["packing_fraction"], 0.6);
+    EXPECT_TRUE(json["phases"][1]["packing_fraction"].is_null());
     EXPECT_EQ(json["terrain"][0]["volume"], 0.5);
     EXPECT_EQ(json["rocks"][0]["count"], 5);
     EXPECT_EQ(json["rocks"][0]["largest_diameter"], 0.04);
