@@ -101,7 +101,7 @@ struct EvaluateBlock
         };
     };
 
-    using Lanes = GroupLanes<threads / size>;
+    using Lanes = GroupLanes<threads / size, WholeWarp>;
 
     __device__ void operator()(std::int64_t block) const
     {
@@ -145,15 +145,18 @@ struct EvaluateBlock
         if (threadIdx.x == 0) { shared.first[run.count] = evaluate.pairs.first_node[run.begin + run.count]; }
     }
 
-    /// Two walks over the nodes: the second needs what the first has added up.
+    /// Two walks over the nodes: the second needs what the first has added up. Lanes without a pair walk along.
     __device__ void sum_nodes(const PairRun<size>& run, Shared& shared) const
     {
-        const Lanes lanes;
-        const int   pair  = static_cast<int>(threadIdx.x) / (threads / size);
-        const bool  mine  = pair < run.count;
-        const auto  begin = shared.first[0], end = shared.first[run.count];
-        NodeSums    sums       = no_nodes();
-        double      relaxation = 0;
+        const Lanes        lanes;
+        const int          group   = static_cast<int>(threadIdx.x) / (threads / size);
+        const bool         mine    = group < run.count;
+        const int          pair    = mine ? group : 0;
+        const PairSetting& setting = shared.setting[pair];
+        const std::int32_t begin = shared.first[0], end = shared.first[run.count];
+        const std::int32_t own_first = mine ? shared.first[pair] : end, own_last = mine ? shared.first[pair + 1] : end;
+        NodeSums           sums       = no_nodes();
+        double             relaxation = 0;
         for (int walk = 0; walk < 2; ++walk)
         {
             for (std::int32_t base = begin; base < end; base += room)
@@ -164,10 +167,8 @@ struct EvaluateBlock
                     look_up(run, base, min(base + room, end), shared);
                     __syncthreads();
                 }
-                if (!mine) { continue; }
-                const PairSetting& setting = shared.setting[pair];
-                const std::int32_t last    = min(shared.first[pair + 1], base + room);
-                for (std::int32_t i = max(shared.first[pair], base) + lanes.lane(); i < last; i += lanes.lanes())
+                const std::int32_t last = min(own_last, base + room);
+                for (std::int32_t i = max(own_first, base) + lanes.lane(); i < last; i += lanes.lanes())
                 {
                     const NodeInField& node = shared.node[i - base];
                     if (!(node.overlap > 0)) { continue; }
@@ -178,17 +179,15 @@ struct EvaluateBlock
                     else { add_node(setting.law, node, setting.motion, relaxation, sums.patch); }
                 }
             }
-            if (walk == 0 && mine)
-            {
-                sums.stiffness = {lanes.sum(sums.stiffness.sum), lanes.largest(sums.stiffness.overlap)};
-                relaxation     = relaxation_time(shared.setting[pair].law, sums.stiffness.sum);
-            }
+            if (walk == 1) { break; }
+            sums.stiffness = {lanes.sum(sums.stiffness.sum), lanes.largest(sums.stiffness.overlap)};
+            relaxation     = relaxation_time(setting.law, sums.stiffness.sum);
         }
-        if (!mine) { return; }
-        if (lanes.lane() == 0) { shared.sums[pair].stiffness = sums.stiffness; }
         double values[sizeof(PatchSums) / sizeof(double)];
         sums.patch.write_to(values);
-        lanes.sum_all(values, reinterpret_cast<double*>(&shared.sums[pair].patch));
+        double* own = reinterpret_cast<double*>(&shared.sums[pair].patch);
+        lanes.sum_all(values, mine ? own : nullptr);
+        if (mine && lanes.lane() == 0) { shared.sums[pair].stiffness = sums.stiffness; }
     }
 
     __device__ void look_up(const PairRun<size>& run, std::int32_t begin, std::int32_t end, Shared& shared) const

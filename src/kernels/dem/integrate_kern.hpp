@@ -16,12 +16,16 @@ namespace tread::dem
 /// Local damping of the settling phases, off.
 struct NoDamping
 {
+    static constexpr bool acts = false;
+
     TREAD_HD double operator()(double, double) const { return 0.0; }
 };
 
 /// On.
 struct LocalDamping
 {
+    static constexpr bool acts = true;
+
     double alpha; ///< 0 to 1
 
     TREAD_HD double operator()(double force, double velocity) const { return local_damping(alpha, force, velocity); }
@@ -70,7 +74,8 @@ TREAD_HD Vec3<double> angular_velocity_of(const Mat3<double>& rotation, const Ma
 }
 
 /// Moves body b by dt (s) under its contact force and torque, gravity (m/s2) and the damping; adds to its row of
-/// totals. A locked component keeps its velocity, whatever the forces.
+/// totals, where it has something to add: a row is as long as all the rest of a body. A locked component keeps its
+/// velocity, whatever the forces.
 template<class Damping>
 TREAD_HD void integrate_translation(const BodiesView& bodies, std::int64_t b, const Vec3<double>& gravity,
                                     const Damping& damping, double dt, BodyTotal& total)
@@ -86,10 +91,16 @@ TREAD_HD void integrate_translation(const BodiesView& bodies, std::int64_t b, co
         else { after[c] += dt * (acting[c] + damped[c]) / mass; }
     }
     const Vec3<double> mean = 0.5 * (before + after);
-    total.damping_impulse += dt * damped;
-    total.holding_impulse += holding;
-    total.damping -= dt * damped.dot(mean);
-    total.holding_work += holding.dot(mean);
+    if constexpr (Damping::acts)
+    {
+        total.damping_impulse += dt * damped;
+        total.damping -= dt * damped.dot(mean);
+    }
+    if (bodies.locked[b] != 0)
+    {
+        total.holding_impulse += holding;
+        total.holding_work += holding.dot(mean);
+    }
     if (bodies.sand_force != nullptr) { total.sand_work += dt * bodies.sand_force[b].dot(mean); }
     bodies.velocity[b] = after;
     bodies.position[b] += dt * after;
@@ -118,7 +129,7 @@ TREAD_HD void integrate_rotation(const BodiesView& bodies, std::int64_t b, const
     const Vec3<double> after  = angular_velocity_of(at_end, inertia, inverse, momentum, before, locked);
 
     const Vec3<double> mean = 0.5 * (before + kicked);
-    total.damping -= dt * damped.dot(mean);
+    if constexpr (Damping::acts) { total.damping -= dt * damped.dot(mean); }
     if (bodies.sand_torque != nullptr) { total.sand_work += dt * bodies.sand_torque[b].dot(mean); }
     if ((locked & locked_rotation) != 0)
     {

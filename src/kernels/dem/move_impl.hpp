@@ -76,9 +76,9 @@ struct GatherBody
         bodies.force[b]     = sand ? Vec3<double>(bodies.force[b] + share.force) : share.force;
         bodies.torque[b]    = sand ? Vec3<double>(bodies.torque[b] + share.torque) : share.torque;
         bodies.stiffness[b] = share.stiffness + (sand ? bodies.stiffness[b] : 0.0);
-        totals[b].wall_impulse += dt * share.wall_force;
-        totals[b].friction += share.friction;
-        totals[b].restitution += share.restitution;
+        if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += dt * share.wall_force; }
+        if (share.friction != 0) { totals[b].friction += share.friction; }
+        if (share.restitution != 0) { totals[b].restitution += share.restitution; }
     }
 };
 

@@ -8,9 +8,25 @@
 namespace tread::dem
 {
 
+/// Who takes part in a group's exchanges: the group alone, whatever the warp's others do.
+template<int size>
+struct GroupAlone
+{
+    __device__ static unsigned mask()
+    {
+        return all_lanes >> (warp_size - size) << (static_cast<int>(threadIdx.x) % warp_size / size * size);
+    }
+};
+
+/// All groups of the warp together, which saves each exchange the question.
+struct WholeWarp
+{
+    __device__ static unsigned mask() { return all_lanes; }
+};
+
 /// `size` neighbouring lanes of a warp, which share one item (see OneLane). Every sum is a butterfly: fixed order, same
 /// bits in every lane.
-template<int size>
+template<int size, class Partners = GroupAlone<size>>
 struct GroupLanes
 {
     static_assert(warp_size % size == 0);
@@ -37,8 +53,8 @@ struct GroupLanes
         return value;
     }
 
-    /// out[i] = the sum of all lanes' values[i], all at once: with every exchange a lane hands half of its values on,
-    /// so that 24 values of 8 lanes take 21 exchanges instead of 72.
+    /// out[i], unless null, = the sum of all lanes' values[i], all at once: with every exchange a lane hands half of
+    /// its values on, so that 24 values of 8 lanes take 21 exchanges instead of 72.
     template<int count>
     __device__ void sum_all(const double (&values)[count], double* out) const
     {
@@ -62,7 +78,7 @@ struct GroupLanes
 #pragma unroll
         for (int i = 0; i < padded / size; ++i)
         {
-            if (first_value + i < count) { out[first_value + i] = part[i]; }
+            if (out != nullptr && first_value + i < count) { out[first_value + i] = part[i]; }
         }
     }
 
@@ -79,7 +95,7 @@ private:
     /// The group's first lane in its warp.
     __device__ static int first() { return static_cast<int>(threadIdx.x) % warp_size / size * size; }
 
-    __device__ static unsigned everyone() { return all_lanes >> (warp_size - size) << first(); }
+    __device__ static unsigned everyone() { return Partners::mask(); }
 };
 
 /// Runs f(i, GroupLanes<size>) for i in [0, n), `size` lanes an item.
