@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernels/dem/sdf_kern.hpp"
+#include "shape/sdf_grid.hpp"
 
 namespace tread::solver
 {
@@ -27,23 +28,25 @@ std::size_t append(std::vector<T>& to, const std::vector<T>& from)
 dem::TemplateView measures(const shape::ShapeTemplate& form)
 {
     dem::TemplateView view{};
-    view.sdf_origin        = form.sdf.origin;
-    view.sdf_spacing       = form.sdf.spacing;
-    view.sdf_nodes[0]      = form.sdf.nodes[0];
-    view.sdf_nodes[1]      = form.sdf.nodes[1];
-    view.sdf_nodes[2]      = form.sdf.nodes[2];
-    view.sdf_bricks[0]     = form.sdf.bricks[0];
-    view.sdf_bricks[1]     = form.sdf.bricks[1];
-    view.sdf_bricks[2]     = form.sdf.bricks[2];
-    view.sdf_fine_reach    = form.sdf.fine_reach;
-    view.node_count        = static_cast<std::int32_t>(form.nodes.positions.size());
-    view.cluster_count     = static_cast<std::int32_t>(form.nodes.cluster_centres.size());
-    view.low               = form.box.low;
-    view.high              = form.box.high;
-    view.bounding_radius   = form.bounding_radius;
-    view.equivalent_radius = form.equivalent_radius;
-    view.sphere_radius     = form.sphere_radius;
-    view.concave           = form.hull_depth > concave_depth * form.equivalent_radius;
+    view.sdf_origin          = form.sdf.origin;
+    view.sdf_spacing         = form.sdf.spacing;
+    view.sdf_inverse_spacing = 1 / form.sdf.spacing;
+    view.sdf_steepest        = shape::steepest_slope(form.sdf);
+    view.sdf_nodes[0]        = form.sdf.nodes[0];
+    view.sdf_nodes[1]        = form.sdf.nodes[1];
+    view.sdf_nodes[2]        = form.sdf.nodes[2];
+    view.sdf_bricks[0]       = form.sdf.bricks[0];
+    view.sdf_bricks[1]       = form.sdf.bricks[1];
+    view.sdf_bricks[2]       = form.sdf.bricks[2];
+    view.sdf_fine_reach      = form.sdf.fine_reach;
+    view.node_count          = static_cast<std::int32_t>(form.nodes.positions.size());
+    view.cluster_count       = static_cast<std::int32_t>(form.nodes.cluster_centres.size());
+    view.low                 = form.box.low;
+    view.high                = form.box.high;
+    view.bounding_radius     = form.bounding_radius;
+    view.equivalent_radius   = form.equivalent_radius;
+    view.sphere_radius       = form.sphere_radius;
+    view.concave             = form.hull_depth > concave_depth * form.equivalent_radius;
     return view;
 }
 

@@ -17,6 +17,8 @@ struct BodyCommand
     std::uint32_t         locked = 0; ///< bits of dem::LockedFreedom
     std::optional<double> spin;       ///< rad/s about the axle
     std::optional<double> forward;    ///< m/s along x
+
+    bool operator==(const BodyCommand&) const = default;
 };
 
 enum class EndKind

@@ -66,6 +66,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     , sums_(exec, "body sums", dem::body_total_width)
     , strays_(exec)
     , released_(static_cast<std::size_t>(named_), false)
+    , commanded_(static_cast<std::size_t>(named_))
 {
     const std::size_t sides = world.bodies.size() + world.planes.size();
     if (sides > static_cast<std::size_t>(dem::most_bodies))
@@ -182,7 +183,9 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
 {
     for (std::size_t b = 0; b < commands.size(); ++b)
     {
-        const BodyCommand&  command         = commands[b];
+        const BodyCommand& command = commands[b];
+        if (commanded_[b] == command) { continue; } // what is locked has kept its velocity
+        commanded_[b]                       = command;
         Vec3<double>        velocity        = read(exec_, bodies_.velocity.data() + b);
         Vec3<double>        spin            = read(exec_, bodies_.angular_velocity.data() + b);
         const std::uint32_t locked          = read(exec_, bodies_.locked.data() + b);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -92,37 +93,38 @@ private:
     void   take_totals(RigidReport& report);
     double guard(double time);
 
-    Exec                             exec_;
-    const scene::Scene&              scene_;
-    const World&                     world_;
-    Vec3<double>                     gravity_;
-    double                           mass_ = 0;
-    std::int64_t                     named_;
-    bool                             contacts_; ///< some body may meet another or a wall
-    DeviceTemplates<Exec>            templates_;
-    DeviceRays<Exec>                 rays_;
-    dem::Bodies<Exec>                bodies_;
-    dem::Pairs<Exec>                 pairs_;
-    Array<Exec, dem::PairProperties> properties_;
-    Array<Exec, dem::Plane>          planes_;
-    dem::BodyTotals<Exec>            totals_;
-    Array<Exec, dem::ContactImpulse> impulses_; ///< of the named bodies, since begin_mean()
-    Array<Exec, double>              bounding_radii_;
-    Array<Exec, dem::BodyActivity>   activity_;
-    Array<Exec, double>              sums_;
-    dem::Strays<Exec>                strays_;
-    double                           smallest_radius_ = 0;     ///< m, of the bounding spheres
-    bool                             listed_          = false; ///< pairs were found
-    bool                             watched_         = false; ///< of the present step: not only at its end
-    double                           commanded_speed_ = 0;     ///< m/s, the largest that commands gave in this step
-    double                           overlap_         = 0;     ///< largest over radius before find_pairs_again
-    dem::BodyLaw                     law_{};
-    std::vector<bool>                released_;            ///< named bodies that were free once
-    double                           mean_time_       = 0; ///< s, since begin_mean()
-    double                           substep_         = 0; ///< s, the last
-    double                           command_work_    = 0; ///< J, of commands since the last report
-    Vec3<double>                     command_impulse_ = Vec3<double>::Zero();
-    dem::BodyTotal                   taken_{}; ///< totals at the last report
+    Exec                                    exec_;
+    const scene::Scene&                     scene_;
+    const World&                            world_;
+    Vec3<double>                            gravity_;
+    double                                  mass_ = 0;
+    std::int64_t                            named_;
+    bool                                    contacts_; ///< some body may meet another or a wall
+    DeviceTemplates<Exec>                   templates_;
+    DeviceRays<Exec>                        rays_;
+    dem::Bodies<Exec>                       bodies_;
+    dem::Pairs<Exec>                        pairs_;
+    Array<Exec, dem::PairProperties>        properties_;
+    Array<Exec, dem::Plane>                 planes_;
+    dem::BodyTotals<Exec>                   totals_;
+    Array<Exec, dem::ContactImpulse>        impulses_; ///< of the named bodies, since begin_mean()
+    Array<Exec, double>                     bounding_radii_;
+    Array<Exec, dem::BodyActivity>          activity_;
+    Array<Exec, double>                     sums_;
+    dem::Strays<Exec>                       strays_;
+    double                                  smallest_radius_ = 0;     ///< m, of the bounding spheres
+    bool                                    listed_          = false; ///< pairs were found
+    bool                                    watched_         = false; ///< of the present step: not only at its end
+    double                                  commanded_speed_ = 0; ///< m/s, the largest that commands gave in this step
+    double                                  overlap_         = 0; ///< largest over radius before find_pairs_again
+    dem::BodyLaw                            law_{};
+    std::vector<bool>                       released_;            ///< named bodies that were free once
+    std::vector<std::optional<BodyCommand>> commanded_;           ///< of the named bodies, the last
+    double                                  mean_time_       = 0; ///< s, since begin_mean()
+    double                                  substep_         = 0; ///< s, the last
+    double                                  command_work_    = 0; ///< J, of commands since the last report
+    Vec3<double>                            command_impulse_ = Vec3<double>::Zero();
+    dem::BodyTotal                          taken_{}; ///< totals at the last report
 };
 
 } // namespace tread::solver

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "scene/load.hpp"
+#include "solver/phases.hpp"
 #include "solver/rigid.hpp"
 
 namespace tread::bench
@@ -24,9 +25,12 @@ class DemBench
 public:
     DemBench(const Exec& exec, const scene::Scene& scene, const solver::World& world, int substeps)
         : exec_(exec)
+        , scene_(scene)
         , rigid_(exec, scene, world, solver::make_plan(scene, world))
+        , phases_(scene)
         , substeps_(substeps)
     {
+        command();
         rigid_.find_pairs(1e-4);
         choose_substep();
     }
@@ -41,6 +45,26 @@ public:
             choose_substep();
         }
         rigid_.report(at);
+    }
+
+    /// Goes on with the scene's second phase for so long, s.
+    void stir(double time)
+    {
+        phases_.advance(0, std::vector<double>(scene_.bodies.size(), 0.0));
+        command();
+        for (double at = 0; at < time; at += substeps_ * dt_)
+        {
+            step(0);
+            choose_substep();
+        }
+    }
+
+    /// Searches for pairs since the start.
+    std::int64_t searches() const
+    {
+        const auto& launches = exec_.counters->launches();
+        const auto  found    = launches.find("write pairs");
+        return found == launches.end() ? 0 : found->second;
     }
 
     double               substep() const { return dt_; }
@@ -80,6 +104,16 @@ public:
     }
 
 private:
+    void command()
+    {
+        std::vector<solver::BodyCommand> commands;
+        for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
+        {
+            commands.push_back(phases_.command(b, phases_.latest_end()));
+        }
+        rigid_.command(commands);
+    }
+
     void step(double local_damping)
     {
         rigid_.find_pairs(substeps_ * dt_);
@@ -108,7 +142,9 @@ private:
     }
 
     Exec                exec_;
+    const scene::Scene& scene_;
     solver::Rigid<Exec> rigid_;
+    solver::PhaseClock  phases_;
     int                 substeps_;
     double              dt_ = 0;
 };
@@ -119,15 +155,20 @@ void run_on(const Exec& exec, const DemCase& what, const scene::Scene& scene, co
     const auto     count = static_cast<double>(world.bodies.size());
     DemBench<Exec> bench(exec, scene, world, what.substeps);
     bench.settle(what.settle);
+    constexpr double stirring = 0.05; // s
+    if (what.state == BedState::stirred) { bench.stir(stirring); }
+    const auto          searches = bench.searches();
     std::vector<double> times(3);
     for (double& time : times) { time = bench.time_substeps(what.steps); }
+    const double steps_a_search =
+        3.0 * what.steps / std::max<double>(1, static_cast<double>(bench.searches() - searches));
     std::sort(times.begin(), times.end());
     const solver::ContactCount contacts = bench.contacts();
     std::cout << fmt::format(
         "{:.0f} bodies, a body: {:.2f} pairs, {:.2f} touch, {:.2f} nodes; substep {:.2e} s: {:.1f} us, "
-        "{:.1f}e6 body-steps/s, {:.0f} bytes a body\n",
+        "{:.1f}e6 body-steps/s, {:.0f} bytes a body, {:.1f} steps a search\n",
         count, contacts.listed / count, contacts.live / count, contacts.nodes / count, bench.substep(), 1e6 * times[1],
-        1e-6 * count / times[1], static_cast<double>(exec.counters->peak_bytes()) / count);
+        1e-6 * count / times[1], static_cast<double>(exec.counters->peak_bytes()) / count, steps_a_search);
     bench.print_parts(what.steps, count);
     std::cout << std::flush;
 }

@@ -8,6 +8,12 @@
 namespace tread::bench
 {
 
+enum class BedState
+{
+    settled,
+    stirred ///< by what the scene's second phase drives
+};
+
 struct DemCase
 {
     std::string              scene;          ///< TOML file; only its bodies count
@@ -15,6 +21,7 @@ struct DemCase
     double                   settle   = 0.5; ///< s, with local damping, before anything is timed
     int                      substeps = 20;  ///< between two searches for pairs
     int                      steps    = 16;  ///< of so many substeps, timed three times
+    BedState                 state    = BedState::settled;
     Backend                  backend  = Backend::cpu;
 };
 

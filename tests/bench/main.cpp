@@ -51,6 +51,8 @@ int main(int argc, char** argv)
     dem_command->add_option("--settle", dem.settle, "s, before anything is timed");
     dem_command->add_option("--substeps", dem.substeps, "Between two searches for pairs");
     dem_command->add_option("--steps", dem.steps, "Timed steps of so many substeps, three times");
+    add_word<bench::BedState>(*dem_command, "--state", dem.state,
+                              {{"settled", bench::BedState::settled}, {"stirred", bench::BedState::stirred}});
     add_word<bench::Backend>(*dem_command, "--backend", dem.backend,
                              {{"cpu", bench::Backend::cpu}, {"cuda", bench::Backend::cuda}});
     app.require_subcommand(1);

@@ -17,6 +17,7 @@ struct Instance
 {
     const TemplateView* shape;
     double              scale;
+    double              inverse_scale;
     Mat3<double>        rotation; ///< body to world
     Vec3<double>        centre;   ///< m
 };
@@ -24,8 +25,8 @@ struct Instance
 TREAD_HD Instance instance_of(const BodiesView& bodies, const TemplateView* templates, std::int64_t b,
                               const Vec3<double>& origin)
 {
-    return {templates + bodies.shape[b], bodies.scale[b], bodies.orientation[b].toRotationMatrix(),
-            bodies.position[b] - origin};
+    return {templates + bodies.shape[b], bodies.scale[b], 1.0 / bodies.scale[b],
+            bodies.orientation[b].toRotationMatrix(), bodies.position[b] - origin};
 }
 
 /// A node at its place in the other side's field.
@@ -53,12 +54,12 @@ struct BodyField
         return furthest + sdf_uncertainty(*body.shape, body.scale, furthest);
     }
 
-    /// m, on the field at places that come inside when they move by at most half of `travel`.
-    TREAD_HD double bound_of_node(double travel) const { return search_bound(*body.shape, body.scale, 0, travel); }
+    /// m, on the field at places that come inside when they move by at most `way`.
+    TREAD_HD double bound_of_node(double way) const { return approach_bound(*body.shape, body.scale, way); }
 
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const
     {
-        const Vec3<double> local  = body.rotation.transpose() * (y - body.centre) / body.scale;
+        const Vec3<double> local  = body.inverse_scale * (body.rotation.transpose() * (y - body.centre));
         const SdfSample    sample = sample_template_sdf(*body.shape, local);
         return {body.scale * sample.distance, body.rotation * sample.gradient};
     }
@@ -73,7 +74,7 @@ struct PlaneField
     TREAD_HD double distance_from_centre(const Vec3<double>&) const { return 0; }
     TREAD_HD double reach() const { return 0; }
     TREAD_HD double bound(double r) const { return r; }
-    TREAD_HD double bound_of_node(double travel) const { return travel; }
+    TREAD_HD double bound_of_node(double way) const { return way; }
 
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const { return {normal.dot(y) - offset, normal}; }
 };
@@ -97,19 +98,19 @@ struct Side
         return share * owner.scale * owner.scale * owner.shape->node_areas[i];
     }
 
-    /// False only if no node of the cluster can come inside the other body when the two move by at most half of
-    /// `travel` (its distance has slope 1).
-    TREAD_HD bool near(std::int32_t cluster, double travel) const
+    /// False only if no node of the cluster can come inside the other body when the two move by at most `way` together
+    /// (its distance has slope 1).
+    TREAD_HD bool near(std::int32_t cluster, double way) const
     {
         const Vec3<double> y = owner.centre + owner.rotation * (owner.scale * owner.shape->cluster_centres[cluster]);
-        const double       r = owner.scale * owner.shape->cluster_radii[cluster] + travel;
+        const double       r = owner.scale * owner.shape->cluster_radii[cluster] + way;
         if (field.distance_from_centre(y) > r + field.reach()) { return false; }
         return field(y).distance <= field.bound(r);
     }
 
-    TREAD_HD bool near_node(std::int32_t i, double travel) const
+    TREAD_HD bool near_node(std::int32_t i, double way) const
     {
-        return field(node(i)).distance <= field.bound_of_node(travel);
+        return field(node(i)).distance <= field.bound_of_node(way);
     }
 };
 
@@ -279,14 +280,15 @@ struct NodeRun
     std::int32_t        first, end;
 };
 
-/// sum f |y - x_c|^2 in the plane normal to n, over sum f.
-TREAD_HD double spread_about(const PatchSums& sums, const Vec3<double>& centre, const Vec3<double>& normal)
+/// sum f |y - x_c|^2 in the plane normal to the unit vector n, over sum f.
+TREAD_HD double spread_about(const PatchSums& sums, double inverse_weight, const Vec3<double>& centre,
+                             const Vec3<double>& n)
 {
-    Mat3<double> second;
-    second << sums.second[0], sums.second[5], sums.second[4], sums.second[5], sums.second[1], sums.second[3],
-        sums.second[4], sums.second[3], sums.second[2];
-    const Mat3<double> central = second / sums.weight - centre * centre.transpose();
-    return std::fmax(central.trace() - normal.dot(central * normal), 0.0);
+    const Sym3<double>& s     = sums.second;
+    const double        along = s[0] * n[0] * n[0] + s[1] * n[1] * n[1] + s[2] * n[2] * n[2] +
+                         2.0 * (s[3] * n[1] * n[2] + s[4] * n[0] * n[2] + s[5] * n[0] * n[1]);
+    const double off = centre.dot(n);
+    return std::fmax(inverse_weight * (s[0] + s[1] + s[2] - along) - (centre.squaredNorm() - off * off), 0.0);
 }
 
 /// What a pair does to its bodies in one substep.
@@ -331,12 +333,13 @@ TREAD_HD PairResponse respond(const PairLaw& law, const NodeSums& nodes, const R
     const double load = sums.force.norm();
     if (law.friction > 0 && load > 0)
     {
-        const Vec3<double> normal = sums.force / load;
-        const Vec3<double> centre = sums.first / sums.weight;
+        const double       inverse_weight = 1.0 / sums.weight;
+        const Vec3<double> normal         = (1.0 / load) * sums.force;
+        const Vec3<double> centre         = inverse_weight * sums.first;
         const PatchState   state{normal,
                                load,
                                found.sum,
-                               spread_about(sums, centre, normal),
+                               spread_about(sums, inverse_weight, centre, normal),
                                motion.at(centre),
                                motion.spin.dot(normal),
                                0.5 * (spins.a + spins.b).dot(normal)};

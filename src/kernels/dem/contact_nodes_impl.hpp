@@ -49,13 +49,13 @@ struct Write
 
 /// Shows take(near, name of the node, lanes) every node of the clusters that may come inside; all lanes together.
 template<class Field, class Name, class Lanes, class Take>
-TREAD_HD void walk(const Side<Field>& side, double travel, Name name, const Lanes& lanes, Take& take)
+TREAD_HD void walk(const Side<Field>& side, double way, Name name, const Lanes& lanes, Take& take)
 {
     const std::int32_t clusters = side.owner.shape->cluster_count, nodes = side.owner.shape->node_count;
     for (std::int32_t base = 0; base < clusters; base += lanes.lanes())
     {
         const std::int32_t own  = base + lanes.lane();
-        std::uint32_t      near = lanes.vote(own < clusters && side.near(own, travel));
+        std::uint32_t      near = lanes.vote(own < clusters && side.near(own, way));
         for (std::int32_t cluster = base; near != 0; ++cluster, near >>= 1)
         {
             if ((near & 1u) == 0) { continue; }
@@ -63,7 +63,7 @@ TREAD_HD void walk(const Side<Field>& side, double travel, Name name, const Lane
             for (std::int32_t first = cluster * cluster_size; first < last; first += lanes.lanes())
             {
                 const std::int32_t i = first + lanes.lane();
-                take(i < nodes && side.near_node(i, travel), name(i), lanes);
+                take(i < nodes && side.near_node(i, way), name(i), lanes);
             }
         }
     }
@@ -93,18 +93,18 @@ struct Walk
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
         Couple             couple;
         couple.body[0]      = instance_of(bodies, law.templates, a, bodies.position[a]);
-        const double travel = 2.0 * pairs.travel[a]; // Side::near allows for half of it
+        const double way    = pairs.travel[a];
         const auto   first  = [](std::int32_t i) { return i; };
         const auto   second = [](std::int32_t i) { return ~i; };
         if (b >= bodies.count)
         {
             const PlaneField wall = field_of(law.planes[b - bodies.count], bodies.position[a]);
-            walk(Side<PlaneField>{couple.body[0], wall, 1.0, 1.0}, travel, first, lanes, take);
+            walk(Side<PlaneField>{couple.body[0], wall, 1.0, 1.0}, way, first, lanes, take);
             return;
         }
         couple.body[1] = instance_of(bodies, law.templates, b, bodies.position[a]);
         const TwoSides<Meet> sides{meet, couple};
-        const double         together = travel + 2.0 * pairs.travel[b];
+        const double         together = way + pairs.travel[b];
         walk(sides.first(), together, first, lanes, take);
         walk(sides.second(), together, second, lanes, take);
     }

@@ -79,13 +79,16 @@ TREAD_HD Friction update_patch(const PairLaw& law, const PatchState& state, Patc
     force                = turn_about(force, state.normal, state.common_spin * dt);
     if (state.stiffness < patch.stiffness) { force *= state.stiffness / patch.stiffness; }
     if (k_twist < patch.twist_stiffness) { torsion *= k_twist / patch.twist_stiffness; }
-    const double turned = spring_energy(force.squaredNorm(), k_tangential) + spring_energy(torsion * torsion, k_twist);
+    const double soft = softness_of(k_tangential), twist_soft = softness_of(k_twist);
+    const auto   held_by = [&](const Vec3<double>& f, double m)
+    { return 0.5 * (f.squaredNorm() * soft + m * m * twist_soft); };
+    const double turned = held_by(force, torsion);
 
     force -= k_tangential * dt * sliding;
     torsion -= k_twist * dt * state.spin;
     const double length = force.norm(), twist = std::fabs(torsion);
-    const double slid        = length > cap ? cap * (length - cap) / k_tangential : 0.0;
-    const double turned_past = twist > twist_cap ? twist_cap * (twist - twist_cap) / k_twist : 0.0;
+    const double slid        = length > cap ? cap * (length - cap) * soft : 0.0;
+    const double turned_past = twist > twist_cap ? twist_cap * (twist - twist_cap) * twist_soft : 0.0;
     force *= cap_factor(length, cap);
     torsion *= cap_factor(twist, twist_cap);
 
@@ -96,7 +99,7 @@ TREAD_HD Friction update_patch(const PairLaw& law, const PatchState& state, Patc
     const double damped = -dt * ((total - force).dot(sliding) + (total_moment - torsion) * state.spin);
 
     patch = {force, state.normal, torsion, state.stiffness, k_twist};
-    return {total, total_moment, held_energy(law, patch), held - turned + slid + turned_past + damped};
+    return {total, total_moment, held_by(force, torsion), held - turned + slid + turned_past + damped};
 }
 
 } // namespace tread::dem

@@ -25,10 +25,10 @@ struct RayField
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const { return solid(y); }
 
     /// Rays know the surface itself, not the interpolated one.
-    TREAD_HD double bound_of_node(double travel) const
+    TREAD_HD double bound_of_node(double way) const
     {
         const Instance& body = solid.body;
-        return 0.5 * travel + sdf_uncertainty(*body.shape, body.scale, 0.5 * travel);
+        return way + sdf_uncertainty(*body.shape, body.scale, way);
     }
 };
 
@@ -44,9 +44,10 @@ TREAD_HD NodeInField in_field(const Side<RayField>& side, std::int32_t i)
     const RayView&     own          = *side.field.own;
     const Vec3<double> y            = side.node(i);
     const Vec3<double> along        = owner.rotation * own.inward[i];
-    const Vec3<double> origin       = body.rotation.transpose() * (y - body.centre) / body.scale;
+    const Vec3<double> origin       = body.rotation.transpose() * (y - body.centre) * body.inverse_scale;
     const Vec3<double> direction    = body.rotation.transpose() * along;
-    const RayHit       hit = first_hit(*side.field.other, origin, direction, own.length[i] * owner.scale / body.scale);
+    const RayHit       hit =
+        first_hit(*side.field.other, origin, direction, own.length[i] * owner.scale * body.inverse_scale);
     if (!(hit.cosine > 0)) { return {y, Vec3<double>::Zero(), 0, 0, side.sign}; }
     const double depth = hit.length * body.scale;
     return {y + depth * along, body.rotation * hit.normal / std::fmax(hit.cosine, least_cosine), depth, side.weight(i),

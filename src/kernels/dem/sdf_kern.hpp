@@ -27,7 +27,7 @@ struct SdfCell
     std::int64_t row;   ///< to the neighbour along y
     std::int64_t layer; ///< along z
     Vec3<double> fraction;
-    double       spacing; ///< m
+    double       inverse_spacing; ///< 1/m
 };
 
 /// The cell of a grid in bricks; `index` = its lowest node, `at` = the place, both in fine cells.
@@ -49,7 +49,7 @@ TREAD_HD SdfCell brick_cell(const TemplateView& shape, const std::int32_t* index
         cell.low =
             shape.sdf_values + brick_nodes * cell.layer * slot + inner[0] + cell.row * inner[1] + cell.layer * inner[2];
         for (int c = 0; c < 3; ++c) { cell.fraction[c] = at[c] - static_cast<double>(index[c]); }
-        cell.spacing = shape.sdf_spacing;
+        cell.inverse_spacing = shape.sdf_inverse_spacing;
         return cell;
     }
     cell.row   = nx + 1;
@@ -59,7 +59,7 @@ TREAD_HD SdfCell brick_cell(const TemplateView& shape, const std::int32_t* index
     {
         cell.fraction[c] = (at[c] - static_cast<double>(brick_cells * brick[c])) / brick_cells;
     }
-    cell.spacing = brick_cells * shape.sdf_spacing;
+    cell.inverse_spacing = shape.sdf_inverse_spacing / brick_cells;
     return cell;
 }
 
@@ -79,7 +79,7 @@ TREAD_HD SdfCell find_cell(const TemplateView& shape, const Vec3<double>& at)
     cell.layer = cell.row * shape.sdf_nodes[1];
     cell.low   = shape.sdf_values + index[0] + cell.row * index[1] + cell.layer * index[2];
     for (int c = 0; c < 3; ++c) { cell.fraction[c] = at[c] - static_cast<double>(index[c]); }
-    cell.spacing = shape.sdf_spacing;
+    cell.inverse_spacing = shape.sdf_inverse_spacing;
     return cell;
 }
 
@@ -102,7 +102,7 @@ TREAD_HD SdfSample interpolate_sdf(const TemplateView& shape, const Vec3<double>
     const double by_x =
         (1 - t[2]) * (slope00 + t[1] * (slope10 - slope00)) + t[2] * (slope01 + t[1] * (slope11 - slope01));
     const double by_y = (value10 - value00) + t[2] * ((value11 - value01) - (value10 - value00));
-    return {low_z + t[2] * (high_z - low_z), Vec3<double>(by_x, by_y, high_z - low_z) / cell.spacing};
+    return {low_z + t[2] * (high_z - low_z), cell.inverse_spacing * Vec3<double>(by_x, by_y, high_z - low_z)};
 }
 
 /// Distance and gradient at a point of the template's frame (m, scale 1). Outside the grid a lower bound of the
@@ -110,7 +110,7 @@ TREAD_HD SdfSample interpolate_sdf(const TemplateView& shape, const Vec3<double>
 /// least 0) at the box's nearest point, with its exact gradient.
 TREAD_HD SdfSample sample_template_sdf(const TemplateView& shape, const Vec3<double>& point)
 {
-    const Vec3<double> cell = (point - shape.sdf_origin) / shape.sdf_spacing;
+    const Vec3<double> cell = (point - shape.sdf_origin) * shape.sdf_inverse_spacing;
     Vec3<double>       nearest;
     for (int c = 0; c < 3; ++c)
     {
@@ -172,6 +172,15 @@ TREAD_HD double search_bound(const TemplateView& shape, double scale, double rad
     const double bound = radius + travel, at_surface = surface_uncertainty(shape, scale);
     if (shape.sdf_slots == nullptr || bound + at_surface <= scale * shape.sdf_fine_reach) { return bound; }
     return bound + at_surface + cell_uncertainty(brick_cells * shape.sdf_spacing) * scale;
+}
+
+/// Bound on the interpolant at every place from which, or from nearer, a point can come to the interpolated surface
+/// when it moves by at most `way`, m: as search_bound, by the slope that the interpolant has.
+TREAD_HD double approach_bound(const TemplateView& shape, double scale, double way)
+{
+    const double bound = shape.sdf_steepest * way, at_surface = surface_uncertainty(shape, scale);
+    if (shape.sdf_slots == nullptr || bound + at_surface <= scale * shape.sdf_fine_reach) { return bound; }
+    return 2.0 * way + at_surface + cell_uncertainty(brick_cells * shape.sdf_spacing) * scale;
 }
 
 } // namespace tread::dem

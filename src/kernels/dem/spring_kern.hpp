@@ -18,10 +18,13 @@ TREAD_HD Vec3<double> turn_with_normal(const Vec3<double>& force, const Vec3<dou
     return cosine * force + axis.cross(force) + axis * (axis.dot(force) / (1.0 + cosine));
 }
 
+/// 1/stiffness; 0 of a spring that is none.
+TREAD_HD double softness_of(double stiffness) { return stiffness > 0 ? 1.0 / stiffness : 0.0; }
+
 /// Energy (J) that a spring of this stiffness (N/m) holds at this force.
 TREAD_HD double spring_energy(double squared_force, double stiffness)
 {
-    return stiffness > 0 ? 0.5 * squared_force / stiffness : 0.0;
+    return 0.5 * squared_force * softness_of(stiffness);
 }
 
 } // namespace tread::dem

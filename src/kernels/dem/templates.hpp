@@ -12,7 +12,9 @@ namespace tread::dem
 struct TemplateView
 {
     Vec3<double>        sdf_origin;
-    double              sdf_spacing; ///< m
+    double              sdf_spacing;         ///< m
+    double              sdf_inverse_spacing; ///< 1/m
+    double              sdf_steepest;        ///< largest |gradient| of the interpolant outside, where corners are exact
     std::int32_t        sdf_nodes[3];
     const float*        sdf_values; ///< m, negative inside; laid out as in shape::SignedDistanceGrid
     const std::int32_t* sdf_slots;  ///< of the bricks; null = dense, and the four below mean nothing

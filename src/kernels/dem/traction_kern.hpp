@@ -16,6 +16,7 @@ struct PairLaw
     double effective_radius; ///< m, R*
     double traction;         ///< Pa/sqrt(m), E*/(pi sqrt(R*)): p = traction sqrt(d)
     double linear_overlap;   ///< m, d0: below it the traction is linear
+    double linear_slope;     ///< Pa/m, there
     double shear_ratio;      ///< k_t/K = 4 G*/E*: Mindlin's 8 G* sqrt(R* d) where the patch is resolved
     double friction;         ///< Coulomb
     double damping_ratio;    ///< zeta, normal and tangential
@@ -27,13 +28,16 @@ struct PairLaw
 TREAD_HD PairLaw pair_law(const PairProperties& pair, const ContactOptions& options, double inverse_radii,
                           double inverse_masses)
 {
-    constexpr double pi     = 3.14159265358979323846;
-    const double     radius = 1.0 / inverse_radii;
-    const double     young  = options.hertz_factor * pair.effective_young;
+    constexpr double pi       = 3.14159265358979323846;
+    const double     radius   = 1.0 / inverse_radii;
+    const double     young    = options.hertz_factor * pair.effective_young;
+    const double     traction = young / pi * std::sqrt(inverse_radii);
+    const double     linear   = options.linear_overlap * radius;
     return {young,
             radius,
-            young / (pi * std::sqrt(radius)),
-            options.linear_overlap * radius,
+            traction,
+            linear,
+            traction / std::sqrt(linear),
             4.0 * pair.effective_shear / pair.effective_young,
             pair.friction,
             pair.damping_ratio,
@@ -54,13 +58,11 @@ TREAD_HD Traction traction_at(const PairLaw& law, double overlap)
     const double knee = law.linear_overlap;
     if (overlap < knee)
     {
-        const double slope = law.traction / std::sqrt(knee);
-        return {slope * overlap, slope, 0.5 * slope * overlap * overlap};
+        return {law.linear_slope * overlap, law.linear_slope, 0.5 * law.linear_slope * overlap * overlap};
     }
     // psi of the linear part is d0^1.5/2 at the knee, where that of the square root would be 2/3 d0^1.5
-    const double root = std::sqrt(overlap);
-    return {law.traction * root, 0.5 * law.traction / root,
-            law.traction * (2.0 / 3.0 * overlap * root - knee * std::sqrt(knee) / 6.0)};
+    const double root = std::sqrt(overlap), pressure = law.traction * root;
+    return {pressure, 0.5 * pressure / overlap, 2.0 / 3.0 * overlap * pressure - law.linear_slope * knee * knee / 6.0};
 }
 
 } // namespace tread::dem

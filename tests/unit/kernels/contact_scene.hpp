@@ -197,8 +197,10 @@ private:
     static dem::TemplateView view_of(const AnalyticShape& shape, const float* values)
     {
         dem::TemplateView view{};
-        view.sdf_origin  = shape.origin;
-        view.sdf_spacing = shape.spacing;
+        view.sdf_origin          = shape.origin;
+        view.sdf_spacing         = shape.spacing;
+        view.sdf_inverse_spacing = 1 / shape.spacing;
+        view.sdf_steepest        = std::sqrt(3.0);
         std::copy(shape.nodes.begin(), shape.nodes.end(), view.sdf_nodes);
         view.sdf_values        = values;
         view.low               = -shape.half;

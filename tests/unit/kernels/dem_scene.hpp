@@ -313,8 +313,10 @@ private:
         for (const SolidShape& shape : shapes)
         {
             dem::TemplateView view{};
-            view.sdf_origin  = shape.origin;
-            view.sdf_spacing = shape.spacing;
+            view.sdf_origin          = shape.origin;
+            view.sdf_spacing         = shape.spacing;
+            view.sdf_inverse_spacing = 1 / shape.spacing;
+            view.sdf_steepest        = std::sqrt(3.0);
             std::copy(shape.nodes.begin(), shape.nodes.end(), view.sdf_nodes);
             view.sdf_values     = keep(floats_, shape.values);
             view.sdf_slots      = shape.slots.empty() ? nullptr : keep(integers_, shape.slots);

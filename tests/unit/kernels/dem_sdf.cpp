@@ -17,8 +17,10 @@ namespace
 dem::TemplateView view_of(const SolidShape& shape)
 {
     dem::TemplateView view{};
-    view.sdf_origin  = shape.origin;
-    view.sdf_spacing = shape.spacing;
+    view.sdf_origin          = shape.origin;
+    view.sdf_spacing         = shape.spacing;
+    view.sdf_inverse_spacing = 1 / shape.spacing;
+    view.sdf_steepest        = std::sqrt(3.0);
     std::copy(shape.nodes.begin(), shape.nodes.end(), view.sdf_nodes);
     view.sdf_values = shape.values.data();
     return view;
@@ -90,8 +92,10 @@ shape::SignedDistanceGrid shell_in_bricks()
 dem::TemplateView view_of(const shape::SignedDistanceGrid& sdf)
 {
     dem::TemplateView view{};
-    view.sdf_origin  = sdf.origin;
-    view.sdf_spacing = sdf.spacing;
+    view.sdf_origin          = sdf.origin;
+    view.sdf_spacing         = sdf.spacing;
+    view.sdf_inverse_spacing = 1 / sdf.spacing;
+    view.sdf_steepest        = std::sqrt(3.0);
     std::copy(sdf.nodes.begin(), sdf.nodes.end(), view.sdf_nodes);
     std::copy(sdf.bricks.begin(), sdf.bricks.end(), view.sdf_bricks);
     view.sdf_values     = sdf.values.data();
