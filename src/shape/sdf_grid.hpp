@@ -19,7 +19,7 @@ SignedDistanceGrid grid_over(const Bounds& box, int cells, double reach = 0);
 /// m3, where the interpolant is negative: exact along x, by 4 x 4 lines a cell in y and z.
 double enclosed_volume(const SignedDistanceGrid& sdf);
 
-/// Largest |gradient| of the interpolant outside the surface, where all corners are exact; at least 1.
+/// Largest |gradient| of the interpolant outside the surface and nearer than fine_reach; at least 1.
 double steepest_slope(const SignedDistanceGrid& sdf);
 
 inline Eigen::Vector3d node_position(const SignedDistanceGrid& sdf, std::int32_t i, std::int32_t j, std::int32_t k)
