@@ -309,13 +309,14 @@ void Rigid<Exec>::move(double dt, double damping)
 template<class Exec>
 double Rigid<Exec>::guard(double time)
 {
-    const dem::Overlap worst = dem::largest_overlap(exec_, pairs_, bodies_.view(), law_);
-    if (worst.ratio <= deepest_overlap) { return worst.ratio; }
-    const bool wall = worst.second >= bodies_.position.size();
-    throw NumericalError(
-        fmt::format("t = {:.6g} s: body {} overlaps {} by {:.3g} of its radius, over the {} that the contact "
-                    "law can carry: stiffer bodies, or a smaller dt",
-                    time, name(worst.first), wall ? "a wall" : name(worst.second), worst.ratio, deepest_overlap));
+    const double ratio = dem::largest_overlap(exec_, pairs_, bodies_.view(), law_);
+    if (ratio <= deepest_overlap) { return ratio; }
+    const std::uint64_t key  = dem::deepest_pair(pairs_, ratio);
+    const bool          wall = dem::second_of(key) >= bodies_.position.size();
+    throw NumericalError(fmt::format(
+        "t = {:.6g} s: body {} overlaps {} by {:.3g} of its radius, over the {} that the contact "
+        "law can carry: stiffer bodies, or a smaller dt",
+        time, name(dem::first_of(key)), wall ? "a wall" : name(dem::second_of(key)), ratio, deepest_overlap));
 }
 
 /// A body whose velocity or force is not a number has lost its way; the first of them is named.

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "kernels/dem/pair_law_kern.hpp"
-#include "kernels/dem/sphere_contact_kern.hpp"
+#include "kernels/dem/body_contact_impl.hpp"
 
 // The stiffness that a pair is about to gain: a flat face meets a wall with all its nodes in one substep, which the
 // stiffness of the last one cannot tell.
@@ -14,69 +13,42 @@ namespace tread::dem
 /// for the stiffness multiplies what little energy there is.
 struct AnticipatePair
 {
-    BodiesView   bodies;
-    BodyLaw      law;
-    PairsView    pairs;
-    double       horizon;
-    Vec3<double> fall; ///< m/s, what weight adds to a free body's mean velocity
-    double*      entering;
+    body_contact::EvaluatePair<MeetByDistance> evaluate;
+    double                                     horizon;
+    Vec3<double>                               fall; ///< m/s, what weight adds to a free body's mean velocity
+    double*                                    entering;
 
-    template<class Lanes>
-    TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
+    TREAD_HD void operator()(std::int64_t p) const
     {
-        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-        const NodeRun      nodes{pairs.node, pairs.first_node[p], pairs.first_node[p + 1]};
-        double             found = 0;
-        if (nodes.first < nodes.end)
+        const PairsView&          pairs = evaluate.pairs;
+        body_contact::PairSetting setting;
+        double                    found = 0;
+        if (pairs.first_node[p] < pairs.first_node[p + 1])
         {
-            found = b < bodies.count ? between_bodies(a, b, nodes, lanes)
-                                     : against_plane(a, b - bodies.count, nodes, lanes);
+            evaluate.set_all(p, setting);
+            let_fall(p, setting);
         }
-        if (lanes.lane() == 0) { entering[p] = found; }
-    }
-
-private:
-    TREAD_HD Vec3<double> mean_velocity(std::int64_t b) const
-    {
-        return bodies.locked[b] == lock_all ? bodies.velocity[b] : Vec3<double>(bodies.velocity[b] + fall);
-    }
-
-    template<class Lanes>
-    TREAD_HD double between_bodies(std::int64_t a, std::int64_t b, const NodeRun& nodes, const Lanes& lanes) const
-    {
-        const Couple         couple{{instance_of(bodies, law.templates, a, bodies.position[a]),
-                                     instance_of(bodies, law.templates, b, bodies.position[a])}};
-        const Vec3<double>&  spin = bodies.angular_velocity[b];
-        const RelativeMotion motion{mean_velocity(a) - mean_velocity(b) + spin.cross(couple.body[1].centre),
-                                    bodies.angular_velocity[a] - spin};
-        return over_nodes(law_of(bodies, law, pair_key(a, b)), TwoSides<MeetByDistance>{{}, couple}, nodes, motion,
-                          lanes);
-    }
-
-    template<class Lanes>
-    TREAD_HD double against_plane(std::int64_t a, std::int64_t p, const NodeRun& nodes, const Lanes& lanes) const
-    {
-        const Plane&         plane = law.planes[p];
-        const Instance       of_a  = instance_of(bodies, law.templates, a, bodies.position[a]);
-        const RelativeMotion motion{mean_velocity(a), bodies.angular_velocity[a]};
-        return over_nodes(law_of(bodies, law, pair_key(a, bodies.count + p)),
-                          OneSide{{of_a, field_of(plane, bodies.position[a]), 1.0, 1.0}}, nodes, motion, lanes);
-    }
-
-    template<class Sides, class Lanes>
-    TREAD_HD double over_nodes(const PairLaw& pair, const Sides& sides, const NodeRun& run,
-                               const RelativeMotion& motion, const Lanes& lanes) const
-    {
-        const double first_slope = traction_at(pair, 0.0).slope; // no deeper one is steeper
-        double       found       = 0;
-        for (std::int32_t i = run.first + lanes.lane(); i < run.end; i += lanes.lanes())
+        for (std::int32_t i = pairs.first_node[p]; i < pairs.first_node[p + 1]; ++i)
         {
-            const NodeInField node = sides(run.node[i]);
-            if (node.overlap > 0) { continue; }
-            const double way = -horizon * node.sign * node.gradient.dot(motion.at(node.place));
-            if (node.overlap + way > 0) { found += Sides::stiffening(node) * node.weight * first_slope; }
+            found += stiffness(setting, evaluate.look_up(p, setting, pairs.node[i]));
         }
-        return lanes.sum(found);
+        entering[p] = found;
+    }
+
+    TREAD_HD void let_fall(std::int64_t p, body_contact::PairSetting& setting) const
+    {
+        const BodiesView&  bodies = evaluate.bodies;
+        const std::int64_t a = first_of(evaluate.pairs.key[p]), b = second_of(evaluate.pairs.key[p]);
+        if (bodies.locked[a] != lock_all) { setting.motion.velocity += fall; }
+        if (b < bodies.count && bodies.locked[b] != lock_all) { setting.motion.velocity -= fall; }
+    }
+
+    /// Of one node; 0 unless it comes inside.
+    TREAD_HD double stiffness(const body_contact::PairSetting& setting, const NodeInField& node) const
+    {
+        if (node.overlap > 0) { return 0; }
+        const double way = -horizon * node.sign * node.gradient.dot(setting.motion.at(node.place));
+        return node.overlap + way > 0 ? node.weight * setting.law.linear_slope : 0.0;
     }
 };
 

@@ -33,16 +33,19 @@ struct EvaluatePair
     TREAD_HD void operator()(std::int64_t p) const
     {
         PairSetting setting;
-        set_pair(p, setting);
-        if (pairs.first_node[p] < pairs.first_node[p + 1])
-        {
-            for (int body = 0; body < (setting.wall != nullptr ? 1 : 2); ++body) { set_body(p, body, setting); }
-        }
+        set_all(p, setting);
         Patch              patch    = pairs.patch[p];
         const PairResponse response = answer(p, setting, sum_nodes(p, setting), patch);
         pairs.patch[p]              = patch;
         pairs.response[p]           = response;
         pairs.peak[p]               = std::fmax(pairs.peak[p], response.overlap);
+    }
+
+    TREAD_HD void set_all(std::int64_t p, PairSetting& setting) const
+    {
+        set_pair(p, setting);
+        if (pairs.first_node[p] == pairs.first_node[p + 1]) { return; } // exact spheres need no more
+        for (int body = 0; body < (setting.wall != nullptr ? 1 : 2); ++body) { set_body(p, body, setting); }
     }
 
     /// All of a setting but its bodies.

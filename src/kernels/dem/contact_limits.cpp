@@ -10,8 +10,7 @@ void expect_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies
     const AnticipatePair   anticipate    = contact_limits::anticipate(pairs, bodies, law, gravity, dt);
     constexpr std::int64_t worth_threads = 512; // as for the contacts themselves
     for_each_heavy(
-        cpu, "anticipated contacts", pairs.key.size(), [=](std::int64_t p) { anticipate(p, OneLane{}); },
-        worth_threads);
+        cpu, "anticipated contacts", pairs.key.size(), [=](std::int64_t p) { anticipate(p); }, worth_threads);
     contact_limits::add_up(cpu, pairs, bodies, law);
 }
 
@@ -20,7 +19,7 @@ double smallest_contact_time(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView
     return contact_limits::contact_time(cpu, pairs, bodies);
 }
 
-Overlap largest_overlap(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+double largest_overlap(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     return contact_limits::overlap(cpu, pairs, bodies, law);
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "kernels/dem/pairs.hpp"
 
@@ -22,15 +24,18 @@ void expect_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, co
 double smallest_contact_time(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies);
 double smallest_contact_time(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies);
 
-struct Overlap
-{
-    double       ratio;  ///< overlap over the smaller equivalent radius of the pair
-    std::int64_t first;  ///< body
-    std::int64_t second; ///< body, or bodies + plane
-};
+/// The largest overlap over the smaller equivalent radius of the pair, of any pair since it was listed; 0 if nothing
+/// touched. Warn above 0.1, stop above 0.5.
+double largest_overlap(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+double largest_overlap(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// The largest since the pairs were found; ratio 0 if nothing touched. Warn above 0.1, stop above 0.5.
-Overlap largest_overlap(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-Overlap largest_overlap(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+/// Which pair that is, after largest_overlap has found it.
+template<class Exec>
+std::uint64_t deepest_pair(Pairs<Exec>& pairs, double largest)
+{
+    const std::vector<double> ratios = pairs.measure.to_host();
+    const auto                at     = std::find(ratios.begin(), ratios.end(), largest) - ratios.begin();
+    return read(pairs.key.exec(), pairs.key.data() + at);
+}
 
 } // namespace tread::dem

@@ -112,7 +112,7 @@ AnticipatePair anticipate(Pairs<Exec>& pairs, const BodiesView& bodies, const Bo
 {
     constexpr double twice = 2; // as for the pairs themselves: a body may be set going within the step
     pairs.measure.resize(pairs.key.size());
-    return {bodies, law, pairs.view(), twice * dt, 0.5 * dt * gravity, pairs.measure.data()};
+    return {{{}, bodies, law, pairs.view(), dt}, twice * dt, 0.5 * dt * gravity, pairs.measure.data()};
 }
 
 template<class Exec>
@@ -137,19 +137,13 @@ double contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodi
 }
 
 template<class Exec>
-Overlap overlap(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+double overlap(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     const std::int64_t count = pairs.key.size();
     pairs.measure.resize(count + 1);
     for_each(exec, "overlap ratios", count, WriteOverlap{bodies, law, pairs.view(), pairs.measure.data()});
     largest_of_rows(exec, pairs.measure.data(), count, 1, pairs.measure.data() + count);
-    const double largest = read(exec, pairs.measure.data() + count);
-    if (!(largest > 0)) { return {0, -1, -1}; }
-
-    const std::vector<double> ratios = pairs.measure.to_host();
-    const auto                at     = std::find(ratios.begin(), ratios.end(), largest) - ratios.begin();
-    const std::uint64_t       key    = read(exec, pairs.key.data() + at);
-    return {largest, first_of(key), second_of(key)};
+    return read(exec, pairs.measure.data() + count);
 }
 
 } // namespace tread::dem::contact_limits
