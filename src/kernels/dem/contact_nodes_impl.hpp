@@ -86,10 +86,15 @@ struct Walk
 
     TREAD_HD bool is_sphere(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
 
+    TREAD_HD bool surfaces_near(std::int64_t p) const
+    {
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        return b >= bodies.count || dem::surfaces_near(bodies, law.templates, pairs.travel, a, b);
+    }
+
     template<class Lanes, class Take>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes, Take& take) const
     {
-        if (closed_form(p)) { return; }
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
         Couple             couple;
         couple.body[0]      = instance_of(bodies, law.templates, a, bodies.position[a]);
@@ -119,9 +124,10 @@ struct CountNodes
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
     {
-        Count count;
-        walk(p, lanes, count);
-        if (lanes.lane() == 0) { found[p] = walk.closed_form(p) ? without_nodes : count.found; }
+        const bool closed_form = walk.closed_form(p);
+        Count      count;
+        if (!closed_form && walk.surfaces_near(p)) { walk(p, lanes, count); }
+        if (lanes.lane() == 0) { found[p] = closed_form ? without_nodes : count.found; }
     }
 };
 

@@ -225,12 +225,9 @@ void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, cons
     for_each(exec, "count pairs", bodies.count + 1, CountPairs{search, pairs.found.data()});
     pairs.key.resize(exclusive_scan(exec, pairs.found, pairs.sort));
     for_each(exec, "write pairs", bodies.count, WritePairs{search, pairs.found.data(), pairs.key.data()});
-
-    pairs.by_second.resize(pairs.key.size()); // travels along, means nothing yet
-    sort_by_key(exec, pairs.key, pairs.by_second, pairs.sort);
 }
 
-/// Leaves out the pairs that no node can join: bounding spheres meet far more often than surfaces.
+/// Leaves out the pairs that no node can join, and orders the rest: bounding spheres meet far more often than surfaces.
 template<class Exec>
 void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
@@ -247,6 +244,7 @@ void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesVie
                        pairs.by_second.data()});
     pairs.key.swap(pairs.second_key);
     pairs.first_node.swap(pairs.by_second);
+    sort_by_key(exec, pairs.key, pairs.first_node, pairs.sort); // the zero at the end stays there
     pairs.node.resize(exclusive_scan(exec, pairs.first_node, pairs.sort));
     list_contact_nodes(exec, pairs, bodies, law);
 }

@@ -46,25 +46,32 @@ TREAD_HD Reach reach_of(const BodiesView& bodies, const TemplateView* templates,
     return {templates[bodies.shape[b]].bounding_radius * bodies.scale[b], travel[b]};
 }
 
+/// Whether the bounding spheres can meet.
+TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates, const double* travel, std::int64_t a,
+                        std::int64_t b)
+{
+    const double together =
+        reach_of(bodies, templates, travel, a).total() + reach_of(bodies, templates, travel, b).total();
+    return (bodies.position[a] - bodies.position[b]).squaredNorm() <= together * together;
+}
+
 /// Whether the surface of body b's template can come within the other's grown bounding sphere. What is inside the
 /// interpolated surface is within its uncertainty of the true one.
 TREAD_HD bool surface_near(const BodiesView& bodies, const TemplateView* templates, std::int64_t b,
                            const Vec3<double>& centre, double reach)
 {
-    const TemplateView& shape = templates[bodies.shape[b]];
-    if (shape.sphere_radius > 0) { return true; } // the bounding spheres have said it
-    const double scale    = bodies.scale[b];
-    const double furthest = reach + surface_uncertainty(shape, scale);
+    const TemplateView& shape    = templates[bodies.shape[b]];
+    const double        scale    = bodies.scale[b];
+    const double        furthest = reach + surface_uncertainty(shape, scale);
     return sample_body_sdf(shape, scale, bodies.position[b], bodies.orientation[b], centre).distance <=
            furthest + sdf_uncertainty(shape, scale, furthest);
 }
 
-TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates, const double* travel, std::int64_t a,
-                        std::int64_t b)
+/// Whether each body's surface can come within the other's bounding sphere: most pairs whose spheres meet fail here.
+TREAD_HD bool surfaces_near(const BodiesView& bodies, const TemplateView* templates, const double* travel,
+                            std::int64_t a, std::int64_t b)
 {
-    const Reach  of_a = reach_of(bodies, templates, travel, a), of_b = reach_of(bodies, templates, travel, b);
-    const double together = of_a.total() + of_b.total();
-    if ((bodies.position[a] - bodies.position[b]).squaredNorm() > together * together) { return false; }
+    const Reach of_a = reach_of(bodies, templates, travel, a), of_b = reach_of(bodies, templates, travel, b);
     return surface_near(bodies, templates, a, bodies.position[b], of_b.total() + of_a.travel) &&
            surface_near(bodies, templates, b, bodies.position[a], of_a.total() + of_b.travel);
 }
