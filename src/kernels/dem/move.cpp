@@ -8,14 +8,10 @@ void move_bodies(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, Bo
                  const NamedImpulses& named, const Motion& motion)
 {
     const moving::GatherBody gather{bodies, pairs.view(), totals, motion.dt};
-    const std::int32_t*      is_large = pairs.is_large.data();
     for_each(cpu, "gather large bodies", pairs.large.size(),
              [=, large = pairs.large.data()](std::int64_t l) { gather(large[l], OneLane{}); });
-    moving::with_integration(
-        bodies, totals, motion,
-        [&](const auto& integrate) {
-            for_each(cpu, "move bodies", bodies.count, moving::Move{gather, is_large, named, integrate});
-        });
+    moving::with_move(gather, pairs.is_large.data(), named, motion,
+                      [&](const auto& move) { for_each(cpu, "move bodies", bodies.count, move); });
 }
 
 } // namespace tread::dem

@@ -25,13 +25,9 @@ void move_bodies(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, Bo
                  const NamedImpulses& named, const Motion& motion)
 {
     const moving::GatherBody gather{bodies, pairs.view(), totals, motion.dt};
-    const std::int32_t*      is_large = pairs.is_large.data();
     for_each_group<warp_size>(gpu, "gather large bodies", pairs.large.size(), GatherLarge{gather, pairs.large.data()});
-    moving::with_integration(
-        bodies, totals, motion,
-        [&](const auto& integrate) {
-            for_each(gpu, "move bodies", bodies.count, moving::Move{gather, is_large, named, integrate});
-        });
+    moving::with_move(gather, pairs.is_large.data(), named, motion,
+                      [&](const auto& move) { for_each(gpu, "move bodies", bodies.count, move); });
 }
 
 } // namespace tread::dem

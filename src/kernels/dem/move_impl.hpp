@@ -103,12 +103,21 @@ struct Move
     }
 };
 
-/// Calls run with the integration that the motion asks for.
+/// Calls run with the Move that the motion asks for.
 template<class Run>
-void with_integration(const BodiesView& bodies, BodyTotal* totals, const Motion& motion, Run run)
+void with_move(const GatherBody& gather, const std::int32_t* is_large, const NamedImpulses& named, const Motion& motion,
+               Run run)
 {
-    if (motion.damping > 0) { run(integration::Damped{bodies, totals, motion.gravity, motion.damping, motion.dt}); }
-    else { run(integration::Free{bodies, totals, motion.gravity, motion.dt}); }
+    if (motion.damping > 0)
+    {
+        run(Move<integration::Damped>{
+            gather, is_large, named, {gather.bodies, gather.totals, motion.gravity, motion.damping, motion.dt}});
+    }
+    else
+    {
+        run(Move<integration::Free>{
+            gather, is_large, named, {gather.bodies, gather.totals, motion.gravity, motion.dt}});
+    }
 }
 
 } // namespace tread::dem::moving

@@ -10,19 +10,6 @@
 namespace tread::dem::stray_steps
 {
 
-struct Mark
-{
-    BodiesView    bodies;
-    Vec3<double>* position;
-    Quat*         orientation;
-
-    TREAD_HD void operator()(std::int64_t b) const
-    {
-        position[b]    = bodies.position[b];
-        orientation[b] = bodies.orientation[b];
-    }
-};
-
 /// A turn by the angle t moves no point further than 2 sin(t/2) of the bounding radius; a quaternion's vector part is
 /// sin(t/2) long.
 struct Measure
@@ -69,9 +56,11 @@ struct MeasureAhead
 template<class Exec>
 void mark(const Exec& exec, Strays<Exec>& strays, const BodiesView& bodies)
 {
+    const auto count = static_cast<std::size_t>(bodies.count);
     strays.position.resize(bodies.count);
     strays.orientation.resize(bodies.count);
-    for_each(exec, "mark places", bodies.count, Mark{bodies, strays.position.data(), strays.orientation.data()});
+    copy(exec, strays.position.data(), bodies.position, count * sizeof(Vec3<double>));
+    copy(exec, strays.orientation.data(), bodies.orientation, count * sizeof(Quat));
 }
 
 template<class Exec>
