@@ -1,10 +1,11 @@
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
-#include "dem_scene.hpp"
+#include "dem_impact.hpp"
 
-// Exact spheres against the closed forms of verification A.
+// Exact spheres against the closed forms of verification A; A2 and A3 are in dem_chung_ooi.cpp.
 namespace tread::test
 {
 namespace
@@ -15,40 +16,6 @@ class Spheres : public DemTest<Exec>
 {
 };
 TYPED_TEST_SUITE(Spheres, Backends, BackendNames);
-
-constexpr double degree = std::numbers::pi / 180;
-
-const dem::Plane ground{{0, 0, 1}, 0.0, false};
-
-void expect_close(const char* what, double found, double expected, double tolerance)
-{
-    std::printf("%s: %.7g, expected %.7g, off by %.1e of it, tolerance %.1e\n", what, found, expected,
-                std::abs(found / expected - 1), tolerance);
-    EXPECT_NEAR(found, expected, tolerance * std::abs(expected)) << what;
-}
-
-struct Impact
-{
-    double force    = 0; ///< N, largest
-    double approach = 0; ///< m, largest
-    double duration = 0; ///< s
-};
-
-/// Follows body 0 from first to last touch.
-template<class Scene, class Approach>
-Impact follow(Scene& scene, double dt, int steps, Approach approach)
-{
-    Impact impact;
-    for (int step = 0; step < steps; ++step)
-    {
-        scene.run(dt, 1);
-        const double force = scene.bodies.force.to_host()[0].norm();
-        impact.force       = std::max(impact.force, force);
-        impact.approach    = std::max(impact.approach, approach(scene.bodies.position.to_host()));
-        if (force > 0) { impact.duration += dt; }
-    }
-    return impact;
-}
 
 TYPED_TEST(Spheres, HeadOnCollisionIsHertz)
 {
@@ -101,55 +68,6 @@ TYPED_TEST(Spheres, RestitutionIsTheOneAskedFor)
         expect_close("restitution", scene.bodies.velocity.to_host()[0][2], wanted, 1e-3);
         const double before = 0.5 * scene.bodies.mass.to_host()[0];
         EXPECT_NEAR(sums.kinetic + sums.total.restitution, before, 1e-3 * before);
-    }
-}
-
-/// A ball of A2's test 4 after it met a plane at an angle (degrees) from the normal.
-struct Oblique
-{
-    double tangential; ///< velocity after over before
-    double spin;       ///< rad/s
-};
-
-template<class Scene, class Exec>
-Oblique oblique_impact(const Exec& exec, double angle)
-{
-    constexpr double radius = 2.5e-3, speed = 3.9, dt = 6.1e-6 / 1000;
-    SolidNumbers     numbers;
-    numbers.young    = 3.8e11;
-    numbers.poisson  = 0.23;
-    numbers.friction = 0.092;
-    numbers.zeta     = damping_ratio(0.98);
-    numbers.planes   = {ground};
-    Solid ball       = solid_sphere(radius, 4000, {0, 0, radius});
-    ball.velocity    = speed * Vec3<double>(std::sin(angle * degree), 0, -std::cos(angle * degree));
-    Scene scene(exec, {exact_sphere()}, {ball}, numbers);
-    scene.run(dt, 4000);
-    const double after = scene.bodies.velocity.to_host()[0][0];
-    return {after / ball.velocity[0], scene.bodies.angular_velocity.to_host()[0][1]};
-}
-
-TYPED_TEST(Spheres, ObliqueImpactsSlideOrGrip)
-{
-    constexpr double radius = 2.5e-3, speed = 3.9, friction = 0.092, restitution = 0.98;
-    // Above 32.5 degrees they slide throughout: exact, but for the overlap, 8.1 um of the radius at 3.9 m/s, by which
-    // the arm of the spin is shorter.
-    constexpr double shorter = 8.1e-6 / radius;
-    for (const double angle : {40.0, 60.0, 80.0})
-    {
-        const Oblique found  = oblique_impact<typename TestFixture::Scene>(this->exec(), angle);
-        const double  normal = speed * std::cos(angle * degree);
-        expect_close("sliding: tangential restitution", found.tangential,
-                     1 - friction * (1 + restitution) / std::tan(angle * degree), 1e-3);
-        expect_close("sliding: spin", found.spin, 2.5 * friction * (1 + restitution) * normal / radius, 1e-3 + shorter);
-    }
-    // A2's integrator of the same law without tangential damping: 5 %
-    for (const auto& [angle, tangential, spin] :
-         {std::array{15.0, 0.630, 373.6}, std::array{20.0, 0.612, 517.6}, std::array{25.0, 0.629, 611.0}})
-    {
-        const Oblique found = oblique_impact<typename TestFixture::Scene>(this->exec(), angle);
-        expect_close("gripping: tangential restitution", found.tangential, tangential, 0.05);
-        expect_close("gripping: spin", found.spin, spin, 0.05);
     }
 }
 
