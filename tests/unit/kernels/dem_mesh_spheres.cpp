@@ -55,7 +55,7 @@ double largest_force(Scene& scene, double contact)
 }
 
 /// A patch of radius 18 mm holds 1, 5 and 21 nodes a side: single orientations scatter about the mean by as much as
-/// 40, 10 and 2 %. The law itself on exact spheres is 1.3 % below Hertz at this overlap of 7 % (2.1 % at verification
+/// 40, 10 and 2 %. The law itself on exact spheres is 1.2 % below Hertz at this overlap of 7 % (2.1 % at verification
 /// A1's 11 %, where dem_contact.cpp compares with the law).
 TYPED_TEST(MeshSpheres, LargestForceIsHertzsOnAverage)
 {
