@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/random.hpp"
 #include "dem_scene.hpp"
 #include "kernels/dem/ray_shape.hpp"
 #include "shape/flat_tree.hpp"
