@@ -103,7 +103,7 @@ Keys<Numerics> numerics_keys()
                  "Volumetric strain that the material law sees: each point's own, or the mean over its cell's points, "
                  "against locking where the flow keeps its volume (undrained clay, sand that does not dilate)."),
         optional("linear_overlap", "R*", &Numerics::linear_overlap, number(above_up_to(0, 0.1)),
-                 "Overlap below which traction between bodies is linear; 1e-2 allows thrice the step."),
+                 "Overlap below which traction between bodies is linear; 1e-2 allows 1.8 times the step of 1e-3."),
     };
 }
 
