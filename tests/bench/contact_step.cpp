@@ -26,7 +26,7 @@ struct Kind
 {
     const char* name;
     const char* shape;
-    double      node_radius; ///< of a generated sphere that is to meet others by its nodes: 0, not in closed form
+    double      closed_form; ///< 1, or 0: a generated sphere meets others by its nodes
 };
 
 /// A scene, and its bodies where they are.
@@ -49,7 +49,7 @@ Pile poured(const test::RockForms& forms, const Kind& kind)
     Pile pile{test::load_text(text), {}, 0};
     pile.world = solver::build_world(pile.scene);
     for (scene::Contact& contact : pile.scene.contacts) { contact.rolling_friction = 0.05; } // else balls roll on
-    for (shape::ShapeTemplate& form : pile.world.templates) { form.sphere_radius *= kind.node_radius; }
+    for (shape::ShapeTemplate& form : pile.world.templates) { form.sphere_radius *= kind.closed_form; }
     for (const double mass : pile.world.bodies.mass) { pile.unit += mass * test::earth * test::rock_radius; }
     return pile;
 }
