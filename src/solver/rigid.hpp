@@ -116,7 +116,7 @@ private:
     bool                                    listed_          = false; ///< pairs were found
     bool                                    watched_         = false; ///< of the present step: not only at its end
     double                                  commanded_speed_ = 0; ///< m/s, the largest that commands gave in this step
-    double                                  overlap_         = 0; ///< largest over radius before find_pairs_again
+    double                                  overlap_ = 0; ///< largest over radius, before the list was found anew
     dem::BodyLaw                            law_{};
     std::vector<bool>                       released_;            ///< named bodies that were free once
     std::vector<std::optional<BodyCommand>> commanded_;           ///< of the named bodies, the last

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "kernels/dem/pairs_kern.hpp"
+
 namespace tread::solver
 {
 namespace
@@ -14,9 +16,9 @@ constexpr double contact_safety      = 0.2; ///< of sqrt(m / sum K), prototypes 
 constexpr double contact_warning     = 0.4;
 constexpr double point_contact_bound = 0.5; ///< of k dt^2 / m_p, prototypes 2
 constexpr double point_contact_warn  = 2.0;
-constexpr double travel_bound        = 0.3;    ///< of the spacing, or of the smallest body
-constexpr double unseen_fall         = 0.0015; ///< of a body's radius: half the skin of its pairs (pairs_kern.hpp)
-constexpr double overlap_warning     = 0.1;    ///< of a radius: the head-on case itself reaches 0.11
+constexpr double travel_bound        = 0.3;               ///< of the spacing, or of the smallest body
+constexpr double unseen_fall         = dem::rest_reserve; ///< of a body's radius: what its pairs have left
+constexpr double overlap_warning     = 0.1;               ///< of a radius: the head-on case itself reaches 0.11
 constexpr double growth              = 1.05;
 constexpr double substeps_alone      = 10; ///< substeps a step where no sand sets the step
 

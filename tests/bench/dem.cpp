@@ -1,11 +1,12 @@
 #include "dem.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "timed.hpp"
 
 #include "scene/load.hpp"
 #include "solver/phases.hpp"
@@ -73,11 +74,11 @@ public:
     /// Seconds a substep, pairs included.
     double time_substeps(int steps)
     {
-        const double seconds = timed(
-            [&]
-            {
-                for (int i = 0; i < steps; ++i) { step(0); }
-            });
+        const double seconds = timed(exec_,
+                                     [&]
+                                     {
+                                         for (int i = 0; i < steps; ++i) { step(0); }
+                                     });
         return seconds / (steps * substeps_);
     }
 
@@ -86,11 +87,11 @@ public:
         double search = 0, contact = 0, move = 0;
         for (int i = 0; i < steps; ++i)
         {
-            search += timed([&] { rigid_.find_pairs(substeps_ * dt_); });
+            search += timed(exec_, [&] { rigid_.find_pairs(substeps_ * dt_); });
             for (int s = 0; s < substeps_; ++s)
             {
-                contact += timed([&] { rigid_.contact(dt_); });
-                move += timed([&] { rigid_.move(dt_, 0); });
+                contact += timed(exec_, [&] { rigid_.contact(dt_); });
+                move += timed(exec_, [&] { rigid_.move(dt_, 0); });
             }
         }
         const auto print = [&](const char* name, double seconds)
@@ -129,16 +130,6 @@ private:
         constexpr double free_flight = 1e-4; // s
         const double     contact     = rigid_.shortest_contact();
         dt_                          = contact > 0 ? share_of_contact * contact : free_flight;
-    }
-
-    template<class F>
-    double timed(F f)
-    {
-        synchronize(exec_);
-        const auto start = std::chrono::steady_clock::now();
-        f();
-        synchronize(exec_);
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
     Exec                exec_;

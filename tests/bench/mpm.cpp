@@ -1,13 +1,14 @@
 #include "mpm.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "timed.hpp"
 
 #include "solver/materials.hpp"
 #include "solver/sand.hpp"
@@ -134,11 +135,11 @@ public:
     /// Seconds of `steps` whole steps.
     double time_steps(int steps)
     {
-        return timed(
-            [&]
-            {
-                for (int i = 0; i < steps; ++i) { step(); }
-            });
+        return timed(exec_,
+                     [&]
+                     {
+                         for (int i = 0; i < steps; ++i) { step(); }
+                     });
     }
 
     /// Mean seconds of each kernel, over `steps` steps with a wait after each.
@@ -148,13 +149,13 @@ public:
         double      seconds[5] = {};
         for (int i = 0; i < steps; ++i)
         {
-            seconds[0] += timed([&] { sand_.order(); });
-            seconds[1] += timed([&] { sand_.scatter(); });
-            seconds[2] += timed([&] { sand_.update_grid(dt_, 0); });
-            seconds[3] += timed([&] { sand_.gather(dt_); });
+            seconds[0] += timed(exec_, [&] { sand_.order(); });
+            seconds[1] += timed(exec_, [&] { sand_.scatter(); });
+            seconds[2] += timed(exec_, [&] { sand_.update_grid(dt_, 0); });
+            seconds[3] += timed(exec_, [&] { sand_.gather(dt_); });
             if (i % report_every == 0)
             {
-                seconds[4] += timed([&] { sand_.report(); });
+                seconds[4] += timed(exec_, [&] { sand_.report(); });
             }
         }
         for (int k = 0; k < 5; ++k)
@@ -166,16 +167,6 @@ public:
     }
 
 private:
-    template<class F>
-    double timed(F f)
-    {
-        synchronize(exec_);
-        const auto start = std::chrono::steady_clock::now();
-        f();
-        synchronize(exec_);
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
-
     /// As solver::Simulation does where sand moves half a cell in as many steps.
     static constexpr int report_every = 8;
 

@@ -10,7 +10,7 @@ void evaluate_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodi
                     [&]<class Meet>(const Meet& meet)
                     {
                         const body_contact::EvaluatePair<Meet> evaluate{meet, bodies, law, pairs.view(), dt};
-                        constexpr std::int64_t                 worth_threads = 128;
+                        constexpr std::int64_t                 worth_threads = 512; // about a millisecond
                         for_each_heavy(
                             cpu, "body contacts", pairs.key.size(), [=](std::int64_t p) { evaluate(p); },
                             worth_threads);

@@ -273,13 +273,6 @@ TREAD_HD void add_node(const PairLaw& law, const NodeInField& node, const Relati
     sums.damping += damping * rate;
 }
 
-/// Nodes of the list that one pair has.
-struct NodeRun
-{
-    const std::int32_t* node;
-    std::int32_t        first, end;
-};
-
 /// sum f |y - x_c|^2 in the plane normal to the unit vector n, over sum f.
 TREAD_HD double spread_about(const PatchSums& sums, double inverse_weight, const Vec3<double>& centre,
                              const Vec3<double>& n)

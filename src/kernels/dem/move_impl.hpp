@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/dem/body_contact_kern.hpp"
+#include "kernels/dem/impulses_impl.hpp"
 #include "kernels/dem/integrate_impl.hpp"
 #include "kernels/dem/move.hpp"
 
@@ -94,11 +95,7 @@ struct Move
     TREAD_HD void operator()(std::int64_t b) const
     {
         if (is_large[b] == 0) { gather(b, OneLane{}); }
-        if (b < named.count)
-        {
-            named.impulse[b].linear += gather.dt * gather.bodies.force[b];
-            named.impulse[b].angular += gather.dt * gather.bodies.torque[b];
-        }
+        if (b < named.count) { impulse_steps::Add{gather.bodies, named.impulse, gather.dt}(b); }
         integrate(b);
     }
 };

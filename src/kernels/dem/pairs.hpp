@@ -11,7 +11,7 @@
 #include "kernels/dem/rolling_kern.hpp"
 #include "kernels/dem/templates.hpp"
 
-// Which bodies may touch which, and which walls, during one MPM step: found once, frozen during the substeps.
+// Which bodies may touch which, and which walls, and by which nodes: found for some steps to come, frozen in between.
 namespace tread::dem
 {
 

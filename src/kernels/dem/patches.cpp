@@ -4,7 +4,7 @@
 namespace tread::dem
 {
 
-bool split_patches(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+void split_patches(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     const auto run = [&](const char* name, std::int64_t items, const auto& item)
     {
@@ -12,7 +12,7 @@ bool split_patches(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, 
         for_each_heavy(
             cpu, name, items, [=](std::int64_t p) { item(p, OneLane{}); }, worth_threads);
     };
-    return patches::split(cpu, pairs, bodies, law, run);
+    patches::split(cpu, pairs, bodies, law, run);
 }
 
 } // namespace tread::dem

@@ -5,12 +5,12 @@
 namespace tread::dem
 {
 
-bool split_patches(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+void split_patches(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     constexpr int pair_lanes = 8;
     const auto    run        = [&](const char* name, std::int64_t items, const auto& item)
     { for_each_group<pair_lanes>(gpu, name, items, item); };
-    return patches::split(gpu, pairs, bodies, law, run);
+    patches::split(gpu, pairs, bodies, law, run);
 }
 
 } // namespace tread::dem

@@ -48,8 +48,7 @@ struct Patches
 
 /// Splits the pairs just listed, with their nodes, by the nodes that touch; the records of the last list follow the
 /// nodes, shared by their stiffness (a split keeps their energy, two that come together lose what they differ by).
-/// Returns whether any pair has several patches.
-bool split_patches(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-bool split_patches(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+void split_patches(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+void split_patches(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 } // namespace tread::dem

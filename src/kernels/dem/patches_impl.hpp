@@ -305,7 +305,7 @@ void take_over(Pairs<Exec>& pairs)
 
 /// `run`(name, items, item function) runs an item function with a backend's lanes.
 template<class Exec, class Run>
-bool split(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, Run run)
+void split(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, Run run)
 {
     Patches<Exec>&     patches = pairs.patches;
     const std::int64_t count   = pairs.key.size();
@@ -317,7 +317,7 @@ bool split(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const
     if (found == count && patches.last_place.size() == 0)
     {
         patches.place.resize(0);
-        return false;
+        return;
     }
     patches.key.resize(found);
     patches.patch.resize(found);
@@ -334,7 +334,6 @@ bool split(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const
     take_over(pairs);
     if (found > count) { pair_steps::order_again(exec, pairs, bodies); }
     else { patches.place.resize(0); }
-    return found > count;
 }
 
 } // namespace tread::dem::patches

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <chrono>
+
+#include "backend/memory.hpp"
+
+namespace tread::bench
+{
+
+/// Wall seconds of f() on a backend, waited for.
+template<class Exec, class F>
+double timed(const Exec& exec, F f)
+{
+    synchronize(exec);
+    const auto start = std::chrono::steady_clock::now();
+    f();
+    synchronize(exec);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace tread::bench
