@@ -1,6 +1,7 @@
 #include "dem.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace
 {
 
 constexpr double share_of_contact = 0.2; ///< a substep's of sqrt(m / sum K), as solver::choose_step takes
-constexpr double damping          = 0.3; ///< while the bed settles
+constexpr double damping          = 0.5; ///< while the bed settles
 
 template<class Exec>
 class DemBench
@@ -36,16 +37,24 @@ public:
         choose_substep();
     }
 
-    void settle(double time)
+    /// Until equilibrium as a phase knows it, for at most `longest`; returns the time that took, s.
+    double settle(double longest)
     {
-        double at = 0;
-        while (at < time)
+        constexpr int look_every = 64; // steps
+        const auto&   g          = scene_.domain.gravity;
+        const double  weight     = rigid_.mass() * std::hypot(g[0], g[1], g[2]);
+        double        at = 0, still_since = 0;
+        for (std::int64_t number = 1; at < longest && at - still_since < solver::PhaseClock::equilibrium_hold; ++number)
         {
             step(damping);
             at += substeps_ * dt_;
             choose_substep();
+            if (number % look_every != 0) { continue; }
+            const double out_of_balance = rigid_.report(at).net_force / weight;
+            if (!(out_of_balance <= solver::PhaseClock::equilibrium_ratio)) { still_since = at; }
         }
         rigid_.report(at);
+        return at;
     }
 
     /// Goes on with the scene's second phase for so long, s.
@@ -143,9 +152,9 @@ private:
 template<class Exec>
 void run_on(const Exec& exec, const DemCase& what, const scene::Scene& scene, const solver::World& world)
 {
-    const auto     count = static_cast<double>(world.bodies.size());
-    DemBench<Exec> bench(exec, scene, world, what.substeps);
-    bench.settle(what.settle);
+    const auto       count = static_cast<double>(world.bodies.size());
+    DemBench<Exec>   bench(exec, scene, world, what.substeps);
+    const double     settled  = bench.settle(what.settle);
     constexpr double stirring = 0.05; // s
     if (what.state == BedState::stirred) { bench.stir(stirring); }
     const auto          searches = bench.searches();
@@ -155,11 +164,12 @@ void run_on(const Exec& exec, const DemCase& what, const scene::Scene& scene, co
         3.0 * what.steps / std::max<double>(1, static_cast<double>(bench.searches() - searches));
     std::sort(times.begin(), times.end());
     const solver::ContactCount contacts = bench.contacts();
-    std::cout << fmt::format(
-        "{:.0f} bodies, a body: {:.2f} pairs, {:.2f} touch, {:.2f} nodes; substep {:.2e} s: {:.1f} us, "
-        "{:.1f}e6 body-steps/s, {:.0f} bytes a body, {:.1f} steps a search\n",
-        count, contacts.listed / count, contacts.live / count, contacts.nodes / count, bench.substep(), 1e6 * times[1],
-        1e-6 * count / times[1], static_cast<double>(exec.counters->peak_bytes()) / count, steps_a_search);
+    std::cout << fmt::format("{:.0f} bodies, settled in {:.2f} s, a body: {:.2f} pairs, {:.2f} touch, {:.2f} nodes; "
+                             "substep {:.2e} s: {:.1f} us, "
+                             "{:.1f}e6 body-steps/s, {:.0f} bytes a body, {:.1f} steps a search\n",
+                             count, settled, contacts.listed / count, contacts.live / count, contacts.nodes / count,
+                             bench.substep(), 1e6 * times[1], 1e-6 * count / times[1],
+                             static_cast<double>(exec.counters->peak_bytes()) / count, steps_a_search);
     bench.print_parts(what.steps, count);
     std::cout << std::flush;
 }

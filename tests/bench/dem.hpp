@@ -16,11 +16,11 @@ enum class BedState
 
 struct DemCase
 {
-    std::string              scene;          ///< TOML file; only its bodies count
-    std::vector<std::string> overrides;      ///< as of --set
-    double                   settle   = 0.5; ///< s, with local damping, before anything is timed
-    int                      substeps = 20;  ///< between two searches for pairs
-    int                      steps    = 16;  ///< of so many substeps, timed three times
+    std::string              scene;         ///< TOML file; only its bodies count
+    std::vector<std::string> overrides;     ///< as of --set
+    double                   settle   = 2;  ///< s, at most, with local damping, before anything is timed
+    int                      substeps = 20; ///< between two searches for pairs
+    int                      steps    = 16; ///< of so many substeps, timed three times
     BedState                 state    = BedState::settled;
     Backend                  backend  = Backend::cpu;
 };

@@ -48,7 +48,7 @@ int main(int argc, char** argv)
     CLI::App*      dem_command = app.add_subcommand("dem", "Substeps of a scene's bodies");
     dem_command->add_option("SCENE", dem.scene, "TOML file")->required();
     dem_command->add_option("--set", dem.overrides, "a.b=c, as of tread run")->expected(1)->take_all();
-    dem_command->add_option("--settle", dem.settle, "s, before anything is timed");
+    dem_command->add_option("--settle", dem.settle, "s, at most, to equilibrium before anything is timed");
     dem_command->add_option("--substeps", dem.substeps, "Between two searches for pairs");
     dem_command->add_option("--steps", dem.steps, "Timed steps of so many substeps, three times");
     add_word<bench::BedState>(*dem_command, "--state", dem.state,

@@ -13,42 +13,47 @@ namespace tread::dem
 /// for the stiffness multiplies what little energy there is.
 struct AnticipatePair
 {
-    body_contact::EvaluatePair<MeetByDistance> evaluate;
-    double                                     horizon;
-    Vec3<double>                               fall; ///< m/s, what weight adds to a free body's mean velocity
-    double*                                    entering;
+    BodiesView   bodies;
+    BodyLaw      law;
+    PairsView    pairs; ///< its nodes looked up
+    double       horizon;
+    Vec3<double> fall; ///< m/s, what weight adds to a free body's mean velocity
+    double*      entering;
 
     TREAD_HD void operator()(std::int64_t p) const
     {
-        const PairsView&          pairs = evaluate.pairs;
-        body_contact::PairSetting setting;
-        double                    found = 0;
-        if (pairs.first_node[p] < pairs.first_node[p + 1])
+        const std::int32_t first = pairs.first_node[p], last = pairs.first_node[p + 1];
+        double             found = 0;
+        if (first < last)
         {
-            evaluate.set_all(p, setting);
-            let_fall(p, setting);
-        }
-        for (std::int32_t i = pairs.first_node[p]; i < pairs.first_node[p + 1]; ++i)
-        {
-            found += stiffness(setting, evaluate.look_up(p, setting, pairs.node[i]));
+            const body_contact::PairSetting setting = body_contact::setting_of(bodies, law, pairs.key[p]);
+            const RelativeMotion            motion{setting.motion.velocity + falling(p), setting.motion.spin};
+            for (std::int32_t i = first; i < last; ++i)
+            {
+                found += entering_weight(motion, unpacked(pairs.found_node[i]));
+            }
+            found *= setting.law.linear_slope;
         }
         entering[p] = found;
     }
 
-    TREAD_HD void let_fall(std::int64_t p, body_contact::PairSetting& setting) const
+private:
+    /// m/s, of the first body relative to the second.
+    TREAD_HD Vec3<double> falling(std::int64_t p) const
     {
-        const BodiesView&  bodies = evaluate.bodies;
-        const std::int64_t a = first_of(evaluate.pairs.key[p]), b = second_of(evaluate.pairs.key[p]);
-        if (bodies.locked[a] != lock_all) { setting.motion.velocity += fall; }
-        if (b < bodies.count && bodies.locked[b] != lock_all) { setting.motion.velocity -= fall; }
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        double             sides = 0;
+        if (bodies.locked[a] != lock_all) { sides += 1; }
+        if (b < bodies.count && bodies.locked[b] != lock_all) { sides -= 1; }
+        return sides * fall;
     }
 
-    /// Of one node; 0 unless it comes inside.
-    TREAD_HD double stiffness(const body_contact::PairSetting& setting, const NodeInField& node) const
+    /// Of a node that comes inside; 0 of any other.
+    TREAD_HD double entering_weight(const RelativeMotion& motion, const NodeInField& node) const
     {
         if (node.overlap > 0) { return 0; }
-        const double way = -horizon * node.sign * node.gradient.dot(setting.motion.at(node.place));
-        return node.overlap + way > 0 ? node.weight * setting.law.linear_slope : 0.0;
+        const double way = -horizon * node.sign * node.gradient.dot(motion.at(node.place));
+        return node.overlap + way > 0 ? node.weight : 0.0;
     }
 };
 

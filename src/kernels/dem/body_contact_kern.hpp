@@ -39,6 +39,34 @@ struct NodeInField
     double       sign;     ///< +1 of a node of a, -1 of b
 };
 
+/// A node that was looked up, for the sums over a pair: rounded, but only after the overlap is known.
+struct alignas(16) FoundNode
+{
+    float place[3];
+    float overlap;
+    float gradient[3]; ///< times the sign
+    float weight;
+};
+
+TREAD_HD FoundNode packed(const NodeInField& node)
+{
+    FoundNode found;
+    for (int c = 0; c < 3; ++c)
+    {
+        found.place[c]    = static_cast<float>(node.place[c]);
+        found.gradient[c] = static_cast<float>(node.sign * node.gradient[c]);
+    }
+    found.overlap = static_cast<float>(node.overlap);
+    found.weight  = static_cast<float>(node.weight);
+    return found;
+}
+
+TREAD_HD NodeInField unpacked(const FoundNode& found)
+{
+    return {Vec3<double>(found.place[0], found.place[1], found.place[2]),
+            Vec3<double>(found.gradient[0], found.gradient[1], found.gradient[2]), found.overlap, found.weight, 1.0};
+}
+
 /// The distance field of a body.
 struct BodyField
 {

@@ -7,11 +7,7 @@ namespace tread::dem
 void expect_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
                      const Vec3<double>& gravity, double dt)
 {
-    const AnticipatePair   anticipate    = contact_limits::anticipate(pairs, bodies, law, gravity, dt);
-    constexpr std::int64_t worth_threads = 512; // as for the contacts themselves
-    for_each_heavy(
-        cpu, "anticipated contacts", pairs.key.size(), [=](std::int64_t p) { anticipate(p); }, worth_threads);
-    contact_limits::add_up(cpu, pairs, bodies, law);
+    contact_limits::expect(cpu, pairs, bodies, law, gravity, dt);
 }
 
 double smallest_contact_time(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies)

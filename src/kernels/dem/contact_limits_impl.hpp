@@ -7,6 +7,7 @@
 #include "backend/reduce.hpp"
 #include "kernels/dem/approach_kern.hpp"
 #include "kernels/dem/contact_limits.hpp"
+#include "kernels/dem/contact_nodes.hpp"
 
 // The steps of contact_limits.hpp, the same on both backends; contact_limits.cpp and .cu bring in for_each.
 namespace tread::dem::contact_limits
@@ -105,19 +106,16 @@ struct WriteOverlap
     }
 };
 
-/// What AnticipatePair writes, to be handed to add_up.
+/// As for the pairs themselves, twice dt: a body may be set going within the step.
 template<class Exec>
-AnticipatePair anticipate(Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, const Vec3<double>& gravity,
-                          double dt)
+void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, BodyLaw law, const Vec3<double>& gravity,
+            double dt)
 {
-    constexpr double twice = 2; // as for the pairs themselves: a body may be set going within the step
     pairs.measure.resize(pairs.key.size());
-    return {{{}, bodies, law, pairs.view(), dt}, twice * dt, 0.5 * dt * gravity, pairs.measure.data()};
-}
-
-template<class Exec>
-void add_up(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
-{
+    law.rays = nullptr; // tell nothing outside
+    look_up_nodes(exec, pairs, bodies, law);
+    for_each(exec, "anticipated contacts", pairs.key.size(),
+             AnticipatePair{bodies, law, pairs.view(), 2 * dt, 0.5 * dt * gravity, pairs.measure.data()});
     pairs.expected_stiffness.resize(bodies.count);
     for_each(exec, "expected contacts", bodies.count,
              ExpectContacts{bodies, law, pairs.view(), pairs.node_area.data(), pairs.measure.data(),

@@ -30,4 +30,14 @@ void list_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bod
                     });
 }
 
+void look_up_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    by_narrow_phase(law,
+                    [&]<class Meet>(const Meet& meet)
+                    {
+                        const contact_nodes::LookUp<Meet> look_up{meet, bodies, law, pairs.view()};
+                        for_each(gpu, "nodes found", pairs.node.size(), look_up);
+                    });
+}
+
 } // namespace tread::dem

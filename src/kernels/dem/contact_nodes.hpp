@@ -16,4 +16,8 @@ void count_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies
 void list_contact_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 void list_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
+/// pairs.found_node: every node of the list at the bodies' present places.
+void look_up_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+void look_up_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+
 } // namespace tread::dem

@@ -147,4 +147,32 @@ struct WriteNodes
     }
 };
 
+template<class Meet>
+struct LookUp
+{
+    Meet       meet;
+    BodiesView bodies;
+    BodyLaw    law;
+    PairsView  pairs;
+
+    TREAD_HD void operator()(std::int64_t i) const { pairs.found_node[i] = packed(find(i)); }
+
+private:
+    TREAD_HD NodeInField find(std::int64_t i) const
+    {
+        const std::uint64_t key = pairs.key[pairs.pair_of_node[i]];
+        const std::int64_t  a = first_of(key), b = second_of(key);
+        const bool          second = pairs.node[i] < 0;
+        const std::int32_t  node   = second ? ~pairs.node[i] : pairs.node[i];
+        const Vec3<double>  origin = bodies.position[a];
+        const Instance      owner  = instance_of(bodies, law.templates, second ? b : a, origin);
+        if (b >= bodies.count)
+        {
+            return in_field(Side<PlaneField>{owner, field_of(law.planes[b - bodies.count], origin), 1.0, 1.0}, node);
+        }
+        const Instance other = instance_of(bodies, law.templates, second ? a : b, origin);
+        return in_field(meet.side(owner, other, second ? -1.0 : 1.0), node);
+    }
+};
+
 } // namespace tread::dem::contact_nodes

@@ -61,6 +61,8 @@ struct PairsView
     const double*       travel;     ///< m, of every body, that the list allows for
     const std::int32_t* first_node; ///< [pairs + 1], the run of nodes that may touch, of each pair
     const std::int32_t* node;       ///< i of the first body, ~i of the second
+    const std::int32_t* pair_of_node;
+    FoundNode*          found_node; ///< of the last look
 };
 
 /// Owner of what PairsView shows, and of the search's scratch. A checkpoint stores key and patch.
@@ -92,6 +94,8 @@ struct Pairs
         , measure(exec, "pair measures")
         , first_node(exec, "nodes of pairs")
         , node(exec, "pair nodes")
+        , pair_of_node(exec, "pairs of nodes")
+        , found_node(exec, "nodes found")
         , sort(exec)
         , patches(exec)
     {
@@ -99,10 +103,11 @@ struct Pairs
 
     PairsView view()
     {
-        return {key.size(),       key.data(),        patch.data(),
-                response.data(),  peak.data(),       first.data(),
-                by_second.data(), second.data(),     resists_rolling ? rolling.data() : nullptr,
-                travel.data(),    first_node.data(), node.data()};
+        return {key.size(),          key.data(),        patch.data(),
+                response.data(),     peak.data(),       first.data(),
+                by_second.data(),    second.data(),     resists_rolling ? rolling.data() : nullptr,
+                travel.data(),       first_node.data(), node.data(),
+                pair_of_node.data(), found_node.data()};
     }
 
     Array<Exec, std::uint64_t> key;
@@ -131,6 +136,8 @@ struct Pairs
     Array<Exec, double>        measure;
     Array<Exec, std::int32_t>  first_node;
     Array<Exec, std::int32_t>  node;
+    Array<Exec, std::int32_t>  pair_of_node;
+    Array<Exec, FoundNode>     found_node;
     SortScratch<Exec>          sort;
     Patches<Exec>              patches;
     bool                       resists_rolling = false; ///< some pair of materials has rolling friction

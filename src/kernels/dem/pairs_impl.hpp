@@ -170,6 +170,21 @@ struct WriteRuns
     }
 };
 
+/// Of each node in the list, its pair.
+struct WritePairsOfNodes
+{
+    const std::int32_t* first_node; ///< [pairs + 1]
+    std::int32_t*       pair_of_node;
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        for (std::int32_t i = first_node[p]; i < first_node[p + 1]; ++i)
+        {
+            pair_of_node[i] = static_cast<std::int32_t>(p);
+        }
+    }
+};
+
 /// Bodies in the cells of a grid as wide as the widest pair; returns the width.
 template<class Exec>
 double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates,
@@ -301,6 +316,10 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
     if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }
+    pairs.pair_of_node.resize(pairs.node.size());
+    pairs.found_node.resize(pairs.node.size());
+    for_each(exec, "pairs of nodes", pairs.key.size(),
+             WritePairsOfNodes{pairs.first_node.data(), pairs.pair_of_node.data()});
 }
 
 } // namespace tread::dem
