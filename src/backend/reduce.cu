@@ -1,5 +1,6 @@
 #include "backend/launch.cuh"
 #include "backend/reduce.hpp"
+#include "backend/warp.cuh"
 
 namespace tread
 {
@@ -100,6 +101,33 @@ struct SumChunk
     }
 };
 
+/// One block a chunk of a column's rows. Numbers from 0 on are in the order of their bits.
+struct LargestOfChunk
+{
+    const double*       rows;
+    std::int64_t        count;
+    int                 width;
+    unsigned long long* out;
+
+    __device__ void operator()(std::int64_t block) const
+    {
+        const std::int64_t column = block / chunks, chunk = block % chunks, end = (chunk + 1) * count / chunks;
+        double             largest = 0;
+        for (std::int64_t row = chunk * count / chunks + threadIdx.x; row < end; row += chunk_threads)
+        {
+            largest = Larger{}(largest, rows[row * width + column]);
+        }
+        for (int across = warp_size / 2; across > 0; across /= 2)
+        {
+            largest = Larger{}(largest, __shfl_xor_sync(all_lanes, largest, across));
+        }
+        if (threadIdx.x % warp_size == 0)
+        {
+            atomicMax(out + column, static_cast<unsigned long long>(__double_as_longlong(largest)));
+        }
+    }
+};
+
 } // namespace
 
 void sum_rows(const Gpu& gpu, const double* rows, std::int64_t count, int width, double* out,
@@ -122,6 +150,13 @@ void sum_rows(const Gpu& gpu, const double* rows, std::int64_t count, int width,
 
 void largest_of_rows(const Gpu& gpu, const double* rows, std::int64_t count, int width, double* out)
 {
+    if (count >= many_rows)
+    {
+        fill_zero(gpu, out, static_cast<std::size_t>(width) * sizeof(double));
+        for_each_block<chunk_threads>(gpu, "largest of rows", chunks * width,
+                                      LargestOfChunk{rows, count, width, reinterpret_cast<unsigned long long*>(out)});
+        return;
+    }
     for_each_block<fold_threads>(gpu, "largest of rows", width, FoldColumn<Larger>{rows, count, width, out, {}});
 }
 

@@ -6,6 +6,8 @@ namespace tread::dem
 namespace
 {
 
+constexpr int body_lanes = 1;
+
 /// A warp for a large body, which may have thousands of pairs.
 struct GatherLarge
 {
@@ -27,7 +29,7 @@ void move_bodies(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, Bo
     const moving::GatherBody gather{bodies, pairs.view(), totals, motion.dt};
     for_each_group<warp_size>(gpu, "gather large bodies", pairs.large.size(), GatherLarge{gather, pairs.large.data()});
     moving::with_move(gather, pairs.is_large.data(), named, motion,
-                      [&](const auto& move) { for_each(gpu, "move bodies", bodies.count, move); });
+                      [&](const auto& move) { for_each_group<body_lanes>(gpu, "move bodies", bodies.count, move); });
 }
 
 } // namespace tread::dem

@@ -92,9 +92,11 @@ struct Move
     NamedImpulses       named;
     Integrate           integrate;
 
-    TREAD_HD void operator()(std::int64_t b) const
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
     {
-        if (is_large[b] == 0) { gather(b, OneLane{}); }
+        if (is_large[b] == 0) { gather(b, lanes); }
+        if (lanes.lane() != 0) { return; }
         if (b < named.count) { impulse_steps::Add{gather.bodies, named.impulse, gather.dt}(b); }
         integrate(b);
     }
