@@ -19,16 +19,27 @@ struct PairSetting
     const Plane*   wall; ///< null between bodies
 };
 
+TREAD_HD const Plane* wall_of(const BodiesView& bodies, const BodyLaw& law, std::uint64_t key)
+{
+    const std::int64_t b = second_of(key);
+    return b < bodies.count ? nullptr : law.planes + (b - bodies.count);
+}
+
+TREAD_HD Vec3<double> arm_of(const BodiesView& bodies, std::uint64_t key)
+{
+    const std::int64_t a = first_of(key), b = second_of(key);
+    return b < bodies.count ? Vec3<double>(bodies.position[b] - bodies.position[a]) : Vec3<double>::Zero();
+}
+
 TREAD_HD PairSetting setting_of(const BodiesView& bodies, const BodyLaw& law, std::uint64_t key)
 {
     const std::int64_t a = first_of(key), b = second_of(key);
     PairSetting        setting{law_of(bodies, law, key),
                         {bodies.velocity[a], bodies.angular_velocity[a]},
-                        Vec3<double>::Zero(),
-                        b < bodies.count ? nullptr : law.planes + (b - bodies.count)};
+                        arm_of(bodies, key),
+                        wall_of(bodies, law, key)};
     if (setting.wall != nullptr) { return setting; }
     const Vec3<double> spin = bodies.angular_velocity[b];
-    setting.arm             = bodies.position[b] - bodies.position[a];
     setting.motion.velocity += spin.cross(setting.arm) - bodies.velocity[b];
     setting.motion.spin -= spin;
     return setting;
@@ -49,36 +60,12 @@ struct AnswerPair
     {
         const PairSetting setting = setting_of(bodies, law, pairs.key[p]);
         Patch             patch   = pairs.patch[p];
-        NodeSums          sums    = sum_nodes(p, setting, OneLane{});
+        NodeSums          sums    = sum_nodes(p, setting);
         touch_spheres(p, setting, sums);
         const PairResponse response = answer(p, setting, sums, patch);
         pairs.patch[p]              = patch;
         pairs.response[p]           = response;
         pairs.peak[p]               = std::fmax(pairs.peak[p], response.overlap);
-    }
-
-    /// Of the pair's nodes: the stiffness of all, the rest of those that are this lane's.
-    template<class Lanes>
-    TREAD_HD NodeSums sum_nodes(std::int64_t p, const PairSetting& setting, const Lanes& lanes) const
-    {
-        const std::int32_t first = pairs.first_node[p] + lanes.lane(), last = pairs.first_node[p + 1];
-        NodeSums           sums = no_nodes();
-        for (std::int32_t i = first; i < last; i += lanes.lanes())
-        {
-            const NodeInField node = unpacked(pairs.found_node[i]);
-            if (!(node.overlap > 0)) { continue; }
-            const double stiffening = setting.wall == nullptr ? Meet::stiffening(node) : 1.0;
-            add_stiffness(setting.law, node, stiffening, sums.stiffness);
-        }
-        sums.stiffness = {lanes.sum(sums.stiffness.sum), lanes.largest(sums.stiffness.overlap)};
-        if (!(sums.stiffness.overlap > 0)) { return sums; }
-        const double relaxation = relaxation_time(setting.law, sums.stiffness.sum);
-        for (std::int32_t i = first; i < last; i += lanes.lanes())
-        {
-            const NodeInField node = unpacked(pairs.found_node[i]);
-            if (node.overlap > 0) { add_node(setting.law, node, setting.motion, relaxation, sums.patch); }
-        }
-        return sums;
     }
 
     /// Exact spheres have a closed form instead of nodes.
@@ -101,6 +88,29 @@ struct AnswerPair
     }
 
 private:
+    TREAD_HD NodeSums sum_nodes(std::int64_t p, const PairSetting& setting) const
+    {
+        NodeSums   sums = no_nodes();
+        const auto each = [&](auto visit)
+        {
+            for (std::int32_t i = pairs.first_node[p]; i < pairs.first_node[p + 1]; ++i)
+            {
+                const NodeInField node = unpacked(pairs.found_node[i]);
+                if (node.overlap > 0) { visit(node); }
+            }
+        };
+        each(
+            [&](const NodeInField& node)
+            {
+                const double stiffening = setting.wall == nullptr ? Meet::stiffening(node) : 1.0;
+                add_stiffness(setting.law, node, stiffening, sums.stiffness);
+            });
+        if (!(sums.stiffness.overlap > 0)) { return sums; }
+        const double relaxation = relaxation_time(setting.law, sums.stiffness.sum);
+        each([&](const NodeInField& node) { add_node(setting.law, node, setting.motion, relaxation, sums.patch); });
+        return sums;
+    }
+
     /// m; 0 of a body that is no exact sphere.
     TREAD_HD double exact_radius(std::int64_t b) const
     {

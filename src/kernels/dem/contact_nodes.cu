@@ -4,8 +4,8 @@
 namespace tread::dem
 {
 
-/// Lanes that share a pair: as many as a body of 162 nodes has clusters, or close to it.
-constexpr int node_lanes = 8;
+/// Lanes that share a pair: a cluster of nodes at a time.
+constexpr int node_lanes = 32;
 
 void count_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {

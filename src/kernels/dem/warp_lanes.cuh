@@ -8,25 +8,9 @@
 namespace tread::dem
 {
 
-/// Who takes part in a group's exchanges: the group alone, whatever the warp's others do.
-template<int size>
-struct GroupAlone
-{
-    __device__ static unsigned mask()
-    {
-        return all_lanes >> (warp_size - size) << (static_cast<int>(threadIdx.x) % warp_size / size * size);
-    }
-};
-
-/// All groups of the warp together, which saves each exchange the question.
-struct WholeWarp
-{
-    __device__ static unsigned mask() { return all_lanes; }
-};
-
 /// `size` neighbouring lanes of a warp, which share one item (see OneLane). Every sum is a butterfly: fixed order, same
 /// bits in every lane.
-template<int size, class Partners = GroupAlone<size>>
+template<int size>
 struct GroupLanes
 {
     static_assert(warp_size % size == 0);
@@ -53,35 +37,6 @@ struct GroupLanes
         return value;
     }
 
-    /// out[i], unless null, = the sum of all lanes' values[i], all at once: with every exchange a lane hands half of
-    /// its values on, so that 24 values of 8 lanes take 21 exchanges instead of 72.
-    template<int count>
-    __device__ void sum_all(const double (&values)[count], double* out) const
-    {
-        constexpr int padded = (count + size - 1) / size * size;
-        double        part[padded];
-#pragma unroll
-        for (int i = 0; i < padded; ++i) { part[i] = i < count ? values[i] : 0.0; }
-        int first_value = 0;
-#pragma unroll
-        for (int across = size / 2, half = padded / 2; across > 0; across /= 2, half /= 2)
-        {
-            const bool upper = (lane() & across) != 0;
-#pragma unroll
-            for (int i = 0; i < half; ++i)
-            {
-                const double kept = upper ? part[i + half] : part[i], handed = upper ? part[i] : part[i + half];
-                part[i] = kept + __shfl_xor_sync(everyone(), handed, across);
-            }
-            if (upper) { first_value += half; }
-        }
-#pragma unroll
-        for (int i = 0; i < padded / size; ++i)
-        {
-            if (out != nullptr && first_value + i < count) { out[first_value + i] = part[i]; }
-        }
-    }
-
     __device__ double largest(double value) const
     {
         for (int distance = size / 2; distance > 0; distance /= 2)
@@ -95,7 +50,8 @@ private:
     /// The group's first lane in its warp.
     __device__ static int first() { return static_cast<int>(threadIdx.x) % warp_size / size * size; }
 
-    __device__ static unsigned everyone() { return Partners::mask(); }
+    /// The group alone, whatever the warp's others do.
+    __device__ static unsigned everyone() { return all_lanes >> (warp_size - size) << first(); }
 };
 
 /// Runs f(i, GroupLanes<size>) for i in [0, n), `size` lanes an item.

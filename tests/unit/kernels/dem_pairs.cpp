@@ -42,7 +42,7 @@ std::vector<Solid> crowd(int count)
 double grown(const Solid& solid)
 {
     const double r = solid.scale, way = step * (solid.velocity.norm() + solid.spin.norm() * r);
-    return r + 2.1 * way + 0.003 * r + std::min(12 * way, 0.1 * r);
+    return r + 2.1 * way + 0.003 * r + std::min(6 * way, 0.05 * r);
 }
 
 std::vector<std::uint64_t> brute_force(const std::vector<Solid>& solids, const std::vector<dem::Plane>& planes)
