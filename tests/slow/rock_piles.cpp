@@ -1,6 +1,6 @@
 #include "../physics/rock_rest.hpp"
 
-// Piles of a hundred rocks of one kind (prototypes 1): damped, then left alone for 2 s.
+// Piles of a hundred rocks of each kind and of all kinds (prototypes 1): damped, then left alone for 2 s.
 namespace
 {
 
@@ -40,5 +40,7 @@ void expect_pile_rests(const Exec& exec, const std::vector<std::string>& kinds, 
 
 TYPED_TEST(RockPiles, BumpyRocksRest) { expect_pile_rests(this->exec(), {"bumpy"}, 100); }
 TYPED_TEST(RockPiles, RoundedCubesRest) { expect_pile_rests(this->exec(), {"rounded"}, 100); }
+TYPED_TEST(RockPiles, CubesRest) { expect_pile_rests(this->exec(), {"cube"}, 100); }
+TYPED_TEST(RockPiles, AllKindsTogetherRest) { expect_pile_rests(this->exec(), {"bumpy", "rounded", "cube"}, 34); }
 
 } // namespace

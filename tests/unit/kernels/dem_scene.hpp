@@ -31,6 +31,7 @@ struct SolidShape
     std::vector<float>          corners;
     std::array<std::int32_t, 3> bricks{};
     double                      fine_reach = 0;
+    double                      steepest   = std::numbers::sqrt3; ///< slope of the interpolant, at most
     std::vector<Vec3<double>>   positions;
     std::vector<double>         areas;
     std::vector<Vec3<double>>   centres; ///< of clusters
@@ -316,7 +317,7 @@ private:
             view.sdf_origin          = shape.origin;
             view.sdf_spacing         = shape.spacing;
             view.sdf_inverse_spacing = 1 / shape.spacing;
-            view.sdf_steepest        = std::sqrt(3.0);
+            view.sdf_steepest        = shape.steepest;
             std::copy(shape.nodes.begin(), shape.nodes.end(), view.sdf_nodes);
             view.sdf_values     = keep(floats_, shape.values);
             view.sdf_slots      = shape.slots.empty() ? nullptr : keep(integers_, shape.slots);
