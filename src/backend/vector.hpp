@@ -21,6 +21,22 @@ using Mat3 = Eigen::Matrix<Real, 3, 3>;
 template<class Real>
 using Sym3 = Eigen::Matrix<Real, 6, 1>;
 
+template<class Real>
+TREAD_HD Mat3<Real> full(const Sym3<Real>& s)
+{
+    Mat3<Real> m;
+    m << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
+    return m;
+}
+
+template<class Real>
+TREAD_HD Sym3<Real> symmetric(const Mat3<Real>& m)
+{
+    Sym3<Real> s;
+    s << m(0, 0), m(1, 1), m(2, 2), m(1, 2), m(0, 2), m(0, 1);
+    return s;
+}
+
 using Quat = Eigen::Quaternion<double>;
 
 /// Components in planes, one after the other, `stride` values apart: neighbouring items are neighbours in memory.

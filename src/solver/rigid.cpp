@@ -134,15 +134,15 @@ void Rigid<Exec>::upload(const World& world, const Plan& plan)
 {
     const HostBodies&          host = world.bodies;
     const std::size_t          n    = host.size();
-    std::vector<Mat3<double>>  inertia, inverse;
+    std::vector<Sym3<double>>  inertia;
     std::vector<std::uint32_t> locked(n, 0);
     std::vector<std::int32_t>  damped(n, 1);
     for (std::size_t b = 0; b < n; ++b)
     {
         const auto& unit = world.templates[static_cast<std::size_t>(host.shape[b])].unit;
         // At scale s a mass m has the inertia of density m / (s^3 V): m / V times s^2 times that of density 1.
-        inertia.push_back(unit.inertia * (host.mass[b] / unit.volume * host.scale[b] * host.scale[b]));
-        inverse.push_back(inertia.back().inverse());
+        inertia.push_back(
+            symmetric<double>(unit.inertia * (host.mass[b] / unit.volume * host.scale[b] * host.scale[b])));
         mass_ += host.mass[b];
         if (b < static_cast<std::size_t>(named_))
         {
@@ -156,7 +156,6 @@ void Rigid<Exec>::upload(const World& world, const Plan& plan)
     bodies_.angular_velocity.assign(std::vector<Vec3<double>>(n, Vec3<double>::Zero()));
     bodies_.mass.assign(host.mass);
     bodies_.inertia.assign(inertia);
-    bodies_.inverse_inertia.assign(inverse);
     bodies_.scale.assign(host.scale);
     bodies_.shape.assign(host.shape);
     bodies_.material.assign(host.material);
@@ -211,7 +210,7 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
         }
         if (velocity == velocity_before && spin == spin_before && locked == command.locked) { continue; }
 
-        const Mat3<double> inertia = rotation * read(exec_, bodies_.inertia.data() + b) * rotation.transpose();
+        const Mat3<double> inertia = rotation * full(read(exec_, bodies_.inertia.data() + b)) * rotation.transpose();
         const double       mass    = world_.bodies.mass[b];
         command_impulse_ += mass * (velocity - velocity_before);
         command_work_ += 0.5 * mass * (velocity.squaredNorm() - velocity_before.squaredNorm()) +
@@ -231,7 +230,8 @@ void Rigid<Exec>::find_pairs(double dt)
     const bool holds =
         listed_ && !pairs_.patches.wanted &&
         dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), dt) <= 1;
-    if (!holds)
+    if (holds) { dem::stage_bodies(exec_, pairs_, bodies_.view()); } // commands change bodies too
+    else
     {
         dem::find_pairs(exec_, pairs_, bodies_.view(), law_, dt);
         dem::mark_places(exec_, strays_, bodies_.view());
@@ -271,10 +271,9 @@ double Rigid<Exec>::shortest_contact()
 template<class Exec>
 ContactCount Rigid<Exec>::count_contacts()
 {
-    const std::vector<dem::PairResponse> responses = pairs_.response.to_host();
-    const auto                           live =
-        std::count_if(responses.begin(), responses.end(), [](const auto& pair) { return pair.overlap > 0; });
-    return {static_cast<double>(responses.size()), static_cast<double>(live), static_cast<double>(pairs_.node.size())};
+    const std::vector<double> stiffness = pairs_.answers.stiffness.to_host();
+    const auto live = std::count_if(stiffness.begin(), stiffness.end(), [](double value) { return value > 0; });
+    return {static_cast<double>(stiffness.size()), static_cast<double>(live), static_cast<double>(pairs_.node.size())};
 }
 
 template<class Exec>

@@ -26,7 +26,7 @@ struct AnticipatePair
         double             found = 0;
         if (first < last)
         {
-            const body_contact::PairSetting setting = body_contact::setting_of(bodies, law, pairs.key[p]);
+            const body_contact::PairSetting setting = body_contact::setting_of(pairs, law, bodies.count, pairs.key[p]);
             const RelativeMotion            motion{setting.motion.velocity + falling(p), setting.motion.spin};
             for (std::int32_t i = first; i < last; ++i)
             {

@@ -32,8 +32,7 @@ struct BodiesView
     Vec3<double>*  velocity;         ///< m/s
     Vec3<double>*  angular_velocity; ///< rad/s
     double*        mass;             ///< kg
-    Mat3<double>*  inertia;          ///< kg m2, body frame
-    Mat3<double>*  inverse_inertia;  ///< body frame
+    Sym3<double>*  inertia;          ///< kg m2, body frame
     double*        scale;            ///< of the template
     std::int32_t*  shape;            ///< index of the template
     std::int32_t*  material;         ///< index of the material
@@ -57,7 +56,6 @@ struct Bodies
         , angular_velocity(exec, "body angular velocity")
         , mass(exec, "body mass")
         , inertia(exec, "body inertia")
-        , inverse_inertia(exec, "body inverse inertia")
         , scale(exec, "body scale")
         , shape(exec, "body shape")
         , material(exec, "body material")
@@ -73,10 +71,10 @@ struct Bodies
 
     BodiesView view()
     {
-        return {position.size(),  position.data(),   orientation.data(),     velocity.data(), angular_velocity.data(),
-                mass.data(),      inertia.data(),    inverse_inertia.data(), scale.data(),    shape.data(),
-                material.data(),  locked.data(),     damped.data(),          force.data(),    torque.data(),
-                stiffness.data(), sand_force.data(), sand_torque.data()};
+        return {position.size(),   position.data(),   orientation.data(), velocity.data(), angular_velocity.data(),
+                mass.data(),       inertia.data(),    scale.data(),       shape.data(),    material.data(),
+                locked.data(),     damped.data(),     force.data(),       torque.data(),   stiffness.data(),
+                sand_force.data(), sand_torque.data()};
     }
 
     Array<Exec, Vec3<double>>  position;
@@ -84,8 +82,7 @@ struct Bodies
     Array<Exec, Vec3<double>>  velocity;
     Array<Exec, Vec3<double>>  angular_velocity;
     Array<Exec, double>        mass;
-    Array<Exec, Mat3<double>>  inertia;
-    Array<Exec, Mat3<double>>  inverse_inertia;
+    Array<Exec, Sym3<double>>  inertia;
     Array<Exec, double>        scale;
     Array<Exec, std::int32_t>  shape;
     Array<Exec, std::int32_t>  material;

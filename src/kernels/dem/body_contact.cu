@@ -47,22 +47,18 @@ struct AnswerWarp
 
     static constexpr int sums_of_patch = sizeof(PatchSums) / sizeof(double);
 
-    /// What the nodes of a pair need of it.
     struct NodeSetting
     {
         PairLaw        law;
         RelativeMotion motion;
+        Vec3<double>   arm;
         double         relaxation;
     };
 
     struct Shared
     {
         NodeSetting setting[size];
-        union
-        {
-            NodeSums     sums[size];
-            PairResponse response[size];
-        };
+        NodeSums    sums[size];
         union
         {
             double value[sums_of_patch][warp_size]; ///< of the nodes at hand
@@ -105,8 +101,8 @@ private:
         }
         if (run.lane >= run.count) { return; }
         const PairSetting setting =
-            body_contact::setting_of(answer.bodies, answer.law, answer.pairs.key[run.begin + run.lane]);
-        shared.setting[run.lane] = {setting.law, setting.motion, 0};
+            body_contact::setting_of(answer.pairs, answer.law, answer.bodies, answer.pairs.key[run.begin + run.lane]);
+        shared.setting[run.lane] = {setting.law, setting.motion, setting.arm, 0};
         shared.sums[run.lane]    = no_nodes();
     }
 
@@ -133,7 +129,7 @@ private:
             own_node(run, shared, base,
                      [&](const NodeInField& node, int pair)
                      {
-                         const bool wall = second_of(answer.pairs.key[run.begin + pair]) >= answer.bodies.count;
+                         const bool wall = second_of(answer.pairs.key[run.begin + pair]) >= answer.bodies;
                          add_stiffness(shared.setting[pair].law, node, wall ? 1.0 : Meet::stiffening(node), own);
                      });
             __syncwarp();
@@ -194,30 +190,21 @@ private:
 
     __device__ void write_answers(const Run& run, Shared& shared) const
     {
-        const PairsView&   pairs    = answer.pairs;
-        const bool         exists   = run.lane < run.count;
-        const std::int64_t p        = run.begin + run.lane;
-        PairResponse       response = no_response();
-        Patch              patch    = no_patch();
+        const PairsView&   pairs  = answer.pairs;
+        const bool         exists = run.lane < run.count;
+        const std::int64_t p      = run.begin + run.lane;
         if (exists)
         {
             const NodeSetting& known   = shared.setting[run.lane];
-            const PairSetting  setting = {known.law, known.motion, body_contact::arm_of(answer.bodies, pairs.key[p]),
-                                          body_contact::wall_of(answer.bodies, answer.law, pairs.key[p])};
-            patch                      = pairs.patch[p];
+            const PairSetting  setting = {known.law, known.motion, known.arm,
+                                          body_contact::wall_of(answer.law, answer.bodies, pairs.key[p])};
+            Patch              patch   = pairs.patch[p];
             answer.touch_spheres(p, setting, shared.sums[run.lane]);
-            response      = answer.answer(p, setting, shared.sums[run.lane], patch);
-            pairs.peak[p] = fmax(pairs.peak[p], response.overlap);
-        }
-        __syncwarp();
-        if (exists)
-        {
-            shared.patch[run.lane]    = patch;
-            shared.response[run.lane] = response;
+            answer.write(p, answer.answer(p, setting, shared.sums[run.lane], patch));
+            shared.patch[run.lane] = patch;
         }
         __syncwarp();
         copy_words(pairs.patch + run.begin, shared.patch, run.count);
-        copy_words(pairs.response + run.begin, shared.response, run.count);
     }
 };
 
@@ -229,32 +216,25 @@ struct AnswerSpheres
 
     __device__ void operator()(std::int64_t block) const
     {
-        __shared__ Raw<PairResponse[warp_size]> raw[warps];
-        PairResponse*                           responses = raw[threadIdx.x / warp_size].value;
-        auto*                                   patches   = reinterpret_cast<Patch*>(responses);
-        const PairsView&                        pairs     = answer.pairs;
-        const std::int64_t                      begin     = (block * warps + threadIdx.x / warp_size) * warp_size;
+        __shared__ Raw<Patch[warp_size]> raw[warps];
+        Patch*                           patches = raw[threadIdx.x / warp_size].value;
+        const PairsView&                 pairs   = answer.pairs;
+        const std::int64_t               begin   = (block * warps + threadIdx.x / warp_size) * warp_size;
         const auto count = static_cast<int>(pairs.count - begin < warp_size ? pairs.count - begin : warp_size);
         if (count <= 0) { return; }
         const int mine = static_cast<int>(threadIdx.x) % warp_size;
         copy_words(patches, pairs.patch + begin, count);
         __syncwarp();
-        PairResponse response = no_response();
         if (mine < count)
         {
             const std::int64_t p       = begin + mine;
-            const PairSetting  setting = body_contact::setting_of(answer.bodies, answer.law, pairs.key[p]);
+            const PairSetting  setting = body_contact::setting_of(pairs, answer.law, answer.bodies, pairs.key[p]);
             NodeSums           sums    = no_nodes();
             answer.touch_spheres(p, setting, sums);
-            response      = answer.answer(p, setting, sums, patches[mine]);
-            pairs.peak[p] = fmax(pairs.peak[p], response.overlap);
+            answer.write(p, answer.answer(p, setting, sums, patches[mine]));
         }
         __syncwarp();
         copy_words(pairs.patch + begin, patches, count);
-        __syncwarp();
-        if (mine < count) { responses[mine] = response; }
-        __syncwarp();
-        copy_words(pairs.response + begin, responses, count);
     }
 };
 
@@ -283,11 +263,11 @@ void evaluate_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodi
     look_up_nodes(gpu, pairs, bodies, law);
     by_narrow_phase(law,
                     [&](const auto& meet) {
-                        answer_pairs(gpu, AnswerPair{meet, bodies, law, pairs.view(), dt}, pairs.node.size());
+                        answer_pairs(gpu, AnswerPair{meet, bodies.count, law, pairs.view(), dt}, pairs.node.size());
                     });
     if (!pairs.resists_rolling) { return; }
     for_each(gpu, "resistance to rolling", pairs.key.size(),
-             body_contact::ResistRolling{bodies, law, pairs.view(), dt});
+             body_contact::ResistRolling{bodies.count, law, pairs.view(), dt});
 }
 
 } // namespace tread::dem

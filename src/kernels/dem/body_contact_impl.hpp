@@ -19,30 +19,25 @@ struct PairSetting
     const Plane*   wall; ///< null between bodies
 };
 
-TREAD_HD const Plane* wall_of(const BodiesView& bodies, const BodyLaw& law, std::uint64_t key)
+/// `bodies` = how many there are.
+TREAD_HD const Plane* wall_of(const BodyLaw& law, std::int64_t bodies, std::uint64_t key)
 {
     const std::int64_t b = second_of(key);
-    return b < bodies.count ? nullptr : law.planes + (b - bodies.count);
+    return b < bodies ? nullptr : law.planes + (b - bodies);
 }
 
-TREAD_HD Vec3<double> arm_of(const BodiesView& bodies, std::uint64_t key)
+TREAD_HD PairSetting setting_of(const PairsView& pairs, const BodyLaw& law, std::int64_t bodies, std::uint64_t key)
 {
-    const std::int64_t a = first_of(key), b = second_of(key);
-    return b < bodies.count ? Vec3<double>(bodies.position[b] - bodies.position[a]) : Vec3<double>::Zero();
-}
-
-TREAD_HD PairSetting setting_of(const BodiesView& bodies, const BodyLaw& law, std::uint64_t key)
-{
-    const std::int64_t a = first_of(key), b = second_of(key);
-    PairSetting        setting{law_of(bodies, law, key),
-                        {bodies.velocity[a], bodies.angular_velocity[a]},
-                        arm_of(bodies, key),
-                        wall_of(bodies, law, key)};
-    if (setting.wall != nullptr) { return setting; }
-    const Vec3<double> spin = bodies.angular_velocity[b];
-    setting.motion.velocity += spin.cross(setting.arm) - bodies.velocity[b];
-    setting.motion.spin -= spin;
-    return setting;
+    const ContactBody a    = load(pairs.body + first_of(key));
+    const LawSide     side = side_of(a, law.templates);
+    const Plane*      wall = wall_of(law, bodies, key);
+    if (wall != nullptr) { return {law_against(law, side, *wall), {a.velocity, a.spin}, Vec3<double>::Zero(), wall}; }
+    const ContactBody  b   = load(pairs.body + second_of(key));
+    const Vec3<double> arm = b.position - a.position;
+    return {law_between(law, side, side_of(b, law.templates)),
+            {a.velocity + (b.spin.cross(arm) - b.velocity), a.spin - b.spin},
+            arm,
+            nullptr};
 }
 
 /// Answers a pair when its nodes were looked up (contact_nodes.hpp). Meet: how two bodies see each other,
@@ -50,22 +45,26 @@ TREAD_HD PairSetting setting_of(const BodiesView& bodies, const BodyLaw& law, st
 template<class Meet>
 struct AnswerPair
 {
-    Meet       meet;
-    BodiesView bodies;
-    BodyLaw    law;
-    PairsView  pairs;
-    double     dt;
+    Meet         meet;
+    std::int64_t bodies; ///< how many
+    BodyLaw      law;
+    PairsView    pairs;
+    double       dt;
 
     TREAD_HD void operator()(std::int64_t p) const
     {
-        const PairSetting setting = setting_of(bodies, law, pairs.key[p]);
+        const PairSetting setting = setting_of(pairs, law, bodies, pairs.key[p]);
         Patch             patch   = pairs.patch[p];
         NodeSums          sums    = sum_nodes(p, setting);
         touch_spheres(p, setting, sums);
-        const PairResponse response = answer(p, setting, sums, patch);
-        pairs.patch[p]              = patch;
-        pairs.response[p]           = response;
-        pairs.peak[p]               = std::fmax(pairs.peak[p], response.overlap);
+        write(p, answer(p, setting, sums, patch));
+        pairs.patch[p] = patch;
+    }
+
+    TREAD_HD void write(std::int64_t p, const PairResponse& response) const
+    {
+        pairs.answers.store(p, response);
+        pairs.peak[p] = std::fmax(pairs.peak[p], response.overlap);
     }
 
     /// Exact spheres have a closed form instead of nodes.
@@ -82,7 +81,7 @@ struct AnswerPair
     TREAD_HD PairResponse answer(std::int64_t p, const PairSetting& setting, const NodeSums& sums, Patch& patch) const
     {
         if (!(sums.stiffness.overlap > 0)) { return release(setting.law, patch); }
-        const Vec3<double> spin = bodies.angular_velocity[first_of(pairs.key[p])];
+        const Vec3<double> spin = pairs.body[first_of(pairs.key[p])].spin;
         const Spins        spins{spin, spin - setting.motion.spin};
         return respond(setting.law, sums, setting.motion, spins, setting.arm, patch, dt);
     }
@@ -114,32 +113,37 @@ private:
     /// m; 0 of a body that is no exact sphere.
     TREAD_HD double exact_radius(std::int64_t b) const
     {
-        return bodies.scale[b] * law.templates[bodies.shape[b]].sphere_radius;
+        return pairs.body[b].scale * law.templates[pairs.body[b].shape].sphere_radius;
     }
 
     TREAD_HD SphereContact touch_of(std::int64_t a, std::int64_t b, const PairSetting& setting) const
     {
         return setting.wall == nullptr
                    ? contact_of_spheres(exact_radius(a), exact_radius(b), setting.arm)
-                   : contact_with_plane(exact_radius(a), field_of(*setting.wall, bodies.position[a]));
+                   : contact_with_plane(exact_radius(a), field_of(*setting.wall, pairs.body[a].position));
     }
 };
 
 /// A launch of its own, in scenes that have it.
 struct ResistRolling
 {
-    BodiesView bodies;
-    BodyLaw    law;
-    PairsView  pairs;
-    double     dt;
+    std::int64_t bodies; ///< how many
+    BodyLaw      law;
+    PairsView    pairs;
+    double       dt;
 
     TREAD_HD void operator()(std::int64_t p) const
     {
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-        const bool         wall = b >= bodies.count;
-        const PairLaw      pair = law_of(bodies, law, pairs.key[p]);
-        const Spins        spins{bodies.angular_velocity[a], wall ? Vec3<double>::Zero() : bodies.angular_velocity[b]};
-        add_rolling(pair, pairs.patch[p], spins, pairs.response[p], pairs.rolling[p], dt);
+        const bool         wall = b >= bodies;
+        const PairLaw      pair = law_of(pairs, law, bodies, pairs.key[p]);
+        const Spins        spins{pairs.body[a].spin, wall ? Vec3<double>::Zero() : pairs.body[b].spin};
+        const Resistance   found = resist_rolling(pair, pairs.patch[p], pairs.answers.force[p],
+                                                  pairs.answers.stiffness[p], spins, pairs.rolling[p], dt);
+        pairs.answers.torque[p] += found.moment;
+        pairs.answers.second_torque[pairs.answers.place[p]] -= found.moment;
+        pairs.answers.energy[p] += found.energy;
+        pairs.answers.friction[p] += found.lost;
     }
 };
 

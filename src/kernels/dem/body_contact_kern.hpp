@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "kernels/dem/bodies.hpp"
+#include "kernels/dem/contact_body.hpp"
 #include "kernels/dem/patch_kern.hpp"
 #include "kernels/dem/sdf_kern.hpp"
 
@@ -27,6 +28,12 @@ TREAD_HD Instance instance_of(const BodiesView& bodies, const TemplateView* temp
 {
     return {templates + bodies.shape[b], bodies.scale[b], 1.0 / bodies.scale[b],
             bodies.orientation[b].toRotationMatrix(), bodies.position[b] - origin};
+}
+
+TREAD_HD Instance instance_of(const ContactBody& body, const TemplateView* templates, const Vec3<double>& origin)
+{
+    return {templates + body.shape, body.scale, 1.0 / body.scale, body.orientation.toRotationMatrix(),
+            body.position - origin};
 }
 
 /// A node at its place in the other side's field.

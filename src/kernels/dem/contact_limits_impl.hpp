@@ -48,7 +48,7 @@ private:
         if (pairs.patch[p].stiffness > 0) { return 0; }
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
         const bool         wall = b >= bodies.count;
-        const PairLaw      pair = law_of(bodies, law, pairs.key[p]);
+        const PairLaw      pair = law_of(pairs, law, bodies.count, pairs.key[p]);
         if (exact(a) && (wall || exact(b))) { return touch_of_spheres(pair, approach(a, b)); }
         return touch_of_nodes(pair, wall ? 2.0 * node_area[a] : std::fmax(node_area[a], node_area[b]));
     }

@@ -35,7 +35,7 @@ void look_up_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, 
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
-                        const contact_nodes::LookUp<Meet> look_up{meet, bodies, law, pairs.view()};
+                        const contact_nodes::LookUp<Meet> look_up{meet, bodies.count, law, pairs.view()};
                         for_each(gpu, "nodes found", pairs.node.size(), look_up);
                     });
 }

@@ -150,10 +150,10 @@ struct WriteNodes
 template<class Meet>
 struct LookUp
 {
-    Meet       meet;
-    BodiesView bodies;
-    BodyLaw    law;
-    PairsView  pairs;
+    Meet         meet;
+    std::int64_t bodies; ///< how many
+    BodyLaw      law;
+    PairsView    pairs;
 
     TREAD_HD void operator()(std::int64_t i) const { pairs.found_node[i] = packed(find(i)); }
 
@@ -164,13 +164,13 @@ private:
         const std::int64_t  a = first_of(key), b = second_of(key);
         const bool          second = pairs.node[i] < 0;
         const std::int32_t  node   = second ? ~pairs.node[i] : pairs.node[i];
-        const Vec3<double>  origin = bodies.position[a];
-        const Instance      owner  = instance_of(bodies, law.templates, second ? b : a, origin);
-        if (b >= bodies.count)
+        const Vec3<double>  origin = pairs.body[a].position;
+        const Instance      owner  = instance_of(load(pairs.body + (second ? b : a)), law.templates, origin);
+        if (b >= bodies)
         {
-            return in_field(Side<PlaneField>{owner, field_of(law.planes[b - bodies.count], origin), 1.0, 1.0}, node);
+            return in_field(Side<PlaneField>{owner, field_of(law.planes[b - bodies], origin), 1.0, 1.0}, node);
         }
-        const Instance other = instance_of(bodies, law.templates, second ? a : b, origin);
+        const Instance other = instance_of(load(pairs.body + (second ? a : b)), law.templates, origin);
         return in_field(meet.side(owner, other, second ? -1.0 : 1.0), node);
     }
 };

@@ -110,12 +110,11 @@ template<class Damping>
 TREAD_HD void integrate_rotation(const BodiesView& bodies, std::int64_t b, const Damping& damping, double dt,
                                  BodyTotal& total)
 {
-    const Mat3<double>& inertia = bodies.inertia[b];
-    const Mat3<double>& inverse = bodies.inverse_inertia[b];
-    const std::uint32_t locked  = bodies.locked[b];
-    const Quat          start   = bodies.orientation[b];
-    const Vec3<double>  before  = bodies.angular_velocity[b];
-    const Vec3<double>  damped  = damping_of(damping, bodies.torque[b], before);
+    const Mat3<double>  inertia = full(bodies.inertia[b]), inverse = inertia.inverse();
+    const std::uint32_t locked = bodies.locked[b];
+    const Quat          start  = bodies.orientation[b];
+    const Vec3<double>  before = bodies.angular_velocity[b];
+    const Vec3<double>  damped = damping_of(damping, bodies.torque[b], before);
 
     const Mat3<double> at_start = start.toRotationMatrix();
     const Vec3<double> momentum =

@@ -48,27 +48,27 @@ struct GatherBody
         BodyShare share{Vec3<double>::Zero(), Vec3<double>::Zero(), 0, Vec3<double>::Zero(), 0, 0};
         for (std::int64_t p = pairs.first[b] + lanes.lane(); p < pairs.first[b + 1]; p += lanes.lanes())
         {
-            add_first(pairs.response[p], second_of(pairs.key[p]) >= bodies.count, share);
+            add_first(p, share);
         }
         for (std::int64_t i = pairs.second[b] + lanes.lane(); i < pairs.second[b + 1]; i += lanes.lanes())
         {
-            const PairResponse& response = pairs.response[pairs.by_second[i]];
-            share.force -= response.force;
-            share.torque += response.torque_b;
-            share.stiffness += response.stiffness;
+            share.force += pairs.answers.second_force[i];
+            share.torque += pairs.answers.second_torque[i];
+            share.stiffness += pairs.answers.second_stiffness[i];
         }
         share.reduce(lanes);
         if (lanes.lane() == 0) { store(b, share); }
     }
 
-    TREAD_HD static void add_first(const PairResponse& response, bool wall, BodyShare& share)
+    TREAD_HD void add_first(std::int64_t p, BodyShare& share) const
     {
-        share.force += response.force;
-        share.torque += response.torque_a;
-        share.stiffness += response.stiffness;
-        share.friction += response.friction;
-        share.restitution += response.restitution;
-        if (wall) { share.wall_force += response.force; }
+        const Vec3<double> force = pairs.answers.force[p];
+        share.force += force;
+        share.torque += pairs.answers.torque[p];
+        share.stiffness += pairs.answers.stiffness[p];
+        share.friction += pairs.answers.friction[p];
+        share.restitution += pairs.answers.restitution[p];
+        if (second_of(pairs.key[p]) >= bodies.count) { share.wall_force += force; }
     }
 
     TREAD_HD void store(std::int64_t b, const BodyShare& share) const
@@ -99,6 +99,19 @@ struct Move
         if (lanes.lane() != 0) { return; }
         if (b < named.count) { impulse_steps::Add{gather.bodies, named.impulse, gather.dt}(b); }
         integrate(b);
+        show(b);
+    }
+
+private:
+    /// To the contacts of the next substep.
+    TREAD_HD void show(std::int64_t b) const
+    {
+        const BodiesView& bodies = gather.bodies;
+        ContactBody&      body   = gather.pairs.body[b];
+        body.position            = bodies.position[b];
+        body.orientation         = bodies.orientation[b];
+        body.velocity            = bodies.velocity[b];
+        body.spin                = bodies.angular_velocity[b];
     }
 };
 

@@ -5,6 +5,7 @@ namespace tread::dem
 {
 
 template void classify_bodies(const Cpu&, Pairs<Cpu>&, const BodiesView&, const TemplateView*);
+template void stage_bodies(const Cpu&, Pairs<Cpu>&, const BodiesView&);
 template void find_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double);
 
 } // namespace tread::dem

@@ -5,6 +5,7 @@ namespace tread::dem
 {
 
 template void classify_bodies(const Gpu&, Pairs<Gpu>&, const BodiesView&, const TemplateView*);
+template void stage_bodies(const Gpu&, Pairs<Gpu>&, const BodiesView&);
 template void find_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double);
 
 } // namespace tread::dem

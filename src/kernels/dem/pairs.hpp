@@ -6,6 +6,8 @@
 #include "backend/sort.hpp"
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/body_contact_kern.hpp"
+#include "kernels/dem/contact_body.hpp"
+#include "kernels/dem/pair_answers.hpp"
 #include "kernels/dem/patches.hpp"
 #include "kernels/dem/ray_kern.hpp"
 #include "kernels/dem/rolling_kern.hpp"
@@ -51,12 +53,13 @@ struct PairsView
     std::int64_t         count;
     const std::uint64_t* key; ///< ascending
     Patch*               patch;
-    PairResponse*        response;  ///< of the last substep
     double*              peak;      ///< m, largest overlap since the pairs were found
     const std::int32_t*  first;     ///< [bodies + 1], the run of pairs whose first body is this one
     const std::int32_t*  by_second; ///< pairs ordered by their second body
     const std::int32_t*  second;    ///< [bodies + 1], the run in by_second of this body
     Rolling*             rolling;   ///< null where no pair of materials has rolling friction
+    AnswersView          answers;   ///< of the last substep
+    ContactBody*         body;      ///< of every body
 
     const double*       travel;     ///< m, of every body, that the list allows for
     const std::int32_t* first_node; ///< [pairs + 1], the run of nodes that may touch, of each pair
@@ -72,7 +75,8 @@ struct Pairs
     explicit Pairs(const Exec& exec)
         : key(exec, "pair keys")
         , patch(exec, "pair patches")
-        , response(exec, "pair responses")
+        , answers(exec)
+        , body(exec, "bodies in contact")
         , peak(exec, "pair peak overlaps")
         , first(exec, "pairs of first body")
         , by_second(exec, "pairs by second body")
@@ -103,16 +107,16 @@ struct Pairs
 
     PairsView view()
     {
-        return {key.size(),          key.data(),        patch.data(),
-                response.data(),     peak.data(),       first.data(),
-                by_second.data(),    second.data(),     resists_rolling ? rolling.data() : nullptr,
-                travel.data(),       first_node.data(), node.data(),
-                pair_of_node.data(), found_node.data()};
+        return {key.size(),     key.data(),          patch.data(),     peak.data(),
+                first.data(),   by_second.data(),    second.data(),    resists_rolling ? rolling.data() : nullptr,
+                answers.view(), body.data(),         travel.data(),    first_node.data(),
+                node.data(),    pair_of_node.data(), found_node.data()};
     }
 
     Array<Exec, std::uint64_t> key;
     Array<Exec, Patch>         patch;
-    Array<Exec, PairResponse>  response;
+    Answers<Exec>              answers;
+    Array<Exec, ContactBody>   body;
     Array<Exec, double>        peak;
     Array<Exec, std::int32_t>  first;
     Array<Exec, std::int32_t>  by_second;
@@ -147,6 +151,10 @@ struct Pairs
 /// median is tested against all others instead of entering the cell grid, whose cells would be its size.
 template<class Exec>
 void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates);
+
+/// Copies what contacts ask of the bodies; again when anything but move_bodies has changed them. find_pairs does.
+template<class Exec>
+void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
 
 /// Every pair of bodies, and of body and wall, that may touch within the next dt (s, of the MPM step), and of each the
 /// nodes that may come inside the other side (contact_nodes.hpp): none is missed while no point of a body moves further

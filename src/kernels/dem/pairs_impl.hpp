@@ -31,6 +31,14 @@ struct MeasureBody
     }
 };
 
+struct Stage
+{
+    BodiesView   bodies;
+    ContactBody* body;
+
+    TREAD_HD void operator()(std::int64_t b) const { body[b] = contact_body(bodies, b); }
+};
+
 struct WriteReach
 {
     BodiesView          bodies;
@@ -131,11 +139,26 @@ struct Renew
 
     TREAD_HD void operator()(std::int64_t p) const
     {
-        pairs.response[p] = no_response();
-        pairs.peak[p]     = 0;
-        second_key[p]     = static_cast<std::uint64_t>(second_of(pairs.key[p]));
-        by_second[p]      = static_cast<std::int32_t>(p);
+        pairs.peak[p] = 0;
+        second_key[p] = static_cast<std::uint64_t>(second_of(pairs.key[p]));
+        by_second[p]  = static_cast<std::int32_t>(p);
     }
+};
+
+/// Where each pair is in the order by second body.
+struct Place
+{
+    const std::int32_t* by_second;
+    std::int32_t*       place;
+
+    TREAD_HD void operator()(std::int64_t i) const { place[by_second[i]] = static_cast<std::int32_t>(i); }
+};
+
+struct ClearAnswers
+{
+    AnswersView answers;
+
+    TREAD_HD void operator()(std::int64_t p) const { answers.store(p, no_response()); }
 };
 
 /// The patch of a pair that was in the last list.
@@ -212,11 +235,13 @@ void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     const std::int64_t count = pairs.key.size();
     pairs.by_second.resize(count);
-    pairs.response.resize(count);
+    pairs.answers.resize(count);
     pairs.peak.resize(count);
     pairs.second_key.resize(count);
     for_each(exec, "renew pairs", count, Renew{pairs.view(), pairs.second_key.data(), pairs.by_second.data()});
     sort_by_key(exec, pairs.second_key, pairs.by_second, pairs.sort);
+    for_each(exec, "pair places", count, Place{pairs.by_second.data(), pairs.answers.place.data()});
+    for_each(exec, "clear answers", count, ClearAnswers{pairs.answers.view()});
 
     pairs.first.resize(bodies.count + 1);
     pairs.second.resize(bodies.count + 1);
@@ -304,9 +329,17 @@ void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bod
 }
 
 template<class Exec>
+void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    pairs.body.resize(bodies.count);
+    for_each(exec, "stage bodies", bodies.count, pair_steps::Stage{bodies, pairs.body.data()});
+}
+
+template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
     using namespace pair_steps;
+    stage_bodies(exec, pairs, bodies);
     pairs.key.swap(pairs.last_key);
     pairs.patch.swap(pairs.last_patch);
     pairs.rolling.swap(pairs.last_rolling);

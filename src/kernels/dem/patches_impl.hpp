@@ -29,12 +29,12 @@ struct Contact
     }
 };
 
-TREAD_HD Contact contact_of(const BodiesView& bodies, const BodyLaw& law, std::uint64_t key)
+TREAD_HD Contact contact_of(const PairsView& pairs, const BodiesView& bodies, const BodyLaw& law, std::uint64_t key)
 {
     const std::int64_t a = first_of(key), b = second_of(key);
     const Instance     of_a = instance_of(bodies, law.templates, a, bodies.position[a]);
     const Instance     of_b = instance_of(bodies, law.templates, b, bodies.position[a]);
-    return {law_of(bodies, law, key), {{of_a, of_b}}, of_a.rotation.transpose()};
+    return {law_of(pairs, law, bodies.count, key), {{of_a, of_b}}, of_a.rotation.transpose()};
 }
 
 /// Says of every listed node which patch of its pair it is of, where the pair has several, and how many it has.
@@ -65,7 +65,7 @@ private:
     template<class Lanes>
     TREAD_HD std::int32_t split(std::int64_t p, const Lanes& lanes) const
     {
-        const Contact contact = contact_of(bodies, law, pairs.key[p]);
+        const Contact contact = contact_of(pairs, bodies, law, pairs.key[p]);
         const double  area    = std::fmax(node_area[first_of(pairs.key[p])], node_area[second_of(pairs.key[p])]);
         Groups        groups;
         groups.count = 0;
@@ -209,7 +209,7 @@ private:
     template<class Lanes>
     TREAD_HD Shares share(std::int64_t p, std::int64_t start, std::int64_t end, int count, const Lanes& lanes) const
     {
-        const Contact contact = contact_of(bodies, law, pairs.key[p]);
+        const Contact contact = contact_of(pairs, bodies, law, pairs.key[p]);
         Shares        shares;
         for (int g = 0; g < most; ++g)
         {

@@ -24,24 +24,32 @@ TREAD_HD double held_energy(const Rolling& rolling)
     return spring_energy(rolling.moment.squaredNorm(), rolling.stiffness);
 }
 
-/// Adds the rolling moment to a pair's response and advances its record by dt (s); `patch` = the pair's, after
-/// the substep. Moment at most mu_r R* F; stiffness 9/4 K (mu_r R*)^2, so that it yields at a rotation of
-/// 4/9 F/(K mu_r R*); damping ratio that of the pair, of a ball's 7/5 m* R*^2 about its contact. The damper's part acts
-/// inside the cap and is not stored. Only where there is friction: without, nothing rolls.
-TREAD_HD void add_rolling(const PairLaw& law, const Patch& patch, const Spins& spins, PairResponse& response,
-                          Rolling& rolling, double dt)
+/// What the resistance adds to a pair's answer.
+struct Resistance
+{
+    Vec3<double> moment; ///< N m, on a; b gets its opposite
+    double       energy; ///< J, held by the spring
+    double       lost;   ///< J, in this substep
+};
+
+/// The resistance of a pair that answers with `force` (N, on a) and `contact_stiffness` (N/m); advances its record by
+/// dt (s). `patch` = the pair's, after the substep. Moment at most mu_r R* F; stiffness 9/4 K (mu_r R*)^2, so that it
+/// yields at a rotation of 4/9 F/(K mu_r R*); damping ratio that of the pair, of a ball's 7/5 m* R*^2 about its
+/// contact. The damper's part acts inside the cap and is not stored. Only where there is friction: without, nothing
+/// rolls.
+TREAD_HD Resistance resist_rolling(const PairLaw& law, const Patch& patch, const Vec3<double>& force,
+                                   double contact_stiffness, const Spins& spins, Rolling& rolling, double dt)
 {
     const double       held   = held_energy(rolling);
     const Vec3<double> normal = patch.normal;
-    const double       load   = normal.dot(response.force);
+    const double       load   = normal.dot(force);
     if (!(load > 0) || !(law.rolling_friction > 0))
     {
         rolling = no_rolling();
-        response.friction += held;
-        return;
+        return {Vec3<double>::Zero(), 0, held};
     }
     const double arm       = law.rolling_friction * law.effective_radius;
-    const double stiffness = 2.25 * response.stiffness * arm * arm;
+    const double stiffness = 2.25 * contact_stiffness * arm * arm;
     const double cap       = arm * load;
     const double viscosity =
         2.0 * law.damping_ratio * law.effective_radius * std::sqrt(stiffness * 1.4 * law.reduced_mass);
@@ -59,10 +67,7 @@ TREAD_HD void add_rolling(const PairLaw& law, const Patch& patch, const Spins& s
     Vec3<double> total = moment - viscosity * rate;
     total *= cap_factor(total.norm(), cap);
     rolling = {moment, stiffness, normal};
-    response.torque_a += total;
-    response.torque_b -= total;
-    response.energy += held_energy(rolling);
-    response.friction += held - turned + yield - dt * (total - moment).dot(rate);
+    return {total, held_energy(rolling), held - turned + yield - dt * (total - moment).dot(rate)};
 }
 
 } // namespace tread::dem

@@ -27,7 +27,7 @@ struct WriteBodyRow
     {
         const Mat3<double> rotation = bodies.orientation[b].toRotationMatrix();
         const Vec3<double> omega    = bodies.angular_velocity[b];
-        const Vec3<double> angular  = rotation * (bodies.inertia[b] * (rotation.transpose() * omega));
+        const Vec3<double> angular  = rotation * (full(bodies.inertia[b]) * (rotation.transpose() * omega));
         const Vec3<double> momentum = bodies.mass[b] * bodies.velocity[b];
         const Vec3<double> spin     = bodies.position[b].cross(momentum) + angular;
         double*            row      = rows + b * body_row_width;
@@ -41,28 +41,18 @@ struct WriteBodyRow
     }
 };
 
-struct WriteEnergy
-{
-    const PairResponse* response;
-    double*             energy;
-
-    TREAD_HD void operator()(std::int64_t p) const { energy[p] = response[p].energy; }
-};
-
 template<class Exec>
 BodySums sum(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyTotals<Exec>& totals,
              const Vec3<double>& gravity)
 {
     const std::int64_t rows = bodies.count * body_row_width, count = pairs.key.size();
-    pairs.measure.resize(rows + count + body_row_width + body_total_width + 1);
-    double* energies = pairs.measure.data() + rows;
-    double* result   = energies + count;
+    pairs.measure.resize(rows + body_row_width + body_total_width + 1);
+    double* result = pairs.measure.data() + rows;
     for_each(exec, "body sums", bodies.count, WriteBodyRow{bodies, gravity, pairs.measure.data()});
-    for_each(exec, "contact energies", count, WriteEnergy{pairs.response.data(), energies});
     sum_rows(exec, pairs.measure.data(), bodies.count, body_row_width, result);
     sum_rows(exec, reinterpret_cast<const double*>(totals.data()), bodies.count, body_total_width,
              result + body_row_width);
-    sum_rows(exec, energies, count, 1, result + body_row_width + body_total_width);
+    sum_rows(exec, pairs.answers.energy.data(), count, 1, result + body_row_width + body_total_width);
 
     struct Result
     {

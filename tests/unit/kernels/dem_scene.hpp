@@ -276,6 +276,7 @@ public:
     /// `count` substeps of dt, pairs found anew every `every` of them.
     void run(double dt, int count, int every = 20)
     {
+        stage_bodies(exec_, pairs, bodies.view());
         for (int step = 0; step < count; ++step)
         {
             if (substeps_++ % every == 0) { find_pairs(exec_, pairs, bodies.view(), law(), dt * every); }
@@ -289,6 +290,7 @@ public:
     /// The bodies' forces as they stand: a move of no duration.
     void contact(double dt)
     {
+        stage_bodies(exec_, pairs, bodies.view());
         evaluate_contacts(exec_, pairs, bodies.view(), law(), dt);
         move_bodies(exec_, pairs, bodies.view(), totals.data(), {nullptr, 0}, {numbers.gravity, 0, 0});
     }
@@ -354,14 +356,14 @@ private:
         gather(bodies.velocity, &Solid::velocity);
         gather(bodies.angular_velocity, &Solid::spin);
         gather(bodies.mass, &Solid::mass);
-        gather(bodies.inertia, &Solid::inertia);
         gather(bodies.scale, &Solid::scale);
         gather(bodies.shape, &Solid::shape);
         gather(bodies.locked, &Solid::locked);
         gather(bodies.damped, &Solid::damped);
-        std::vector<Mat3<double>> inverse;
-        for (const Solid& solid : solids) { inverse.push_back(solid.inertia.inverse()); }
-        bodies.inverse_inertia.assign(inverse);
+        std::vector<Sym3<double>> inertia;
+        inertia.reserve(solids.size());
+        for (const Solid& solid : solids) { inertia.push_back(symmetric(solid.inertia)); }
+        bodies.inertia.assign(inertia);
         const auto count = static_cast<std::int64_t>(solids.size());
         bodies.material.assign(std::vector<std::int32_t>(solids.size(), 0));
         bodies.force.resize(count);

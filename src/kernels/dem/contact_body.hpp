@@ -1,0 +1,55 @@
+#pragma once
+
+#include "kernels/dem/bodies.hpp"
+
+namespace tread::dem
+{
+
+/// What contacts ask of a body, side by side: a pair's second body is anywhere in memory, and a record costs one line
+/// of it.
+struct alignas(16) ContactBody
+{
+    Vec3<double> position; ///< m
+    double       scale;
+    Quat         orientation;
+    Vec3<double> velocity;     ///< m/s
+    double       inverse_mass; ///< 1/kg; 0 with every freedom locked: as heavy as a wall
+    Vec3<double> spin;         ///< rad/s
+    std::int32_t shape;
+    std::int32_t material;
+};
+static_assert(sizeof(ContactBody) == 128);
+
+TREAD_HD ContactBody contact_body(const BodiesView& bodies, std::int64_t b)
+{
+    return {bodies.position[b],
+            bodies.scale[b],
+            bodies.orientation[b],
+            bodies.velocity[b],
+            bodies.locked[b] == lock_all ? 0.0 : 1.0 / bodies.mass[b],
+            bodies.angular_velocity[b],
+            bodies.shape[b],
+            bodies.material[b]};
+}
+
+/// A record by eight loads of 16 bytes instead of some thirty.
+TREAD_HD ContactBody load(const ContactBody* from)
+{
+#if defined(__CUDA_ARCH__)
+    const auto*   words = reinterpret_cast<const double2*>(from);
+    const double2 place = words[0], scale = words[1], turn = words[2], turn_end = words[3], velocity = words[4],
+                  mass = words[5], spin = words[6], kind = words[7];
+    return {Vec3<double>(place.x, place.y, scale.x),
+            scale.y,
+            Quat(turn_end.y, turn.x, turn.y, turn_end.x),
+            Vec3<double>(velocity.x, velocity.y, mass.x),
+            mass.y,
+            Vec3<double>(spin.x, spin.y, kind.x),
+            __double2loint(kind.y),
+            __double2hiint(kind.y)};
+#else
+    return *from;
+#endif
+}
+
+} // namespace tread::dem
