@@ -37,13 +37,14 @@ public:
         choose_substep();
     }
 
-    /// Until equilibrium as a phase knows it, for at most `longest`; returns the time that took, s.
+    /// Until the bed is at rest, for at most `longest`; returns the time that took, s.
     double settle(double longest)
     {
-        constexpr int look_every = 64; // steps
-        const auto&   g          = scene_.domain.gravity;
-        const double  weight     = rigid_.mass() * std::hypot(g[0], g[1], g[2]);
-        double        at = 0, still_since = 0;
+        constexpr int    look_every = 64;   // steps
+        constexpr double at_rest    = 1e-3; // of the weight: a tenth of what a phase asks for
+        const auto&      g          = scene_.domain.gravity;
+        const double     weight     = rigid_.mass() * std::hypot(g[0], g[1], g[2]);
+        double           at = 0, still_since = 0;
         for (std::int64_t number = 1; at < longest && at - still_since < solver::PhaseClock::equilibrium_hold; ++number)
         {
             step(damping);
@@ -51,7 +52,7 @@ public:
             choose_substep();
             if (number % look_every != 0) { continue; }
             const double out_of_balance = rigid_.report(at).net_force / weight;
-            if (!(out_of_balance <= solver::PhaseClock::equilibrium_ratio)) { still_since = at; }
+            if (!(out_of_balance <= at_rest)) { still_since = at; }
         }
         rigid_.report(at);
         return at;

@@ -86,12 +86,6 @@ struct Walk
 
     TREAD_HD bool is_sphere(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
 
-    TREAD_HD bool surfaces_near(std::int64_t p) const
-    {
-        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-        return b >= bodies.count || dem::surfaces_near(bodies, law.templates, pairs.travel, a, b);
-    }
-
     template<class Lanes, class Take>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes, Take& take) const
     {
@@ -126,7 +120,7 @@ struct CountNodes
     {
         const bool closed_form = walk.closed_form(p);
         Count      count;
-        if (!closed_form && walk.surfaces_near(p)) { walk(p, lanes, count); }
+        if (!closed_form) { walk(p, lanes, count); }
         if (lanes.lane() == 0) { found[p] = closed_form ? without_nodes : count.found; }
     }
 };

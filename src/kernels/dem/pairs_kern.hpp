@@ -111,6 +111,15 @@ struct PairSearch
     std::int64_t         large_count;
     const std::int32_t*  is_large;
 
+    TREAD_HD bool is_sphere(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
+
+    /// Exact spheres are as large as their bounding spheres.
+    TREAD_HD bool near(std::int64_t a, std::int64_t b) const
+    {
+        return may_touch(bodies, law.templates, travel, a, b) &&
+               ((is_sphere(a) && is_sphere(b)) || surfaces_near(bodies, law.templates, travel, a, b));
+    }
+
     template<class Visit>
     TREAD_HD void in_cells(std::int64_t a, Visit visit) const
     {
@@ -126,7 +135,7 @@ struct PairSearch
                  i < gridded && cell_key[i] <= last; ++i)
             {
                 const std::int64_t b = cell_body[i];
-                if (b > a && may_touch(bodies, law.templates, travel, a, b)) { visit(pair_key(a, b)); }
+                if (b > a && near(a, b)) { visit(pair_key(a, b)); }
             }
         }
     }
@@ -138,7 +147,7 @@ struct PairSearch
         for (std::int64_t l = 0; l < large_count; ++l)
         {
             const std::int64_t b = large[l];
-            if ((is_large[a] != 0 && b <= a) || !may_touch(bodies, law.templates, travel, a, b)) { continue; }
+            if ((is_large[a] != 0 && b <= a) || !near(a, b)) { continue; }
             visit(a < b ? pair_key(a, b) : pair_key(b, a));
         }
         for (std::int32_t p = 0; p < law.plane_count; ++p)

@@ -64,8 +64,13 @@ TREAD_HD double cap_factor(double value, double cap) { return value > cap ? cap 
 /// slip, 3 pi/16 mu F a = 0.94 mu F r with r^2 = 0.4 a^2 = 0.4 R* d.
 TREAD_HD Friction update_patch(const PairLaw& law, const PatchState& state, Patch& patch, double dt)
 {
-    const double       held = held_energy(law, patch);
-    const double       root = std::cbrt(0.75 * state.load / (law.effective_young * std::sqrt(law.effective_radius)));
+    constexpr double pi                = 3.14159265358979323846;
+    const double     soft_before       = softness_of(law.shear_ratio * patch.stiffness);
+    const double     twist_soft_before = softness_of(patch.twist_stiffness);
+    const double     held =
+        0.5 * (patch.tangential.squaredNorm() * soft_before + patch.torsion * patch.torsion * twist_soft_before);
+    // E* sqrt(R*) = pi R* traction
+    const double       root         = std::cbrt(0.75 / pi * state.load / (law.effective_radius * law.traction));
     const double       arm_squared  = state.spread + 0.4 * law.effective_radius * root * root;
     const double       k_tangential = law.shear_ratio * state.stiffness;
     const double       k_twist      = k_tangential * arm_squared;
@@ -77,8 +82,8 @@ TREAD_HD Friction update_patch(const PairLaw& law, const PatchState& state, Patc
     Vec3<double> force   = turn_with_normal(patch.tangential, patch.normal, state.normal);
     double       torsion = patch.torsion;
     force                = turn_about(force, state.normal, state.common_spin * dt);
-    if (state.stiffness < patch.stiffness) { force *= state.stiffness / patch.stiffness; }
-    if (k_twist < patch.twist_stiffness) { torsion *= k_twist / patch.twist_stiffness; }
+    if (state.stiffness < patch.stiffness) { force *= k_tangential * soft_before; }
+    if (k_twist < patch.twist_stiffness) { torsion *= k_twist * twist_soft_before; }
     const double soft = softness_of(k_tangential), twist_soft = softness_of(k_twist);
     const auto   held_by = [&](const Vec3<double>& f, double m)
     { return 0.5 * (f.squaredNorm() * soft + m * m * twist_soft); };

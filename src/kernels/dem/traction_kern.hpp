@@ -24,6 +24,16 @@ struct PairLaw
     double rolling_friction; ///< mu_r
 };
 
+/// 1/sqrt(x): one operation on a GPU, where a root and a division are two long ones.
+TREAD_HD double inverse_root(double x)
+{
+#if defined(__CUDA_ARCH__)
+    return rsqrt(x);
+#else
+    return 1.0 / std::sqrt(x);
+#endif
+}
+
 /// inverse_radii = 1/R_a + 1/R_b, inverse_masses = 1/m_a + 1/m_b.
 TREAD_HD PairLaw pair_law(const PairProperties& pair, const ContactOptions& options, double inverse_radii,
                           double inverse_masses)
@@ -37,7 +47,7 @@ TREAD_HD PairLaw pair_law(const PairProperties& pair, const ContactOptions& opti
             radius,
             traction,
             linear,
-            traction / std::sqrt(linear),
+            traction * inverse_root(linear),
             4.0 * pair.effective_shear / pair.effective_young,
             pair.friction,
             pair.damping_ratio,
@@ -61,8 +71,8 @@ TREAD_HD Traction traction_at(const PairLaw& law, double overlap)
         return {law.linear_slope * overlap, law.linear_slope, 0.5 * law.linear_slope * overlap * overlap};
     }
     // psi of the linear part is d0^1.5/2 at the knee, where that of the square root would be 2/3 d0^1.5
-    const double root = std::sqrt(overlap), pressure = law.traction * root;
-    return {pressure, 0.5 * pressure / overlap, 2.0 / 3.0 * overlap * pressure - law.linear_slope * knee * knee / 6.0};
+    const double slope = 0.5 * law.traction * inverse_root(overlap), pressure = 2.0 * overlap * slope;
+    return {pressure, slope, 2.0 / 3.0 * overlap * pressure - law.linear_slope * knee * knee / 6.0};
 }
 
 } // namespace tread::dem
