@@ -30,6 +30,7 @@ std::vector<Stage> stages(const scene::Scene&, const Plan& plan)
     };
     const char* no_sand   = "no terrain of material points";
     const char* no_bodies = "no wheel and no rocks";
+    const bool  alone     = plan.body_contact && !plan.coupling;
     return {
         needs(stage::order, plan.sand, "terrain", no_sand),
         needs(stage::pairs, plan.body_contact, "bodies that may meet each other or a wall", no_bodies),
@@ -37,7 +38,7 @@ std::vector<Stage> stages(const scene::Scene&, const Plan& plan)
         needs(stage::sand_contact, plan.coupling, "sand and bodies", plan.sand ? no_bodies : no_sand),
         needs(stage::body_contact, plan.body_contact, "bodies that may meet each other or a wall",
               plan.bodies ? "one body and no walls" : no_bodies),
-        needs(stage::integrate, plan.bodies, "bodies", no_bodies),
+        needs(stage::integrate, plan.bodies && !alone, "bodies", alone ? "part of body-body contact" : no_bodies),
         needs(stage::scatter, plan.sand, "terrain", no_sand),
         needs(stage::grid, plan.sand, "terrain", no_sand),
         needs(stage::gather, plan.sand, "terrain", no_sand),

@@ -13,6 +13,7 @@
 #include "kernels/dem/integrate.hpp"
 #include "kernels/dem/move.hpp"
 #include "kernels/dem/pairs_kern.hpp"
+#include "kernels/dem/substeps.hpp"
 #include "kernels/dem/sums.hpp"
 #include "solver/materials.hpp"
 
@@ -295,13 +296,21 @@ void Rigid<Exec>::move(double dt, double damping)
     substep_ = dt;
     if (contacts_)
     {
-        dem::move_bodies(exec_, pairs_, bodies_.view(), totals_.data(), {impulses_.data(), named_},
-                         {gravity_, damping, dt});
+        dem::move_bodies(exec_, pairs_, bodies_.view(), totals_.data(), named_impulses(), {gravity_, damping, dt});
         return;
     }
     if (named_ > 0) { dem::add_impulses(exec_, bodies_.view(), impulses_.data(), named_, dt); }
     if (damping > 0) { dem::integrate_damped(exec_, bodies_.view(), totals_.data(), gravity_, damping, dt); }
     else { dem::integrate(exec_, bodies_.view(), totals_.data(), gravity_, dt); }
+}
+
+template<class Exec>
+void Rigid<Exec>::run(double dt, double damping, std::int64_t count)
+{
+    mean_time_ += static_cast<double>(count) * dt;
+    substep_ = dt;
+    dem::run_substeps(exec_, pairs_, bodies_.view(), law_, totals_.data(), named_impulses(), {gravity_, damping, dt},
+                      count);
 }
 
 /// Largest overlap over radius, if the law can carry it.

@@ -7,6 +7,7 @@
 #include "io/snapshot.hpp"
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/impulses.hpp"
+#include "kernels/dem/move.hpp"
 #include "kernels/dem/pairs.hpp"
 #include "kernels/dem/strays.hpp"
 #include "kernels/dem/totals.hpp"
@@ -71,6 +72,8 @@ public:
     void clear_wrenches();
     void contact(double dt);
     void move(double dt, double damping);
+    /// contact and move, `count` times: of bodies that meet nothing but each other and walls.
+    void run(double dt, double damping, std::int64_t count);
 
     /// Of the step; waits for it. NumericalError when a contact is deeper than the law can carry, or a body is not at a
     /// finite place: `time` (s) is for that message.
@@ -85,6 +88,8 @@ public:
     io::BodyFields       fields() const;
 
 private:
+    dem::NamedImpulses named_impulses() { return {impulses_.data(), named_}; }
+
     void   upload(const World& world, const Plan& plan);
     void   restore_contacts();
     void   require_finite(double time);

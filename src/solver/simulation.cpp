@@ -111,30 +111,43 @@ void Simulation<Exec, Real>::substeps(const TimeStep& step, double time, StageCl
     const double dt        = step.dt / static_cast<double>(step.substeps);
     const auto   number    = step.substeps;
     const auto   unwatched = plan_.body_contact ? rigid_->unwatched_substeps(dt, number, pace_.largest_speed) : number;
-    for (std::int64_t substep = 0; substep < number; ++substep)
+    for (std::int64_t done = 0; done < number; done += unwatched)
     {
-        if (substep > 0 && substep % unwatched == 0)
+        const std::int64_t next = std::min(number - done, unwatched);
+        if (done > 0)
         {
-            const std::int64_t left = number - substep;
             clock.run(exec_, stage::pairs,
                       [&]
                       {
-                          rigid_->find_pairs_if_strayed(dt * static_cast<double>(std::min(left, unwatched)),
-                                                        dt * static_cast<double>(left),
-                                                        time + dt * static_cast<double>(substep));
+                          rigid_->find_pairs_if_strayed(dt * static_cast<double>(next),
+                                                        dt * static_cast<double>(number - done),
+                                                        time + dt * static_cast<double>(done));
                       });
         }
-        if (coupling_)
+        if (plan_.body_contact && !coupling_)
         {
-            rigid_->clear_wrenches();
-            clock.run(exec_, stage::sand_contact, [&] { coupling_->substep(rigid_->view(), dt); });
+            clock.run(exec_, stage::body_contact, [&] { rigid_->run(dt, damping_, next); });
         }
-        if (plan_.body_contact)
+        else
         {
-            clock.run(exec_, stage::body_contact, [&] { rigid_->contact(dt); });
+            for (std::int64_t substep = 0; substep < next; ++substep) { coupled_substep(dt, clock); }
         }
-        clock.run(exec_, stage::integrate, [&] { rigid_->move(dt, damping_); });
     }
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::coupled_substep(double dt, StageClock& clock)
+{
+    if (coupling_)
+    {
+        rigid_->clear_wrenches();
+        clock.run(exec_, stage::sand_contact, [&] { coupling_->substep(rigid_->view(), dt); });
+    }
+    if (plan_.body_contact)
+    {
+        clock.run(exec_, stage::body_contact, [&] { rigid_->contact(dt); });
+    }
+    clock.run(exec_, stage::integrate, [&] { rigid_->move(dt, damping_); });
 }
 
 /// Where nothing but sand moves, several steps may pass before it is measured: as many as no point needs for half a

@@ -75,6 +75,7 @@ public:
 
 private:
     void substeps(const TimeStep& step, double time, StageClock& clock);
+    void coupled_substep(double dt, StageClock& clock);
     void measure();
     void choose_measuring();
 

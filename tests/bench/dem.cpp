@@ -128,11 +128,7 @@ private:
     void step(double local_damping)
     {
         rigid_.find_pairs(substeps_ * dt_);
-        for (int s = 0; s < substeps_; ++s)
-        {
-            rigid_.contact(dt_);
-            rigid_.move(dt_, local_damping);
-        }
+        rigid_.run(dt_, local_damping, substeps_);
     }
 
     void choose_substep()

@@ -9,7 +9,7 @@ void move_bodies(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, Bo
 {
     const moving::GatherBody gather{bodies, pairs.view(), totals, motion.dt};
     for_each(cpu, "gather large bodies", pairs.large.size(),
-             [=, large = pairs.large.data()](std::int64_t l) { gather(large[l], OneLane{}); });
+             [=, large = moving::GatherLarge{gather, pairs.large.data()}](std::int64_t l) { large(l, OneLane{}); });
     moving::with_move(gather, pairs.is_large.data(), named, motion,
                       [&](const auto& move)
                       { for_each(cpu, "move bodies", bodies.count, [=](std::int64_t b) { move(b, OneLane{}); }); });

@@ -83,6 +83,19 @@ struct GatherBody
     }
 };
 
+/// A large body's own launch, by many lanes: it may have thousands of pairs.
+struct GatherLarge
+{
+    GatherBody          gather;
+    const std::int32_t* large;
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t l, const Lanes& lanes) const
+    {
+        gather(large[l], lanes);
+    }
+};
+
 /// Gathers, books the impulse of a named body, and moves the body by integration::Free or integration::Damped.
 template<class Integrate>
 struct Move

@@ -54,17 +54,31 @@ private:
     __device__ static unsigned everyone() { return all_lanes >> (warp_size - size) << first(); }
 };
 
-/// Runs f(i, GroupLanes<size>) for i in [0, n), `size` lanes an item.
-template<int size, class F>
+/// f(i, GroupLanes<size>) for i in [0, n), `size` lanes an item, as what a block of `threads` threads does.
+template<int threads, int size, class F>
+struct GroupsOfBlock
+{
+    F            f;
+    std::int64_t n;
+
+    static constexpr int groups = threads / size;
+
+    std::int64_t blocks() const { return (n + groups - 1) / groups; }
+
+    __device__ void operator()(std::int64_t block) const
+    {
+        const std::int64_t i = block * groups + threadIdx.x / size;
+        if (i < n) { f(i, GroupLanes<size>{}); }
+    }
+};
+
+/// Runs f(i, GroupLanes<size>) for i in [0, n); `blocks_an_sm` as for_each_block's.
+template<int size, int blocks_an_sm = 1, class F>
 void for_each_group(const Gpu& gpu, const char* name, std::int64_t n, F f)
 {
-    constexpr int threads = 128, groups = threads / size;
-    for_each_block<threads>(gpu, name, (n + groups - 1) / groups,
-                            [=] __device__(std::int64_t block)
-                            {
-                                const std::int64_t i = block * groups + threadIdx.x / size;
-                                if (i < n) { f(i, GroupLanes<size>{}); }
-                            });
+    constexpr int                         threads = 128;
+    const GroupsOfBlock<threads, size, F> block{f, n};
+    for_each_block<threads, blocks_an_sm>(gpu, name, block.blocks(), block);
 }
 
 } // namespace tread::dem

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include <cooperative_groups.h>
+
+#include "backend/counters.hpp"
+#include "backend/cuda_check.cuh"
+#include "backend/execution.hpp"
+
+// A sequence of parts, run many times by one launch: where each part is a few microseconds of work, launches cost as
+// much as they do.
+namespace tread
+{
+
+/// f(block) for blocks of as many threads as the sequence has. Blocks share memory and barriers, as for_each_block's.
+template<class F>
+struct Part
+{
+    std::int64_t blocks;
+    F            f;
+};
+
+template<class F>
+Part(std::int64_t, F) -> Part<F>;
+
+template<class... Parts>
+struct Sequence
+{
+    std::int64_t most_blocks() const { return 0; }
+
+    __device__ void run(const cooperative_groups::grid_group&) const {}
+};
+
+template<class First, class... Rest>
+struct Sequence<First, Rest...>
+{
+    First             first;
+    Sequence<Rest...> rest;
+
+    std::int64_t most_blocks() const { return std::max(first.blocks, rest.most_blocks()); }
+
+    /// Every part when the one before is through; a part without blocks costs nothing.
+    __device__ void run(const cooperative_groups::grid_group& grid) const
+    {
+        if (first.blocks > 0)
+        {
+            for (std::int64_t block = blockIdx.x; block < first.blocks; block += gridDim.x)
+            {
+                first.f(block);
+                __syncthreads(); // its shared memory is the next one's
+            }
+            grid.sync();
+        }
+        rest.run(grid);
+    }
+};
+
+inline Sequence<> sequence() { return {}; }
+
+template<class First, class... Rest>
+Sequence<First, Rest...> sequence(const First& first, const Rest&... rest)
+{
+    return {first, sequence(rest...)};
+}
+
+template<int threads, int blocks_an_sm, class Parts>
+__global__ void __launch_bounds__(threads, blocks_an_sm)
+    repeat_kernel(std::int64_t times, const __grid_constant__ Parts parts)
+{
+    const auto grid = cooperative_groups::this_grid();
+    for (std::int64_t time = 0; time < times; ++time) { parts.run(grid); }
+}
+
+/// Runs a sequence so many times, in one cooperative launch of at most as many blocks as the device holds at once.
+template<int threads, int blocks_an_sm, class Parts>
+void repeat(const Gpu& gpu, const char* name, std::int64_t times, const Parts& parts)
+{
+    const std::int64_t wanted = parts.most_blocks();
+    if (wanted == 0 || times == 0) { return; }
+    gpu.counters->launched(name);
+    const auto kernel = repeat_kernel<threads, blocks_an_sm, Parts>;
+    int        device = 0, processors = 0, resident = 0;
+    check_cuda(cudaGetDevice(&device), name);
+    check_cuda(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), name);
+    check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&resident, kernel, threads, 0), name);
+    const auto blocks      = static_cast<unsigned>(std::min<std::int64_t>(wanted, std::int64_t{processors} * resident));
+    void*      arguments[] = {&times, const_cast<Parts*>(&parts)};
+    check_cuda(
+        cudaLaunchCooperativeKernel(reinterpret_cast<const void*>(kernel), blocks, threads, arguments, 0, gpu.stream),
+        name);
+}
+
+} // namespace tread

@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <vector>
+
+#include "dem_bumpy.hpp"
+#include "kernels/dem/substeps.hpp"
+
+// Substeps that run without the host, in one launch where they are few bodies, are the same substeps.
+namespace tread::test
+{
+namespace
+{
+
+template<class Exec>
+class Substeps : public DemTest<Exec>
+{
+};
+TYPED_TEST_SUITE(Substeps, Backends, BackendNames);
+
+/// Eight bumpy bodies of 0.1 m that overlap each other and the ground, spinning.
+std::vector<Solid> heap(const BumpyBody& bumpy)
+{
+    std::vector<Solid> solids;
+    for (int i = 0; i < 8; ++i)
+    {
+        Solid solid    = bumpy.solid(0.1, 2000);
+        solid.position = {0.19 * (i % 2), 0.19 * (i / 2 % 2), 0.098 + 0.19 * (i / 4)};
+        solid.spin     = {0.1 * i, 1.0, -0.2 * i};
+        solids.push_back(solid);
+    }
+    return solids;
+}
+
+TYPED_TEST(Substeps, AreTheSameInOneCall)
+{
+    constexpr double dt    = 1e-5;
+    constexpr int    count = 25;
+    const BumpyBody  bumpy(32);
+    SolidNumbers     numbers;
+    numbers.friction = 0.4;
+    numbers.zeta     = 0.2;
+    numbers.gravity  = {0, 0, -9.8};
+    numbers.planes   = {{{0, 0, 1}, 0.0, false}};
+    typename TestFixture::Scene one(this->exec(), {bumpy.shape(162)}, heap(bumpy), numbers);
+    typename TestFixture::Scene other(this->exec(), {bumpy.shape(162)}, heap(bumpy), numbers);
+    one.run(dt, count, count);
+    other.find(dt * count);
+    run_substeps(this->exec(), other.pairs, other.bodies.view(), other.law(), other.totals.data(), {nullptr, 0},
+                 {numbers.gravity, 0, dt}, count);
+    const auto stiffness = one.pairs.answers.stiffness.to_host();
+    EXPECT_GT(std::count_if(stiffness.begin(), stiffness.end(), [](double value) { return value > 0; }), 8);
+    EXPECT_EQ(other.bodies.position.to_host(), one.bodies.position.to_host());
+    EXPECT_EQ(other.bodies.velocity.to_host(), one.bodies.velocity.to_host());
+    EXPECT_EQ(other.bodies.angular_velocity.to_host(), one.bodies.angular_velocity.to_host());
+}
+
+} // namespace
+} // namespace tread::test
