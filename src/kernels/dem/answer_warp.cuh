@@ -57,7 +57,7 @@ struct AnswerWarp
         NodeSums    sums[size];
         union
         {
-            double value[sums_of_patch][warp_size]; ///< of the nodes at hand
+            double value[sums_of_patch][warp_size + 1]; ///< of the nodes at hand; rows begin in different banks
             Patch  patch[size];
         };
         std::int32_t first_node[size + 1];
