@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "kernels/contact/candidates.hpp"
+#include "kernels/contact/history.hpp"
 #include "kernels/contact/summary.hpp"
 
 // Sand against rigid bodies during one MPM step: begin_step, N times substep, finish_step. During the substeps each
@@ -51,27 +52,6 @@ struct ContactsView
     double*        dissipated; ///< J, friction, of the step so far
 };
 
-/// What a pair remembers from step to step, by key: points change their place in memory, not their id. A checkpoint
-/// stores these two arrays.
-template<class Exec>
-struct History
-{
-    explicit History(const Exec& exec)
-        : key(exec, "contact history keys")
-        , tangential(exec, "contact history")
-    {
-    }
-
-    Array<Exec, std::uint64_t> key; ///< ascending
-    Array<Exec, Tangential>    tangential;
-};
-
-/// Key of a pair in the history.
-TREAD_HD std::uint64_t history_key(std::int32_t body, std::uint32_t point_id)
-{
-    return static_cast<std::uint64_t>(body) << 32 | point_id;
-}
-
 /// Owner of everything that the sand-body contact needs.
 template<class Exec>
 struct PointContact
@@ -94,7 +74,6 @@ struct PointContact
         , summary_sums(exec, "contact summary sums")
         , summaries(exec, "contact summaries")
         , marks(exec, "contact history marks")
-        , order(exec, "contact history order")
     {
     }
 
@@ -126,7 +105,6 @@ struct PointContact
     Array<Exec, Summary>      summary_sums; ///< the same
     Array<Exec, Summary>      summaries;    ///< one for each touched body
     Array<Exec, std::int32_t> marks;
-    Array<Exec, std::int32_t> order;
 };
 
 /// Finds the candidates, copies their points (velocity from grid_velocity, impulse zero) and recalls the history.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/contact/history_kern.hpp"
 #include "kernels/contact/point_contact.hpp"
 #include "kernels/dem/sdf_kern.hpp"
 
@@ -38,17 +39,14 @@ struct Recall
 {
     ContactsView         contacts;
     const std::uint32_t* id; ///< of the private points
-    std::int64_t         records;
-    const std::uint64_t* key;
-    const Tangential*    tangential;
+    HistoryView          history;
 
     TREAD_HD void operator()(std::int64_t c) const
     {
-        const std::uint64_t wanted = history_key(contacts.candidates.body[c], id[contacts.candidates.touched[c]]);
-        const std::int64_t  found  = find_sorted(key, records, wanted);
-        contacts.tangential[c]     = found < 0 ? no_tangential() : tangential[found];
-        contacts.response[c]       = no_response();
-        contacts.dissipated[c]     = 0.0;
+        const std::uint32_t point = id[contacts.candidates.touched[c]];
+        contacts.tangential[c]    = recall(history, history_key(contacts.candidates.body[c], point));
+        contacts.response[c]      = no_response();
+        contacts.dissipated[c]    = 0.0;
     }
 };
 
@@ -168,27 +166,18 @@ struct MarkRecords
 
 struct WriteRecords
 {
-    CandidatesView       candidates;
+    ContactsView         contacts;
     const std::uint32_t* id;    ///< of the private points
     const std::int32_t*  place; ///< [count + 1], after the scan
     std::uint64_t*       key;
-    std::int32_t*        order;
+    Tangential*          tangential;
 
     TREAD_HD void operator()(std::int64_t c) const
     {
         if (place[c + 1] == place[c]) { return; }
-        key[place[c]]   = history_key(candidates.body[c], id[candidates.touched[c]]);
-        order[place[c]] = static_cast<std::int32_t>(c);
+        key[place[c]]        = history_key(contacts.candidates.body[c], id[contacts.candidates.touched[c]]);
+        tangential[place[c]] = contacts.tangential[c];
     }
-};
-
-struct GatherRecords
-{
-    const Tangential*   from;
-    const std::int32_t* order;
-    Tangential*         to;
-
-    TREAD_HD void operator()(std::int64_t i) const { to[i] = from[order[i]]; }
 };
 
 struct SummaryOf
@@ -239,8 +228,7 @@ void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Points
         exec, "copy contact points", copies.count,
         contact_steps::CopyPoint<Real>{points, contact.candidates.by_point.view(), law.radius, law.motion, copies});
     for_each(exec, "recall contacts", contact.tangential.size(),
-             contact_steps::Recall{contact.contacts(), copies.id, contact.history.key.size(),
-                                   contact.history.key.data(), contact.history.tangential.data()});
+             contact_steps::Recall{contact.contacts(), copies.id, contact.history.view()});
 }
 
 template<class Exec>
@@ -271,16 +259,12 @@ void save_history(const Exec& exec, PointContact<Exec>& contact)
                  MarkRecords{count, contact.tangential.data(), contact.marks.data()});
         records = exclusive_scan(exec, contact.marks, contact.candidates.sort);
     }
-    contact.history.key.resize(records);
-    contact.history.tangential.resize(records);
-    contact.order.resize(records);
+    resize(contact.history, records);
     if (records == 0) { return; }
     for_each(exec, "write contact history", count,
-             WriteRecords{contact.candidates.view(), contact.id.data(), contact.marks.data(),
-                          contact.history.key.data(), contact.order.data()});
-    sort_by_key(exec, contact.history.key, contact.order, contact.candidates.sort);
-    for_each(exec, "gather contact history", records,
-             GatherRecords{contact.tangential.data(), contact.order.data(), contact.history.tangential.data()});
+             WriteRecords{contact.contacts(), contact.id.data(), contact.marks.data(), contact.history.key.data(),
+                          contact.history.tangential.data()});
+    fill_bins(exec, contact.history);
 }
 
 template<class Exec, class Real>
