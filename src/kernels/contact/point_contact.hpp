@@ -27,6 +27,7 @@ struct PointBodyLaw
     double                   hertz_factor; ///< 1, or 1/sqrt(2) for the paper's Eq. 7
     RadiusRule               radius;
     PointMotion              motion;
+    double                   sampled_below; ///< m, equivalent radius under which points take nine samples; 0 = never
 };
 
 /// Private copies of the points in reach: one for each run of Candidates::by_point.
@@ -43,13 +44,16 @@ struct PrivatePoints
     std::uint32_t* id;
 };
 
-/// State of the candidates, in their order.
+/// State of the candidates, in their order. A candidate has one slot of history, or one for each sample.
 struct ContactsView
 {
-    CandidatesView candidates;
-    Tangential*    tangential;
-    Response*      response;   ///< of the last substep
-    double*        dissipated; ///< J, friction, of the step so far
+    CandidatesView      candidates;
+    const std::int32_t* slot_first; ///< [count + 1], or null: one each
+    Tangential*         tangential; ///< of the slots
+    Response*           response;   ///< of the last substep
+    double*             dissipated; ///< J, friction, of the step so far
+
+    TREAD_HD std::int64_t first_slot(std::int64_t c) const { return slot_first == nullptr ? c : slot_first[c]; }
 };
 
 /// Owner of everything that the sand-body contact needs.
@@ -67,6 +71,7 @@ struct PointContact
         , radius(exec, "private point radius")
         , material(exec, "private point material")
         , id(exec, "private point id")
+        , slot_first(exec, "contact slots")
         , tangential(exec, "contact tangential")
         , response(exec, "contact response")
         , dissipated(exec, "contact dissipated")
@@ -83,7 +88,10 @@ struct PointContact
                 mass.data(),     radius.data(),   material.data(), id.data()};
     }
 
-    ContactsView contacts() { return {candidates.view(), tangential.data(), response.data(), dissipated.data()}; }
+    ContactsView contacts()
+    {
+        return {candidates.view(), slot_first.data(), tangential.data(), response.data(), dissipated.data()};
+    }
 
     Candidates<Exec> candidates;
     History<Exec>    history;
@@ -97,9 +105,10 @@ struct PointContact
     Array<Exec, std::int32_t>  material;
     Array<Exec, std::uint32_t> id;
 
-    Array<Exec, Tangential> tangential;
-    Array<Exec, Response>   response;
-    Array<Exec, double>     dissipated;
+    Array<Exec, std::int32_t> slot_first; ///< empty where no body takes samples
+    Array<Exec, Tangential>   tangential;
+    Array<Exec, Response>     response;
+    Array<Exec, double>       dissipated;
 
     Array<Exec, Wrench>       wrench_sums;  ///< one for each part of a touched body's candidates
     Array<Exec, Summary>      summary_sums; ///< the same
