@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "solver/cover.hpp"
 #include "solver/materials.hpp"
 
 namespace tread::solver
@@ -18,7 +19,7 @@ double largest_point_radius(const World& world, contact::RadiusRule rule)
 }
 
 /// The limit given by the scene, m; 0 where no body is under it, so that the others' contacts stay plain.
-double sampled_below(const World& world, double limit)
+double met_limit(const World& world, double limit)
 {
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
     {
@@ -48,7 +49,7 @@ Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, cons
     {
         throw NumericalError(fmt::format("{} bodies meet sand: at most {}", world.bodies.size(), most));
     }
-    law_.sampled_below = sampled_below(world, scene.numerics.refine_below * largest_radius_);
+    law_.sampled_below = met_limit(world, sampled_below(scene, world.points));
 }
 
 template<class Exec, class Real>

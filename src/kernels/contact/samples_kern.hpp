@@ -92,7 +92,7 @@ TREAD_HD Response sampled_response(const PairConstants& pair, const Vec3<double>
         const bool           known  = far || s == patch_samples / 2;
         const dem::SdfSample at     = known ? centre : sdf(offset);
         const Response       one = point_body_response(pair, {at.distance, at.gradient, velocity}, tangential[s], dt);
-        couple += offset.cross(one.force - tangential[s].force) / patch_samples;
+        couple += 1.0 / patch_samples * offset.cross(one.force - tangential[s].force);
         add_sample(sum, one);
     }
     if (length > 0) { sum.force += turning_force(couple, line, length); }
