@@ -28,7 +28,7 @@ struct HistoryView
     std::int64_t      bins; ///< a power of two, or 0: no records
     std::uint64_t*    bin_key;
     std::int32_t*     bin_record;
-    Tangential const* tangential;
+    const Tangential* tangential;
 };
 
 /// Owner of what HistoryView shows.

@@ -146,7 +146,7 @@ TYPED_TEST(ContactHistory, NeighboursInASceneSpreadOverTheBins)
     }
     Table<TypeParam> table(this->exec());
     table.fill(records_of(keys));
-    double probes = 0;
+    std::int64_t probes = 0;
     for (const std::uint64_t key : keys)
     {
         std::int64_t bin = contact::home_bin(key, table.bins());
@@ -157,7 +157,7 @@ TYPED_TEST(ContactHistory, NeighboursInASceneSpreadOverTheBins)
     }
     const double load     = static_cast<double>(keys.size()) / static_cast<double>(table.bins());
     const double expected = 0.5 * (1 + 1 / (1 - load));
-    const double measured = probes / static_cast<double>(keys.size());
+    const double measured = static_cast<double>(probes) / static_cast<double>(keys.size());
     std::printf("[ measured ] probes a key %.4f, expected %.4f at load %.3f, tolerance 10 %%\n", measured, expected,
                 load);
     EXPECT_NEAR(measured, expected, 0.1 * expected);
