@@ -99,6 +99,9 @@ Keys<Numerics> numerics_keys()
                  "Factor of the contact force: 4/3 E* sqrt(R*) d^1.5, or the paper's Eq. 7, which is 1/sqrt(2) of it."),
         optional("point_radius", "", &Numerics::point_radius, word<PointRadius>({"sphere", "semi-domain"}),
                  "Contact radius of a point: of the sphere of its initial volume V (Eq. 11), or 0.5 V^(1/3)."),
+        optional("refine_below", "point radii", &Numerics::refine_below, number(at_least(0)),
+                 "Bodies whose sphere of equal volume has a smaller radius than this many of the largest point's are "
+                 "sampled at nine places of each point's contact patch, not at its centre alone; 0: none."),
         optional("volume_strain", "", &Numerics::volume_strain, word<VolumeStrain>({"point", "cell-average"}),
                  "Volumetric strain that the material law sees: each point's own, or the mean over its cell's points, "
                  "against locking where the flow keeps its volume (undrained clay, sand that does not dilate)."),

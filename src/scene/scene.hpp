@@ -145,6 +145,7 @@ struct Numerics
     PointMotion           point_motion    = PointMotion::supported;
     HertzFactor           hertz           = HertzFactor::standard;
     PointRadius           point_radius    = PointRadius::sphere;
+    double                refine_below    = 0;    ///< point radii: smaller bodies are sampled at nine places; 0 = none
     double                linear_overlap  = 1e-3; ///< d0/R* under which the body-body traction is linear
     VolumeStrain          volume_strain   = VolumeStrain::point;
 

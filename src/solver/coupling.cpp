@@ -2,21 +2,54 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "solver/cover.hpp"
 #include "solver/materials.hpp"
 
 namespace tread::solver
 {
+namespace
+{
+
+double largest_point_radius(const World& world, contact::RadiusRule rule)
+{
+    return contact::point_radius(*std::max_element(world.points.volume.begin(), world.points.volume.end()), rule);
+}
+
+/// The limit given by the scene, m; 0 where no body is under it, so that the others' contacts stay plain.
+double met_limit(const World& world, double limit)
+{
+    for (std::size_t b = 0; b < world.bodies.size(); ++b)
+    {
+        const auto& form = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
+        if (world.bodies.scale[b] * form.equivalent_radius < limit) { return limit; }
+    }
+    return 0;
+}
+
+} // namespace
 
 template<class Exec, class Real>
 Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, const World& world,
                                const dem::TemplateView* templates, dem::PairTable pairs)
     : exec_(exec)
     , contact_(exec)
-    , law_{templates, pairs, hertz_factor(scene.numerics.hertz), radius_rule(scene.numerics.point_radius),
-           point_motion(scene.numerics.point_motion)}
-    , largest_radius_(
-          contact::point_radius(*std::max_element(world.points.volume.begin(), world.points.volume.end()), law_.radius))
+    , law_{templates,
+           pairs,
+           hertz_factor(scene.numerics.hertz),
+           radius_rule(scene.numerics.point_radius),
+           point_motion(scene.numerics.point_motion),
+           0.0}
+    , largest_radius_(largest_point_radius(world, law_.radius))
 {
+    constexpr std::size_t most = std::size_t{1} << contact::history_body_bits;
+    if (world.bodies.size() > most)
+    {
+        throw NumericalError(fmt::format("{} bodies meet sand: at most {}", world.bodies.size(), most));
+    }
+    law_.sampled_below = met_limit(world, sampled_below(scene, world.points));
 }
 
 template<class Exec, class Real>
@@ -24,7 +57,8 @@ void Coupling<Exec, Real>::begin_step(const mpm::PointsView<Real>& points, const
                                       const dem::BodiesView& bodies, double dt, double speed)
 {
     const double drift = mpm::quadratic_cell_slack * pages.spacing;
-    contact::begin_step(exec_, contact_, points, pages, bodies, law_, {dt, speed, drift, largest_radius_});
+    contact::begin_step(exec_, contact_, points, pages, bodies, law_,
+                        {dt, speed, drift, largest_radius_, law_.sampled_below});
 }
 
 template<class Exec, class Real>

@@ -83,6 +83,9 @@ class BadScene(CommandTest):
     def test_unknown_narrow_phase(self):
         self.refuse(SCENE + '[numerics]\nnarrow_phase = "ray"\n', ["narrow_phase", "sdf", "rays"])
 
+    def test_refinement_below_a_negative_size(self):
+        self.refuse(SCENE + "[numerics]\nrefine_below = -1\n", ["refine_below", ">= 0"])
+
     def test_misspelt_key(self):
         self.refuse_value("cohesion           = 0.0", "cohession          = 0.0", ["cohession", "cohesion"])
 

@@ -22,6 +22,7 @@ struct SearchReach
     double point_speed;    ///< m/s, no point is faster
     double point_drift;    ///< m, how far a point may stand outside the cell that it is listed in
     double largest_radius; ///< m, of any point
+    double sampled_below;  ///< m, PointBodyLaw's
 };
 
 /// (body, point) pairs, ordered by body; within a body by page and memory order.
@@ -80,8 +81,8 @@ struct Candidates
 };
 
 /// Every (body, point) pair that can come into contact within the step. A pair is kept when the point lies in the
-/// body's bounding box and under its signed distance, both grown by r_p and by twice what body and point can move: the
-/// trilinear interpolant of a distance rises by at most sqrt(3) a metre.
+/// body's bounding box and under its signed distance, both grown by r_p and by twice what body and point can move, and
+/// the reach of the point's samples: the trilinear interpolant of a distance rises by at most sqrt(3) a metre.
 template<class Exec, class Real>
 void find_candidates(const Exec& exec, Candidates<Exec>& candidates, const mpm::PointsView<Real>& points,
                      const mpm::PagesView& pages, const dem::BodiesView& bodies, const dem::TemplateView* templates,

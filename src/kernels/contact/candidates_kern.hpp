@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "kernels/contact/candidates.hpp"
+#include "kernels/contact/samples_kern.hpp"
 #include "kernels/dem/sdf_kern.hpp"
 
 namespace tread::contact
@@ -51,7 +52,7 @@ struct SearchBody
     double                   scale;
     Vec3<double>             position;
     Quat                     orientation;
-    double                   travel; ///< m, twice what body and points can move in the step
+    double travel; ///< m, twice what body and points can move in the step, and twice the samples' reach
 };
 
 TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::TemplateView* templates, std::int64_t b,
@@ -59,8 +60,10 @@ TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::Templa
 {
     const dem::TemplateView* shape  = templates + bodies.shape[b];
     const double             radius = shape->bounding_radius * bodies.scale[b];
-    const double speed = bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius + reach.point_speed;
-    return {shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], 2.0 * reach.dt * speed};
+    const double speed   = bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius + reach.point_speed;
+    const bool   sampled = takes_samples(*shape, bodies.scale[b], reach.sampled_below);
+    const double patch   = sampled ? patch_reach * reach.largest_radius : 0.0;
+    return {shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], 2.0 * (reach.dt * speed + patch)};
 }
 
 /// Pages whose points may be candidates of the body: those under its axis-aligned box, grown.

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "kernels/contact/candidates.hpp"
+#include "kernels/contact/history.hpp"
 #include "kernels/contact/summary.hpp"
 
 // Sand against rigid bodies during one MPM step: begin_step, N times substep, finish_step. During the substeps each
@@ -26,6 +27,7 @@ struct PointBodyLaw
     double                   hertz_factor; ///< 1, or 1/sqrt(2) for the paper's Eq. 7
     RadiusRule               radius;
     PointMotion              motion;
+    double                   sampled_below; ///< m, equivalent radius under which points take nine samples; 0 = never
 };
 
 /// Private copies of the points in reach: one for each run of Candidates::by_point.
@@ -42,35 +44,17 @@ struct PrivatePoints
     std::uint32_t* id;
 };
 
-/// State of the candidates, in their order.
+/// State of the candidates, in their order. A candidate has one slot of history, or one for each sample.
 struct ContactsView
 {
-    CandidatesView candidates;
-    Tangential*    tangential;
-    Response*      response;   ///< of the last substep
-    double*        dissipated; ///< J, friction, of the step so far
+    CandidatesView      candidates;
+    const std::int32_t* slot_first; ///< [count + 1], or null: one each
+    Tangential*         tangential; ///< of the slots
+    Response*           response;   ///< of the last substep
+    double*             dissipated; ///< J, friction, of the step so far
+
+    TREAD_HD std::int64_t first_slot(std::int64_t c) const { return slot_first == nullptr ? c : slot_first[c]; }
 };
-
-/// What a pair remembers from step to step, by key: points change their place in memory, not their id. A checkpoint
-/// stores these two arrays.
-template<class Exec>
-struct History
-{
-    explicit History(const Exec& exec)
-        : key(exec, "contact history keys")
-        , tangential(exec, "contact history")
-    {
-    }
-
-    Array<Exec, std::uint64_t> key; ///< ascending
-    Array<Exec, Tangential>    tangential;
-};
-
-/// Key of a pair in the history.
-TREAD_HD std::uint64_t history_key(std::int32_t body, std::uint32_t point_id)
-{
-    return static_cast<std::uint64_t>(body) << 32 | point_id;
-}
 
 /// Owner of everything that the sand-body contact needs.
 template<class Exec>
@@ -87,6 +71,7 @@ struct PointContact
         , radius(exec, "private point radius")
         , material(exec, "private point material")
         , id(exec, "private point id")
+        , slot_first(exec, "contact slots")
         , tangential(exec, "contact tangential")
         , response(exec, "contact response")
         , dissipated(exec, "contact dissipated")
@@ -94,7 +79,6 @@ struct PointContact
         , summary_sums(exec, "contact summary sums")
         , summaries(exec, "contact summaries")
         , marks(exec, "contact history marks")
-        , order(exec, "contact history order")
     {
     }
 
@@ -104,7 +88,10 @@ struct PointContact
                 mass.data(),     radius.data(),   material.data(), id.data()};
     }
 
-    ContactsView contacts() { return {candidates.view(), tangential.data(), response.data(), dissipated.data()}; }
+    ContactsView contacts()
+    {
+        return {candidates.view(), slot_first.data(), tangential.data(), response.data(), dissipated.data()};
+    }
 
     Candidates<Exec> candidates;
     History<Exec>    history;
@@ -118,15 +105,15 @@ struct PointContact
     Array<Exec, std::int32_t>  material;
     Array<Exec, std::uint32_t> id;
 
-    Array<Exec, Tangential> tangential;
-    Array<Exec, Response>   response;
-    Array<Exec, double>     dissipated;
+    Array<Exec, std::int32_t> slot_first; ///< empty where no body takes samples
+    Array<Exec, Tangential>   tangential;
+    Array<Exec, Response>     response;
+    Array<Exec, double>       dissipated;
 
     Array<Exec, Wrench>       wrench_sums;  ///< one for each part of a touched body's candidates
     Array<Exec, Summary>      summary_sums; ///< the same
     Array<Exec, Summary>      summaries;    ///< one for each touched body
     Array<Exec, std::int32_t> marks;
-    Array<Exec, std::int32_t> order;
 };
 
 /// Finds the candidates, copies their points (velocity from grid_velocity, impulse zero) and recalls the history.

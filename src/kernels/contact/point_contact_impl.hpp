@@ -1,6 +1,8 @@
 #pragma once
 
+#include "kernels/contact/history_kern.hpp"
 #include "kernels/contact/point_contact.hpp"
+#include "kernels/contact/samples_kern.hpp"
 #include "kernels/dem/sdf_kern.hpp"
 
 // The steps of the sand-body contact, the same on both backends; point_contact.cpp and point_contact.cu bring in
@@ -34,21 +36,47 @@ struct CopyPoint
     }
 };
 
+struct CountSlots
+{
+    CandidatesView           candidates;
+    dem::BodiesView          bodies;
+    const dem::TemplateView* templates;
+    double                   sampled_below;
+    std::int32_t*            slots; ///< [count + 1]
+
+    TREAD_HD void operator()(std::int64_t c) const
+    {
+        slots[c] = 0;
+        if (c == candidates.count) { return; }
+        const std::int32_t b       = candidates.body[c];
+        const bool         sampled = takes_samples(templates[bodies.shape[b]], bodies.scale[b], sampled_below);
+        slots[c]                   = sampled ? patch_samples : 1;
+    }
+};
+
+/// Key of slot s of candidate c.
+TREAD_HD std::uint64_t slot_key(const ContactsView& contacts, const std::uint32_t* id, std::int64_t c, std::int64_t s)
+{
+    const std::int64_t first = contacts.first_slot(c);
+    const bool         alone = contacts.first_slot(c + 1) == first + 1;
+    return history_key(contacts.candidates.body[c], id[contacts.candidates.touched[c]],
+                       alone ? 0 : static_cast<int>(s - first) + 1);
+}
+
 struct Recall
 {
     ContactsView         contacts;
     const std::uint32_t* id; ///< of the private points
-    std::int64_t         records;
-    const std::uint64_t* key;
-    const Tangential*    tangential;
+    HistoryView          history;
 
     TREAD_HD void operator()(std::int64_t c) const
     {
-        const std::uint64_t wanted = history_key(contacts.candidates.body[c], id[contacts.candidates.touched[c]]);
-        const std::int64_t  found  = find_sorted(key, records, wanted);
-        contacts.tangential[c]     = found < 0 ? no_tangential() : tangential[found];
-        contacts.response[c]       = no_response();
-        contacts.dissipated[c]     = 0.0;
+        for (std::int64_t s = contacts.first_slot(c); s < contacts.first_slot(c + 1); ++s)
+        {
+            contacts.tangential[s] = recall(history, slot_key(contacts, id, c, s));
+        }
+        contacts.response[c]   = no_response();
+        contacts.dissipated[c] = 0.0;
     }
 };
 
@@ -83,7 +111,40 @@ struct Respond
 
         const auto field = dem::sample_body_sdf(shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], x);
         const Approach approach{field.distance, field.gradient, points.velocity[t] - velocity_at(bodies, b, x)};
-        contacts.response[c] = point_body_response(pair(b, t, shape), approach, contacts.tangential[c], dt);
+        Tangential&    tangential = contacts.tangential[contacts.first_slot(c)];
+        contacts.response[c]      = point_body_response(pair(b, t, shape), approach, tangential, dt);
+        contacts.dissipated[c] += contacts.response[c].dissipated;
+    }
+};
+
+/// The same where some bodies are sampled.
+struct RespondSampled
+{
+    Respond respond;
+
+    TREAD_HD void operator()(std::int64_t c) const
+    {
+        const ContactsView& contacts = respond.contacts;
+        const std::int64_t  first    = contacts.first_slot(c);
+        if (contacts.first_slot(c + 1) == first + 1)
+        {
+            respond(c);
+            return;
+        }
+        const dem::BodiesView&   bodies = respond.bodies;
+        const std::int32_t       b      = contacts.candidates.body[c];
+        const std::int32_t       t      = contacts.candidates.touched[c];
+        const dem::TemplateView& shape  = respond.law.templates[bodies.shape[b]];
+        const PairConstants      pair   = respond.pair(b, t, shape);
+        const Vec3<double>       x      = respond.points.position[t];
+
+        const auto sdf = [&](const Vec3<double>& offset)
+        { return dem::sample_body_sdf(shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], x + offset); };
+        const double bound =
+            dem::search_bound(shape, bodies.scale[b], pair.point_radius, 2.0 * patch_reach * pair.point_radius);
+        contacts.response[c] =
+            sampled_response(pair, x - bodies.position[b], respond.points.velocity[t] - velocity_at(bodies, b, x), sdf,
+                             bound, contacts.tangential + first, respond.dt);
         contacts.dissipated[c] += contacts.response[c].dissipated;
     }
 };
@@ -159,36 +220,30 @@ struct GiveBack
 
 struct MarkRecords
 {
-    std::int64_t      count;
+    std::int64_t      slots;
     const Tangential* tangential;
-    std::int32_t*     marks; ///< [count + 1]
+    std::int32_t*     marks; ///< [slots + 1]
 
-    TREAD_HD void operator()(std::int64_t c) const { marks[c] = c < count && tangential[c].force.squaredNorm() > 0; }
+    TREAD_HD void operator()(std::int64_t s) const { marks[s] = s < slots && tangential[s].force.squaredNorm() > 0; }
 };
 
 struct WriteRecords
 {
-    CandidatesView       candidates;
+    ContactsView         contacts;
     const std::uint32_t* id;    ///< of the private points
-    const std::int32_t*  place; ///< [count + 1], after the scan
+    const std::int32_t*  place; ///< [slots + 1], after the scan
     std::uint64_t*       key;
-    std::int32_t*        order;
+    Tangential*          tangential;
 
     TREAD_HD void operator()(std::int64_t c) const
     {
-        if (place[c + 1] == place[c]) { return; }
-        key[place[c]]   = history_key(candidates.body[c], id[candidates.touched[c]]);
-        order[place[c]] = static_cast<std::int32_t>(c);
+        for (std::int64_t s = contacts.first_slot(c); s < contacts.first_slot(c + 1); ++s)
+        {
+            if (place[s + 1] == place[s]) { continue; }
+            key[place[s]]        = slot_key(contacts, id, c, s);
+            tangential[place[s]] = contacts.tangential[s];
+        }
     }
-};
-
-struct GatherRecords
-{
-    const Tangential*   from;
-    const std::int32_t* order;
-    Tangential*         to;
-
-    TREAD_HD void operator()(std::int64_t i) const { to[i] = from[order[i]]; }
 };
 
 struct SummaryOf
@@ -222,9 +277,26 @@ void resize_to_candidates(PointContact<Exec>& contact)
     const auto resize = [](std::int64_t size, auto&... arrays) { (arrays.resize(size), ...); };
     resize(contact.candidates.by_point.key.size(), contact.position, contact.velocity, contact.support, contact.impulse,
            contact.mass, contact.radius, contact.material, contact.id);
-    resize(contact.candidates.body.size(), contact.tangential, contact.response, contact.dissipated);
+    resize(contact.candidates.body.size(), contact.response, contact.dissipated);
     resize(contact.candidates.body_parts.of_items.key.size(), contact.wrench_sums, contact.summary_sums);
     contact.summaries.resize(contact.candidates.by_body.key.size());
+}
+
+/// Memory for the history of the candidates found.
+template<class Exec>
+void make_slots(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesView& bodies, const PointBodyLaw& law)
+{
+    const std::int64_t count = contact.candidates.body.size();
+    std::int64_t       slots = count;
+    if (law.sampled_below > 0 && count > 0)
+    {
+        contact.slot_first.resize(count + 1);
+        for_each(exec, "count contact slots", count + 1,
+                 contact_steps::CountSlots{contact.candidates.view(), bodies, law.templates, law.sampled_below,
+                                           contact.slot_first.data()});
+        slots = exclusive_scan(exec, contact.slot_first, contact.candidates.sort);
+    }
+    contact.tangential.resize(slots);
 }
 
 template<class Exec, class Real>
@@ -234,13 +306,13 @@ void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Points
 {
     find_candidates(exec, contact.candidates, points, pages, bodies, law.templates, law.radius, reach);
     resize_to_candidates(contact);
+    make_slots(exec, contact, bodies, law);
     const PrivatePoints copies = contact.private_points();
     for_each(
         exec, "copy contact points", copies.count,
         contact_steps::CopyPoint<Real>{points, contact.candidates.by_point.view(), law.radius, law.motion, copies});
-    for_each(exec, "recall contacts", contact.tangential.size(),
-             contact_steps::Recall{contact.contacts(), copies.id, contact.history.key.size(),
-                                   contact.history.key.data(), contact.history.tangential.data()});
+    for_each(exec, "recall contacts", contact.candidates.body.size(),
+             contact_steps::Recall{contact.contacts(), copies.id, contact.history.view()});
 }
 
 template<class Exec>
@@ -251,7 +323,9 @@ void substep(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesVie
     const ContactsView  contacts = contact.contacts();
     const PrivatePoints points   = contact.private_points();
     const RunsView      by_body  = contact.candidates.by_body.view();
-    for_each(exec, "point-body forces", contacts.candidates.count, Respond{contacts, points, bodies, law, dt});
+    const Respond       respond{contacts, points, bodies, law, dt};
+    if (contacts.slot_first == nullptr) { for_each(exec, "point-body forces", contacts.candidates.count, respond); }
+    else { for_each(exec, "sampled point-body forces", contacts.candidates.count, RespondSampled{respond}); }
     reduce_parts(exec, "point-body wrenches", by_body, contact.candidates.body_parts, contact.wrench_sums.data(),
                  WrenchOf{contacts, points.position, bodies.position}, AddToBody{by_body.key, bodies});
     for_each(exec, "move contact points", points.count,
@@ -262,25 +336,21 @@ template<class Exec>
 void save_history(const Exec& exec, PointContact<Exec>& contact)
 {
     using namespace contact_steps;
-    const std::int64_t count   = contact.tangential.size();
+    const std::int64_t slots   = contact.tangential.size();
     std::int64_t       records = 0;
-    if (count > 0)
+    if (slots > 0)
     {
-        contact.marks.resize(count + 1);
-        for_each(exec, "mark contact history", count + 1,
-                 MarkRecords{count, contact.tangential.data(), contact.marks.data()});
+        contact.marks.resize(slots + 1);
+        for_each(exec, "mark contact history", slots + 1,
+                 MarkRecords{slots, contact.tangential.data(), contact.marks.data()});
         records = exclusive_scan(exec, contact.marks, contact.candidates.sort);
     }
-    contact.history.key.resize(records);
-    contact.history.tangential.resize(records);
-    contact.order.resize(records);
+    resize(contact.history, records);
     if (records == 0) { return; }
-    for_each(exec, "write contact history", count,
-             WriteRecords{contact.candidates.view(), contact.id.data(), contact.marks.data(),
-                          contact.history.key.data(), contact.order.data()});
-    sort_by_key(exec, contact.history.key, contact.order, contact.candidates.sort);
-    for_each(exec, "gather contact history", records,
-             GatherRecords{contact.tangential.data(), contact.order.data(), contact.history.tangential.data()});
+    for_each(exec, "write contact history", contact.candidates.body.size(),
+             WriteRecords{contact.contacts(), contact.id.data(), contact.marks.data(), contact.history.key.data(),
+                          contact.history.tangential.data()});
+    fill_bins(exec, contact.history);
 }
 
 template<class Exec, class Real>

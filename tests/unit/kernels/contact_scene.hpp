@@ -89,14 +89,15 @@ struct PointState
 /// Material 0 = sand, 1 = bodies, 2 = walls; every pair alike.
 struct SceneNumbers
 {
-    double               spacing     = 0.01;    ///< m, grid
-    double               mass        = 1e-3;    ///< kg, of a point
-    double               volume      = 1.25e-7; ///< m3, of a point
-    dem::PairProperties  pair        = {1e6, 3e5, 0.3, 0.0};
-    contact::PointMotion motion      = contact::PointMotion::supported;
-    double               dt          = 1e-4; ///< s, MPM step
-    double               point_drift = 0;    ///< m
-    double               point_speed = 1;    ///< m/s
+    double               spacing       = 0.01;    ///< m, grid
+    double               mass          = 1e-3;    ///< kg, of a point
+    double               volume        = 1.25e-7; ///< m3, of a point
+    dem::PairProperties  pair          = {1e6, 3e5, 0.3, 0.0};
+    contact::PointMotion motion        = contact::PointMotion::supported;
+    double               dt            = 1e-4; ///< s, MPM step
+    double               point_drift   = 0;    ///< m
+    double               point_speed   = 1;    ///< m/s
+    double               sampled_below = 0;    ///< m
 };
 
 template<class Exec, class Real>
@@ -128,12 +129,13 @@ public:
     contact::SearchReach reach() const
     {
         const double radius = contact::point_radius(numbers.volume, contact::RadiusRule::sphere);
-        return {numbers.dt, numbers.point_speed, numbers.point_drift, radius * (1 + 1e-6)};
+        return {numbers.dt, numbers.point_speed, numbers.point_drift, radius * (1 + 1e-6), numbers.sampled_below};
     }
 
     contact::PointBodyLaw law() const
     {
-        return {templates_.data(), {pairs_.data(), 3}, 1.0, contact::RadiusRule::sphere, numbers.motion};
+        return {templates_.data(),           {pairs_.data(), 3}, 1.0,
+                contact::RadiusRule::sphere, numbers.motion,     numbers.sampled_below};
     }
 
     void find()

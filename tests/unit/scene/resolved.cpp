@@ -31,6 +31,7 @@ narrow_phase = "rays"
 point_motion = "frozen"
 hertz = "paper-eq7"
 point_radius = "semi-domain"
+refine_below = 1.5
 volume_strain = "cell-average"
 linear_overlap = 1e-2
 [[material]]
@@ -160,7 +161,7 @@ TEST(Resolved, what_was_read_is_what_was_written)
     EXPECT_EQ(scene.time, (TimeOptions{1e-5, 7}));
     EXPECT_EQ(scene.numerics, (Numerics{Precision::double_, Transfer::apic, std::nullopt, ShapeFunctions::linear,
                                         NarrowPhase::rays, PointMotion::frozen, HertzFactor::paper_eq7,
-                                        PointRadius::semi_domain, 1e-2, VolumeStrain::cell_average}));
+                                        PointRadius::semi_domain, 1.5, 1e-2, VolumeStrain::cell_average}));
     EXPECT_EQ(scene.materials[0], (Material{"sand", MaterialModel::drucker_prager, 1600, 1e21, 0.1, 30, 5, 100,
                                             "ripple", ConeFit::plane_strain}));
     EXPECT_EQ(scene.materials[1].family, "steel");

@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.hpp"
-#include "kernels/contact/point_body_kern.hpp"
+#include "kernels/contact/samples_kern.hpp"
 #include "scene_text.hpp"
+#include "solver/body_grid.hpp"
 #include "solver/terrain.hpp"
 #include "solver/world.hpp"
 
@@ -48,6 +49,34 @@ TEST(World, ReplacedRocksOverlapNeitherSandNorEachOther)
     EXPECT_GE(nearest_point, reach * (1 - 1e-12));
     EXPECT_GT(nearest_node, 0);
     EXPECT_LT(world.points.size(), 4u * 8 * 8 * 8); // some sand made way
+}
+
+TEST(World, SampledRocksKeepClearOfTheSamples)
+{
+    const auto nearest = [](const std::string& numerics)
+    {
+        const World  world  = build_world(load_text(test::sand_text + test::rocks_text + numerics));
+        const double radius = contact::point_radius(world.points.volume[0], contact::RadiusRule::sphere);
+        double       least  = 1;
+        for (std::size_t b = 0; b < world.bodies.size(); ++b)
+        {
+            for (const auto& x : world.points.position)
+            {
+                const auto axes = contact::patch_axes((x - world.bodies.position[b]).normalized());
+                for (int s = 0; s < contact::patch_samples; ++s)
+                {
+                    least = std::min(least, distance(world, b, x + contact::patch_offset(axes, s, radius)) / radius);
+                }
+            }
+        }
+        return least;
+    };
+    const double sampled = nearest("[numerics]\nrefine_below = 3.0\n"), plain = nearest("");
+    std::cout << "[ measured ] nearest sample over the point radius " << sampled
+              << " (at least 1); where rocks are not "
+              << "sampled " << plain << "\n";
+    EXPECT_GE(sampled, 1);
+    EXPECT_LT(plain, 1);
 }
 
 TEST(World, TheSameSeedGivesTheSameRocksAndAnotherDoesNot)

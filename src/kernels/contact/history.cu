@@ -1,0 +1,12 @@
+#include "backend/launch.cuh"
+#include "kernels/contact/history_impl.hpp"
+
+namespace tread::contact
+{
+
+template void                       resize(History<Gpu>&, std::int64_t);
+template void                       fill_bins(const Gpu&, History<Gpu>&);
+template std::vector<HistoryRecord> read_out(const History<Gpu>&);
+template void                       put_back(const Gpu&, History<Gpu>&, const std::vector<HistoryRecord>&);
+
+} // namespace tread::contact

@@ -1,0 +1,141 @@
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "books.hpp"
+
+// Rocks as small as the points of the bed under them, by nine samples a point and by one.
+namespace
+{
+
+using namespace tread;
+
+template<class Exec>
+class Pebbles : public test::BackendTest<Exec>
+{
+};
+TYPED_TEST_SUITE(Pebbles, test::Backends, test::BackendNames);
+
+constexpr double point_radius = 0.0155; ///< m, of 0.025 m between points
+constexpr double pebble_mass  = 0.05;   ///< kg
+
+/// An elastic bed, and a pebble of the points' own size at `position` with friction; `form`, `body` and `phase` are
+/// lines of their tables.
+std::string pebble_on_bed(double refine_below, const std::string& form, const std::string& body,
+                          const std::string& phase)
+{
+    return fmt::format(R"(
+title = "pebble"
+[domain]
+size    = [0.3, 0.3, 0.3]
+gravity = [0.0, 0.0, -9.81]
+walls   = {{ x = "slip", y = "slip", bottom = "fixed", top = "open" }}
+[grid]
+spacing = 0.05
+[numerics]
+precision    = "double"
+refine_below = {}
+[[material]]
+name = "gel"
+model = "elastic"
+density = 1600.0
+young = 1.0e5
+poisson = 0.3
+[[material]]
+name = "stone"
+model = "elastic"
+density = 2700.0
+young = 1.0e7
+poisson = 0.3
+[[contact]]
+between  = ["gel", "stone"]
+friction = 0.5
+[[terrain]]
+material = "gel"
+region = {{ box = [[0.0, 0.0, 0.0], [0.3, 0.3, 0.15]] }}
+[[shape]]
+name = "pebble"
+generate = {}
+sdf_cells = 32
+[[body]]
+name     = "pebble"
+shape    = "pebble"
+material = "stone"
+diameter = {}
+mass     = {}
+{}
+[[phase]]
+name = "run"
+{}
+)",
+                       refine_below, form, 2 * point_radius, pebble_mass, body, phase);
+}
+
+constexpr auto ball = "{ kind = \"sphere\" }";
+constexpr auto rock = "{ kind = \"rock\", seed = 3, aspect = 0.6, sphericity = 0.8, nodes = 162 }";
+
+/// In the hollow between four points, a pebble rests on them with its weight and without a torque.
+TYPED_TEST(Pebbles, RestsInTheHollowWithItsWeight)
+{
+    for (const double refine_below : {0.0, 3.0})
+    {
+        test::Experiment<TypeParam> rest(
+            this->exec(),
+            pebble_on_bed(refine_below, ball, "position = [0.15, 0.15, 0.172]", "duration = 1.2\ndamping = 0.5"));
+        bool started = false;
+        rest.run(
+            [&](double time)
+            {
+                if (time > 0.8 && !started)
+                {
+                    rest.simulation().begin_mean();
+                    started = true;
+                }
+            });
+        const auto   pebble = rest.simulation().named_bodies().at(0);
+        const double weight = pebble_mass * 9.81;
+        const auto   label  = fmt::format("refine_below = {}: ", refine_below);
+        test::report(label + "mean contact force in N", pebble.force[2], weight, 0.01 * weight,
+                     fmt::format("1 % of the weight, time mean (D3); centre at {:.5f} m", pebble.position[2]));
+        EXPECT_NEAR(pebble.force[2], weight, 0.01 * weight);
+        const double torque = pebble.torque.norm() / (weight * point_radius);
+        test::report(label + "torque over weight x radius", torque, 0, 0.01, "1 % as the force, which has that arm");
+        EXPECT_LE(torque, 0.01);
+    }
+}
+
+/// A flat rock strikes, slides and turns. What the sand gets the rock gives; what substeps and grid see differently
+/// vanishes with the step, and the samples leave nothing beside it.
+TYPED_TEST(Pebbles, BooksOfAThrownRockClose)
+{
+    for (const double refine_below : {0.0, 3.0})
+    {
+        const auto unaccounted = [&](double dt)
+        {
+            test::Experiment<TypeParam> thrown(
+                this->exec(),
+                pebble_on_bed(refine_below, rock, "position = [0.1, 0.14, 0.185]\nvelocity = [0.5, 0.2, -1.0]",
+                              fmt::format("duration = 0.15\n[time]\ndt = {}", dt)));
+            const double error   = test::largest_unaccounted(thrown);
+            const auto   census  = thrown.simulation().census();
+            auto&        ledger  = thrown.simulation().ledger();
+            const double impulse = ledger.balance(census).impulse_error;
+            test::report("impulse error over weight x time", impulse, 0, 1e-10, "fp64 rounding (D4)");
+            EXPECT_LT(impulse, 1e-10);
+            const double thrown_energy = 0.5 * pebble_mass * (0.25 + 0.04 + 1.0);
+            EXPECT_GT(ledger.energy(census).friction, 0.1 * thrown_energy) << "it never slid";
+            return error;
+        };
+        const double coarse = unaccounted(2.0e-4), fine = unaccounted(1.0e-4);
+        const auto   label = fmt::format("refine_below = {}: unaccounted over the largest energy ", refine_below);
+        test::report(label + "at 0.2 ms over that at 0.1 ms", coarse / fine, 2, 0.5,
+                     fmt::format("first order in dt, a quarter to spare; {:.2e}, {:.2e}", coarse, fine));
+        EXPECT_NEAR(coarse / fine, 2, 0.5);
+        test::report(label + "that the step does not explain", std::abs(2 * fine - coarse), 0, test::closes,
+                     "design 7");
+        EXPECT_LT(std::abs(2 * fine - coarse), test::closes);
+    }
+}
+
+} // namespace
