@@ -9,6 +9,7 @@ import json
 import subprocess
 import sys
 import tempfile
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -18,6 +19,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "postprocess"))
 
+import head_on  # noqa: E402
 from tread_post import Run, RunError  # noqa: E402
 
 SCENE = """
@@ -250,6 +252,27 @@ class PostprocessTest(unittest.TestCase):
         self.assertEqual(front, [["0.1", "1", "flip"], ["0.05", "1", "flip"]])
         self.assertGreater(colours_of(output), 24, "a picture of something")
 
+    def test_head_on_knows_hertz(self):
+        scene = tomllib.loads((ROOT / "configs/paper/head_on_1.toml").read_text(encoding="utf-8"))
+        time = np.linspace(0, 0.1, 4001)
+        for elastic_spheres, force, contact in ((1, 10019.6, 24.609e-3), (2, 7593.4, 32.472e-3)):  # closed forms
+            history = head_on.hertz(scene, elastic_spheres, time)
+            self.assertLess(abs(history.force.max() / force - 1), 1e-4)
+            self.assertLess(abs(np.ptp(time[history.force > 0]) - contact), 2 * time[1])
+            self.assertLess(np.max(np.abs(history.total / history.total[0] - 1)), 1e-4)
+            self.assertAlmostEqual(history.body_velocity[-1], -1, 4)
+
+    def test_point_motions(self):
+        table = self.run_path.parent / "motions.csv"
+        table.write_text("case,points_per_cell,motion,substeps,spring,creep_m_s,pull,jitter\n"
+                         '"held at 0.15 W, elastic",1,supported,1,0.1,1e-5,0.15,1e-4\n'
+                         '"drawn at 0.1 m/s, elastic",1,ballistic,100,0.1,0.1,0.27,1e-4\n'
+                         '"at rest",64,frozen,100,2.0,0,0,1e-3\n"at rest",64,frozen,100,,,,\n', encoding="utf-8")
+        output = table.with_suffix(".png")
+        done = self.command("point_motions.py", table, "--output", output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(colours_of(output), 24, "a picture of something")
+
     def test_render(self):
         self.picture("render.py")
         self.picture("render.py", "--snapshot", "0")
@@ -279,6 +302,8 @@ class PostprocessTest(unittest.TestCase):
             ("wheel_history.py", (self.run_path, "--wheel", "rear"), "/wheel/rear"),
             ("sdf_convergence.py", (self.run_path / "timeseries.h5",), "no report of tread sdf"),
             ("work_precision.py", (self.run_path / "scene.toml",), "no table of work_precision_runs.py"),
+            ("point_motions.py", (self.run_path / "scene.toml",), "no table of bench_point_motions"),
+            ("head_on.py", (self.run_path / "absent",), "no scene.toml"),
         ):
             done = self.command(name, *options)
             self.assertEqual(done.returncode, 1)

@@ -47,6 +47,9 @@ public:
     /// How the last phase that ran ended.
     const solver::PhaseEnd& phase_end() const { return phases_.ending(); }
 
+    /// Before every step, adjust(commands) may ask of the named bodies what no phase can.
+    void steer(std::function<void(std::vector<solver::BodyCommand>&)> adjust) { adjust_ = std::move(adjust); }
+
     /// All phases; look(time) after every step.
     void run(const std::function<void(double)>& look = [](double) {})
     {
@@ -72,6 +75,7 @@ private:
         {
             commands.push_back(phases_.command(b, time_ + step_.dt));
         }
+        if (adjust_) { adjust_(commands); }
         simulation_.command(commands, phases_.phase().damping);
         simulation_.step(step_, time_, clock_);
         time_ += step_.dt;
@@ -84,6 +88,8 @@ private:
     solver::StageClock clock_;
     solver::TimeStep   step_;
     double             time_ = 0;
+
+    std::function<void(std::vector<solver::BodyCommand>&)> adjust_;
 };
 
 /// One line of a physics test's report.

@@ -1,0 +1,109 @@
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "base/errors.hpp"
+#include "physics/sphere_on_bed.hpp"
+
+// Prints docs/studies/point_motions.csv: a sphere on a bed with the three motions of points in the substeps.
+namespace
+{
+
+using namespace tread;
+
+struct Case
+{
+    std::string       name;
+    test::SphereOnBed bed;
+};
+
+constexpr const char* sand = "model = \"mohr-coulomb\"\nfriction_angle_deg = 35.0";
+
+test::SphereOnBed held(int points_per_cell)
+{
+    test::SphereOnBed bed;
+    bed.sideways        = 0.15;
+    bed.settling        = 0.1;
+    bed.free            = 0.08; // a sphere that creeps must not get to the walls
+    bed.points_per_cell = points_per_cell;
+    return bed;
+}
+
+/// Long enough that the sphere slips in the second half: friction yields after about 1 mm.
+test::SphereOnBed drawn(double speed, const std::string& law, int points_per_cell)
+{
+    test::SphereOnBed bed;
+    bed.law             = law;
+    bed.speed           = speed;
+    bed.points_per_cell = points_per_cell;
+    bed.free            = speed < 0.05 ? 0.5 : 0.1;
+    if (law == sand)
+    {
+        bed.settling = 0.25;
+        bed.free     = speed < 0.05 ? 0.6 : 0.15;
+        bed.width    = 0.28;
+    }
+    return bed;
+}
+
+/// 64 points a cell: k dt^2/m_p is large for steps that the grid still carries.
+test::SphereOnBed rattling(const std::string& dt)
+{
+    test::SphereOnBed bed;
+    bed.points_per_cell = 64;
+    bed.spacing         = 0.02;
+    bed.width           = 0.24;
+    bed.depth           = 0.06;
+    bed.settling        = 0.08;
+    bed.free            = 0.04;
+    bed.friction        = 0;
+    bed.dt              = dt;
+    return bed;
+}
+
+std::vector<Case> cases()
+{
+    std::vector<Case> all{{"held at 0.15 W, elastic", held(1)},
+                          {"held at 0.15 W, elastic", held(8)},
+                          {"drawn at 0.1 m/s, elastic", drawn(0.1, test::SphereOnBed{}.law, 1)},
+                          {"drawn at 0.1 m/s, elastic", drawn(0.1, test::SphereOnBed{}.law, 8)},
+                          {"drawn at 0.01 m/s, elastic", drawn(0.01, test::SphereOnBed{}.law, 1)},
+                          {"drawn at 0.1 m/s, sand", drawn(0.1, sand, 1)},
+                          {"drawn at 0.01 m/s, sand", drawn(0.01, sand, 1)}};
+    for (const char* dt : {"2.0e-4", "4.0e-4", "5.6e-4", "8.0e-4"}) { all.push_back({"at rest", rattling(dt)}); }
+    return all;
+}
+
+void print(const Cpu& cpu, const Case& one, const std::string& motion, int substeps)
+{
+    test::SphereOnBed bed = one.bed;
+    bed.motion            = motion;
+    bed.substeps          = substeps;
+    std::printf("\"%s\",%d,%s,%d,", one.name.c_str(), bed.points_per_cell, motion.c_str(), substeps);
+    try
+    {
+        const test::Watched ball = test::watch_sphere(cpu, bed);
+        std::printf("%.3g,%.3g,%.4g,%.4g,%.2g,%.4g,%.2g,%.4g\n", ball.dt, ball.spring, ball.creep, ball.pull,
+                    ball.pull_jitter, ball.lift, ball.jitter, ball.height);
+    }
+    catch (const NumericalError&)
+    {
+        std::printf(",,,,,,,\n"); // stopped, which is an answer too
+    }
+    std::fflush(stdout);
+}
+
+} // namespace
+
+int main()
+{
+    Counters  counters;
+    const Cpu cpu{&counters};
+    std::printf("case,points_per_cell,motion,substeps,dt_s,spring,creep_m_s,pull,pull_jitter,lift,jitter,height_m\n");
+    for (const Case& one : cases())
+    {
+        print(cpu, one, "supported", 1); // all motions are one then
+        for (const char* motion : {"supported", "ballistic", "frozen"}) { print(cpu, one, motion, 100); }
+    }
+    return 0;
+}
