@@ -115,7 +115,7 @@ struct LargestOfChunk
         double             largest = 0;
         for (std::int64_t row = chunk * count / chunks + threadIdx.x; row < end; row += chunk_threads)
         {
-            largest = Larger{}(largest, rows[row * width + column]);
+            largest = Larger{}(rows[row * width + column], largest); // in this order -0 leaves it alone
         }
         for (int across = warp_size / 2; across > 0; across /= 2)
         {

@@ -123,7 +123,7 @@ public:
 
     test::SolidScene<Exec>& scene() { return scene_; }
 
-    void carry(double duration, double damping)
+    void advance(double duration, double damping)
     {
         double left = duration;
         while (left > 0)
@@ -191,7 +191,7 @@ void settle(const Exec& exec, Grains& grains)
     test::SolidNumbers fenced = numbers();
     fenced.planes.push_back({{-1, 0, 0}, -fence * mean, true});
     Run<Exec> run(exec, grains, fence, fenced);
-    run.carry(fenced_time, 0.5);
+    run.advance(fenced_time, 0.5);
     const auto position    = run.scene().bodies.position.to_host();
     const auto orientation = run.scene().bodies.orientation.to_host();
     for (std::size_t i = 0; i < count; ++i)
@@ -214,7 +214,7 @@ Slopes slope(const Exec& exec, const std::string& kind)
     Grains grains = rained(kind);
     settle(exec, grains);
     Run<Exec> run(exec, grains, base, numbers());
-    run.carry(free_time, 0);
+    run.advance(free_time, 0);
     const double unit    = count * density * std::numbers::pi / 6 * std::pow(mean, 4) * test::earth;
     const double kinetic = run.scene().sums().kinetic / unit;
     const auto   places  = run.scene().bodies.position.to_host();

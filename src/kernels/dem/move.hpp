@@ -24,8 +24,7 @@ struct Motion
 
 /// Second half of a substep, after evaluate_contacts: adds what the pairs answer to every body's force, torque and
 /// stiffness (in a scene whose bodies touch sand, to what sand put there), books wall impulses, losses and the impulses
-/// of named bodies, and moves all bodies. Every sum has a fixed order, that of the list: first the pairs in which a
-/// body comes first. Allocates nothing.
+/// of named bodies, and moves all bodies. Every sum has a fixed order on one backend. Allocates nothing.
 void move_bodies(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, BodyTotal* totals, const NamedImpulses& named,
                  const Motion& motion);
 void move_bodies(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, BodyTotal* totals, const NamedImpulses& named,
