@@ -22,9 +22,6 @@ namespace tread::solver
 namespace
 {
 
-constexpr double deepest_overlap = 0.5; ///< of a radius: beyond it a contact's direction means nothing
-constexpr double longest_leap    = 1;   ///< of the smallest radius, in a substep
-
 std::vector<double> bounding_radii(const World& world)
 {
     std::vector<double> radii;
@@ -99,35 +96,6 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     dem::clear_wrenches(exec_, bodies_.view());
     begin_mean();
     restore_contacts();
-}
-
-/// As the search's last list: what it finds again keeps its record.
-template<class Exec>
-void Rigid<Exec>::restore_contacts()
-{
-    if (world_.contacts.empty()) { return; }
-    std::vector<std::uint64_t> keys;
-    std::vector<dem::Patch>    patches;
-    std::vector<dem::Rolling>  rolling;
-    std::vector<Vec3<double>>  places;
-    rolling.reserve(world_.contacts.size());
-    places.reserve(world_.contacts.size());
-    keys.reserve(world_.contacts.size());
-    patches.reserve(world_.contacts.size());
-    bool several = false;
-    for (const ContactRecord& contact : world_.contacts)
-    {
-        const bool again = !keys.empty() && dem::same_pair(keys.back(), contact.key);
-        several          = several || again;
-        keys.push_back(again ? keys.back() + 1 : contact.key);
-        places.push_back(contact.place);
-        patches.push_back(contact.patch);
-        rolling.push_back(contact.rolling);
-    }
-    pairs_.key.assign(keys);
-    pairs_.patch.assign(patches);
-    if (pairs_.resists_rolling) { pairs_.rolling.assign(rolling); }
-    if (several) { pairs_.patches.place.assign(places); }
 }
 
 template<class Exec>
@@ -313,69 +281,6 @@ void Rigid<Exec>::run(double dt, double damping, std::int64_t count)
                       count);
 }
 
-/// Largest overlap over radius, if the law can carry it.
-template<class Exec>
-double Rigid<Exec>::guard(double time)
-{
-    const double ratio = dem::largest_overlap(exec_, pairs_, bodies_.view(), law_);
-    if (ratio <= deepest_overlap) { return ratio; }
-    const std::uint64_t key  = dem::deepest_pair(pairs_, ratio);
-    const bool          wall = dem::second_of(key) >= bodies_.position.size();
-    throw NumericalError(fmt::format(
-        "t = {:.6g} s: body {} overlaps {} by {:.3g} of its radius, over the {} that the contact "
-        "law can carry: stiffer bodies, or a smaller dt",
-        time, name(dem::first_of(key)), wall ? "a wall" : name(dem::second_of(key)), ratio, deepest_overlap));
-}
-
-/// A body whose velocity or force is not a number has lost its way; the first of them is named.
-template<class Exec>
-void Rigid<Exec>::require_finite(double time)
-{
-    const std::vector<Vec3<double>> position = bodies_.position.to_host(), velocity = bodies_.velocity.to_host(),
-                                    spin = bodies_.angular_velocity.to_host(), force = bodies_.force.to_host(),
-                                    torque = bodies_.torque.to_host();
-    for (std::size_t b = 0; b < position.size(); ++b)
-    {
-        const auto values = {&position[b], &velocity[b], &spin[b], &force[b], &torque[b]};
-        if (std::all_of(values.begin(), values.end(),
-                        [](const Vec3<double>* value) { return std::isfinite(value->norm()); }))
-        {
-            continue;
-        }
-        throw NumericalError(fmt::format("t = {:.6g} s: the position, velocity or force of body {} is not a number",
-                                         time, name(static_cast<std::int64_t>(b))));
-    }
-}
-
-/// After a step in which nobody watched: a body may have met one that the list of pairs does not have.
-template<class Exec>
-void Rigid<Exec>::require_listed(double time)
-{
-    if (watched_) { return; }
-    const double largest = dem::largest_stray(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data());
-    if (largest <= 1) { return; }
-    if (std::isinf(largest)) { require_finite(time); }
-    const std::vector<double> shares = strays_.share.to_host();
-    const auto                body   = std::find(shares.begin(), shares.end(), largest) - shares.begin();
-    throw NumericalError(fmt::format("t = {:.6g} s: body {} moved {:.3g} times as far in a step as the search for its "
-                                     "contacts allowed (at most 1): a smaller dt",
-                                     time, name(body), largest));
-}
-
-/// A body that leaps over the smallest one in a substep leaps over its contact.
-template<class Exec>
-void Rigid<Exec>::require_resolved(double time, double speed)
-{
-    const double leap = speed * substep_;
-    if (leap <= longest_leap * smallest_radius_) { return; }
-    const std::vector<dem::BodyActivity> activity = activity_.to_host();
-    const auto                           body =
-        std::find_if(activity.begin(), activity.end(), [&](const auto& one) { return one.speed == speed; });
-    throw NumericalError(fmt::format("t = {:.6g} s: body {} moves {:.4g} m in a substep, {:.3g} of the smallest body's "
-                                     "radius (at most {}): more substeps, or a smaller dt",
-                                     time, name(body - activity.begin()), leap, leap / smallest_radius_, longest_leap));
-}
-
 template<class Exec>
 RigidReport Rigid<Exec>::report(double time)
 {
@@ -427,23 +332,6 @@ void Rigid<Exec>::take_totals(RigidReport& report)
     taken_           = now;
     command_impulse_.setZero();
     command_work_ = 0;
-}
-
-template<class Exec>
-std::vector<ContactRecord> Rigid<Exec>::contacts() const
-{
-    const std::vector<std::uint64_t> keys    = pairs_.key.to_host();
-    const std::vector<dem::Patch>    patches = pairs_.patch.to_host();
-    const std::vector<dem::Rolling>  rolling = pairs_.rolling.to_host();
-    const std::vector<Vec3<double>>  places  = pairs_.patches.place.to_host();
-    std::vector<ContactRecord>       found;
-    for (std::size_t p = 0; p < keys.size(); ++p)
-    {
-        if (!(patches[p].stiffness > 0)) { continue; }
-        found.push_back({dem::whole_pair(keys[p]), patches[p], pairs_.resists_rolling ? rolling[p] : dem::no_rolling(),
-                         places.empty() ? Vec3<double>::Zero() : places[p]});
-    }
-    return found;
 }
 
 template<class Exec>

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "../physics/rock_scenes.hpp"
+#include "../statistics.hpp"
 #include "../unit/kernels/dem_ray_shapes.hpp"
 #include "kernels/dem/strays.hpp"
 #include "shape/sdf_grid.hpp"
@@ -96,15 +97,15 @@ double slope_of(const std::vector<Vec3<double>>& places, double low_y, double hi
         const auto slice = static_cast<std::size_t>(std::max(0.0, places[i][0] / mean));
         if (slice < base) { top[slice] = std::max(top[slice], places[i][2]); }
     }
-    const double highest = *std::max_element(top.begin(), top.end());
-    double       n = 0, x = 0, z = 0, xx = 0, xz = 0;
+    const double        highest = *std::max_element(top.begin(), top.end());
+    std::vector<double> along, heights;
     for (std::size_t i = 0; i < base; ++i)
     {
         if (top[i] < 0.2 * highest || top[i] > 0.8 * highest) { continue; }
-        const double at = mean * (static_cast<double>(i) + 0.5);
-        n += 1, x += at, z += top[i], xx += at * at, xz += at * top[i];
+        along.push_back(mean * (static_cast<double>(i) + 0.5));
+        heights.push_back(top[i]);
     }
-    return -std::atan((n * xz - x * z) / (n * xx - x * x)) * 180 / std::numbers::pi;
+    return -std::atan(test::slope_of(along, heights)) * 180 / std::numbers::pi;
 }
 
 /// A scene that runs as the solver does: pairs are kept until a body has moved too far, substeps follow the contacts.

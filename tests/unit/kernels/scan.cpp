@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "backend.hpp"
+#include "backend/reduce.hpp"
 #include "backend/sort.hpp"
 #include "base/errors.hpp"
 
@@ -32,6 +33,20 @@ TYPED_TEST(Scan, SumOverInt32IsNamed)
     {
         EXPECT_NE(std::string(error.what()).find("3500000000"), std::string::npos) << error.what();
     }
+}
+
+/// Many rows are shared by blocks on a GPU; a zero with a sign is the least of all there is, not the most.
+TYPED_TEST(Scan, LargestOfManyRows)
+{
+    constexpr int       count = 10000, width = 3;
+    std::vector<double> rows(static_cast<std::size_t>(count * width), -0.0);
+    rows[7777 * width + 1] = 0.25;
+    rows[9999 * width + 1] = 0.5;
+    rows[1234 * width + 2] = -3;
+    Array<TypeParam, double> values(this->exec(), "test rows"), largest(this->exec(), "test largest", width);
+    values.assign(rows);
+    largest_of_rows(this->exec(), values.data(), count, width, largest.data());
+    EXPECT_EQ(largest.to_host(), (std::vector<double>{0, 0.5, 0}));
 }
 
 } // namespace

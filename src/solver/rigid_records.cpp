@@ -1,0 +1,60 @@
+#include "solver/rigid.hpp"
+
+// What contacts remember, out of a run and back into another.
+namespace tread::solver
+{
+
+/// As the search's last list: what it finds again keeps its record.
+template<class Exec>
+void Rigid<Exec>::restore_contacts()
+{
+    if (world_.contacts.empty()) { return; }
+    std::vector<std::uint64_t> keys;
+    std::vector<dem::Patch>    patches;
+    std::vector<dem::Rolling>  rolling;
+    std::vector<Vec3<double>>  places;
+    rolling.reserve(world_.contacts.size());
+    places.reserve(world_.contacts.size());
+    keys.reserve(world_.contacts.size());
+    patches.reserve(world_.contacts.size());
+    bool several = false;
+    for (const ContactRecord& contact : world_.contacts)
+    {
+        const bool again = !keys.empty() && dem::same_pair(keys.back(), contact.key);
+        several          = several || again;
+        keys.push_back(again ? keys.back() + 1 : contact.key);
+        places.push_back(contact.place);
+        patches.push_back(contact.patch);
+        rolling.push_back(contact.rolling);
+    }
+    pairs_.key.assign(keys);
+    pairs_.patch.assign(patches);
+    if (pairs_.resists_rolling) { pairs_.rolling.assign(rolling); }
+    if (several) { pairs_.patches.place.assign(places); }
+}
+
+template<class Exec>
+std::vector<ContactRecord> Rigid<Exec>::contacts() const
+{
+    const std::vector<std::uint64_t> keys    = pairs_.key.to_host();
+    const std::vector<dem::Patch>    patches = pairs_.patch.to_host();
+    const std::vector<dem::Rolling>  rolling = pairs_.rolling.to_host();
+    const std::vector<Vec3<double>>  places  = pairs_.patches.place.to_host();
+    std::vector<ContactRecord>       found;
+    for (std::size_t p = 0; p < keys.size(); ++p)
+    {
+        if (!(patches[p].stiffness > 0)) { continue; }
+        found.push_back({dem::whole_pair(keys[p]), patches[p], pairs_.resists_rolling ? rolling[p] : dem::no_rolling(),
+                         places.empty() ? Vec3<double>::Zero() : places[p]});
+    }
+    return found;
+}
+
+template void                       Rigid<Cpu>::restore_contacts();
+template std::vector<ContactRecord> Rigid<Cpu>::contacts() const;
+#ifdef TREAD_WITH_CUDA
+template void                       Rigid<Gpu>::restore_contacts();
+template std::vector<ContactRecord> Rigid<Gpu>::contacts() const;
+#endif
+
+} // namespace tread::solver
