@@ -12,7 +12,7 @@
 namespace tread
 {
 
-/// Owner of n values of T in the memory of a backend. Grows by a quarter more than asked, never shrinks by itself.
+/// Owner of n values of T in the memory of a backend. Grows by a quarter more than asked, shrinks only in fit.
 /// Every allocation is counted under the array's name.
 template<class Exec, class T>
 class Array
@@ -62,6 +62,13 @@ public:
             take(capacity_ == 0 && size_ == 0 ? size : size + size / 4);
         }
         size_ = size;
+    }
+
+    /// As resize, and gives memory back where over half of it would lie idle.
+    void fit(std::int64_t size)
+    {
+        if (2 * (size + size / 4) < capacity_) { free(); }
+        resize(size);
     }
 
     /// Old values stay; new ones are not initialised.

@@ -45,7 +45,7 @@ public:
         const auto&      g          = scene_.domain.gravity;
         const double     weight     = rigid_.mass() * std::hypot(g[0], g[1], g[2]);
         double           at = 0, still_since = 0;
-        for (std::int64_t number = 1; at < longest && at - still_since < solver::PhaseClock::equilibrium_hold; ++number)
+        for (std::int64_t number = 1; at < longest; ++number)
         {
             step(damping);
             at += substeps_ * dt_;
@@ -53,6 +53,7 @@ public:
             if (number % look_every != 0) { continue; }
             const double out_of_balance = rigid_.report(at).net_force / weight;
             if (!(out_of_balance <= at_rest)) { still_since = at; }
+            if (at - still_since >= solver::PhaseClock::equilibrium_hold) { break; }
         }
         rigid_.report(at);
         return at;

@@ -14,7 +14,8 @@ void evaluate_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodi
                         const body_contact::AnswerPair<Meet> answer{meet, bodies.count, law, pairs.view(), dt};
                         constexpr std::int64_t               worth_threads = 2048; // about a millisecond
                         for_each_heavy(
-                            cpu, "body contacts", pairs.key.size(), [=](std::int64_t p) { answer(p); }, worth_threads);
+                            cpu, "body contacts", pairs.key.size(), [=](std::int64_t p) { answer(p, OneLane{}); },
+                            worth_threads);
                     });
     if (!pairs.resists_rolling) { return; }
     for_each(cpu, "resistance to rolling", pairs.key.size(),

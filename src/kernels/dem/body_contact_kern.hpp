@@ -34,18 +34,20 @@ struct PatchSums
     double       energy;  ///< J
     double       damping; ///< W, lost to normal damping
 
-    TREAD_HD void write_to(double (&values)[18]) const
+    /// Of lanes that share a pair.
+    template<class Lanes>
+    TREAD_HD void reduce(const Lanes& lanes)
     {
         for (int c = 0; c < 3; ++c)
         {
-            values[c]     = force[c];
-            values[3 + c] = moment[c];
-            values[7 + c] = first[c];
+            force[c]  = lanes.sum(force[c]);
+            moment[c] = lanes.sum(moment[c]);
+            first[c]  = lanes.sum(first[c]);
         }
-        for (int c = 0; c < 6; ++c) { values[10 + c] = second[c]; }
-        values[6]  = weight;
-        values[16] = energy;
-        values[17] = damping;
+        for (int c = 0; c < 6; ++c) { second[c] = lanes.sum(second[c]); }
+        weight  = lanes.sum(weight);
+        energy  = lanes.sum(energy);
+        damping = lanes.sum(damping);
     }
 
     TREAD_HD static PatchSums zero()

@@ -52,4 +52,22 @@ TREAD_HD ContactBody load(const ContactBody* from)
 #endif
 }
 
+TREAD_HD void store(ContactBody* to, const ContactBody& body)
+{
+#if defined(__CUDA_ARCH__)
+    auto*       words = reinterpret_cast<double2*>(to);
+    const auto& turn  = body.orientation.coeffs();
+    words[0]          = {body.position[0], body.position[1]};
+    words[1]          = {body.position[2], body.scale};
+    words[2]          = {turn[0], turn[1]};
+    words[3]          = {turn[2], turn[3]};
+    words[4]          = {body.velocity[0], body.velocity[1]};
+    words[5]          = {body.velocity[2], body.inverse_mass};
+    words[6]          = {body.spin[0], body.spin[1]};
+    words[7]          = {body.spin[2], __hiloint2double(body.material, body.shape)};
+#else
+    *to = body;
+#endif
+}
+
 } // namespace tread::dem

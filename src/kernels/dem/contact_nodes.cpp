@@ -45,9 +45,10 @@ void look_up_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, 
                     [&]<class Meet>(const Meet& meet)
                     {
                         const contact_nodes::LookUp<Meet> look_up{meet, bodies.count, law, pairs.view()};
-                        constexpr std::int64_t            worth_threads = 4096; // about a millisecond
+                        constexpr std::int64_t            worth_threads = 128; // about a millisecond
                         for_each_heavy(
-                            cpu, "nodes found", pairs.node.size(), [=](std::int64_t i) { look_up(i); }, worth_threads);
+                            cpu, "nodes found", node_words(pairs.node.size()),
+                            [=](std::int64_t word) { look_up(word, OneLane{}); }, worth_threads);
                     });
 }
 

@@ -30,13 +30,50 @@ void list_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bod
                     });
 }
 
+namespace
+{
+
+struct MarkMany
+{
+    PairsView     pairs;
+    std::int32_t* found; ///< [pairs + 1]
+
+    __device__ void operator()(std::int64_t p) const
+    {
+        found[p] = p < pairs.count && pairs.first_node[p + 1] - pairs.first_node[p] > many_nodes ? 1 : 0;
+    }
+};
+
+struct WriteMany
+{
+    const std::int32_t* found; ///< [pairs + 1], after the scan
+    std::int32_t*       many;
+
+    __device__ void operator()(std::int64_t p) const
+    {
+        if (found[p] != found[p + 1]) { many[found[p]] = static_cast<std::int32_t>(p); }
+    }
+};
+
+} // namespace
+
+void list_pairs_of_many_nodes(const Gpu& gpu, Pairs<Gpu>& pairs)
+{
+    const std::int64_t count = pairs.key.size();
+    pairs.found.resize(count + 1);
+    for_each(gpu, "mark pairs of many nodes", count + 1, MarkMany{pairs.view(), pairs.found.data()});
+    pairs.many.resize(exclusive_scan(gpu, pairs.found, pairs.sort));
+    if (pairs.many.size() == 0) { return; }
+    for_each(gpu, "write pairs of many nodes", count, WriteMany{pairs.found.data(), pairs.many.data()});
+}
+
 void look_up_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
                         const contact_nodes::LookUp<Meet> look_up{meet, bodies.count, law, pairs.view()};
-                        for_each(gpu, "nodes found", pairs.node.size(), look_up);
+                        for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.node.size()), look_up);
                     });
 }
 

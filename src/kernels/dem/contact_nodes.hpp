@@ -16,7 +16,14 @@ void count_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies
 void list_contact_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 void list_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// pairs.found_node: every node of the list at the bodies' present places.
+/// Pairs with more listed nodes than this are dealt to lanes of their own by a GPU: others would wait for them.
+inline constexpr std::int32_t many_nodes = 64;
+
+/// Fills pairs.many, when the list of pairs is complete.
+inline void list_pairs_of_many_nodes(const Cpu&, Pairs<Cpu>&) {}
+void        list_pairs_of_many_nodes(const Gpu&, Pairs<Gpu>& pairs);
+
+/// pairs.found_node and pairs.inside: every node of the list at the bodies' present places.
 void look_up_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 void look_up_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <bit>
-
+#include "backend/bits.hpp"
 #include "kernels/dem/contact_nodes.hpp"
 #include "kernels/dem/pairs_kern.hpp"
 #include "kernels/dem/ray_field_kern.hpp"
@@ -12,16 +11,6 @@ namespace tread::dem::contact_nodes
 {
 
 inline constexpr std::int32_t without_nodes = -1;
-
-/// Bits of a vote.
-TREAD_HD int count_bits(std::uint32_t bits)
-{
-#if defined(__CUDA_ARCH__)
-    return __popc(bits);
-#else
-    return std::popcount(bits);
-#endif
-}
 
 struct Count
 {
@@ -42,7 +31,7 @@ struct Write
     TREAD_HD void operator()(bool near, std::int32_t node, const Lanes& lanes)
     {
         const std::uint32_t all = lanes.vote(near);
-        if (near) { place[count_bits(all & ((std::uint32_t{1} << lanes.lane()) - 1))] = node; }
+        if (near) { place[count_bits(all & first_bits(lanes.lane()))] = node; }
         place += count_bits(all);
     }
 };
@@ -141,6 +130,7 @@ struct WriteNodes
     }
 };
 
+/// Looks up the nodes of one word of pairs.inside.
 template<class Meet>
 struct LookUp
 {
@@ -149,9 +139,26 @@ struct LookUp
     BodyLaw      law;
     PairsView    pairs;
 
-    TREAD_HD void operator()(std::int64_t i) const { pairs.found_node[i] = packed(find(i)); }
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t word, const Lanes& lanes) const
+    {
+        std::uint32_t all = 0;
+        for (std::int32_t bit = 0; bit < nodes_of_word; bit += lanes.lanes())
+        {
+            const std::int64_t i = word * nodes_of_word + bit + lanes.lane();
+            all |= lanes.vote(i < pairs.node_count && inside(i)) << bit;
+        }
+        if (lanes.lane() == 0) { pairs.inside[word] = all; }
+    }
 
 private:
+    TREAD_HD bool inside(std::int64_t i) const
+    {
+        const FoundNode found = packed(find(i));
+        pairs.found_node[i]   = found;
+        return found.overlap > 0;
+    }
+
     TREAD_HD NodeInField find(std::int64_t i) const
     {
         const std::uint64_t key = pairs.key[pairs.pair_of_node[i]];

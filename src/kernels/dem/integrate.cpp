@@ -11,13 +11,15 @@ void clear_wrenches(const Cpu& cpu, const BodiesView& bodies)
 
 void integrate(const Cpu& cpu, const BodiesView& bodies, BodyTotal* totals, const Vec3<double>& gravity, double dt)
 {
-    for_each(cpu, "integrate bodies", bodies.count, integration::Free{bodies, totals, gravity, dt});
+    for_each(cpu, "integrate bodies", bodies.count,
+             integration::InPlace{integration::Free{bodies, totals, gravity, dt}});
 }
 
 void integrate_damped(const Cpu& cpu, const BodiesView& bodies, BodyTotal* totals, const Vec3<double>& gravity,
                       double alpha, double dt)
 {
-    for_each(cpu, "integrate damped bodies", bodies.count, integration::Damped{bodies, totals, gravity, alpha, dt});
+    for_each(cpu, "integrate damped bodies", bodies.count,
+             integration::InPlace{integration::Damped{bodies, totals, gravity, alpha, dt}});
 }
 
 } // namespace tread::dem

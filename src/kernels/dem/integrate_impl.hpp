@@ -29,10 +29,10 @@ struct Free
     Vec3<double> gravity;
     double       dt;
 
-    TREAD_HD void operator()(std::int64_t b) const
+    /// Moves `body`, which is body b.
+    TREAD_HD void operator()(std::int64_t b, BodyMotion& body, const Wrench& contact) const
     {
-        integrate_translation(bodies, b, gravity, NoDamping{}, dt, totals[b]);
-        integrate_rotation(bodies, b, NoDamping{}, dt, totals[b]);
+        integrate_body(bodies, b, body, contact, gravity, NoDamping{}, dt, totals[b]);
     }
 };
 
@@ -44,12 +44,29 @@ struct Damped
     double       alpha;
     double       dt;
 
-    TREAD_HD void operator()(std::int64_t b) const
+    TREAD_HD void operator()(std::int64_t b, BodyMotion& body, const Wrench& contact) const
     {
         const LocalDamping damping{bodies.damped[b] != 0 ? alpha : 0.0};
-        integrate_translation(bodies, b, gravity, damping, dt, totals[b]);
-        integrate_rotation(bodies, b, damping, dt, totals[b]);
+        integrate_body(bodies, b, body, contact, gravity, damping, dt, totals[b]);
     }
 };
+
+/// Under the wrenches that the bodies have.
+template<class Integrate>
+struct InPlace
+{
+    Integrate integrate;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const BodiesView& bodies = integrate.bodies;
+        BodyMotion        body   = motion_of(bodies, b);
+        integrate(b, body, {bodies.force[b], bodies.torque[b]});
+        store_motion(bodies, b, body);
+    }
+};
+
+template<class Integrate>
+InPlace(Integrate) -> InPlace<Integrate>;
 
 } // namespace tread::dem::integration

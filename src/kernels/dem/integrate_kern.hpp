@@ -73,22 +73,55 @@ TREAD_HD Vec3<double> angular_velocity_of(const Mat3<double>& rotation, const Ma
     return matrix.inverse() * wanted;
 }
 
-/// Moves body b by dt (s) under its contact force and torque, gravity (m/s2) and the damping; adds to its row of
-/// totals, where it has something to add: a row is as long as all the rest of a body. A locked component keeps its
-/// velocity, whatever the forces.
-template<class Damping>
-TREAD_HD void integrate_translation(const BodiesView& bodies, std::int64_t b, const Vec3<double>& gravity,
-                                    const Damping& damping, double dt, BodyTotal& total)
+/// What moves of a body and what resists it: read as a whole before the sums over its contacts, so that memory answers
+/// meanwhile.
+struct BodyMotion
 {
-    const double       mass   = bodies.mass[b];
-    const Vec3<double> before = bodies.velocity[b];
-    const Vec3<double> acting = bodies.force[b] + mass * gravity;
+    Vec3<double>  position;
+    Quat          orientation;
+    Vec3<double>  velocity;
+    Vec3<double>  angular_velocity;
+    double        mass;
+    Sym3<double>  inertia;
+    std::uint32_t locked;
+};
+
+TREAD_HD BodyMotion motion_of(const BodiesView& bodies, std::int64_t b)
+{
+    return {bodies.position[b], bodies.orientation[b], bodies.velocity[b], bodies.angular_velocity[b],
+            bodies.mass[b],     bodies.inertia[b],     bodies.locked[b]};
+}
+
+TREAD_HD void store_motion(const BodiesView& bodies, std::int64_t b, const BodyMotion& motion)
+{
+    bodies.position[b]         = motion.position;
+    bodies.orientation[b]      = motion.orientation;
+    bodies.velocity[b]         = motion.velocity;
+    bodies.angular_velocity[b] = motion.angular_velocity;
+}
+
+/// On one body, world frame.
+struct Wrench
+{
+    Vec3<double> force;  ///< N
+    Vec3<double> torque; ///< N m, about the centre of mass
+};
+
+/// Moves a body by dt (s) under its contact force, gravity (m/s2) and the damping; adds to its row of totals, where it
+/// has something to add: a row is as long as all the rest of a body. A locked component keeps its velocity, whatever
+/// the forces. Returns the velocity at mid-step.
+template<class Damping>
+TREAD_HD Vec3<double> integrate_translation(BodyMotion& body, const Vec3<double>& force, const Vec3<double>& gravity,
+                                            const Damping& damping, double dt, BodyTotal& total)
+{
+    const Vec3<double> before = body.velocity;
+    const Vec3<double> acting = force + body.mass * gravity;
     const Vec3<double> damped = damping_of(damping, acting, before);
     Vec3<double>       after = before, holding = Vec3<double>::Zero();
     for (int c = 0; c < 3; ++c)
     {
-        if (is_locked(bodies.locked[b], lock_x, c)) { holding[c] = -dt * (acting[c] + damped[c]); }
-        else { after[c] += dt * (acting[c] + damped[c]) / mass; }
+        if (is_locked(body.locked, lock_x, c)) { holding[c] = -dt * (acting[c] + damped[c]); }
+        else { after[c] += dt * (acting[c] + damped[c]) / body.mass; }
     }
     const Vec3<double> mean = 0.5 * (before + after);
     if constexpr (Damping::acts)
@@ -96,31 +129,31 @@ TREAD_HD void integrate_translation(const BodiesView& bodies, std::int64_t b, co
         total.damping_impulse += dt * damped;
         total.damping -= dt * damped.dot(mean);
     }
-    if (bodies.locked[b] != 0)
+    if (body.locked != 0)
     {
         total.holding_impulse += holding;
         total.holding_work += holding.dot(mean);
     }
-    if (bodies.sand_force != nullptr) { total.sand_work += dt * bodies.sand_force[b].dot(mean); }
-    bodies.velocity[b] = after;
-    bodies.position[b] += dt * after;
+    body.velocity = after;
+    body.position += dt * after;
+    return mean;
 }
 
+/// As integrate_translation; returns the angular velocity over the step.
 template<class Damping>
-TREAD_HD void integrate_rotation(const BodiesView& bodies, std::int64_t b, const Damping& damping, double dt,
-                                 BodyTotal& total)
+TREAD_HD Vec3<double> integrate_rotation(BodyMotion& body, const Vec3<double>& torque, const Damping& damping,
+                                         double dt, BodyTotal& total)
 {
-    const Mat3<double>  inertia = full(bodies.inertia[b]), inverse = inertia.inverse();
-    const std::uint32_t locked = bodies.locked[b];
-    const Quat          start  = bodies.orientation[b];
-    const Vec3<double>  before = bodies.angular_velocity[b];
-    const Vec3<double>  damped = damping_of(damping, bodies.torque[b], before);
+    const Mat3<double>  inertia = full(body.inertia), inverse = inertia.inverse();
+    const std::uint32_t locked = body.locked;
+    const Quat          start  = body.orientation;
+    const Vec3<double>  before = body.angular_velocity;
+    const Vec3<double>  damped = damping_of(damping, torque, before);
 
     const Mat3<double> at_start = start.toRotationMatrix();
-    const Vec3<double> momentum =
-        at_start * (inertia * (at_start.transpose() * before)) + dt * (bodies.torque[b] + damped);
-    const Vec3<double> kicked = angular_velocity_of(at_start, inertia, inverse, momentum, before, locked);
-    const Quat         half   = rotation_by(0.5 * dt * kicked) * start;
+    const Vec3<double> momentum = at_start * (inertia * (at_start.transpose() * before)) + dt * (torque + damped);
+    const Vec3<double> kicked   = angular_velocity_of(at_start, inertia, inverse, momentum, before, locked);
+    const Quat         half     = rotation_by(0.5 * dt * kicked) * start;
     const Vec3<double> middle =
         angular_velocity_of(half.toRotationMatrix(), inertia, inverse, momentum, before, locked);
     const Quat         end    = (rotation_by(dt * middle) * start).normalized();
@@ -129,14 +162,25 @@ TREAD_HD void integrate_rotation(const BodiesView& bodies, std::int64_t b, const
 
     const Vec3<double> mean = 0.5 * (before + kicked);
     if constexpr (Damping::acts) { total.damping -= dt * damped.dot(mean); }
-    if (bodies.sand_torque != nullptr) { total.sand_work += dt * bodies.sand_torque[b].dot(mean); }
     if ((locked & locked_rotation) != 0)
     {
         const Vec3<double> reached = at_end * (inertia * (at_end.transpose() * after));
         total.holding_work += (reached - momentum).dot(0.5 * (kicked + after));
     }
-    bodies.orientation[b]      = end;
-    bodies.angular_velocity[b] = after;
+    body.orientation      = end;
+    body.angular_velocity = after;
+    return mean;
+}
+
+/// Body b by a whole step.
+template<class Damping>
+TREAD_HD void integrate_body(const BodiesView& bodies, std::int64_t b, BodyMotion& body, const Wrench& contact,
+                             const Vec3<double>& gravity, const Damping& damping, double dt, BodyTotal& total)
+{
+    const Vec3<double> velocity = integrate_translation(body, contact.force, gravity, damping, dt, total);
+    const Vec3<double> turning  = integrate_rotation(body, contact.torque, damping, dt, total);
+    if (bodies.sand_force == nullptr) { return; }
+    total.sand_work += dt * (bodies.sand_force[b].dot(velocity) + bodies.sand_torque[b].dot(turning));
 }
 
 } // namespace tread::dem

@@ -34,7 +34,9 @@ struct BodyShare
     }
 };
 
-/// Adds the pairs of one body in the order of the list: first those in which it comes first.
+/// Adds the pairs of one body in the order of the list, those in which it comes first and those in which it comes
+/// second side by side: memory then answers both at a time. Of the lanes that share a body the first one writes, and
+/// gets what all its contacts do to it.
 struct GatherBody
 {
     BodiesView bodies;
@@ -43,43 +45,66 @@ struct GatherBody
     double     dt;
 
     template<class Lanes>
-    TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
+    TREAD_HD Wrench operator()(std::int64_t b, const Lanes& lanes) const
     {
-        BodyShare share{Vec3<double>::Zero(), Vec3<double>::Zero(), 0, Vec3<double>::Zero(), 0, 0};
-        for (std::int64_t p = pairs.first[b] + lanes.lane(); p < pairs.first[b + 1]; p += lanes.lanes())
+        BodyShare          share{Vec3<double>::Zero(), Vec3<double>::Zero(), 0, Vec3<double>::Zero(), 0, 0};
+        const std::int64_t first_end = pairs.first[b + 1], second_end = pairs.second[b + 1];
+        for (std::int64_t p = pairs.first[b] + lanes.lane(), i = pairs.second[b] + lanes.lane();
+             p < first_end || i < second_end; p += lanes.lanes(), i += lanes.lanes())
         {
-            add_first(p, share);
-        }
-        for (std::int64_t i = pairs.second[b] + lanes.lane(); i < pairs.second[b + 1]; i += lanes.lanes())
-        {
-            share.force += pairs.answers.second_force[i];
-            share.torque += pairs.answers.second_torque[i];
-            share.stiffness += pairs.answers.second_stiffness[i];
+            add_first(p < first_end, p, share);
+            add_second(i < second_end, i, share);
         }
         share.reduce(lanes);
-        if (lanes.lane() == 0) { store(b, share); }
+        return lanes.lane() == 0 ? store(b, share) : Wrench{};
     }
 
-    TREAD_HD void add_first(std::int64_t p, BodyShare& share) const
+private:
+    // Zero is chosen where there is no pair, after row 0, which is always there, was read: no load waits for a branch.
+    TREAD_HD static double       chosen(bool there, double value) { return there ? value : 0.0; }
+    TREAD_HD static Vec3<double> chosen(bool there, const Vec3<double>& value)
     {
-        const Vec3<double> force = pairs.answers.force[p];
+        return {chosen(there, value[0]), chosen(there, value[1]), chosen(there, value[2])};
+    }
+
+    TREAD_HD void add_first(bool there, std::int64_t pair, BodyShare& share) const
+    {
+        const std::int64_t p     = there ? pair : 0;
+        const bool         wall  = second_of(pairs.key[p]) >= bodies.count;
+        const Vec3<double> force = chosen(there, pairs.answers.force[p]);
         share.force += force;
-        share.torque += pairs.answers.torque[p];
-        share.stiffness += pairs.answers.stiffness[p];
-        share.friction += pairs.answers.friction[p];
-        share.restitution += pairs.answers.restitution[p];
-        if (second_of(pairs.key[p]) >= bodies.count) { share.wall_force += force; }
+        share.torque += chosen(there, pairs.answers.torque[p]);
+        share.stiffness += chosen(there, pairs.answers.stiffness[p]);
+        share.friction += chosen(there, pairs.answers.friction[p]);
+        share.restitution += chosen(there, pairs.answers.restitution[p]);
+        share.wall_force += chosen(wall, force);
     }
 
-    TREAD_HD void store(std::int64_t b, const BodyShare& share) const
+    TREAD_HD void add_second(bool there, std::int64_t place, BodyShare& share) const
     {
-        const bool sand     = bodies.sand_force != nullptr;
-        bodies.force[b]     = sand ? Vec3<double>(bodies.force[b] + share.force) : share.force;
-        bodies.torque[b]    = sand ? Vec3<double>(bodies.torque[b] + share.torque) : share.torque;
-        bodies.stiffness[b] = share.stiffness + (sand ? bodies.stiffness[b] : 0.0);
+        const std::int64_t i = there ? place : 0;
+        share.force += chosen(there, pairs.answers.second_force[i]);
+        share.torque += chosen(there, pairs.answers.second_torque[i]);
+        share.stiffness += chosen(there, pairs.answers.second_stiffness[i]);
+    }
+
+    TREAD_HD Wrench store(std::int64_t b, const BodyShare& share) const
+    {
+        Wrench wrench{share.force, share.torque};
+        double stiffness = share.stiffness;
+        if (bodies.sand_force != nullptr)
+        {
+            wrench.force += bodies.force[b];
+            wrench.torque += bodies.torque[b];
+            stiffness += bodies.stiffness[b];
+        }
+        bodies.force[b]     = wrench.force;
+        bodies.torque[b]    = wrench.torque;
+        bodies.stiffness[b] = stiffness;
         if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += dt * share.wall_force; }
         if (share.friction != 0) { totals[b].friction += share.friction; }
         if (share.restitution != 0) { totals[b].restitution += share.restitution; }
+        return wrench;
     }
 };
 
@@ -108,23 +133,32 @@ struct Move
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
     {
-        if (is_large[b] == 0) { gather(b, lanes); }
+        const BodiesView& bodies  = gather.bodies;
+        ContactBody       shown   = load(gather.pairs.body + b);
+        BodyMotion        body    = motion_of(bodies, b, shown);
+        const Wrench      contact = is_large[b] == 0 ? gather(b, lanes) : Wrench{bodies.force[b], bodies.torque[b]};
         if (lanes.lane() != 0) { return; }
-        if (b < named.count) { impulse_steps::Add{gather.bodies, named.impulse, gather.dt}(b); }
-        integrate(b);
-        show(b);
+        if (b < named.count) { impulse_steps::Add{bodies, named.impulse, gather.dt}(b); }
+        integrate(b, body, contact);
+        store_motion(bodies, b, body);
+        show(body, shown);
+        store(gather.pairs.body + b, shown);
     }
 
 private:
-    /// To the contacts of the next substep.
-    TREAD_HD void show(std::int64_t b) const
+    TREAD_HD static BodyMotion motion_of(const BodiesView& bodies, std::int64_t b, const ContactBody& shown)
     {
-        const BodiesView& bodies = gather.bodies;
-        ContactBody&      body   = gather.pairs.body[b];
-        body.position            = bodies.position[b];
-        body.orientation         = bodies.orientation[b];
-        body.velocity            = bodies.velocity[b];
-        body.spin                = bodies.angular_velocity[b];
+        return {shown.position, shown.orientation, shown.velocity,  shown.spin,
+                bodies.mass[b], bodies.inertia[b], bodies.locked[b]};
+    }
+
+    /// To the contacts of the next substep.
+    TREAD_HD static void show(const BodyMotion& body, ContactBody& shown)
+    {
+        shown.position    = body.position;
+        shown.orientation = body.orientation;
+        shown.velocity    = body.velocity;
+        shown.spin        = body.angular_velocity;
     }
 };
 

@@ -22,17 +22,18 @@ struct AnswersView
     Vec3<double>*       second_torque;
     double*             second_stiffness;
 
-    TREAD_HD void store(std::int64_t p, const PairResponse& response) const
+    /// `second` = place[p].
+    TREAD_HD void store(std::int64_t p, std::int32_t second, const PairResponse& response) const
     {
-        force[p]                   = response.force;
-        torque[p]                  = response.torque_a;
-        stiffness[p]               = response.stiffness;
-        energy[p]                  = response.energy;
-        friction[p]                = response.friction;
-        restitution[p]             = response.restitution;
-        second_force[place[p]]     = -response.force;
-        second_torque[place[p]]    = response.torque_b;
-        second_stiffness[place[p]] = response.stiffness;
+        force[p]                 = response.force;
+        torque[p]                = response.torque_a;
+        stiffness[p]             = response.stiffness;
+        energy[p]                = response.energy;
+        friction[p]              = response.friction;
+        restitution[p]           = response.restitution;
+        second_force[second]     = -response.force;
+        second_torque[second]    = response.torque_b;
+        second_stiffness[second] = response.stiffness;
     }
 };
 

@@ -48,6 +48,10 @@ TREAD_HD std::int64_t second_of(std::uint64_t key)
 TREAD_HD std::uint64_t whole_pair(std::uint64_t key) { return key >> patch_bits << patch_bits; }
 TREAD_HD bool same_pair(std::uint64_t one, std::uint64_t other) { return one >> patch_bits == other >> patch_bits; }
 
+/// Bits of a word in PairsView::inside; words that hold so many nodes, and one more, which a run may read past its end.
+inline constexpr std::int32_t nodes_of_word = 32;
+inline std::int64_t           node_words(std::int64_t nodes) { return nodes / nodes_of_word + 2; }
+
 struct PairsView
 {
     std::int64_t         count;
@@ -64,8 +68,12 @@ struct PairsView
     const double*       travel;     ///< m, of every body, that the list allows for
     const std::int32_t* first_node; ///< [pairs + 1], the run of nodes that may touch, of each pair
     const std::int32_t* node;       ///< i of the first body, ~i of the second
+    const std::int32_t* many;       ///< pairs of over many_nodes (contact_nodes.hpp)
+    std::int64_t        many_count;
     const std::int32_t* pair_of_node;
+    std::int64_t        node_count;
     FoundNode*          found_node; ///< of the last look
+    std::uint32_t*      inside;     ///< [node_words], bit i of all: node i was inside at the last look
 };
 
 /// Owner of what PairsView shows, and of the search's scratch. A checkpoint stores key and patch.
@@ -100,6 +108,8 @@ struct Pairs
         , node(exec, "pair nodes")
         , pair_of_node(exec, "pairs of nodes")
         , found_node(exec, "nodes found")
+        , inside(exec, "nodes inside")
+        , many(exec, "pairs of many nodes")
         , sort(exec)
         , patches(exec)
     {
@@ -107,10 +117,11 @@ struct Pairs
 
     PairsView view()
     {
-        return {key.size(),     key.data(),          patch.data(),     peak.data(),
-                first.data(),   by_second.data(),    second.data(),    resists_rolling ? rolling.data() : nullptr,
-                answers.view(), body.data(),         travel.data(),    first_node.data(),
-                node.data(),    pair_of_node.data(), found_node.data()};
+        return {key.size(),     key.data(),        patch.data(),  peak.data(),
+                first.data(),   by_second.data(),  second.data(), resists_rolling ? rolling.data() : nullptr,
+                answers.view(), body.data(),       travel.data(), first_node.data(),
+                node.data(),    many.data(),       many.size(),   pair_of_node.data(),
+                node.size(),    found_node.data(), inside.data()};
     }
 
     Array<Exec, std::uint64_t> key;
@@ -142,6 +153,8 @@ struct Pairs
     Array<Exec, std::int32_t>  node;
     Array<Exec, std::int32_t>  pair_of_node;
     Array<Exec, FoundNode>     found_node;
+    Array<Exec, std::uint32_t> inside;
+    Array<Exec, std::int32_t>  many; ///< empty on the host, where one lane takes any pair
     SortScratch<Exec>          sort;
     Patches<Exec>              patches;
     bool                       resists_rolling = false; ///< some pair of materials has rolling friction

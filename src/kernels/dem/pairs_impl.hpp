@@ -158,7 +158,7 @@ struct ClearAnswers
 {
     AnswersView answers;
 
-    TREAD_HD void operator()(std::int64_t p) const { answers.store(p, no_response()); }
+    TREAD_HD void operator()(std::int64_t p) const { answers.store(p, answers.place[p], no_response()); }
 };
 
 /// The patch of a pair that was in the last list.
@@ -285,7 +285,7 @@ void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesVie
     pairs.key.swap(pairs.second_key);
     pairs.first_node.swap(pairs.by_second);
     sort_by_key(exec, pairs.key, pairs.first_node, pairs.sort); // the zero at the end stays there
-    pairs.node.resize(exclusive_scan(exec, pairs.first_node, pairs.sort));
+    pairs.node.fit(exclusive_scan(exec, pairs.first_node, pairs.sort));
     list_contact_nodes(exec, pairs, bodies, law);
 }
 
@@ -349,10 +349,12 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
     if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }
-    pairs.pair_of_node.resize(pairs.node.size());
-    pairs.found_node.resize(pairs.node.size());
+    pairs.pair_of_node.fit(pairs.node.size());
+    pairs.found_node.fit(pairs.node.size());
+    pairs.inside.fit(node_words(pairs.node.size()));
     for_each(exec, "pairs of nodes", pairs.key.size(),
              WritePairsOfNodes{pairs.first_node.data(), pairs.pair_of_node.data()});
+    list_pairs_of_many_nodes(exec, pairs);
 }
 
 } // namespace tread::dem

@@ -26,7 +26,7 @@ TREAD_HD double speed_of(const BodiesView& bodies, std::int64_t b, double radius
 /// skin, and some more for a list that lasts.
 TREAD_HD double travel_of(const BodiesView& bodies, const TemplateView* templates, std::int64_t b, double dt)
 {
-    constexpr double more_steps = 6, most_more = 0.05; // of the radius
+    constexpr double more_steps = 60, most_more = 0.05; // of the radius
     const double     radius = templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
     const double     step   = dt * speed_of(bodies, b, radius);
     return steps_ahead * step + search_skin * radius + std::fmin(more_steps * step, most_more * radius);

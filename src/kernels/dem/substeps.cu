@@ -1,7 +1,7 @@
 #include "kernels/dem/substeps.hpp"
 
 #include "backend/repeat.cuh"
-#include "kernels/dem/answer_warp.cuh"
+#include "kernels/dem/answer_group.cuh"
 #include "kernels/dem/body_contact.hpp"
 #include "kernels/dem/contact_nodes_impl.hpp"
 #include "kernels/dem/move_impl.hpp"
@@ -12,7 +12,7 @@ namespace tread::dem
 namespace
 {
 
-constexpr int threads = 128, blocks_an_sm = 4, warps = threads / warp_size;
+constexpr int threads = 128, blocks_an_sm = 4;
 
 /// f(i, lane) as the parts of a sequence want it.
 template<int lanes, class F>
@@ -23,23 +23,11 @@ auto part(std::int64_t items, const F& f)
 }
 
 template<class Meet>
-struct LookUpNode
-{
-    contact_nodes::LookUp<Meet> look_up;
-
-    template<class Lanes>
-    __device__ void operator()(std::int64_t i, const Lanes&) const
-    {
-        look_up(i);
-    }
-};
-
-template<class Meet>
 auto answers(const body_contact::AnswerPair<Meet>& answer)
 {
-    constexpr int few = 8; // pairs of a warp: all its nodes at a time, as a rule
-    using Warp        = AnswerWarp<Meet, few, warps>;
-    return Part{(answer.pairs.count + Warp::in_block - 1) / Warp::in_block, Warp{answer}};
+    constexpr int                           lanes = 4;
+    const AnswerGroup<Meet, threads, lanes> group{answer};
+    return Part{group.blocks(), group};
 }
 
 /// Few enough that the waiting between launches would be most of a substep.
@@ -70,8 +58,8 @@ void run_substeps(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, c
         law,
         [&]<class Meet>(const Meet& meet)
         {
-            const auto nodes        = part<1>(pairs.node.size(),
-                                       LookUpNode<Meet>{contact_nodes::LookUp<Meet>{meet, bodies.count, law, view}});
+            const auto nodes        = part<nodes_of_word>(node_words(pairs.node.size()),
+                                                   contact_nodes::LookUp<Meet>{meet, bodies.count, law, view});
             const auto pair_answers = answers(body_contact::AnswerPair<Meet>{meet, bodies.count, law, view, motion.dt});
             moving::with_move(gather, pairs.is_large.data(), named, motion,
                               [&](const auto& move)

@@ -23,6 +23,11 @@ struct GroupLanes
         return __ballot_sync(everyone(), value) >> first() & (all_lanes >> (warp_size - size));
     }
 
+    __device__ std::uint32_t share(std::uint32_t bits) const
+    {
+        return bits & all_lanes / (all_lanes >> (warp_size - size)) << lane();
+    }
+
     __device__ double from(std::int32_t lane, double value) const
     {
         return __shfl_sync(everyone(), value, first() + lane);
