@@ -135,7 +135,7 @@ struct Move
     {
         const BodiesView& bodies  = gather.bodies;
         ContactBody       shown   = load(gather.pairs.body + b);
-        BodyMotion        body    = motion_of(bodies, b, shown);
+        BodyMotion        body    = motion_of(bodies, b);
         const Wrench      contact = is_large[b] == 0 ? gather(b, lanes) : Wrench{bodies.force[b], bodies.torque[b]};
         if (lanes.lane() != 0) { return; }
         if (b < named.count) { impulse_steps::Add{bodies, named.impulse, gather.dt}(b); }
@@ -146,12 +146,6 @@ struct Move
     }
 
 private:
-    TREAD_HD static BodyMotion motion_of(const BodiesView& bodies, std::int64_t b, const ContactBody& shown)
-    {
-        return {shown.position, shown.orientation, shown.velocity,  shown.spin,
-                bodies.mass[b], bodies.inertia[b], bodies.locked[b]};
-    }
-
     /// To the contacts of the next substep.
     TREAD_HD static void show(const BodyMotion& body, ContactBody& shown)
     {

@@ -39,19 +39,32 @@ struct Stage
     TREAD_HD void operator()(std::int64_t b) const { body[b] = contact_body(bodies, b); }
 };
 
+struct WriteMore
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    double              dt;
+    double*             more;
+
+    TREAD_HD void operator()(std::int64_t b) const { more[b] = travel_of(bodies, templates, b, dt).more; }
+};
+
 struct WriteReach
 {
     BodiesView          bodies;
     const TemplateView* templates;
     const std::int32_t* is_large;
     double              dt;
+    const double*       sum; ///< of `more`
     double*             travel;
     double*             reach;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        travel[b] = travel_of(bodies, templates, b, dt);
-        reach[b]  = is_large[b] != 0 ? 0.0 : reach_of(bodies, templates, travel, b).total();
+        const Travel found  = travel_of(bodies, templates, b, dt);
+        const double radius = templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
+        travel[b]           = radius * (found.least + share_of_more(*sum, bodies.count) * found.more);
+        reach[b]            = is_large[b] != 0 ? 0.0 : reach_of(bodies, templates, travel, b).total();
     }
 };
 
@@ -216,8 +229,11 @@ double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
     pairs.travel.resize(bodies.count);
     pairs.reach.resize(bodies.count);
     pairs.measure.resize(1);
+    for_each(exec, "body motion", bodies.count, WriteMore{bodies, templates, dt, pairs.reach.data()});
+    sum_rows(exec, pairs.reach.data(), bodies.count, 1, pairs.measure.data());
     for_each(exec, "body reach", bodies.count,
-             WriteReach{bodies, templates, pairs.is_large.data(), dt, pairs.travel.data(), pairs.reach.data()});
+             WriteReach{bodies, templates, pairs.is_large.data(), dt, pairs.measure.data(), pairs.travel.data(),
+                        pairs.reach.data()});
     largest_of_rows(exec, pairs.reach.data(), bodies.count, 1, pairs.measure.data());
     const double cell_size = std::max(2.0 * read(exec, pairs.measure.data()), 1e-12);
 

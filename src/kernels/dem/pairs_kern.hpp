@@ -22,14 +22,27 @@ TREAD_HD double speed_of(const BodiesView& bodies, std::int64_t b, double radius
     return bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius;
 }
 
-/// m, that any point of a body may move until the pairs are found anew: what it will in the steps ahead of dt (s), the
-/// skin, and some more for a list that lasts.
-TREAD_HD double travel_of(const BodiesView& bodies, const TemplateView* templates, std::int64_t b, double dt)
+/// How far any point of a body may move until the pairs are found anew, in bounding radii.
+struct Travel
 {
-    constexpr double more_steps = 60, most_more = 0.05; // of the radius
+    double least; ///< what it will in the steps ahead, and the skin
+    double more;  ///< for a list that lasts
+};
+
+TREAD_HD Travel travel_of(const BodiesView& bodies, const TemplateView* templates, std::int64_t b, double dt)
+{
+    constexpr double more_steps = 60, most_more = 0.05;
     const double     radius = templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
-    const double     step   = dt * speed_of(bodies, b, radius);
-    return steps_ahead * step + search_skin * radius + std::fmin(more_steps * step, most_more * radius);
+    const double     step   = radius > 0 ? dt * speed_of(bodies, b, radius) / radius : 0.0;
+    return {steps_ahead * step + search_skin, std::fmin(more_steps * step, most_more)};
+}
+
+/// Of `more`, what a body gets when all of them together want `sum`: lists last long where few bodies move, and where
+/// all do they stay short.
+TREAD_HD double share_of_more(double sum, std::int64_t bodies)
+{
+    constexpr double mean_more = 0.02;
+    return sum > 0 ? std::fmin(mean_more * static_cast<double>(bodies) / sum, 1.0) : 1.0;
 }
 
 /// A body as the search sees it.

@@ -38,11 +38,12 @@ std::vector<Solid> crowd(int count)
     return solids;
 }
 
-/// What find_pairs promises for exact spheres, whose bounding sphere is their surface (dem::travel_of).
+/// What find_pairs promises for exact spheres, whose bounding sphere is their surface (dem::travel_of): so few move
+/// that they get all they want.
 double grown(const Solid& solid)
 {
     const double r = solid.scale, way = step * (solid.velocity.norm() + solid.spin.norm() * r);
-    return r + 2.1 * way + 0.003 * r + std::min(6 * way, 0.05 * r);
+    return r + 2.1 * way + 0.003 * r + std::min(60 * way, 0.05 * r);
 }
 
 std::vector<std::uint64_t> brute_force(const std::vector<Solid>& solids, const std::vector<dem::Plane>& planes)
@@ -69,6 +70,24 @@ std::vector<std::uint64_t> brute_force(const std::vector<Solid>& solids, const s
         }
     }
     return keys;
+}
+
+TYPED_TEST(BodyPairs, AllowForLessWhereAllBodiesMove)
+{
+    const Vec3<double> velocity{3, 4, 0};
+    std::vector<Solid> solids;
+    for (int i = 0; i < 50; ++i)
+    {
+        solids.push_back(solid_sphere(0.01, 1000, {1.0 * i, 0, 0}));
+        solids.back().velocity = velocity;
+    }
+    typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, solids, {});
+    scene.find(step);
+    const double way = step * velocity.norm(), all = 2.1 * way + 0.003 * 0.01 + 0.02 * 0.01;
+    double       worst = 0;
+    for (const double travel : scene.pairs.travel.to_host()) { worst = std::max(worst, std::abs(travel / all - 1)); }
+    std::printf("lists allow for %.3e m, differing by %.1e; tolerance 1e-12 (order of a sum)\n", all, worst);
+    EXPECT_LT(worst, 1e-12);
 }
 
 TYPED_TEST(BodyPairs, AreThoseOfBruteForce)
