@@ -25,6 +25,47 @@ struct Part
 template<class F>
 Part(std::int64_t, F) -> Part<F>;
 
+/// f(i) for i in [0, n), an item a thread.
+template<int threads, class F>
+struct ItemsOfBlock
+{
+    F            f;
+    std::int64_t n;
+
+    __device__ void operator()(std::int64_t block) const
+    {
+        const std::int64_t i = block * threads + threadIdx.x;
+        if (i < n) { f(i); }
+    }
+};
+
+template<int threads, class F>
+Part<ItemsOfBlock<threads, F>> items(std::int64_t n, const F& f)
+{
+    return {(n + threads - 1) / threads, {f, n}};
+}
+
+/// Two that need not wait for each other.
+template<class First, class Second>
+struct Beside
+{
+    std::int64_t first_blocks;
+    First        first;
+    Second       second;
+
+    __device__ void operator()(std::int64_t block) const
+    {
+        if (block < first_blocks) { first(block); }
+        else { second(block - first_blocks); }
+    }
+};
+
+template<class First, class Second>
+Part<Beside<First, Second>> beside(const Part<First>& first, const Part<Second>& second)
+{
+    return {first.blocks + second.blocks, {first.blocks, first.f, second.f}};
+}
+
 template<class... Parts>
 struct Sequence
 {

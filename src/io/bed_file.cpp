@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -83,6 +84,14 @@ void require_in_range(const std::string& path, const BedFile& bed)
         !all(bed.diameter, positive))
     {
         refuse(path, "a rock has no finite place or size");
+    }
+    for (std::size_t q = 0; q < bed.orientation.size(); q += 4)
+    {
+        const auto turn = bed.orientation.begin() + static_cast<std::ptrdiff_t>(q);
+        if (std::abs(std::inner_product(turn, turn + 4, turn, 0.0) - 1) > 1e-9)
+        {
+            refuse(path, "a rock's orientation is no unit quaternion");
+        }
     }
     constexpr std::int64_t walls = 6;
     const auto             count = static_cast<std::int64_t>(bed.size());

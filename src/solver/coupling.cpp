@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "kernels/contact/substeps.hpp"
 #include "solver/cover.hpp"
 #include "solver/materials.hpp"
 
@@ -65,6 +66,13 @@ template<class Exec, class Real>
 void Coupling<Exec, Real>::substep(const dem::BodiesView& bodies, double dt)
 {
     contact::substep(exec_, contact_, bodies, law_, dt);
+}
+
+template<class Exec, class Real>
+bool Coupling<Exec, Real>::run_in_one_launch(dem::BodyStep<Exec> step, std::int64_t count)
+{
+    step.motion.outside = contact_.wrenches();
+    return contact::run_in_one_launch(exec_, contact_, law_, step, count);
 }
 
 template<class Exec, class Real>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/contact/point_contact.hpp"
+#include "kernels/dem/move.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
@@ -20,6 +21,12 @@ public:
 
     /// Forces on bodies, and the private points' motion over a substep.
     void substep(const dem::BodiesView& bodies, double dt);
+
+    /// Of the last substep.
+    dem::OutsideWrenches wrenches() const { return contact_.wrenches(); }
+
+    /// All of `count` substeps, contacts of bodies and their motion included, if one launch is worth it: says whether.
+    bool run_in_one_launch(dem::BodyStep<Exec> step, std::int64_t count);
 
     /// Impulses become the points' contact force.
     void finish_step(const mpm::PointsView<Real>& points, double dt);

@@ -10,7 +10,6 @@
 #include "base/errors.hpp"
 #include "kernels/dem/body_contact.hpp"
 #include "kernels/dem/contact_limits.hpp"
-#include "kernels/dem/integrate.hpp"
 #include "kernels/dem/move.hpp"
 #include "kernels/dem/pairs_kern.hpp"
 #include "kernels/dem/substeps.hpp"
@@ -71,7 +70,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     {
         throw InputError(fmt::format("{} bodies and walls: at most {} can be told apart", sides, dem::most_bodies));
     }
-    upload(world, plan);
+    upload(world);
     const std::vector<dem::PairProperties> properties = pair_properties(scene);
     properties_.assign(properties);
     pairs_.resists_rolling =
@@ -93,13 +92,15 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     smallest_radius_ = *std::min_element(radii.begin(), radii.end());
     impulses_.resize(named_);
     if (contacts_) { dem::classify_bodies(exec_, pairs_, bodies_.view(), templates_.views()); }
-    dem::clear_wrenches(exec_, bodies_.view());
+    bodies_.force.fill_zero();
+    bodies_.torque.fill_zero();
+    bodies_.stiffness.fill_zero();
     begin_mean();
     restore_contacts();
 }
 
 template<class Exec>
-void Rigid<Exec>::upload(const World& world, const Plan& plan)
+void Rigid<Exec>::upload(const World& world)
 {
     const HostBodies&          host = world.bodies;
     const std::size_t          n    = host.size();
@@ -134,9 +135,6 @@ void Rigid<Exec>::upload(const World& world, const Plan& plan)
     bodies_.force.resize(count);
     bodies_.torque.resize(count);
     bodies_.stiffness.resize(count);
-    if (!plan.coupling) { return; }
-    bodies_.sand_force.resize(count);
-    bodies_.sand_torque.resize(count);
 }
 
 template<class Exec>
@@ -246,39 +244,38 @@ ContactCount Rigid<Exec>::count_contacts()
 }
 
 template<class Exec>
-void Rigid<Exec>::clear_wrenches()
-{
-    dem::clear_wrenches(exec_, bodies_.view());
-}
-
-template<class Exec>
 void Rigid<Exec>::contact(double dt)
 {
     dem::evaluate_contacts(exec_, pairs_, bodies_.view(), law_, dt);
 }
 
 template<class Exec>
-void Rigid<Exec>::move(double dt, double damping)
+void Rigid<Exec>::move(double dt, double damping, const dem::OutsideWrenches& outside)
 {
-    mean_time_ += dt;
-    substep_ = dt;
-    if (contacts_)
-    {
-        dem::move_bodies(exec_, pairs_, bodies_.view(), totals_.data(), named_impulses(), {gravity_, damping, dt});
-        return;
-    }
-    if (named_ > 0) { dem::add_impulses(exec_, bodies_.view(), impulses_.data(), named_, dt); }
-    if (damping > 0) { dem::integrate_damped(exec_, bodies_.view(), totals_.data(), gravity_, damping, dt); }
-    else { dem::integrate(exec_, bodies_.view(), totals_.data(), gravity_, dt); }
+    dem::BodyStep<Exec> step = body_step(dt, damping);
+    step.motion.outside      = outside;
+    dem::move_bodies(exec_, step);
+    count_substeps(dt, 1);
 }
 
 template<class Exec>
 void Rigid<Exec>::run(double dt, double damping, std::int64_t count)
 {
+    dem::run_substeps(exec_, body_step(dt, damping), count);
+    count_substeps(dt, count);
+}
+
+template<class Exec>
+dem::BodyStep<Exec> Rigid<Exec>::body_step(double dt, double damping)
+{
+    return {pairs_, bodies_.view(), law_, totals_.data(), named_impulses(), {gravity_, damping, dt}};
+}
+
+template<class Exec>
+void Rigid<Exec>::count_substeps(double dt, std::int64_t count)
+{
     mean_time_ += static_cast<double>(count) * dt;
     substep_ = dt;
-    dem::run_substeps(exec_, pairs_, bodies_.view(), law_, totals_.data(), named_impulses(), {gravity_, damping, dt},
-                      count);
 }
 
 template<class Exec>

@@ -69,11 +69,14 @@ public:
     ContactCount count_contacts();
 
     // 3. A substep.
-    void clear_wrenches();
     void contact(double dt);
-    void move(double dt, double damping);
+    void move(double dt, double damping, const dem::OutsideWrenches& outside = {});
     /// contact and move, `count` times: of bodies that meet nothing but each other and walls.
     void run(double dt, double damping, std::int64_t count);
+
+    /// What a substep of bodies needs, for those who do it for them, and then say how many they did.
+    dem::BodyStep<Exec> body_step(double dt, double damping);
+    void                count_substeps(double dt, std::int64_t count);
 
     /// Of the step; waits for it. NumericalError when a contact is deeper than the law can carry, or a body is not at a
     /// finite place: `time` (s) is for that message.
@@ -90,7 +93,7 @@ public:
 private:
     dem::NamedImpulses named_impulses() { return {impulses_.data(), named_}; }
 
-    void   upload(const World& world, const Plan& plan);
+    void   upload(const World& world);
     void   restore_contacts();
     void   require_finite(double time);
     void   require_listed(double time);

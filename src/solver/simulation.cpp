@@ -128,11 +128,23 @@ void Simulation<Exec, Real>::substeps(const TimeStep& step, double time, StageCl
         {
             clock.run(exec_, stage::body_contact, [&] { rigid_->run(dt, damping_, next); });
         }
-        else
+        else if (!in_one_launch(dt, next, clock))
         {
             for (std::int64_t substep = 0; substep < next; ++substep) { coupled_substep(dt, clock); }
         }
     }
+}
+
+/// Sand and bodies, where that is worth it: all of it counts as sand-body contact.
+template<class Exec, class Real>
+bool Simulation<Exec, Real>::in_one_launch(double dt, std::int64_t count, StageClock& clock)
+{
+    bool done = false;
+    if (!coupling_) { return done; }
+    clock.run(exec_, stage::sand_contact,
+              [&] { done = coupling_->run_in_one_launch(rigid_->body_step(dt, damping_), count); });
+    if (done) { rigid_->count_substeps(dt, count); }
+    return done;
 }
 
 template<class Exec, class Real>
@@ -140,14 +152,14 @@ void Simulation<Exec, Real>::coupled_substep(double dt, StageClock& clock)
 {
     if (coupling_)
     {
-        rigid_->clear_wrenches();
         clock.run(exec_, stage::sand_contact, [&] { coupling_->substep(rigid_->view(), dt); });
     }
     if (plan_.body_contact)
     {
         clock.run(exec_, stage::body_contact, [&] { rigid_->contact(dt); });
     }
-    clock.run(exec_, stage::integrate, [&] { rigid_->move(dt, damping_); });
+    clock.run(exec_, stage::integrate,
+              [&] { rigid_->move(dt, damping_, coupling_ ? coupling_->wrenches() : dem::OutsideWrenches{}); });
 }
 
 /// Where nothing but sand moves, several steps may pass before it is measured: as many as no point needs for half a

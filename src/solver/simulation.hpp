@@ -76,6 +76,7 @@ public:
 private:
     void substeps(const TimeStep& step, double time, StageClock& clock);
     void coupled_substep(double dt, StageClock& clock);
+    bool in_one_launch(double dt, std::int64_t count, StageClock& clock);
     void measure();
     void choose_measuring();
 

@@ -157,10 +157,8 @@ private:
 
     void substep(double damping)
     {
-        const dem::BodiesView bodies = scene_.bodies.view();
-        evaluate_contacts(exec_, scene_.pairs, bodies, scene_.law(), dt_);
-        move_bodies(exec_, scene_.pairs, bodies, scene_.totals.data(), {nullptr, 0},
-                    {scene_.numbers.gravity, damping, dt_});
+        evaluate_contacts(exec_, scene_.pairs, scene_.bodies.view(), scene_.law(), dt_);
+        move_bodies(exec_, scene_.step(dt_, damping));
     }
 
     Exec                   exec_;

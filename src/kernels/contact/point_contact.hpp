@@ -5,6 +5,7 @@
 #include "kernels/contact/candidates.hpp"
 #include "kernels/contact/history.hpp"
 #include "kernels/contact/summary.hpp"
+#include "kernels/dem/outside.hpp"
 
 // Sand against rigid bodies during one MPM step: begin_step, N times substep, finish_step. During the substeps each
 // point in reach moves on a private copy of (x, v); only the accumulated impulse goes back to the sand.
@@ -75,6 +76,7 @@ struct PointContact
         , tangential(exec, "contact tangential")
         , response(exec, "contact response")
         , dissipated(exec, "contact dissipated")
+        , run_of_body(exec, "contact run of body")
         , wrench_sums(exec, "contact wrench sums")
         , summary_sums(exec, "contact summary sums")
         , summaries(exec, "contact summaries")
@@ -91,6 +93,13 @@ struct PointContact
     ContactsView contacts()
     {
         return {candidates.view(), slot_first.data(), tangential.data(), response.data(), dissipated.data()};
+    }
+
+    /// On the bodies, of the last substep.
+    dem::OutsideWrenches wrenches() const
+    {
+        if (candidates.body.size() == 0) { return {}; }
+        return {run_of_body.data(), candidates.body_parts.first_of_run.data(), wrench_sums.data()};
     }
 
     Candidates<Exec> candidates;
@@ -110,10 +119,11 @@ struct PointContact
     Array<Exec, Response>     response;
     Array<Exec, double>       dissipated;
 
-    Array<Exec, Wrench>       wrench_sums;  ///< one for each part of a touched body's candidates
-    Array<Exec, Summary>      summary_sums; ///< the same
-    Array<Exec, Summary>      summaries;    ///< one for each touched body
-    Array<Exec, std::int32_t> marks;
+    Array<Exec, std::int32_t>       run_of_body;  ///< of Candidates::by_body; -1 = no candidates
+    Array<Exec, dem::ContactWrench> wrench_sums;  ///< one for each part of a touched body's candidates
+    Array<Exec, Summary>            summary_sums; ///< the same
+    Array<Exec, Summary>            summaries;    ///< one for each touched body
+    Array<Exec, std::int32_t>       marks;
 };
 
 /// Finds the candidates, copies their points (velocity from grid_velocity, impulse zero) and recalls the history.
@@ -123,8 +133,8 @@ void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Points
                 const mpm::PagesView& pages, const dem::BodiesView& bodies, const PointBodyLaw& law,
                 const SearchReach& reach);
 
-/// Forces of all candidates at the present places of points and bodies, added to the bodies' force, torque and
-/// stiffness; then the private points move by dt (s, of the substep). The caller moves the bodies. Allocates nothing.
+/// Forces of all candidates at the present places of points and bodies: contact.wrenches() for the bodies, which the
+/// caller moves; then the private points move by dt (s, of the substep). Allocates nothing.
 template<class Exec>
 void substep(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesView& bodies, const PointBodyLaw& law,
              double dt);

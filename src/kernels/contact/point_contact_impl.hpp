@@ -155,7 +155,7 @@ struct WrenchOf
     const Vec3<double>* point_position;
     const Vec3<double>* body_position;
 
-    TREAD_HD Wrench operator()(std::int64_t c) const
+    TREAD_HD dem::ContactWrench operator()(std::int64_t c) const
     {
         const Vec3<double> force = -contacts.response[c].force;
         const Vec3<double> arm =
@@ -164,21 +164,23 @@ struct WrenchOf
     }
 };
 
-struct AddToBody
+/// Of each touched body.
+struct NameRun
 {
     const std::int32_t* touched_body;
-    dem::BodiesView     bodies;
+    std::int32_t*       run_of_body;
 
-    TREAD_HD void operator()(std::int64_t run, const Wrench& sum) const
+    TREAD_HD void operator()(std::int64_t run) const
     {
-        const std::int32_t b = touched_body[run];
-        bodies.force[b] += sum.force;
-        bodies.torque[b] += sum.torque;
-        bodies.stiffness[b] += sum.stiffness;
-        if (bodies.sand_force == nullptr) { return; }
-        bodies.sand_force[b]  = sum.force;
-        bodies.sand_torque[b] = sum.torque;
+        run_of_body[touched_body[run]] = static_cast<std::int32_t>(run);
     }
+};
+
+struct NoRun
+{
+    std::int32_t* run_of_body;
+
+    TREAD_HD void operator()(std::int64_t b) const { run_of_body[b] = -1; }
 };
 
 /// Symplectic Euler under the contact forces of all bodies, summed in body order.
@@ -299,6 +301,17 @@ void make_slots(const Exec& exec, PointContact<Exec>& contact, const dem::Bodies
     contact.tangential.resize(slots);
 }
 
+/// Of each body, where its wrenches will be.
+template<class Exec>
+void name_runs(const Exec& exec, PointContact<Exec>& contact, std::int64_t bodies)
+{
+    if (contact.candidates.body.size() == 0) { return; }
+    contact.run_of_body.resize(bodies);
+    for_each(exec, "bodies without sand", bodies, contact_steps::NoRun{contact.run_of_body.data()});
+    const RunsView by_body = contact.candidates.by_body.view();
+    for_each(exec, "bodies in sand", by_body.count, contact_steps::NameRun{by_body.key, contact.run_of_body.data()});
+}
+
 template<class Exec, class Real>
 void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::PointsView<Real>& points,
                 const mpm::PagesView& pages, const dem::BodiesView& bodies, const PointBodyLaw& law,
@@ -307,6 +320,7 @@ void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Points
     find_candidates(exec, contact.candidates, points, pages, bodies, law.templates, law.radius, reach);
     resize_to_candidates(contact);
     make_slots(exec, contact, bodies, law);
+    name_runs(exec, contact, bodies.count);
     const PrivatePoints copies = contact.private_points();
     for_each(
         exec, "copy contact points", copies.count,
@@ -322,12 +336,12 @@ void substep(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesVie
     using namespace contact_steps;
     const ContactsView  contacts = contact.contacts();
     const PrivatePoints points   = contact.private_points();
-    const RunsView      by_body  = contact.candidates.by_body.view();
     const Respond       respond{contacts, points, bodies, law, dt};
     if (contacts.slot_first == nullptr) { for_each(exec, "point-body forces", contacts.candidates.count, respond); }
     else { for_each(exec, "sampled point-body forces", contacts.candidates.count, RespondSampled{respond}); }
-    reduce_parts(exec, "point-body wrenches", by_body, contact.candidates.body_parts, contact.wrench_sums.data(),
-                 WrenchOf{contacts, points.position, bodies.position}, AddToBody{by_body.key, bodies});
+    reduce_runs<dem::ContactWrench>(exec, "point-body wrenches", contact.candidates.body_parts.of_items.view(),
+                                    WrenchOf{contacts, points.position, bodies.position},
+                                    run_steps::StoreSum<dem::ContactWrench>{contact.wrench_sums.data()});
     for_each(exec, "move contact points", points.count,
              MovePoint{contact.candidates.by_point.view(), contacts, points, law.motion, dt});
 }

@@ -9,21 +9,6 @@
 namespace tread::contact
 {
 
-/// Force and torque that contacts put on one body.
-struct Wrench
-{
-    Vec3<double> force;     ///< N
-    Vec3<double> torque;    ///< N m, about the centre of mass
-    double       stiffness; ///< N/m, sum of k_n
-
-    TREAD_HD static Wrench zero() { return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0.0}; }
-};
-
-TREAD_HD Wrench operator+(const Wrench& a, const Wrench& b)
-{
-    return {a.force + b.force, a.torque + b.torque, a.stiffness + b.stiffness};
-}
-
 /// A value and the pair that it belongs to; body -1 = no contact at all.
 struct Extreme
 {

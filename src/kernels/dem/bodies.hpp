@@ -38,11 +38,9 @@ struct BodiesView
     std::int32_t*  material;         ///< index of the material
     std::uint32_t* locked;           ///< bits of LockedFreedom
     std::int32_t*  damped;           ///< 1 = takes part in the local damping of a settling phase
-    Vec3<double>*  force;            ///< N, contact, of the current substep (gravity not included)
+    Vec3<double>*  force;            ///< N, contact, of the last substep (gravity not included)
     Vec3<double>*  torque;           ///< N m, about the centre of mass
-    double*        stiffness;        ///< N/m, sum over live contacts of K, of the current substep
-    Vec3<double>*  sand_force;       ///< N, what of `force` comes from sand; null in a scene where none touches bodies
-    Vec3<double>*  sand_torque;      ///< N m, likewise
+    double*        stiffness;        ///< N/m, sum over live contacts of K, of the last substep
 };
 
 /// Owner of what BodiesView shows.
@@ -64,17 +62,14 @@ struct Bodies
         , force(exec, "body force")
         , torque(exec, "body torque")
         , stiffness(exec, "body stiffness")
-        , sand_force(exec, "body sand force")
-        , sand_torque(exec, "body sand torque")
     {
     }
 
     BodiesView view()
     {
-        return {position.size(),   position.data(),   orientation.data(), velocity.data(), angular_velocity.data(),
-                mass.data(),       inertia.data(),    scale.data(),       shape.data(),    material.data(),
-                locked.data(),     damped.data(),     force.data(),       torque.data(),   stiffness.data(),
-                sand_force.data(), sand_torque.data()};
+        return {position.size(), position.data(), orientation.data(), velocity.data(), angular_velocity.data(),
+                mass.data(),     inertia.data(),  scale.data(),       shape.data(),    material.data(),
+                locked.data(),   damped.data(),   force.data(),       torque.data(),   stiffness.data()};
     }
 
     Array<Exec, Vec3<double>>  position;
@@ -91,8 +86,6 @@ struct Bodies
     Array<Exec, Vec3<double>>  force;
     Array<Exec, Vec3<double>>  torque;
     Array<Exec, double>        stiffness;
-    Array<Exec, Vec3<double>>  sand_force;  ///< empty in a scene where no sand touches bodies
-    Array<Exec, Vec3<double>>  sand_torque; ///< likewise
 };
 
 } // namespace tread::dem

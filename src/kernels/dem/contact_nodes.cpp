@@ -41,6 +41,7 @@ void list_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bod
 
 void look_up_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
+    if (pairs.node.size() == 0) { return; }
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {

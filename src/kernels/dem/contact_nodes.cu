@@ -69,6 +69,7 @@ void list_pairs_of_many_nodes(const Gpu& gpu, Pairs<Gpu>& pairs)
 
 void look_up_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
+    if (pairs.node.size() == 0) { return; }
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {

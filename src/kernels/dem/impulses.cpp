@@ -4,11 +4,6 @@
 namespace tread::dem
 {
 
-void add_impulses(const Cpu& exec, const BodiesView& bodies, ContactImpulse* impulses, std::int64_t count, double dt)
-{
-    for_each(exec, "add impulses", count, impulse_steps::Add{bodies, impulses, dt});
-}
-
 void measure_activity(const Cpu& exec, const BodiesView& bodies, const double* bounding_radii,
                       const Vec3<double>& gravity, BodyActivity* activity)
 {

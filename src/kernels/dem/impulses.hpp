@@ -5,16 +5,12 @@
 namespace tread::dem
 {
 
-/// What contacts gave a body since it was cleared.
+/// What contacts gave a body since it was cleared (move.hpp books it).
 struct ContactImpulse
 {
     Vec3<double> linear;  ///< N s
     Vec3<double> angular; ///< N m s, about the centre of mass
 };
-
-/// Adds the present substep's contact force and torque times dt (s) of the first `count` bodies.
-void add_impulses(const Cpu&, const BodiesView& bodies, ContactImpulse* impulses, std::int64_t count, double dt);
-void add_impulses(const Gpu&, const BodiesView& bodies, ContactImpulse* impulses, std::int64_t count, double dt);
 
 /// Of one body, for sums and largest values over bodies.
 struct BodyActivity

@@ -6,19 +6,6 @@
 namespace tread::dem::impulse_steps
 {
 
-struct Add
-{
-    BodiesView      bodies;
-    ContactImpulse* impulses;
-    double          dt;
-
-    TREAD_HD void operator()(std::int64_t b) const
-    {
-        impulses[b].linear += dt * bodies.force[b];
-        impulses[b].angular += dt * bodies.torque[b];
-    }
-};
-
 struct Measure
 {
     BodiesView    bodies;

@@ -4,15 +4,12 @@
 namespace tread::dem
 {
 
-void move_bodies(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, BodyTotal* totals,
-                 const NamedImpulses& named, const Motion& motion)
+void move_bodies(const Cpu& cpu, const BodyStep<Cpu>& step)
 {
-    const moving::GatherBody gather{bodies, pairs.view(), totals, motion.dt};
-    for_each(cpu, "gather large bodies", pairs.large.size(),
-             [=, large = moving::GatherLarge{gather, pairs.large.data()}](std::int64_t l) { large(l, OneLane{}); });
-    moving::with_move(gather, pairs.is_large.data(), named, motion,
-                      [&](const auto& move)
-                      { for_each(cpu, "move bodies", bodies.count, [=](std::int64_t b) { move(b, OneLane{}); }); });
+    moving::with_move(step,
+                      [&](const auto& move) {
+                          for_each(cpu, "move bodies", step.bodies.count, [=](std::int64_t b) { move(b, OneLane{}); });
+                      });
 }
 
 } // namespace tread::dem

@@ -3,22 +3,30 @@
 
 namespace tread::dem
 {
-void move_bodies(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, BodyTotal* totals,
-                 const NamedImpulses& named, const Motion& motion)
+namespace
 {
-    constexpr std::int64_t   few          = 10000; // do not fill the device: lanes gather side by side, one moves
-    constexpr int            blocks_an_sm = 4;     // registers for so many
-    const moving::GatherBody gather{bodies, pairs.view(), totals, motion.dt};
-    for_each_group<warp_size>(gpu, "gather large bodies", pairs.large.size(),
-                              moving::GatherLarge{gather, pairs.large.data()});
-    moving::with_move(gather, pairs.is_large.data(), named, motion,
-                      [&](const auto& move)
+
+constexpr int blocks_an_sm = 4; ///< registers for so many
+
+template<int lanes, class Item>
+void launch(const Gpu& gpu, const char* name, std::int64_t count, const Item& item)
+{
+    for_each_group<lanes, blocks_an_sm>(gpu, name, count, item);
+}
+
+} // namespace
+
+void move_bodies(const Gpu& gpu, const BodyStep<Gpu>& step)
+{
+    constexpr std::int64_t few = 10000; // do not fill the device: lanes gather side by side, one moves
+    moving::with_move(step,
+                      [&]<class Damping>(const moving::Move<Damping>& move)
                       {
-                          if (bodies.count < few)
-                          {
-                              for_each_group<4, blocks_an_sm>(gpu, "move bodies", bodies.count, move);
-                          }
-                          else { for_each_group<1, blocks_an_sm>(gpu, "move bodies", bodies.count, move); }
+                          const moving::MoveSmall<Damping> small{move, step.pairs.is_large.data()};
+                          launch<warp_size>(gpu, "move large bodies", step.pairs.large.size(),
+                                            moving::MoveLarge<Damping>{move, step.pairs.large.data()});
+                          if (step.bodies.count < few) { launch<4>(gpu, "move bodies", step.bodies.count, small); }
+                          else { launch<1>(gpu, "move bodies", step.bodies.count, small); }
                       });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/dem/impulses.hpp"
+#include "kernels/dem/outside.hpp"
 #include "kernels/dem/pairs.hpp"
 #include "kernels/dem/totals.hpp"
 
@@ -20,14 +21,26 @@ struct Motion
     Vec3<double> gravity; ///< m/s2
     double       damping; ///< local, in [0, 1]; 0 = none
     double       dt;      ///< s, of the substep
+
+    OutsideWrenches outside = {};
 };
 
-/// Second half of a substep, after evaluate_contacts: adds what the pairs answer to every body's force, torque and
-/// stiffness (in a scene whose bodies touch sand, to what sand put there), books wall impulses, losses and the impulses
-/// of named bodies, and moves all bodies. Every sum has a fixed order on one backend. Allocates nothing.
-void move_bodies(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, BodyTotal* totals, const NamedImpulses& named,
-                 const Motion& motion);
-void move_bodies(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, BodyTotal* totals, const NamedImpulses& named,
-                 const Motion& motion);
+/// All that a substep of bodies needs.
+template<class Exec>
+struct BodyStep
+{
+    Pairs<Exec>&  pairs; ///< without a list where no body may meet another or a wall
+    BodiesView    bodies;
+    BodyLaw       law;
+    BodyTotal*    totals;
+    NamedImpulses named;
+    Motion        motion;
+};
+
+/// Second half of a substep, after evaluate_contacts: every body's force, torque and stiffness become the sum of what
+/// acts on it from outside and what its pairs answer, if pairs were ever found; books wall impulses, losses and the
+/// impulses of named bodies, and moves all bodies. Every sum has a fixed order on one backend. Allocates nothing.
+void move_bodies(const Cpu&, const BodyStep<Cpu>& step);
+void move_bodies(const Gpu&, const BodyStep<Gpu>& step);
 
 } // namespace tread::dem

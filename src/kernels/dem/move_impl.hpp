@@ -1,53 +1,59 @@
 #pragma once
 
 #include "kernels/dem/body_contact_kern.hpp"
-#include "kernels/dem/impulses_impl.hpp"
-#include "kernels/dem/integrate_impl.hpp"
+#include "kernels/dem/integrate_kern.hpp"
 #include "kernels/dem/move.hpp"
 
 // The item functions of move.hpp; move.cpp and move.cu bring in the schedule.
 namespace tread::dem::moving
 {
 
-/// What the contacts do to one body.
+/// What the pairs do to one body.
 struct BodyShare
 {
-    Vec3<double> force;
-    Vec3<double> torque;
-    double       stiffness;
-    Vec3<double> wall_force;
-    double       friction;
-    double       restitution;
+    ContactWrench contact;
+    Vec3<double>  wall_force;
+    double        friction;
+    double        restitution;
 
-    template<class Lanes>
-    TREAD_HD void reduce(const Lanes& lanes)
-    {
-        for (int c = 0; c < 3; ++c)
-        {
-            force[c]      = lanes.sum(force[c]);
-            torque[c]     = lanes.sum(torque[c]);
-            wall_force[c] = lanes.sum(wall_force[c]);
-        }
-        stiffness   = lanes.sum(stiffness);
-        friction    = lanes.sum(friction);
-        restitution = lanes.sum(restitution);
-    }
+    TREAD_HD static BodyShare zero() { return {ContactWrench::zero(), Vec3<double>::Zero(), 0, 0}; }
 };
 
-/// Adds the pairs of one body in the order of the list, those in which it comes first and those in which it comes
-/// second side by side: memory then answers both at a time. Of the lanes that share a body the first one writes, and
-/// gets what all its contacts do to it.
-struct GatherBody
+/// Of lanes that share a body.
+template<class Lanes>
+TREAD_HD void reduce(Vec3<double>& value, const Lanes& lanes)
 {
-    BodiesView bodies;
-    PairsView  pairs;
-    BodyTotal* totals;
-    double     dt;
+    for (int c = 0; c < 3; ++c) { value[c] = lanes.sum(value[c]); }
+}
+
+template<class Lanes>
+TREAD_HD void reduce(ContactWrench& wrench, const Lanes& lanes)
+{
+    reduce(wrench.force, lanes);
+    reduce(wrench.torque, lanes);
+    wrench.stiffness = lanes.sum(wrench.stiffness);
+}
+
+template<class Lanes>
+TREAD_HD void reduce(BodyShare& share, const Lanes& lanes)
+{
+    reduce(share.contact, lanes);
+    reduce(share.wall_force, lanes);
+    share.friction    = lanes.sum(share.friction);
+    share.restitution = lanes.sum(share.restitution);
+}
+
+/// Adds the pairs of one body in the order of the list, those in which it comes first and those in which it comes
+/// second side by side: memory then answers both at a time.
+struct GatherPairs
+{
+    PairsView    pairs;
+    std::int64_t bodies; ///< how many
 
     template<class Lanes>
-    TREAD_HD Wrench operator()(std::int64_t b, const Lanes& lanes) const
+    TREAD_HD BodyShare operator()(std::int64_t b, const Lanes& lanes) const
     {
-        BodyShare          share{Vec3<double>::Zero(), Vec3<double>::Zero(), 0, Vec3<double>::Zero(), 0, 0};
+        BodyShare          share     = BodyShare::zero();
         const std::int64_t first_end = pairs.first[b + 1], second_end = pairs.second[b + 1];
         for (std::int64_t p = pairs.first[b] + lanes.lane(), i = pairs.second[b] + lanes.lane();
              p < first_end || i < second_end; p += lanes.lanes(), i += lanes.lanes())
@@ -55,8 +61,8 @@ struct GatherBody
             add_first(p < first_end, p, share);
             add_second(i < second_end, i, share);
         }
-        share.reduce(lanes);
-        return lanes.lane() == 0 ? store(b, share) : Wrench{};
+        reduce(share, lanes);
+        return share;
     }
 
 private:
@@ -70,11 +76,11 @@ private:
     TREAD_HD void add_first(bool there, std::int64_t pair, BodyShare& share) const
     {
         const std::int64_t p     = there ? pair : 0;
-        const bool         wall  = second_of(pairs.key[p]) >= bodies.count;
+        const bool         wall  = second_of(pairs.key[p]) >= bodies;
         const Vec3<double> force = chosen(there, pairs.answers.force[p]);
-        share.force += force;
-        share.torque += chosen(there, pairs.answers.torque[p]);
-        share.stiffness += chosen(there, pairs.answers.stiffness[p]);
+        share.contact.force += force;
+        share.contact.torque += chosen(there, pairs.answers.torque[p]);
+        share.contact.stiffness += chosen(there, pairs.answers.stiffness[p]);
         share.friction += chosen(there, pairs.answers.friction[p]);
         share.restitution += chosen(there, pairs.answers.restitution[p]);
         share.wall_force += chosen(wall, force);
@@ -83,94 +89,132 @@ private:
     TREAD_HD void add_second(bool there, std::int64_t place, BodyShare& share) const
     {
         const std::int64_t i = there ? place : 0;
-        share.force += chosen(there, pairs.answers.second_force[i]);
-        share.torque += chosen(there, pairs.answers.second_torque[i]);
-        share.stiffness += chosen(there, pairs.answers.second_stiffness[i]);
-    }
-
-    TREAD_HD Wrench store(std::int64_t b, const BodyShare& share) const
-    {
-        Wrench wrench{share.force, share.torque};
-        double stiffness = share.stiffness;
-        if (bodies.sand_force != nullptr)
-        {
-            wrench.force += bodies.force[b];
-            wrench.torque += bodies.torque[b];
-            stiffness += bodies.stiffness[b];
-        }
-        bodies.force[b]     = wrench.force;
-        bodies.torque[b]    = wrench.torque;
-        bodies.stiffness[b] = stiffness;
-        if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += dt * share.wall_force; }
-        if (share.friction != 0) { totals[b].friction += share.friction; }
-        if (share.restitution != 0) { totals[b].restitution += share.restitution; }
-        return wrench;
+        share.contact.force += chosen(there, pairs.answers.second_force[i]);
+        share.contact.torque += chosen(there, pairs.answers.second_torque[i]);
+        share.contact.stiffness += chosen(there, pairs.answers.second_stiffness[i]);
     }
 };
 
-/// A large body's own launch, by many lanes: it may have thousands of pairs.
-struct GatherLarge
+template<class Lanes>
+TREAD_HD ContactWrench gather(const OutsideWrenches& outside, std::int64_t b, const Lanes& lanes)
 {
-    GatherBody          gather;
+    ContactWrench      sum = ContactWrench::zero();
+    const std::int32_t run = outside.run[b];
+    if (run < 0) { return sum; }
+    for (std::int32_t i = outside.first[run] + lanes.lane(); i < outside.first[run + 1]; i += lanes.lanes())
+    {
+        sum = sum + outside.part[i];
+    }
+    reduce(sum, lanes);
+    return sum;
+}
+
+/// No local damping.
+struct Free
+{
+    TREAD_HD NoDamping operator()(const BodiesView&, std::int64_t) const { return {}; }
+};
+
+/// Local damping of the bodies that take part in it.
+struct Damped
+{
+    double alpha;
+
+    TREAD_HD LocalDamping operator()(const BodiesView& bodies, std::int64_t b) const
+    {
+        return {bodies.damped[b] != 0 ? alpha : 0.0};
+    }
+};
+
+/// Gathers what acts on a body, books it, and moves the body. Of the lanes that share it the first one writes.
+/// Damping: Free or Damped.
+template<class Damping>
+struct Move
+{
+    BodiesView    bodies;
+    PairsView     pairs; ///< first = null: none were ever found
+    BodyTotal*    totals;
+    NamedImpulses named;
+    Motion        motion;
+    Damping       damping;
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
+    {
+        BodyMotion      body  = motion_of(bodies, b);
+        const BodyShare share = pairs.first != nullptr ? GatherPairs{pairs, bodies.count}(b, lanes) : BodyShare::zero();
+        const ContactWrench outside =
+            motion.outside.run != nullptr ? gather(motion.outside, b, lanes) : ContactWrench::zero();
+        if (lanes.lane() != 0) { return; }
+        const ContactWrench contact = outside + share.contact;
+        book(b, share, contact);
+        integrate_body(body, contact, outside, motion.gravity, damping(bodies, b), motion.dt, totals[b]);
+        store_motion(bodies, b, body);
+        if (pairs.body != nullptr) { show(body, pairs.body + b); }
+    }
+
+private:
+    TREAD_HD void book(std::int64_t b, const BodyShare& share, const ContactWrench& contact) const
+    {
+        bodies.force[b]     = contact.force;
+        bodies.torque[b]    = contact.torque;
+        bodies.stiffness[b] = contact.stiffness;
+        if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += motion.dt * share.wall_force; }
+        if (share.friction != 0) { totals[b].friction += share.friction; }
+        if (share.restitution != 0) { totals[b].restitution += share.restitution; }
+        if (b < named.count)
+        {
+            named.impulse[b].linear += motion.dt * contact.force;
+            named.impulse[b].angular += motion.dt * contact.torque;
+        }
+    }
+
+    /// To the contacts of the next substep.
+    TREAD_HD static void show(const BodyMotion& body, ContactBody* record)
+    {
+        ContactBody shown = load(record);
+        shown.position    = body.position;
+        shown.orientation = body.orientation;
+        shown.velocity    = body.velocity;
+        shown.spin        = body.angular_velocity;
+        store(record, shown);
+    }
+};
+
+/// A large body may have thousands of pairs, for which the others' lanes would wait: it has more, elsewhere.
+template<class Damping>
+struct MoveSmall
+{
+    Move<Damping>       move;
+    const std::int32_t* is_large; ///< null where pairs were never looked for
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
+    {
+        if (is_large == nullptr || is_large[b] == 0) { move(b, lanes); }
+    }
+};
+
+template<class Damping>
+struct MoveLarge
+{
+    Move<Damping>       move;
     const std::int32_t* large;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t l, const Lanes& lanes) const
     {
-        gather(large[l], lanes);
-    }
-};
-
-/// Gathers, books the impulse of a named body, and moves the body by integration::Free or integration::Damped.
-template<class Integrate>
-struct Move
-{
-    GatherBody          gather;
-    const std::int32_t* is_large;
-    NamedImpulses       named;
-    Integrate           integrate;
-
-    template<class Lanes>
-    TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
-    {
-        const BodiesView& bodies  = gather.bodies;
-        ContactBody       shown   = load(gather.pairs.body + b);
-        BodyMotion        body    = motion_of(bodies, b);
-        const Wrench      contact = is_large[b] == 0 ? gather(b, lanes) : Wrench{bodies.force[b], bodies.torque[b]};
-        if (lanes.lane() != 0) { return; }
-        if (b < named.count) { impulse_steps::Add{bodies, named.impulse, gather.dt}(b); }
-        integrate(b, body, contact);
-        store_motion(bodies, b, body);
-        show(body, shown);
-        store(gather.pairs.body + b, shown);
-    }
-
-private:
-    /// To the contacts of the next substep.
-    TREAD_HD static void show(const BodyMotion& body, ContactBody& shown)
-    {
-        shown.position    = body.position;
-        shown.orientation = body.orientation;
-        shown.velocity    = body.velocity;
-        shown.spin        = body.angular_velocity;
+        move(large[l], lanes);
     }
 };
 
 /// Calls run with the Move that the motion asks for.
-template<class Run>
-void with_move(const GatherBody& gather, const std::int32_t* is_large, const NamedImpulses& named, const Motion& motion,
-               Run run)
+template<class Exec, class Run>
+void with_move(const BodyStep<Exec>& step, Run run)
 {
-    if (motion.damping > 0)
-    {
-        run(Move<integration::Damped>{
-            gather, is_large, named, {gather.bodies, gather.totals, motion.gravity, motion.damping, motion.dt}});
-    }
-    else
-    {
-        run(Move<integration::Free>{
-            gather, is_large, named, {gather.bodies, gather.totals, motion.gravity, motion.dt}});
-    }
+    const auto& [pairs, bodies, law, totals, named, motion] = step;
+    if (motion.damping > 0) { run(Move<Damped>{bodies, pairs.view(), totals, named, motion, {motion.damping}}); }
+    else { run(Move<Free>{bodies, pairs.view(), totals, named, motion, {}}); }
 }
 
 } // namespace tread::dem::moving

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "backend.hpp"
-#include "kernels/contact/point_contact.hpp"
+#include "kernels/contact/substeps.hpp"
 #include "kernels/mpm/order.hpp"
 
 // A few bodies with analytic shapes and a few points, for the tests of the sand-body contact.
@@ -110,6 +110,8 @@ public:
         , bodies(exec)
         , points(exec)
         , contact(exec)
+        , pairs(exec)
+        , totals(exec, "test totals")
         , exec_(exec)
         , pages_(exec)
         , scratch_(exec)
@@ -144,13 +146,43 @@ public:
                         contact::RadiusRule::sphere, reach());
     }
     void begin() { begin_step(exec_, contact, points.view(), page_view(), bodies.view(), law(), reach()); }
+    /// Puts on the bodies what their sand does to them.
     void substep(double dt)
     {
-        clear_wrenches();
         contact::substep(exec_, contact, bodies.view(), law(), dt);
+        if (contact.candidates.body.size() == 0) { return clear_wrenches(); }
+        const auto                run   = contact.run_of_body.to_host();
+        const auto                first = contact.candidates.body_parts.first_of_run.to_host();
+        const auto                parts = contact.wrench_sums.to_host();
+        std::vector<Vec3<double>> force, torque;
+        std::vector<double>       stiffness;
+        for (const std::int32_t r : run)
+        {
+            dem::ContactWrench sum = dem::ContactWrench::zero();
+            if (r >= 0)
+            {
+                const auto own = static_cast<std::size_t>(r);
+                for (std::int32_t i = first[own]; i < first[own + 1]; ++i)
+                {
+                    sum = sum + parts[static_cast<std::size_t>(i)];
+                }
+            }
+            force.push_back(sum.force);
+            torque.push_back(sum.torque);
+            stiffness.push_back(sum.stiffness);
+        }
+        bodies.force.assign(force);
+        bodies.torque.assign(torque);
+        bodies.stiffness.assign(stiffness);
     }
     void             finish() { finish_step(exec_, contact, points.view(), numbers.dt); }
     contact::Summary summary() { return summarise(exec_, contact); }
+
+    /// Of bodies of 1 kg that meet sand alone.
+    dem::BodyStep<Exec> body_step(double dt)
+    {
+        return {pairs, bodies.view(), {}, totals.data(), {nullptr, 0}, {{0, 0, -9.8}, 0, dt, contact.wrenches()}};
+    }
 
     void clear_wrenches()
     {
@@ -190,6 +222,8 @@ public:
     dem::Bodies<Exec>           bodies;
     mpm::Points<Exec, Real>     points;
     contact::PointContact<Exec> contact;
+    dem::Pairs<Exec>            pairs; ///< none are found
+    dem::BodyTotals<Exec>       totals;
 
 private:
     static constexpr double shift = 0.5;
@@ -239,10 +273,15 @@ private:
         gather(bodies.scale, &BodyState::scale);
         gather(bodies.shape, &BodyState::shape);
         bodies.material.assign(std::vector<std::int32_t>(states.size(), 1));
+        bodies.mass.assign(std::vector<double>(states.size(), 1.0));
+        bodies.inertia.assign(std::vector<Sym3<double>>(states.size(), symmetric<double>(Mat3<double>::Identity())));
+        bodies.locked.assign(std::vector<std::uint32_t>(states.size(), 0));
+        bodies.damped.assign(std::vector<std::int32_t>(states.size(), 0));
+        totals.resize(static_cast<std::int64_t>(states.size()));
+        totals.fill_zero();
         bodies.force.resize(static_cast<std::int64_t>(states.size()));
         bodies.torque.resize(static_cast<std::int64_t>(states.size()));
         bodies.stiffness.resize(static_cast<std::int64_t>(states.size()));
-        clear_wrenches();
     }
 
     void make_points(const std::vector<PointState>& sand)

@@ -232,8 +232,7 @@ TYPED_TEST(BodyContact, NoNodeIsMissedByTheList)
         numbers.planes = {ground};
         typename TestFixture::Scene scene(this->exec(), {unit_sphere(3, 40), box}, fast_pair(random), numbers);
         scene.find(dt);
-        clear_wrenches(this->exec(), scene.bodies.view());
-        integrate(this->exec(), scene.bodies.view(), scene.totals.data(), numbers.gravity, dt);
+        scene.move(dt);
         scene.contact(dt);
         const auto from_list = scene.bodies.force.to_host();
         listed += scene.pairs.node.size();

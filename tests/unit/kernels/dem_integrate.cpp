@@ -45,7 +45,7 @@ TYPED_TEST(RigidBody, TorqueFreeBoxFlipsOnTimeAndKeepsItsMomentum)
     double              last = 10;
     for (int step = 1; step <= static_cast<int>(length / dt); ++step)
     {
-        integrate(this->exec(), scene.bodies.view(), scene.totals.data(), scene.numbers.gravity, dt);
+        scene.move(dt);
         const Quat   q    = read(this->exec(), scene.bodies.orientation.data());
         const double next = (q.conjugate() * read(this->exec(), scene.bodies.angular_velocity.data()))[1];
         if (last * next < 0) { flips.push_back(dt * (step - 1 + last / (last - next))); }
@@ -102,14 +102,14 @@ TYPED_TEST(RigidBody, LockedFreedomsKeepTheirVelocity)
     Solid rolling           = driven;
     rolling.locked          = dem::lock_roll | dem::lock_yaw;
     rolling.spin            = Vec3<double>::Zero();
-    typename TestFixture::Scene scene(this->exec(), any_shape(), {driven, held, rolling}, {});
-    const Vec3<double>          force(1, 2, 3), torque(0.01, 0.02, -0.03);
-    scene.bodies.force.assign({force, force, force});
-    scene.bodies.torque.assign({torque, torque, torque});
-    for (int step = 0; step < steps; ++step)
-    {
-        integrate(this->exec(), scene.bodies.view(), scene.totals.data(), scene.numbers.gravity, dt);
-    }
+    typename TestFixture::Scene          scene(this->exec(), any_shape(), {driven, held, rolling}, {});
+    const Vec3<double>                   force(1, 2, 3), torque(0.01, 0.02, -0.03);
+    Array<TypeParam, std::int32_t>       run(this->exec(), "test runs"), first(this->exec(), "test run parts");
+    Array<TypeParam, dem::ContactWrench> part(this->exec(), "test wrenches");
+    run.assign({0, 1, 2});
+    first.assign({0, 1, 2, 4}); // the third's in two parts
+    part.assign({{force, torque, 0}, {force, torque, 0}, {0.25 * force, 2 * torque, 0}, {0.75 * force, -torque, 0}});
+    for (int step = 0; step < steps; ++step) { scene.move(dt, 0, {run.data(), first.data(), part.data()}); }
     const auto position = scene.bodies.position.to_host(), velocity = scene.bodies.velocity.to_host();
     const auto spin        = scene.bodies.angular_velocity.to_host();
     const auto orientation = scene.bodies.orientation.to_host();
@@ -147,10 +147,7 @@ TYPED_TEST(RigidBody, LocalDampingActsOnWhoTakesPartAndIsCounted)
     other.damped    = 0;
     typename TestFixture::Scene scene(this->exec(), any_shape(), {damped, other}, numbers);
     const dem::BodySums         start = scene.sums();
-    for (int step = 0; step < steps; ++step)
-    {
-        integrate_damped(this->exec(), scene.bodies.view(), scene.totals.data(), numbers.gravity, alpha, dt);
-    }
+    for (int step = 0; step < steps; ++step) { scene.move(dt, alpha); }
     const double t = dt * steps;
     EXPECT_NEAR(read(this->exec(), scene.bodies.velocity.data())[2], -1 - 10 * (1 - alpha) * t, 1e-12);
     EXPECT_NEAR(read(this->exec(), scene.bodies.velocity.data() + 1)[2], -1 - 10 * t, 1e-12);

@@ -260,7 +260,7 @@ TYPED_TEST(RayContact, NoNodeIsMissedByTheList)
         typename TestFixture::Scene scene(this->exec(), {rock}, fast_rocks(form, random), {});
         scene.rays = rays.views();
         scene.find(dt);
-        integrate(this->exec(), scene.bodies.view(), scene.totals.data(), Vec3<double>::Zero(), dt);
+        scene.move(dt);
         scene.contact(dt);
         const auto from_list = scene.bodies.force.to_host();
         listed += scene.pairs.node.size();

@@ -12,7 +12,6 @@
 #include "backend.hpp"
 #include "kernels/dem/body_contact.hpp"
 #include "kernels/dem/contact_limits.hpp"
-#include "kernels/dem/integrate.hpp"
 #include "kernels/dem/move.hpp"
 #include "kernels/dem/sums.hpp"
 
@@ -263,7 +262,6 @@ public:
         properties_.assign({own, wall, wall, wall});
         planes_.assign(numbers.planes);
         classify_bodies(exec_, pairs, bodies.view(), templates_.data());
-        dem::clear_wrenches(exec_, bodies.view());
     }
 
     dem::BodyLaw law() const
@@ -281,8 +279,19 @@ public:
         {
             if (substeps_++ % every == 0) { find_pairs(exec_, pairs, bodies.view(), law(), dt * every); }
             evaluate_contacts(exec_, pairs, bodies.view(), law(), dt);
-            move_bodies(exec_, pairs, bodies.view(), totals.data(), {nullptr, 0}, {numbers.gravity, 0, dt});
+            move(dt);
         }
+    }
+
+    /// A substep of dt without what pairs answer, if they have not been asked; alpha: of the local damping.
+    void move(double dt, double alpha = 0, const dem::OutsideWrenches& outside = {})
+    {
+        move_bodies(exec_, step(dt, alpha, outside));
+    }
+
+    dem::BodyStep<Exec> step(double dt, double alpha = 0, const dem::OutsideWrenches& outside = {})
+    {
+        return {pairs, bodies.view(), law(), totals.data(), {nullptr, 0}, {numbers.gravity, alpha, dt, outside}};
     }
 
     void find(double dt) { find_pairs(exec_, pairs, bodies.view(), law(), dt); }
@@ -292,7 +301,7 @@ public:
     {
         stage_bodies(exec_, pairs, bodies.view());
         evaluate_contacts(exec_, pairs, bodies.view(), law(), dt);
-        move_bodies(exec_, pairs, bodies.view(), totals.data(), {nullptr, 0}, {numbers.gravity, 0, 0});
+        move(0);
     }
 
     dem::BodySums sums() { return sum_bodies(exec_, pairs, bodies.view(), totals, numbers.gravity); }
@@ -369,6 +378,9 @@ private:
         bodies.force.resize(count);
         bodies.torque.resize(count);
         bodies.stiffness.resize(count);
+        bodies.force.fill_zero();
+        bodies.torque.fill_zero();
+        bodies.stiffness.fill_zero();
         totals.resize(count);
         totals.fill_zero();
     }

@@ -44,8 +44,7 @@ TYPED_TEST(Substeps, AreTheSameInOneCall)
     typename TestFixture::Scene other(this->exec(), {bumpy.shape(162)}, heap(bumpy), numbers);
     one.run(dt, count, count);
     other.find(dt * count);
-    run_substeps(this->exec(), other.pairs, other.bodies.view(), other.law(), other.totals.data(), {nullptr, 0},
-                 {numbers.gravity, 0, dt}, count);
+    run_substeps(this->exec(), other.step(dt), count);
     const auto stiffness = one.pairs.answers.stiffness.to_host();
     EXPECT_GT(std::count_if(stiffness.begin(), stiffness.end(), [](double value) { return value > 0; }), 8);
     EXPECT_EQ(other.bodies.position.to_host(), one.bodies.position.to_host());

@@ -1,0 +1,96 @@
+#include "contact_scene.hpp"
+
+#include <cstdio>
+#include <random>
+
+// Substeps of sand and bodies without the host.
+namespace tread::test
+{
+namespace
+{
+
+template<class Case>
+class ContactSubsteps : public ContactTest<Case>
+{
+};
+
+TYPED_TEST_SUITE(ContactSubsteps, ContactCases, ContactCaseNames);
+
+/// Two balls, each in a crowd of over a thousand points: sums over several parts.
+std::vector<BodyState> balls()
+{
+    return {{{0.4, 0.5, 0.5}, Quat::Identity(), {0.1, 0, 0}, {0, 3, 1}},
+            {{0.6, 0.5, 0.5}, Quat::Identity(), {0, 0, -0.2}, {1, 0, 0}}};
+}
+
+std::vector<PointState> crowd()
+{
+    std::mt19937                     random(5);
+    std::normal_distribution<double> normal;
+    std::vector<PointState>          sand;
+    for (int i = 0; i < 3000; ++i)
+    {
+        const Vec3<double> outwards = Vec3<double>(normal(random), normal(random), normal(random)).normalized();
+        sand.push_back({balls()[static_cast<std::size_t>(i % 2)].position + 0.053 * outwards});
+    }
+    return sand;
+}
+
+TYPED_TEST(ContactSubsteps, AreTheSameInOneLaunch)
+{
+    constexpr double            dt    = 1e-5;
+    constexpr int               count = 20;
+    const AnalyticShape         shape = sphere_shape(0.05, 40);
+    typename TestFixture::Scene one(this->exec(), {shape}, balls(), crowd());
+    typename TestFixture::Scene other(this->exec(), {shape}, balls(), crowd());
+    one.begin();
+    other.begin();
+    const auto before = other.bodies.velocity.to_host();
+    if (!run_in_one_launch(this->exec(), other.contact, other.law(), other.body_step(dt), count))
+    {
+        EXPECT_TRUE((std::is_same_v<typename TypeParam::Exec, Cpu>)) << "a GPU takes so few at once";
+        EXPECT_EQ(other.bodies.velocity.to_host(), before) << "who does nothing moves nothing";
+        return;
+    }
+    for (int i = 0; i < count; ++i)
+    {
+        contact::substep(this->exec(), one.contact, one.bodies.view(), one.law(), dt);
+        move_bodies(this->exec(), one.body_step(dt));
+    }
+    EXPECT_GT((one.bodies.velocity.to_host()[0] - before[0]).norm(), 1e-3);
+    EXPECT_EQ(other.bodies.velocity.to_host(), one.bodies.velocity.to_host());
+    EXPECT_EQ(other.bodies.angular_velocity.to_host(), one.bodies.angular_velocity.to_host());
+    EXPECT_EQ(other.bodies.position.to_host(), one.bodies.position.to_host());
+    EXPECT_EQ(other.bodies.force.to_host(), one.bodies.force.to_host());
+    EXPECT_EQ(other.contact.position.to_host(), one.contact.position.to_host());
+    EXPECT_EQ(other.contact.impulse.to_host(), one.contact.impulse.to_host());
+    EXPECT_EQ(other.totals.to_host()[0].sand_work, one.totals.to_host()[0].sand_work);
+}
+
+/// What sand does to bodies is what they do to its points.
+TYPED_TEST(ContactSubsteps, ImpulseOfBodiesIsThatOfTheirSand)
+{
+    constexpr double            dt    = 1e-5;
+    constexpr int               count = 20;
+    typename TestFixture::Scene scene(this->exec(), {sphere_shape(0.05, 40)}, balls(), crowd());
+    scene.begin();
+    const auto start = scene.bodies.velocity.to_host();
+    for (int i = 0; i < count; ++i)
+    {
+        contact::substep(this->exec(), scene.contact, scene.bodies.view(), scene.law(), dt);
+        move_bodies(this->exec(), scene.body_step(dt));
+    }
+    const auto   end    = scene.bodies.velocity.to_host();
+    Vec3<double> gained = -2 * count * dt * Vec3<double>(0, 0, -9.8);
+    for (std::size_t b = 0; b < end.size(); ++b) { gained += end[b] - start[b]; } // of 1 kg
+    Vec3<double> given = Vec3<double>::Zero();
+    for (const Vec3<double>& impulse : scene.contact.impulse.to_host()) { given -= impulse; }
+    std::printf(
+        "impulse on bodies %.6e N s, from their points off by %.1e, tolerance 1e-12 of it (order of the sums)\n",
+        gained.norm(), (gained - given).norm() / gained.norm());
+    EXPECT_GT(gained.norm(), 1e-4);
+    EXPECT_LT((gained - given).norm(), 1e-12 * gained.norm());
+}
+
+} // namespace
+} // namespace tread::test
