@@ -142,7 +142,7 @@ TREAD_HD Vec3<double> integrate_translation(BodyMotion& body, const Vec3<double>
         if (is_locked(body.locked, lock_x, c)) { holding[c] = -dt * (acting[c] + damped[c]); }
         else { after[c] += response * (acting[c] + damped[c]); }
     }
-    const Vec3<double> mean = 0.5 * (before + after);
+    Vec3<double> mean = 0.5 * (before + after);
     if constexpr (Damping::acts)
     {
         total.damping_impulse += dt * damped;
@@ -179,7 +179,7 @@ TREAD_HD Vec3<double> integrate_rotation(BodyMotion& body, const Vec3<double>& t
     const Mat3<double> at_end = end.toRotationMatrix();
     const Vec3<double> after  = angular_velocity_of(at_end, inertia, inverse, momentum, before, locked);
 
-    const Vec3<double> mean = 0.5 * (before + kicked);
+    Vec3<double> mean = 0.5 * (before + kicked);
     if constexpr (Damping::acts) { total.damping -= dt * damped.dot(mean); }
     if ((locked & locked_rotation) != 0)
     {
