@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
-#include "kernels/contact/substeps.hpp"
 #include "solver/cover.hpp"
 #include "solver/materials.hpp"
 
@@ -69,10 +68,10 @@ void Coupling<Exec, Real>::substep(const dem::BodiesView& bodies, double dt)
 }
 
 template<class Exec, class Real>
-bool Coupling<Exec, Real>::run_in_one_launch(dem::BodyStep<Exec> step, std::int64_t count)
+void Coupling<Exec, Real>::run_substeps(dem::BodyStep<Exec> step, std::int64_t count)
 {
     step.motion.outside = contact_.wrenches();
-    return contact::run_in_one_launch(exec_, contact_, law_, step, count);
+    contact::run_substeps(exec_, contact_, law_, step, count);
 }
 
 template<class Exec, class Real>

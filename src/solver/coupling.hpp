@@ -1,7 +1,6 @@
 #pragma once
 
-#include "kernels/contact/point_contact.hpp"
-#include "kernels/dem/move.hpp"
+#include "kernels/contact/substeps.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
@@ -25,8 +24,11 @@ public:
     /// Of the last substep.
     dem::OutsideWrenches wrenches() const { return contact_.wrenches(); }
 
-    /// All of `count` substeps, contacts of bodies and their motion included, if one launch is worth it: says whether.
-    bool run_in_one_launch(dem::BodyStep<Exec> step, std::int64_t count);
+    /// Whether one launch for all substeps of a step is worth it.
+    bool worth_one_launch(const dem::BodyStep<Exec>& step) { return contact::worth_one_launch(exec_, contact_, step); }
+
+    /// `count` substeps in it, contacts of bodies and their motion included.
+    void run_substeps(dem::BodyStep<Exec> step, std::int64_t count);
 
     /// Impulses become the points' contact force.
     void finish_step(const mpm::PointsView<Real>& points, double dt);

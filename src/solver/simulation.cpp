@@ -139,12 +139,12 @@ void Simulation<Exec, Real>::substeps(const TimeStep& step, double time, StageCl
 template<class Exec, class Real>
 bool Simulation<Exec, Real>::in_one_launch(double dt, std::int64_t count, StageClock& clock)
 {
-    bool done = false;
-    if (!coupling_) { return done; }
-    clock.run(exec_, stage::sand_contact,
-              [&] { done = coupling_->run_in_one_launch(rigid_->body_step(dt, damping_), count); });
-    if (done) { rigid_->count_substeps(dt, count); }
-    return done;
+    if (!coupling_) { return false; }
+    const dem::BodyStep<Exec> step = rigid_->body_step(dt, damping_);
+    if (!coupling_->worth_one_launch(step)) { return false; }
+    clock.run(exec_, stage::sand_contact, [&] { coupling_->run_substeps(step, count); });
+    rigid_->count_substeps(dt, count);
+    return true;
 }
 
 template<class Exec, class Real>

@@ -12,13 +12,6 @@ namespace
 using namespace contact_steps;
 using dem::repeat_threads;
 
-bool worth_one_launch(PointContact<Gpu>& contact, const dem::BodyStep<Gpu>& step)
-{
-    constexpr std::int64_t few = 200000;
-    return contact.candidates.body.size() < few && contact.slot_first.size() == 0 && step.law.rays == nullptr &&
-           dem::worth_one_launch(step.pairs);
-}
-
 auto wrenches_part(PointContact<Gpu>& contact, const WrenchOf& wrench)
 {
     using Store          = run_steps::StoreSum<dem::ContactWrench>;
@@ -29,10 +22,17 @@ auto wrenches_part(PointContact<Gpu>& contact, const WrenchOf& wrench)
 
 } // namespace
 
-bool run_in_one_launch(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw& law,
-                       const dem::BodyStep<Gpu>& step, std::int64_t count)
+/// Sampled points and rays have launches of their own.
+bool worth_one_launch(const Gpu&, PointContact<Gpu>& contact, const dem::BodyStep<Gpu>& step)
 {
-    if (!worth_one_launch(contact, step)) { return false; }
+    constexpr std::int64_t few = 200000;
+    return contact.candidates.body.size() < few && contact.slot_first.size() == 0 && step.law.rays == nullptr &&
+           dem::worth_one_launch(step.pairs);
+}
+
+void run_substeps(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw& law, const dem::BodyStep<Gpu>& step,
+                  std::int64_t count)
+{
     const ContactsView        contacts = contact.contacts();
     const PrivatePoints       points   = contact.private_points();
     const double              dt       = step.motion.dt;
@@ -51,7 +51,6 @@ bool run_in_one_launch(const Gpu& gpu, PointContact<Gpu>& contact, const PointBo
                                             beside(dem::answers_part(meet, step), sum),
                                             beside(dem::move_part(move, step.pairs), advance)));
                            });
-    return true;
 }
 
 } // namespace tread::contact

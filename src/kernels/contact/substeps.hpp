@@ -6,15 +6,17 @@
 namespace tread::contact
 {
 
-/// substep, dem::evaluate_contacts where there are pairs, and dem::move_bodies, `count` times, with step.motion.dt (s),
-/// without the host: where so little meets that waiting between launches would be most of the substeps. Else, and on
-/// the host, where a launch costs nothing, does nothing and returns false. Allocates nothing.
-inline bool run_in_one_launch(const Cpu&, PointContact<Cpu>&, const PointBodyLaw&, const dem::BodyStep<Cpu>&,
-                              std::int64_t)
-{
-    return false;
-}
-bool run_in_one_launch(const Gpu&, PointContact<Gpu>& contact, const PointBodyLaw& law, const dem::BodyStep<Gpu>& step,
-                       std::int64_t count);
+/// Whether so little meets that waiting between launches would be most of the substeps. Never on the host, where a
+/// launch costs nothing.
+inline bool worth_one_launch(const Cpu&, PointContact<Cpu>&, const dem::BodyStep<Cpu>&) { return false; }
+bool        worth_one_launch(const Gpu&, PointContact<Gpu>& contact, const dem::BodyStep<Gpu>& step);
+
+/// substep, dem::evaluate_contacts where there are pairs, and dem::move_bodies, `count` times, with step.motion.dt (s)
+/// and contact.wrenches() from outside. A GPU does them in one launch, and may be asked only where that is worth it;
+/// the host's are what it is tested against. Allocates nothing.
+void run_substeps(const Cpu&, PointContact<Cpu>& contact, const PointBodyLaw& law, const dem::BodyStep<Cpu>& step,
+                  std::int64_t count);
+void run_substeps(const Gpu&, PointContact<Gpu>& contact, const PointBodyLaw& law, const dem::BodyStep<Gpu>& step,
+                  std::int64_t count);
 
 } // namespace tread::contact

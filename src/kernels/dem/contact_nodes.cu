@@ -59,6 +59,8 @@ struct WriteMany
 
 void list_pairs_of_many_nodes(const Gpu& gpu, Pairs<Gpu>& pairs)
 {
+    pairs.many.resize(0);
+    if (pairs.node.size() == 0) { return; }
     const std::int64_t count = pairs.key.size();
     pairs.found.resize(count + 1);
     for_each(gpu, "mark pairs of many nodes", count + 1, MarkMany{pairs.view(), pairs.found.data()});
