@@ -42,15 +42,15 @@ void run_substeps(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw
     const auto sum     = wrenches_part(contact, {contacts, points.position, step.bodies.position});
     const auto advance = items<repeat_threads>(
         points.count, MovePoint{contact.candidates.by_point.view(), contacts, points, law.motion, dt});
-    dem::moving::with_move(step,
-                           [&](const auto& move)
-                           {
-                               repeat<repeat_threads, dem::repeat_blocks_an_sm>(
-                                   gpu, "substeps of sand and bodies", count,
-                                   sequence(beside(dem::nodes_part(meet, step), respond),
-                                            beside(dem::answers_part(meet, step), sum),
-                                            beside(dem::move_part(move, step.pairs), advance)));
-                           });
+    dem::moving::with_damping(step, dem::moving::SumOutside{step.motion.outside},
+                              [&](const auto& move)
+                              {
+                                  repeat<repeat_threads, dem::repeat_blocks_an_sm>(
+                                      gpu, "substeps of sand and bodies", count,
+                                      sequence(beside(dem::nodes_part(meet, step), respond),
+                                               beside(dem::answers_part(meet, step), sum),
+                                               beside(dem::move_part(move, step.pairs), advance)));
+                              });
 }
 
 } // namespace tread::contact

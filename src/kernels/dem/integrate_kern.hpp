@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "kernels/dem/bodies.hpp"
+#include "kernels/dem/contact_body.hpp"
 #include "kernels/dem/outside.hpp"
 #include "kernels/dem/totals.hpp"
 #include "kernels/local_damping_kern.hpp"
@@ -111,10 +112,11 @@ struct BodyMotion
     std::uint32_t locked;
 };
 
-TREAD_HD BodyMotion motion_of(const BodiesView& bodies, std::int64_t b)
+/// `shown` is as bodies.
+TREAD_HD BodyMotion motion_of(const BodiesView& bodies, std::int64_t b, const ContactBody& shown)
 {
-    return {bodies.position[b], bodies.orientation[b], bodies.velocity[b], bodies.angular_velocity[b],
-            bodies.mass[b],     bodies.inertia[b],     bodies.locked[b]};
+    return {shown.position, shown.orientation, shown.velocity,  shown.spin,
+            bodies.mass[b], bodies.inertia[b], bodies.locked[b]};
 }
 
 TREAD_HD void store_motion(const BodiesView& bodies, std::int64_t b, const BodyMotion& motion)
@@ -191,15 +193,20 @@ TREAD_HD Vec3<double> integrate_rotation(BodyMotion& body, const Vec3<double>& t
     return mean;
 }
 
-/// By a whole step; `outside` is the part of the contacts' wrench that other bodies and walls have not given.
+/// Of a body over a step.
+struct MeanMotion
+{
+    Vec3<double> velocity;         ///< m/s
+    Vec3<double> angular_velocity; ///< rad/s
+};
+
+/// By a whole step.
 template<class Damping>
-TREAD_HD void integrate_body(BodyMotion& body, const ContactWrench& contact, const ContactWrench& outside,
-                             const Vec3<double>& gravity, const Damping& damping, double dt, BodyTotal& total)
+TREAD_HD MeanMotion integrate_body(BodyMotion& body, const ContactWrench& contact, const Vec3<double>& gravity,
+                                   const Damping& damping, double dt, BodyTotal& total)
 {
     const Vec3<double> velocity = integrate_translation(body, contact.force, gravity, damping, dt, total);
-    const Vec3<double> turning  = integrate_rotation(body, contact.torque, damping, dt, total);
-    const double       power    = outside.force.dot(velocity) + outside.torque.dot(turning);
-    if (power != 0) { total.sand_work += dt * power; }
+    return {velocity, integrate_rotation(body, contact.torque, damping, dt, total)};
 }
 
 } // namespace tread::dem

@@ -20,11 +20,11 @@ void move_bodies(const Gpu& gpu, const BodyStep<Gpu>& step)
 {
     constexpr std::int64_t few = 10000; // do not fill the device: lanes gather side by side, one moves
     moving::with_move(step,
-                      [&]<class Damping>(const moving::Move<Damping>& move)
+                      [&]<class Move>(const Move& move)
                       {
-                          const moving::MoveSmall<Damping> small{move, step.pairs.is_large.data()};
+                          const moving::MoveSmall<Move> small{move, step.pairs.is_large.data()};
                           launch<warp_size>(gpu, "move large bodies", step.pairs.large.size(),
-                                            moving::MoveLarge<Damping>{move, step.pairs.large.data()});
+                                            moving::MoveLarge<Move>{move, step.pairs.large.data()});
                           if (step.bodies.count < few) { launch<4>(gpu, "move bodies", step.bodies.count, small); }
                           else { launch<1>(gpu, "move bodies", step.bodies.count, small); }
                       });

@@ -95,19 +95,40 @@ private:
     }
 };
 
-template<class Lanes>
-TREAD_HD ContactWrench gather(const OutsideWrenches& outside, std::int64_t b, const Lanes& lanes)
+/// Nothing acts on bodies beside other bodies and walls.
+struct NothingOutside
 {
-    ContactWrench      sum = ContactWrench::zero();
-    const std::int32_t run = outside.run[b];
-    if (run < 0) { return sum; }
-    for (std::int32_t i = outside.first[run] + lanes.lane(); i < outside.first[run + 1]; i += lanes.lanes())
+    static constexpr bool acts = false;
+
+    template<class Lanes>
+    TREAD_HD ContactWrench operator()(std::int64_t, const Lanes&) const
     {
-        sum = sum + outside.part[i];
+        return ContactWrench::zero();
     }
-    reduce(sum, lanes);
-    return sum;
-}
+};
+
+/// Something may.
+struct SumOutside
+{
+    static constexpr bool acts = true;
+
+    OutsideWrenches wrenches;
+
+    template<class Lanes>
+    TREAD_HD ContactWrench operator()(std::int64_t b, const Lanes& lanes) const
+    {
+        ContactWrench      sum = ContactWrench::zero();
+        const std::int32_t run = wrenches.run[b];
+        if (run < 0) { return sum; }
+        const std::int32_t end = wrenches.first[run + 1];
+        for (std::int32_t i = wrenches.first[run] + lanes.lane(); i < end; i += lanes.lanes())
+        {
+            sum = sum + wrenches.part[i];
+        }
+        reduce(sum, lanes);
+        return sum;
+    }
+};
 
 /// No local damping.
 struct Free
@@ -127,30 +148,34 @@ struct Damped
 };
 
 /// Gathers what acts on a body, books it, and moves the body. Of the lanes that share it the first one writes.
-/// Damping: Free or Damped.
-template<class Damping>
+/// Damping: Free or Damped; Outside: NothingOutside or SumOutside.
+template<class Damping, class Outside>
 struct Move
 {
     BodiesView    bodies;
     PairsView     pairs; ///< first = null: none were ever found
     BodyTotal*    totals;
     NamedImpulses named;
-    Motion        motion;
+    Vec3<double>  gravity; ///< m/s2
+    double        dt;      ///< s
     Damping       damping;
+    Outside       outside;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
     {
-        BodyMotion      body  = motion_of(bodies, b);
+        // Read before the sums, so that memory answers meanwhile.
+        ContactBody     shown = pairs.body != nullptr ? load(pairs.body + b) : contact_body(bodies, b);
+        BodyMotion      body  = motion_of(bodies, b, shown);
         const BodyShare share = pairs.first != nullptr ? GatherPairs{pairs, bodies.count}(b, lanes) : BodyShare::zero();
-        const ContactWrench outside =
-            motion.outside.run != nullptr ? gather(motion.outside, b, lanes) : ContactWrench::zero();
+        const ContactWrench from_outside = outside(b, lanes);
         if (lanes.lane() != 0) { return; }
-        const ContactWrench contact = outside + share.contact;
+        const ContactWrench contact = from_outside + share.contact;
         book(b, share, contact);
-        integrate_body(body, contact, outside, motion.gravity, damping(bodies, b), motion.dt, totals[b]);
+        const MeanMotion mean = integrate_body(body, contact, gravity, damping(bodies, b), dt, totals[b]);
+        if constexpr (Outside::acts) { book_outside(b, from_outside, mean); }
         store_motion(bodies, b, body);
-        if (pairs.body != nullptr) { show(body, pairs.body + b); }
+        if (pairs.body != nullptr) { show(body, shown, pairs.body + b); }
     }
 
 private:
@@ -159,20 +184,25 @@ private:
         bodies.force[b]     = contact.force;
         bodies.torque[b]    = contact.torque;
         bodies.stiffness[b] = contact.stiffness;
-        if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += motion.dt * share.wall_force; }
+        if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += dt * share.wall_force; }
         if (share.friction != 0) { totals[b].friction += share.friction; }
         if (share.restitution != 0) { totals[b].restitution += share.restitution; }
         if (b < named.count)
         {
-            named.impulse[b].linear += motion.dt * contact.force;
-            named.impulse[b].angular += motion.dt * contact.torque;
+            named.impulse[b].linear += dt * contact.force;
+            named.impulse[b].angular += dt * contact.torque;
         }
     }
 
-    /// To the contacts of the next substep.
-    TREAD_HD static void show(const BodyMotion& body, ContactBody* record)
+    TREAD_HD void book_outside(std::int64_t b, const ContactWrench& wrench, const MeanMotion& mean) const
     {
-        ContactBody shown = load(record);
+        const double power = wrench.force.dot(mean.velocity) + wrench.torque.dot(mean.angular_velocity);
+        if (power != 0) { totals[b].sand_work += dt * power; }
+    }
+
+    /// To the contacts of the next substep.
+    TREAD_HD static void show(const BodyMotion& body, ContactBody& shown, ContactBody* record)
+    {
         shown.position    = body.position;
         shown.orientation = body.orientation;
         shown.velocity    = body.velocity;
@@ -182,10 +212,10 @@ private:
 };
 
 /// A large body may have thousands of pairs, for which the others' lanes would wait: it has more, elsewhere.
-template<class Damping>
+template<class Move>
 struct MoveSmall
 {
-    Move<Damping>       move;
+    Move                move;
     const std::int32_t* is_large; ///< null where pairs were never looked for
 
     template<class Lanes>
@@ -195,10 +225,10 @@ struct MoveSmall
     }
 };
 
-template<class Damping>
+template<class Move>
 struct MoveLarge
 {
-    Move<Damping>       move;
+    Move                move;
     const std::int32_t* large;
 
     template<class Lanes>
@@ -208,13 +238,24 @@ struct MoveLarge
     }
 };
 
+/// Calls run with the Move that the motion asks for, and `outside`.
+template<class Exec, class Outside, class Run>
+void with_damping(const BodyStep<Exec>& step, const Outside& outside, Run run)
+{
+    const auto& [pairs, bodies, law, totals, named, motion] = step;
+    const auto with                                         = [&]<class Damping>(const Damping& damping) {
+        run(Move<Damping, Outside>{bodies, pairs.view(), totals, named, motion.gravity, motion.dt, damping, outside});
+    };
+    if (motion.damping > 0) { with(Damped{motion.damping}); }
+    else { with(Free{}); }
+}
+
 /// Calls run with the Move that the motion asks for.
 template<class Exec, class Run>
 void with_move(const BodyStep<Exec>& step, Run run)
 {
-    const auto& [pairs, bodies, law, totals, named, motion] = step;
-    if (motion.damping > 0) { run(Move<Damped>{bodies, pairs.view(), totals, named, motion, {motion.damping}}); }
-    else { run(Move<Free>{bodies, pairs.view(), totals, named, motion, {}}); }
+    if (step.motion.outside.run != nullptr) { with_damping(step, SumOutside{step.motion.outside}, run); }
+    else { with_damping(step, NothingOutside{}, run); }
 }
 
 } // namespace tread::dem::moving

@@ -19,14 +19,14 @@ void run_substeps(const Gpu& gpu, const BodyStep<Gpu>& step, std::int64_t count)
     by_narrow_phase(step.law,
                     [&](const auto& meet)
                     {
-                        moving::with_move(step,
-                                          [&](const auto& move)
-                                          {
-                                              repeat<repeat_threads, repeat_blocks_an_sm>(
-                                                  gpu, "substeps of bodies", count,
-                                                  sequence(nodes_part(meet, step), answers_part(meet, step),
-                                                           move_part(move, step.pairs)));
-                                          });
+                        moving::with_damping(step, moving::NothingOutside{},
+                                             [&](const auto& move)
+                                             {
+                                                 repeat<repeat_threads, repeat_blocks_an_sm>(
+                                                     gpu, "substeps of bodies", count,
+                                                     sequence(nodes_part(meet, step), answers_part(meet, step),
+                                                              move_part(move, step.pairs)));
+                                             });
                     });
 }
 

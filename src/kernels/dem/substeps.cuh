@@ -46,12 +46,12 @@ auto answers_part(const Meet& meet, const BodyStep<Gpu>& step)
     return Part{group.blocks(), group};
 }
 
-template<class Damping>
-auto move_part(const moving::Move<Damping>& move, Pairs<Gpu>& pairs)
+template<class Move>
+auto move_part(const Move& move, Pairs<Gpu>& pairs)
 {
     constexpr int lanes = 4;
-    return beside(groups<warp_size>(pairs.large.size(), moving::MoveLarge<Damping>{move, pairs.large.data()}),
-                  groups<lanes>(move.bodies.count, moving::MoveSmall<Damping>{move, pairs.is_large.data()}));
+    return beside(groups<warp_size>(pairs.large.size(), moving::MoveLarge<Move>{move, pairs.large.data()}),
+                  groups<lanes>(move.bodies.count, moving::MoveSmall<Move>{move, pairs.is_large.data()}));
 }
 
 } // namespace tread::dem

@@ -1,5 +1,7 @@
 #include "contact_scene.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <random>
 
@@ -36,6 +38,20 @@ std::vector<PointState> crowd()
     return sand;
 }
 
+/// The largest difference over the largest value.
+template<class Exec>
+double difference(const Array<Exec, Vec3<double>>& one, const Array<Exec, Vec3<double>>& other)
+{
+    const auto values = one.to_host(), others = other.to_host();
+    double     largest = 0, apart = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+        largest = std::max(largest, values[i].norm());
+        apart   = std::max(apart, (values[i] - others[i]).norm());
+    }
+    return apart / largest;
+}
+
 TYPED_TEST(ContactSubsteps, AreTheSameInOneLaunch)
 {
     constexpr double            dt    = 1e-5;
@@ -55,13 +71,24 @@ TYPED_TEST(ContactSubsteps, AreTheSameInOneLaunch)
         move_bodies(this->exec(), one.body_step(dt));
     }
     EXPECT_GT((one.bodies.velocity.to_host()[0] - before[0]).norm(), 1e-3);
-    EXPECT_EQ(other.bodies.velocity.to_host(), one.bodies.velocity.to_host());
-    EXPECT_EQ(other.bodies.angular_velocity.to_host(), one.bodies.angular_velocity.to_host());
-    EXPECT_EQ(other.bodies.position.to_host(), one.bodies.position.to_host());
-    EXPECT_EQ(other.bodies.force.to_host(), one.bodies.force.to_host());
-    EXPECT_EQ(other.contact.position.to_host(), one.contact.position.to_host());
-    EXPECT_EQ(other.contact.impulse.to_host(), one.contact.impulse.to_host());
-    EXPECT_EQ(other.totals.to_host()[0].sand_work, one.totals.to_host()[0].sand_work);
+    // The same operations in the same order. A compiler for GPUs may join a product and a sum in one kernel and not in
+    // another: 20 substeps of rounding, and forces that feel 1e-16 of a position as 1e-12 of an overlap.
+    const bool   host  = std::is_same_v<typename TypeParam::Exec, Cpu>;
+    const double limit = host ? 0.0 : 1e-10;
+    const auto   same  = [&](const char* name, const auto& value, const auto& expected)
+    {
+        const double found = difference(value, expected);
+        std::printf("%s of one launch off by %.1e, tolerance %.0e (rounding)\n", name, found, limit);
+        EXPECT_LE(found, limit);
+    };
+    same("velocity", other.bodies.velocity, one.bodies.velocity);
+    same("angular velocity", other.bodies.angular_velocity, one.bodies.angular_velocity);
+    same("position", other.bodies.position, one.bodies.position);
+    same("force", other.bodies.force, one.bodies.force);
+    same("place of a point", other.contact.position, one.contact.position);
+    same("impulse of a point", other.contact.impulse, one.contact.impulse);
+    const double work = one.totals.to_host()[0].sand_work;
+    EXPECT_NEAR(other.totals.to_host()[0].sand_work, work, limit * std::fabs(work));
 }
 
 /// What sand does to bodies is what they do to its points.
