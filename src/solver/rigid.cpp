@@ -193,10 +193,10 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
 template<class Exec>
 void Rigid<Exec>::find_pairs(double dt)
 {
-    // A pair's patches are told apart when it is listed: they may come and go while the list holds.
     const bool holds =
-        listed_ && !pairs_.patches.wanted &&
-        dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), dt) <= 1;
+        listed_ &&
+        dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), dt) <= 1 &&
+        (!pairs_.patches.wanted || dem::regroup_patches(exec_, pairs_, bodies_.view(), law_));
     if (holds) { dem::stage_bodies(exec_, pairs_, bodies_.view()); } // commands change bodies too
     else
     {

@@ -30,10 +30,7 @@ struct AnswerGroup
             return;
         }
         const std::int64_t p = (block - blocks_of_many()) * groups + threadIdx.x / size;
-        if (p < pairs.count && pairs.first_node[p + 1] - pairs.first_node[p] <= many_nodes)
-        {
-            answer(p, GroupLanes<size>{});
-        }
+        if (p < pairs.count && !has_many_nodes(pairs, p)) { answer(p, GroupLanes<size>{}); }
     }
 };
 

@@ -50,6 +50,7 @@ private:
         const bool         wall = b >= bodies.count;
         const PairLaw      pair = law_of(pairs, law, bodies.count, pairs.key[p]);
         if (exact(a) && (wall || exact(b))) { return touch_of_spheres(pair, approach(a, b)); }
+        if (pairs.first_node[p] == pairs.first_node[p + 1]) { return 0; } // a spare row of a pair in several patches
         return touch_of_nodes(pair, wall ? 2.0 * node_area[a] : std::fmax(node_area[a], node_area[b]));
     }
 

@@ -38,10 +38,7 @@ struct MarkMany
     PairsView     pairs;
     std::int32_t* found; ///< [pairs + 1]
 
-    __device__ void operator()(std::int64_t p) const
-    {
-        found[p] = p < pairs.count && pairs.first_node[p + 1] - pairs.first_node[p] > many_nodes ? 1 : 0;
-    }
+    __device__ void operator()(std::int64_t p) const { found[p] = p < pairs.count && has_many_nodes(pairs, p) ? 1 : 0; }
 };
 
 struct WriteMany

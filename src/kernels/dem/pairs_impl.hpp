@@ -39,14 +39,59 @@ struct Stage
     TREAD_HD void operator()(std::int64_t b) const { body[b] = contact_body(bodies, b); }
 };
 
+struct WriteSpeed
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    double*             speed; ///< m/s
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        speed[b] = speed_of(bodies, b, bounding_radius(bodies, templates, b));
+    }
+};
+
+/// The last list, for who was near whom.
+struct LastPairs
+{
+    const std::uint64_t* key;
+    const std::int32_t*  first; ///< as PairsView's; null where there was no list
+    const std::int32_t*  by_second;
+    const std::int32_t*  second;
+};
+
+/// What a body would have of Travel::more. A large one has too many near it to ask.
 struct WriteMore
 {
     BodiesView          bodies;
     const TemplateView* templates;
+    const std::int32_t* is_large;
+    LastPairs           last;
     double              dt;
+    const double*       speed;
     double*             more;
 
-    TREAD_HD void operator()(std::int64_t b) const { more[b] = travel_of(bodies, templates, b, dt).more; }
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        more[b] = travel_of(bounding_radius(bodies, templates, b), speed[b], fastest_near(b), dt).more;
+    }
+
+private:
+    TREAD_HD double fastest_near(std::int64_t b) const
+    {
+        double fastest = speed[b];
+        if (last.first == nullptr || is_large[b] != 0) { return fastest; }
+        for (std::int32_t p = last.first[b]; p < last.first[b + 1]; ++p)
+        {
+            const std::int64_t other = second_of(last.key[p]);
+            if (other < bodies.count) { fastest = std::fmax(fastest, speed[other]); }
+        }
+        for (std::int32_t i = last.second[b]; i < last.second[b + 1]; ++i)
+        {
+            fastest = std::fmax(fastest, speed[first_of(last.key[last.by_second[i]])]);
+        }
+        return fastest;
+    }
 };
 
 struct WriteReach
@@ -55,16 +100,16 @@ struct WriteReach
     const TemplateView* templates;
     const std::int32_t* is_large;
     double              dt;
-    const double*       sum; ///< of `more`
-    double*             travel;
-    double*             reach;
+    const double*       sum;    ///< of `more`
+    double*             travel; ///< in: `more`
+    double*             reach;  ///< in: speed
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const Travel found  = travel_of(bodies, templates, b, dt);
-        const double radius = templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
-        travel[b]           = radius * (found.least + share_of_more(*sum, bodies.count) * found.more);
-        reach[b]            = is_large[b] != 0 ? 0.0 : reach_of(bodies, templates, travel, b).total();
+        const double radius = bounding_radius(bodies, templates, b);
+        const double least  = travel_of(radius, reach[b], reach[b], dt).least;
+        travel[b]           = radius * (least + share_of_more(*sum, bodies.count) * travel[b]);
+        reach[b]            = is_large[b] != 0 ? 0.0 : radius + travel[b];
     }
 };
 
@@ -229,8 +274,11 @@ double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
     pairs.travel.resize(bodies.count);
     pairs.reach.resize(bodies.count);
     pairs.measure.resize(1);
-    for_each(exec, "body motion", bodies.count, WriteMore{bodies, templates, dt, pairs.reach.data()});
-    sum_rows(exec, pairs.reach.data(), bodies.count, 1, pairs.measure.data());
+    for_each(exec, "body speeds", bodies.count, WriteSpeed{bodies, templates, pairs.reach.data()});
+    const LastPairs last{pairs.last_key.data(), pairs.first.data(), pairs.by_second.data(), pairs.second.data()};
+    for_each(exec, "body motion", bodies.count,
+             WriteMore{bodies, templates, pairs.is_large.data(), last, dt, pairs.reach.data(), pairs.travel.data()});
+    sum_rows(exec, pairs.travel.data(), bodies.count, 1, pairs.measure.data());
     for_each(exec, "body reach", bodies.count,
              WriteReach{bodies, templates, pairs.is_large.data(), dt, pairs.measure.data(), pairs.travel.data(),
                         pairs.reach.data()});

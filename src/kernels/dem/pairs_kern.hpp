@@ -22,6 +22,11 @@ TREAD_HD double speed_of(const BodiesView& bodies, std::int64_t b, double radius
     return bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius;
 }
 
+TREAD_HD double bounding_radius(const BodiesView& bodies, const TemplateView* templates, std::int64_t b)
+{
+    return templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
+}
+
 /// How far any point of a body may move until the pairs are found anew, in bounding radii.
 struct Travel
 {
@@ -29,19 +34,19 @@ struct Travel
     double more;  ///< for a list that lasts
 };
 
-TREAD_HD Travel travel_of(const BodiesView& bodies, const TemplateView* templates, std::int64_t b, double dt)
+/// Of a body with this speed among others with speeds up to `near` (m/s): it may soon be as fast.
+TREAD_HD Travel travel_of(double radius, double speed, double near, double dt)
 {
-    constexpr double more_steps = 60, most_more = 0.05;
-    const double     radius = templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
-    const double     step   = radius > 0 ? dt * speed_of(bodies, b, radius) / radius : 0.0;
-    return {steps_ahead * step + search_skin, std::fmin(more_steps * step, most_more)};
+    constexpr double more_steps = 60, most_more = 0.2;
+    const double     a_step = radius > 0 ? dt / radius : 0.0;
+    return {steps_ahead * a_step * speed + search_skin, std::fmin(more_steps * a_step * near, most_more)};
 }
 
 /// Of `more`, what a body gets when all of them together want `sum`: lists last long where few bodies move, and where
 /// all do they stay short.
 TREAD_HD double share_of_more(double sum, std::int64_t bodies)
 {
-    constexpr double mean_more = 0.02;
+    constexpr double mean_more = 0.01;
     return sum > 0 ? std::fmin(mean_more * static_cast<double>(bodies) / sum, 1.0) : 1.0;
 }
 
@@ -56,7 +61,7 @@ struct Reach
 
 TREAD_HD Reach reach_of(const BodiesView& bodies, const TemplateView* templates, const double* travel, std::int64_t b)
 {
-    return {templates[bodies.shape[b]].bounding_radius * bodies.scale[b], travel[b]};
+    return {bounding_radius(bodies, templates, b), travel[b]};
 }
 
 /// Whether the bounding spheres can meet.

@@ -4,15 +4,29 @@
 namespace tread::dem
 {
 
-void split_patches(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+namespace
 {
-    const auto run = [&](const char* name, std::int64_t items, const auto& item)
+
+auto lanes_of(const Cpu& cpu)
+{
+    return [&cpu](const char* name, std::int64_t items, const auto& item)
     {
         constexpr std::int64_t worth_threads = 512;
         for_each_heavy(
             cpu, name, items, [=](std::int64_t p) { item(p, OneLane{}); }, worth_threads);
     };
-    patches::split(cpu, pairs, bodies, law, run);
+}
+
+} // namespace
+
+void split_patches(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    patches::split(cpu, pairs, bodies, law, lanes_of(cpu));
+}
+
+bool regroup_patches(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    return patches::regroup(cpu, pairs, bodies, law, lanes_of(cpu));
 }
 
 } // namespace tread::dem

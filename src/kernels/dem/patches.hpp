@@ -46,9 +46,15 @@ struct Patches
     Array<Exec, std::int32_t>  node;
 };
 
-/// Splits the pairs just listed, with their nodes, by the nodes that touch; the records of the last list follow the
-/// nodes, shared by their stiffness (a split keeps their energy, two that come together lose what they differ by).
+/// Splits the pairs just listed, with their nodes, by the nodes that touch. A pair that had more rows in the last list
+/// keeps them, without nodes: it may need them again. The records of the last list follow the nodes, shared by their
+/// stiffness (a split keeps their energy, two that come together lose what they differ by).
 void split_patches(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 void split_patches(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+
+/// The same while a list holds, each pair within the rows it has. False if some pair wants more: its pairs are then to
+/// be found anew.
+bool regroup_patches(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+bool regroup_patches(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 } // namespace tread::dem

@@ -21,10 +21,7 @@ struct Measure
     const double*       travel;
     double*             share;
 
-    TREAD_HD double radius(std::int64_t b) const
-    {
-        return templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
-    }
+    TREAD_HD double radius(std::int64_t b) const { return bounding_radius(bodies, templates, b); }
 
     TREAD_HD double moved(std::int64_t b) const
     {

@@ -38,32 +38,45 @@ std::vector<Solid> crowd(int count)
     return solids;
 }
 
-/// What find_pairs promises for exact spheres, whose bounding sphere is their surface (dem::travel_of): so few move
-/// that they get all they want.
-double grown(const Solid& solid)
+/// m, of its fastest point in a step.
+double way_of(const Solid& solid) { return step * (solid.velocity.norm() + solid.spin.norm() * solid.scale); }
+
+/// In radii, what a sphere wants for its list to last.
+double wanted(const Solid& solid) { return std::min(60 * way_of(solid) / solid.scale, 0.2); }
+
+/// Of what they want, what all get.
+double share_of(const std::vector<Solid>& solids)
 {
-    const double r = solid.scale, way = step * (solid.velocity.norm() + solid.spin.norm() * r);
-    return r + 2.1 * way + 0.003 * r + std::min(60 * way, 0.05 * r);
+    double sum = 0;
+    for (const Solid& solid : solids) { sum += wanted(solid); }
+    return std::min(0.01 * static_cast<double>(solids.size()) / sum, 1.0);
+}
+
+/// What find_pairs promises for exact spheres, whose bounding sphere is their surface (dem::travel_of).
+double grown(const Solid& solid, double share)
+{
+    return solid.scale + 2.1 * way_of(solid) + (0.003 + share * wanted(solid)) * solid.scale;
 }
 
 std::vector<std::uint64_t> brute_force(const std::vector<Solid>& solids, const std::vector<dem::Plane>& planes)
 {
     std::vector<std::uint64_t> keys;
     const auto                 count = static_cast<std::int64_t>(solids.size());
+    const double               share = share_of(solids);
     for (std::int64_t a = 0; a < count; ++a)
     {
         const Solid& first = solids[static_cast<std::size_t>(a)];
         for (std::int64_t b = a + 1; b < count; ++b)
         {
             const Solid& second = solids[static_cast<std::size_t>(b)];
-            if ((first.position - second.position).norm() <= grown(first) + grown(second))
+            if ((first.position - second.position).norm() <= grown(first, share) + grown(second, share))
             {
                 keys.push_back(dem::pair_key(a, b));
             }
         }
         for (std::size_t p = 0; p < planes.size(); ++p)
         {
-            if (planes[p].normal.dot(first.position) - planes[p].offset <= grown(first))
+            if (planes[p].normal.dot(first.position) - planes[p].offset <= grown(first, share))
             {
                 keys.push_back(dem::pair_key(a, count + static_cast<std::int64_t>(p)));
             }
@@ -83,11 +96,30 @@ TYPED_TEST(BodyPairs, AllowForLessWhereAllBodiesMove)
     }
     typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, solids, {});
     scene.find(step);
-    const double way = step * velocity.norm(), all = 2.1 * way + 0.003 * 0.01 + 0.02 * 0.01;
+    const double way = step * velocity.norm(), all = 2.1 * way + 0.003 * 0.01 + 0.01 * 0.01;
     double       worst = 0;
     for (const double travel : scene.pairs.travel.to_host()) { worst = std::max(worst, std::abs(travel / all - 1)); }
     std::printf("lists allow for %.3e m, differing by %.1e; tolerance 1e-12 (order of a sum)\n", all, worst);
     EXPECT_LT(worst, 1e-12);
+}
+
+/// A body at rest that a moving one is about to hit may soon be as fast.
+TYPED_TEST(BodyPairs, AllowForTheMotionOfNeighboursInTheLastList)
+{
+    constexpr double   radius = 0.01, speed = 0.005;
+    std::vector<Solid> solids;
+    for (int i = 0; i < 20; ++i) { solids.push_back(solid_sphere(radius, 1000, {0.1 * i, 0, 0})); }
+    solids[5].position = solids[4].position + Vec3<double>(2 * radius, 0, 0);
+    solids[5].velocity = {-speed, 0, 0};
+    typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, solids, {});
+    const double                rest = 0.003 * radius, more = 60 * step * speed;
+    scene.find(step);
+    EXPECT_NEAR(scene.pairs.travel.to_host()[4], rest, 1e-12 * rest);
+    scene.find(step);
+    const std::vector<double> travel = scene.pairs.travel.to_host();
+    EXPECT_NEAR(travel[3], rest, 1e-12 * rest);
+    EXPECT_NEAR(travel[4], rest + more, 1e-12 * more);
+    EXPECT_NEAR(travel[5], rest + 2.1 * step * speed + more, 1e-12 * more);
 }
 
 TYPED_TEST(BodyPairs, AreThoseOfBruteForce)
