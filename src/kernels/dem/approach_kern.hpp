@@ -20,7 +20,8 @@ struct AnticipatePair
     Vec3<double> fall; ///< m/s, what weight adds to a free body's mean velocity
     double*      entering;
 
-    TREAD_HD void operator()(std::int64_t p) const
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
     {
         const std::int32_t first = pairs.first_node[p], last = pairs.first_node[p + 1];
         double             found = 0;
@@ -28,13 +29,13 @@ struct AnticipatePair
         {
             const body_contact::PairSetting setting = body_contact::setting_of(pairs, law, bodies.count, pairs.key[p]);
             const RelativeMotion            motion{setting.motion.velocity + falling(p), setting.motion.spin};
-            for (std::int32_t i = first; i < last; ++i)
+            for (std::int32_t i = first + lanes.lane(); i < last; i += lanes.lanes())
             {
                 found += entering_weight(motion, unpacked(pairs.found_node[i]));
             }
-            found *= setting.law.linear_slope;
+            found = setting.law.linear_slope * lanes.sum(found);
         }
-        entering[p] = found;
+        if (lanes.lane() == 0) { entering[p] = found; }
     }
 
 private:

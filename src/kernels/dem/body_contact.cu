@@ -1,18 +1,17 @@
-#include "kernels/dem/answer_group.cuh"
-#include "kernels/dem/contact_nodes.hpp"
+#include "kernels/dem/body_contact_impl.hpp"
+#include "kernels/dem/lane_parts.cuh"
 
 namespace tread::dem
 {
 namespace
 {
 
-constexpr int threads = 64, blocks_an_sm = 8;
-
-template<int size, class Meet>
+template<int lanes, class Meet>
 void answer_pairs(const Gpu& gpu, const body_contact::AnswerPair<Meet>& answer)
 {
-    const AnswerGroup<Meet, threads, size> group{answer};
-    for_each_block<threads, blocks_an_sm>(gpu, "body contacts", group.blocks(), group);
+    constexpr int threads = 64, blocks_an_sm = 8;
+    const auto    part = pair_part<threads, lanes>(answer.pairs, answer);
+    for_each_block<threads, blocks_an_sm>(gpu, "body contacts", part.blocks, part.f);
 }
 
 } // namespace

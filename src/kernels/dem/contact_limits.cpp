@@ -7,7 +7,12 @@ namespace tread::dem
 void expect_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
                      const Vec3<double>& gravity, double dt)
 {
-    contact_limits::expect(cpu, pairs, bodies, law, gravity, dt);
+    const auto each = [&](std::int64_t count)
+    {
+        return [&cpu, count](const char* name, const auto& item)
+        { for_each(cpu, name, count, [=](std::int64_t i) { item(i, OneLane{}); }); };
+    };
+    contact_limits::expect(cpu, pairs, bodies, law, gravity, dt, each(pairs.key.size()), each(bodies.count));
 }
 
 double smallest_contact_time(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies)

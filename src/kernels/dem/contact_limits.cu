@@ -1,5 +1,6 @@
 #include "backend/launch.cuh"
 #include "kernels/dem/contact_limits_impl.hpp"
+#include "kernels/dem/lane_parts.cuh"
 
 namespace tread::dem
 {
@@ -7,7 +8,13 @@ namespace tread::dem
 void expect_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
                      const Vec3<double>& gravity, double dt)
 {
-    contact_limits::expect(gpu, pairs, bodies, law, gravity, dt);
+    constexpr int threads = 128;
+    const auto    run     = [&](const char* name, const auto& part)
+    { for_each_block<threads>(gpu, name, part.blocks, part.f); };
+    contact_limits::expect(
+        gpu, pairs, bodies, law, gravity, dt,
+        [&](const char* name, const auto& item) { run(name, pair_part<threads, 1>(pairs.view(), item)); },
+        [&](const char* name, const auto& item) { run(name, body_part<threads, 1>(bodies.count, pairs, item)); });
 }
 
 double smallest_contact_time(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies)

@@ -22,12 +22,20 @@ struct ExpectContacts
     const double* entering; ///< N/m, of the pairs
     double*       expected;
 
-    TREAD_HD void operator()(std::int64_t b) const
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
     {
         Sums sums{0, 0};
-        for (std::int64_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p) { add(p, sums); }
-        for (std::int64_t i = pairs.second[b]; i < pairs.second[b + 1]; ++i) { add(pairs.by_second[i], sums); }
-        expected[b] = std::fmax(sums.touches, sums.approach);
+        for (std::int64_t p = pairs.first[b] + lanes.lane(); p < pairs.first[b + 1]; p += lanes.lanes())
+        {
+            add(p, sums);
+        }
+        for (std::int64_t i = pairs.second[b] + lanes.lane(); i < pairs.second[b + 1]; i += lanes.lanes())
+        {
+            add(pairs.by_second[i], sums);
+        }
+        const double most = std::fmax(lanes.sum(sums.touches), lanes.sum(sums.approach));
+        if (lanes.lane() == 0) { expected[b] = most; }
     }
 
 private:
@@ -107,20 +115,20 @@ struct WriteOverlap
     }
 };
 
-/// As for the pairs themselves, twice dt: a body may be set going within the step.
-template<class Exec>
+/// As for the pairs themselves, twice dt: a body may be set going within the step. `each_pair`(name, item function) and
+/// `each_body` run those with a backend's lanes.
+template<class Exec, class EachPair, class EachBody>
 void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, BodyLaw law, const Vec3<double>& gravity,
-            double dt)
+            double dt, EachPair each_pair, EachBody each_body)
 {
     pairs.measure.resize(pairs.key.size());
     law.rays = nullptr; // tell nothing outside
     look_up_nodes(exec, pairs, bodies, law);
-    for_each(exec, "anticipated contacts", pairs.key.size(),
-             AnticipatePair{bodies, law, pairs.view(), 2 * dt, 0.5 * dt * gravity, pairs.measure.data()});
+    each_pair("anticipated contacts",
+              AnticipatePair{bodies, law, pairs.view(), 2 * dt, 0.5 * dt * gravity, pairs.measure.data()});
     pairs.expected_stiffness.resize(bodies.count);
-    for_each(exec, "expected contacts", bodies.count,
-             ExpectContacts{bodies, law, pairs.view(), pairs.node_area.data(), pairs.measure.data(),
-                            pairs.expected_stiffness.data()});
+    each_body("expected contacts", ExpectContacts{bodies, law, pairs.view(), pairs.node_area.data(),
+                                                  pairs.measure.data(), pairs.expected_stiffness.data()});
 }
 
 template<class Exec>

@@ -1,4 +1,5 @@
 #include "kernels/dem/contact_nodes_impl.hpp"
+#include "kernels/dem/select.hpp"
 #include "kernels/dem/warp_lanes.cuh"
 
 namespace tread::dem
@@ -33,23 +34,11 @@ void list_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bod
 namespace
 {
 
-struct MarkMany
+struct HasManyNodes
 {
-    PairsView     pairs;
-    std::int32_t* found; ///< [pairs + 1]
+    PairsView pairs;
 
-    __device__ void operator()(std::int64_t p) const { found[p] = p < pairs.count && has_many_nodes(pairs, p) ? 1 : 0; }
-};
-
-struct WriteMany
-{
-    const std::int32_t* found; ///< [pairs + 1], after the scan
-    std::int32_t*       many;
-
-    __device__ void operator()(std::int64_t p) const
-    {
-        if (found[p] != found[p + 1]) { many[found[p]] = static_cast<std::int32_t>(p); }
-    }
+    __device__ bool operator()(std::int64_t p) const { return has_many_nodes(pairs, p); }
 };
 
 } // namespace
@@ -58,12 +47,8 @@ void list_pairs_of_many_nodes(const Gpu& gpu, Pairs<Gpu>& pairs)
 {
     pairs.many.resize(0);
     if (pairs.node.size() == 0) { return; }
-    const std::int64_t count = pairs.key.size();
-    pairs.found.resize(count + 1);
-    for_each(gpu, "mark pairs of many nodes", count + 1, MarkMany{pairs.view(), pairs.found.data()});
-    pairs.many.resize(exclusive_scan(gpu, pairs.found, pairs.sort));
-    if (pairs.many.size() == 0) { return; }
-    for_each(gpu, "write pairs of many nodes", count, WriteMany{pairs.found.data(), pairs.many.data()});
+    select(gpu, "pairs of many nodes", pairs.key.size(), HasManyNodes{pairs.view()}, pairs.found, pairs.sort,
+           pairs.many);
 }
 
 void look_up_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)

@@ -211,33 +211,6 @@ private:
     }
 };
 
-/// A large body may have thousands of pairs, for which the others' lanes would wait: it has more, elsewhere.
-template<class Move>
-struct MoveSmall
-{
-    Move                move;
-    const std::int32_t* is_large; ///< null where pairs were never looked for
-
-    template<class Lanes>
-    TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
-    {
-        if (is_large == nullptr || is_large[b] == 0) { move(b, lanes); }
-    }
-};
-
-template<class Move>
-struct MoveLarge
-{
-    Move                move;
-    const std::int32_t* large;
-
-    template<class Lanes>
-    TREAD_HD void operator()(std::int64_t l, const Lanes& lanes) const
-    {
-        move(large[l], lanes);
-    }
-};
-
 /// Calls run with the Move that the motion asks for, and `outside`.
 template<class Exec, class Outside, class Run>
 void with_damping(const BodyStep<Exec>& step, const Outside& outside, Run run)

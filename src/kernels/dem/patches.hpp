@@ -24,6 +24,7 @@ struct Patches
         , last_place(exec, "last patch places")
         , group(exec, "patches of nodes")
         , first(exec, "patches of pairs")
+        , several(exec, "pairs that may have several patches")
         , key(exec, "patch keys")
         , patch(exec, "patch records")
         , rolling(exec, "patch rolling moments")
@@ -39,6 +40,7 @@ struct Patches
     Array<Exec, Vec3<double>>  last_place; ///< of the last list
     Array<Exec, std::int32_t>  group;      ///< of every listed node
     Array<Exec, std::int32_t>  first;      ///< [pairs + 1]
+    Array<Exec, std::int32_t>  several;    ///< first rows of the pairs with a concave body
     Array<Exec, std::uint64_t> key;
     Array<Exec, Patch>         patch;
     Array<Exec, Rolling>       rolling;

@@ -3,6 +3,7 @@
 #include "kernels/dem/pairs_impl.hpp"
 #include "kernels/dem/patch_rows_kern.hpp"
 #include "kernels/dem/patches.hpp"
+#include "kernels/dem/select.hpp"
 
 // The steps of patches.hpp, for lanes that share a pair; patches.cpp and patches.cu bring in for_each and the lanes.
 namespace tread::dem::patches
@@ -109,11 +110,18 @@ private:
     }
 };
 
-/// Whether row p is its pair's first, and the pair may have several.
-TREAD_HD bool first_of_several(const PairsView& pairs, const BodiesView& bodies, const BodyLaw& law, std::int64_t p)
+/// Whether row p is the first of a pair that may have several.
+struct FirstOfSeveral
 {
-    return p < pairs.count && whole_pair(pairs.key[p]) == pairs.key[p] && may_split(bodies, law, pairs.key[p]);
-}
+    BodiesView bodies;
+    BodyLaw    law;
+    PairsView  pairs;
+
+    TREAD_HD bool operator()(std::int64_t p) const
+    {
+        return whole_pair(pairs.key[p]) == pairs.key[p] && may_split(bodies, law, pairs.key[p]);
+    }
+};
 
 /// Of the pair whose first row is p.
 TREAD_HD int rows_of(const PairsView& pairs, std::int64_t p)
@@ -126,39 +134,43 @@ TREAD_HD int rows_of(const PairsView& pairs, std::int64_t p)
 /// Groups the nodes of a list's pairs anew, and marks the pairs that want more rows than they have.
 struct GroupAgain
 {
-    GroupNodes    group;
-    std::int32_t* short_of_rows; ///< [pairs + 1]
+    GroupNodes          group;
+    std::int64_t        count;
+    const std::int32_t* several;       ///< [count], first rows
+    std::int32_t*       short_of_rows; ///< [count + 1]
 
     template<class Lanes>
-    TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
+    TREAD_HD void operator()(std::int64_t i, const Lanes& lanes) const
     {
         const PairsView& pairs  = group.pairs;
         std::int32_t     marked = 0;
-        if (first_of_several(pairs, group.bodies, group.law, p))
+        if (i < count)
         {
-            const int rows = rows_of(pairs, p);
+            const std::int64_t p    = several[i];
+            const int          rows = rows_of(pairs, p);
             marked = group(pairs.key[p], {pairs.first_node[p], pairs.first_node[p + rows]}, lanes) > rows ? 1 : 0;
         }
-        if (lanes.lane() == 0) { short_of_rows[p] = marked; }
+        if (lanes.lane() == 0) { short_of_rows[i] = marked; }
     }
 };
 
 /// Deals them to the rows.
 struct DealAgain
 {
-    DealNodes     deal;
-    Vec3<double>* place;
-    std::int32_t* first_node; ///< as the list's
-    std::int32_t* node;       ///< as the list's
-    std::int32_t* pair_of_node;
-    std::int32_t* scratch; ///< [nodes]
+    DealNodes           deal;
+    const std::int32_t* several;
+    Vec3<double>*       place;
+    std::int32_t*       first_node; ///< as the list's
+    std::int32_t*       node;       ///< as the list's
+    std::int32_t*       pair_of_node;
+    std::int32_t*       scratch; ///< [nodes]
 
     template<class Lanes>
-    TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
+    TREAD_HD void operator()(std::int64_t i, const Lanes& lanes) const
     {
-        const PairsView& pairs = deal.pairs;
-        if (!first_of_several(pairs, deal.bodies, deal.law, p)) { return; }
-        const int rows = rows_of(pairs, p);
+        const PairsView&   pairs = deal.pairs;
+        const std::int64_t p     = several[i];
+        const int          rows  = rows_of(pairs, p);
         if (rows == 1) { return; }
         const NodeRun    nodes{first_node[p], first_node[p + rows]};
         const RowRecords own{rows, pairs.patch + p, pairs.rolling == nullptr ? nullptr : pairs.rolling + p, place + p};
@@ -169,10 +181,10 @@ struct DealAgain
         for (int g = 0; g < rows; ++g)
         {
             if (g > 0) { first_node[p + g] = starts[g]; } // the pair's own place is read by its neighbour in the list
-            for (std::int32_t i = starts[g]; i < starts[g + 1]; ++i)
+            for (std::int32_t n = starts[g]; n < starts[g + 1]; ++n)
             {
-                node[i]         = scratch[i];
-                pair_of_node[i] = static_cast<std::int32_t>(p + g);
+                node[n]         = scratch[n];
+                pair_of_node[n] = static_cast<std::int32_t>(p + g);
             }
         }
     }
@@ -189,9 +201,9 @@ void take_over(Pairs<Exec>& pairs)
     pairs.node.swap(patches.node);
 }
 
-/// `run`(name, items, item function) runs an item function with a backend's lanes.
+/// `run`(name, items, item function) runs an item function with a backend's lanes. True if some pair has several rows.
 template<class Exec, class Run>
-void split(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, Run run)
+bool write_rows(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, Run run)
 {
     Patches<Exec>&     patches = pairs.patches;
     const std::int64_t count   = pairs.key.size();
@@ -204,11 +216,7 @@ void split(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const
         CountRows{
             {bodies, law, pairs.view(), pairs.node_area.data(), patches.group.data()}, last, patches.first.data()});
     const std::int64_t rows = exclusive_scan(exec, patches.first, pairs.sort);
-    if (rows == count)
-    {
-        patches.place.resize(0);
-        return;
-    }
+    if (rows == count) { return false; }
     patches.key.resize(rows);
     patches.patch.resize(rows);
     patches.place.resize(rows);
@@ -225,25 +233,41 @@ void split(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const
                   patches.place.data(),
                   patches.first_node.data(),
                   patches.node.data()});
-    take_over(pairs);
-    pair_steps::order_again(exec, pairs, bodies);
+    return true;
 }
 
+template<class Exec, class Run>
+void split(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, Run run)
+{
+    if (write_rows(exec, pairs, bodies, law, run))
+    {
+        take_over(pairs);
+        pair_steps::order_again(exec, pairs, bodies);
+    }
+    else { pairs.patches.place.resize(0); }
+    select(exec, "pairs of several patches", pairs.key.size(), FirstOfSeveral{bodies, law, pairs.view()}, pairs.found,
+           pairs.sort, pairs.patches.several);
+}
+
+/// `run` as that of split.
 template<class Exec, class Run>
 bool regroup(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, Run run)
 {
     Patches<Exec>&     patches = pairs.patches;
-    const std::int64_t count   = pairs.key.size();
-    const PairsView    view    = pairs.view();
-    patches.group.resize(pairs.node.size());
+    const std::int64_t count   = patches.several.size();
+    if (count == 0) { return true; }
+    const PairsView view = pairs.view();
     patches.first.resize(count + 1);
-    run("group pair nodes", count + 1,
-        GroupAgain{{bodies, law, view, pairs.node_area.data(), patches.group.data()}, patches.first.data()});
+    run("group pair nodes again", count + 1,
+        GroupAgain{{bodies, law, view, pairs.node_area.data(), patches.group.data()},
+                   count,
+                   patches.several.data(),
+                   patches.first.data()});
     if (exclusive_scan(exec, patches.first, pairs.sort) > 0) { return false; }
     if (patches.place.size() == 0) { return true; }
-    patches.node.resize(pairs.node.size());
-    run("deal pair nodes", count,
+    run("deal pair nodes again", count,
         DealAgain{{bodies, law, view, patches.group.data()},
+                  patches.several.data(),
                   patches.place.data(),
                   pairs.first_node.data(),
                   pairs.node.data(),
