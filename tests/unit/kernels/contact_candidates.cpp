@@ -138,6 +138,34 @@ TYPED_TEST(ContactCandidates, NoneIsMissed)
     EXPECT_LE(found.size(), reached.size() + reached.size() / 20);
 }
 
+/// A pile of a thousand rocks in sand, some much smaller than a cell and some touching each other.
+TYPED_TEST(ContactCandidates, NoneIsMissedInAPileOfAThousandBodies)
+{
+    std::mt19937                           random(8);
+    std::uniform_real_distribution<double> share(0, 1);
+    const auto                             shift = [&](double most) -> Vec3<double> {
+        return {most * share(random), most * share(random), most * share(random)};
+    };
+    std::vector<BodyState> bodies;
+    for (int i = 0; i < 1000; ++i)
+    {
+        const Vec3<double> place = 0.04 * Vec3<double>(i % 10, i / 10 % 10, i / 100);
+        const Quat         turned(Eigen::AngleAxisd(6 * share(random), (shift(2) - Vec3<double>::Ones()).normalized()));
+        bodies.push_back({Vec3<double>(0.3, 0.3, 0.3) + place + shift(0.02), turned, shift(2), shift(50),
+                          0.2 + 0.6 * share(random), i % 2});
+    }
+    const auto                  shapes = two_shapes();
+    typename TestFixture::Scene scene(this->exec(), shapes, bodies,
+                                      random_sand(30000, {0.28, 0.28, 0.28}, {0.72, 0.72, 0.72}));
+    scene.find();
+
+    const auto found = checked_candidates(scene), expected = brute_force(scene, shapes, bodies, 1);
+    std::printf("[ measured ] %zu candidates; %zu can touch in the step, of which %zu missed\n", found.size(),
+                expected.size(), missing(expected, found));
+    EXPECT_GT(expected.size(), 10000u);
+    EXPECT_EQ(missing(expected, found), 0u);
+}
+
 TYPED_TEST(ContactCandidates, NoneIsMissedWherePointsHaveLeftTheirCells)
 {
     const auto   shapes = two_shapes();
