@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "../physics/sphere_on_bed.hpp"
 
 namespace
@@ -24,6 +26,25 @@ TYPED_TEST(SlowSphereOnBed, SandCarriesAWheelWhateverTheSubsteps)
     bed.settling = 0.55;
     bed.free     = 0.05;
     test::expect_weight_carried(this->exec(), bed);
+}
+
+/// A slope of 10 degrees, held by the memory of contacts, while sand is ordered in memory many times.
+TYPED_TEST(SlowSphereOnBed, SphereStaysOnASlopeForTenSeconds)
+{
+    test::SphereOnBed bed;
+    bed.spacing     = 0.02;
+    bed.sideways    = std::tan(10 * std::numbers::pi / 180);
+    bed.substeps    = 5;
+    bed.settling    = 0.3;
+    bed.free        = 10;
+    const auto ball = test::watch_sphere(this->exec(), bed);
+    const auto why  = fmt::format("0.01 mm in all, 1e-4 R; points were put in order {} times",
+                                  this->counters.launches().at("list points"));
+    test::report("creep on 10 degrees over 10 s, mm/s", ball.creep / mm, 0, 1e-3, why);
+    test::report("what friction holds, over W", ball.pull, bed.sideways, 1e-3 * bed.sideways, "0.1 %: at rest");
+    EXPECT_LT(std::abs(ball.creep), 1e-3 * mm);
+    EXPECT_NEAR(ball.pull, bed.sideways, 1e-3 * bed.sideways);
+    EXPECT_GT(this->counters.launches().at("list points"), 2);
 }
 
 /// How far the bed's surface has gone down under the middle of the sphere, m: the two uppermost layers of points beside
