@@ -36,6 +36,12 @@ struct SceneArguments
     std::vector<std::string> overrides;
 };
 
+struct CheckArguments
+{
+    SceneArguments scene;
+    int            ranks = 1;
+};
+
 struct RunArguments
 {
     SceneArguments     scene;
@@ -113,13 +119,13 @@ ExitCode run(const RunArguments& arguments)
         });
 }
 
-ExitCode check(const SceneArguments& arguments)
+ExitCode check(const CheckArguments& arguments)
 {
     return on_ranks(
         [&](const Communicator&)
         {
-            const scene::Scene scene = scene::load_scene(arguments.path, arguments.overrides);
-            std::cout << solver::check(scene);
+            const scene::Scene scene = scene::load_scene(arguments.scene.path, arguments.scene.overrides);
+            std::cout << solver::check(scene, arguments.ranks);
             return ExitCode::finished;
         });
 }
@@ -279,7 +285,7 @@ void add_sdf_options(CLI::App& command, SdfArguments& arguments)
 ExitCode dispatch(CLI::App& app, int argc, char** argv)
 {
     RunArguments   run_arguments;
-    SceneArguments check_arguments;
+    CheckArguments check_arguments;
     SdfArguments   sdf_arguments;
     std::string    info_path;
 
@@ -288,7 +294,10 @@ ExitCode dispatch(CLI::App& app, int argc, char** argv)
     CLI::App* sdf_command   = app.add_subcommand("sdf", "Geometry and signed distance grid of a mesh");
     CLI::App* info_command  = app.add_subcommand("info", "What an HDF5 file of a run holds");
     add_run_options(*run_command, run_arguments);
-    add_scene_options(*check_command, check_arguments);
+    add_scene_options(*check_command, check_arguments.scene);
+    check_command->add_option("--ranks", check_arguments.ranks, "Show how the scene falls to N ranks; default 1")
+        ->type_name("N")
+        ->check(CLI::Range(1, 4096));
     add_sdf_options(*sdf_command, sdf_arguments);
     info_command->add_option("file", info_path, "timeseries.h5, a snapshot ...")->type_name("FILE.h5")->required();
     app.require_subcommand(1);

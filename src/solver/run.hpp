@@ -32,7 +32,8 @@ struct RunOptions
 /// Throws InputError and EnvironmentError for what is found before the first step.
 ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& scene, const RunOptions& options);
 
-/// What `tread check` prints: the plan of stages with reasons, counts, memory, disk and the limits of the step.
-std::string check(const scene::Scene& scene);
+/// What `tread check` prints: the plan of stages with reasons, counts, memory, disk and the limits of the step, and
+/// how the scene falls to so many ranks.
+std::string check(const scene::Scene& scene, int ranks);
 
 } // namespace tread::solver

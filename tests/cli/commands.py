@@ -31,6 +31,22 @@ class Commands(CommandTest):
         self.assertIn("points", result.stdout)
         self.assertEqual(self.files(), ["scene.toml"])
 
+    def test_check_shows_how_a_scene_falls_to_ranks(self):
+        scene = self.write("scene.toml", SCENE + BODY)
+        self.assertIn("partition: one rank", self.tread("check", scene).stdout)
+        result = self.tread("check", scene, "--ranks", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        pages = int(re.search(r"partition of (\d+) pages into 3 ranks:", result.stdout)[1])
+        self.assertGreaterEqual(pages, 3)
+        for partitioner in ("METIS", "Morton"):
+            found = re.search(rf"{partitioner} +largest load ([\d.]+) of the mean, (\d+) nodes shared", result.stdout)
+            self.assertGreaterEqual(float(found[1]), 1)
+            self.assertGreater(int(found[2]), 0)
+        self.assertNotIn("without pages", result.stdout)
+        refused = self.tread("check", scene, "--ranks", "0")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("--ranks", refused.stderr)
+
     def test_sdf_of_a_cube(self):
         (self.directory / "cube.stl").write_bytes(binary_stl(cube(20.0)))
         result = self.tread("sdf", "cube.stl", "--unit", "mm", "--cells", "32", "--write-stl", "metres.stl")

@@ -1,0 +1,78 @@
+#include "solver/page_loads.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "decomp/partition.hpp"
+#include "kernels/mpm/pages.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+/// m, of the grid. Bodies alone have none, and take a middle one of their diameters.
+double spacing_of(const World& world)
+{
+    std::vector<double> radii = world.bodies.radius;
+    if (world.points.size() > 0 || radii.empty()) { return world.geometry.spacing; }
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return 2 * *middle;
+}
+
+std::string line_of(const decomp::PageGraph& graph, const char* name, const decomp::PartitionOptions& options)
+{
+    const decomp::Partition        found   = decomp::make_partition(graph, options);
+    const decomp::PartitionQuality quality = decomp::quality_of(graph, found.rank, options.ranks);
+    std::string                    text    = fmt::format(
+                              "  {:<8}largest load {:.3f} of the mean, {} nodes shared across ranks, at most {} pages of others beside one",
+                              name, quality.imbalance, quality.cut, quality.halo);
+    if (quality.empty > 0) { text += fmt::format(", {} ranks without pages", quality.empty); }
+    if (!found.fallback.empty()) { text += fmt::format(" (by Morton order: {})", found.fallback); }
+    return text + "\n";
+}
+
+} // namespace
+
+decomp::PageGraph page_graph_of(const World& world)
+{
+    const double                    spacing = spacing_of(world);
+    std::map<std::uint64_t, double> loads;
+    const auto                      add = [&](const Vec3<double>& at, double load)
+    {
+        const mpm::Index3 cell = mpm::cell_of(at, 1 / spacing, world.geometry.stencil_shift);
+        loads[mpm::page_key(mpm::page_of(cell))] += load;
+    };
+    for (const Vec3<double>& at : world.points.position) { add(at, 1); }
+    for (const Vec3<double>& at : world.bodies.position) { add(at, body_load); }
+    std::vector<std::uint64_t> key;
+    std::vector<double>        load;
+    key.reserve(loads.size());
+    load.reserve(loads.size());
+    for (const auto& [page, weight] : loads)
+    {
+        key.push_back(page);
+        load.push_back(weight);
+    }
+    return decomp::page_graph(std::move(key), std::move(load));
+}
+
+std::string partition_lines(const World& world, int ranks)
+{
+    const decomp::PageGraph  graph = page_graph_of(world);
+    decomp::PartitionOptions options;
+    options.ranks    = ranks;
+    std::string text = fmt::format("partition of {} pages into {} ranks:\n", graph.pages(), ranks);
+    text += line_of(graph, "METIS", options);
+    options.partitioner = decomp::Partitioner::morton;
+    return text + line_of(graph, "Morton", options);
+}
+
+} // namespace tread::solver
