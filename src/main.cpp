@@ -122,10 +122,10 @@ ExitCode run(const RunArguments& arguments)
 ExitCode check(const CheckArguments& arguments)
 {
     return on_ranks(
-        [&](const Communicator&)
+        [&](const Communicator& world)
         {
             const scene::Scene scene = scene::load_scene(arguments.scene.path, arguments.scene.overrides);
-            std::cout << solver::check(scene, arguments.ranks);
+            std::cout << solver::check(world, scene, arguments.ranks);
             return ExitCode::finished;
         });
 }

@@ -1,8 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numeric>
-
 #include <fmt/format.h>
 #include <metis.h>
 
@@ -11,44 +6,6 @@
 
 namespace tread::decomp
 {
-namespace
-{
-
-/// A page that weighs more than its rank's share has a rank of its own, whatever it weighs: the share of the others.
-double most_that_counts(std::vector<double> load, int ranks)
-{
-    std::sort(load.begin(), load.end(), std::greater<>());
-    double rest = std::accumulate(load.begin(), load.end(), 0.0);
-    int    own  = 0;
-    while (own < ranks - 1 && load[static_cast<std::size_t>(own)] * (ranks - own) > rest)
-    {
-        rest -= load[static_cast<std::size_t>(own)];
-        ++own;
-    }
-    return rest / (ranks - own);
-}
-
-/// METIS counts in 32-bit integers, gives nothing to vertices without weight, and leaves ranks empty where a vertex
-/// outweighs what a rank should get.
-std::vector<idx_t> whole_loads(const std::vector<double>& load, int ranks)
-{
-    constexpr double most_in_all = 1 << 30;
-    const double     most        = most_that_counts(load, ranks);
-    const auto       counted     = [most](double sum, double value) { return sum + std::min(value, most); };
-    const double     total       = std::accumulate(load.begin(), load.end(), 0.0, counted);
-    const double     unit        = total > 0 ? (most_in_all - static_cast<double>(load.size())) / total : 0.0;
-
-    std::vector<idx_t> whole;
-    whole.reserve(load.size());
-    for (const double value : load)
-    {
-        whole.push_back(1 + static_cast<idx_t>(std::floor(unit * std::min(value, most))));
-    }
-    return whole;
-}
-
-} // namespace
-
 PageRanks metis_parts(const PageGraph& graph, int ranks, double imbalance)
 {
     idx_t              vertices = static_cast<idx_t>(graph.pages()), constraints = 1, parts = ranks, cut = 0;

@@ -1,6 +1,8 @@
 #include "decomp/partition.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -14,19 +16,50 @@ namespace
 
 double sum_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
+/// A page that weighs more than its rank's share has a rank of its own, whatever it weighs: the share of the others.
+double most_that_counts(std::vector<double> load, int ranks)
+{
+    std::sort(load.begin(), load.end(), std::greater<>());
+    double rest = std::accumulate(load.begin(), load.end(), 0.0);
+    int    own  = 0;
+    while (own < ranks - 1 && load[static_cast<std::size_t>(own)] * (ranks - own) > rest)
+    {
+        rest -= load[static_cast<std::size_t>(own)];
+        ++own;
+    }
+    return rest / (ranks - own);
+}
+
 /// What is wrong with the parts of a partitioner; empty if nothing is.
 std::string fault(const PartitionQuality& found, const PartitionQuality& chunks, const PartitionOptions& options)
 {
-    if (found.empty > 0) { return fmt::format("METIS left {} of {} ranks without a page", found.empty, options.ranks); }
+    if (found.empty > 0) { return fmt::format("it left {} of {} ranks without a page", found.empty, options.ranks); }
     if (found.imbalance > std::max(options.imbalance, chunks.imbalance) * 1.01)
     {
-        return fmt::format("METIS gives {:.3f} times the mean load to a rank, runs of page keys {:.3f}",
-                           found.imbalance, chunks.imbalance);
+        return fmt::format("it gives {:.3f} times the mean load to a rank, runs of page keys {:.3f}", found.imbalance,
+                           chunks.imbalance);
     }
     return {};
 }
 
 } // namespace
+
+std::vector<std::int32_t> whole_loads(const std::vector<double>& load, int ranks)
+{
+    constexpr double most_in_all = 1 << 30;
+    const double     most        = most_that_counts(load, ranks);
+    const auto       counted     = [most](double sum, double value) { return sum + std::min(value, most); };
+    const double     total       = std::accumulate(load.begin(), load.end(), 0.0, counted);
+    const double     unit        = total > 0 ? (most_in_all - static_cast<double>(load.size())) / total : 0.0;
+
+    std::vector<std::int32_t> whole;
+    whole.reserve(load.size());
+    for (const double value : load)
+    {
+        whole.push_back(1 + static_cast<std::int32_t>(std::floor(unit * std::min(value, most))));
+    }
+    return whole;
+}
 
 PageRanks morton_chunks(const PageGraph& graph, int ranks)
 {
@@ -105,7 +138,7 @@ PartitionQuality quality_of(const PageGraph& graph, const PageRanks& rank, int r
     return quality;
 }
 
-Partition make_partition(const PageGraph& graph, const PartitionOptions& options)
+Partition make_partition(const Communicator& communicator, const PageGraph& graph, const PartitionOptions& options)
 {
     const PageRanks chunks = morton_chunks(graph, options.ranks);
     if (options.partitioner == Partitioner::morton || options.ranks == 1) { return {chunks, {}}; }
@@ -113,7 +146,9 @@ Partition make_partition(const PageGraph& graph, const PartitionOptions& options
     {
         return {chunks, fmt::format("{} pages for {} ranks", graph.pages(), options.ranks)};
     }
-    const PageRanks   parts = metis_parts(graph, options.ranks, options.imbalance);
+    const PageRanks   parts = options.partitioner == Partitioner::metis
+                                  ? metis_parts(graph, options.ranks, options.imbalance)
+                                  : petsc_parts(communicator, graph, options.ranks, options.imbalance);
     const std::string wrong =
         fault(quality_of(graph, parts, options.ranks), quality_of(graph, chunks, options.ranks), options);
     return wrong.empty() ? Partition{parts, {}} : Partition{chunks, wrong};

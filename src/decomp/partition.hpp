@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/communicator.hpp"
 #include "decomp/page_graph.hpp"
 
 // Which rank owns which page.
@@ -15,7 +16,8 @@ using PageRanks = std::vector<std::int32_t>;
 
 enum class Partitioner
 {
-    metis, ///< k-way (Karypis and Kumar 1998): least cut under the bound on imbalance
+    metis, ///< k-way (Karypis and Kumar 1998), on every rank: least cut under the bound on imbalance
+    petsc, ///< PTScotch through PETSc's MatPartitioning, by all ranks together: for graphs too large for one
     morton ///< runs of keys: no look at the edges, never fails
 };
 
@@ -32,10 +34,10 @@ struct Partition
     std::string fallback; ///< why it is by Morton order, if something else was asked for; else empty
 };
 
-/// A partition in which no rank is empty while there are as many pages as ranks. The same for the same graph and
-/// options. What a partitioner returns is looked at: if it left a rank empty, or is further out of balance than Morton
-/// chunks and the options allow, those are taken, and `fallback` says so.
-Partition make_partition(const PageGraph& graph, const PartitionOptions& options);
+/// Collective: a partition in which no rank is empty while there are as many pages as ranks, the same on all ranks of
+/// the communicator, which all have the same graph. What a partitioner returns is looked at: if it left a rank empty,
+/// or is further out of balance than Morton chunks and the options allow, those are taken, and `fallback` says so.
+Partition make_partition(const Communicator& communicator, const PageGraph& graph, const PartitionOptions& options);
 
 /// Runs of keys, of nearly equal load; with fewer pages than ranks the last ranks get none.
 PageRanks morton_chunks(const PageGraph& graph, int ranks);
@@ -43,6 +45,14 @@ PageRanks morton_chunks(const PageGraph& graph, int ranks);
 /// METIS k-way with a fixed seed. It may leave ranks empty where loads are very uneven. EnvironmentError if METIS
 /// reports one. At least two ranks and as many pages.
 PageRanks metis_parts(const PageGraph& graph, int ranks, double imbalance);
+
+/// Collective: PTScotch. EnvironmentError without PETSc, or if it reports one. As many pages as ranks.
+PageRanks petsc_parts(const Communicator& communicator, const PageGraph& graph, int ranks, double imbalance);
+bool      petsc_is_built_in();
+
+/// Loads as partitioners count them, in 32-bit integers of which the sum fits one, none 0: a page that outweighs what a
+/// rank should get, which would leave ranks empty, counts as that.
+std::vector<std::int32_t> whole_loads(const std::vector<double>& load, int ranks);
 
 /// The same parts under other names, so that most load stays where it is: `present` = the ranks of the pages now, -1 of
 /// new pages. Largest common load first; ties by rank.

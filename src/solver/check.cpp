@@ -34,7 +34,7 @@ std::string shape_lines(const World& world)
 
 } // namespace
 
-std::string check(const scene::Scene& scene, int ranks)
+std::string check(const Communicator& communicator, const scene::Scene& scene, int ranks)
 {
     const World    world = build_world(scene);
     const Plan     plan  = make_plan(scene, world);
@@ -53,7 +53,7 @@ std::string check(const scene::Scene& scene, int ranks)
     text += fmt::format("dt {:.4g} s at the start (limit: {}), at most {:.4g} s simulated: {:.3g} steps at that dt\n",
                         wants.dt, wants.limit, wants.time, wants.steps);
     if (plan.sand) { text += fmt::format("sand {:.0f} bytes a point, pages included\n", wants.bytes_a_point); }
-    return text + (ranks == 1 ? std::string("partition: one rank\n") : partition_lines(world, ranks));
+    return text + (ranks == 1 ? std::string("partition: one rank\n") : partition_lines(communicator, world, ranks));
 }
 
 } // namespace tread::solver

@@ -27,9 +27,10 @@ double spacing_of(const World& world)
     return 2 * *middle;
 }
 
-std::string line_of(const decomp::PageGraph& graph, const char* name, const decomp::PartitionOptions& options)
+std::string line_of(const Communicator& communicator, const decomp::PageGraph& graph, const char* name,
+                    const decomp::PartitionOptions& options)
 {
-    const decomp::Partition        found   = decomp::make_partition(graph, options);
+    const decomp::Partition        found   = decomp::make_partition(communicator, graph, options);
     const decomp::PartitionQuality quality = decomp::quality_of(graph, found.rank, options.ranks);
     std::string                    text    = fmt::format(
                               "  {:<8}largest load {:.3f} of the mean, {} nodes shared across ranks, at most {} pages of others beside one",
@@ -64,15 +65,20 @@ decomp::PageGraph page_graph_of(const World& world)
     return decomp::page_graph(std::move(key), std::move(load));
 }
 
-std::string partition_lines(const World& world, int ranks)
+std::string partition_lines(const Communicator& communicator, const World& world, int ranks)
 {
     const decomp::PageGraph  graph = page_graph_of(world);
     decomp::PartitionOptions options;
     options.ranks    = ranks;
     std::string text = fmt::format("partition of {} pages into {} ranks:\n", graph.pages(), ranks);
-    text += line_of(graph, "METIS", options);
+    text += line_of(communicator, graph, "METIS", options);
+    if (decomp::petsc_is_built_in())
+    {
+        options.partitioner = decomp::Partitioner::petsc;
+        text += line_of(communicator, graph, "PETSc", options);
+    }
     options.partitioner = decomp::Partitioner::morton;
-    return text + line_of(graph, "Morton", options);
+    return text + line_of(communicator, graph, "Morton", options);
 }
 
 } // namespace tread::solver

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "base/communicator.hpp"
 #include "decomp/page_graph.hpp"
 #include "solver/world.hpp"
 
@@ -15,7 +16,7 @@ inline constexpr double body_load = 150;
 /// The pages that hold points or centres of bodies, and what they weigh. Without points the pages are four bodies wide.
 decomp::PageGraph page_graph_of(const World& world);
 
-/// How a world falls to `ranks`, by each partitioner: a line each.
-std::string partition_lines(const World& world, int ranks);
+/// Collective: how a world falls to `ranks`, by each partitioner: a line each.
+std::string partition_lines(const Communicator& communicator, const World& world, int ranks);
 
 } // namespace tread::solver

@@ -34,6 +34,6 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
 
 /// What `tread check` prints: the plan of stages with reasons, counts, memory, disk and the limits of the step, and
 /// how the scene falls to so many ranks.
-std::string check(const scene::Scene& scene, int ranks);
+std::string check(const Communicator& communicator, const scene::Scene& scene, int ranks);
 
 } // namespace tread::solver
