@@ -197,7 +197,7 @@ void Rigid<Exec>::find_pairs(double dt)
         listed_ &&
         dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), dt) <= 1 &&
         (!pairs_.patches.wanted || dem::regroup_patches(exec_, pairs_, bodies_.view(), law_));
-    if (holds) { dem::stage_bodies(exec_, pairs_, bodies_.view()); } // commands change bodies too
+    if (holds) { stage(); } // commands change bodies too
     else
     {
         dem::find_pairs(exec_, pairs_, bodies_.view(), law_, dt);

@@ -53,6 +53,9 @@ public:
     /// 2. Pairs of bodies, and of bodies and walls, that may touch in the step: found anew if the list may not hold.
     void find_pairs(double dt);
 
+    /// Shows the contacts what somebody else has changed in view() since. find_pairs does.
+    void stage() { dem::stage_bodies(exec_, pairs_, bodies_.view()); }
+
     /// Before `substeps` substeps of dt (s): after how many of them a body may have gone further than find_pairs
     /// allowed for, when the fastest of anything goes at `speed` (m/s) now: a light body that is hit leaves at up to
     /// twice that, and one that is hit by such a one again at four times.

@@ -138,6 +138,7 @@ TYPED_TEST(Guards, NotANumberIsNamedAtOnce)
         rigid.command(std::vector<solver::BodyCommand>(2));
         rigid.find_pairs(1e-3);
         copy_from_host(exec, rigid.view().*array + 1, &lost, sizeof(lost));
+        rigid.stage();
         rigid.contact(1e-3);
         rigid.move(1e-3, 0);
         const std::string found = stop([&] { rigid.report(0.25); });
@@ -161,6 +162,7 @@ TYPED_TEST(Guards, BodyBeyondItsSearchStopsTheRunByName)
     ASSERT_EQ(rigid.unwatched_substeps(1e-4, 10, 0), 10) << "nothing moves: nobody watches";
     const Vec3<double> thrown(0, 5, 0); // 5 mm in the step; 1 % of 50 mm are allowed
     copy_from_host(exec, rigid.view().velocity + 1, &thrown, sizeof(thrown));
+    rigid.stage();
     rigid.contact(1e-3);
     rigid.move(1e-3, 0);
     const std::string found = stop([&] { rigid.report(0.25); });
