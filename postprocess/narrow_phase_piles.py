@@ -6,16 +6,15 @@ Needs Debian's python3-h5py and python3-numpy, and a built tread.
 """
 
 import argparse
-import csv
 import itertools
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
 
-from tread_post import Run, RunError
+from tread_post import RunError
+from tread_post.study import run_scene, write_table
 
 SCENE = Path(__file__).resolve().parents[1] / "configs" / "studies" / "rock_pile.toml"
 FIELDS = ("narrow_phase", "nodes", "sdf_cells", "seed", "height_m", "speed_m_s", "energy_error", "steps", "wall_s")
@@ -42,18 +41,6 @@ def variants(options):
         yield "rays", nodes, options.ray_cells
 
 
-def run_one(options, phase, nodes, cells, seed, folder):
-    command = [options.tread, "run", str(SCENE), "--output", str(folder), "--quiet", "--backend", options.backend, "--threads",
-               str(options.threads)]
-    for setting in (f"numerics.narrow_phase={phase}", f"shape[0].generate.nodes={nodes}", f"shape[0].sdf_cells={cells}",
-                    f"rocks[0].seed={seed}", *options.more):
-        command += ["--set", setting]
-    ended = subprocess.run(command, capture_output=True, text=True)
-    if ended.returncode != 0:
-        raise RunError(f"{' '.join(command)}: exit {ended.returncode}: {ended.stderr.strip()}")
-    return Run(folder)
-
-
 def measure(run):
     """Mean height of the rocks' centres by their energy in gravity, their speed (rms) at the end, and the error of the energy's balance."""
     scene, energy = run.scene, run.energy
@@ -70,15 +57,14 @@ def main():
     rows = []
     for (phase, nodes, cells), seed in itertools.product(variants(options), options.seeds):
         with tempfile.TemporaryDirectory() as folder:
-            run = run_one(options, phase, nodes, cells, seed, Path(folder) / "run")
+            settings = (f"numerics.narrow_phase={phase}", f"shape[0].generate.nodes={nodes}", f"shape[0].sdf_cells={cells}",
+                        f"rocks[0].seed={seed}", *options.more)
+            _, run = run_scene(options, SCENE, settings, Path(folder) / "run")
             height, speed, error = measure(run)
-            rows.append((phase, nodes, cells, seed, f"{height:.6g}", f"{speed:.2e}", f"{error:.2e}", run.summary["steps"],
-                         f"{run.summary['wall_s']:.2f}"))
-        print(*rows[-1], sep=", ", flush=True)
-    with open(options.output, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(FIELDS)
-        writer.writerows(rows)
+            rows.append(dict(zip(FIELDS, (phase, nodes, cells, seed, f"{height:.6g}", f"{speed:.2e}", f"{error:.2e}", run.summary["steps"],
+                                          f"{run.summary['wall_s']:.2f}"))))
+        print(*rows[-1].values(), sep=", ", flush=True)
+    write_table(options.output, FIELDS, rows)
     print(options.output)
 
 

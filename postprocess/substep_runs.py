@@ -8,21 +8,19 @@ Needs Debian's python3-h5py and python3-numpy, and a built tread.
 """
 
 import argparse
-import csv
-import resource
-import subprocess
 import sys
 import tempfile
 import tomllib
 from pathlib import Path
 
-
-from tread_post import Run, RunError
+from tread_post import RunError
+from tread_post.study import processor_time, run_scene, write_table
 
 SCENE = Path(__file__).resolve().parents[1] / "configs" / "paper" / "reduced" / "wheel_drop_substeps.toml"
 FIELDS = ("reading", "substeps", "dt_s", "substep_s", "young_Pa", "status", "peak_N", "rest_over_weight", "deepest_mm",
           "energy_error", "steps", "cpu_s", "reason")
 EVERY = 1e-3  # s, of the time series: forces are means over so long
+STOPPED = 3  # exit code of a run that became unstable
 REST = 0.2  # s, the end of the run over which the force at rest is a mean
 
 
@@ -67,25 +65,17 @@ def rock_of(scene):
 
 
 def row_of(options, reading, substeps, step, young, folder):
-    command = [options.tread, "run", str(options.scene), "--output", str(folder), "--quiet", "--backend", options.backend,
-               "--threads", str(options.threads)]
     value = f'"{substeps}"' if substeps == "auto" else substeps
-    for setting in (f"time.dt={step}", f"time.substeps={value}", f"output.every={EVERY}", f"material[{rock_of(options.scene)}].young={young}"):
-        command += ["--set", setting]
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    ended = subprocess.run(command, capture_output=True, text=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    settings = (f"time.dt={step}", f"time.substeps={value}", f"output.every={EVERY}", f"material[{rock_of(options.scene)}].young={young}")
+    before = processor_time()
+    code, run = run_scene(options, options.scene, settings, folder, ends=(0, STOPPED))
     row = dict.fromkeys(FIELDS, "")
-    spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    row.update(reading=reading, substeps=substeps, dt_s=f"{step:g}", young_Pa=f"{young:g}", cpu_s=f"{spent:.2f}")
-    if ended.returncode not in (0, 3):
-        raise RunError(f"{' '.join(command)}: exit {ended.returncode}: {ended.stderr.strip()}")
-    run = Run(folder)
+    row.update(reading=reading, substeps=substeps, dt_s=f"{step:g}", young_Pa=f"{young:g}", cpu_s=f"{processor_time() - before:.2f}")
     summary = run.summary
     row.update(status=summary["status"], steps=summary["steps"])
     if summary["steps"] > 0:
         row.update(substep_s=f"{summary['time'] / summary['substeps']:.3g}")
-    if ended.returncode == 3:
+    if code == STOPPED:
         row.update(reason=summary["reason"])
         return row
     peak, rest, deepest, energy = measures(run)
@@ -100,10 +90,7 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             rows.append(row_of(options, *case, Path(folder) / "run"))
         print(*rows[-1].values(), sep=", ", flush=True)
-    with open(options.output, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, FIELDS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_table(options.output, FIELDS, rows)
     print(options.output)
 
 

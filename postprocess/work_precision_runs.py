@@ -6,10 +6,7 @@ Needs Debian's python3-h5py and python3-numpy, and a built tread.
 """
 
 import argparse
-import csv
 import itertools
-import resource
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -18,7 +15,8 @@ from typing import Callable
 
 import numpy as np
 
-from tread_post import Run, RunError
+from tread_post import RunError
+from tread_post.study import processor_time, run_scene, write_table
 
 SCENES = Path(__file__).resolve().parents[1] / "configs" / "studies"
 FIELDS = ("case", "quantity", "spacing", "points_per_cell", "transfer", "precision", "points", "steps", "cpu_s",
@@ -98,23 +96,6 @@ def arguments():
     return parser.parse_args()
 
 
-def run_one(options, case, settings, folder):
-    command = [options.tread, "run", str(SCENES / case.scene), "--output", str(folder), "--quiet", "--backend",
-               options.backend, "--threads", str(options.threads)]
-    for key, value in settings.items():
-        command += ["--set", f"{key}={value}"]
-    ended = subprocess.run(command, capture_output=True, text=True)
-    if ended.returncode != 0:
-        raise RunError(f"{' '.join(command)}: exit {ended.returncode}: {ended.stderr.strip()}")
-    return Run(folder)
-
-
-def processor_time():
-    """Of all programs that ended, s: what other work on the machine changes least."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
-
-
 def rows_of(options, name):
     case = CASES[name]
     for spacing, points, transfer, precision in itertools.product(case.spacings[: options.levels], options.points_per_cell,
@@ -123,7 +104,7 @@ def rows_of(options, name):
                     "numerics.precision": precision}
         with tempfile.TemporaryDirectory() as folder:
             before = processor_time()
-            run = run_one(options, case, settings, Path(folder) / "run")
+            _, run = run_scene(options, SCENES / case.scene, [f"{key}={value}" for key, value in settings.items()], Path(folder) / "run")
             spent, summary = processor_time() - before, run.summary
             for quantity, measure in case.measures.items():
                 measured, error, reference = measure(run)
@@ -138,10 +119,7 @@ def main():
         for row in rows_of(options, name):
             rows.append(row)
             print(*(f"{row[field]}" for field in FIELDS[:-1]), sep=", ", flush=True)
-    with open(options.output, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, FIELDS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_table(options.output, FIELDS, rows)
     print(options.output)
 
 

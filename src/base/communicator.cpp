@@ -69,6 +69,23 @@ std::vector<std::int64_t> Communicator::gather(std::int64_t value) const
 
 std::vector<double> Communicator::gather(double value) const { return gather_all(*this, value, MPI_DOUBLE); }
 
+std::vector<std::int32_t> Communicator::gather(const std::vector<std::int32_t>& values) const
+{
+    std::vector<int> counts, places;
+    int              place = 0;
+    for (const std::int64_t count : gather(static_cast<std::int64_t>(values.size())))
+    {
+        counts.push_back(static_cast<int>(count));
+        places.push_back(place);
+        place += static_cast<int>(count);
+    }
+    std::vector<std::int32_t> all(static_cast<std::size_t>(place));
+    check(MPI_Allgatherv(values.data(), static_cast<int>(values.size()), MPI_INT32_T, all.data(), counts.data(),
+                         places.data(), MPI_INT32_T, native_),
+          "all-gather");
+    return all;
+}
+
 MpiSession::Library::Library()
 {
     int provided = MPI_THREAD_SINGLE;

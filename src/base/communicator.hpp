@@ -39,6 +39,9 @@ public:
     std::vector<std::int64_t> gather(std::int64_t value) const;
     std::vector<double>       gather(double value) const;
 
+    /// The values of every rank, one rank's after the other's.
+    std::vector<std::int32_t> gather(const std::vector<std::int32_t>& values) const;
+
 private:
     MPI_Comm native_ = MPI_COMM_NULL;
     int      rank_   = 0;

@@ -6,6 +6,7 @@
 
 namespace tread::decomp
 {
+
 PageRanks metis_parts(const PageGraph& graph, int ranks, double imbalance)
 {
     idx_t              vertices = static_cast<idx_t>(graph.pages()), constraints = 1, parts = ranks, cut = 0;

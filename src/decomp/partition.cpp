@@ -20,7 +20,7 @@ double sum_of(const std::vector<double>& values) { return std::accumulate(values
 double most_that_counts(std::vector<double> load, int ranks)
 {
     std::sort(load.begin(), load.end(), std::greater<>());
-    double rest = std::accumulate(load.begin(), load.end(), 0.0);
+    double rest = sum_of(load);
     int    own  = 0;
     while (own < ranks - 1 && load[static_cast<std::size_t>(own)] * (ranks - own) > rest)
     {

@@ -113,25 +113,6 @@ std::vector<std::int32_t> own_parts(const Partitioning& partitioning, const Rows
     return own;
 }
 
-PageRanks gather_parts(const Communicator& communicator, const std::vector<std::int32_t>& own, std::size_t pages)
-{
-    std::vector<int> counts, places;
-    int              place = 0;
-    for (const std::int64_t count : communicator.gather(static_cast<std::int64_t>(own.size())))
-    {
-        counts.push_back(static_cast<int>(count));
-        places.push_back(place);
-        place += static_cast<int>(count);
-    }
-    PageRanks all(pages);
-    if (MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_INT32_T, all.data(), counts.data(), places.data(),
-                       MPI_INT32_T, communicator.native()) != MPI_SUCCESS)
-    {
-        throw EnvironmentError("MPI_Allgatherv failed");
-    }
-    return all;
-}
-
 } // namespace
 
 bool petsc_is_built_in() { return true; }
@@ -155,7 +136,7 @@ PageRanks petsc_parts(const Communicator& communicator, const PageGraph& graph, 
                 "MatPartitioningPTScotchSetImbalance");
     SCOTCH_randomSeed(1); // else the second partition of a process is another than the first
     check_petsc(MatPartitioningApply(partitioning.object, &partitioning.parts), "MatPartitioningApply");
-    return gather_parts(communicator, own_parts(partitioning, rows), graph.pages());
+    return communicator.gather(own_parts(partitioning, rows));
 }
 
 } // namespace tread::decomp

@@ -6,6 +6,7 @@
 #include "backend/reduce.hpp"
 #include "kernels/dem/contact_nodes.hpp"
 #include "kernels/dem/pairs_kern.hpp"
+#include "kernels/dem/travel_impl.hpp"
 
 // The steps of find_pairs, the same on both backends; pairs.cpp and pairs.cu bring in for_each and instantiate.
 namespace tread::dem
@@ -37,80 +38,6 @@ struct Stage
     ContactBody* body;
 
     TREAD_HD void operator()(std::int64_t b) const { body[b] = contact_body(bodies, b); }
-};
-
-struct WriteSpeed
-{
-    BodiesView          bodies;
-    const TemplateView* templates;
-    double*             speed; ///< m/s
-
-    TREAD_HD void operator()(std::int64_t b) const
-    {
-        speed[b] = speed_of(bodies, b, bounding_radius(bodies, templates, b));
-    }
-};
-
-/// The last list, for who was near whom.
-struct LastPairs
-{
-    const std::uint64_t* key;
-    const std::int32_t*  first; ///< as PairsView's; null where there was no list
-    const std::int32_t*  by_second;
-    const std::int32_t*  second;
-};
-
-/// What a body would have of Travel::more. A large one has too many near it to ask.
-struct WriteMore
-{
-    BodiesView          bodies;
-    const TemplateView* templates;
-    const std::int32_t* is_large;
-    LastPairs           last;
-    double              dt;
-    const double*       speed;
-    double*             more;
-
-    TREAD_HD void operator()(std::int64_t b) const
-    {
-        more[b] = travel_of(bounding_radius(bodies, templates, b), speed[b], fastest_near(b), dt).more;
-    }
-
-private:
-    TREAD_HD double fastest_near(std::int64_t b) const
-    {
-        double fastest = speed[b];
-        if (last.first == nullptr || is_large[b] != 0) { return fastest; }
-        for (std::int32_t p = last.first[b]; p < last.first[b + 1]; ++p)
-        {
-            const std::int64_t other = second_of(last.key[p]);
-            if (other < bodies.count) { fastest = std::fmax(fastest, speed[other]); }
-        }
-        for (std::int32_t i = last.second[b]; i < last.second[b + 1]; ++i)
-        {
-            fastest = std::fmax(fastest, speed[first_of(last.key[last.by_second[i]])]);
-        }
-        return fastest;
-    }
-};
-
-struct WriteReach
-{
-    BodiesView          bodies;
-    const TemplateView* templates;
-    const std::int32_t* is_large;
-    double              dt;
-    const double*       sum;    ///< of `more`
-    double*             travel; ///< in: `more`
-    double*             reach;  ///< in: speed
-
-    TREAD_HD void operator()(std::int64_t b) const
-    {
-        const double radius = bounding_radius(bodies, templates, b);
-        const double least  = travel_of(radius, reach[b], reach[b], dt).least;
-        travel[b]           = radius * (least + share_of_more(*sum, bodies.count) * travel[b]);
-        reach[b]            = is_large[b] != 0 ? 0.0 : radius + travel[b];
-    }
 };
 
 struct WriteCell
@@ -268,20 +195,8 @@ struct WritePairsOfNodes
 
 /// Bodies in the cells of a grid as wide as the widest pair; returns the width.
 template<class Exec>
-double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates,
-                  double dt)
+double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
-    pairs.travel.resize(bodies.count);
-    pairs.reach.resize(bodies.count);
-    pairs.measure.resize(1);
-    for_each(exec, "body speeds", bodies.count, WriteSpeed{bodies, templates, pairs.reach.data()});
-    const LastPairs last{pairs.last_key.data(), pairs.first.data(), pairs.by_second.data(), pairs.second.data()};
-    for_each(exec, "body motion", bodies.count,
-             WriteMore{bodies, templates, pairs.is_large.data(), last, dt, pairs.reach.data(), pairs.travel.data()});
-    sum_rows(exec, pairs.travel.data(), bodies.count, 1, pairs.measure.data());
-    for_each(exec, "body reach", bodies.count,
-             WriteReach{bodies, templates, pairs.is_large.data(), dt, pairs.measure.data(), pairs.travel.data(),
-                        pairs.reach.data()});
     largest_of_rows(exec, pairs.reach.data(), bodies.count, 1, pairs.measure.data());
     const double cell_size = std::max(2.0 * read(exec, pairs.measure.data()), 1e-12);
 
@@ -408,7 +323,8 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     pairs.patch.swap(pairs.last_patch);
     pairs.rolling.swap(pairs.last_rolling);
     pairs.patches.place.swap(pairs.patches.last_place);
-    const double cell_size = fill_cells(exec, pairs, bodies, law.templates, dt);
+    allow_travel(exec, pairs, bodies, law.templates, dt);
+    const double cell_size = fill_cells(exec, pairs, bodies);
     search(exec, pairs, bodies, law, cell_size);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);

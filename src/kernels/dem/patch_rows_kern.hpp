@@ -178,8 +178,7 @@ private:
     struct Shares
     {
         double       of[most][most];
-        double       last[most];  ///< of all rows
-        double       total[most]; ///< of each row
+        double       last[most]; ///< of all rows
         Vec3<double> centre[most];
     };
 
@@ -191,8 +190,8 @@ private:
         Shares        shares;
         for (int g = 0; g < most; ++g)
         {
-            shares.last[g] = shares.total[g] = 0;
-            shares.centre[g]                 = Vec3<double>::Zero();
+            shares.last[g]   = 0;
+            shares.centre[g] = Vec3<double>::Zero();
             for (int o = 0; o < most; ++o) { shares.of[g][o] = 0; }
         }
         for (std::int32_t i = nodes.begin + lanes.lane(); i < nodes.end; i += lanes.lanes())
@@ -206,14 +205,15 @@ private:
         }
         for (int g = 0; g < rows; ++g)
         {
+            double total = 0;
             for (int o = 0; o < most; ++o)
             {
                 shares.of[g][o] = lanes.sum(shares.of[g][o]);
                 shares.last[o] += shares.of[g][o];
-                shares.total[g] += shares.of[g][o];
+                total += shares.of[g][o];
             }
             for (int c = 0; c < 3; ++c) { shares.centre[g][c] = lanes.sum(shares.centre[g][c]); }
-            if (shares.total[g] > 0) { shares.centre[g] /= shares.total[g]; }
+            if (total > 0) { shares.centre[g] /= total; }
         }
         return shares;
     }

@@ -42,8 +42,9 @@ struct CountRows
         std::int32_t     found = p < pairs.count ? 1 : 0;
         if (p < pairs.count && may_split(group.bodies, group.law, pairs.key[p]))
         {
-            found = group(pairs.key[p], {pairs.first_node[p], pairs.first_node[p + 1]}, lanes);
-            found = found > last.of(pairs.key[p]).count ? found : last.of(pairs.key[p]).count;
+            const std::int32_t had = last.of(pairs.key[p]).count;
+            found                  = group(pairs.key[p], {pairs.first_node[p], pairs.first_node[p + 1]}, lanes);
+            found                  = found > had ? found : had;
         }
         if (lanes.lane() == 0) { rows[p] = found; }
     }
