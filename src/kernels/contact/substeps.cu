@@ -33,6 +33,11 @@ bool worth_one_launch(const Gpu&, PointContact<Gpu>& contact, const dem::BodySte
 void run_substeps(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw& law, const dem::BodyStep<Gpu>& step,
                   std::int64_t count)
 {
+    if (contact.candidates.body.size() == 0)
+    {
+        dem::run_substeps(gpu, step, count);
+        return;
+    }
     const ContactsView        contacts = contact.contacts();
     const PrivatePoints       points   = contact.private_points();
     const double              dt       = step.motion.dt;
