@@ -12,12 +12,14 @@ namespace
 using namespace contact_steps;
 using dem::repeat_threads;
 
-auto wrenches_part(PointContact<Gpu>& contact, const WrenchOf& wrench)
+auto forces_part(PointContact<Gpu>& contact, const Respond& respond)
 {
-    using Store          = run_steps::StoreSum<dem::ContactWrench>;
     const RunsView parts = contact.candidates.body_parts.of_items.view();
-    return Part{parts.count, ReduceRun<dem::ContactWrench, WrenchOf, Store, repeat_threads>{
-                                 parts, wrench, {contact.wrench_sums.data()}}};
+    return dem::group_part<repeat_threads, part_lanes>(
+        parts.count, RespondPart<Respond>{parts,
+                                          respond,
+                                          {respond.contacts, respond.points.position, respond.bodies.position},
+                                          contact.wrench_sums.data()});
 }
 
 } // namespace
@@ -42,18 +44,16 @@ void run_substeps(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw
     const PrivatePoints       points   = contact.private_points();
     const double              dt       = step.motion.dt;
     const dem::MeetByDistance meet;
-    const auto                respond =
-        items<repeat_threads>(contacts.candidates.count, Respond{contacts, points, step.bodies, law, dt});
-    const auto sum     = wrenches_part(contact, {contacts, points.position, step.bodies.position});
-    const auto advance = items<repeat_threads>(
+    const auto                forces  = forces_part(contact, {contacts, points, step.bodies, law, dt});
+    const auto                advance = items<repeat_threads>(
         points.count, MovePoint{contact.candidates.by_point.view(), contacts, points, law.motion, dt});
     dem::moving::with_damping(step, dem::moving::SumOutside{step.motion.outside},
                               [&](const auto& move)
                               {
                                   repeat<repeat_threads, dem::repeat_blocks_an_sm>(
                                       gpu, "substeps of sand and bodies", count,
-                                      sequence(beside(dem::nodes_part(meet, step), respond),
-                                               beside(dem::answers_part(meet, step), sum),
+                                      sequence(beside(dem::nodes_part(meet, step), forces),
+                                               dem::answers_part(meet, step),
                                                beside(dem::move_part(move, step.pairs), advance)));
                               });
 }
