@@ -23,7 +23,7 @@ struct SearchReach
     double point_drift;    ///< m, how far a point may stand outside the cell that it is listed in
     double largest_radius; ///< m, of any point
     double sampled_below;  ///< m, PointBodyLaw's
-    double skin;           ///< m, by which a body and a point may at least come nearer: room for more steps
+    double skin;           ///< m, twice the way that a body and a point may at least come nearer: room for more steps
 };
 
 /// (body, point) pairs, ordered by body; within a body by page and memory order.
