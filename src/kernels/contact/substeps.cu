@@ -12,6 +12,8 @@ namespace
 using namespace contact_steps;
 using dem::repeat_threads;
 
+constexpr std::int64_t few_bodies = 500; ///< each may have a warp to add up what sand does to it
+
 auto forces_part(PointContact<Gpu>& contact, const Respond& respond)
 {
     const RunsView parts = contact.candidates.body_parts.of_items.view();
@@ -47,14 +49,22 @@ void run_substeps(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw
     const auto                forces  = forces_part(contact, {contacts, points, step.bodies, law, dt});
     const auto                advance = items<repeat_threads>(
         points.count, MovePoint{contact.candidates.by_point.view(), contacts, points, law.motion, dt});
+    const auto run = [&](const auto& moved)
+    {
+        repeat<repeat_threads, dem::repeat_blocks_an_sm>(gpu, "substeps of sand and bodies", count,
+                                                         sequence(beside(dem::nodes_part(meet, step), forces),
+                                                                  dem::answers_part(meet, step),
+                                                                  beside(moved, advance)));
+    };
     dem::moving::with_damping(step, dem::moving::SumOutside{step.motion.outside},
                               [&](const auto& move)
                               {
-                                  repeat<repeat_threads, dem::repeat_blocks_an_sm>(
-                                      gpu, "substeps of sand and bodies", count,
-                                      sequence(beside(dem::nodes_part(meet, step), forces),
-                                               dem::answers_part(meet, step),
-                                               beside(dem::move_part(move, step.pairs), advance)));
+                                  const std::int64_t bodies = step.bodies.count;
+                                  if (bodies < few_bodies)
+                                  {
+                                      run(dem::group_part<repeat_threads, warp_size>(bodies, move));
+                                  }
+                                  else { run(dem::move_part(move, step.pairs)); }
                               });
 }
 
