@@ -100,7 +100,7 @@ private:
     void   restore_contacts();
     void   require_finite(double time);
     void   require_listed(double time);
-    void   require_resolved(double time, double speed);
+    void   require_resolved(double time, double speed, const Array<Exec, dem::BodyActivity>& activity);
     void   take_totals(RigidReport& report);
     double guard(double time);
 
@@ -120,7 +120,6 @@ private:
     dem::BodyTotals<Exec>                   totals_;
     Array<Exec, dem::ContactImpulse>        impulses_; ///< of the named bodies, since begin_mean()
     Array<Exec, double>                     bounding_radii_;
-    Array<Exec, dem::BodyActivity>          activity_;
     Array<Exec, double>                     sums_;
     dem::Strays<Exec>                       strays_;
     double                                  smallest_radius_ = 0;     ///< m, of the bounding spheres
