@@ -62,7 +62,6 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     , totals_(exec, "body totals")
     , impulses_(exec, "contact impulses")
     , bounding_radii_(exec, "body bounding radii")
-    , activity_(exec, "body activity")
     , sums_(exec, "body sums", sizeof(ReportSums) / sizeof(double))
     , strays_(exec)
     , released_(static_cast<std::size_t>(named_), false)
@@ -89,7 +88,6 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     const auto count = static_cast<std::int64_t>(world.bodies.size());
     totals_.resize(count);
     totals_.fill_zero();
-    activity_.resize(count);
     const std::vector<double> radii = bounding_radii(world);
     bounding_radii_.assign(radii);
     smallest_radius_ = *std::min_element(radii.begin(), radii.end());

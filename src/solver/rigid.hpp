@@ -108,7 +108,7 @@ private:
     void restore_contacts();
     void require_finite(double time);
     void require_listed(double time);
-    void require_resolved(double time, double speed);
+    void require_resolved(double time, double speed, const Array<Exec, dem::BodyActivity>& activity);
     void take(const dem::BodyTotal& now, RigidReport& report);
 
     /// Over all bodies.
@@ -118,7 +118,7 @@ private:
         dem::BodyActivity all;
         dem::BodyTotal    total;
     };
-    ReportSums sum_for_report();
+    ReportSums sum_for_report(Array<Exec, dem::BodyActivity>& activity);
 
     double guard(double time);
 
@@ -138,7 +138,6 @@ private:
     dem::BodyTotals<Exec>                   totals_;
     Array<Exec, dem::ContactImpulse>        impulses_; ///< of the named bodies, since begin_mean()
     Array<Exec, double>                     bounding_radii_;
-    Array<Exec, dem::BodyActivity>          activity_;
     Array<Exec, double>                     sums_;
     dem::Strays<Exec>                       strays_;
     double                                  smallest_radius_ = 0;     ///< m, of the bounding spheres

@@ -14,8 +14,9 @@ namespace tread::solver
 template<class Exec>
 RigidReport Rigid<Exec>::report(double time)
 {
-    RigidReport      report;
-    const ReportSums sums = sum_for_report();
+    RigidReport                    report;
+    Array<Exec, dem::BodyActivity> activity(exec_, "body activity", bodies_.position.size());
+    const ReportSums               sums = sum_for_report(activity);
     take(sums.total, report);
     report.largest_speed = sums.most.speed;
     report.net_force     = sums.all.net_force;
@@ -28,7 +29,7 @@ RigidReport Rigid<Exec>::report(double time)
     }
     if (contacts_)
     {
-        require_resolved(time, report.largest_speed);
+        require_resolved(time, report.largest_speed, activity);
         require_listed(time);
         report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time));
     }
@@ -37,15 +38,15 @@ RigidReport Rigid<Exec>::report(double time)
 
 /// All in one read.
 template<class Exec>
-typename Rigid<Exec>::ReportSums Rigid<Exec>::sum_for_report()
+typename Rigid<Exec>::ReportSums Rigid<Exec>::sum_for_report(Array<Exec, dem::BodyActivity>& activity)
 {
-    dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity_.data());
-    const double* activity = reinterpret_cast<const double*>(activity_.data());
-    const double* totals   = reinterpret_cast<const double*>(totals_.data());
-    constexpr int width    = sizeof(dem::BodyActivity) / sizeof(double);
-    double*       most     = sums_.data();
-    largest_of_rows(exec_, activity, activity_.size(), width, most);
-    sum_rows(exec_, activity, activity_.size(), width, most + width);
+    dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity.data());
+    const double* values = reinterpret_cast<const double*>(activity.data());
+    const double* totals = reinterpret_cast<const double*>(totals_.data());
+    constexpr int width  = sizeof(dem::BodyActivity) / sizeof(double);
+    double*       most   = sums_.data();
+    largest_of_rows(exec_, values, activity.size(), width, most);
+    sum_rows(exec_, values, activity.size(), width, most + width);
     sum_rows(exec_, totals, totals_.size(), dem::body_total_width, most + 2 * width);
     return read(exec_, reinterpret_cast<const ReportSums*>(most));
 }
