@@ -175,4 +175,18 @@ void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
 
+/// find_pairs in three parts, between which several ranks agree. First: what the present list remembers becomes that of
+/// the last list; pairs.travel = what owned bodies would have beyond their own motion (in bounding radii), and
+/// pairs.measure its sum, which is to become that of all ranks.
+template<class Exec>
+void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+
+/// Second: pairs.travel of owned bodies. Guests have theirs from their owner.
+template<class Exec>
+void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+
+/// Third: the list, of the pairs that this rank answers.
+template<class Exec>
+void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
+
 } // namespace tread::dem

@@ -50,11 +50,12 @@ struct WriteCell
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const Vec3<double>& x = bodies.position[b];
-        key[b]                = is_large[b] != 0 ? no_cell
-                                                 : cell_key_of(cell_coordinate(x[0], cell_size), cell_coordinate(x[1], cell_size),
-                                                               cell_coordinate(x[2], cell_size));
-        body[b]               = static_cast<std::int32_t>(b);
+        const Vec3<double>& x       = bodies.position[b];
+        const bool          gridded = is_large[b] == 0 && bodies.is_here(b);
+        key[b]                      = !gridded ? no_cell
+                                               : cell_key_of(cell_coordinate(x[0], cell_size), cell_coordinate(x[1], cell_size),
+                                                             cell_coordinate(x[2], cell_size));
+        body[b]                     = static_cast<std::int32_t>(b);
     }
 };
 
@@ -315,15 +316,32 @@ void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 }
 
 template<class Exec>
-void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    using namespace pair_steps;
-    stage_bodies(exec, pairs, bodies);
     pairs.key.swap(pairs.last_key);
     pairs.patch.swap(pairs.last_patch);
     pairs.rolling.swap(pairs.last_rolling);
     pairs.patches.place.swap(pairs.patches.last_place);
-    allow_travel(exec, pairs, bodies, law.templates, dt);
+    pair_steps::want_travel(exec, pairs, bodies, law.templates, dt);
+}
+
+template<class Exec>
+void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+{
+    pair_steps::grant_travel(exec, pairs, bodies, law.templates, dt);
+}
+
+template<class Exec>
+void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    using namespace pair_steps;
+    stage_bodies(exec, pairs, bodies);
+    if (bodies.role != nullptr)
+    {
+        for_each(
+            exec, "reach of bodies here", bodies.count,
+            WriteReachAgain{bodies, law.templates, pairs.is_large.data(), pairs.travel.data(), pairs.reach.data()});
+    }
     const double cell_size = fill_cells(exec, pairs, bodies);
     search(exec, pairs, bodies, law, cell_size);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
@@ -335,6 +353,14 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     for_each(exec, "pairs of nodes", pairs.key.size(),
              WritePairsOfNodes{pairs.first_node.data(), pairs.pair_of_node.data()});
     list_pairs_of_many_nodes(exec, pairs);
+}
+
+template<class Exec>
+void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+{
+    want_travel(exec, pairs, bodies, law, dt);
+    grant_travel(exec, pairs, bodies, law, dt);
+    list_pairs(exec, pairs, bodies, law);
 }
 
 } // namespace tread::dem

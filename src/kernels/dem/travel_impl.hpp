@@ -16,7 +16,7 @@ struct WriteSpeed
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        speed[b] = speed_of(bodies, b, bounding_radius(bodies, templates, b));
+        speed[b] = bodies.is_here(b) ? speed_of(bodies, b, bounding_radius(bodies, templates, b)) : 0.0;
     }
 };
 
@@ -42,7 +42,9 @@ struct WriteMore
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        more[b] = travel_of(bounding_radius(bodies, templates, b), speed[b], fastest_near(b), dt).more;
+        more[b] = bodies.is_owned(b)
+                      ? travel_of(bounding_radius(bodies, templates, b), speed[b], fastest_near(b), dt).more
+                      : 0.0;
     }
 
 private:
@@ -82,10 +84,25 @@ struct WriteReach
     }
 };
 
-/// Fills pairs.travel and pairs.reach, by the bodies' motion and that of their neighbours in the last list.
+/// Of bodies whose travel their owner has told.
+struct WriteReachAgain
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    const std::int32_t* is_large;
+    const double*       travel;
+    double*             reach;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const bool small = bodies.is_here(b) && is_large[b] == 0;
+        reach[b]         = small ? bounding_radius(bodies, templates, b) + travel[b] : 0.0;
+    }
+};
+
 template<class Exec>
-void allow_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates,
-                  double dt)
+void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates,
+                 double dt)
 {
     pairs.travel.resize(bodies.count);
     pairs.reach.resize(bodies.count);
@@ -95,6 +112,12 @@ void allow_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
     for_each(exec, "body motion", bodies.count,
              WriteMore{bodies, templates, pairs.is_large.data(), last, dt, pairs.reach.data(), pairs.travel.data()});
     sum_rows(exec, pairs.travel.data(), bodies.count, 1, pairs.measure.data());
+}
+
+template<class Exec>
+void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates,
+                  double dt)
+{
     for_each(exec, "body reach", bodies.count,
              WriteReach{bodies, templates, pairs.is_large.data(), dt, pairs.measure.data(), pairs.travel.data(),
                         pairs.reach.data()});
