@@ -7,10 +7,7 @@
 namespace tread
 {
 
-namespace
-{
-
-void check(int result, const char* what)
+void check_mpi(int result, const char* what)
 {
     if (result == MPI_SUCCESS) { return; }
     char text[MPI_MAX_ERROR_STRING];
@@ -20,10 +17,13 @@ void check(int result, const char* what)
         fmt::format("MPI: {} failed: {}", what, std::string(text, static_cast<std::size_t>(length))));
 }
 
+namespace
+{
+
 std::int64_t reduce(MPI_Comm communicator, std::int64_t value, MPI_Op operation)
 {
     std::int64_t result = 0;
-    check(MPI_Allreduce(&value, &result, 1, MPI_INT64_T, operation, communicator), "all-reduce");
+    check_mpi(MPI_Allreduce(&value, &result, 1, MPI_INT64_T, operation, communicator), "all-reduce");
     return result;
 }
 
@@ -31,7 +31,7 @@ template<class T>
 std::vector<T> gather_all(const Communicator& communicator, T value, MPI_Datatype type)
 {
     std::vector<T> values(static_cast<std::size_t>(communicator.size()));
-    check(MPI_Allgather(&value, 1, type, values.data(), 1, type, communicator.native()), "all-gather");
+    check_mpi(MPI_Allgather(&value, 1, type, values.data(), 1, type, communicator.native()), "all-gather");
     return values;
 }
 
@@ -39,7 +39,7 @@ std::vector<T> gather_all(const Communicator& communicator, T value, MPI_Datatyp
 
 Communicator::Communicator(MPI_Comm original)
 {
-    check(MPI_Comm_dup(original, &native_), "duplicating a communicator");
+    check_mpi(MPI_Comm_dup(original, &native_), "duplicating a communicator");
     MPI_Comm_set_errhandler(native_, MPI_ERRORS_RETURN);
     MPI_Comm_rank(native_, &rank_);
     MPI_Comm_size(native_, &size_);
@@ -47,15 +47,15 @@ Communicator::Communicator(MPI_Comm original)
 
 Communicator::~Communicator() { MPI_Comm_free(&native_); }
 
-void Communicator::barrier() const { check(MPI_Barrier(native_), "barrier"); }
+void Communicator::barrier() const { check_mpi(MPI_Barrier(native_), "barrier"); }
 
 std::string Communicator::broadcast(const std::string& text) const
 {
     std::int64_t length = static_cast<std::int64_t>(text.size());
-    check(MPI_Bcast(&length, 1, MPI_INT64_T, 0, native_), "broadcast");
+    check_mpi(MPI_Bcast(&length, 1, MPI_INT64_T, 0, native_), "broadcast");
     std::string result = text;
     result.resize(static_cast<std::size_t>(length));
-    check(MPI_Bcast(result.data(), static_cast<int>(length), MPI_CHAR, 0, native_), "broadcast");
+    check_mpi(MPI_Bcast(result.data(), static_cast<int>(length), MPI_CHAR, 0, native_), "broadcast");
     return result;
 }
 
@@ -80,16 +80,23 @@ std::vector<std::int32_t> Communicator::gather(const std::vector<std::int32_t>& 
         place += static_cast<int>(count);
     }
     std::vector<std::int32_t> all(static_cast<std::size_t>(place));
-    check(MPI_Allgatherv(values.data(), static_cast<int>(values.size()), MPI_INT32_T, all.data(), counts.data(),
-                         places.data(), MPI_INT32_T, native_),
-          "all-gather");
+    check_mpi(MPI_Allgatherv(values.data(), static_cast<int>(values.size()), MPI_INT32_T, all.data(), counts.data(),
+                             places.data(), MPI_INT32_T, native_),
+              "all-gather");
     return all;
+}
+
+std::vector<std::int64_t> Communicator::all_to_all(const std::vector<std::int64_t>& to) const
+{
+    std::vector<std::int64_t> from(to.size());
+    check_mpi(MPI_Alltoall(to.data(), 1, MPI_INT64_T, from.data(), 1, MPI_INT64_T, native_), "all-to-all");
+    return from;
 }
 
 MpiSession::Library::Library()
 {
     int provided = MPI_THREAD_SINGLE;
-    check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "initialisation");
+    check_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "initialisation");
     MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
     if (provided < MPI_THREAD_FUNNELED)
     {

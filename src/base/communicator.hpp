@@ -12,6 +12,9 @@
 namespace tread
 {
 
+/// EnvironmentError with MPI's text if `result`, of the call that `what` names, is not success.
+void check_mpi(int result, const char* what);
+
 /// A group of MPI ranks with its own message space (a duplicate: no message of ours meets another library's).
 /// Every call below is collective: all ranks make it, in the same order. A failing MPI call is an EnvironmentError.
 class Communicator
@@ -41,6 +44,9 @@ public:
 
     /// The values of every rank, one rank's after the other's.
     std::vector<std::int32_t> gather(const std::vector<std::int32_t>& values) const;
+
+    /// to[r] goes to rank r; of every rank what it had for this one.
+    std::vector<std::int64_t> all_to_all(const std::vector<std::int64_t>& to) const;
 
 private:
     MPI_Comm native_ = MPI_COMM_NULL;

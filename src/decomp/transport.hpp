@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+#include "backend/array.hpp"
+#include "base/communicator.hpp"
+#include "decomp/message_buffer.hpp"
+
+namespace tread::decomp
+{
+
+/// What the user may ask for. All give the same bits.
+enum class TransportChoice
+{
+    automatic, ///< the first that works of: MPI from GPU memory, pinned host memory; CPUs always MPI
+    mpi,
+    host
+};
+
+/// What moves bytes between the ranks of a run from and to a backend's memory. Collective: every rank makes the same
+/// calls in the same order.
+template<class Exec>
+class Transport
+{
+public:
+    /// EnvironmentError when what is asked for does not work here.
+    Transport(const Communicator& communicator, const Exec& exec, TransportChoice choice);
+
+    const Communicator& communicator() const { return communicator_; }
+    const Exec&         exec() const { return exec_; }
+    Carrier             carrier() const { return carrier_; }
+
+    /// "pinned host memory (this MPI does not know GPUs)", for the log.
+    const std::string& description() const { return description_; }
+
+    /// A number for one more kind of message, so that none meets another's.
+    int open_channel();
+
+private:
+    const Communicator& communicator_;
+    Exec                exec_;
+    Carrier             carrier_;
+    std::string         description_;
+    int                 channels_ = 0;
+};
+
+/// Bytes in a row of a buffer that go to a rank, or come from it.
+struct Parcel
+{
+    int          rank;
+    std::int64_t first;
+    std::int64_t bytes;
+};
+
+/// Messages of one kind between this rank and others: one set may be under way at a time. Nothing is allocated once
+/// buffers are large enough.
+template<class Exec>
+class Mail
+{
+public:
+    Mail(Transport<Exec>& transport, const char* name);
+
+    /// Memory for what goes out, and for what comes in, which kernels of the backend write and read. `bytes` at least;
+    /// nothing may be under way.
+    std::byte* outgoing(std::int64_t bytes) { return outgoing_.reserve(bytes); }
+    std::byte* incoming(std::int64_t bytes) { return incoming_.reserve(bytes); }
+
+    /// Starts sending what kernels that were launched before have written to the outgoing buffer.
+    void depart(const std::vector<Parcel>& out, const std::vector<Parcel>& in);
+
+    /// When it returns, kernels may read the incoming buffer and write the outgoing one. EnvironmentError when MPI
+    /// reports one or another rank sent less than was to come.
+    void arrive();
+
+private:
+    void post(const Parcel& parcel, bool out);
+
+    Transport<Exec>*         transport_;
+    MessageBuffer<Exec>      outgoing_;
+    MessageBuffer<Exec>      incoming_;
+    std::vector<MPI_Request> requests_;
+    std::vector<MPI_Status>  states_;
+    std::vector<Parcel>      expected_; ///< of the first requests
+    int                      channel_;
+    int                      turn_ = 0;
+};
+
+} // namespace tread::decomp
