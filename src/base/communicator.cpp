@@ -1,5 +1,6 @@
 #include "base/communicator.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -35,6 +36,24 @@ std::vector<T> gather_all(const Communicator& communicator, T value, MPI_Datatyp
     return values;
 }
 
+template<class T>
+std::vector<T> gather_all(const Communicator& communicator, const std::vector<T>& values, MPI_Datatype type)
+{
+    std::vector<int> counts, places;
+    int              place = 0;
+    for (const std::int64_t count : communicator.gather(static_cast<std::int64_t>(values.size())))
+    {
+        counts.push_back(static_cast<int>(count));
+        places.push_back(place);
+        place += static_cast<int>(count);
+    }
+    std::vector<T> all(static_cast<std::size_t>(place));
+    check_mpi(MPI_Allgatherv(values.data(), static_cast<int>(values.size()), type, all.data(), counts.data(),
+                             places.data(), type, communicator.native()),
+              "all-gather");
+    return all;
+}
+
 } // namespace
 
 Communicator::Communicator(MPI_Comm original)
@@ -49,13 +68,13 @@ Communicator::~Communicator() { MPI_Comm_free(&native_); }
 
 void Communicator::barrier() const { check_mpi(MPI_Barrier(native_), "barrier"); }
 
-std::string Communicator::broadcast(const std::string& text) const
+std::string Communicator::broadcast(const std::string& text, int from) const
 {
     std::int64_t length = static_cast<std::int64_t>(text.size());
-    check_mpi(MPI_Bcast(&length, 1, MPI_INT64_T, 0, native_), "broadcast");
+    check_mpi(MPI_Bcast(&length, 1, MPI_INT64_T, from, native_), "broadcast");
     std::string result = text;
     result.resize(static_cast<std::size_t>(length));
-    check_mpi(MPI_Bcast(result.data(), static_cast<int>(length), MPI_CHAR, 0, native_), "broadcast");
+    check_mpi(MPI_Bcast(result.data(), static_cast<int>(length), MPI_CHAR, from, native_), "broadcast");
     return result;
 }
 
@@ -71,25 +90,57 @@ std::vector<double> Communicator::gather(double value) const { return gather_all
 
 std::vector<std::int32_t> Communicator::gather(const std::vector<std::int32_t>& values) const
 {
-    std::vector<int> counts, places;
-    int              place = 0;
-    for (const std::int64_t count : gather(static_cast<std::int64_t>(values.size())))
-    {
-        counts.push_back(static_cast<int>(count));
-        places.push_back(place);
-        place += static_cast<int>(count);
-    }
-    std::vector<std::int32_t> all(static_cast<std::size_t>(place));
-    check_mpi(MPI_Allgatherv(values.data(), static_cast<int>(values.size()), MPI_INT32_T, all.data(), counts.data(),
-                             places.data(), MPI_INT32_T, native_),
-              "all-gather");
-    return all;
+    return gather_all(*this, values, MPI_INT32_T);
+}
+
+std::vector<std::uint64_t> Communicator::gather(const std::vector<std::uint64_t>& values) const
+{
+    return gather_all(*this, values, MPI_UINT64_T);
+}
+
+std::vector<double> Communicator::gather(const std::vector<double>& values) const
+{
+    return gather_all(*this, values, MPI_DOUBLE);
 }
 
 std::vector<std::int64_t> Communicator::all_to_all(const std::vector<std::int64_t>& to) const
 {
     std::vector<std::int64_t> from(to.size());
     check_mpi(MPI_Alltoall(to.data(), 1, MPI_INT64_T, from.data(), 1, MPI_INT64_T, native_), "all-to-all");
+    return from;
+}
+
+std::vector<std::vector<std::uint64_t>>
+Communicator::all_to_all(const std::vector<std::vector<std::uint64_t>>& to) const
+{
+    std::vector<std::int64_t> counts;
+    for (const auto& values : to) { counts.push_back(static_cast<std::int64_t>(values.size())); }
+    const std::vector<std::int64_t> coming = all_to_all(counts);
+
+    std::vector<std::uint64_t> out;
+    std::vector<int>           out_count, out_place, in_count, in_place;
+    int                        place = 0;
+    for (const auto& values : to)
+    {
+        out_place.push_back(static_cast<int>(out.size()));
+        out_count.push_back(static_cast<int>(values.size()));
+        out.insert(out.end(), values.begin(), values.end());
+    }
+    for (const std::int64_t count : coming)
+    {
+        in_place.push_back(place);
+        in_count.push_back(static_cast<int>(count));
+        place += static_cast<int>(count);
+    }
+    std::vector<std::uint64_t> in(static_cast<std::size_t>(place));
+    check_mpi(MPI_Alltoallv(out.data(), out_count.data(), out_place.data(), MPI_UINT64_T, in.data(), in_count.data(),
+                            in_place.data(), MPI_UINT64_T, native_),
+              "all-to-all");
+    std::vector<std::vector<std::uint64_t>> from;
+    for (std::size_t rank = 0; rank < coming.size(); ++rank)
+    {
+        from.emplace_back(in.begin() + in_place[rank], in.begin() + in_place[rank] + in_count[rank]);
+    }
     return from;
 }
 
@@ -131,6 +182,27 @@ void on_root(const Communicator& communicator, const std::function<void()>& work
     }
     code = communicator.maximum(code);
     if (code != 0) { throw Error(static_cast<ExitCode>(code), communicator.broadcast(message)); }
+}
+
+void on_every_rank(const Communicator& communicator, const std::function<void()>& work)
+{
+    std::int64_t own = 0;
+    std::string  message;
+    try
+    {
+        work();
+    }
+    catch (const Error& error)
+    {
+        own     = static_cast<std::int64_t>(error.code());
+        message = error.what();
+    }
+    const std::vector<std::int64_t> codes = communicator.gather(own);
+    const auto first = std::find_if(codes.begin(), codes.end(), [](std::int64_t code) { return code != 0; });
+    if (first == codes.end()) { return; }
+    message = communicator.broadcast(message, static_cast<int>(first - codes.begin()));
+    if (*first == static_cast<std::int64_t>(ExitCode::numerical)) { throw NumericalError(message); }
+    throw Error(static_cast<ExitCode>(*first), message);
 }
 
 void require_launcher_agrees(int mpi_size)

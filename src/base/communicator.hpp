@@ -31,8 +31,8 @@ public:
 
     void barrier() const;
 
-    /// Rank 0's text, on every rank.
-    std::string broadcast(const std::string& text) const;
+    /// The text of one rank, on every rank.
+    std::string broadcast(const std::string& text, int from = 0) const;
 
     std::int64_t sum(std::int64_t value) const;
     std::int64_t maximum(std::int64_t value) const;
@@ -43,10 +43,13 @@ public:
     std::vector<double>       gather(double value) const;
 
     /// The values of every rank, one rank's after the other's.
-    std::vector<std::int32_t> gather(const std::vector<std::int32_t>& values) const;
+    std::vector<std::int32_t>  gather(const std::vector<std::int32_t>& values) const;
+    std::vector<std::uint64_t> gather(const std::vector<std::uint64_t>& values) const;
+    std::vector<double>        gather(const std::vector<double>& values) const;
 
     /// to[r] goes to rank r; of every rank what it had for this one.
-    std::vector<std::int64_t> all_to_all(const std::vector<std::int64_t>& to) const;
+    std::vector<std::int64_t>               all_to_all(const std::vector<std::int64_t>& to) const;
+    std::vector<std::vector<std::uint64_t>> all_to_all(const std::vector<std::vector<std::uint64_t>>& to) const;
 
 private:
     MPI_Comm native_ = MPI_COMM_NULL;
@@ -73,6 +76,9 @@ private:
     Library      library_;
     Communicator world_;
 };
+
+/// Runs `work` on every rank. Where some throw an Error, all throw that of the lowest of them.
+void on_every_rank(const Communicator& communicator, const std::function<void()>& work);
 
 /// Runs `work` on rank 0 alone. The error that it throws, if any, is thrown on every rank, so that all leave together.
 void on_root(const Communicator& communicator, const std::function<void()>& work);

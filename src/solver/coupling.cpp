@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "decomp/letters.hpp"
 #include "solver/cover.hpp"
 #include "solver/materials.hpp"
 
@@ -33,7 +34,7 @@ double met_limit(const World& world, double limit)
 
 template<class Exec, class Real>
 Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, const World& world,
-                               const dem::TemplateView* templates, dem::PairTable pairs)
+                               const dem::TemplateView* templates, dem::PairTable pairs, const Ranks<Exec>* ranks)
     : exec_(exec)
     , contact_(exec)
     , law_{templates,
@@ -43,6 +44,7 @@ Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, cons
            point_motion(scene.numerics.point_motion),
            0.0}
     , largest_radius_(largest_point_radius(world, law_.radius))
+    , communicator_(ranks == nullptr ? nullptr : &ranks->communicator())
 {
     constexpr std::size_t most = std::size_t{1} << contact::history_body_bits;
     if (world.bodies.size() > most)
@@ -79,6 +81,10 @@ void Coupling<Exec, Real>::finish_step(const mpm::PointsView<Real>& points, doub
 {
     contact::finish_step(exec_, contact_, points, dt);
     summary_ = contact::summarise(exec_, contact_);
+    if (communicator_ == nullptr) { return; }
+    const auto of_ranks = decomp::gather_values<contact::Summary>(*communicator_, {summary_});
+    summary_            = contact::Summary::zero();
+    for (const auto& summary : of_ranks) { summary_ = summary_ + summary.front(); }
 }
 
 template class Coupling<Cpu, float>;

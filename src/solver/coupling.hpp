@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/contact/substeps.hpp"
+#include "solver/ranks.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
@@ -12,7 +13,7 @@ class Coupling
 {
 public:
     Coupling(const Exec& exec, const scene::Scene& scene, const World& world, const dem::TemplateView* templates,
-             dem::PairTable pairs);
+             dem::PairTable pairs, const Ranks<Exec>* ranks = nullptr);
 
     /// 2. Candidates of the step; nothing moves further in it than `speed` allows.
     void begin_step(const mpm::PointsView<Real>& points, const mpm::PagesView& pages, const dem::BodiesView& bodies,
@@ -42,6 +43,7 @@ private:
     contact::PointBodyLaw       law_;
     double                      largest_radius_;
     contact::Summary            summary_ = contact::Summary::zero();
+    const Communicator*         communicator_; ///< null on one rank
 };
 
 } // namespace tread::solver

@@ -21,6 +21,8 @@ namespace tread::solver
 namespace
 {
 
+constexpr double sand_reach = 2; ///< spacings: how far sand may come, radius and all, while a list of pairs holds
+
 std::vector<double> bounding_radii(const World& world)
 {
     std::vector<double> radii;
@@ -43,7 +45,8 @@ std::vector<double> rows(const std::vector<T>& vectors)
 } // namespace
 
 template<class Exec>
-Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan)
+Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
+                   const Ranks<Exec>* ranks)
     : exec_(exec)
     , scene_(scene)
     , world_(world)
@@ -95,6 +98,10 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     bodies_.force.fill_zero();
     bodies_.torque.fill_zero();
     bodies_.stiffness.fill_zero();
+    if (ranks != nullptr)
+    {
+        ranks_.emplace(*ranks, world, plan.coupling ? sand_reach * scene.grid.spacing : 0, bodies_);
+    }
     begin_mean();
     restore_contacts();
 }
@@ -179,9 +186,12 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
 
         const Mat3<double> inertia = rotation * full(read(exec_, bodies_.inertia.data() + b)) * rotation.transpose();
         const double       mass    = world_.bodies.mass[b];
-        command_impulse_ += mass * (velocity - velocity_before);
-        command_work_ += 0.5 * mass * (velocity.squaredNorm() - velocity_before.squaredNorm()) +
-                         0.5 * (spin.dot(inertia * spin) - spin_before.dot(inertia * spin_before));
+        if (!ranks_ || ranks_->owns(static_cast<std::int64_t>(b)))
+        {
+            command_impulse_ += mass * (velocity - velocity_before);
+            command_work_ += 0.5 * mass * (velocity.squaredNorm() - velocity_before.squaredNorm()) +
+                             0.5 * (spin.dot(inertia * spin) - spin_before.dot(inertia * spin_before));
+        }
         commanded_speed_ =
             std::max(commanded_speed_, velocity.norm() + spin.norm() * world_.bodies.scale[b] * form.bounding_radius);
         copy_from_host(exec_, bodies_.velocity.data() + b, &velocity, sizeof(velocity));
@@ -193,25 +203,45 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
 template<class Exec>
 void Rigid<Exec>::find_pairs(double dt)
 {
-    const bool holds =
-        listed_ &&
-        dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), dt) <= 1 &&
-        (!pairs_.patches.wanted || dem::regroup_patches(exec_, pairs_, bodies_.view(), law_));
-    if (holds) { stage(); } // commands change bodies too
-    else
-    {
-        dem::find_pairs(exec_, pairs_, bodies_.view(), law_, dt);
-        dem::mark_places(exec_, strays_, bodies_.view());
-        listed_ = true;
-    }
-    dem::expect_contacts(exec_, pairs_, bodies_.view(), law_, gravity_, dt);
+    if (list_holds(dt)) { stage(); } // commands change bodies too
+    else { list_pairs_anew(dt); }
+    dem::expect_contacts(exec_, pairs_, bodies_.view(), law_, gravity_, dt, shared());
+    if (!ranks_) { return; }
+    ranks_->exchange_stiffness();
+    dem::expect_shared_contacts(exec_, pairs_, shared());
+}
+
+template<class Exec>
+bool Rigid<Exec>::list_holds(double dt)
+{
+    const bool here = listed_ && largest_stray_ahead(dt) <= 1 &&
+                      (!pairs_.patches.wanted || dem::regroup_patches(exec_, pairs_, bodies_.view(), law_));
+    return ranks_ ? ranks_->all(here) : here;
+}
+
+template<class Exec>
+double Rigid<Exec>::largest_stray_ahead(double ahead)
+{
+    return dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), ahead);
+}
+
+template<class Exec>
+void Rigid<Exec>::list_pairs_anew(double dt)
+{
+    dem::want_travel(exec_, pairs_, bodies_.view(), law_, dt);
+    if (ranks_) { ranks_->sum_wanted_travel(pairs_); }
+    dem::grant_travel(exec_, pairs_, bodies_.view(), law_, dt);
+    if (ranks_) { ranks_->deal(bodies_, pairs_); }
+    dem::list_pairs(exec_, pairs_, bodies_.view(), law_);
+    dem::mark_places(exec_, strays_, bodies_.view());
+    listed_ = true;
 }
 
 template<class Exec>
 std::int64_t Rigid<Exec>::unwatched_substeps(double dt, std::int64_t substeps, double speed)
 {
     constexpr double hit_twice = 4;
-    const double     fastest   = std::max(speed, std::exchange(commanded_speed_, 0.0));
+    const double     fastest   = of_all(std::max(speed, std::exchange(commanded_speed_, 0.0)));
     const double     way       = dt * (hit_twice * fastest + gravity_.norm() * dt * static_cast<double>(substeps));
     const double     reserve   = dem::rest_reserve * smallest_radius_;
     watched_                   = way * static_cast<double>(substeps) > reserve;
@@ -221,18 +251,21 @@ std::int64_t Rigid<Exec>::unwatched_substeps(double dt, std::int64_t substeps, d
 template<class Exec>
 void Rigid<Exec>::find_pairs_if_strayed(double ahead, double left, double time)
 {
-    const double share =
-        dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), ahead);
-    if (share <= 1) { return; }
-    require_finite(time);
-    overlap_ = std::max(overlap_, guard(time)); // the search forgets the peaks of the pairs
+    if (of_all(largest_stray_ahead(ahead)) <= 1) { return; }
+    together(
+        [&]
+        {
+            require_finite(time);
+            overlap_ = std::max(overlap_, guard(time)); // the search forgets the peaks of the pairs
+        });
     find_pairs(left);
 }
 
 template<class Exec>
 double Rigid<Exec>::shortest_contact()
 {
-    return dem::smallest_contact_time(exec_, pairs_, bodies_.view());
+    const double here = dem::smallest_contact_time(exec_, pairs_, bodies_.view());
+    return ranks_ ? ranks_->shortest(here) : here;
 }
 
 template<class Exec>
@@ -254,6 +287,11 @@ void Rigid<Exec>::move(double dt, double damping, const dem::OutsideWrenches& ou
 {
     dem::BodyStep<Exec> step = body_step(dt, damping);
     step.motion.outside      = outside;
+    if (shares())
+    {
+        dem::share_wrenches(exec_, step);
+        ranks_->exchange_wrenches();
+    }
     dem::move_bodies(exec_, step);
     count_substeps(dt, 1);
 }
@@ -261,6 +299,15 @@ void Rigid<Exec>::move(double dt, double damping, const dem::OutsideWrenches& ou
 template<class Exec>
 void Rigid<Exec>::run(double dt, double damping, std::int64_t count)
 {
+    if (shares())
+    {
+        for (std::int64_t substep = 0; substep < count; ++substep)
+        {
+            contact(dt);
+            move(dt, damping);
+        }
+        return;
+    }
     dem::run_substeps(exec_, body_step(dt, damping), count);
     count_substeps(dt, count);
 }
@@ -268,7 +315,7 @@ void Rigid<Exec>::run(double dt, double damping, std::int64_t count)
 template<class Exec>
 dem::BodyStep<Exec> Rigid<Exec>::body_step(double dt, double damping)
 {
-    return {pairs_, bodies_.view(), law_, totals_.data(), named_impulses(), {gravity_, damping, dt}};
+    return {pairs_, bodies_.view(), law_, totals_.data(), named_impulses(), {gravity_, damping, dt}, shared()};
 }
 
 template<class Exec>
@@ -294,19 +341,34 @@ RigidReport Rigid<Exec>::report(double time)
     copy_to_host(exec_, &found, sums_.data(), sizeof(found));
     report.net_force    = found.net_force;
     report.weight_power = found.weight_power;
-    report.substep      = substep_;
-    if (!std::isfinite(report.net_force) || !std::isfinite(found.speed))
+    together([&] { check(report, time); });
+    if (ranks_) { add_up(report); }
+    report.substep = substep_;
+    return report;
+}
+
+/// Of this rank's bodies.
+template<class Exec>
+void Rigid<Exec>::check(RigidReport& report, double time)
+{
+    if (!std::isfinite(report.net_force) || !std::isfinite(report.largest_speed))
     {
         require_finite(time);
         throw NumericalError(fmt::format("t = {:.6g} s: the sum of the forces on bodies is not a number", time));
     }
-    if (contacts_)
-    {
-        require_resolved(time, report.largest_speed);
-        require_listed(time);
-        report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time));
-    }
-    return report;
+    if (!contacts_) { return; }
+    require_resolved(time, report.largest_speed);
+    require_listed(time);
+    report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time));
+}
+
+template<class Exec>
+void Rigid<Exec>::add_up(RigidReport& report) const
+{
+    const double overlap = ranks_->largest(report.overlap), speed = ranks_->largest(report.largest_speed);
+    ranks_->sum(report);
+    report.overlap       = overlap;
+    report.largest_speed = speed;
 }
 
 template<class Exec>
@@ -335,17 +397,25 @@ template<class Exec>
 RigidCensus Rigid<Exec>::census()
 {
     const dem::BodySums sums = dem::sum_bodies(exec_, pairs_, bodies_.view(), totals_, gravity_);
-    return {mass_, sums.kinetic, sums.contact, sums.potential, sums.momentum};
+    RigidCensus         now{0, sums.kinetic, sums.contact, sums.potential, sums.momentum};
+    if (ranks_) { ranks_->sum(now); }
+    now.mass = mass_;
+    return now;
 }
 
 template<class Exec>
 std::vector<BodyRow> Rigid<Exec>::named_bodies()
 {
+    if (ranks_) { ranks_->collect(bodies_); }
     std::vector<BodyRow>            bodies;
     const std::vector<Quat>         orientation = bodies_.orientation.to_host();
     const std::vector<Vec3<double>> position = bodies_.position.to_host(), velocity = bodies_.velocity.to_host(),
-                                    spin            = bodies_.angular_velocity.to_host();
-    const std::vector<dem::ContactImpulse> impulses = impulses_.to_host();
+                                    spin      = bodies_.angular_velocity.to_host();
+    std::vector<dem::ContactImpulse> impulses = impulses_.to_host();
+    if (ranks_)
+    {
+        for (dem::ContactImpulse& impulse : impulses) { ranks_->sum(impulse); }
+    }
     for (std::size_t b = 0; b < static_cast<std::size_t>(named_); ++b)
     {
         const auto&        form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[b])];
@@ -366,8 +436,9 @@ void Rigid<Exec>::begin_mean()
 }
 
 template<class Exec>
-io::BodyFields Rigid<Exec>::fields() const
+io::BodyFields Rigid<Exec>::fields()
 {
+    if (ranks_) { ranks_->collect(bodies_); }
     io::BodyFields fields;
     fields.position = rows(bodies_.position.to_host());
     for (const Quat& q : bodies_.orientation.to_host())

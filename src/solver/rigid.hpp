@@ -11,6 +11,7 @@
 #include "kernels/dem/pairs.hpp"
 #include "kernels/dem/strays.hpp"
 #include "kernels/dem/totals.hpp"
+#include "solver/body_ranks.hpp"
 #include "solver/device_rays.hpp"
 #include "solver/device_templates.hpp"
 #include "solver/ledger.hpp"
@@ -34,7 +35,9 @@ template<class Exec>
 class Rigid
 {
 public:
-    Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan);
+    /// `ranks`: null on one rank. All ranks make the same calls then; what is returned is of all bodies.
+    Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
+          const Ranks<Exec>* ranks = nullptr);
 
     dem::BodiesView          view() { return bodies_.view(); }
     const dem::TemplateView* templates() const { return templates_.views(); }
@@ -42,6 +45,9 @@ public:
 
     /// Total mass, kg.
     double mass() const { return mass_; }
+
+    /// Whether this rank moves bodies together with others, so that every substep has messages.
+    bool shares() const { return ranks_ && ranks_->shares(); }
 
     /// For messages: a named body's name, or "rock 17".
     std::string name(std::int64_t body) const;
@@ -91,13 +97,29 @@ public:
     RigidCensus          census();
     std::vector<BodyRow> named_bodies();
     void                 begin_mean();
-    io::BodyFields       fields() const;
+    io::BodyFields       fields();
 
 private:
     dem::NamedImpulses named_impulses() { return {impulses_.data(), named_}; }
 
     void   upload(const World& world);
     void   restore_contacts();
+    void   list_pairs_anew(double dt);
+    bool   list_holds(double dt);
+    double largest_stray_ahead(double ahead);
+    void   check(RigidReport& report, double time);
+    void   add_up(RigidReport& report) const;
+
+    dem::SharedView shared() { return ranks_ ? ranks_->shared() : dem::SharedView{}; }
+    double          of_all(double value) const { return ranks_ ? ranks_->largest(value) : value; }
+
+    /// Checks of this rank's bodies: what one rank throws, all do.
+    template<class Checks>
+    void together(Checks checks) const
+    {
+        if (ranks_) { on_every_rank(ranks_->communicator(), checks); }
+        else { checks(); }
+    }
     void   require_finite(double time);
     void   require_listed(double time);
     void   require_resolved(double time, double speed);
@@ -136,6 +158,7 @@ private:
     double                                  command_work_    = 0; ///< J, of commands since the last report
     Vec3<double>                            command_impulse_ = Vec3<double>::Zero();
     dem::BodyTotal                          taken_{}; ///< totals at the last report
+    std::optional<BodyRanks<Exec>>          ranks_;
 };
 
 } // namespace tread::solver

@@ -33,7 +33,8 @@ double free_weight(const scene::Scene& scene, const World& world)
 } // namespace
 
 template<class Exec, class Real>
-Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan)
+Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
+                                   const Ranks<Exec>* ranks)
     : exec_(exec)
     , scene_(scene)
     , world_(world)
@@ -43,9 +44,10 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     , weight_(free_weight(scene, world))
 {
     if (plan.sand) { sand_.emplace(exec, scene, world, mpm::PointFields{plan.affine, plan.plasticity, plan.coupling}); }
-    if (plan.bodies) { rigid_.emplace(exec, scene, world, plan); }
-    if (plan.coupling) { coupling_.emplace(exec, scene, world, rigid_->templates(), rigid_->pair_table()); }
-    if (plan.body_contact)
+    plan_.body_contact = plan.body_contact || (plan.bodies && ranks != nullptr); // the list tells who holds which
+    if (plan.bodies) { rigid_.emplace(exec, scene, world, plan_, ranks); }
+    if (plan.coupling) { coupling_.emplace(exec, scene, world, rigid_->templates(), rigid_->pair_table(), ranks); }
+    if (plan_.body_contact)
     {
         rigid_->find_pairs(choose_step(scene.time, limits_, pace_, 0).dt);
         if (!world.contacts.empty()) { rigid_->contact(0); } // the books begin with what the contacts hold
@@ -139,7 +141,7 @@ void Simulation<Exec, Real>::substeps(const TimeStep& step, double time, StageCl
 template<class Exec, class Real>
 bool Simulation<Exec, Real>::in_one_launch(double dt, std::int64_t count, StageClock& clock)
 {
-    if (!coupling_) { return false; }
+    if (!coupling_ || rigid_->shares()) { return false; }
     const dem::BodyStep<Exec> step = rigid_->body_step(dt, damping_);
     if (!coupling_->worth_one_launch(step)) { return false; }
     clock.run(exec_, stage::sand_contact, [&] { coupling_->run_substeps(step, count); });

@@ -24,7 +24,9 @@ template<class Exec, class Real>
 class Simulation
 {
 public:
-    Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan);
+    /// `ranks`: null on one rank. All ranks make the same calls then; what is returned is of the whole scene.
+    Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
+               const Ranks<Exec>* ranks = nullptr);
 
     const Exec& exec() const { return exec_; }
 

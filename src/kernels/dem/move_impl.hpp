@@ -118,7 +118,7 @@ struct SumOutside
     TREAD_HD ContactWrench operator()(std::int64_t b, const Lanes& lanes) const
     {
         ContactWrench      sum = ContactWrench::zero();
-        const std::int32_t run = wrenches.run[b];
+        const std::int32_t run = wrenches.run == nullptr ? -1 : wrenches.run[b];
         if (run < 0) { return sum; }
         const std::int32_t end = wrenches.first[run + 1];
         for (std::int32_t i = wrenches.first[run] + lanes.lane(); i < end; i += lanes.lanes())
@@ -292,7 +292,8 @@ void with_damping(const BodyStep<Exec>& step, const Outside& outside, Run run)
 template<class Exec, class Run>
 void with_outside(const BodyStep<Exec>& step, Run run)
 {
-    if (step.motion.outside.run != nullptr) { run(SumOutside{step.motion.outside}); }
+    // Of several ranks one may have sand on a body, and another none: both move it by the same code.
+    if (step.motion.outside.run != nullptr || step.bodies.role != nullptr) { run(SumOutside{step.motion.outside}); }
     else { run(NothingOutside{}); }
 }
 

@@ -116,6 +116,13 @@ TREAD_HD std::uint64_t cell_key_of(std::int64_t x, std::int64_t y, std::int64_t 
     return static_cast<std::uint64_t>(z << 42 | y << 21 | x);
 }
 
+/// Of several ranks that one answers a pair, a < b, which owns this body of it: the second, but the small one beside a
+/// large, which may be near many ranks.
+TREAD_HD std::int64_t decider_of(const std::int32_t* is_large, std::int64_t a, std::int64_t b)
+{
+    return is_large[b] > is_large[a] ? a : b;
+}
+
 /// Finds the pairs of one body, each pair with one of its two bodies only.
 struct PairSearch
 {
@@ -131,12 +138,9 @@ struct PairSearch
 
     TREAD_HD bool is_sphere(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
 
-    /// Of the ranks that compute a scene one answers a pair, a < b: that which owns the second, or the small one beside
-    /// a large, which may be near many ranks.
     TREAD_HD bool answered_here(std::int64_t a, std::int64_t b) const
     {
-        const bool by_first = is_large[b] > is_large[a];
-        return bodies.is_owned(by_first ? a : b) && bodies.is_here(by_first ? b : a);
+        return bodies.is_owned(decider_of(is_large, a, b)) && bodies.is_here(a) && bodies.is_here(b);
     }
 
     /// Exact spheres are as large as their bounding spheres.
