@@ -1,7 +1,9 @@
 #include "base/communicator.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -60,13 +62,50 @@ Communicator::Communicator(MPI_Comm original)
 {
     check_mpi(MPI_Comm_dup(original, &native_), "duplicating a communicator");
     MPI_Comm_set_errhandler(native_, MPI_ERRORS_RETURN);
+    check_mpi(MPI_Comm_dup(original, &meeting_), "duplicating a communicator");
+    MPI_Comm_set_errhandler(meeting_, MPI_ERRORS_RETURN);
     MPI_Comm_rank(native_, &rank_);
     MPI_Comm_size(native_, &size_);
 }
 
-Communicator::~Communicator() { MPI_Comm_free(&native_); }
+Communicator::~Communicator()
+{
+    MPI_Comm_free(&meeting_);
+    MPI_Comm_free(&native_);
+}
 
 void Communicator::barrier() const { check_mpi(MPI_Barrier(native_), "barrier"); }
+
+bool Communicator::all_arrive(double seconds) const
+{
+    MPI_Request request = MPI_REQUEST_NULL;
+    check_mpi(MPI_Ibarrier(meeting_, &request), "barrier");
+    const double start = MPI_Wtime();
+    int          done  = 0;
+    while (true)
+    {
+        check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "barrier");
+        if (done != 0) { return true; }
+        if (MPI_Wtime() - start > seconds) { return false; }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+void Communicator::abort(ExitCode code) const
+{
+    MPI_Abort(native_, static_cast<int>(code));
+    std::abort();
+}
+
+int Communicator::local_rank() const
+{
+    MPI_Comm machine = MPI_COMM_NULL;
+    int      rank    = 0;
+    check_mpi(MPI_Comm_split_type(native_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine), "split by machine");
+    MPI_Comm_rank(machine, &rank);
+    MPI_Comm_free(&machine);
+    return rank;
+}
 
 std::string Communicator::broadcast(const std::string& text, int from) const
 {
@@ -87,6 +126,20 @@ std::vector<std::int64_t> Communicator::gather(std::int64_t value) const
 }
 
 std::vector<double> Communicator::gather(double value) const { return gather_all(*this, value, MPI_DOUBLE); }
+
+std::vector<std::string> Communicator::gather(const std::string& text) const
+{
+    const std::vector<std::int64_t> lengths = gather(static_cast<std::int64_t>(text.size()));
+    const std::vector<char>         all     = gather_all(*this, std::vector<char>(text.begin(), text.end()), MPI_CHAR);
+    std::vector<std::string>        texts;
+    auto                            at = all.begin();
+    for (const std::int64_t length : lengths)
+    {
+        texts.emplace_back(at, at + length);
+        at += length;
+    }
+    return texts;
+}
 
 std::vector<std::int32_t> Communicator::gather(const std::vector<std::int32_t>& values) const
 {

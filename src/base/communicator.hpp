@@ -31,6 +31,16 @@ public:
 
     void barrier() const;
 
+    /// Whether all other ranks call this within so many seconds; infinity waits for them. Whatever messages and
+    /// collective calls they are in meanwhile, a rank that has failed may call it.
+    bool all_arrive(double seconds) const;
+
+    /// Ends the processes of all ranks; `code` becomes the exit code of the job.
+    [[noreturn]] void abort(ExitCode code) const;
+
+    /// This rank's number among those on its machine.
+    int local_rank() const;
+
     /// The text of one rank, on every rank.
     std::string broadcast(const std::string& text, int from = 0) const;
 
@@ -41,6 +51,7 @@ public:
     /// depend on how MPI reduces.
     std::vector<std::int64_t> gather(std::int64_t value) const;
     std::vector<double>       gather(double value) const;
+    std::vector<std::string>  gather(const std::string& text) const;
 
     /// The values of every rank, one rank's after the other's.
     std::vector<std::int32_t>  gather(const std::vector<std::int32_t>& values) const;
@@ -52,9 +63,10 @@ public:
     std::vector<std::vector<std::uint64_t>> all_to_all(const std::vector<std::vector<std::uint64_t>>& to) const;
 
 private:
-    MPI_Comm native_ = MPI_COMM_NULL;
-    int      rank_   = 0;
-    int      size_   = 1;
+    MPI_Comm native_  = MPI_COMM_NULL;
+    MPI_Comm meeting_ = MPI_COMM_NULL; ///< of all_arrive
+    int      rank_    = 0;
+    int      size_    = 1;
 };
 
 /// MPI between construction and destruction. EnvironmentError when MPI does not start, when it has no place for

@@ -25,6 +25,9 @@ struct Choice
     std::string description;
 };
 
+Choice choose(const Cpu&, const Communicator&, TransportChoice) { return {Carrier::mpi, "MPI"}; }
+
+#ifdef TREAD_WITH_CUDA
 bool mpi_knows_gpus()
 {
 #if defined(OMPI_HAVE_MPI_EXT_CUDA) && OMPI_HAVE_MPI_EXT_CUDA
@@ -34,9 +37,6 @@ bool mpi_knows_gpus()
 #endif
 }
 
-Choice choose(const Cpu&, const Communicator&, TransportChoice) { return {Carrier::mpi, "MPI"}; }
-
-#ifdef TREAD_WITH_CUDA
 /// Every rank must come to the same answer: what one MPI library can, all ranks' must.
 Choice choose(const Gpu&, const Communicator& communicator, TransportChoice choice)
 {

@@ -6,6 +6,7 @@
 #include "base/errors.hpp"
 #include "decomp/letters.hpp"
 #include "kernels/dem/pairs_kern.hpp"
+#include "solver/page_loads.hpp"
 
 namespace tread::solver
 {
@@ -42,29 +43,39 @@ std::vector<std::int32_t> joined(const std::vector<std::vector<std::int32_t>>& l
 } // namespace
 
 template<class Exec>
-BodyRanks<Exec>::BodyRanks(const Ranks<Exec>& ranks, const World& world, double sand_reach, dem::Bodies<Exec>& bodies)
-    : communicator_(ranks.communicator())
-    , territory_(ranks.territory)
-    , exec_(ranks.transport.exec())
+BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const World& world, double sand_reach,
+                           dem::Bodies<Exec>& bodies)
+    : communicator_(decomposition.communicator)
+    , decomposition_(decomposition)
+    , lattice_(page_lattice_of(world))
+    , exec_(decomposition.transport.exec())
     , sand_reach_(sand_reach)
-    , states_(ranks.transport, "states of bodies")
+    , states_(decomposition.transport, "states of bodies")
     , arriving_(exec_, "bodies arriving")
     , shared_body_(exec_, "shared bodies")
     , shared_place_(exec_, "places of shared bodies")
     , shared_first_(exec_, "shares of bodies")
     , shared_row_(exec_, "rows of shares")
-    , wrench_(ranks.transport, "shares of wrenches")
-    , stiffness_(ranks.transport, "shares of stiffness")
+    , wrench_(decomposition.transport, "shares of wrenches")
+    , stiffness_(decomposition.transport, "shares of stiffness")
 {
+    look_at_pages();
     const std::int32_t here = communicator_.rank();
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
     {
         const auto& form = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
         bounding_radius_.push_back(form.bounding_radius * world.bodies.scale[b]);
-        role_.push_back(territory_.owner_of(world.bodies.position[b]) == here ? dem::role_owner : dem::role_none);
+        role_.push_back(territory_->owner_of(world.bodies.position[b]) == here ? dem::role_owner : dem::role_none);
     }
     bodies.role.assign(role_);
     plan_sharing({});
+}
+
+template<class Exec>
+void BodyRanks<Exec>::look_at_pages()
+{
+    territory_.emplace(lattice_, decomposition_.owners.keys(), decomposition_.owners.ranks());
+    pages_known_ = decomposition_.owners.changes();
 }
 
 template<class Exec>
@@ -110,6 +121,7 @@ void BodyRanks<Exec>::sum_wanted_travel(dem::Pairs<Exec>& pairs) const
 template<class Exec>
 void BodyRanks<Exec>::deal(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
 {
+    if (pages_have_changed()) { look_at_pages(); }
     const std::vector<Holding> decided = decide(bodies, pairs);
     Lists                      leaving(rank_count()), arriving(rank_count());
     for (const Holding& body : decided)
@@ -151,8 +163,8 @@ auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<E
     {
         if (role_[b] != dem::role_owner) { continue; }
         const double beyond = std::max(is_large[b] != 0 ? widest : widest_small, sand_reach_);
-        decided.push_back({static_cast<std::int32_t>(b), territory_.owner_of(position[b]),
-                           territory_.owners_near(position[b], bounding_radius_[b] + travel[b] + beyond)});
+        decided.push_back({static_cast<std::int32_t>(b), territory_->owner_of(position[b]),
+                           territory_->owners_near(position[b], bounding_radius_[b] + travel[b] + beyond)});
     }
     return decided;
 }

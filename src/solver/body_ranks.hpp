@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "decomp/decomposition.hpp"
 #include "decomp/exchange.hpp"
+#include "decomp/territory.hpp"
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/pairs.hpp"
 #include "kernels/dem/shared.hpp"
-#include "solver/ranks.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
@@ -23,7 +25,8 @@ class BodyRanks
 public:
     /// Bodies have their owners, and no guests before the first deal(). `sand_reach`: m, how far beyond its surface a
     /// body must be known to the owner of sand.
-    BodyRanks(const Ranks<Exec>& ranks, const World& world, double sand_reach, dem::Bodies<Exec>& bodies);
+    BodyRanks(decomp::Decomposition<Exec>& decomposition, const World& world, double sand_reach,
+              dem::Bodies<Exec>& bodies);
 
     /// Whether all ranks say so.
     bool all(bool value) const;
@@ -55,6 +58,7 @@ public:
     void collect(dem::Bodies<Exec>& bodies);
 
     // Not collective.
+    bool            pages_have_changed() const { return pages_known_ != decomposition_.owners.changes(); }
     bool            owns(std::int64_t body) const { return role_[static_cast<std::size_t>(body)] == dem::role_owner; }
     bool            shares() const { return shared_body_.size() > 0; }
     dem::SharedView shared();
@@ -74,6 +78,7 @@ private:
     };
     using Lists = std::vector<std::vector<std::int32_t>>; ///< of each rank
 
+    void                 look_at_pages();
     std::vector<Holding> decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs) const;
     std::vector<Holding> tell(const std::vector<Holding>& decided, Lists& arriving) const;
     void send_states(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs, const Lists& leaving, const Lists& arriving);
@@ -98,11 +103,12 @@ private:
     template<class Share>
     void pass_on(Shares<Share>& shares);
 
-    std::size_t         rank() const { return static_cast<std::size_t>(communicator_.rank()); }
-    std::size_t         rank_count() const { return static_cast<std::size_t>(communicator_.size()); }
-    const Communicator& communicator_;
-    decomp::Territory&  territory_;
-    Exec                exec_;
+    std::size_t                  rank() const { return static_cast<std::size_t>(communicator_.rank()); }
+    std::size_t                  rank_count() const { return static_cast<std::size_t>(communicator_.size()); }
+    const Communicator&          communicator_;
+    decomp::Decomposition<Exec>& decomposition_;
+    decomp::PageLattice          lattice_;
+    Exec                         exec_;
 
     double                      sand_reach_;
     std::vector<double>         bounding_radius_; ///< m, by body

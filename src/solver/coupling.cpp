@@ -34,7 +34,8 @@ double met_limit(const World& world, double limit)
 
 template<class Exec, class Real>
 Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, const World& world,
-                               const dem::TemplateView* templates, dem::PairTable pairs, const Ranks<Exec>* ranks)
+                               const dem::TemplateView* templates, dem::PairTable pairs,
+                               decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
     , contact_(exec)
     , law_{templates,
@@ -44,7 +45,7 @@ Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, cons
            point_motion(scene.numerics.point_motion),
            0.0}
     , largest_radius_(largest_point_radius(world, law_.radius))
-    , communicator_(ranks == nullptr ? nullptr : &ranks->communicator())
+    , communicator_(decomposition == nullptr ? nullptr : &decomposition->communicator)
 {
     constexpr std::size_t most = std::size_t{1} << contact::history_body_bits;
     if (world.bodies.size() > most)

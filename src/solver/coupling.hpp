@@ -1,7 +1,7 @@
 #pragma once
 
+#include "decomp/decomposition.hpp"
 #include "kernels/contact/substeps.hpp"
-#include "solver/ranks.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
@@ -13,7 +13,7 @@ class Coupling
 {
 public:
     Coupling(const Exec& exec, const scene::Scene& scene, const World& world, const dem::TemplateView* templates,
-             dem::PairTable pairs, const Ranks<Exec>* ranks = nullptr);
+             dem::PairTable pairs, decomp::Decomposition<Exec>* decomposition = nullptr);
 
     /// 2. Candidates of the step; nothing moves further in it than `speed` allows.
     void begin_step(const mpm::PointsView<Real>& points, const mpm::PagesView& pages, const dem::BodiesView& bodies,

@@ -30,17 +30,24 @@ double spacing_of(const World& world)
 std::string line_of(const Communicator& communicator, const decomp::PageGraph& graph, const char* name,
                     const decomp::PartitionOptions& options)
 {
-    const decomp::Partition        found   = decomp::make_partition(communicator, graph, options);
-    const decomp::PartitionQuality quality = decomp::quality_of(graph, found.rank, options.ranks);
-    std::string                    text    = fmt::format(
-                              "  {:<8}largest load {:.3f} of the mean, {} nodes shared across ranks, at most {} pages of others beside one",
-                              name, quality.imbalance, quality.cut, quality.halo);
-    if (quality.empty > 0) { text += fmt::format(", {} ranks without pages", quality.empty); }
-    if (!found.fallback.empty()) { text += fmt::format(" (by Morton order: {})", found.fallback); }
-    return text + "\n";
+    const decomp::Partition found = decomp::make_partition(communicator, graph, options);
+    return fmt::format("  {:<8}{}\n", name, describe_partition(graph, found, options.ranks));
 }
 
 } // namespace
+
+std::string describe_partition(const decomp::PageGraph& graph, const decomp::Partition& found, int ranks)
+{
+    const decomp::PartitionQuality quality = decomp::quality_of(graph, found.rank, ranks);
+    std::string text = fmt::format("largest load {:.3f} of the mean, {} nodes shared across ranks, at most {} pages of "
+                                   "others beside one",
+                                   quality.imbalance, quality.cut, quality.halo);
+    if (quality.empty > 0) { text += fmt::format(", {} ranks without pages", quality.empty); }
+    if (!found.fallback.empty()) { text += fmt::format(" (by Morton order: {})", found.fallback); }
+    return text;
+}
+
+decomp::PageLattice page_lattice_of(const World& world) { return {spacing_of(world), world.geometry.stencil_shift}; }
 
 decomp::PageGraph page_graph_of(const World& world)
 {

@@ -46,7 +46,7 @@ std::vector<double> rows(const std::vector<T>& vectors)
 
 template<class Exec>
 Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
-                   const Ranks<Exec>* ranks)
+                   decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
     , scene_(scene)
     , world_(world)
@@ -98,9 +98,9 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     bodies_.force.fill_zero();
     bodies_.torque.fill_zero();
     bodies_.stiffness.fill_zero();
-    if (ranks != nullptr)
+    if (decomposition != nullptr)
     {
-        ranks_.emplace(*ranks, world, plan.coupling ? sand_reach * scene.grid.spacing : 0, bodies_);
+        ranks_.emplace(*decomposition, world, plan.coupling ? sand_reach * scene.grid.spacing : 0, bodies_);
     }
     begin_mean();
     restore_contacts();
@@ -214,7 +214,7 @@ void Rigid<Exec>::find_pairs(double dt)
 template<class Exec>
 bool Rigid<Exec>::list_holds(double dt)
 {
-    const bool here = listed_ && largest_stray_ahead(dt) <= 1 &&
+    const bool here = listed_ && !(ranks_ && ranks_->pages_have_changed()) && largest_stray_ahead(dt) <= 1 &&
                       (!pairs_.patches.wanted || dem::regroup_patches(exec_, pairs_, bodies_.view(), law_));
     return ranks_ ? ranks_->all(here) : here;
 }

@@ -35,9 +35,10 @@ template<class Exec>
 class Rigid
 {
 public:
-    /// `ranks`: null on one rank. All ranks make the same calls then; what is returned is of all bodies.
+    /// `decomposition`: who owns which page; null on one rank. With it every call is collective, and what comes back is
+    /// of all bodies.
     Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
-          const Ranks<Exec>* ranks = nullptr);
+          decomp::Decomposition<Exec>* decomposition = nullptr);
 
     dem::BodiesView          view() { return bodies_.view(); }
     const dem::TemplateView* templates() const { return templates_.views(); }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -10,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "solver/pace_limits.hpp"
+#include "solver/surface.hpp"
 
 namespace tread::solver
 {
@@ -34,8 +34,9 @@ double free_weight(const scene::Scene& scene, const World& world)
 
 template<class Exec, class Real>
 Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
-                                   const Ranks<Exec>* ranks)
+                                   decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
+    , decomposition_(decomposition)
     , scene_(scene)
     , world_(world)
     , plan_(plan)
@@ -43,10 +44,17 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     , gravity_(vector(scene.domain.gravity))
     , weight_(free_weight(scene, world))
 {
-    if (plan.sand) { sand_.emplace(exec, scene, world, mpm::PointFields{plan.affine, plan.plasticity, plan.coupling}); }
-    plan_.body_contact = plan.body_contact || (plan.bodies && ranks != nullptr); // the list tells who holds which
-    if (plan.bodies) { rigid_.emplace(exec, scene, world, plan_, ranks); }
-    if (plan.coupling) { coupling_.emplace(exec, scene, world, rigid_->templates(), rigid_->pair_table(), ranks); }
+    if (plan.sand)
+    {
+        sand_.emplace(exec, scene, world, mpm::PointFields{plan.affine, plan.plasticity, plan.coupling}, decomposition);
+    }
+    plan_.body_contact =
+        plan.body_contact || (plan.bodies && decomposition != nullptr); // the list tells who holds which
+    if (plan.bodies) { rigid_.emplace(exec, scene, world, plan_, decomposition); }
+    if (plan.coupling)
+    {
+        coupling_.emplace(exec, scene, world, rigid_->templates(), rigid_->pair_table(), decomposition);
+    }
     if (plan_.body_contact)
     {
         rigid_->find_pairs(choose_step(scene.time, limits_, pace_, 0).dt);
@@ -95,6 +103,10 @@ TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& cl
     if (sand_)
     {
         clock.run(exec_, stage::scatter, [&] { sand_->scatter(); });
+        if (decomposition_ != nullptr)
+        {
+            clock.run(exec_, stage::halo, [&] { sand_->share(); });
+        }
         clock.run(exec_, stage::grid, [&] { sand_->update_grid(step.dt, damping_); });
         clock.run(exec_, stage::gather, [&] { sand_->gather(step.dt); });
     }
@@ -261,31 +273,9 @@ template<class Exec, class Real>
 double Simulation<Exec, Real>::surface_height()
 {
     if (!sand_) { return 0; }
-    const std::vector<Vec3<double>>         positions = sand_->positions();
-    const std::vector<BodyRow>              bodies    = named_bodies();
-    std::map<std::pair<long, long>, double> highest;
-    for (const Vec3<double>& x : positions)
-    {
-        double& top = highest[{std::lround(x[0] / scene_.grid.spacing), std::lround(x[1] / scene_.grid.spacing)}];
-        top         = std::max(top, x[2]);
-    }
-    std::vector<double> heights;
-    for (const auto& [column, top] : highest)
-    {
-        const bool under = std::any_of(bodies.begin(), bodies.end(),
-                                       [&, at = column](const BodyRow& body)
-                                       {
-                                           return std::abs(body.position[0] - scene_.grid.spacing * double(at.first)) <
-                                                  1.2 * (body.position[2] - body.lowest);
-                                       });
-        if (!under) { heights.push_back(top); }
-    }
-    if (heights.empty())
-    {
-        for (const auto& [column, top] : highest) { heights.push_back(top); }
-    }
-    std::nth_element(heights.begin(), heights.begin() + static_cast<long>(heights.size() / 2), heights.end());
-    return heights[heights.size() / 2] + 0.5 * world_.point_spacing;
+    SurfaceColumns columns = surface_columns(sand_->positions(), scene_.grid.spacing);
+    if (decomposition_ != nullptr) { columns = gathered(columns, decomposition_->communicator); }
+    return middle_height(columns, named_bodies(), scene_.grid.spacing) + 0.5 * world_.point_spacing;
 }
 
 template class Simulation<Cpu, float>;

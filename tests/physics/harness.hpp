@@ -30,11 +30,12 @@ public:
     {
     }
 
-    /// `ranks`: null for the whole scene on this one.
-    Experiment(const Exec& exec, scene::Scene scene, solver::World world, const solver::Ranks<Exec>* ranks = nullptr)
+    /// `decomposition`: null for the whole scene on this rank.
+    Experiment(const Exec& exec, scene::Scene scene, solver::World world,
+               decomp::Decomposition<Exec>* decomposition = nullptr)
         : scene_(std::move(scene))
         , world_(std::move(world))
-        , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_), ranks)
+        , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_), decomposition)
         , phases_(scene_)
     {
     }

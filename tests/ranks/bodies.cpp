@@ -60,8 +60,7 @@ position = [0.17, 0.1, 0.021]
 velocity = [0.8, 0.0, 0.0]
 lock = ["roll", "pitch", "yaw"]
 )" + fixed_step(2e-4) + test::phase("slide", 0, 1);
-    test::SideBySide<TypeParam> run(this->exec(), text,
-                                    test::territory_of({0.005, 0.5}, size, test::slabs(size[0], this->ranks())));
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(text), size, test::slabs(size[0], this->ranks()));
     double                      largest = 0, force = 0;
     for (int step = 0; step < 200; ++step)
     {
@@ -105,16 +104,14 @@ region = {{ box = [[0.0, 0.0, 0.0], [0.2, 0.13, 0.13]] }}
 
 const Vec3<double> heap_size(0.4, 0.13, 0.2);
 
-decomp::Territory heap_territory(int parts)
-{
-    return test::territory_of({0.005, 0.5}, heap_size, test::slabs(heap_size[0], parts));
-}
+auto heap_slabs(int parts) { return test::slabs(heap_size[0], parts); }
 
 /// Rocks whose place belongs to another rank than it did.
-int migrated(const decomp::Territory& territory, const std::vector<double>& before, const std::vector<double>& after)
+template<class Exec>
+int migrated(const test::SideBySide<Exec>& run, const std::vector<double>& before, const std::vector<double>& after)
 {
     const auto owner = [&](const std::vector<double>& at, std::size_t b)
-    { return territory.owner_of(Vec3<double>(at[3 * b], at[3 * b + 1], at[3 * b + 2])); };
+    { return run.owner_of(Vec3<double>(at[3 * b], at[3 * b + 1], at[3 * b + 2])); };
     int moved = 0;
     for (std::size_t b = 0; 3 * b < before.size(); ++b) { moved += owner(before, b) != owner(after, b) ? 1 : 0; }
     return moved;
@@ -153,11 +150,11 @@ void expect_as_alone(test::SideBySide<Exec>& run, int steps, double diameter, do
 
 TYPED_TEST(BodiesOfRanks, AHeapOfRocksMigrates)
 {
-    const decomp::Territory     territory = heap_territory(this->ranks());
-    test::SideBySide<TypeParam> run(this->exec(), heap(1000, ball()), territory);
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(heap(1000, ball())), heap_size,
+                                    heap_slabs(this->ranks()));
     const auto                  before = run.together.simulation().body_fields().position;
     expect_as_alone(run, 200, 0.01, 1e-8);
-    const int moved = migrated(territory, before, run.together.simulation().body_fields().position);
+    const int moved = migrated(run, before, run.together.simulation().body_fields().position);
     std::printf("%d of 1000 rocks changed their rank\n", moved);
     if (this->ranks() > 1) { EXPECT_GT(moved, 50); }
 }
@@ -174,7 +171,8 @@ TYPED_TEST(BodiesOfRanks, TwoRunsGiveTheSameBits)
     io::BodyFields last;
     for (int pass = 0; pass < 2; ++pass)
     {
-        test::SideBySide<TypeParam> run(this->exec(), heap(150, clast(162)), heap_territory(this->ranks()));
+        test::SideBySide<TypeParam> run(this->exec(), test::load_text(heap(150, clast(162))), heap_size,
+                                        heap_slabs(this->ranks()));
         for (int step = 0; step < 100; ++step) { run.together.advance(); }
         const io::BodyFields now = run.together.simulation().body_fields();
         if (pass > 0)

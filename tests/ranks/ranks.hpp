@@ -9,14 +9,21 @@
 
 #include "mpi_session.hpp"
 #include "physics/harness.hpp"
+#include "solver/page_loads.hpp"
 
 // A scene on all ranks together beside the same scene on this one alone: the answer that the ranks are held to.
 namespace tread::test
 {
 
 /// The pages of a box from the origin on, of the rank that owner(centre of a page) says.
+struct OwnedPages
+{
+    std::vector<std::uint64_t> key;
+    decomp::PageRanks          rank;
+};
+
 template<class Owner>
-decomp::Territory territory_of(const decomp::PageLattice& lattice, const Vec3<double>& size, Owner owner)
+OwnedPages pages_of(const decomp::PageLattice& lattice, const Vec3<double>& size, Owner owner)
 {
     const double width = mpm::page_edge * lattice.spacing;
     const auto   pages = [&](int c) { return static_cast<std::int32_t>(std::ceil(size[c] / width)) + 1; };
@@ -34,14 +41,13 @@ decomp::Territory territory_of(const decomp::PageLattice& lattice, const Vec3<do
         }
     }
     std::sort(owned.begin(), owned.end());
-    std::vector<std::uint64_t> keys;
-    decomp::PageRanks          ranks;
+    OwnedPages found;
     for (const auto& [key, rank] : owned)
     {
-        keys.push_back(key);
-        ranks.push_back(rank);
+        found.key.push_back(key);
+        found.rank.push_back(rank);
     }
-    return {lattice, keys, ranks};
+    return found;
 }
 
 /// Slabs along x, of equal width, for the first `parts` ranks.
@@ -72,12 +78,13 @@ template<class Exec>
 class SideBySide
 {
 public:
-    SideBySide(const Exec& exec, const std::string& text, decomp::Territory where)
-        : territory_(std::move(where))
-        , transport_(world(), exec, decomp::TransportChoice::automatic)
-        , ranks_{transport_, territory_}
-        , alone(exec, text)
-        , together(exec, load_text(text), solver::build_world(load_text(text)), &ranks_)
+    /// owner(place) names a rank for every place of a box of this size (m) from the origin on.
+    template<class Owner>
+    SideBySide(const Exec& exec, const scene::Scene& scene, const Vec3<double>& size, Owner owner)
+        : built_(solver::build_world(scene))
+        , decomposition_(world(), exec, {decomp::TransportChoice::automatic, decomp::Checksums::on})
+        , alone(exec, scene, built_)
+        , together(exec, scene, built_, given(size, owner))
     {
     }
 
@@ -89,10 +96,26 @@ public:
         ASSERT_EQ(one.dt, all.dt);
     }
 
+    /// The rank of a place.
+    std::int32_t owner_of(const Vec3<double>& place) const
+    {
+        return decomp::Territory(lattice(), decomposition_.owners.keys(), decomposition_.owners.ranks())
+            .owner_of(place);
+    }
+
 private:
-    decomp::Territory       territory_;
-    decomp::Transport<Exec> transport_;
-    solver::Ranks<Exec>     ranks_;
+    decomp::PageLattice lattice() const { return solver::page_lattice_of(built_); }
+
+    template<class Owner>
+    decomp::Decomposition<Exec>* given(const Vec3<double>& size, Owner owner)
+    {
+        const OwnedPages pages = pages_of(lattice(), size, owner);
+        decomposition_.owners.assign(pages.key, pages.rank);
+        return &decomposition_;
+    }
+
+    solver::World               built_;
+    decomp::Decomposition<Exec> decomposition_;
 
 public:
     Experiment<Exec> alone, together;
