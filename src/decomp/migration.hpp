@@ -24,12 +24,19 @@ public:
     std::int64_t run(mpm::Points<Exec, Real>& points, const mpm::GridGeometry& geometry,
                      mpm::OrderScratch<Exec, Real>& scratch);
 
+    /// Ids of the points that went to each rank in the last run, ascending: what belongs to them can follow.
+    const std::vector<std::vector<std::uint32_t>>& departed() const { return departed_; }
+
 private:
     void adopt_pages();
+    void note_departed(mpm::Points<Exec, Real>& points, const std::vector<std::int32_t>& owner);
 
     Decomposition<Exec>& decomposition_;
     mpm::Leaving<Exec>   leaving_;
     Exchange<Exec>       exchange_;
+
+    Array<Exec, std::uint32_t>              ids_;
+    std::vector<std::vector<std::uint32_t>> departed_;
 };
 
 } // namespace tread::decomp

@@ -56,6 +56,20 @@ Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, cons
 }
 
 template<class Exec, class Real>
+void Coupling<Exec, Real>::send_after(const std::vector<std::vector<std::uint32_t>>& departed)
+{
+    std::vector<std::vector<contact::HistoryRecord>> leaving;
+    leaving.reserve(departed.size());
+    for (const auto& ids : departed) { leaving.push_back(contact::records_of(exec_, contact_.history, ids)); }
+    std::vector<contact::HistoryRecord> arriving;
+    for (const auto& records : decomp::exchange_values(*communicator_, leaving))
+    {
+        arriving.insert(arriving.end(), records.begin(), records.end());
+    }
+    contact::add_records(exec_, contact_.history, arriving);
+}
+
+template<class Exec, class Real>
 void Coupling<Exec, Real>::begin_step(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
                                       const dem::BodiesView& bodies, double dt, double speed)
 {

@@ -15,6 +15,10 @@ public:
     Coupling(const Exec& exec, const scene::Scene& scene, const World& world, const dem::TemplateView* templates,
              dem::PairTable pairs, decomp::Decomposition<Exec>* decomposition = nullptr);
 
+    /// Collective, on several ranks: what contacts remember of points goes to the ranks that these (by id, ascending,
+    /// of each rank) have gone to.
+    void send_after(const std::vector<std::vector<std::uint32_t>>& departed);
+
     /// 2. Candidates of the step; nothing moves further in it than `speed` allows.
     void begin_step(const mpm::PointsView<Real>& points, const mpm::PagesView& pages, const dem::BodiesView& bodies,
                     double dt, double speed);

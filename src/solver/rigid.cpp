@@ -21,7 +21,9 @@ namespace tread::solver
 namespace
 {
 
-constexpr double sand_reach = 2; ///< spacings: how far sand may come, radius and all, while a list of pairs holds
+/// Spacings: how far from the pages of its rank sand may be met. Points may be a page beyond before they change their
+/// rank, and have a radius.
+constexpr double sand_reach = mpm::page_edge + 2;
 
 std::vector<double> bounding_radii(const World& world)
 {

@@ -169,6 +169,7 @@ mpm::PagesView Sand<Exec, Real>::pages() const
 template<class Exec, class Real>
 void Sand<Exec, Real>::order()
 {
+    migrated_ = 0;
     if (listed_) { return; }
     listed_ = true;
     if (steps_ > 0)
@@ -198,7 +199,7 @@ void Sand<Exec, Real>::list_anew()
 template<class Exec, class Real>
 void Sand<Exec, Real>::order_in_memory()
 {
-    if (migration_) { migration_->run(points_, geometry_, order_scratch_); }
+    if (migration_) { migrated_ = migration_->run(points_, geometry_, order_scratch_); }
     mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_);
     if (halo_) { halo_->plan(pages_, walls_); }
     relists_                       = 0;

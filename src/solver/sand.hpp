@@ -54,6 +54,10 @@ public:
     /// waits, when the report says that one comes near pages that are not listed.
     void order();
 
+    /// Points that changed their rank in the last order(), of all ranks; and of this one, by rank that they went to.
+    std::int64_t                                   migrated() const { return migrated_; }
+    const std::vector<std::vector<std::uint32_t>>& departed() const { return migration_->departed(); }
+
     /// 4. P2G.
     void scatter();
 
@@ -118,12 +122,13 @@ private:
     bool                                         cell_means_; ///< of volumetric strain, and of pressure
     Array<Exec, Real>                            cell_divergence_;
     Array<Exec, Real>                            shared_stress_;
-    double                                       mass_    = 0;
-    std::int64_t                                 step_    = 0;               ///< number of the last one
-    std::int64_t                                 steps_   = 0;               ///< since the last report
-    mpm::Stir                                    stir_    = mpm::Stir::lost; ///< in those before it
-    bool                                         listed_  = false;           ///< since the last step
-    int                                          relists_ = 0;               ///< since they were last ordered in memory
+    double                                       mass_     = 0;
+    std::int64_t                                 step_     = 0;               ///< number of the last one
+    std::int64_t                                 steps_    = 0;               ///< since the last report
+    mpm::Stir                                    stir_     = mpm::Stir::lost; ///< in those before it
+    std::int64_t                                 migrated_ = 0;               ///< in the last order()
+    bool                                         listed_   = false;           ///< since the last step
+    int                                          relists_  = 0; ///< since they were last ordered in memory
 };
 
 } // namespace tread::solver

@@ -81,6 +81,7 @@ TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& cl
     {
         guard_->allow(step, time);
         clock.run(exec_, stage::order, [&] { sand_->order(); });
+        if (coupling_ && sand_->migrated() > 0) { coupling_->send_after(sand_->departed()); }
     }
     if (plan_.body_contact)
     {
