@@ -110,17 +110,19 @@ private:
     decomp::PageLattice          lattice_;
     Exec                         exec_;
 
-    double                      sand_reach_;
-    std::vector<double>         bounding_radius_; ///< m, by body
-    std::vector<std::int32_t>   role_;            ///< by body
-    decomp::Exchange<Exec>      states_;
-    Array<Exec, std::int32_t>   arriving_;
-    Array<Exec, std::int32_t>   shared_body_;
-    Array<Exec, std::int32_t>   shared_place_;
-    Array<Exec, std::int32_t>   shared_first_;
-    Array<Exec, std::int32_t>   shared_row_;
-    Shares<dem::WrenchShare>    wrench_;
-    Shares<dem::StiffnessShare> stiffness_;
+    double                           sand_reach_;
+    std::int64_t                     pages_known_ = 0; ///< changes of the map of pages that the territory has
+    std::optional<decomp::Territory> territory_;
+    std::vector<double>              bounding_radius_; ///< m, by body
+    std::vector<std::int32_t>        role_;            ///< by body
+    decomp::Exchange<Exec>           states_;
+    Array<Exec, std::int32_t>        arriving_;
+    Array<Exec, std::int32_t>        shared_body_;
+    Array<Exec, std::int32_t>        shared_place_;
+    Array<Exec, std::int32_t>        shared_first_;
+    Array<Exec, std::int32_t>        shared_row_;
+    Shares<dem::WrenchShare>         wrench_;
+    Shares<dem::StiffnessShare>      stiffness_;
 };
 
 } // namespace tread::solver
