@@ -64,7 +64,6 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     , totals_(exec, "body totals")
     , impulses_(exec, "contact impulses")
     , bounding_radii_(exec, "body bounding radii")
-    , activity_(exec, "body activity")
     , sums_(exec, "body sums", dem::body_total_width)
     , strays_(exec)
     , released_(static_cast<std::size_t>(named_), false)
@@ -91,7 +90,6 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     const auto count = static_cast<std::int64_t>(world.bodies.size());
     totals_.resize(count);
     totals_.fill_zero();
-    activity_.resize(count);
     const std::vector<double> radii = bounding_radii(world);
     bounding_radii_.assign(radii);
     smallest_radius_ = *std::min_element(radii.begin(), radii.end());
@@ -332,18 +330,20 @@ RigidReport Rigid<Exec>::report(double time)
 {
     RigidReport report;
     take_totals(report);
-    dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity_.data());
-    const double*     activity = reinterpret_cast<const double*>(activity_.data());
-    constexpr int     width    = sizeof(dem::BodyActivity) / sizeof(double);
+    const std::int64_t             count = bodies_.position.size();
+    Array<Exec, dem::BodyActivity> activity(exec_, "body activity", count);
+    dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity.data());
+    const double*     values = reinterpret_cast<const double*>(activity.data());
+    constexpr int     width  = sizeof(dem::BodyActivity) / sizeof(double);
     dem::BodyActivity found;
-    largest_of_rows(exec_, activity, activity_.size(), width, sums_.data());
+    largest_of_rows(exec_, values, count, width, sums_.data());
     copy_to_host(exec_, &found, sums_.data(), sizeof(found));
     report.largest_speed = found.speed;
-    sum_rows(exec_, activity, activity_.size(), width, sums_.data());
+    sum_rows(exec_, values, count, width, sums_.data());
     copy_to_host(exec_, &found, sums_.data(), sizeof(found));
     report.net_force    = found.net_force;
     report.weight_power = found.weight_power;
-    together([&] { check(report, time); });
+    together([&] { check(report, activity, time); });
     if (ranks_) { add_up(report); }
     report.substep = substep_;
     return report;
@@ -351,7 +351,7 @@ RigidReport Rigid<Exec>::report(double time)
 
 /// Of this rank's bodies.
 template<class Exec>
-void Rigid<Exec>::check(RigidReport& report, double time)
+void Rigid<Exec>::check(RigidReport& report, const Array<Exec, dem::BodyActivity>& activity, double time)
 {
     if (!std::isfinite(report.net_force) || !std::isfinite(report.largest_speed))
     {
@@ -359,7 +359,7 @@ void Rigid<Exec>::check(RigidReport& report, double time)
         throw NumericalError(fmt::format("t = {:.6g} s: the sum of the forces on bodies is not a number", time));
     }
     if (!contacts_) { return; }
-    require_resolved(time, report.largest_speed);
+    require_resolved(time, report.largest_speed, activity);
     require_listed(time);
     report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time));
 }

@@ -108,7 +108,7 @@ private:
     void   list_pairs_anew(double dt);
     bool   list_holds(double dt);
     double largest_stray_ahead(double ahead);
-    void   check(RigidReport& report, double time);
+    void   check(RigidReport& report, const Array<Exec, dem::BodyActivity>& activity, double time);
     void   add_up(RigidReport& report) const;
 
     dem::SharedView shared() { return ranks_ ? ranks_->shared() : dem::SharedView{}; }
@@ -123,7 +123,7 @@ private:
     }
     void   require_finite(double time);
     void   require_listed(double time);
-    void   require_resolved(double time, double speed);
+    void   require_resolved(double time, double speed, const Array<Exec, dem::BodyActivity>& activity);
     void   take_totals(RigidReport& report);
     double guard(double time);
 
@@ -143,7 +143,6 @@ private:
     dem::BodyTotals<Exec>                   totals_;
     Array<Exec, dem::ContactImpulse>        impulses_; ///< of the named bodies, since begin_mean()
     Array<Exec, double>                     bounding_radii_;
-    Array<Exec, dem::BodyActivity>          activity_;
     Array<Exec, double>                     sums_;
     dem::Strays<Exec>                       strays_;
     double                                  smallest_radius_ = 0;     ///< m, of the bounding spheres
