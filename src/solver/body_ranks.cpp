@@ -58,6 +58,7 @@ BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const Wor
     , shared_row_(exec_, "rows of shares")
     , wrench_(decomposition.transport, "shares of wrenches")
     , stiffness_(decomposition.transport, "shares of stiffness")
+    , speed_(decomposition.transport, "shares of speeds")
 {
     look_at_pages();
     const std::int32_t here = communicator_.rank();
@@ -279,6 +280,7 @@ void BodyRanks<Exec>::plan_sharing(const std::vector<Holding>& held)
     };
     prepare(wrench_);
     prepare(stiffness_);
+    prepare(speed_);
 }
 
 template<class Exec>
@@ -293,8 +295,8 @@ void BodyRanks<Exec>::pass_on(Shares<Share>& shares)
 template<class Exec>
 dem::SharedView BodyRanks<Exec>::shared()
 {
-    return {shared_body_.size(), shared_body_.data(), shared_place_.data(),  shared_first_.data(),
-            shared_row_.data(),  wrench_.rows.data(), stiffness_.rows.data()};
+    return {shared_body_.size(), shared_body_.data(), shared_place_.data(),   shared_first_.data(),
+            shared_row_.data(),  wrench_.rows.data(), stiffness_.rows.data(), speed_.rows.data()};
 }
 
 template<class Exec>

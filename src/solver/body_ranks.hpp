@@ -53,6 +53,7 @@ public:
     /// Where no rank shares a body with another, nothing is ever sent. Not collective: of those that share some.
     void exchange_wrenches() { pass_on(wrench_); }
     void exchange_stiffness() { pass_on(stiffness_); }
+    void exchange_speeds() { pass_on(speed_); }
 
     /// Every rank knows the state of all bodies, until they move.
     void collect(dem::Bodies<Exec>& bodies);
@@ -123,6 +124,7 @@ private:
     Array<Exec, std::int32_t>        shared_row_;
     Shares<dem::WrenchShare>         wrench_;
     Shares<dem::StiffnessShare>      stiffness_;
+    Shares<double>                   speed_;
 };
 
 } // namespace tread::solver

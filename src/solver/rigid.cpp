@@ -211,12 +211,16 @@ void Rigid<Exec>::find_pairs(double dt)
     dem::expect_shared_contacts(exec_, pairs_, shared());
 }
 
+/// Nothing is changed before all ranks know that the list holds for all.
 template<class Exec>
 bool Rigid<Exec>::list_holds(double dt)
 {
-    const bool here = listed_ && !(ranks_ && ranks_->pages_have_changed()) && largest_stray_ahead(dt) <= 1 &&
-                      (!pairs_.patches.wanted || dem::regroup_patches(exec_, pairs_, bodies_.view(), law_));
-    return ranks_ ? ranks_->all(here) : here;
+    const auto all = [&](bool here) { return ranks_ ? ranks_->all(here) : here; };
+    if (!all(listed_ && !(ranks_ && ranks_->pages_have_changed()) && largest_stray_ahead(dt) <= 1)) { return false; }
+    if (!pairs_.patches.wanted) { return true; }
+    if (!all(dem::patch_rows_suffice(exec_, pairs_, bodies_.view(), law_))) { return false; }
+    dem::regroup_patches(exec_, pairs_, bodies_.view(), law_);
+    return true;
 }
 
 template<class Exec>
@@ -228,7 +232,13 @@ double Rigid<Exec>::largest_stray_ahead(double ahead)
 template<class Exec>
 void Rigid<Exec>::list_pairs_anew(double dt)
 {
-    dem::want_travel(exec_, pairs_, bodies_.view(), law_, dt);
+    dem::begin_list(exec_, pairs_, bodies_.view(), law_);
+    if (shares())
+    {
+        dem::share_speeds(exec_, pairs_, bodies_.view(), shared());
+        ranks_->exchange_speeds();
+    }
+    dem::want_travel(exec_, pairs_, bodies_.view(), law_, dt, shared());
     if (ranks_) { ranks_->sum_wanted_travel(pairs_); }
     dem::grant_travel(exec_, pairs_, bodies_.view(), law_, dt);
     if (ranks_) { ranks_->deal(bodies_, pairs_); }

@@ -77,7 +77,7 @@ TYPED_TEST(CoupledRanks, AWheelStandsOnTheCornerOfFour)
 TYPED_TEST(CoupledRanks, AWheelPloughsOverTheBorders)
 {
     const scene::Scene scene = test::load_text(
-        test::roller_text + "\n", {"body[0].position=[0.14, 0.2, 0.295]", "body[0].velocity=[0.5, 0.0, -0.2]",
+        test::roller_text + "\n", {"body[0].position=[0.14, 0.2, 0.305]", "body[0].velocity=[0.5, 0.0, -0.5]",
                                    "body[0].lock=[\"y\", \"roll\", \"pitch\", \"yaw\"]", "phase[0].duration=1.0"});
     test::SideBySide<TypeParam> run(this->exec(), scene, size, test::slabs(size[0], this->ranks()));
     expect_as_alone(run, 200);

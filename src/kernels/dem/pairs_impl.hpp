@@ -359,20 +359,47 @@ void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 }
 
 template<class Exec>
-void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     pair_steps::end_substeps(pairs);
     pairs.key.swap(pairs.last_key);
     pairs.patch.swap(pairs.last_patch);
     pairs.rolling.swap(pairs.last_rolling);
     pairs.patches.place.swap(pairs.patches.last_place);
-    pair_steps::want_travel(exec, pairs, bodies, law.templates, dt);
+    pairs.travel.resize(bodies.count);
+    pairs.reach.resize(bodies.count);
+    pairs.measure.resize(1);
+    for_each(exec, "body speeds", bodies.count, pair_steps::WriteSpeed{bodies, law.templates, pairs.reach.data()});
+}
+
+template<class Exec>
+void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared)
+{
+    for_each(exec, "share speeds", shared.count,
+             pair_steps::ShareFastestNear{pair_steps::fastest_near(pairs, bodies), shared});
+}
+
+template<class Exec>
+void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                 const SharedView& shared)
+{
+    using namespace pair_steps;
+    const auto write = [&](const auto& near)
+    {
+        for_each(exec, "body motion", bodies.count,
+                 WriteMore{bodies, law.templates, dt, pairs.reach.data(), near, pairs.travel.data()});
+    };
+    if (bodies.role == nullptr) { write(fastest_near(pairs, bodies)); }
+    else { write(FastestNearOfAllRanks{fastest_near(pairs, bodies), shared}); }
+    sum_rows(exec, pairs.travel.data(), bodies.count, 1, pairs.measure.data());
 }
 
 template<class Exec>
 void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    pair_steps::grant_travel(exec, pairs, bodies, law.templates, dt);
+    for_each(exec, "body reach", bodies.count,
+             pair_steps::WriteReach{bodies, law.templates, pairs.is_large.data(), dt, pairs.measure.data(),
+                                    pairs.travel.data(), pairs.reach.data()});
 }
 
 template<class Exec>
@@ -401,7 +428,8 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    want_travel(exec, pairs, bodies, law, dt);
+    begin_list(exec, pairs, bodies, law);
+    want_travel(exec, pairs, bodies, law, dt, {});
     grant_travel(exec, pairs, bodies, law, dt);
     list_pairs(exec, pairs, bodies, law);
 }

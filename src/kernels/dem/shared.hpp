@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "kernels/dem/outside.hpp"
@@ -33,6 +34,7 @@ struct SharedView
 
     WrenchShare*    wrench    = nullptr; ///< [rows], this rank's own first, [count]
     StiffnessShare* stiffness = nullptr; ///< likewise
+    double*         speed     = nullptr; ///< likewise: m/s, of the fastest body near it
 
     TREAD_HD bool is_shared(std::int64_t b) const { return place != nullptr && place[b] >= 0; }
 };
@@ -47,6 +49,17 @@ TREAD_HD WrenchShare wrench_of(const SharedView& shared, std::int64_t i)
         sum                      = {sum.outside + share.outside, sum.pairs + share.pairs};
     }
     return sum;
+}
+
+/// The largest of the shares of body[i].
+TREAD_HD double speed_of_all(const SharedView& shared, std::int64_t i)
+{
+    double largest = 0;
+    for (std::int32_t r = shared.first[i]; r < shared.first[i + 1]; ++r)
+    {
+        largest = std::fmax(largest, shared.speed[shared.row[r]]);
+    }
+    return largest;
 }
 
 TREAD_HD StiffnessShare stiffness_of(const SharedView& shared, std::int64_t i)

@@ -29,39 +29,66 @@ struct LastPairs
     const std::int32_t*  second;
 };
 
-/// What a body would have of Travel::more. A large one has too many near it to ask.
-struct WriteMore
+/// m/s, of the fastest body that was near this one in the last list. A large one has too many near it to ask.
+struct FastestNear
 {
-    BodiesView          bodies;
-    const TemplateView* templates;
+    std::int64_t        bodies; ///< how many
     const std::int32_t* is_large;
     LastPairs           last;
-    double              dt;
     const double*       speed;
-    double*             more;
 
-    TREAD_HD void operator()(std::int64_t b) const
-    {
-        more[b] = bodies.is_owned(b)
-                      ? travel_of(bounding_radius(bodies, templates, b), speed[b], fastest_near(b), dt).more
-                      : 0.0;
-    }
-
-private:
-    TREAD_HD double fastest_near(std::int64_t b) const
+    TREAD_HD double operator()(std::int64_t b) const
     {
         double fastest = speed[b];
         if (last.first == nullptr || is_large[b] != 0) { return fastest; }
         for (std::int32_t p = last.first[b]; p < last.first[b + 1]; ++p)
         {
             const std::int64_t other = second_of(last.key[p]);
-            if (other < bodies.count) { fastest = std::fmax(fastest, speed[other]); }
+            if (other < bodies) { fastest = std::fmax(fastest, speed[other]); }
         }
         for (std::int32_t i = last.second[b]; i < last.second[b + 1]; ++i)
         {
             fastest = std::fmax(fastest, speed[first_of(last.key[last.by_second[i]])]);
         }
         return fastest;
+    }
+};
+
+/// This rank's share of the same.
+struct ShareFastestNear
+{
+    FastestNear near;
+    SharedView  shared;
+
+    TREAD_HD void operator()(std::int64_t i) const { shared.speed[i] = near(shared.body[i]); }
+};
+
+struct FastestNearOfAllRanks
+{
+    FastestNear near;
+    SharedView  shared;
+
+    TREAD_HD double operator()(std::int64_t b) const
+    {
+        return shared.is_shared(b) ? speed_of_all(shared, shared.place[b]) : near(b);
+    }
+};
+
+/// What an owned body would have of Travel::more. Near: FastestNear or FastestNearOfAllRanks.
+template<class Near>
+struct WriteMore
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    double              dt;
+    const double*       speed;
+    Near                near;
+    double*             more;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        more[b] =
+            bodies.is_owned(b) ? travel_of(bounding_radius(bodies, templates, b), speed[b], near(b), dt).more : 0.0;
     }
 };
 
@@ -101,26 +128,10 @@ struct WriteReachAgain
 };
 
 template<class Exec>
-void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates,
-                 double dt)
+FastestNear fastest_near(Pairs<Exec>& pairs, const BodiesView& bodies)
 {
-    pairs.travel.resize(bodies.count);
-    pairs.reach.resize(bodies.count);
-    pairs.measure.resize(1);
-    for_each(exec, "body speeds", bodies.count, WriteSpeed{bodies, templates, pairs.reach.data()});
     const LastPairs last{pairs.last_key.data(), pairs.first.data(), pairs.by_second.data(), pairs.second.data()};
-    for_each(exec, "body motion", bodies.count,
-             WriteMore{bodies, templates, pairs.is_large.data(), last, dt, pairs.reach.data(), pairs.travel.data()});
-    sum_rows(exec, pairs.travel.data(), bodies.count, 1, pairs.measure.data());
-}
-
-template<class Exec>
-void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates,
-                  double dt)
-{
-    for_each(exec, "body reach", bodies.count,
-             WriteReach{bodies, templates, pairs.is_large.data(), dt, pairs.measure.data(), pairs.travel.data(),
-                        pairs.reach.data()});
+    return {bodies.count, pairs.is_large.data(), last, pairs.reach.data()};
 }
 
 } // namespace tread::dem::pair_steps

@@ -76,7 +76,8 @@ public:
 
     dem::SharedView shared()
     {
-        return {count, body_.data(), body_.data(), first_.data(), row_.data(), wrench_.data(), stiffness_.data()};
+        return {count,       body_.data(),   body_.data(),      first_.data(),
+                row_.data(), wrench_.data(), stiffness_.data(), nullptr};
     }
 
     /// What would come by message.
@@ -125,10 +126,10 @@ double furthest(const std::vector<Vec3<double>>& one, const std::vector<Vec3<dou
 
 TYPED_TEST(SharedBodies, MoveAsThoseOfOneRank)
 {
-    using Scene = typename TestFixture::Scene;
-    using Rank  = Half<TypeParam, Scene>;
+    using Whole = typename TestFixture::Scene;
+    using Rank  = Half<TypeParam, Whole>;
     const BumpyBody bumpy(32);
-    Scene           whole(this->exec(), {bumpy.shape(162)}, heap(bumpy), stone());
+    Whole           whole(this->exec(), {bumpy.shape(162)}, heap(bumpy), stone());
     Rank            even(this->exec(), bumpy, 0), odd(this->exec(), bumpy, 1);
     whole.find(25 * dt);
     even.scene.find(25 * dt);
@@ -172,10 +173,10 @@ TYPED_TEST(SharedBodies, MoveAsThoseOfOneRank)
 
 TYPED_TEST(SharedBodies, ExpectTheContactsOfAllRanks)
 {
-    using Scene = typename TestFixture::Scene;
-    using Rank  = Half<TypeParam, Scene>;
+    using Whole = typename TestFixture::Scene;
+    using Rank  = Half<TypeParam, Whole>;
     const BumpyBody bumpy(32);
-    Scene           whole(this->exec(), {bumpy.shape(162)}, heap(bumpy), stone());
+    Whole           whole(this->exec(), {bumpy.shape(162)}, heap(bumpy), stone());
     Rank            even(this->exec(), bumpy, 0), odd(this->exec(), bumpy, 1);
     whole.find(dt);
     even.scene.find(dt);
