@@ -56,6 +56,7 @@ int main(int argc, char** argv)
     add_word<decomp::TransportChoice>(*scaling_command, "--transport", transport,
                                       {{"auto", decomp::TransportChoice::automatic},
                                        {"mpi", decomp::TransportChoice::mpi},
+                                       {"nccl", decomp::TransportChoice::nccl},
                                        {"host", decomp::TransportChoice::host}});
     for (CLI::App* command : {mpm_command, scaling_command}) { add_mpm_options(*command, mpm, points); }
     bench::DemCase dem;
