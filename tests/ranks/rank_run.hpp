@@ -28,12 +28,13 @@ template<class Exec, class Real>
 class RankRun
 {
 public:
-    RankRun(const Exec& exec, const std::string& text, Ranks ranks, const OwnerOf& owner_of = {})
+    RankRun(const Exec& exec, const std::string& text, Ranks ranks, const OwnerOf& owner_of = {},
+            decomp::TransportChoice transport = decomp::TransportChoice::automatic)
         : scene_(load_text(text))
         , world_(solver::build_world(scene_))
         , phases_(scene_)
     {
-        if (ranks == Ranks::all) { decompose(exec, owner_of); }
+        if (ranks == Ranks::all) { decompose(exec, owner_of, transport); }
         simulation_ = std::make_unique<solver::Simulation<Exec, Real>>(
             exec, scene_, world_, solver::make_plan(scene_, world_), decomposition_.get());
     }
@@ -55,6 +56,9 @@ public:
     solver::Simulation<Exec, Real>& simulation() { return *simulation_; }
     double                          time() const { return time_; }
 
+    /// Of a run on all ranks.
+    const decomp::Transport<Exec>& transport() const { return decomposition_->transport; }
+
     /// This rank's.
     io::PointFields points() { return simulation_->point_fields(); }
 
@@ -62,9 +66,10 @@ public:
     solver::EnergyRow energy() { return simulation_->ledger().energy(simulation_->census()); }
 
 private:
-    void decompose(const Exec& exec, const OwnerOf& owner_of)
+    void decompose(const Exec& exec, const OwnerOf& owner_of, decomp::TransportChoice transport)
     {
         decomp::DecompositionOptions options;
+        options.transport = transport;
         options.checksums = decomp::Checksums::on;
         decomposition_    = std::make_unique<decomp::Decomposition<Exec>>(test::world(), exec, options);
         solver::share_out(*decomposition_, world_);

@@ -174,6 +174,18 @@ TYPED_TEST(RankSand, IsTheSameEveryTime)
     }
 }
 
+TYPED_TEST(RankSand, IsTheSameByEveryTransport)
+{
+    typename TestFixture::Run any(this->exec(), column_text(), test::Ranks::all);
+    typename TestFixture::Run host(this->exec(), column_text(), test::Ranks::all, {}, decomp::TransportChoice::host);
+    std::cout << fmt::format("[ ranks    ] '{}' against '{}'\n", any.transport().description(),
+                             host.transport().description());
+    any.step(50);
+    host.step(50);
+    EXPECT_EQ(any.points().position, host.points().position);
+    EXPECT_EQ(any.points().stress, host.points().stress);
+}
+
 /// Rank after rank gets the block and loses it again.
 TYPED_TEST(RankSand, RanksBecomeEmptyAndFillAgain)
 {
