@@ -256,6 +256,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments)
     add_word_option<decomp::TransportChoice>(command, "--transport", arguments.options.decomposition.transport,
                                              {{"auto", decomp::TransportChoice::automatic},
                                               {"mpi", decomp::TransportChoice::mpi},
+                                              {"nccl", decomp::TransportChoice::nccl},
                                               {"host", decomp::TransportChoice::host}},
                                              "What carries data between ranks with GPUs; default auto");
     command.add_flag_callback(

@@ -15,7 +15,7 @@ std::int64_t rows_of(const std::vector<Leg>& legs)
 }
 
 /// The legs' parts of a packed buffer.
-void write_parcels(const std::vector<Leg>& legs, std::int64_t row_bytes, std::vector<Parcel>& parcels)
+void write_parcels(const std::vector<Leg>& legs, std::int64_t row_bytes, Parcels& parcels)
 {
     parcels.clear();
     std::int64_t first = 0;

@@ -61,8 +61,8 @@ private:
     Array<Exec, std::int32_t> rows_;
     std::vector<Leg>          to_;
     std::vector<Leg>          from_;
-    std::vector<Parcel>       out_;
-    std::vector<Parcel>       in_;
+    Parcels                   out_;
+    Parcels                   in_;
     std::int64_t              received_ = 0;
     const std::uint32_t*      arriving_ = nullptr;
 };

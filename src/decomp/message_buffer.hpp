@@ -14,8 +14,9 @@ namespace tread::decomp
 /// What carries bytes from rank to rank.
 enum class Carrier
 {
-    mpi, ///< MPI, from and to the backend's own memory
-    host ///< MPI, from and to host memory that kernels of the GPU write and read
+    mpi,  ///< MPI, from and to the backend's own memory
+    nccl, ///< NCCL, the same
+    host  ///< MPI, from and to host memory that kernels of the GPU write and read
 };
 
 /// Memory that kernels and the carrier both reach; grows only.

@@ -21,33 +21,68 @@ constexpr std::int64_t most_bytes_a_message = std::int64_t{1} << 30;
 
 struct Choice
 {
-    Carrier     carrier;
-    std::string description;
+    Carrier               carrier;
+    std::unique_ptr<Nccl> nccl;
+    std::string           description;
 };
 
-Choice choose(const Cpu&, const Communicator&, TransportChoice) { return {Carrier::mpi, "MPI"}; }
+Choice choose(const Cpu&, const Communicator&, TransportChoice) { return {Carrier::mpi, nullptr, "MPI"}; }
 
 #ifdef TREAD_WITH_CUDA
-bool mpi_knows_gpus()
+/// Whether the MPI library of every rank says so.
+bool mpi_knows_gpus(const Communicator& communicator)
 {
 #if defined(OMPI_HAVE_MPI_EXT_CUDA) && OMPI_HAVE_MPI_EXT_CUDA
-    return MPIX_Query_cuda_support() == 1;
+    const bool knows = MPIX_Query_cuda_support() == 1;
 #else
-    return false;
+    const bool knows = false;
 #endif
+    return communicator.maximum(knows ? 0 : 1) == 0;
 }
 
-/// Every rank must come to the same answer: what one MPI library can, all ranks' must.
 Choice choose(const Gpu&, const Communicator& communicator, TransportChoice choice)
 {
-    const bool aware = communicator.maximum(mpi_knows_gpus() ? 0 : 1) == 0;
-    if (choice == TransportChoice::mpi && !aware)
+    const bool any = choice == TransportChoice::automatic;
+    if (choice == TransportChoice::host) { return {Carrier::host, nullptr, "MPI through pinned host memory"}; }
+    if (choice != TransportChoice::nccl && mpi_knows_gpus(communicator))
+    {
+        return {Carrier::mpi, nullptr, "MPI from GPU memory"};
+    }
+    if (choice == TransportChoice::mpi)
     {
         throw EnvironmentError("--transport mpi: this MPI cannot send from GPU memory (MPIX_Query_cuda_support)");
     }
-    if (choice == TransportChoice::host) { return {Carrier::host, "MPI through pinned host memory"}; }
-    if (aware) { return {Carrier::mpi, "MPI from GPU memory"}; }
-    return {Carrier::host, "MPI through pinned host memory (this MPI cannot send from GPU memory)"};
+    try
+    {
+        return {Carrier::nccl, std::make_unique<Nccl>(communicator), "NCCL"};
+    }
+    catch (const EnvironmentError& error)
+    {
+        if (!any) { throw; }
+        return {Carrier::host, nullptr,
+                fmt::format("MPI through pinned host memory (this MPI cannot send from GPU memory; {})", error.what())};
+    }
+}
+#endif
+
+/// Calls f(first byte, bytes) for pieces that MPI can count; they arrive in the order in which they are sent.
+template<class F>
+void for_each_piece(const Parcel& parcel, F f)
+{
+    for (std::int64_t done = 0; done < parcel.bytes; done += most_bytes_a_message)
+    {
+        f(parcel.first + done, static_cast<int>(std::min(most_bytes_a_message, parcel.bytes - done)));
+    }
+}
+
+/// Only GPUs have it.
+void exchange_by_nccl(Transport<Cpu>&, const Parcels&, const std::byte*, const Parcels&, std::byte*) {}
+
+#ifdef TREAD_WITH_CUDA
+void exchange_by_nccl(Transport<Gpu>& transport, const Parcels& out, const std::byte* from, const Parcels& in,
+                      std::byte* to)
+{
+    transport.nccl().exchange(transport.exec(), out, from, in, to);
 }
 #endif
 
@@ -59,6 +94,7 @@ Transport<Exec>::Transport(const Communicator& communicator, const Exec& exec, T
     , exec_(exec)
 {
     Choice chosen = choose(exec, communicator, choice);
+    nccl_         = std::move(chosen.nccl);
     carrier_      = chosen.carrier;
     description_  = std::move(chosen.description);
 }
@@ -80,39 +116,46 @@ Mail<Exec>::Mail(Transport<Exec>& transport, const char* name)
 }
 
 template<class Exec>
-void Mail<Exec>::depart(const std::vector<Parcel>& out, const std::vector<Parcel>& in)
+void Mail<Exec>::depart(const Parcels& out, const Parcels& in)
 {
     turn_ = (turn_ + 1) % turns;
     requests_.clear();
     expected_.clear();
     if (out.empty() && in.empty()) { return; }
+    if (transport_->carrier() == Carrier::nccl)
+    {
+        exchange_by_nccl(*transport_, out, outgoing_.data(), in, incoming_.data());
+        return;
+    }
     // What is to go must be written, and what came last must have been read.
     synchronize(transport_->exec());
-    for (const Parcel& parcel : in) { post(parcel, false); }
-    for (const Parcel& parcel : out) { post(parcel, true); }
+    for (const Parcel& parcel : in) { post_receive(parcel); }
+    for (const Parcel& parcel : out) { post_send(parcel); }
 }
 
-/// In pieces that MPI can count; they arrive in the order in which they are sent.
 template<class Exec>
-void Mail<Exec>::post(const Parcel& parcel, bool out)
+void Mail<Exec>::post_receive(const Parcel& parcel)
 {
-    const int tag = channel_ * turns + turn_;
-    for (std::int64_t done = 0; done < parcel.bytes; done += most_bytes_a_message)
+    const auto receive = [&](std::int64_t first, int bytes)
     {
-        const auto  bytes  = static_cast<int>(std::min(most_bytes_a_message, parcel.bytes - done));
-        const auto  first  = parcel.first + done;
-        const auto& native = transport_->communicator().native();
-        requests_.emplace_back();
-        if (out)
-        {
-            check_mpi(MPI_Isend(outgoing_.data() + first, bytes, MPI_BYTE, parcel.rank, tag, native, &requests_.back()),
-                      "send");
-            continue;
-        }
-        check_mpi(MPI_Irecv(incoming_.data() + first, bytes, MPI_BYTE, parcel.rank, tag, native, &requests_.back()),
+        check_mpi(MPI_Irecv(incoming_.data() + first, bytes, MPI_BYTE, parcel.rank, channel_ * turns + turn_,
+                            transport_->communicator().native(), &requests_.emplace_back()),
                   "receive");
         expected_.push_back({parcel.rank, first, bytes});
-    }
+    };
+    for_each_piece(parcel, receive);
+}
+
+template<class Exec>
+void Mail<Exec>::post_send(const Parcel& parcel)
+{
+    const auto send = [&](std::int64_t first, int bytes)
+    {
+        check_mpi(MPI_Isend(outgoing_.data() + first, bytes, MPI_BYTE, parcel.rank, channel_ * turns + turn_,
+                            transport_->communicator().native(), &requests_.emplace_back()),
+                  "send");
+    };
+    for_each_piece(parcel, send);
 }
 
 template<class Exec>

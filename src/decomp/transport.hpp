@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "backend/array.hpp"
 #include "base/communicator.hpp"
 #include "decomp/message_buffer.hpp"
+#include "decomp/nccl.hpp"
+#include "decomp/parcel.hpp"
 
 namespace tread::decomp
 {
@@ -17,8 +20,9 @@ namespace tread::decomp
 /// What the user may ask for. All give the same bits.
 enum class TransportChoice
 {
-    automatic, ///< the first that works of: MPI from GPU memory, pinned host memory; CPUs always MPI
+    automatic, ///< the first that works of: MPI from GPU memory, NCCL, pinned host memory; CPUs always take MPI
     mpi,
+    nccl,
     host
 };
 
@@ -33,6 +37,7 @@ public:
 
     const Communicator& communicator() const { return communicator_; }
     const Exec&         exec() const { return exec_; }
+    Nccl&               nccl() { return *nccl_; }
     Carrier             carrier() const { return carrier_; }
 
     /// "pinned host memory (this MPI does not know GPUs)", for the log.
@@ -42,19 +47,12 @@ public:
     int open_channel();
 
 private:
-    const Communicator& communicator_;
-    Exec                exec_;
-    Carrier             carrier_;
-    std::string         description_;
-    int                 channels_ = 0;
-};
-
-/// Bytes in a row of a buffer that go to a rank, or come from it.
-struct Parcel
-{
-    int          rank;
-    std::int64_t first;
-    std::int64_t bytes;
+    const Communicator&   communicator_;
+    Exec                  exec_;
+    std::unique_ptr<Nccl> nccl_; ///< only if that is the carrier
+    Carrier               carrier_;
+    std::string           description_;
+    int                   channels_ = 0;
 };
 
 /// Messages of one kind between this rank and others: one set may be under way at a time. Nothing is allocated once
@@ -71,21 +69,22 @@ public:
     std::byte* incoming(std::int64_t bytes) { return incoming_.reserve(bytes); }
 
     /// Starts sending what kernels that were launched before have written to the outgoing buffer.
-    void depart(const std::vector<Parcel>& out, const std::vector<Parcel>& in);
+    void depart(const Parcels& out, const Parcels& in);
 
     /// When it returns, kernels may read the incoming buffer and write the outgoing one. EnvironmentError when MPI
     /// reports one or another rank sent less than was to come.
     void arrive();
 
 private:
-    void post(const Parcel& parcel, bool out);
+    void post_receive(const Parcel& parcel);
+    void post_send(const Parcel& parcel);
 
     Transport<Exec>*         transport_;
     MessageBuffer<Exec>      outgoing_;
     MessageBuffer<Exec>      incoming_;
     std::vector<MPI_Request> requests_;
     std::vector<MPI_Status>  states_;
-    std::vector<Parcel>      expected_; ///< of the first requests
+    Parcels                  expected_; ///< of the first requests
     int                      channel_;
     int                      turn_ = 0;
 };

@@ -1,6 +1,8 @@
 #include "solver/rank_devices.hpp"
 
 #ifdef TREAD_WITH_CUDA
+#include <set>
+
 #include <fmt/format.h>
 
 #include "backend/device.hpp"
@@ -22,13 +24,15 @@ std::string host_name()
 
 int device_of_rank(const Communicator& communicator, GpuSharing sharing)
 {
-    const int          local = communicator.local_rank(), devices = device_count();
-    const std::int64_t too_many = local >= devices && sharing == GpuSharing::refused ? 1 : 0;
-    if (communicator.maximum(too_many) > 0)
+    const int                      device = communicator.local_rank() % device_count();
+    const std::vector<std::string> chips  = communicator.gather(host_name() + device_facts(device).identity);
+    const std::set<std::string>    used(chips.begin(), chips.end());
+    if (used.size() < chips.size() && sharing == GpuSharing::refused)
     {
-        throw EnvironmentError("more ranks than GPUs on a machine: start one rank a GPU, or take --share-gpus");
+        throw EnvironmentError(fmt::format("{} ranks, but {} GPUs: start one rank a GPU, or take --share-gpus",
+                                           chips.size(), used.size()));
     }
-    return local % devices;
+    return device;
 }
 
 std::vector<std::string> say_devices(const Communicator& communicator, Log& log, int device)

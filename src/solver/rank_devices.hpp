@@ -10,8 +10,8 @@
 namespace tread::solver
 {
 
-/// Collective: the device of this rank: the ranks of a machine take its devices in turn. EnvironmentError, on all
-/// ranks, where a machine has more ranks than devices and `sharing` does not allow that.
+/// Collective: the device of this rank: the ranks of a machine take in turn the devices that each of them sees.
+/// EnvironmentError, on all ranks, where two come to the same device and `sharing` does not allow that.
 int device_of_rank(const Communicator& communicator, GpuSharing sharing);
 
 /// Collective: every rank's device by name, and, on several ranks, a line each to the log with rank, host and device.

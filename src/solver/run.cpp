@@ -190,7 +190,7 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
             world,
             plan,
             options,
-            stages(scene, plan),
+            stages(scene, plan, communicator.size()),
             io::RunDirectory::create(communicator, options.output, options.existing, scene::resolved_toml(scene)),
             {}};
     log.open(job.directory.log());

@@ -142,6 +142,7 @@ void Sand<Exec, Real>::upload(const World& world, mpm::PointFields fields)
     const HostPoints& host = decomposition_ == nullptr ? world.points : own.points;
     const auto        n    = host.size();
     points_.allocate(static_cast<std::int64_t>(n), fields);
+    if (n == 0) { return; }
     points_.position.assign(planes<double, 3>(host.position));
     points_.start.assign(planes<double, 3>(host.position));
     points_.stress.assign(planes<Real, 6>(host.stress));
