@@ -6,14 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "backend/reduce.hpp"
 #include "base/errors.hpp"
 #include "kernels/dem/body_contact.hpp"
 #include "kernels/dem/contact_limits.hpp"
 #include "kernels/dem/move.hpp"
 #include "kernels/dem/pairs_kern.hpp"
 #include "kernels/dem/substeps.hpp"
-#include "kernels/dem/sums.hpp"
 #include "solver/materials.hpp"
 
 namespace tread::solver
@@ -34,14 +32,6 @@ std::vector<double> bounding_radii(const World& world)
         radii.push_back(world.templates[shape].bounding_radius * world.bodies.scale[b]);
     }
     return radii;
-}
-
-template<class T>
-std::vector<double> rows(const std::vector<T>& vectors)
-{
-    std::vector<double> out;
-    for (const T& v : vectors) { out.insert(out.end(), v.data(), v.data() + v.size()); }
-    return out;
 }
 
 } // namespace
@@ -333,135 +323,6 @@ void Rigid<Exec>::count_substeps(double dt, std::int64_t count)
 {
     mean_time_ += static_cast<double>(count) * dt;
     substep_ = dt;
-}
-
-template<class Exec>
-RigidReport Rigid<Exec>::report(double time)
-{
-    RigidReport report;
-    take_totals(report);
-    const std::int64_t             count = bodies_.position.size();
-    Array<Exec, dem::BodyActivity> activity(exec_, "body activity", count);
-    dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity.data());
-    const double*     values = reinterpret_cast<const double*>(activity.data());
-    constexpr int     width  = sizeof(dem::BodyActivity) / sizeof(double);
-    dem::BodyActivity found;
-    largest_of_rows(exec_, values, count, width, sums_.data());
-    copy_to_host(exec_, &found, sums_.data(), sizeof(found));
-    report.largest_speed = found.speed;
-    sum_rows(exec_, values, count, width, sums_.data());
-    copy_to_host(exec_, &found, sums_.data(), sizeof(found));
-    report.net_force    = found.net_force;
-    report.weight_power = found.weight_power;
-    together([&] { check(report, activity, time); });
-    if (ranks_) { add_up(report); }
-    report.substep = substep_;
-    return report;
-}
-
-/// Of this rank's bodies.
-template<class Exec>
-void Rigid<Exec>::check(RigidReport& report, const Array<Exec, dem::BodyActivity>& activity, double time)
-{
-    if (!std::isfinite(report.net_force) || !std::isfinite(report.largest_speed))
-    {
-        require_finite(time);
-        throw NumericalError(fmt::format("t = {:.6g} s: the sum of the forces on bodies is not a number", time));
-    }
-    if (!contacts_) { return; }
-    require_resolved(time, report.largest_speed, activity);
-    require_listed(time);
-    report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time));
-}
-
-template<class Exec>
-void Rigid<Exec>::add_up(RigidReport& report) const
-{
-    const double overlap = ranks_->largest(report.overlap), speed = ranks_->largest(report.largest_speed);
-    ranks_->sum(report);
-    report.overlap       = overlap;
-    report.largest_speed = speed;
-}
-
-template<class Exec>
-void Rigid<Exec>::take_totals(RigidReport& report)
-{
-    sum_rows(exec_, reinterpret_cast<const double*>(totals_.data()), totals_.size(), dem::body_total_width,
-             sums_.data());
-    dem::BodyTotal now;
-    copy_to_host(exec_, &now, sums_.data(), sizeof(now));
-    report.wall_impulse    = now.wall_impulse - taken_.wall_impulse;
-    report.damping_impulse = now.damping_impulse - taken_.damping_impulse;
-    report.driver_impulse  = now.holding_impulse - taken_.holding_impulse + command_impulse_;
-    report.friction        = now.friction - taken_.friction;
-    report.restitution     = now.restitution - taken_.restitution;
-    report.damped          = now.damping - taken_.damping;
-    // A velocity that is given is given as one of half a substep ago, like all of them.
-    report.driver_work =
-        now.holding_work - taken_.holding_work + command_work_ + 0.5 * substep_ * gravity_.dot(command_impulse_);
-    report.sand_work = now.sand_work - taken_.sand_work;
-    taken_           = now;
-    command_impulse_.setZero();
-    command_work_ = 0;
-}
-
-template<class Exec>
-RigidCensus Rigid<Exec>::census()
-{
-    const dem::BodySums sums = dem::sum_bodies(exec_, pairs_, bodies_.view(), totals_, gravity_);
-    RigidCensus         now{0, sums.kinetic, sums.contact, sums.potential, sums.momentum};
-    if (ranks_) { ranks_->sum(now); }
-    now.mass = mass_;
-    return now;
-}
-
-template<class Exec>
-std::vector<BodyRow> Rigid<Exec>::named_bodies()
-{
-    if (ranks_) { ranks_->collect(bodies_); }
-    std::vector<BodyRow>            bodies;
-    const std::vector<Quat>         orientation = bodies_.orientation.to_host();
-    const std::vector<Vec3<double>> position = bodies_.position.to_host(), velocity = bodies_.velocity.to_host(),
-                                    spin      = bodies_.angular_velocity.to_host();
-    std::vector<dem::ContactImpulse> impulses = impulses_.to_host();
-    if (ranks_)
-    {
-        for (dem::ContactImpulse& impulse : impulses) { ranks_->sum(impulse); }
-    }
-    for (std::size_t b = 0; b < static_cast<std::size_t>(named_); ++b)
-    {
-        const auto&        form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[b])];
-        const double       over = mean_time_ > 0 ? 1 / mean_time_ : 0;
-        const Vec3<double> axle = orientation[b] * Vec3<double>::UnitY();
-        const double       drop = world_.bodies.scale[b] * (form.is_wheel ? form.wheel.radius : form.bounding_radius);
-        bodies.push_back({position[b], velocity[b], spin[b], over * impulses[b].linear, over * impulses[b].angular,
-                          axle, position[b][2] - drop});
-    }
-    return bodies;
-}
-
-template<class Exec>
-void Rigid<Exec>::begin_mean()
-{
-    impulses_.fill_zero();
-    mean_time_ = 0;
-}
-
-template<class Exec>
-io::BodyFields Rigid<Exec>::fields()
-{
-    if (ranks_) { ranks_->collect(bodies_); }
-    io::BodyFields fields;
-    fields.position = rows(bodies_.position.to_host());
-    for (const Quat& q : bodies_.orientation.to_host())
-    {
-        for (const double value : {q.w(), q.x(), q.y(), q.z()}) { fields.orientation.push_back(value); }
-    }
-    fields.velocity         = rows(bodies_.velocity.to_host());
-    fields.angular_velocity = rows(bodies_.angular_velocity.to_host());
-    fields.scale            = bodies_.scale.to_host();
-    fields.shape            = bodies_.shape.to_host();
-    return fields;
 }
 
 template class Rigid<Cpu>;

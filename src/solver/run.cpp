@@ -105,9 +105,8 @@ std::optional<decomp::Decomposition<Exec>> decompose(const Exec& exec, Job& job)
 }
 
 /// What several ranks cannot do yet.
-void require_ranks_can(const Communicator& communicator, const scene::Scene& scene, const Plan& plan)
+void require_ranks_can(const Communicator& communicator, const scene::Scene& scene)
 {
-    if (plan.bodies) { decomp::require_single_rank(communicator, "scenes with bodies run"); }
     if (scene.numerics.volume_strain == scene::VolumeStrain::cell_average)
     {
         decomp::require_single_rank(communicator, "scenes with volume_strain = \"cell-average\" run");
@@ -182,7 +181,7 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
     omp_set_num_threads(threads);
     const World world = build_world(scene);
     const Plan  plan  = make_plan(scene, world);
-    require_ranks_can(communicator, scene, plan);
+    require_ranks_can(communicator, scene);
 
     Job job{communicator,
             log,

@@ -37,8 +37,8 @@ def children(parent):
 
 
 class Ranks(CommandTest):
-    def run_on(self, ranks, *options):
-        scene = self.write("scene.toml", SCENE)
+    def run_on(self, ranks, *options, text=SCENE):
+        scene = self.write("scene.toml", text)
         output = self.directory / f"ranks{ranks}"
         result = self.tread("run", scene, "--output", output, "--backend", "cpu", *options,
                             launcher=(*MPIRUN, "-n", str(ranks)))
@@ -62,12 +62,17 @@ class Ranks(CommandTest):
             self.assertEqual(set(data["rank"][()]), {0, 1})
             self.assertEqual(sorted(data["id"][()]), list(range(8 * 8 * 2 * 8)))
 
-    def test_scenes_with_bodies_are_refused(self):
-        scene = self.write("scene.toml", SCENE + BODY)
-        result = self.tread("run", scene, "--output", self.output, launcher=(*MPIRUN, "-n", "2"))
-        self.assertEqual(result.returncode, 4, result.stderr)
-        self.assertIn("2 MPI ranks, but scenes with bodies", result.stderr)
-        self.assertEqual(self.files(), ["scene.toml"])
+    def test_a_wheel_on_sand_does_on_two_ranks_what_it_does_on_one(self):
+        body = BODY.replace("0.3]", "0.18]") + "velocity = [0.0, 0.0, -0.8]\n"
+        one, _ = self.run_on(1, text=SCENE + body)
+        two, _ = self.run_on(2, text=SCENE + body)
+        force = column(one, "wheel/roller/force")
+        self.assertGreater(numpy.abs(force).max(), 1)
+        numpy.testing.assert_allclose(column(two, "wheel/roller/force"), force, rtol=0, atol=1e-3 * numpy.abs(force).max())
+        numpy.testing.assert_allclose(column(two, "wheel/roller/position"), column(one, "wheel/roller/position"), rtol=1e-6)
+        numpy.testing.assert_allclose(column(two, "energy/total"), column(one, "energy/total"), rtol=1e-5)
+        with h5py.File(two / "snapshots" / "bodies_0001.h5", "r") as file:
+            self.assertEqual(file["position"].shape, (1, 3))
 
     def test_an_error_of_all_ranks_is_said_once(self):
         result = self.tread("run", self.directory / "missing.toml", launcher=(*MPIRUN, "-n", "3"))

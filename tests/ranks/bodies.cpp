@@ -2,7 +2,7 @@
 #include <set>
 
 #include "physics/rock_scenes.hpp"
-#include "ranks.hpp"
+#include "side_by_side.hpp"
 
 // Rocks and wheels over several ranks do what they do on one.
 namespace tread
@@ -124,18 +124,6 @@ void expect_as_alone(test::SideBySide<Exec>& run, int steps, double diameter, do
     {
         run.advance();
         if (::testing::Test::HasFatalFailure()) { return; }
-        { //DEBUG
-            const io::BodyFields one = run.alone.simulation().body_fields(), all = run.together.simulation().body_fields();
-            const auto ca = run.alone.simulation().contacts(), cb = run.together.simulation().contacts();
-            int worst = 0; double d = 0;
-            for (std::size_t i = 0; i < one.velocity.size(); ++i) if (std::abs(one.velocity[i]-all.velocity[i]) > d) { d = std::abs(one.velocity[i]-all.velocity[i]); worst = int(i/3); }
-            if (d > 1e-12 && step < 200 && test::world().rank() == 0) std::printf("step %d dv %.3g body %d contacts %zu %zu\n", step, d, worst, ca.size(), cb.size());
-            static bool said = false;
-            if (d > 1e-9 && !said) { said = true;
-              if (test::world().rank() == 0) { for (auto& c : ca) std::printf("A %ld-%ld K %.6g place %.4g %.4g %.4g t %.6g\n", dem::first_of(c.key), dem::second_of(c.key), c.patch.stiffness, c.place[0], c.place[1], c.place[2], c.patch.tangential.norm());
-               for (auto& c : cb) std::printf("B %ld-%ld K %.6g place %.4g %.4g %.4g t %.6g\n", dem::first_of(c.key), dem::second_of(c.key), c.patch.stiffness, c.place[0], c.place[1], c.place[2], c.patch.tangential.norm()); }
-            }
-        } //DEBUG
     }
     const io::BodyFields one = run.alone.simulation().body_fields(), all = run.together.simulation().body_fields();
     const double         places = test::difference(one.position, all.position, diameter),

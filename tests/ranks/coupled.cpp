@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "ranks.hpp"
+#include "side_by_side.hpp"
 
 // Sand and bodies over several ranks do together what they do on one.
 namespace tread

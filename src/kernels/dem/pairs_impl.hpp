@@ -366,40 +366,7 @@ void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     pairs.patch.swap(pairs.last_patch);
     pairs.rolling.swap(pairs.last_rolling);
     pairs.patches.place.swap(pairs.patches.last_place);
-    pairs.travel.resize(bodies.count);
-    pairs.reach.resize(bodies.count);
-    pairs.measure.resize(1);
-    for_each(exec, "body speeds", bodies.count, pair_steps::WriteSpeed{bodies, law.templates, pairs.reach.data()});
-}
-
-template<class Exec>
-void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared)
-{
-    for_each(exec, "share speeds", shared.count,
-             pair_steps::ShareFastestNear{pair_steps::fastest_near(pairs, bodies), shared});
-}
-
-template<class Exec>
-void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
-                 const SharedView& shared)
-{
-    using namespace pair_steps;
-    const auto write = [&](const auto& near)
-    {
-        for_each(exec, "body motion", bodies.count,
-                 WriteMore{bodies, law.templates, dt, pairs.reach.data(), near, pairs.travel.data()});
-    };
-    if (bodies.role == nullptr) { write(fastest_near(pairs, bodies)); }
-    else { write(FastestNearOfAllRanks{fastest_near(pairs, bodies), shared}); }
-    sum_rows(exec, pairs.travel.data(), bodies.count, 1, pairs.measure.data());
-}
-
-template<class Exec>
-void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
-{
-    for_each(exec, "body reach", bodies.count,
-             pair_steps::WriteReach{bodies, law.templates, pairs.is_large.data(), dt, pairs.measure.data(),
-                                    pairs.travel.data(), pairs.reach.data()});
+    pair_steps::write_speeds(exec, pairs, bodies, law);
 }
 
 template<class Exec>
@@ -407,12 +374,7 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 {
     using namespace pair_steps;
     stage_bodies(exec, pairs, bodies);
-    if (bodies.role != nullptr)
-    {
-        for_each(
-            exec, "reach of bodies here", bodies.count,
-            WriteReachAgain{bodies, law.templates, pairs.is_large.data(), pairs.travel.data(), pairs.reach.data()});
-    }
+    reach_again(exec, pairs, bodies, law);
     give_back(pairs.by_second);
     const double cell_size = fill_cells(exec, pairs, bodies);
     search(exec, pairs, bodies, law, cell_size);

@@ -5,7 +5,9 @@
 
 // How far each body may move until the pairs are found anew, the same on both backends. Include after a backend's
 // for_each.
-namespace tread::dem::pair_steps
+namespace tread::dem
+{
+namespace pair_steps
 {
 
 struct WriteSpeed
@@ -134,4 +136,55 @@ FastestNear fastest_near(Pairs<Exec>& pairs, const BodiesView& bodies)
     return {bodies.count, pairs.is_large.data(), last, pairs.reach.data()};
 }
 
-} // namespace tread::dem::pair_steps
+/// Until grant_travel they stand in pairs.reach.
+template<class Exec>
+void write_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    pairs.travel.resize(bodies.count);
+    pairs.reach.resize(bodies.count);
+    pairs.measure.resize(1);
+    for_each(exec, "body speeds", bodies.count, WriteSpeed{bodies, law.templates, pairs.reach.data()});
+}
+
+/// On several ranks: guests have their travel from elsewhere.
+template<class Exec>
+void reach_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    if (bodies.role == nullptr) { return; }
+    for_each(exec, "reach of bodies here", bodies.count,
+             WriteReachAgain{bodies, law.templates, pairs.is_large.data(), pairs.travel.data(), pairs.reach.data()});
+}
+
+} // namespace pair_steps
+
+template<class Exec>
+void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared)
+{
+    for_each(exec, "share speeds", shared.count,
+             pair_steps::ShareFastestNear{pair_steps::fastest_near(pairs, bodies), shared});
+}
+
+template<class Exec>
+void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                 const SharedView& shared)
+{
+    using namespace pair_steps;
+    const auto write = [&](const auto& near)
+    {
+        for_each(exec, "body motion", bodies.count,
+                 WriteMore{bodies, law.templates, dt, pairs.reach.data(), near, pairs.travel.data()});
+    };
+    if (bodies.role == nullptr) { write(fastest_near(pairs, bodies)); }
+    else { write(FastestNearOfAllRanks{fastest_near(pairs, bodies), shared}); }
+    sum_rows(exec, pairs.travel.data(), bodies.count, 1, pairs.measure.data());
+}
+
+template<class Exec>
+void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+{
+    for_each(exec, "body reach", bodies.count,
+             pair_steps::WriteReach{bodies, law.templates, pairs.is_large.data(), dt, pairs.measure.data(),
+                                    pairs.travel.data(), pairs.reach.data()});
+}
+
+} // namespace tread::dem
