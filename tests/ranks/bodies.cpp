@@ -43,8 +43,8 @@ sdf_cells = 24
 
 std::string fixed_step(double dt) { return fmt::format("\n[time]\ndt = {}\n", dt); }
 
-/// A rock of 4 cm that slides down a slope of 40 degrees with friction of 0.5, in x, over the borders of slabs.
-TYPED_TEST(BodiesOfRanks, ARockSlidesOverTheirBorders)
+/// A rock of 4 cm that slides down a slope of 40 degrees with friction of 0.5, in x, from the first rank to the last.
+TYPED_TEST(BodiesOfRanks, ARockSlidesOverTheirBorder)
 {
     const Vec3<double> size(0.4, 0.2, 0.2);
     const std::string  text = test::rock_domain(size, 40,
@@ -60,7 +60,9 @@ position = [0.17, 0.1, 0.021]
 velocity = [0.8, 0.0, 0.0]
 lock = ["roll", "pitch", "yaw"]
 )" + fixed_step(2e-4) + test::phase("slide", 0, 1);
-    test::SideBySide<TypeParam> run(this->exec(), test::load_text(text), size, test::slabs(size[0], this->ranks()));
+    const auto border = [last = this->ranks() - 1](const Vec3<double>& at) { return at[0] < 0.18 ? 0 : last; };
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(text), size, border);
+    const Vec3<double>          start   = run.alone.simulation().named_bodies().front().position;
     double                      largest = 0, force = 0;
     for (int step = 0; step < 200; ++step)
     {
@@ -76,6 +78,42 @@ lock = ["roll", "pitch", "yaw"]
     }
     std::printf("sliding rock: largest difference %.3g, largest force %.3g N\n", largest, force);
     EXPECT_LT(largest, 1e-9);
+    if (this->ranks() > 1)
+    {
+        EXPECT_NE(run.owner_of(start), run.owner_of(run.alone.simulation().named_bodies().front().position));
+    }
+}
+
+/// Two rocks, each in the middle of what a rank owns; then one of them at the border.
+TYPED_TEST(BodiesOfRanks, NothingIsSharedFarFromTheBorder)
+{
+    const Vec3<double> size(0.8, 0.2, 0.2);
+    const auto         halves = [second = std::min(1, this->ranks() - 1)](const Vec3<double>& page)
+    { return page[0] < 0.37 ? 0 : second; };
+    for (const double x : {0.2, 0.35})
+    {
+        const std::string  rock  = R"(
+[[body]]
+name = "{}"
+shape = "clast"
+material = "stone"
+density = 2700.0
+diameter = 0.04
+position = [{}, 0.1, 0.05]
+)";
+        const scene::Scene scene = test::load_text(
+            test::rock_domain(size, 0, "x = \"open\", y = \"open\", bottom = \"fixed\", top = \"open\"", "") +
+            test::stone(stone_young, 0.5, 0.5) + clast(162) + fmt::format(fmt::runtime(rock), "one", x) +
+            fmt::format(fmt::runtime(rock), "other", 0.6) + fixed_step(2e-4) + test::phase("fall", 0, 1));
+        const solver::World              world = solver::build_world(scene);
+        decomp::Decomposition<TypeParam> decomposition(test::world(), this->exec(), {});
+        const test::OwnedPages           pages = test::pages_of(solver::page_lattice_of(world), size, halves);
+        decomposition.owners.assign(pages.key, pages.rank);
+        solver::Rigid<TypeParam> rigid(this->exec(), scene, world, solver::make_plan(scene, world), &decomposition);
+        rigid.find_pairs(2e-4);
+        const bool at_border = x > 0.3; // pages are 0.16 m wide, and begin half a spacing off the origin
+        EXPECT_EQ(rigid.shares(), at_border && this->ranks() > 1 && test::world().rank() < 2);
+    }
 }
 
 /// A heap of 1,000 rocks that slumps in x under a tilted weight of several g.
