@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <new>
 #include <optional>
@@ -83,7 +84,11 @@ std::string text_of(const std::exception& error)
                  "machine with more memory";
 }
 
-/// Rank 0 speaks for all: an error is thrown by every rank, or by none.
+/// How long a rank that has failed waits for the others to fail, too, before it ends them.
+constexpr double patience = 10; // s
+
+/// An error that all ranks come upon together is said once, by rank 0; one that befell a rank alone is said by it, and
+/// ends the job.
 template<class Command>
 ExitCode on_ranks(const Command& command)
 {
@@ -92,13 +97,18 @@ ExitCode on_ranks(const Command& command)
     ExitCode            code  = ExitCode::finished;
     try
     {
-        decomp::require_single_rank(world);
         code = command(world);
+        world.all_arrive(std::numeric_limits<double>::infinity());
     }
     catch (const std::exception& error)
     {
-        if (world.rank() == 0) { std::cerr << "tread: error: " << text_of(error) << std::endl; }
         code = code_of(error);
+        if (!world.all_arrive(patience))
+        {
+            std::cerr << "tread: error: rank " << world.rank() << ": " << text_of(error) << std::endl;
+            world.abort(code);
+        }
+        if (world.rank() == 0) { std::cerr << "tread: error: " << text_of(error) << std::endl; }
     }
     return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
 }
@@ -124,6 +134,7 @@ ExitCode check(const CheckArguments& arguments)
     return on_ranks(
         [&](const Communicator& world)
         {
+            decomp::require_single_rank(world, "tread check runs");
             const scene::Scene scene = scene::load_scene(arguments.scene.path, arguments.scene.overrides);
             std::cout << solver::check(world, scene, arguments.ranks);
             return ExitCode::finished;
@@ -242,6 +253,18 @@ void add_run_options(CLI::App& command, RunArguments& arguments)
                                             {"cpu", solver::BackendChoice::cpu},
                                             {"cuda", solver::BackendChoice::cuda}},
                                            "Where to compute; default auto");
+    add_word_option<decomp::TransportChoice>(command, "--transport", arguments.options.decomposition.transport,
+                                             {{"auto", decomp::TransportChoice::automatic},
+                                              {"mpi", decomp::TransportChoice::mpi},
+                                              {"nccl", decomp::TransportChoice::nccl},
+                                              {"host", decomp::TransportChoice::host}},
+                                             "What carries data between ranks with GPUs; default auto");
+    command.add_flag_callback(
+        "--share-gpus", [&] { arguments.options.gpus = solver::GpuSharing::allowed; },
+        "Let several ranks of a machine use one GPU");
+    command.add_flag_callback(
+        "--checksums", [&] { arguments.options.decomposition.checksums = decomp::Checksums::on; },
+        "Compare what all ranks hold before and after points change ranks");
     command.add_option("--output", arguments.options.output, "Run directory; default runs/<name of the scene file>")
         ->type_name("DIR");
     command.add_flag_callback(

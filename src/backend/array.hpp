@@ -52,6 +52,7 @@ public:
     std::int64_t size() const { return size_; }
     std::int64_t capacity() const { return capacity_; }
     const Exec&  exec() const { return exec_; }
+    const char*  name() const { return name_; }
 
     /// Old values are lost when it has to grow; new ones are not initialised.
     void resize(std::int64_t size)

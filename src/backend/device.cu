@@ -34,7 +34,8 @@ DeviceFacts device_facts(int device)
     check_cuda(cudaGetDeviceProperties(&properties, device), "properties of the device");
     std::size_t free = 0, total = 0;
     check_cuda(cudaMemGetInfo(&free, &total), "memory of the device");
-    return {properties.name, static_cast<std::int64_t>(total), static_cast<std::int64_t>(free)};
+    return {properties.name, std::string(properties.uuid.bytes, sizeof(properties.uuid.bytes)),
+            static_cast<std::int64_t>(total), static_cast<std::int64_t>(free)};
 }
 
 Device::Device(int device, Counters& counters)

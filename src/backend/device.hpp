@@ -15,6 +15,7 @@ int device_count();
 struct DeviceFacts
 {
     std::string  name;
+    std::string  identity; ///< of the chip, the same for every process
     std::int64_t total_bytes;
     std::int64_t free_bytes;
 };

@@ -1,16 +1,16 @@
 #include "base/communicator.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #include <fmt/format.h>
 
 namespace tread
 {
 
-namespace
-{
-
-void check(int result, const char* what)
+void check_mpi(int result, const char* what)
 {
     if (result == MPI_SUCCESS) { return; }
     char text[MPI_MAX_ERROR_STRING];
@@ -20,10 +20,13 @@ void check(int result, const char* what)
         fmt::format("MPI: {} failed: {}", what, std::string(text, static_cast<std::size_t>(length))));
 }
 
+namespace
+{
+
 std::int64_t reduce(MPI_Comm communicator, std::int64_t value, MPI_Op operation)
 {
     std::int64_t result = 0;
-    check(MPI_Allreduce(&value, &result, 1, MPI_INT64_T, operation, communicator), "all-reduce");
+    check_mpi(MPI_Allreduce(&value, &result, 1, MPI_INT64_T, operation, communicator), "all-reduce");
     return result;
 }
 
@@ -31,31 +34,86 @@ template<class T>
 std::vector<T> gather_all(const Communicator& communicator, T value, MPI_Datatype type)
 {
     std::vector<T> values(static_cast<std::size_t>(communicator.size()));
-    check(MPI_Allgather(&value, 1, type, values.data(), 1, type, communicator.native()), "all-gather");
+    check_mpi(MPI_Allgather(&value, 1, type, values.data(), 1, type, communicator.native()), "all-gather");
     return values;
+}
+
+template<class T>
+std::vector<T> gather_all(const Communicator& communicator, const std::vector<T>& values, MPI_Datatype type)
+{
+    std::vector<int> counts, places;
+    int              place = 0;
+    for (const std::int64_t count : communicator.gather(static_cast<std::int64_t>(values.size())))
+    {
+        counts.push_back(static_cast<int>(count));
+        places.push_back(place);
+        place += static_cast<int>(count);
+    }
+    std::vector<T> all(static_cast<std::size_t>(place));
+    check_mpi(MPI_Allgatherv(values.data(), static_cast<int>(values.size()), type, all.data(), counts.data(),
+                             places.data(), type, communicator.native()),
+              "all-gather");
+    return all;
 }
 
 } // namespace
 
 Communicator::Communicator(MPI_Comm original)
 {
-    check(MPI_Comm_dup(original, &native_), "duplicating a communicator");
+    check_mpi(MPI_Comm_dup(original, &native_), "duplicating a communicator");
     MPI_Comm_set_errhandler(native_, MPI_ERRORS_RETURN);
+    check_mpi(MPI_Comm_dup(original, &meeting_), "duplicating a communicator");
+    MPI_Comm_set_errhandler(meeting_, MPI_ERRORS_RETURN);
     MPI_Comm_rank(native_, &rank_);
     MPI_Comm_size(native_, &size_);
 }
 
-Communicator::~Communicator() { MPI_Comm_free(&native_); }
+Communicator::~Communicator()
+{
+    MPI_Comm_free(&meeting_);
+    MPI_Comm_free(&native_);
+}
 
-void Communicator::barrier() const { check(MPI_Barrier(native_), "barrier"); }
+void Communicator::barrier() const { check_mpi(MPI_Barrier(native_), "barrier"); }
 
-std::string Communicator::broadcast(const std::string& text) const
+bool Communicator::all_arrive(double seconds) const
+{
+    MPI_Request request = MPI_REQUEST_NULL;
+    check_mpi(MPI_Ibarrier(meeting_, &request), "barrier");
+    const double start = MPI_Wtime();
+    int          done  = 0;
+    while (true)
+    {
+        check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "barrier");
+        if (done != 0) { return true; }
+        if (MPI_Wtime() - start > seconds) { return false; }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+void Communicator::abort(ExitCode code) const
+{
+    MPI_Abort(native_, static_cast<int>(code));
+    std::abort();
+}
+
+int Communicator::local_rank() const
+{
+    MPI_Comm machine = MPI_COMM_NULL;
+    int      rank    = 0;
+    check_mpi(MPI_Comm_split_type(native_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine), "split by machine");
+    MPI_Comm_rank(machine, &rank);
+    MPI_Comm_free(&machine);
+    return rank;
+}
+
+std::string Communicator::broadcast(const std::string& text, int from) const
 {
     std::int64_t length = static_cast<std::int64_t>(text.size());
-    check(MPI_Bcast(&length, 1, MPI_INT64_T, 0, native_), "broadcast");
+    check_mpi(MPI_Bcast(&length, 1, MPI_INT64_T, from, native_), "broadcast");
     std::string result = text;
     result.resize(static_cast<std::size_t>(length));
-    check(MPI_Bcast(result.data(), static_cast<int>(length), MPI_CHAR, 0, native_), "broadcast");
+    check_mpi(MPI_Bcast(result.data(), static_cast<int>(length), MPI_CHAR, from, native_), "broadcast");
     return result;
 }
 
@@ -69,27 +127,80 @@ std::vector<std::int64_t> Communicator::gather(std::int64_t value) const
 
 std::vector<double> Communicator::gather(double value) const { return gather_all(*this, value, MPI_DOUBLE); }
 
+std::vector<std::string> Communicator::gather(const std::string& text) const
+{
+    const std::vector<std::int64_t> lengths = gather(static_cast<std::int64_t>(text.size()));
+    const std::vector<char>         all     = gather_all(*this, std::vector<char>(text.begin(), text.end()), MPI_CHAR);
+    std::vector<std::string>        texts;
+    auto                            at = all.begin();
+    for (const std::int64_t length : lengths)
+    {
+        texts.emplace_back(at, at + length);
+        at += length;
+    }
+    return texts;
+}
+
 std::vector<std::int32_t> Communicator::gather(const std::vector<std::int32_t>& values) const
 {
-    std::vector<int> counts, places;
-    int              place = 0;
-    for (const std::int64_t count : gather(static_cast<std::int64_t>(values.size())))
+    return gather_all(*this, values, MPI_INT32_T);
+}
+
+std::vector<std::uint64_t> Communicator::gather(const std::vector<std::uint64_t>& values) const
+{
+    return gather_all(*this, values, MPI_UINT64_T);
+}
+
+std::vector<double> Communicator::gather(const std::vector<double>& values) const
+{
+    return gather_all(*this, values, MPI_DOUBLE);
+}
+
+std::vector<std::int64_t> Communicator::all_to_all(const std::vector<std::int64_t>& to) const
+{
+    std::vector<std::int64_t> from(to.size());
+    check_mpi(MPI_Alltoall(to.data(), 1, MPI_INT64_T, from.data(), 1, MPI_INT64_T, native_), "all-to-all");
+    return from;
+}
+
+std::vector<std::vector<std::uint64_t>>
+Communicator::all_to_all(const std::vector<std::vector<std::uint64_t>>& to) const
+{
+    std::vector<std::int64_t> counts;
+    for (const auto& values : to) { counts.push_back(static_cast<std::int64_t>(values.size())); }
+    const std::vector<std::int64_t> coming = all_to_all(counts);
+
+    std::vector<std::uint64_t> out;
+    std::vector<int>           out_count, out_place, in_count, in_place;
+    int                        place = 0;
+    for (const auto& values : to)
     {
-        counts.push_back(static_cast<int>(count));
-        places.push_back(place);
+        out_place.push_back(static_cast<int>(out.size()));
+        out_count.push_back(static_cast<int>(values.size()));
+        out.insert(out.end(), values.begin(), values.end());
+    }
+    for (const std::int64_t count : coming)
+    {
+        in_place.push_back(place);
+        in_count.push_back(static_cast<int>(count));
         place += static_cast<int>(count);
     }
-    std::vector<std::int32_t> all(static_cast<std::size_t>(place));
-    check(MPI_Allgatherv(values.data(), static_cast<int>(values.size()), MPI_INT32_T, all.data(), counts.data(),
-                         places.data(), MPI_INT32_T, native_),
-          "all-gather");
-    return all;
+    std::vector<std::uint64_t> in(static_cast<std::size_t>(place));
+    check_mpi(MPI_Alltoallv(out.data(), out_count.data(), out_place.data(), MPI_UINT64_T, in.data(), in_count.data(),
+                            in_place.data(), MPI_UINT64_T, native_),
+              "all-to-all");
+    std::vector<std::vector<std::uint64_t>> from;
+    for (std::size_t rank = 0; rank < coming.size(); ++rank)
+    {
+        from.emplace_back(in.begin() + in_place[rank], in.begin() + in_place[rank] + in_count[rank]);
+    }
+    return from;
 }
 
 MpiSession::Library::Library()
 {
     int provided = MPI_THREAD_SINGLE;
-    check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "initialisation");
+    check_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "initialisation");
     MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
     if (provided < MPI_THREAD_FUNNELED)
     {
@@ -124,6 +235,27 @@ void on_root(const Communicator& communicator, const std::function<void()>& work
     }
     code = communicator.maximum(code);
     if (code != 0) { throw Error(static_cast<ExitCode>(code), communicator.broadcast(message)); }
+}
+
+void on_every_rank(const Communicator& communicator, const std::function<void()>& work)
+{
+    std::int64_t own = 0;
+    std::string  message;
+    try
+    {
+        work();
+    }
+    catch (const Error& error)
+    {
+        own     = static_cast<std::int64_t>(error.code());
+        message = error.what();
+    }
+    const std::vector<std::int64_t> codes = communicator.gather(own);
+    const auto first = std::find_if(codes.begin(), codes.end(), [](std::int64_t code) { return code != 0; });
+    if (first == codes.end()) { return; }
+    message = communicator.broadcast(message, static_cast<int>(first - codes.begin()));
+    if (*first == static_cast<std::int64_t>(ExitCode::numerical)) { throw NumericalError(message); }
+    throw Error(static_cast<ExitCode>(*first), message);
 }
 
 void require_launcher_agrees(int mpi_size)

@@ -12,6 +12,9 @@
 namespace tread
 {
 
+/// EnvironmentError with MPI's text if `result`, of the call that `what` names, is not success.
+void check_mpi(int result, const char* what);
+
 /// A group of MPI ranks with its own message space (a duplicate: no message of ours meets another library's).
 /// Every call below is collective: all ranks make it, in the same order. A failing MPI call is an EnvironmentError.
 class Communicator
@@ -28,8 +31,18 @@ public:
 
     void barrier() const;
 
-    /// Rank 0's text, on every rank.
-    std::string broadcast(const std::string& text) const;
+    /// Whether all other ranks call this within so many seconds; infinity waits for them. Whatever messages and
+    /// collective calls they are in meanwhile, a rank that has failed may call it.
+    bool all_arrive(double seconds) const;
+
+    /// Ends the processes of all ranks; `code` becomes the exit code of the job.
+    [[noreturn]] void abort(ExitCode code) const;
+
+    /// This rank's number among those on its machine.
+    int local_rank() const;
+
+    /// The text of one rank, on every rank.
+    std::string broadcast(const std::string& text, int from = 0) const;
 
     std::int64_t sum(std::int64_t value) const;
     std::int64_t maximum(std::int64_t value) const;
@@ -38,14 +51,22 @@ public:
     /// depend on how MPI reduces.
     std::vector<std::int64_t> gather(std::int64_t value) const;
     std::vector<double>       gather(double value) const;
+    std::vector<std::string>  gather(const std::string& text) const;
 
     /// The values of every rank, one rank's after the other's.
-    std::vector<std::int32_t> gather(const std::vector<std::int32_t>& values) const;
+    std::vector<std::int32_t>  gather(const std::vector<std::int32_t>& values) const;
+    std::vector<std::uint64_t> gather(const std::vector<std::uint64_t>& values) const;
+    std::vector<double>        gather(const std::vector<double>& values) const;
+
+    /// to[r] goes to rank r; of every rank what it had for this one.
+    std::vector<std::int64_t>               all_to_all(const std::vector<std::int64_t>& to) const;
+    std::vector<std::vector<std::uint64_t>> all_to_all(const std::vector<std::vector<std::uint64_t>>& to) const;
 
 private:
-    MPI_Comm native_ = MPI_COMM_NULL;
-    int      rank_   = 0;
-    int      size_   = 1;
+    MPI_Comm native_  = MPI_COMM_NULL;
+    MPI_Comm meeting_ = MPI_COMM_NULL; ///< of all_arrive
+    int      rank_    = 0;
+    int      size_    = 1;
 };
 
 /// MPI between construction and destruction. EnvironmentError when MPI does not start, when it has no place for
@@ -67,6 +88,9 @@ private:
     Library      library_;
     Communicator world_;
 };
+
+/// Runs `work` on every rank. Where some throw an Error, all throw that of the lowest of them.
+void on_every_rank(const Communicator& communicator, const std::function<void()>& work);
 
 /// Runs `work` on rank 0 alone. The error that it throws, if any, is thrown on every rank, so that all leave together.
 void on_root(const Communicator& communicator, const std::function<void()>& work);

@@ -5,12 +5,13 @@
 namespace tread::decomp
 {
 
-void require_single_rank(const Communicator& communicator)
+void require_single_rank(const Communicator& communicator, const std::string& what)
 {
     if (communicator.size() == 1) { return; }
-    throw EnvironmentError(fmt::format("{} MPI ranks: this version computes on one rank (domain decomposition is not "
-                                       "there yet); start it without mpirun, or with -n 1",
-                                       communicator.size()));
+    throw EnvironmentError(
+        fmt::format("{} MPI ranks, but {} on one rank only in this version; start it without mpirun, "
+                    "or with -n 1",
+                    communicator.size(), what));
 }
 
 } // namespace tread::decomp

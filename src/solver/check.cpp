@@ -40,7 +40,7 @@ std::string check(const Communicator& communicator, const scene::Scene& scene, i
     const Plan     plan  = make_plan(scene, world);
     const Estimate wants = estimate(scene, world, plan);
     std::string    text  = fmt::format("{}\n\nstages of a step:\n", scene.title);
-    for (const Stage& stage : stages(scene, plan))
+    for (const Stage& stage : stages(scene, plan, ranks))
     {
         text += fmt::format("  {:<4}{:<28}{}\n", stage.on ? "on" : "off", stage.name, stage.why);
     }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "decomp/letters.hpp"
 #include "solver/cover.hpp"
 #include "solver/materials.hpp"
 
@@ -38,7 +39,8 @@ double met_limit(const World& world, double limit)
 
 template<class Exec, class Real>
 Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, const World& world,
-                               const dem::TemplateView* templates, dem::PairTable pairs)
+                               const dem::TemplateView* templates, dem::PairTable pairs,
+                               decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
     , contact_(exec)
     , law_{templates,
@@ -49,6 +51,7 @@ Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, cons
            0.0}
     , largest_radius_(largest_point_radius(world, law_.radius))
     , skin_(skin_share * largest_radius_)
+    , communicator_(decomposition == nullptr ? nullptr : &decomposition->communicator)
 {
     constexpr std::size_t most = std::size_t{1} << contact::history_body_bits;
     if (world.bodies.size() > most)
@@ -59,19 +62,35 @@ Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, cons
 }
 
 template<class Exec, class Real>
+void Coupling<Exec, Real>::send_after(const std::vector<std::vector<std::uint32_t>>& departed)
+{
+    contact::keep_history(exec_, contact_);
+    contact_.tangential.resize(0); // the table has it, until the search that follows
+    std::vector<std::vector<contact::HistoryRecord>> leaving;
+    leaving.reserve(departed.size());
+    for (const auto& ids : departed) { leaving.push_back(contact::records_of(exec_, contact_.history, ids)); }
+    std::vector<contact::HistoryRecord> arriving;
+    for (const auto& records : decomp::exchange_values(*communicator_, leaving))
+    {
+        arriving.insert(arriving.end(), records.begin(), records.end());
+    }
+    contact::add_records(exec_, contact_.history, arriving);
+}
+
+template<class Exec, class Real>
 void Coupling<Exec, Real>::find_candidates(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
-                                           const dem::BodiesView& bodies, std::int64_t orders, double span,
+                                           const dem::BodiesView& bodies, std::int64_t version, double span,
                                            double speed)
 {
     const double nearer = 2 * span * 2 * speed; // a body and a point, each up to twice as fast
-    if (orders != orders_ || used_ + nearer > skin_)
+    if (version != version_ || used_ + nearer > skin_)
     {
         const double drift = mpm::quadratic_cell_slack * pages.spacing;
         contact::begin_step(exec_, contact_, points, pages, bodies, law_,
                             {span, speed, drift, largest_radius_, law_.sampled_below, skin_});
-        orders_ = orders;
-        used_   = 0;
-        begun_  = true;
+        version_ = version;
+        used_    = 0;
+        begun_   = true;
     }
     used_ += nearer;
 }
@@ -99,6 +118,16 @@ template<class Exec, class Real>
 void Coupling<Exec, Real>::finish_step(const mpm::PointsView<Real>& points, double dt)
 {
     contact::finish_step(exec_, contact_, points, dt);
+}
+
+template<class Exec, class Real>
+void Coupling<Exec, Real>::measure()
+{
+    summary_ = contact::summarise(exec_, contact_);
+    if (communicator_ == nullptr) { return; }
+    const auto of_ranks = decomp::gather_values<contact::Summary>(*communicator_, {summary_});
+    summary_            = contact::Summary::zero();
+    for (const auto& summary : of_ranks) { summary_ = summary_ + summary.front(); }
 }
 
 template class Coupling<Cpu, float>;

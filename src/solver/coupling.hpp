@@ -1,5 +1,6 @@
 #pragma once
 
+#include "decomp/decomposition.hpp"
 #include "kernels/contact/substeps.hpp"
 #include "solver/world.hpp"
 
@@ -12,13 +13,17 @@ class Coupling
 {
 public:
     Coupling(const Exec& exec, const scene::Scene& scene, const World& world, const dem::TemplateView* templates,
-             dem::PairTable pairs);
+             dem::PairTable pairs, decomp::Decomposition<Exec>* decomposition = nullptr);
 
-    /// 2. Candidates of the next steps, of `span` (s) in all, of sand that was ordered in memory `orders` times: found
-    /// anew if the last ones may not hold. No point or body is faster than `speed` (m/s) now, nor will be twice as
-    /// fast.
+    /// Collective, on several ranks: what contacts remember of points goes to the ranks that these (by id, ascending,
+    /// of each rank) have gone to.
+    void send_after(const std::vector<std::vector<std::uint32_t>>& departed);
+
+    /// 2. Candidates of the next steps, of `span` (s) in all: found anew if the last ones may not hold. `version` says
+    /// which points, in which places of memory, and which bodies are here. No point or body is faster than `speed`
+    /// (m/s) now, nor will be twice as fast.
     void find_candidates(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
-                         const dem::BodiesView& bodies, std::int64_t orders, double span, double speed);
+                         const dem::BodiesView& bodies, std::int64_t version, double span, double speed);
 
     /// Shows the contacts what a step did to their points, unless find_candidates has just done so.
     void begin_step(const mpm::PointsView<Real>& points);
@@ -38,8 +43,8 @@ public:
     /// Impulses become the points' contact force.
     void finish_step(const mpm::PointsView<Real>& points, double dt);
 
-    /// Takes stock of the last substep; waits for it.
-    void measure() { summary_ = contact::summarise(exec_, contact_); }
+    /// Takes stock of the last substep, of all ranks; waits for it.
+    void measure();
 
     /// As last measured (dissipated: since the time before that).
     const contact::Summary& summary() const { return summary_; }
@@ -51,9 +56,10 @@ private:
     double                      largest_radius_;
     double                      skin_;            ///< m
     double                      used_    = 0;     ///< m of it, since the search
-    std::int64_t                orders_  = 0;     ///< of the sand at the search; 0 = none yet
+    std::int64_t                version_ = 0;     ///< at the search; 0 = none yet
     bool                        begun_   = false; ///< by the search
     contact::Summary            summary_ = contact::Summary::zero();
+    const Communicator*         communicator_; ///< null on one rank
 };
 
 } // namespace tread::solver

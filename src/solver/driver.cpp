@@ -41,10 +41,10 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , directory_(directory)
     , simulation_(simulation)
     , phases_(scene)
-    , recorder_(directory, scene, world)
     , wall_start_(wall_clock())
     , last_said_(wall_start_)
 {
+    on_root(communicator, [&] { recorder_.emplace(directory, scene, world); });
     if (plan.snapshots)
     {
         snapshots_.emplace(communicator, directory.snapshots());
@@ -80,7 +80,8 @@ template<class Exec, class Real>
 void Driver<Exec, Real>::begin_phase()
 {
     log_.info(fmt::format("phase '{}' begins at {:.6g} s", phases_.phase().name, time_));
-    recorder_.begin_phase(phases_.index(), time_, simulation_.surface_height());
+    const double surface = simulation_.surface_height();
+    on_root(communicator_, [&] { recorder_->begin_phase(phases_.index(), time_, surface); });
     warned_ = false;
 }
 
@@ -172,7 +173,8 @@ void Driver<Exec, Real>::write_row()
         const Census     now     = simulation_.census();
         const EnergyRow  energy  = simulation_.ledger().energy(now);
         const BalanceRow balance = simulation_.ledger().balance(now);
-        recorder_.write(time_, simulation_.named_bodies(), energy, balance);
+        const auto       bodies  = simulation_.named_bodies();
+        on_root(communicator_, [&] { recorder_->write(time_, bodies, energy, balance); });
         simulation_.begin_mean();
     };
     clock_.run(simulation_.exec(), stage::output, write);
@@ -215,7 +217,7 @@ void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<Stage>& 
     summary.substeps = substeps_;
     summary.time     = time_;
     summary.wall_s   = wall_clock() - wall_start_;
-    summary.points   = simulation_.points();
+    summary.points   = communicator_.sum(simulation_.points());
     summary.stages   = clock_.reports(stages);
     summary.errors   = simulation_.ledger().errors();
     summary.phases   = ended_;

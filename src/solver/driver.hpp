@@ -8,7 +8,8 @@
 namespace tread::solver
 {
 
-/// Carries a simulation through the phases of its scene, and writes what the scene asks for.
+/// Carries a simulation through the phases of its scene, and writes what the scene asks for. Collective: all ranks take
+/// the same steps; rank 0 writes what is not written together.
 template<class Exec, class Real>
 class Driver
 {
@@ -42,7 +43,7 @@ private:
     io::RunDirectory                  directory_;
     Simulation<Exec, Real>&           simulation_;
     PhaseClock                        phases_;
-    Recorder                          recorder_;
+    std::optional<Recorder>           recorder_;  ///< on rank 0
     std::optional<io::SnapshotWriter> snapshots_; ///< only if the scene wants snapshots
     StageClock                        clock_;
     std::vector<io::PhaseReport>      ended_;

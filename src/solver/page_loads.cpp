@@ -30,26 +30,36 @@ double spacing_of(const World& world)
 std::string line_of(const Communicator& communicator, const decomp::PageGraph& graph, const char* name,
                     const decomp::PartitionOptions& options)
 {
-    const decomp::Partition        found   = decomp::make_partition(communicator, graph, options);
-    const decomp::PartitionQuality quality = decomp::quality_of(graph, found.rank, options.ranks);
-    std::string                    text    = fmt::format(
-                              "  {:<8}largest load {:.3f} of the mean, {} nodes shared across ranks, at most {} pages of others beside one",
-                              name, quality.imbalance, quality.cut, quality.halo);
-    if (quality.empty > 0) { text += fmt::format(", {} ranks without pages", quality.empty); }
-    if (!found.fallback.empty()) { text += fmt::format(" (by Morton order: {})", found.fallback); }
-    return text + "\n";
+    const decomp::Partition found = decomp::make_partition(communicator, graph, options);
+    return fmt::format("  {:<8}{}\n", name, describe_partition(graph, found, options.ranks));
 }
 
 } // namespace
+
+std::string describe_partition(const decomp::PageGraph& graph, const decomp::Partition& found, int ranks)
+{
+    const decomp::PartitionQuality quality = decomp::quality_of(graph, found.rank, ranks);
+    std::string text = fmt::format("largest load {:.3f} of the mean, {} nodes shared across ranks, at most {} pages of "
+                                   "others beside one",
+                                   quality.imbalance, quality.cut, quality.halo);
+    if (quality.empty > 0) { text += fmt::format(", {} ranks without pages", quality.empty); }
+    if (!found.fallback.empty()) { text += fmt::format(" (by Morton order: {})", found.fallback); }
+    return text;
+}
+
+decomp::PageLattice page_lattice_of(const World& world) { return {spacing_of(world), world.geometry.stencil_shift}; }
 
 decomp::PageGraph page_graph_of(const World& world)
 {
     const double                    spacing = spacing_of(world);
     std::map<std::uint64_t, double> loads;
-    const auto                      add = [&](const Vec3<double>& at, double load)
+    auto                            last = loads.end(); // points that follow each other are often in one page
+    const auto                      add  = [&](const Vec3<double>& at, double load)
     {
-        const mpm::Index3 cell = mpm::cell_of(at, 1 / spacing, world.geometry.stencil_shift);
-        loads[mpm::page_key(mpm::page_of(cell))] += load;
+        const mpm::Index3   cell = mpm::cell_of(at, 1 / spacing, world.geometry.stencil_shift);
+        const std::uint64_t page = mpm::page_key(mpm::page_of(cell));
+        if (last == loads.end() || last->first != page) { last = loads.try_emplace(page, 0.0).first; }
+        last->second += load;
     };
     for (const Vec3<double>& at : world.points.position) { add(at, 1); }
     for (const Vec3<double>& at : world.bodies.position) { add(at, body_load); }

@@ -3,7 +3,9 @@
 #include <string>
 
 #include "base/communicator.hpp"
+#include "decomp/decomposition.hpp"
 #include "decomp/page_graph.hpp"
+#include "decomp/territory.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
@@ -13,8 +15,26 @@ namespace tread::solver
 /// the ten substeps of a step that beds of rocks want.
 inline constexpr double body_load = 150;
 
+/// "largest load 1.02 of the mean ...".
+std::string describe_partition(const decomp::PageGraph& graph, const decomp::Partition& found, int ranks);
+
+/// How places fall to the pages of page_graph_of.
+decomp::PageLattice page_lattice_of(const World& world);
+
 /// The pages that hold points or centres of bodies, and what they weigh. Without points the pages are four bodies wide.
 decomp::PageGraph page_graph_of(const World& world);
+
+/// Collective: gives every page of the world to a rank. Returns how, for the log.
+template<class Exec>
+std::string share_out(decomp::Decomposition<Exec>& decomposition, const World& world)
+{
+    decomp::PartitionOptions options;
+    options.ranks                 = decomposition.ranks();
+    decomp::PageGraph       graph = page_graph_of(world);
+    const decomp::Partition found = decomp::make_partition(decomposition.communicator, graph, options);
+    decomposition.owners.assign(graph.key, found.rank);
+    return describe_partition(graph, found, options.ranks);
+}
 
 /// Collective: how a world falls to `ranks`, by each partitioner: a line each.
 std::string partition_lines(const Communicator& communicator, const World& world, int ranks);

@@ -23,7 +23,7 @@ Plan make_plan(const scene::Scene& scene, const World& world)
     return plan;
 }
 
-std::vector<Stage> stages(const scene::Scene&, const Plan& plan)
+std::vector<Stage> stages(const scene::Scene&, const Plan& plan, int ranks)
 {
     const auto needs = [](const char* name, bool on, const char* yes, const char* no) {
         return Stage{name, on, on ? yes : no};
@@ -49,7 +49,7 @@ std::vector<Stage> stages(const scene::Scene&, const Plan& plan)
         needs(stage::measure, true, "the next time step and the balances", ""),
         needs(stage::output, true, "time series", ""),
         needs(stage::snapshots, plan.snapshots, "snapshots_every", "output.snapshots_every = 0"),
-        needs(stage::halo, false, "", "one rank"),
+        needs(stage::halo, ranks > 1 && plan.sand, "nodes that ranks share", ranks > 1 ? no_sand : "one rank"),
     };
 }
 

@@ -34,8 +34,8 @@ struct Plan
 
 Plan make_plan(const scene::Scene& scene, const World& world);
 
-/// The stages of a step in their order, as `tread check`, the log and summary.json list them.
-std::vector<Stage> stages(const scene::Scene& scene, const Plan& plan);
+/// The stages of a step on so many ranks in their order, as `tread check`, the log and summary.json list them.
+std::vector<Stage> stages(const scene::Scene& scene, const Plan& plan, int ranks);
 
 /// Stage names, shared by the plan, the clock and the tables.
 namespace stage

@@ -7,14 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "backend/reduce.hpp"
 #include "base/errors.hpp"
 #include "kernels/dem/body_contact.hpp"
 #include "kernels/dem/contact_limits.hpp"
 #include "kernels/dem/move.hpp"
 #include "kernels/dem/pairs_kern.hpp"
 #include "kernels/dem/substeps.hpp"
-#include "kernels/dem/sums.hpp"
 #include "solver/materials.hpp"
 
 namespace tread::solver
@@ -23,6 +21,9 @@ namespace
 {
 
 constexpr double hit_twice = 4; ///< times as fast may a light body be that is hit by one that was hit itself
+/// Spacings: how far from the pages of its rank sand may be met. Points may be a page beyond before they change their
+/// rank, and have a radius.
+constexpr double sand_reach = mpm::page_edge + 2;
 
 std::vector<double> bounding_radii(const World& world)
 {
@@ -35,18 +36,11 @@ std::vector<double> bounding_radii(const World& world)
     return radii;
 }
 
-template<class T>
-std::vector<double> rows(const std::vector<T>& vectors)
-{
-    std::vector<double> out;
-    for (const T& v : vectors) { out.insert(out.end(), v.data(), v.data() + v.size()); }
-    return out;
-}
-
 } // namespace
 
 template<class Exec>
-Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan)
+Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
+                   decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
     , scene_(scene)
     , world_(world)
@@ -96,6 +90,10 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     bodies_.force.fill_zero();
     bodies_.torque.fill_zero();
     bodies_.stiffness.fill_zero();
+    if (decomposition != nullptr)
+    {
+        ranks_.emplace(*decomposition, world, plan.coupling ? sand_reach * scene.grid.spacing : 0, bodies_);
+    }
     begin_mean();
     restore_contacts();
 }
@@ -181,9 +179,12 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
 
         const Mat3<double> inertia = rotation * full(read(exec_, bodies_.inertia.data() + b)) * rotation.transpose();
         const double       mass    = world_.bodies.mass[b];
-        command_impulse_ += mass * (velocity - velocity_before);
-        command_work_ += 0.5 * mass * (velocity.squaredNorm() - velocity_before.squaredNorm()) +
-                         0.5 * (spin.dot(inertia * spin) - spin_before.dot(inertia * spin_before));
+        if (!ranks_ || ranks_->owns(static_cast<std::int64_t>(b)))
+        {
+            command_impulse_ += mass * (velocity - velocity_before);
+            command_work_ += 0.5 * mass * (velocity.squaredNorm() - velocity_before.squaredNorm()) +
+                             0.5 * (spin.dot(inertia * spin) - spin_before.dot(inertia * spin_before));
+        }
         commanded_speed_ =
             std::max(commanded_speed_, velocity.norm() + spin.norm() * world_.bodies.scale[b] * form.bounding_radius);
         copy_from_host(exec_, bodies_.velocity.data() + b, &velocity, sizeof(velocity));
@@ -197,18 +198,52 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
 template<class Exec>
 void Rigid<Exec>::find_pairs(double dt)
 {
-    const bool holds =
-        listed_ &&
-        dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), dt) <= 1 &&
-        (!pairs_.patches.wanted || dem::regroup_patches(exec_, pairs_, bodies_.view(), law_));
-    if (holds) { stage(); }
-    else
+    if (list_holds(dt)) { stage(); } // commands change bodies too
+    else { list_pairs_anew(dt); }
+    dem::expect_contacts(exec_, pairs_, bodies_.view(), law_, gravity_, dt, shared());
+    if (!ranks_) { return; }
+    ranks_->exchange_stiffness();
+    dem::expect_shared_contacts(exec_, pairs_, shared());
+}
+
+/// Nothing is changed before all ranks know that the list holds for all.
+template<class Exec>
+bool Rigid<Exec>::list_holds(double dt)
+{
+    const auto all = [&](bool here) { return ranks_ ? ranks_->all(here) : here; };
+    if (!all(listed_ && !(ranks_ && ranks_->pages_have_changed()) && largest_stray_ahead(dt) <= 1)) { return false; }
+    if (!pairs_.patches.wanted) { return true; }
+    if (!all(dem::patch_rows_suffice(exec_, pairs_, bodies_.view(), law_))) { return false; }
+    dem::regroup_patches(exec_, pairs_, bodies_.view(), law_);
+    return true;
+}
+
+template<class Exec>
+double Rigid<Exec>::largest_stray_ahead(double ahead)
+{
+    return dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), ahead);
+}
+
+template<class Exec>
+void Rigid<Exec>::list_pairs_anew(double dt)
+{
+    dem::begin_list(exec_, pairs_, bodies_.view(), law_);
+    if (shares())
     {
-        dem::find_pairs(exec_, pairs_, bodies_.view(), law_, dt);
-        dem::mark_places(exec_, strays_, bodies_.view());
-        listed_ = true;
+        dem::share_speeds(exec_, pairs_, bodies_.view(), shared());
+        ranks_->exchange_speeds();
     }
-    dem::expect_contacts(exec_, pairs_, bodies_.view(), law_, gravity_, dt);
+    dem::want_travel(exec_, pairs_, bodies_.view(), law_, dt, shared());
+    if (ranks_) { ranks_->sum_wanted_travel(pairs_); }
+    dem::grant_travel(exec_, pairs_, bodies_.view(), law_, dt);
+    if (ranks_)
+    {
+        ranks_->deal(bodies_, pairs_);
+        ++deals_;
+    }
+    dem::list_pairs(exec_, pairs_, bodies_.view(), law_);
+    dem::mark_places(exec_, strays_, bodies_.view());
+    listed_ = true;
 }
 
 template<class Exec>
@@ -233,18 +268,21 @@ std::int64_t Rigid<Exec>::unwatched_steps(double dt, double speed) const
 template<class Exec>
 void Rigid<Exec>::find_pairs_if_strayed(double ahead, double left, double time)
 {
-    const double share =
-        dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), ahead);
-    if (share <= 1) { return; }
-    require_finite(time);
-    overlap_ = std::max(overlap_, guard(time)); // the search forgets the peaks of the pairs
+    if (of_all(largest_stray_ahead(ahead)) <= 1) { return; }
+    together(
+        [&]
+        {
+            require_finite(time);
+            overlap_ = std::max(overlap_, guard(time)); // the search forgets the peaks of the pairs
+        });
     find_pairs(left);
 }
 
 template<class Exec>
 double Rigid<Exec>::shortest_contact()
 {
-    return dem::smallest_contact_time(exec_, pairs_, bodies_.view());
+    const double here = dem::smallest_contact_time(exec_, pairs_, bodies_.view());
+    return ranks_ ? ranks_->shortest(here) : here;
 }
 
 template<class Exec>
@@ -266,6 +304,11 @@ void Rigid<Exec>::move(double dt, double damping, const dem::OutsideWrenches& ou
 {
     dem::BodyStep<Exec> step = body_step(dt, damping);
     step.motion.outside      = outside;
+    if (shares())
+    {
+        dem::share_wrenches(exec_, step);
+        ranks_->exchange_wrenches();
+    }
     dem::move_bodies(exec_, step);
     count_substeps(dt, 1);
 }
@@ -273,6 +316,15 @@ void Rigid<Exec>::move(double dt, double damping, const dem::OutsideWrenches& ou
 template<class Exec>
 void Rigid<Exec>::run(double dt, double damping, std::int64_t count)
 {
+    if (shares())
+    {
+        for (std::int64_t substep = 0; substep < count; ++substep)
+        {
+            contact(dt);
+            move(dt, damping);
+        }
+        return;
+    }
     dem::run_substeps(exec_, body_step(dt, damping), count);
     count_substeps(dt, count);
 }
@@ -280,7 +332,7 @@ void Rigid<Exec>::run(double dt, double damping, std::int64_t count)
 template<class Exec>
 dem::BodyStep<Exec> Rigid<Exec>::body_step(double dt, double damping)
 {
-    return {pairs_, bodies_.view(), law_, totals_.data(), named_impulses(), {gravity_, damping, dt}};
+    return {pairs_, bodies_.view(), law_, totals_.data(), named_impulses(), {gravity_, damping, dt}, shared()};
 }
 
 template<class Exec>
@@ -288,56 +340,6 @@ void Rigid<Exec>::count_substeps(double dt, std::int64_t count)
 {
     mean_time_ += static_cast<double>(count) * dt;
     substep_ = dt;
-}
-
-template<class Exec>
-RigidCensus Rigid<Exec>::census()
-{
-    const dem::BodySums sums = dem::sum_bodies(exec_, pairs_, bodies_.view(), totals_, gravity_);
-    return {mass_, sums.kinetic, sums.contact, sums.potential, sums.momentum};
-}
-
-template<class Exec>
-std::vector<BodyRow> Rigid<Exec>::named_bodies()
-{
-    std::vector<BodyRow>            bodies;
-    const std::vector<Quat>         orientation = bodies_.orientation.to_host();
-    const std::vector<Vec3<double>> position = bodies_.position.to_host(), velocity = bodies_.velocity.to_host(),
-                                    spin            = bodies_.angular_velocity.to_host();
-    const std::vector<dem::ContactImpulse> impulses = impulses_.to_host();
-    for (std::size_t b = 0; b < static_cast<std::size_t>(named_); ++b)
-    {
-        const auto&        form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[b])];
-        const double       over = mean_time_ > 0 ? 1 / mean_time_ : 0;
-        const Vec3<double> axle = orientation[b] * Vec3<double>::UnitY();
-        const double       drop = world_.bodies.scale[b] * (form.is_wheel ? form.wheel.radius : form.bounding_radius);
-        bodies.push_back({position[b], velocity[b], spin[b], over * impulses[b].linear, over * impulses[b].angular,
-                          axle, position[b][2] - drop});
-    }
-    return bodies;
-}
-
-template<class Exec>
-void Rigid<Exec>::begin_mean()
-{
-    impulses_.fill_zero();
-    mean_time_ = 0;
-}
-
-template<class Exec>
-io::BodyFields Rigid<Exec>::fields() const
-{
-    io::BodyFields fields;
-    fields.position = rows(bodies_.position.to_host());
-    for (const Quat& q : bodies_.orientation.to_host())
-    {
-        for (const double value : {q.w(), q.x(), q.y(), q.z()}) { fields.orientation.push_back(value); }
-    }
-    fields.velocity         = rows(bodies_.velocity.to_host());
-    fields.angular_velocity = rows(bodies_.angular_velocity.to_host());
-    fields.scale            = bodies_.scale.to_host();
-    fields.shape            = bodies_.shape.to_host();
-    return fields;
 }
 
 template class Rigid<Cpu>;

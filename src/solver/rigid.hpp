@@ -12,6 +12,7 @@
 #include "kernels/dem/pairs.hpp"
 #include "kernels/dem/strays.hpp"
 #include "kernels/dem/totals.hpp"
+#include "solver/body_ranks.hpp"
 #include "solver/device_rays.hpp"
 #include "solver/device_templates.hpp"
 #include "solver/ledger.hpp"
@@ -35,7 +36,10 @@ template<class Exec>
 class Rigid
 {
 public:
-    Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan);
+    /// `decomposition`: who owns which page; null on one rank. With it every call is collective, and what comes back is
+    /// of all bodies.
+    Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
+          decomp::Decomposition<Exec>* decomposition = nullptr);
 
     dem::BodiesView          view() { return bodies_.view(); }
     const dem::TemplateView* templates() const { return templates_.views(); }
@@ -43,6 +47,9 @@ public:
 
     /// Total mass, kg.
     double mass() const { return mass_; }
+
+    /// Whether this rank moves bodies together with others, so that every substep has messages.
+    bool shares() const { return ranks_ && ranks_->shares(); }
 
     /// For messages: a named body's name, or "rock 17".
     std::string name(std::int64_t body) const;
@@ -70,8 +77,11 @@ public:
     /// more of them without a watch.
     std::int64_t unwatched_steps(double dt, double speed) const;
 
-    /// m/s, the largest that commands have given since the last call.
-    double take_commanded_speed() { return std::exchange(commanded_speed_, 0.0); }
+    /// m/s, the largest that commands have given since the last call, on any rank.
+    double take_commanded_speed() { return of_all(std::exchange(commanded_speed_, 0.0)); }
+
+    /// How often bodies were dealt to the ranks: which of them are here stays while this does. 0 on one rank.
+    std::int64_t deals() const { return deals_; }
 
     /// The least sqrt(m / sum K) over bodies, of contacts that are live or may come in the step, s; 0 = none.
     double shortest_contact();
@@ -99,13 +109,29 @@ public:
     RigidCensus          census();
     std::vector<BodyRow> named_bodies();
     void                 begin_mean();
-    io::BodyFields       fields() const;
+    io::BodyFields       fields();
 
 private:
     dem::NamedImpulses named_impulses() { return {impulses_.data(), named_}; }
 
-    void upload(const World& world);
-    void restore_contacts();
+    void   upload(const World& world);
+    void   restore_contacts();
+    void   list_pairs_anew(double dt);
+    bool   list_holds(double dt);
+    double largest_stray_ahead(double ahead);
+    void check(RigidReport& report, double sum_of_speeds, const Array<Exec, dem::BodyActivity>& activity, double time);
+    void add_up(RigidReport& report) const;
+
+    dem::SharedView shared() { return ranks_ ? ranks_->shared() : dem::SharedView{}; }
+    double          of_all(double value) const { return ranks_ ? ranks_->largest(value) : value; }
+
+    /// Checks of this rank's bodies: what one rank throws, all do.
+    template<class Checks>
+    void together(Checks checks) const
+    {
+        if (ranks_) { on_every_rank(ranks_->communicator(), checks); }
+        else { checks(); }
+    }
     void require_finite(double time);
     void require_listed(double time);
     void require_resolved(double time, double speed, const Array<Exec, dem::BodyActivity>& activity);
@@ -142,6 +168,7 @@ private:
     dem::Strays<Exec>                       strays_;
     double                                  smallest_radius_ = 0;     ///< m, of the bounding spheres
     bool                                    listed_          = false; ///< pairs were found
+    std::int64_t                            deals_           = 0;
     bool                                    watched_         = false; ///< of the present step: not only at its end
     double                                  commanded_speed_ = 0;     ///< m/s, the largest that commands gave
     double                                  overlap_ = 0; ///< largest over radius, before the list was found anew
@@ -153,6 +180,7 @@ private:
     double                                  command_work_    = 0; ///< J, of commands since the last report
     Vec3<double>                            command_impulse_ = Vec3<double>::Zero();
     dem::BodyTotal                          taken_{}; ///< totals at the last report
+    std::optional<BodyRanks<Exec>>          ranks_;
 };
 
 } // namespace tread::solver

@@ -1,3 +1,6 @@
+#include <algorithm>
+
+#include "decomp/letters.hpp"
 #include "solver/rigid.hpp"
 
 // What contacts remember, out of a run and back into another.
@@ -17,9 +20,11 @@ void Rigid<Exec>::restore_contacts()
     places.reserve(world_.contacts.size());
     keys.reserve(world_.contacts.size());
     patches.reserve(world_.contacts.size());
-    bool several = false;
+    bool       several  = false;
+    const auto is_large = pairs_.is_large.to_host();
     for (const ContactRecord& contact : world_.contacts)
     {
+        if (ranks_ && !ranks_->owns(ranks_->decider(is_large, contact.key))) { continue; }
         const bool again = !keys.empty() && dem::same_pair(keys.back(), contact.key);
         several          = several || again;
         keys.push_back(again ? keys.back() + 1 : contact.key);
@@ -47,7 +52,14 @@ std::vector<ContactRecord> Rigid<Exec>::contacts() const
         found.push_back({dem::whole_pair(keys[p]), patches[p], pairs_.resists_rolling ? rolling[p] : dem::no_rolling(),
                          places.empty() ? Vec3<double>::Zero() : places[p]});
     }
-    return found;
+    if (!ranks_) { return found; }
+    std::vector<ContactRecord> all;
+    for (const auto& records : decomp::gather_values(ranks_->communicator(), found))
+    {
+        all.insert(all.end(), records.begin(), records.end());
+    }
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
+    return all;
 }
 
 template void                       Rigid<Cpu>::restore_contacts();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -5,11 +6,24 @@
 
 #include "backend/reduce.hpp"
 #include "base/errors.hpp"
+#include "kernels/dem/sums.hpp"
 #include "solver/rigid.hpp"
 
-// What the bodies did since the last report.
+// What bodies tell: to the books, the recorder and snapshots.
 namespace tread::solver
 {
+namespace
+{
+
+template<class T>
+std::vector<double> rows(const std::vector<T>& vectors)
+{
+    std::vector<double> out;
+    for (const T& v : vectors) { out.insert(out.end(), v.data(), v.data() + v.size()); }
+    return out;
+}
+
+} // namespace
 
 template<class Exec>
 RigidReport Rigid<Exec>::report(double time)
@@ -22,17 +36,8 @@ RigidReport Rigid<Exec>::report(double time)
     report.net_force     = sums.all.net_force;
     report.weight_power  = sums.all.weight_power;
     report.substep       = substep_;
-    if (!std::isfinite(report.net_force) || !std::isfinite(sums.all.speed))
-    {
-        require_finite(time);
-        throw NumericalError(fmt::format("t = {:.6g} s: the sum of the forces on bodies is not a number", time));
-    }
-    if (contacts_)
-    {
-        require_resolved(time, report.largest_speed, activity);
-        require_listed(time);
-        report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time));
-    }
+    together([&] { check(report, sums.all.speed, activity, time); });
+    if (ranks_) { add_up(report); }
     return report;
 }
 
@@ -49,6 +54,31 @@ typename Rigid<Exec>::ReportSums Rigid<Exec>::sum_for_report(Array<Exec, dem::Bo
     sum_rows(exec_, values, activity.size(), width, most + width);
     sum_rows(exec_, totals, totals_.size(), dem::body_total_width, most + 2 * width);
     return read(exec_, reinterpret_cast<const ReportSums*>(most));
+}
+
+/// Of this rank's bodies. The largest speed hides one that is not a number, their sum does not.
+template<class Exec>
+void Rigid<Exec>::check(RigidReport& report, double sum_of_speeds, const Array<Exec, dem::BodyActivity>& activity,
+                        double time)
+{
+    if (!std::isfinite(report.net_force) || !std::isfinite(sum_of_speeds))
+    {
+        require_finite(time);
+        throw NumericalError(fmt::format("t = {:.6g} s: the sum of the forces on bodies is not a number", time));
+    }
+    if (!contacts_) { return; }
+    require_resolved(time, report.largest_speed, activity);
+    require_listed(time);
+    report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time));
+}
+
+template<class Exec>
+void Rigid<Exec>::add_up(RigidReport& report) const
+{
+    const double overlap = ranks_->largest(report.overlap), speed = ranks_->largest(report.largest_speed);
+    ranks_->sum(report);
+    report.overlap       = overlap;
+    report.largest_speed = speed;
 }
 
 /// What has been added to the totals since the last report.
@@ -70,9 +100,76 @@ void Rigid<Exec>::take(const dem::BodyTotal& now, RigidReport& report)
     command_work_ = 0;
 }
 
-template RigidReport Rigid<Cpu>::report(double);
+template<class Exec>
+RigidCensus Rigid<Exec>::census()
+{
+    const dem::BodySums sums = dem::sum_bodies(exec_, pairs_, bodies_.view(), totals_, gravity_);
+    RigidCensus         now{0, sums.kinetic, sums.contact, sums.potential, sums.momentum};
+    if (ranks_) { ranks_->sum(now); }
+    now.mass = mass_;
+    return now;
+}
+
+template<class Exec>
+std::vector<BodyRow> Rigid<Exec>::named_bodies()
+{
+    if (ranks_) { ranks_->collect(bodies_); }
+    std::vector<BodyRow>            bodies;
+    const std::vector<Quat>         orientation = bodies_.orientation.to_host();
+    const std::vector<Vec3<double>> position = bodies_.position.to_host(), velocity = bodies_.velocity.to_host(),
+                                    spin      = bodies_.angular_velocity.to_host();
+    std::vector<dem::ContactImpulse> impulses = impulses_.to_host();
+    if (ranks_)
+    {
+        for (dem::ContactImpulse& impulse : impulses) { ranks_->sum(impulse); }
+    }
+    for (std::size_t b = 0; b < static_cast<std::size_t>(named_); ++b)
+    {
+        const auto&        form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[b])];
+        const double       over = mean_time_ > 0 ? 1 / mean_time_ : 0;
+        const Vec3<double> axle = orientation[b] * Vec3<double>::UnitY();
+        const double       drop = world_.bodies.scale[b] * (form.is_wheel ? form.wheel.radius : form.bounding_radius);
+        bodies.push_back({position[b], velocity[b], spin[b], over * impulses[b].linear, over * impulses[b].angular,
+                          axle, position[b][2] - drop});
+    }
+    return bodies;
+}
+
+template<class Exec>
+void Rigid<Exec>::begin_mean()
+{
+    impulses_.fill_zero();
+    mean_time_ = 0;
+}
+
+template<class Exec>
+io::BodyFields Rigid<Exec>::fields()
+{
+    if (ranks_) { ranks_->collect(bodies_); }
+    io::BodyFields fields;
+    fields.position = rows(bodies_.position.to_host());
+    for (const Quat& q : bodies_.orientation.to_host())
+    {
+        for (const double value : {q.w(), q.x(), q.y(), q.z()}) { fields.orientation.push_back(value); }
+    }
+    fields.velocity         = rows(bodies_.velocity.to_host());
+    fields.angular_velocity = rows(bodies_.angular_velocity.to_host());
+    fields.scale            = bodies_.scale.to_host();
+    fields.shape            = bodies_.shape.to_host();
+    return fields;
+}
+
+template RigidReport          Rigid<Cpu>::report(double);
+template RigidCensus          Rigid<Cpu>::census();
+template std::vector<BodyRow> Rigid<Cpu>::named_bodies();
+template void                 Rigid<Cpu>::begin_mean();
+template io::BodyFields       Rigid<Cpu>::fields();
 #ifdef TREAD_WITH_CUDA
-template RigidReport Rigid<Gpu>::report(double);
+template RigidReport          Rigid<Gpu>::report(double);
+template RigidCensus          Rigid<Gpu>::census();
+template std::vector<BodyRow> Rigid<Gpu>::named_bodies();
+template void                 Rigid<Gpu>::begin_mean();
+template io::BodyFields       Rigid<Gpu>::fields();
 #endif
 
 } // namespace tread::solver

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -10,11 +11,14 @@
 
 #include "backend/memory.hpp"
 #include "base/version.hpp"
+#include "decomp/single_rank.hpp"
 #include "io/progress.hpp"
 #include "scene/resolved.hpp"
 #include "solver/bed.hpp"
 #include "solver/driver.hpp"
 #include "solver/estimate.hpp"
+#include "solver/page_loads.hpp"
+#include "solver/rank_devices.hpp"
 #ifdef TREAD_WITH_CUDA
 #include "backend/device.hpp"
 #endif
@@ -82,15 +86,38 @@ struct Job
     const scene::Scene& scene;
     const World&        world;
     Plan                plan;
+    const RunOptions&   options;
     std::vector<Stage>  stages;
     io::RunDirectory    directory;
     io::Summary         summary;
 };
 
+/// Nothing on one rank.
+template<class Exec>
+std::optional<decomp::Decomposition<Exec>> decompose(const Exec& exec, Job& job)
+{
+    std::optional<decomp::Decomposition<Exec>> decomposition;
+    if (job.communicator.size() == 1) { return decomposition; }
+    decomposition.emplace(job.communicator, exec, job.options.decomposition);
+    job.log.info(fmt::format("transport: {}", decomposition->transport.description()));
+    job.log.info(fmt::format("partition: {}", share_out(*decomposition, job.world)));
+    return decomposition;
+}
+
+/// What several ranks cannot do yet.
+void require_ranks_can(const Communicator& communicator, const scene::Scene& scene)
+{
+    if (scene.numerics.volume_strain == scene::VolumeStrain::cell_average)
+    {
+        decomp::require_single_rank(communicator, "scenes with volume_strain = \"cell-average\" run");
+    }
+}
+
 template<class Exec, class Real>
 ExitCode run_on(const Exec& exec, Job& job)
 {
-    Simulation<Exec, Real> simulation(exec, job.scene, job.world, job.plan);
+    std::optional<decomp::Decomposition<Exec>> decomposition = decompose(exec, job);
+    Simulation<Exec, Real> simulation(exec, job.scene, job.world, job.plan, decomposition ? &*decomposition : nullptr);
     Driver<Exec, Real>     driver(job.communicator, job.log, job.scene, job.world, job.directory, job.plan, simulation);
     try
     {
@@ -131,8 +158,12 @@ ExitCode run_backend(Backend backend, Job& job)
 #ifdef TREAD_WITH_CUDA
     else
     {
-        const Device device(0, counters);
-        job.summary.devices.push_back(device_facts(0).name);
+        const int    number = device_of_rank(job.communicator, job.options.gpus);
+        const Device device(number, counters);
+        for (const std::string& name : say_devices(job.communicator, job.log, number))
+        {
+            job.summary.devices.push_back(name);
+        }
         require_room("device", wanted, free_bytes(device.gpu()));
         code                          = run_precision(device.gpu(), job);
         job.summary.peak_device_bytes = counters.peak_bytes();
@@ -150,13 +181,15 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
     omp_set_num_threads(threads);
     const World world = build_world(scene);
     const Plan  plan  = make_plan(scene, world);
+    require_ranks_can(communicator, scene);
 
     Job job{communicator,
             log,
             scene,
             world,
             plan,
-            stages(scene, plan),
+            options,
+            stages(scene, plan, communicator.size()),
             io::RunDirectory::create(communicator, options.output, options.existing, scene::resolved_toml(scene)),
             {}};
     log.open(job.directory.log());

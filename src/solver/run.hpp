@@ -5,6 +5,7 @@
 #include "base/communicator.hpp"
 #include "base/exit_code.hpp"
 #include "base/log.hpp"
+#include "decomp/decomposition.hpp"
 #include "io/run_directory.hpp"
 #include "scene/scene.hpp"
 
@@ -18,18 +19,29 @@ enum class BackendChoice
     cuda
 };
 
+/// Whether several ranks of a machine may use one GPU.
+enum class GpuSharing
+{
+    refused,
+    allowed
+};
+
 struct RunOptions
 {
     std::string   output; ///< the run directory
     io::Existing  existing = io::Existing::refuse;
     BackendChoice backend  = BackendChoice::automatic;
     int           threads  = 0; ///< OpenMP threads; 0 = OMP_NUM_THREADS, or the cores over the local ranks
+    GpuSharing    gpus     = GpuSharing::refused;
+
+    decomp::DecompositionOptions decomposition; ///< of a run on several ranks
 };
 
 /// Runs a scene from its first phase to its last. The scene's geometry is built and checked before the run directory
 /// is made. Writes scene.toml, log.txt, timeseries.h5, snapshots and summary.json; a run that is stopped by a
 /// NumericalError leaves a summary that says so, and its exit code comes back.
-/// Throws InputError and EnvironmentError for what is found before the first step.
+/// Collective; on several ranks every rank computes with the pages that are its own. Throws InputError and
+/// EnvironmentError for what is found before the first step.
 ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& scene, const RunOptions& options);
 
 /// What `tread check` prints: the plan of stages with reasons, counts, memory, disk and the limits of the step, and

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
+#include "decomp/combine.hpp"
 #include "solver/materials.hpp"
 
 namespace tread::solver
@@ -59,6 +61,29 @@ std::vector<Out> interleaved(const Array<Exec, T>& field, const mpm::Points<Exec
     return rows;
 }
 
+/// The points of the pages that a rank owns.
+struct OwnPoints
+{
+    HostPoints                 points;
+    std::vector<std::uint32_t> id; ///< their numbers in the world
+};
+
+template<class Exec>
+OwnPoints own_points(const World& world, const decomp::Decomposition<Exec>& decomposition)
+{
+    OwnPoints                 own{world.points, {}};
+    std::vector<std::uint8_t> kept;
+    for (const Vec3<double>& at : world.points.position)
+    {
+        const mpm::Index3 cell = mpm::cell_of(at, 1 / world.geometry.spacing, world.geometry.stencil_shift);
+        const bool        here = decomposition.owners.owner(mpm::page_key(mpm::page_of(cell))) == decomposition.rank();
+        if (here) { own.id.push_back(static_cast<std::uint32_t>(kept.size())); }
+        kept.push_back(here);
+    }
+    keep_points(own.points, kept);
+    return own;
+}
+
 /// Copies `count` values; gives what comes after them.
 const double* take(const double* from, int count, double* to)
 {
@@ -69,8 +94,10 @@ const double* take(const double* from, int count, double* to)
 } // namespace
 
 template<class Exec, class Real>
-Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields)
+Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields,
+                       decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
+    , decomposition_(decomposition)
     , geometry_(world.geometry)
     , walls_(world.grid_walls)
     , gravity_(Vec3<double>(scene.domain.gravity[0], scene.domain.gravity[1], scene.domain.gravity[2]).cast<Real>())
@@ -100,15 +127,22 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
 {
     materials_.assign(law_parameters<Real>(scene));
     stirred_in_.fill_zero();
+    if (decomposition != nullptr)
+    {
+        migration_.emplace(*decomposition);
+        halo_.emplace(*decomposition);
+    }
     upload(world, fields);
 }
 
 template<class Exec, class Real>
 void Sand<Exec, Real>::upload(const World& world, mpm::PointFields fields)
 {
-    const HostPoints& host = world.points;
+    const OwnPoints   own  = decomposition_ == nullptr ? OwnPoints{} : own_points(world, *decomposition_);
+    const HostPoints& host = decomposition_ == nullptr ? world.points : own.points;
     const auto        n    = host.size();
     points_.allocate(static_cast<std::int64_t>(n), fields);
+    if (n == 0) { return; }
     points_.position.assign(planes<double, 3>(host.position));
     points_.start.assign(planes<double, 3>(host.position));
     points_.stress.assign(planes<Real, 6>(host.stress));
@@ -118,8 +152,12 @@ void Sand<Exec, Real>::upload(const World& world, mpm::PointFields fields)
     points_.material.assign(host.material);
     if (!host.velocity.empty()) { points_.velocity.assign(planes<Real, 3>(host.velocity)); }
     if (!host.velocity.empty() && fields.coupled) { points_.grid_velocity.assign(planes<Real, 3>(host.velocity)); }
-    std::vector<std::uint32_t> ids(n);
-    for (std::size_t i = 0; i < n; ++i) { ids[i] = static_cast<std::uint32_t>(i); }
+    std::vector<std::uint32_t> ids = own.id;
+    if (decomposition_ == nullptr)
+    {
+        ids.resize(n);
+        std::iota(ids.begin(), ids.end(), 0U);
+    }
     points_.id.assign(ids);
 }
 
@@ -132,6 +170,7 @@ mpm::PagesView Sand<Exec, Real>::pages() const
 template<class Exec, class Real>
 void Sand<Exec, Real>::order()
 {
+    migrated_ = 0;
     if (listed_) { return; }
     listed_ = true;
     if (steps_ > 0)
@@ -162,7 +201,9 @@ void Sand<Exec, Real>::list_anew()
 template<class Exec, class Real>
 void Sand<Exec, Real>::order_in_memory()
 {
+    if (migration_) { migrated_ = migration_->run(points_, geometry_, order_scratch_); }
     mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_);
+    if (halo_) { halo_->plan(pages_, walls_); }
     relists_ = 0;
     ++orders_;
     const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
@@ -210,10 +251,19 @@ void Sand<Exec, Real>::scatter()
 }
 
 template<class Exec, class Real>
+void Sand<Exec, Real>::share()
+{
+    halo_->begin(pages(), tiles_.data());
+    halo_->finish();
+}
+
+template<class Exec, class Real>
 void Sand<Exec, Real>::update_grid(double dt, double damping)
 {
     const mpm::GridStep<Real> step{static_cast<Real>(dt), gravity_, static_cast<Real>(damping), mass_floor_, walls_};
-    mpm::update_grid(exec_, pages(), wall_pages_.view(), tiles_.data(), step, motion_.data(), grid_rows_.data());
+    const mpm::SharedPagesView<Real> shared = halo_ ? halo_->view() : mpm::SharedPagesView<Real>{};
+    mpm::update_grid(exec_, pages(), wall_pages_.view(), shared, tiles_.data(), step, motion_.data(),
+                     grid_rows_.data());
     mpm::update_walls(exec_, pages(), wall_pages_.view(), step, motion_.data(), grid_rows_.data());
 }
 
@@ -240,11 +290,16 @@ SandReport Sand<Exec, Real>::report()
     double*            grid   = totals_.data();
     double*            points = grid + grid_width;
     double*            peaks  = points + point_width;
+    if (halo_) { halo_->clear_booked_elsewhere(grid_width, grid_rows_.data()); }
     sum_rows(exec_, grid_rows_.data(), node_pages, grid_width, grid, sums_scratch_);
     sum_rows(exec_, point_rows_.data(), point_pages, point_width, points, sums_scratch_);
     largest_of_rows(exec_, peak_rows_.data(), point_pages, mpm::point_peaks, peaks);
     double read[grid_width + point_width + mpm::point_peaks];
     copy_to_host(exec_, read, grid, sizeof(read));
+    if (decomposition_ != nullptr)
+    {
+        decomp::combine(decomposition_->communicator, read, grid_width + point_width, mpm::point_peaks);
+    }
 
     SandReport    report;
     const double* from = read;
@@ -268,6 +323,7 @@ SandCensus Sand<Exec, Real>::census()
     sum_rows(exec_, census_rows_.data(), point_pages, mpm::census_count, totals_.data());
     double total[mpm::census_count];
     copy_to_host(exec_, total, totals_.data(), sizeof(total));
+    if (decomposition_ != nullptr) { decomp::combine(decomposition_->communicator, total, mpm::census_count, 0); }
     mass_ = total[mpm::census_mass];
     return {total[mpm::census_mass], total[mpm::census_kinetic], total[mpm::census_strain],
             Vec3<double>(total + mpm::census_momentum), Vec3<double>(total + mpm::census_moment)};

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "backend/reduce.hpp"
+#include "decomp/grid_halo.hpp"
+#include "decomp/migration.hpp"
 #include "io/snapshot.hpp"
 #include "kernels/mpm/cell_divergence.hpp"
 #include "kernels/mpm/cell_stress.hpp"
@@ -29,13 +32,17 @@ struct SandCensus
     Vec3<double> moment   = Vec3<double>::Zero(); ///< kg m, mass times position
 };
 
-/// The sand of a scene on one backend: points, pages, grid and the four calls of an MPM step.
+/// The sand of a scene on one backend: points, pages, grid and the four calls of an MPM step. With a decomposition a
+/// rank holds the points of the pages that it owns, every call is collective, and reports are of all ranks.
 template<class Exec, class Real>
 class Sand
 {
 public:
-    Sand(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields);
+    /// `decomposition`: who owns which page; null on one rank.
+    Sand(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields,
+         decomp::Decomposition<Exec>* decomposition = nullptr);
 
+    /// Of this rank.
     std::int64_t             count() const { return points_.count; }
     mpm::PointsView<Real>    view() { return points_.view(); }
     mpm::Points<Exec, Real>& points() { return points_; }
@@ -49,9 +56,15 @@ public:
 
     /// How often points were moved in memory: what is known of them by their place holds while this stays.
     std::int64_t orders() const { return orders_; }
+    /// Points that changed their rank in the last order(), of all ranks; and of this one, by rank that they went to.
+    std::int64_t                                   migrated() const { return migrated_; }
+    const std::vector<std::vector<std::uint32_t>>& departed() const { return migration_->departed(); }
 
     /// 4. P2G.
     void scatter();
+
+    /// Between 4 and 5, on several ranks: what all of them bring to the nodes that they share.
+    void share();
 
     /// 5. Grid momentum, with local damping (0 = none).
     void update_grid(double dt, double damping);
@@ -69,10 +82,10 @@ public:
     /// Of the last census, kg.
     double mass() const { return mass_; }
 
-    /// m, in memory order.
+    /// m, in memory order, of this rank.
     std::vector<Vec3<double>> positions() const;
 
-    /// What a snapshot shows.
+    /// What a snapshot shows, of this rank.
     io::PointFields fields() const;
 
 private:
@@ -82,39 +95,43 @@ private:
     void           clear_tallies();
     mpm::MovesView moves();
 
-    Exec                                       exec_;
-    mpm::GridGeometry                          geometry_;
-    mpm::GridWalls                             walls_;
-    Vec3<Real>                                 gravity_;
-    Real                                       mass_floor_;
-    mpm::Points<Exec, Real>                    points_;
-    mpm::Pages<Exec>                           pages_;
-    mpm::OrderScratch<Exec, Real>              order_scratch_;
-    mpm::RelistScratch<Exec>                   relist_scratch_;
-    Array<Exec, std::uint16_t>                 moves_to_;
-    Array<Exec, std::int32_t>                  move_counts_;
-    Array<Exec, std::int64_t>                  stirred_in_;
-    mpm::WallPages<Exec, Real>                 wall_pages_;
-    Array<Exec, Real>                          tiles_;
-    Array<Exec, Real>                          motion_;
-    Array<Exec, double>                        grid_rows_;
-    Array<Exec, double>                        point_rows_;
-    Array<Exec, double>                        peak_rows_;
-    Array<Exec, double>                        census_rows_;
-    Array<Exec, double>                        totals_;
-    Array<Exec, double>                        sums_scratch_;
-    Array<Exec, mpm::MaterialParameters<Real>> materials_;
-    double                                     pic_rate_;
-    bool                                       cell_means_; ///< of volumetric strain, and of pressure
-    Array<Exec, Real>                          cell_divergence_;
-    Array<Exec, Real>                          shared_stress_;
-    double                                     mass_    = 0;
-    std::int64_t                               step_    = 0;               ///< number of the last one
-    std::int64_t                               steps_   = 0;               ///< since the last report
-    mpm::Stir                                  stir_    = mpm::Stir::lost; ///< in those before it
-    bool                                       listed_  = false;           ///< since the last step
-    int                                        relists_ = 0;               ///< since they were last ordered in memory
-    std::int64_t                               orders_  = 0;
+    Exec                                         exec_;
+    decomp::Decomposition<Exec>*                 decomposition_;
+    mpm::GridGeometry                            geometry_;
+    mpm::GridWalls                               walls_;
+    Vec3<Real>                                   gravity_;
+    Real                                         mass_floor_;
+    mpm::Points<Exec, Real>                      points_;
+    mpm::Pages<Exec>                             pages_;
+    mpm::OrderScratch<Exec, Real>                order_scratch_;
+    mpm::RelistScratch<Exec>                     relist_scratch_;
+    Array<Exec, std::uint16_t>                   moves_to_;
+    Array<Exec, std::int32_t>                    move_counts_;
+    Array<Exec, std::int64_t>                    stirred_in_;
+    mpm::WallPages<Exec, Real>                   wall_pages_;
+    std::optional<decomp::Migration<Exec, Real>> migration_; ///< only on several ranks
+    std::optional<decomp::GridHalo<Exec, Real>>  halo_;      ///< the same
+    Array<Exec, Real>                            tiles_;
+    Array<Exec, Real>                            motion_;
+    Array<Exec, double>                          grid_rows_;
+    Array<Exec, double>                          point_rows_;
+    Array<Exec, double>                          peak_rows_;
+    Array<Exec, double>                          census_rows_;
+    Array<Exec, double>                          totals_;
+    Array<Exec, double>                          sums_scratch_;
+    Array<Exec, mpm::MaterialParameters<Real>>   materials_;
+    double                                       pic_rate_;
+    bool                                         cell_means_; ///< of volumetric strain, and of pressure
+    Array<Exec, Real>                            cell_divergence_;
+    Array<Exec, Real>                            shared_stress_;
+    double                                       mass_     = 0;
+    std::int64_t                                 step_     = 0;               ///< number of the last one
+    std::int64_t                                 steps_    = 0;               ///< since the last report
+    mpm::Stir                                    stir_     = mpm::Stir::lost; ///< in those before it
+    std::int64_t                                 migrated_ = 0;               ///< in the last order()
+    bool                                         listed_   = false;           ///< since the last step
+    int                                          relists_  = 0; ///< since they were last ordered in memory
+    std::int64_t                                 orders_   = 0;
 };
 
 } // namespace tread::solver

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -10,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "solver/pace_limits.hpp"
+#include "solver/surface.hpp"
 
 namespace tread::solver
 {
@@ -33,8 +33,10 @@ double free_weight(const scene::Scene& scene, const World& world)
 } // namespace
 
 template<class Exec, class Real>
-Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan)
+Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
+                                   decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
+    , decomposition_(decomposition)
     , scene_(scene)
     , world_(world)
     , plan_(plan)
@@ -42,10 +44,18 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     , gravity_(vector(scene.domain.gravity))
     , weight_(free_weight(scene, world))
 {
-    if (plan.sand) { sand_.emplace(exec, scene, world, mpm::PointFields{plan.affine, plan.plasticity, plan.coupling}); }
-    if (plan.bodies) { rigid_.emplace(exec, scene, world, plan); }
-    if (plan.coupling) { coupling_.emplace(exec, scene, world, rigid_->templates(), rigid_->pair_table()); }
-    if (plan.body_contact)
+    if (plan.sand)
+    {
+        sand_.emplace(exec, scene, world, mpm::PointFields{plan.affine, plan.plasticity, plan.coupling}, decomposition);
+    }
+    plan_.body_contact =
+        plan.body_contact || (plan.bodies && decomposition != nullptr); // the list tells who holds which
+    if (plan.bodies) { rigid_.emplace(exec, scene, world, plan_, decomposition); }
+    if (plan.coupling)
+    {
+        coupling_.emplace(exec, scene, world, rigid_->templates(), rigid_->pair_table(), decomposition);
+    }
+    if (plan_.body_contact)
     {
         rigid_->find_pairs(choose_step(scene.time, limits_, pace_, 0).dt);
         if (!world.contacts.empty()) { rigid_->contact(0); } // the books begin with what the contacts hold
@@ -72,6 +82,7 @@ TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& cl
     {
         guard_->allow(step, time);
         clock.run(exec_, stage::order, [&] { sand_->order(); });
+        if (coupling_ && sand_->migrated() > 0) { coupling_->send_after(sand_->departed()); }
     }
     if (unmeasured_ == 0) { find_contacts(step, clock); }
     if (plan_.body_contact) { step.substeps = substeps_of(scene_.time, step.dt, limits_, pace_); }
@@ -87,6 +98,10 @@ TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& cl
     if (sand_)
     {
         clock.run(exec_, stage::scatter, [&] { sand_->scatter(); });
+        if (decomposition_ != nullptr)
+        {
+            clock.run(exec_, stage::halo, [&] { sand_->share(); });
+        }
         clock.run(exec_, stage::grid, [&] { sand_->update_grid(step.dt, damping_); });
         clock.run(exec_, stage::gather, [&] { sand_->gather(step.dt); });
     }
@@ -125,8 +140,8 @@ void Simulation<Exec, Real>::find_contacts(const TimeStep& step, StageClock& clo
         clock.run(exec_, stage::candidates,
                   [&]
                   {
-                      coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(), sand_->orders(), span,
-                                                 pace_.largest_speed);
+                      coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(),
+                                                 sand_->orders() + rigid_->deals(), span, pace_.largest_speed);
                   });
     }
 }
@@ -165,7 +180,7 @@ void Simulation<Exec, Real>::substeps(const TimeStep& step, double time, StageCl
 template<class Exec, class Real>
 bool Simulation<Exec, Real>::in_one_launch(double dt, std::int64_t count, StageClock& clock)
 {
-    if (!coupling_) { return false; }
+    if (!coupling_ || rigid_->shares()) { return false; }
     const dem::BodyStep<Exec> step = rigid_->body_step(dt, damping_);
     if (!coupling_->worth_one_launch(step)) { return false; }
     clock.run(exec_, stage::sand_contact, [&] { coupling_->run_substeps(step, count); });
@@ -287,31 +302,9 @@ template<class Exec, class Real>
 double Simulation<Exec, Real>::surface_height()
 {
     if (!sand_) { return 0; }
-    const std::vector<Vec3<double>>         positions = sand_->positions();
-    const std::vector<BodyRow>              bodies    = named_bodies();
-    std::map<std::pair<long, long>, double> highest;
-    for (const Vec3<double>& x : positions)
-    {
-        double& top = highest[{std::lround(x[0] / scene_.grid.spacing), std::lround(x[1] / scene_.grid.spacing)}];
-        top         = std::max(top, x[2]);
-    }
-    std::vector<double> heights;
-    for (const auto& [column, top] : highest)
-    {
-        const bool under = std::any_of(bodies.begin(), bodies.end(),
-                                       [&, at = column](const BodyRow& body)
-                                       {
-                                           return std::abs(body.position[0] - scene_.grid.spacing * double(at.first)) <
-                                                  1.2 * (body.position[2] - body.lowest);
-                                       });
-        if (!under) { heights.push_back(top); }
-    }
-    if (heights.empty())
-    {
-        for (const auto& [column, top] : highest) { heights.push_back(top); }
-    }
-    std::nth_element(heights.begin(), heights.begin() + static_cast<long>(heights.size() / 2), heights.end());
-    return heights[heights.size() / 2] + 0.5 * world_.point_spacing;
+    SurfaceColumns columns = surface_columns(sand_->positions(), scene_.grid.spacing);
+    if (decomposition_ != nullptr) { columns = gathered(columns, decomposition_->communicator); }
+    return middle_height(columns, named_bodies(), scene_.grid.spacing) + 0.5 * world_.point_spacing;
 }
 
 template class Simulation<Cpu, float>;

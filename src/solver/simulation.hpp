@@ -19,12 +19,15 @@
 namespace tread::solver
 {
 
-/// The state of a scene on one backend, and one step of it. Parts that the plan leaves out do not exist.
+/// The state of a scene on one backend, and one step of it. Parts that the plan leaves out do not exist. With a
+/// decomposition every call is collective, and what comes back is the same on all ranks unless a line says otherwise.
 template<class Exec, class Real>
 class Simulation
 {
 public:
-    Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan);
+    /// `decomposition`: who owns which page; null on one rank.
+    Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
+               decomp::Decomposition<Exec>* decomposition = nullptr);
 
     const Exec& exec() const { return exec_; }
 
@@ -40,6 +43,7 @@ public:
     /// The scene must have sand.
     Sand<Exec, Real>& sand() { return *sand_; }
 
+    /// Of this rank.
     std::int64_t points() const { return sand_ ? sand_->count() : 0; }
 
     /// Tells the named bodies what to do (held, driven, free) until the next call; `damping` of the phase.
@@ -61,6 +65,7 @@ public:
     std::vector<BodyRow> named_bodies();
     void                 begin_mean();
 
+    /// Of this rank.
     io::PointFields point_fields();
     io::BodyFields  body_fields();
 
@@ -84,6 +89,7 @@ private:
     void choose_measuring();
 
     Exec                                exec_;
+    decomp::Decomposition<Exec>*        decomposition_;
     const scene::Scene&                 scene_;
     const World&                        world_;
     Plan                                plan_;

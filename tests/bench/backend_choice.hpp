@@ -16,9 +16,9 @@ enum class Backend
     cuda
 };
 
-/// Calls run(execution tag).
+/// Calls run(execution tag); `device`: of this process.
 template<class Run>
-void on_backend(Backend backend, Run run)
+void on_backend(Backend backend, Run run, int device_number = 0)
 {
     Counters counters;
     if (backend == Backend::cpu)
@@ -27,9 +27,10 @@ void on_backend(Backend backend, Run run)
         return;
     }
 #ifdef TREAD_WITH_CUDA
-    const Device device(0, counters);
+    const Device device(device_number, counters);
     run(device.gpu());
 #else
+    static_cast<void>(device_number);
     throw EnvironmentError("--backend cuda: this build has no GPU backend");
 #endif
 }

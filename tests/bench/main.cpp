@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "base/errors.hpp"
+#include "base/communicator.hpp"
 #include "dem.hpp"
 #include "mpm.hpp"
 
@@ -20,30 +20,45 @@ void add_word(CLI::App& command, const std::string& name, T& value, const std::m
     command.add_option(name, value)->transform(CLI::CheckedTransformer(words))->type_name("WORD");
 }
 
+void add_mpm_options(CLI::App& command, bench::MpmCase& mpm, double& points)
+{
+    command.add_option("--points", points, "About how many, as 1e6; with --mode weak of each rank");
+    command.add_option("--per-cell", mpm.per_cell, "1, 8, 27 or 64");
+    command.add_option("--steps", mpm.steps, "Timed steps, three times");
+    add_word<scene::MaterialModel>(command, "--law", mpm.law,
+                                   {{"elastic", scene::MaterialModel::elastic},
+                                    {"mohr-coulomb", scene::MaterialModel::mohr_coulomb},
+                                    {"drucker-prager", scene::MaterialModel::drucker_prager}});
+    add_word<bench::SandState>(command, "--state", mpm.state,
+                               {{"settled", bench::SandState::settled}, {"collapsing", bench::SandState::collapsing}});
+    add_word<scene::Transfer>(
+        command, "--transfer", mpm.transfer,
+        {{"flip", scene::Transfer::flip}, {"apic", scene::Transfer::apic}, {"aflip", scene::Transfer::aflip}});
+    add_word<scene::Precision>(command, "--precision", mpm.precision,
+                               {{"single", scene::Precision::single_}, {"double", scene::Precision::double_}});
+    add_word<bench::Backend>(command, "--backend", mpm.backend,
+                             {{"cpu", bench::Backend::cpu}, {"cuda", bench::Backend::cuda}});
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
-    CLI::App       app("tread-bench: what a step costs", "tread-bench");
-    bench::MpmCase mpm;
-    double         points      = 1e6;
-    CLI::App*      mpm_command = app.add_subcommand("mpm", "Whole steps of pure sand");
-    mpm_command->add_option("--points", points, "About how many, as 1e6");
-    mpm_command->add_option("--per-cell", mpm.per_cell, "1, 8, 27 or 64");
-    mpm_command->add_option("--steps", mpm.steps, "Timed steps, three times");
-    add_word<scene::MaterialModel>(*mpm_command, "--law", mpm.law,
-                                   {{"elastic", scene::MaterialModel::elastic},
-                                    {"mohr-coulomb", scene::MaterialModel::mohr_coulomb},
-                                    {"drucker-prager", scene::MaterialModel::drucker_prager}});
-    add_word<bench::SandState>(*mpm_command, "--state", mpm.state,
-                               {{"settled", bench::SandState::settled}, {"collapsing", bench::SandState::collapsing}});
-    add_word<scene::Transfer>(
-        *mpm_command, "--transfer", mpm.transfer,
-        {{"flip", scene::Transfer::flip}, {"apic", scene::Transfer::apic}, {"aflip", scene::Transfer::aflip}});
-    add_word<scene::Precision>(*mpm_command, "--precision", mpm.precision,
-                               {{"single", scene::Precision::single_}, {"double", scene::Precision::double_}});
-    add_word<bench::Backend>(*mpm_command, "--backend", mpm.backend,
-                             {{"cpu", bench::Backend::cpu}, {"cuda", bench::Backend::cuda}});
+    CLI::App                app("tread-bench: what a step costs", "tread-bench");
+    bench::MpmCase          mpm;
+    double                  points          = 1e6;
+    CLI::App*               mpm_command     = app.add_subcommand("mpm", "Whole steps of pure sand");
+    CLI::App*               scaling_command = app.add_subcommand("scaling", "The same on the ranks of mpirun");
+    bench::Scaling          scaling         = bench::Scaling::weak;
+    decomp::TransportChoice transport       = decomp::TransportChoice::automatic;
+    add_word<bench::Scaling>(*scaling_command, "--mode", scaling,
+                             {{"weak", bench::Scaling::weak}, {"strong", bench::Scaling::strong}});
+    add_word<decomp::TransportChoice>(*scaling_command, "--transport", transport,
+                                      {{"auto", decomp::TransportChoice::automatic},
+                                       {"mpi", decomp::TransportChoice::mpi},
+                                       {"nccl", decomp::TransportChoice::nccl},
+                                       {"host", decomp::TransportChoice::host}});
+    for (CLI::App* command : {mpm_command, scaling_command}) { add_mpm_options(*command, mpm, points); }
     bench::DemCase dem;
     CLI::App*      dem_command = app.add_subcommand("dem", "Substeps of a scene's bodies");
     dem_command->add_option("SCENE", dem.scene, "TOML file")->required();
@@ -61,6 +76,11 @@ int main(int argc, char** argv)
     try
     {
         if (dem_command->parsed()) { bench::run_dem(dem); }
+        else if (scaling_command->parsed())
+        {
+            const MpiSession session;
+            bench::run_scaling(session.world(), mpm, scaling, transport);
+        }
         else { bench::run_mpm(mpm); }
     }
     catch (const std::exception& error)

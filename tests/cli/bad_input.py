@@ -2,7 +2,6 @@
 """Every way to ask for the impossible: exit code 2 or 4, a message that helps, and no file written."""
 
 import re
-import shutil
 import struct
 import unittest
 
@@ -243,14 +242,6 @@ class BadPlace(CommandTest):
 
 class BadLaunch(CommandTest):
     """How the program was started."""
-
-    def test_two_ranks(self):
-        scene = self.write("scene.toml", SCENE)
-        launcher = (shutil.which("mpirun"), "--allow-run-as-root", "--oversubscribe", "-n", "2")
-        result = self.tread("run", scene, "--output", self.output, launcher=launcher)
-        self.assertEqual(result.returncode, 4, result.stderr)
-        self.assertIn("2 MPI ranks", result.stderr)
-        self.assertEqual(self.files(), ["scene.toml"])
 
     def test_tasks_that_mpi_does_not_know(self):
         scene = self.write("scene.toml", SCENE)

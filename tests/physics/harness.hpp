@@ -30,10 +30,12 @@ public:
     {
     }
 
-    Experiment(const Exec& exec, scene::Scene scene, solver::World world)
+    /// `decomposition`: null for the whole scene on this rank.
+    Experiment(const Exec& exec, scene::Scene scene, solver::World world,
+               decomp::Decomposition<Exec>* decomposition = nullptr)
         : scene_(std::move(scene))
         , world_(std::move(world))
-        , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_))
+        , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_), decomposition)
         , phases_(scene_)
     {
     }
@@ -62,8 +64,8 @@ public:
         }
     }
 
-private:
-    void advance()
+    /// One step of the present phase, whether it is over or not.
+    solver::TimeStep advance()
     {
         if (simulation_.measured())
         {
@@ -77,10 +79,12 @@ private:
         }
         if (adjust_) { adjust_(commands); }
         simulation_.command(commands, phases_.phase().damping);
-        simulation_.step(step_, time_, clock_);
+        const solver::TimeStep taken = simulation_.step(step_, time_, clock_);
         time_ += step_.dt;
+        return taken;
     }
 
+private:
     scene::Scene       scene_;
     solver::World      world_;
     Simulation         simulation_;

@@ -21,7 +21,7 @@ struct CountLookups
     TREAD_HD void operator()(std::int64_t b) const
     {
         count[b] = 0;
-        if (b == bodies.count) { return; }
+        if (b == bodies.count || !bodies.is_here(b)) { return; }
         const PageBox box = page_box(search_body(bodies, templates, b, reach), pages, reach);
         count[b]          = static_cast<std::int32_t>(lookups(box, pages.point_pages));
     }

@@ -22,6 +22,9 @@ TREAD_HD std::uint64_t history_key(std::int32_t body, std::uint32_t point_id, in
            static_cast<std::uint64_t>(sub_id + 1);
 }
 
+/// Of a key.
+TREAD_HD std::uint32_t point_of(std::uint64_t history_key) { return static_cast<std::uint32_t>(history_key >> 4); }
+
 /// Where the records stand. A bin is empty (key 0) or filled; at least half are empty.
 struct HistoryView
 {
@@ -72,5 +75,15 @@ std::vector<HistoryRecord> read_out(const History<Exec>& history);
 /// Replaces all records, in any order; their keys must differ.
 template<class Exec>
 void put_back(const Exec& exec, History<Exec>& history, const std::vector<HistoryRecord>& records);
+
+/// Those of the points with these ids (ascending): what is to go where such points go. They stay here too, until the
+/// step's contacts are saved; no point of this rank asks for them.
+template<class Exec>
+std::vector<HistoryRecord> records_of(const Exec& exec, const History<Exec>& history,
+                                      const std::vector<std::uint32_t>& ids);
+
+/// Adds records, whose keys must differ from all that are there.
+template<class Exec>
+void add_records(const Exec& exec, History<Exec>& history, const std::vector<HistoryRecord>& records);
 
 } // namespace tread::contact

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "kernels/contact/history_kern.hpp"
+#include "kernels/dem/select.hpp"
 
 // The steps of the history, the same on both backends; history.cpp and history.cu bring in for_each and instantiate.
 namespace tread::contact
@@ -20,6 +21,25 @@ struct ClaimBin
     {
         claim_bin(history, key[record], static_cast<std::int32_t>(record));
     }
+};
+
+struct IsOfPoints
+{
+    const std::uint64_t* key;
+    const std::uint32_t* ids; ///< ascending
+    std::int64_t         count;
+
+    TREAD_HD bool operator()(std::int64_t record) const { return find_sorted(ids, count, point_of(key[record])) >= 0; }
+};
+
+struct WriteRecord
+{
+    const std::int32_t*  list;
+    const std::uint64_t* key;
+    const Tangential*    tangential;
+    HistoryRecord*       record;
+
+    TREAD_HD void operator()(std::int64_t i) const { record[i] = {key[list[i]], tangential[list[i]]}; }
 };
 
 } // namespace history_steps
@@ -74,6 +94,33 @@ void put_back(const Exec& exec, History<Exec>& history, const std::vector<Histor
     history.key.assign(key);
     history.tangential.assign(tangential);
     fill_bins(exec, history);
+}
+
+template<class Exec>
+std::vector<HistoryRecord> records_of(const Exec& exec, const History<Exec>& history,
+                                      const std::vector<std::uint32_t>& ids)
+{
+    if (ids.empty() || history.key.size() == 0) { return {}; }
+    Array<Exec, std::uint32_t> wanted(exec, "ids of leaving contacts");
+    Array<Exec, std::int32_t>  place(exec, "places of leaving contacts"), list(exec, "leaving contacts");
+    Array<Exec, HistoryRecord> records(exec, "records of leaving contacts");
+    SortScratch<Exec>          scratch(exec);
+    wanted.assign(ids);
+    dem::select(exec, "leaving contacts", history.key.size(),
+                history_steps::IsOfPoints{history.key.data(), wanted.data(), wanted.size()}, place, scratch, list);
+    records.resize(list.size());
+    for_each(exec, "records of leaving contacts", list.size(),
+             history_steps::WriteRecord{list.data(), history.key.data(), history.tangential.data(), records.data()});
+    return records.to_host();
+}
+
+template<class Exec>
+void add_records(const Exec& exec, History<Exec>& history, const std::vector<HistoryRecord>& records)
+{
+    if (records.empty()) { return; }
+    std::vector<HistoryRecord> all = read_out(history);
+    all.insert(all.end(), records.begin(), records.end());
+    put_back(exec, history, all);
 }
 
 } // namespace tread::contact

@@ -22,6 +22,15 @@ enum LockedFreedom : std::uint32_t
     lock_all   = 63,
 };
 
+/// What a rank has to do with a body, where several compute a scene. All of them number bodies alike and have memory
+/// for all: what names a body, in contacts and in what they remember, means the same everywhere.
+enum BodyRole : std::int32_t
+{
+    role_owner, ///< moves it and keeps its books
+    role_guest, ///< moves it as its owner does, for its contacts with what this rank owns
+    role_none,  ///< does not know where it is
+};
+
 /// How the time integration treats a locked degree of freedom: it keeps the velocity found in `velocity` and
 /// `angular_velocity` (zero for a held body, the prescribed value for a driven one) whatever the forces.
 struct BodiesView
@@ -41,6 +50,11 @@ struct BodiesView
     Vec3<double>*  force;            ///< N, contact, of the last substep (gravity not included)
     Vec3<double>*  torque;           ///< N m, about the centre of mass
     double*        stiffness;        ///< N/m, sum over live contacts of K, of the last substep
+
+    const std::int32_t* role = nullptr; ///< BodyRole; null: this rank owns all
+
+    TREAD_HD bool is_owned(std::int64_t b) const { return role == nullptr || role[b] == role_owner; }
+    TREAD_HD bool is_here(std::int64_t b) const { return role == nullptr || role[b] != role_none; }
 };
 
 /// Owner of what BodiesView shows.
@@ -62,6 +76,7 @@ struct Bodies
         , force(exec, "body force")
         , torque(exec, "body torque")
         , stiffness(exec, "body stiffness")
+        , role(exec, "body roles")
     {
     }
 
@@ -69,7 +84,8 @@ struct Bodies
     {
         return {position.size(), position.data(), orientation.data(), velocity.data(), angular_velocity.data(),
                 mass.data(),     inertia.data(),  scale.data(),       shape.data(),    material.data(),
-                locked.data(),   damped.data(),   force.data(),       torque.data(),   stiffness.data()};
+                locked.data(),   damped.data(),   force.data(),       torque.data(),   stiffness.data(),
+                role.data()};
     }
 
     Array<Exec, Vec3<double>>  position;
@@ -86,6 +102,7 @@ struct Bodies
     Array<Exec, Vec3<double>>  force;
     Array<Exec, Vec3<double>>  torque;
     Array<Exec, double>        stiffness;
+    Array<Exec, std::int32_t>  role; ///< empty on one rank
 };
 
 } // namespace tread::dem

@@ -5,14 +5,19 @@ namespace tread::dem
 {
 
 void expect_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
-                     const Vec3<double>& gravity, double dt)
+                     const Vec3<double>& gravity, double dt, const SharedView& shared)
 {
     const auto each = [&](std::int64_t count)
     {
         return [&cpu, count](const char* name, const auto& item)
         { for_each(cpu, name, count, [=](std::int64_t i) { item(i, OneLane{}); }); };
     };
-    contact_limits::expect(cpu, pairs, bodies, law, gravity, dt, each(pairs.key.size()), each(bodies.count));
+    contact_limits::expect(cpu, pairs, bodies, law, gravity, dt, shared, each(pairs.key.size()), each(bodies.count));
+}
+
+void expect_shared_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const SharedView& shared)
+{
+    contact_limits::expect_of_all_ranks(cpu, pairs, shared);
 }
 
 double smallest_contact_time(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernels/dem/pairs.hpp"
+#include "kernels/dem/shared.hpp"
 
 // What the contacts ask of the time step, and the guards of the penalty law.
 namespace tread::dem
@@ -13,10 +14,15 @@ namespace tread::dem
 /// pairs.expected_stiffness of every body, N/m: the larger of two sums over its listed pairs. One is of first touches
 /// (two nodes in the linear part of the traction) of those that are apart; the other of what touches and of the nodes
 /// that come inside when they move by twice what velocity and gravity (m/s2) make of them in dt (s). After find_pairs.
+/// Of bodies that several ranks move: of this rank's pairs, and their shares in shared.stiffness.
 void expect_contacts(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
-                     const Vec3<double>& gravity, double dt);
+                     const Vec3<double>& gravity, double dt, const SharedView& shared = {});
 void expect_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
-                     const Vec3<double>& gravity, double dt);
+                     const Vec3<double>& gravity, double dt, const SharedView& shared = {});
+
+/// Those bodies', of all ranks' pairs, when their shares are there.
+void expect_shared_contacts(const Cpu&, Pairs<Cpu>& pairs, const SharedView& shared);
+void expect_shared_contacts(const Gpu&, Pairs<Gpu>& pairs, const SharedView& shared);
 
 /// The least sqrt(m/K) (s) over the bodies that can move, K = the larger of the body's live stiffness and of what
 /// expect_contacts found; 0 without any contact, live or expected. A substep of 0.2 times that keeps energy

@@ -21,11 +21,12 @@ struct ExpectContacts
     const double* node_area;
     const double* entering; ///< N/m, of the pairs
     double*       expected;
+    SharedView    shared;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
     {
-        Sums sums{0, 0};
+        StiffnessShare sums{0, 0};
         for (std::int64_t p = pairs.first[b] + lanes.lane(); p < pairs.first[b + 1]; p += lanes.lanes())
         {
             add(p, sums);
@@ -34,18 +35,16 @@ struct ExpectContacts
         {
             add(pairs.by_second[i], sums);
         }
-        const double most = std::fmax(lanes.sum(sums.touches), lanes.sum(sums.approach));
-        if (lanes.lane() == 0) { expected[b] = most; }
+        sums = {lanes.sum(sums.touches), lanes.sum(sums.approach)};
+        if (lanes.lane() != 0) { return; }
+        expected[b] = most_of(sums);
+        if (shared.is_shared(b)) { shared.stiffness[shared.place[b]] = sums; }
     }
 
-private:
-    struct Sums
-    {
-        double touches;  ///< N/m, first touches of pairs that are apart; in a bed most of them will not come to be
-        double approach; ///< N/m, what touches and what comes nearer
-    };
+    TREAD_HD static double most_of(const StiffnessShare& sums) { return std::fmax(sums.touches, sums.approach); }
 
-    TREAD_HD void add(std::int64_t p, Sums& sums) const
+private:
+    TREAD_HD void add(std::int64_t p, StiffnessShare& sums) const
     {
         sums.touches += first_touch(p);
         sums.approach += pairs.patch[p].stiffness + entering[p];
@@ -87,6 +86,18 @@ private:
     }
 };
 
+/// Of the bodies that several ranks move.
+struct ExpectTogether
+{
+    SharedView shared;
+    double*    expected;
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        expected[shared.body[i]] = ExpectContacts::most_of(stiffness_of(shared, i));
+    }
+};
+
 struct WriteFrequency
 {
     BodiesView    bodies;
@@ -95,7 +106,8 @@ struct WriteFrequency
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        squared[b] = bodies.locked[b] == lock_all ? 0.0 : std::fmax(bodies.stiffness[b], expected[b]) / bodies.mass[b];
+        const bool moves = bodies.is_owned(b) && bodies.locked[b] != lock_all;
+        squared[b]       = moves ? std::fmax(bodies.stiffness[b], expected[b]) / bodies.mass[b] : 0.0;
     }
 };
 
@@ -119,7 +131,7 @@ struct WriteOverlap
 /// `each_body` run those with a backend's lanes.
 template<class Exec, class EachPair, class EachBody>
 void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, BodyLaw law, const Vec3<double>& gravity,
-            double dt, EachPair each_pair, EachBody each_body)
+            double dt, const SharedView& shared, EachPair each_pair, EachBody each_body)
 {
     pairs.measure.resize(pairs.key.size());
     law.rays = nullptr; // tell nothing outside
@@ -128,7 +140,14 @@ void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, Body
               AnticipatePair{bodies, law, pairs.view(), 2 * dt, 0.5 * dt * gravity, pairs.measure.data()});
     pairs.expected_stiffness.resize(bodies.count);
     each_body("expected contacts", ExpectContacts{bodies, law, pairs.view(), pairs.node_area.data(),
-                                                  pairs.measure.data(), pairs.expected_stiffness.data()});
+                                                  pairs.measure.data(), pairs.expected_stiffness.data(), shared});
+}
+
+template<class Exec>
+void expect_of_all_ranks(const Exec& exec, Pairs<Exec>& pairs, const SharedView& shared)
+{
+    for_each(exec, "expected contacts of shared bodies", shared.count,
+             ExpectTogether{shared, pairs.expected_stiffness.data()});
 }
 
 template<class Exec>

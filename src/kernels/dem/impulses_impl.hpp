@@ -15,6 +15,11 @@ struct Measure
 
     TREAD_HD void operator()(std::int64_t b) const
     {
+        if (!bodies.is_owned(b))
+        {
+            activity[b] = {};
+            return;
+        }
         activity[b].speed        = bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * bounding_radii[b];
         activity[b].weight_power = bodies.mass[b] * gravity.dot(bodies.velocity[b]);
         const bool fixed         = (bodies.locked[b] & lock_all) == lock_all;

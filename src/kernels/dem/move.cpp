@@ -4,6 +4,13 @@
 namespace tread::dem
 {
 
+void share_wrenches(const Cpu& cpu, const BodyStep<Cpu>& step)
+{
+    moving::with_share(
+        step, [&](const auto& share)
+        { for_each(cpu, "share wrenches", step.shared.count, [=](std::int64_t i) { share(i, OneLane{}); }); });
+}
+
 void move_bodies(const Cpu& cpu, const BodyStep<Cpu>& step)
 {
     moving::with_move(step,

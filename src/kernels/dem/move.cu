@@ -16,6 +16,17 @@ void launch(const Gpu& gpu, const BodyStep<Gpu>& step, const Move& move)
 
 } // namespace
 
+void share_wrenches(const Gpu& gpu, const BodyStep<Gpu>& step)
+{
+    constexpr int threads = 128;
+    moving::with_share(step,
+                       [&](const auto& share)
+                       {
+                           const auto part = group_part<threads, warp_size>(step.shared.count, share);
+                           for_each_block<threads>(gpu, "share wrenches", part.blocks, part.f);
+                       });
+}
+
 void move_bodies(const Gpu& gpu, const BodyStep<Gpu>& step)
 {
     constexpr std::int64_t few = 10000; // do not fill the device: lanes gather side by side, one moves

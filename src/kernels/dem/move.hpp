@@ -3,6 +3,7 @@
 #include "kernels/dem/impulses.hpp"
 #include "kernels/dem/outside.hpp"
 #include "kernels/dem/pairs.hpp"
+#include "kernels/dem/shared.hpp"
 #include "kernels/dem/totals.hpp"
 
 namespace tread::dem
@@ -35,7 +36,13 @@ struct BodyStep
     BodyTotal*    totals;
     NamedImpulses named;
     Motion        motion;
+    SharedView    shared = {};
 };
+
+/// First half of what follows, on several ranks: this rank's shares of step.shared.wrench, which the others are to
+/// have.
+void share_wrenches(const Cpu&, const BodyStep<Cpu>& step);
+void share_wrenches(const Gpu&, const BodyStep<Gpu>& step);
 
 /// Second half of a substep, after evaluate_contacts: every body's force, torque and stiffness become the sum of what
 /// acts on it from outside and what its pairs answer, if pairs were ever found; books wall impulses, losses and the

@@ -118,7 +118,7 @@ struct SumOutside
     TREAD_HD ContactWrench operator()(std::int64_t b, const Lanes& lanes) const
     {
         ContactWrench      sum = ContactWrench::zero();
-        const std::int32_t run = wrenches.run[b];
+        const std::int32_t run = wrenches.run == nullptr ? -1 : wrenches.run[b];
         if (run < 0) { return sum; }
         const std::int32_t end = wrenches.first[run + 1];
         for (std::int32_t i = wrenches.first[run] + lanes.lane(); i < end; i += lanes.lanes())
@@ -147,9 +147,23 @@ struct Damped
     }
 };
 
+/// One rank has all bodies.
+struct Alone
+{
+    static constexpr bool of_several = false;
+};
+
+/// Several ranks move bodies, some of them together.
+struct Together
+{
+    static constexpr bool of_several = true;
+
+    SharedView shared;
+};
+
 /// Gathers what acts on a body, books it, and moves the body. Of the lanes that share it the first one writes.
-/// Damping: Free or Damped; Outside: NothingOutside or SumOutside.
-template<class Damping, class Outside>
+/// Damping: Free or Damped; Outside: NothingOutside or SumOutside; Ranks: Alone or Together.
+template<class Damping, class Outside, class Ranks>
 struct Move
 {
     BodiesView    bodies;
@@ -160,25 +174,50 @@ struct Move
     double        dt;      ///< s
     Damping       damping;
     Outside       outside;
+    Ranks         ranks;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
     {
+        if constexpr (Ranks::of_several)
+        {
+            if (!bodies.is_here(b)) { return; }
+        }
         // Read before the sums, so that memory answers meanwhile.
         ContactBody     shown = pairs.body != nullptr ? load(pairs.body + b) : contact_body(bodies, b);
         BodyMotion      body  = motion_of(bodies, b, shown);
         const BodyShare share = pairs.first != nullptr ? GatherPairs{pairs, bodies.count}(b, lanes) : BodyShare::zero();
-        const ContactWrench from_outside = outside(b, lanes);
+        const WrenchShare acting = of_all_ranks(b, {outside(b, lanes), share.contact});
         if (lanes.lane() != 0) { return; }
-        const ContactWrench contact = from_outside + share.contact;
+        const ContactWrench contact = acting.outside + acting.pairs;
         book(b, share, contact);
-        const MeanMotion mean = integrate_body(body, contact, gravity, damping(bodies, b), dt, totals[b]);
-        if constexpr (Outside::acts) { book_outside(b, from_outside, mean); }
+        BodyTotal        unbooked;
+        const MeanMotion mean = integrate_body(body, contact, gravity, damping(bodies, b), dt, *book_of(b, unbooked));
+        if constexpr (Outside::acts) { book_outside(acting.outside, mean, *book_of(b, unbooked)); }
         store_motion(bodies, b, body);
         if (pairs.body != nullptr) { show(body, shown, pairs.body + b); }
     }
 
 private:
+    TREAD_HD WrenchShare of_all_ranks(std::int64_t b, const WrenchShare& own) const
+    {
+        if constexpr (Ranks::of_several)
+        {
+            if (ranks.shared.is_shared(b)) { return wrench_of(ranks.shared, ranks.shared.place[b]); }
+        }
+        return own;
+    }
+
+    /// A guest's motion is booked by its owner. One call moves both: a compiler may round two in two ways.
+    TREAD_HD BodyTotal* book_of(std::int64_t b, BodyTotal& unbooked) const
+    {
+        if constexpr (Ranks::of_several)
+        {
+            if (!bodies.is_owned(b)) { return &unbooked; }
+        }
+        return totals + b;
+    }
+
     TREAD_HD void book(std::int64_t b, const BodyShare& share, const ContactWrench& contact) const
     {
         bodies.force[b]     = contact.force;
@@ -187,17 +226,17 @@ private:
         if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += dt * share.wall_force; }
         if (share.friction != 0) { totals[b].friction += share.friction; }
         if (share.restitution != 0) { totals[b].restitution += share.restitution; }
-        if (b < named.count)
+        if (b < named.count && bodies.is_owned(b))
         {
             named.impulse[b].linear += dt * contact.force;
             named.impulse[b].angular += dt * contact.torque;
         }
     }
 
-    TREAD_HD void book_outside(std::int64_t b, const ContactWrench& wrench, const MeanMotion& mean) const
+    TREAD_HD void book_outside(const ContactWrench& wrench, const MeanMotion& mean, BodyTotal& total) const
     {
         const double power = wrench.force.dot(mean.velocity) + wrench.torque.dot(mean.angular_velocity);
-        if (power != 0) { totals[b].sand_work += dt * power; }
+        if (power != 0) { total.sand_work += dt * power; }
     }
 
     /// To the contacts of the next substep.
@@ -211,24 +250,68 @@ private:
     }
 };
 
-/// Calls run with the Move that the motion asks for, and `outside`.
+/// This rank's share of what acts on a body that others move too.
+template<class Outside>
+struct ShareWrench
+{
+    PairsView    pairs;  ///< first = null: none were ever found
+    std::int64_t bodies; ///< how many
+    Outside      outside;
+    SharedView   shared;
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t i, const Lanes& lanes) const
+    {
+        const std::int64_t b     = shared.body[i];
+        const BodyShare    share = pairs.first != nullptr ? GatherPairs{pairs, bodies}(b, lanes) : BodyShare::zero();
+        const WrenchShare  own{outside(b, lanes), share.contact};
+        if (lanes.lane() == 0) { shared.wrench[i] = own; }
+    }
+};
+
+/// Calls run with the Move that the motion and the ranks ask for, and `outside`.
 template<class Exec, class Outside, class Run>
 void with_damping(const BodyStep<Exec>& step, const Outside& outside, Run run)
 {
-    const auto& [pairs, bodies, law, totals, named, motion] = step;
-    const auto with                                         = [&]<class Damping>(const Damping& damping) {
-        run(Move<Damping, Outside>{bodies, pairs.view(), totals, named, motion.gravity, motion.dt, damping, outside});
+    const auto& [pairs, bodies, law, totals, named, motion, shared] = step;
+    const auto with = [&]<class Damping, class Ranks>(const Damping& damping, const Ranks& ranks)
+    {
+        run(Move<Damping, Outside, Ranks>{bodies, pairs.view(), totals, named, motion.gravity, motion.dt, damping,
+                                          outside, ranks});
     };
-    if (motion.damping > 0) { with(Damped{motion.damping}); }
-    else { with(Free{}); }
+    const auto among = [&](const auto& damping)
+    {
+        if (bodies.role == nullptr) { with(damping, Alone{}); }
+        else { with(damping, Together{shared}); }
+    };
+    if (motion.damping > 0) { among(Damped{motion.damping}); }
+    else { among(Free{}); }
+}
+
+/// Calls run with what acts from outside.
+template<class Exec, class Run>
+void with_outside(const BodyStep<Exec>& step, Run run)
+{
+    // Of several ranks one may have sand on a body, and another none: both move it by the same code.
+    if (step.motion.outside.run != nullptr || step.bodies.role != nullptr) { run(SumOutside{step.motion.outside}); }
+    else { run(NothingOutside{}); }
 }
 
 /// Calls run with the Move that the motion asks for.
 template<class Exec, class Run>
 void with_move(const BodyStep<Exec>& step, Run run)
 {
-    if (step.motion.outside.run != nullptr) { with_damping(step, SumOutside{step.motion.outside}, run); }
-    else { with_damping(step, NothingOutside{}, run); }
+    with_outside(step, [&](const auto& outside) { with_damping(step, outside, run); });
+}
+
+/// Calls run with the ShareWrench of the step.
+template<class Exec, class Run>
+void with_share(const BodyStep<Exec>& step, Run run)
+{
+    with_outside(step,
+                 [&]<class Outside>(const Outside& outside) {
+                     run(ShareWrench<Outside>{step.pairs.view(), step.bodies.count, outside, step.shared});
+                 });
 }
 
 } // namespace tread::dem::moving

@@ -6,6 +6,11 @@ namespace tread::dem
 
 template void classify_bodies(const Gpu&, Pairs<Gpu>&, const BodiesView&, const TemplateView*);
 template void stage_bodies(const Gpu&, Pairs<Gpu>&, const BodiesView&);
+template void begin_list(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&);
+template void share_speeds(const Gpu&, Pairs<Gpu>&, const BodiesView&, const SharedView&);
+template void want_travel(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double, const SharedView&);
+template void grant_travel(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double);
+template void list_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&);
 template void find_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double);
 
 } // namespace tread::dem

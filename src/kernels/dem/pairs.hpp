@@ -11,6 +11,7 @@
 #include "kernels/dem/patches.hpp"
 #include "kernels/dem/ray_kern.hpp"
 #include "kernels/dem/rolling_kern.hpp"
+#include "kernels/dem/shared.hpp"
 #include "kernels/dem/templates.hpp"
 
 // Which bodies may touch which, and which walls, and by which nodes: found for some steps to come, frozen in between.
@@ -174,5 +175,28 @@ void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 /// than pairs.travel. Patches of pairs that stay in the list are kept.
 template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+
+/// find_pairs in parts, between which several ranks agree. First: what the present list remembers becomes that of the
+/// last list, and pairs.reach the speeds of bodies.
+template<class Exec>
+void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
+
+/// On several ranks: this rank's shares of shared.speed, which the others are to have.
+template<class Exec>
+void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared);
+
+/// Second: pairs.travel = what owned bodies would have beyond their own motion (in bounding radii), and pairs.measure
+/// its sum, which is to become that of all ranks.
+template<class Exec>
+void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                 const SharedView& shared);
+
+/// Third: pairs.travel of owned bodies. Guests have theirs from their owner.
+template<class Exec>
+void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+
+/// Last: the list, of the pairs that this rank answers.
+template<class Exec>
+void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 } // namespace tread::dem

@@ -71,11 +71,12 @@ struct WriteCell
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const Vec3<double>& x = bodies.position[b];
-        key[b]                = is_large[b] != 0 ? no_cell
-                                                 : cell_key_of(cell_coordinate(x[0], cell_size), cell_coordinate(x[1], cell_size),
-                                                               cell_coordinate(x[2], cell_size));
-        body[b]               = static_cast<std::int32_t>(b);
+        const Vec3<double>& x       = bodies.position[b];
+        const bool          gridded = is_large[b] == 0 && bodies.is_here(b);
+        key[b]                      = !gridded ? no_cell
+                                               : cell_key_of(cell_coordinate(x[0], cell_size), cell_coordinate(x[1], cell_size),
+                                                             cell_coordinate(x[2], cell_size));
+        body[b]                     = static_cast<std::int32_t>(b);
     }
 };
 
@@ -358,16 +359,22 @@ void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 }
 
 template<class Exec>
-void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    using namespace pair_steps;
-    stage_bodies(exec, pairs, bodies);
-    end_substeps(pairs);
+    pair_steps::end_substeps(pairs);
     pairs.key.swap(pairs.last_key);
     pairs.patch.swap(pairs.last_patch);
     pairs.rolling.swap(pairs.last_rolling);
     pairs.patches.place.swap(pairs.patches.last_place);
-    allow_travel(exec, pairs, bodies, law.templates, dt);
+    pair_steps::write_speeds(exec, pairs, bodies, law);
+}
+
+template<class Exec>
+void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    using namespace pair_steps;
+    stage_bodies(exec, pairs, bodies);
+    reach_again(exec, pairs, bodies, law);
     give_back(pairs.by_second);
     const double cell_size = fill_cells(exec, pairs, bodies);
     search(exec, pairs, bodies, law, cell_size);
@@ -378,6 +385,15 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     give_back(pairs.last_key, pairs.last_patch, pairs.last_rolling, pairs.second_key, pairs.found);
     give_back(pairs.sort);
     begin_substeps(exec, pairs);
+}
+
+template<class Exec>
+void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+{
+    begin_list(exec, pairs, bodies, law);
+    want_travel(exec, pairs, bodies, law, dt, {});
+    grant_travel(exec, pairs, bodies, law, dt);
+    list_pairs(exec, pairs, bodies, law);
 }
 
 } // namespace tread::dem

@@ -116,6 +116,13 @@ TREAD_HD std::uint64_t cell_key_of(std::int64_t x, std::int64_t y, std::int64_t 
     return static_cast<std::uint64_t>(z << 42 | y << 21 | x);
 }
 
+/// Of several ranks that one answers a pair, a < b, which owns this body of it: the second, but the small one beside a
+/// large, which may be near many ranks.
+TREAD_HD std::int64_t decider_of(const std::int32_t* is_large, std::int64_t a, std::int64_t b)
+{
+    return is_large[b] > is_large[a] ? a : b;
+}
+
 /// Finds the pairs of one body, each pair with one of its two bodies only.
 struct PairSearch
 {
@@ -130,6 +137,11 @@ struct PairSearch
     const std::int32_t*  is_large;
 
     TREAD_HD bool is_sphere(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
+
+    TREAD_HD bool answered_here(std::int64_t a, std::int64_t b) const
+    {
+        return bodies.is_owned(decider_of(is_large, a, b)) && bodies.is_here(a) && bodies.is_here(b);
+    }
 
     /// Exact spheres are as large as their bounding spheres.
     TREAD_HD bool near(std::int64_t a, std::int64_t b) const
@@ -153,7 +165,7 @@ struct PairSearch
                  i < gridded && cell_key[i] <= last; ++i)
             {
                 const std::int64_t b = cell_body[i];
-                if (b > a && near(a, b)) { visit(pair_key(a, b)); }
+                if (b > a && answered_here(a, b) && near(a, b)) { visit(pair_key(a, b)); }
             }
         }
     }
@@ -161,16 +173,18 @@ struct PairSearch
     template<class Visit>
     TREAD_HD void operator()(std::int64_t a, Visit visit) const
     {
+        if (!bodies.is_here(a)) { return; }
         if (is_large[a] == 0) { in_cells(a, visit); }
         for (std::int64_t l = 0; l < large_count; ++l)
         {
             const std::int64_t b = large[l];
-            if ((is_large[a] != 0 && b <= a) || !near(a, b)) { continue; }
-            visit(a < b ? pair_key(a, b) : pair_key(b, a));
+            if (is_large[a] != 0 && b <= a) { continue; }
+            const std::int64_t first = a < b ? a : b, second = a < b ? b : a;
+            if (answered_here(first, second) && near(first, second)) { visit(pair_key(first, second)); }
         }
         for (std::int32_t p = 0; p < law.plane_count; ++p)
         {
-            if (may_touch_plane(bodies, law.templates, travel, a, law.planes[p]))
+            if (bodies.is_owned(a) && may_touch_plane(bodies, law.templates, travel, a, law.planes[p]))
             {
                 visit(pair_key(a, bodies.count + p));
             }

@@ -24,9 +24,14 @@ void split_patches(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, 
     patches::split(cpu, pairs, bodies, law, lanes_of(cpu));
 }
 
-bool regroup_patches(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+bool patch_rows_suffice(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    return patches::regroup(cpu, pairs, bodies, law, lanes_of(cpu));
+    return patches::rows_suffice(cpu, pairs, bodies, law, lanes_of(cpu));
+}
+
+void regroup_patches(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    patches::regroup(pairs, bodies, law, lanes_of(cpu));
 }
 
 } // namespace tread::dem

@@ -22,9 +22,14 @@ void split_patches(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, 
     patches::split(gpu, pairs, bodies, law, groups_of<8>(gpu));
 }
 
-bool regroup_patches(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+bool patch_rows_suffice(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    return patches::regroup(gpu, pairs, bodies, law, groups_of<warp_size>(gpu));
+    return patches::rows_suffice(gpu, pairs, bodies, law, groups_of<warp_size>(gpu));
+}
+
+void regroup_patches(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    patches::regroup(pairs, bodies, law, groups_of<warp_size>(gpu));
 }
 
 } // namespace tread::dem

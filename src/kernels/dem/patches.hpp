@@ -54,9 +54,12 @@ struct Patches
 void split_patches(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 void split_patches(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// The same while a list holds, each pair within the rows it has. False if some pair wants more: its pairs are then to
-/// be found anew.
-bool regroup_patches(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-bool regroup_patches(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+/// Groups the nodes of a list anew. False if some pair wants more rows than it has: pairs are then to be found anew.
+bool patch_rows_suffice(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+bool patch_rows_suffice(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+
+/// After that: what split_patches does, within the rows that each pair has.
+void regroup_patches(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+void regroup_patches(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 } // namespace tread::dem

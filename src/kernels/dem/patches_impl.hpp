@@ -252,29 +252,33 @@ void split(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const
 
 /// `run` as that of split.
 template<class Exec, class Run>
-bool regroup(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, Run run)
+bool rows_suffice(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, Run run)
 {
     Patches<Exec>&     patches = pairs.patches;
     const std::int64_t count   = patches.several.size();
     if (count == 0) { return true; }
-    const PairsView view = pairs.view();
     patches.first.resize(count + 1);
     run("group pair nodes again", count + 1,
-        GroupAgain{{bodies, law, view, pairs.node_area.data(), patches.group.data()},
+        GroupAgain{{bodies, law, pairs.view(), pairs.node_area.data(), patches.group.data()},
                    count,
                    patches.several.data(),
                    patches.first.data()});
-    if (exclusive_scan(exec, patches.first, pairs.sort) > 0) { return false; }
-    if (patches.place.size() == 0) { return true; }
-    run("deal pair nodes again", count,
-        DealAgain{{bodies, law, view, patches.group.data()},
+    return exclusive_scan(exec, patches.first, pairs.sort) == 0;
+}
+
+template<class Exec, class Run>
+void regroup(Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, Run run)
+{
+    Patches<Exec>& patches = pairs.patches;
+    if (patches.several.size() == 0 || patches.place.size() == 0) { return; }
+    run("deal pair nodes again", patches.several.size(),
+        DealAgain{{bodies, law, pairs.view(), patches.group.data()},
                   patches.several.data(),
                   patches.place.data(),
                   pairs.first_node.data(),
                   pairs.node.data(),
                   pairs.pair_of_node.data(),
                   patches.node.data()});
-    return true;
 }
 
 } // namespace tread::dem::patches

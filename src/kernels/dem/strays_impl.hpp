@@ -31,6 +31,11 @@ struct Measure
 
     TREAD_HD void keep(std::int64_t b, double way) const
     {
+        if (!bodies.is_owned(b))
+        {
+            share[b] = 0;
+            return;
+        }
         const double used = way / travel[b];
         share[b]          = used >= 0 ? used : std::numeric_limits<double>::infinity();
     }

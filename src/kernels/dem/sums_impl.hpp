@@ -25,12 +25,17 @@ struct WriteBodyRow
 
     TREAD_HD void operator()(std::int64_t b) const
     {
+        double* row = rows + b * body_row_width;
+        if (!bodies.is_owned(b))
+        {
+            for (int c = 0; c < body_row_width; ++c) { row[c] = 0; }
+            return;
+        }
         const Mat3<double> rotation = bodies.orientation[b].toRotationMatrix();
         const Vec3<double> omega    = bodies.angular_velocity[b];
         const Vec3<double> angular  = rotation * (full(bodies.inertia[b]) * (rotation.transpose() * omega));
         const Vec3<double> momentum = bodies.mass[b] * bodies.velocity[b];
         const Vec3<double> spin     = bodies.position[b].cross(momentum) + angular;
-        double*            row      = rows + b * body_row_width;
         row[0]                      = 0.5 * (momentum.dot(bodies.velocity[b]) + angular.dot(omega));
         row[1]                      = -bodies.mass[b] * gravity.dot(bodies.position[b]);
         for (int c = 0; c < 3; ++c)

@@ -7,13 +7,15 @@ namespace tread::mpm
 {
 
 template<class Real>
-void update_grid(const Cpu& cpu, const PagesView& pages, const WallPagesView<Real>& wall_pages, const Real* tiles,
-                 const GridStep<Real>& step, Real* motion, double* tallies)
+void update_grid(const Cpu& cpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+                 const SharedPagesView<Real>& shared_pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                 double* tallies)
 {
     const auto update_page = [=](std::int64_t page)
     {
         const Index3       at             = page_coordinates(pages.node_page_key[page]);
         const std::int32_t wall_page      = wall_pages.number(page);
+        const std::int32_t shared_page    = shared_pages.number(page);
         double             sum[grid_sums] = {};
         Real*              here           = motion + page * motion_channels * page_cells;
         std::int32_t       tile_pages[octants];
@@ -21,7 +23,8 @@ void update_grid(const Cpu& cpu, const PagesView& pages, const WallPagesView<Rea
         for (int place = 0; place < page_cells; ++place)
         {
             Real channels[node_channels];
-            sum_tiles(tile_pages, tiles, place, channels);
+            if (shared_page < 0) { sum_tiles(tile_pages, tiles, place, channels); }
+            else { read_total(shared_pages, shared_page, place, channels); }
             if (wall_page < 0) { write_motion(update_free_node(step, channels, sum), here + place); }
             else
             {
@@ -71,10 +74,10 @@ void update_walls(const Cpu& cpu, const PagesView& pages, const WallPagesView<Re
     for_each_heavy(cpu, "update walls", wall_pages.count, update_page);
 }
 
-template void update_grid(const Cpu&, const PagesView&, const WallPagesView<float>&, const float*,
-                          const GridStep<float>&, float*, double*);
-template void update_grid(const Cpu&, const PagesView&, const WallPagesView<double>&, const double*,
-                          const GridStep<double>&, double*, double*);
+template void update_grid(const Cpu&, const PagesView&, const WallPagesView<float>&, const SharedPagesView<float>&,
+                          const float*, const GridStep<float>&, float*, double*);
+template void update_grid(const Cpu&, const PagesView&, const WallPagesView<double>&, const SharedPagesView<double>&,
+                          const double*, const GridStep<double>&, double*, double*);
 template void update_walls(const Cpu&, const PagesView&, const WallPagesView<float>&, const GridStep<float>&, float*,
                            double*);
 template void update_walls(const Cpu&, const PagesView&, const WallPagesView<double>&, const GridStep<double>&, double*,

@@ -25,12 +25,13 @@ using Pair = Pack<Real, 2>;
 template<class Real>
 struct UpdatePages
 {
-    PagesView           pages;
-    WallPagesView<Real> wall_pages;
-    const Real*         tiles;
-    GridStep<Real>      step;
-    Real*               motion;
-    double*             tallies;
+    PagesView             pages;
+    WallPagesView<Real>   wall_pages;
+    SharedPagesView<Real> shared_pages;
+    const Real*           tiles;
+    GridStep<Real>        step;
+    Real*                 motion;
+    double*               tallies;
 
     __device__ void operator()(std::int64_t block) const
     {
@@ -39,7 +40,9 @@ struct UpdatePages
         const int                   lane = static_cast<int>(threadIdx.x) % warp_size;
         __shared__ alignas(16) Real nodes[grid_warps][node_channels * tile_nodes];
         Real*                       parts     = nodes[threadIdx.x / warp_size];
-        const std::int32_t          tile      = lane < octants ? pages.point_page_of[octants * page + lane] : -1;
+        const std::int32_t          shared    = shared_pages.number(page);
+        const bool                  has_tile  = lane < octants && shared < 0;
+        const std::int32_t          tile      = has_tile ? pages.point_page_of[octants * page + lane] : -1;
         const std::int32_t          wall_page = wall_pages.number(page);
         double*                     row       = tallies + page * tally_width(grid_sums);
         const double                booked    = lane < grid_sums ? row[lane] : 0;
@@ -50,6 +53,7 @@ struct UpdatePages
         __syncwarp();
         Pair<Real> channels[node_channels] = {};
         sum_pairs(filled, lane, parts, channels);
+        if (shared >= 0) { read_pairs(shared, lane, channels); }
         Real* out = motion + page * motion_channels * page_cells + 2 * lane;
         if (wall_page < 0) { update_free(channels, lane, out, booked, row); }
         else { update_held(page, wall_page, channels, lane, out, booked, row); }
@@ -100,6 +104,17 @@ struct UpdatePages
                 total[c].at[0] += two.at[0];
                 total[c].at[1] += two.at[1];
             }
+        }
+    }
+
+    /// read_total for two nodes.
+    __device__ void read_pairs(std::int32_t shared, int lane, Pair<Real>* total) const
+    {
+        const Real* from = shared_pages.total + std::int64_t(shared) * node_page_values + 2 * lane;
+#pragma unroll
+        for (int c = 0; c < node_channels; ++c)
+        {
+            total[c] = *reinterpret_cast<const Pair<Real>*>(from + c * page_cells);
         }
     }
 
@@ -215,12 +230,13 @@ struct UpdateWallPage
 } // namespace
 
 template<class Real>
-void update_grid(const Gpu& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages, const Real* tiles,
-                 const GridStep<Real>& step, Real* motion, double* tallies)
+void update_grid(const Gpu& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+                 const SharedPagesView<Real>& shared_pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                 double* tallies)
 {
-    for_each_block<grid_threads, grid_blocks<Real>>(gpu, "update grid",
-                                                    (pages.node_pages + grid_warps - 1) / grid_warps,
-                                                    UpdatePages<Real>{pages, wall_pages, tiles, step, motion, tallies});
+    for_each_block<grid_threads, grid_blocks<Real>>(
+        gpu, "update grid", (pages.node_pages + grid_warps - 1) / grid_warps,
+        UpdatePages<Real>{pages, wall_pages, shared_pages, tiles, step, motion, tallies});
 }
 
 template<class Real>
@@ -231,10 +247,10 @@ void update_walls(const Gpu& gpu, const PagesView& pages, const WallPagesView<Re
                                  UpdateWallPage<Real>{pages, wall_pages, step, motion, tallies});
 }
 
-template void update_grid(const Gpu&, const PagesView&, const WallPagesView<float>&, const float*,
-                          const GridStep<float>&, float*, double*);
-template void update_grid(const Gpu&, const PagesView&, const WallPagesView<double>&, const double*,
-                          const GridStep<double>&, double*, double*);
+template void update_grid(const Gpu&, const PagesView&, const WallPagesView<float>&, const SharedPagesView<float>&,
+                          const float*, const GridStep<float>&, float*, double*);
+template void update_grid(const Gpu&, const PagesView&, const WallPagesView<double>&, const SharedPagesView<double>&,
+                          const double*, const GridStep<double>&, double*, double*);
 template void update_walls(const Gpu&, const PagesView&, const WallPagesView<float>&, const GridStep<float>&, float*,
                            double*);
 template void update_walls(const Gpu&, const PagesView&, const WallPagesView<double>&, const GridStep<double>&, double*,

@@ -3,6 +3,7 @@
 #include "backend/array.hpp"
 #include "kernels/mpm/pages.hpp"
 #include "kernels/mpm/scatter_kern.hpp"
+#include "kernels/mpm/shared_pages.hpp"
 #include "kernels/mpm/tally.hpp"
 #include "kernels/mpm/walls.hpp"
 
@@ -40,15 +41,17 @@ enum GridSum : int
     grid_sums = grid_wall_impulse + 3
 };
 
-/// Sums the tiles that reach each node, in a fixed order, and updates its velocity (Eq. 2 of the paper, lumped mass):
-/// motion[node page][channel][place]; books the step in the page's tally of GridSum. Nodes that walls hold together
-/// with others are left for update_walls, which must follow where there are wall pages.
+/// Sums the tiles that reach each node, in a fixed order, or takes the totals of shared pages, and updates its velocity
+/// (Eq. 2 of the paper, lumped mass): motion[node page][channel][place]; books the step in the page's tally of GridSum.
+/// Nodes that walls hold together with others are left for update_walls, which must follow where there are wall pages.
 template<class Real>
-void update_grid(const Cpu&, const PagesView& pages, const WallPagesView<Real>& wall_pages, const Real* tiles,
-                 const GridStep<Real>& step, Real* motion, double* tallies);
+void update_grid(const Cpu&, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+                 const SharedPagesView<Real>& shared_pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                 double* tallies);
 template<class Real>
-void update_grid(const Gpu&, const PagesView& pages, const WallPagesView<Real>& wall_pages, const Real* tiles,
-                 const GridStep<Real>& step, Real* motion, double* tallies);
+void update_grid(const Gpu&, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+                 const SharedPagesView<Real>& shared_pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                 double* tallies);
 
 /// Finishes the nodes within one spacing of a wall: the splines' velocity vanishes on the wall's plane for every linear
 /// profile, whatever the wall holds (wall_kern.hpp). Books more of the step in the tallies of the wall pages.

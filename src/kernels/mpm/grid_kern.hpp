@@ -31,6 +31,14 @@ TREAD_HD void sum_tiles(const std::int32_t* tile_pages, const Real* tiles, int p
     }
 }
 
+/// The node's total in shared page `number`.
+template<class Real>
+TREAD_HD void read_total(const SharedPagesView<Real>& shared_pages, std::int32_t number, int place, Real* total)
+{
+    const Real* from = shared_pages.total + std::int64_t(number) * node_page_values + place;
+    for (int c = 0; c < node_channels; ++c) { total[c] = from[c * page_cells]; }
+}
+
 /// A node before walls have touched it.
 template<class Real>
 struct NodeStep

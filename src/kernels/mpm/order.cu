@@ -10,5 +10,6 @@ template void order_points(const Gpu&, Points<Gpu, double>&, Pages<Gpu>&, const 
                            OrderScratch<Gpu, double>&);
 template void renew_order(const Gpu&, Points<Gpu, float>&, Pages<Gpu>&, OrderScratch<Gpu, float>&);
 template void renew_order(const Gpu&, Points<Gpu, double>&, Pages<Gpu>&, OrderScratch<Gpu, double>&);
+template void set_node_pages(const Gpu&, Pages<Gpu>&, const std::vector<std::uint64_t>&);
 
 } // namespace tread::mpm

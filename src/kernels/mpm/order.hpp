@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "backend/sort.hpp"
 #include "kernels/mpm/pages.hpp"
 #include "kernels/mpm/points.hpp"
@@ -46,5 +48,9 @@ void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pag
 /// Moves the points in memory to where the list has them; lists and tables of pages stay.
 template<class Exec, class Real>
 void renew_order(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, OrderScratch<Exec, Real>& scratch);
+
+/// Lists other node pages: `keys` ascend and include those that there are.
+template<class Exec>
+void set_node_pages(const Exec& exec, Pages<Exec>& pages, const std::vector<std::uint64_t>& keys);
 
 } // namespace tread::mpm

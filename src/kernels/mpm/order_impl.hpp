@@ -308,7 +308,23 @@ void build_point_pages(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>
              FindAround{pages.point_page_key.data(), count, pages.neighbour.data()});
 }
 
-/// Node pages = point pages and their upper neighbours; tables both ways.
+/// Which node pages each point page reaches, and the other way round.
+template<class Exec>
+void link_pages(const Exec& exec, Pages<Exec>& pages)
+{
+    using namespace order_steps;
+    const std::int64_t point_pages = pages.point_page_key.size(), node_pages = pages.node_page_key.size();
+    pages.node_page_of.resize(8 * point_pages);
+    for_each(exec, "find node pages", 8 * point_pages,
+             FindNeighbours{pages.point_page_key.data(), pages.node_page_key.data(), node_pages, 1,
+                            pages.node_page_of.data()});
+    pages.point_page_of.resize(8 * node_pages);
+    for_each(exec, "find point pages", 8 * node_pages,
+             FindNeighbours{pages.node_page_key.data(), pages.point_page_key.data(), point_pages, -1,
+                            pages.point_page_of.data()});
+}
+
+/// Node pages = point pages and their upper neighbours.
 template<class Exec, class Real>
 void build_node_pages(const Exec& exec, Pages<Exec>& pages, OrderScratch<Exec, Real>& scratch)
 {
@@ -320,15 +336,7 @@ void build_node_pages(const Exec& exec, Pages<Exec>& pages, OrderScratch<Exec, R
              NeighbourKeys{pages.point_page_key.data(), scratch.neighbour_keys.data(), scratch.neighbour_order.data()});
     sort_by_key(exec, scratch.neighbour_keys, scratch.neighbour_order, scratch.sort);
     write_pages(exec, scratch.neighbour_keys, 0, pages.node_page_key, scratch);
-    const std::int64_t node_pages = pages.node_page_key.size();
-    pages.node_page_of.resize(8 * point_pages);
-    for_each(exec, "find node pages", 8 * point_pages,
-             FindNeighbours{pages.point_page_key.data(), pages.node_page_key.data(), node_pages, 1,
-                            pages.node_page_of.data()});
-    pages.point_page_of.resize(8 * node_pages);
-    for_each(exec, "find point pages", 8 * node_pages,
-             FindNeighbours{pages.node_page_key.data(), pages.point_page_key.data(), point_pages, -1,
-                            pages.point_page_of.data()});
+    link_pages(exec, pages);
 }
 
 template<class Exec, class Real>
@@ -344,6 +352,13 @@ void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pag
     gather_points(exec, points, scratch.order.data(), scratch.sort);
     build_point_pages(exec, points, pages, geometry, scratch);
     build_node_pages(exec, pages, scratch);
+}
+
+template<class Exec>
+void set_node_pages(const Exec& exec, Pages<Exec>& pages, const std::vector<std::uint64_t>& keys)
+{
+    pages.node_page_key.assign(keys);
+    link_pages(exec, pages);
 }
 
 template<class Exec, class Real>

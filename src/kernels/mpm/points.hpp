@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <type_traits>
 
 #include "backend/array.hpp"
 #include "backend/vector.hpp"
@@ -68,14 +70,14 @@ struct Points
     {
     }
 
-    /// Memory for `points`; values are zero.
+    /// Memory for `points`; values are zero. Even without points the scene's fields have memory.
     void allocate(std::int64_t points, PointFields fields)
     {
         count           = points;
-        stride          = points;
+        stride          = std::max<std::int64_t>(points, 1);
         const auto take = [&](auto& array, int components, bool wanted)
         {
-            array.resize(wanted ? components * points : 0);
+            array.resize(wanted ? components * stride : 0);
             array.fill_zero();
         };
         take(position, 3, true);
@@ -94,6 +96,25 @@ struct Points
         take(contact_force, 3, fields.coupled);
         take(grid_velocity, 3, fields.coupled);
         take(support, 3, fields.coupled);
+    }
+
+    /// Room for `points` at least; the living ones keep their values.
+    void reserve(std::int64_t points)
+    {
+        if (points <= stride) { return; }
+        const std::int64_t wider = points + points / 8;
+        for_each_field(
+            [&](auto& array, int components)
+            {
+                std::remove_reference_t<decltype(array)> larger(array.exec(), array.name(), components * wider);
+                const auto bytes = static_cast<std::size_t>(count) * sizeof(*array.data());
+                for (int c = 0; c < components; ++c)
+                {
+                    copy(array.exec(), larger.data() + c * wider, array.data() + c * stride, bytes);
+                }
+                array.swap(larger);
+            });
+        stride = wider;
     }
 
     PointsView<Real> view()
@@ -144,7 +165,7 @@ struct Points
     }
 
     std::int64_t count  = 0; ///< points alive
-    std::int64_t stride = 0; ///< of the planes: points at the start
+    std::int64_t stride = 0; ///< of the planes: points that there is room for
 
     Array<Exec, double>        position;
     Array<Exec, double>        start;

@@ -214,6 +214,38 @@ TYPED_TEST(ContactHistory, WithoutRecordsHoldsNoMemory)
     EXPECT_TRUE(read_out(history).empty());
 }
 
+TYPED_TEST(ContactHistory, RecordsFollowTheirPoints)
+{
+    const TypeParam            exec = this->exec();
+    std::vector<std::uint64_t> keys;
+    for (std::int32_t body = 0; body < 3; ++body)
+    {
+        for (std::uint32_t point = 0; point < 1000; point += 1 + static_cast<std::uint32_t>(body))
+        {
+            keys.push_back(contact::history_key(body, point, static_cast<int>(point % 3)));
+        }
+    }
+    contact::History<TypeParam> here(exec), there(exec);
+    put_back(exec, here, records_of(keys));
+    put_back(exec, there, records_of({contact::history_key(1, 5000)}));
+    const std::vector<HistoryRecord> leaving = records_of(exec, here, {6, 7, 500, 4000});
+    // 6 touches all three bodies, 7 the first, 500 the first two.
+    EXPECT_EQ(leaving.size(), 3U + 1U + 2U);
+    for (const HistoryRecord& record : leaving)
+    {
+        const std::uint32_t point = contact::point_of(record.key);
+        EXPECT_TRUE(point == 6 || point == 7 || point == 500);
+        EXPECT_TRUE(same(record.tangential, record_of(record.key).tangential));
+    }
+    add_records(exec, there, leaving);
+    EXPECT_EQ(read_out(there).size(), 7U);
+    for (const HistoryRecord& record : read_out(there))
+    {
+        EXPECT_TRUE(same(record.tangential, record_of(record.key).tangential));
+    }
+    EXPECT_TRUE(records_of(exec, here, {}).empty());
+}
+
 TEST(ContactHistoryKey, PairsAndSamplesDiffer)
 {
     std::unordered_set<std::uint64_t> keys;

@@ -73,6 +73,14 @@ TEST(LeftOut, SandAloneKnowsNoBodies)
     EXPECT_TRUE(used.kernels.count("scatter"));
 }
 
+TEST(LeftOut, OneRankSharesNothing)
+{
+    const Used used = run_steps(load_text(test::sand_text));
+    EXPECT_FALSE(
+        any_with(used.arrays, {"shared pages", "shared page", "halo", "leaving", "owner", "owned", "message"}));
+    EXPECT_FALSE(any_with(used.kernels, {"shared", "leaving", "pack rows", "booked elsewhere"}));
+}
+
 TEST(LeftOut, PlainFlipHasNoAffineVelocities)
 {
     EXPECT_TRUE(run_steps(load_text(test::sand_text)).arrays.count("point affine velocity"));
@@ -114,7 +122,7 @@ TEST(Plan, SaysWhyAStageIsLeftOut)
 {
     const scene::Scene scene = load_text(test::sand_text);
     const World        world = build_world(scene);
-    for (const Stage& stage : stages(scene, make_plan(scene, world)))
+    for (const Stage& stage : stages(scene, make_plan(scene, world), 1))
     {
         EXPECT_FALSE(stage.why.empty()) << stage.name;
         EXPECT_EQ(stage.on, stage.name == stage::order || stage.name == stage::scatter || stage.name == stage::grid ||

@@ -1,0 +1,121 @@
+#include "decomp/exchange.hpp"
+
+#include <utility>
+
+namespace tread::decomp
+{
+namespace
+{
+
+std::int64_t rows_of(const std::vector<Leg>& legs)
+{
+    std::int64_t rows = 0;
+    for (const Leg& leg : legs) { rows += leg.rows; }
+    return rows;
+}
+
+/// The legs' parts of a packed buffer.
+void write_parcels(const std::vector<Leg>& legs, std::int64_t row_bytes, Parcels& parcels)
+{
+    parcels.clear();
+    std::int64_t first = 0;
+    for (const Leg& leg : legs)
+    {
+        parcels.push_back({leg.rank, first, leg.rows * row_bytes});
+        first += leg.rows * row_bytes;
+    }
+}
+
+/// What others have for this rank.
+std::vector<Leg> announced(const Communicator& communicator, const std::vector<Leg>& to)
+{
+    std::vector<std::int64_t> rows(static_cast<std::size_t>(communicator.size()), 0);
+    for (const Leg& leg : to) { rows[static_cast<std::size_t>(leg.rank)] = leg.rows; }
+    std::vector<Leg> from;
+    int              rank = 0;
+    for (const std::int64_t count : communicator.all_to_all(rows))
+    {
+        if (count > 0) { from.push_back({rank, count}); }
+        ++rank;
+    }
+    return from;
+}
+
+} // namespace
+
+template<class Exec>
+Exchange<Exec>::Exchange(Transport<Exec>& transport, const char* name)
+    : transport_(&transport)
+    , mail_(transport, name)
+    , rows_(transport.exec(), name)
+{
+}
+
+template<class Exec>
+void Exchange<Exec>::plan(const std::vector<std::vector<std::int32_t>>& rows_to)
+{
+    std::vector<std::int32_t> rows;
+    std::vector<Leg>          to;
+    for (std::size_t rank = 0; rank < rows_to.size(); ++rank)
+    {
+        if (rows_to[rank].empty()) { continue; }
+        rows.insert(rows.end(), rows_to[rank].begin(), rows_to[rank].end());
+        to.push_back({static_cast<int>(rank), static_cast<std::int64_t>(rows_to[rank].size())});
+    }
+    rows_.assign(rows);
+    plan(std::move(rows_), std::move(to));
+}
+
+template<class Exec>
+void Exchange<Exec>::plan(Array<Exec, std::int32_t> rows, std::vector<Leg> to)
+{
+    std::vector<Leg> from = announced(transport_->communicator(), to);
+    plan(std::move(rows), std::move(to), std::move(from));
+}
+
+template<class Exec>
+void Exchange<Exec>::plan(Array<Exec, std::int32_t> rows, std::vector<Leg> to, std::vector<Leg> from)
+{
+    rows_     = std::move(rows);
+    to_       = std::move(to);
+    from_     = std::move(from);
+    received_ = rows_of(from_);
+}
+
+template<class Exec>
+void Exchange<Exec>::begin(const Columns& columns)
+{
+    const std::int64_t row_bytes = 4 * std::int64_t{columns.words};
+    write_parcels(to_, row_bytes, out_);
+    write_parcels(from_, row_bytes, in_);
+    auto* going = reinterpret_cast<std::uint32_t*>(mail_.outgoing(sent() * row_bytes));
+    arriving_   = reinterpret_cast<const std::uint32_t*>(mail_.incoming(received_ * row_bytes));
+    pack_rows(transport_->exec(), columns, rows_.data(), sent(), going);
+    mail_.depart(out_, in_);
+}
+
+template<class Exec>
+void Exchange<Exec>::finish(const Columns& columns, std::int64_t first)
+{
+    finish(columns, nullptr, first);
+}
+
+template<class Exec>
+void Exchange<Exec>::finish(const Columns& columns, const Array<Exec, std::int32_t>& rows)
+{
+    finish(columns, rows.data(), 0);
+}
+
+template<class Exec>
+void Exchange<Exec>::finish(const Columns& columns, const std::int32_t* index, std::int64_t first)
+{
+    mail_.arrive();
+    unpack_rows(transport_->exec(), arriving_, received_, columns, index, first);
+}
+
+template class Exchange<Cpu>;
+#ifdef TREAD_WITH_CUDA
+template class Exchange<Gpu>;
+#endif
+
+} // namespace tread::decomp

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "decomp/rows.hpp"
+#include "decomp/transport.hpp"
+
+namespace tread::decomp
+{
+
+/// So many rows for a rank, or from one.
+struct Leg
+{
+    int          rank;
+    std::int64_t rows;
+};
+
+/// Rows of arrays that go to other ranks, time and again: planned once, then begin() and finish() as often as needed.
+/// Every rank makes the same calls; one whose plan is empty does nothing in begin() and finish(). What the plan does
+/// not change needs no new plan: row numbers, ranks and counts, not the arrays.
+template<class Exec>
+class Exchange
+{
+public:
+    /// Collective. `name` is the buffers' for the counters.
+    Exchange(Transport<Exec>& transport, const char* name);
+
+    /// Collective. rows_to[r]: the rows for rank r, in the order in which they are to arrive; none for the own rank.
+    void plan(const std::vector<std::vector<std::int32_t>>& rows_to);
+
+    /// Collective. `rows` on the backend: first those for the first rank of `to`, which ascend, and so on.
+    void plan(Array<Exec, std::int32_t> rows, std::vector<Leg> to);
+
+    /// As before where both sides know already what comes; not collective. The way back of an exchange `there` has
+    /// legs there.from() and there.to().
+    void plan(Array<Exec, std::int32_t> rows, std::vector<Leg> to, std::vector<Leg> from);
+
+    /// Ranks ascend.
+    const std::vector<Leg>& to() const { return to_; }
+    const std::vector<Leg>& from() const { return from_; }
+    std::int64_t            sent() const { return rows_.size(); }
+    std::int64_t            received() const { return received_; }
+
+    /// Packs the rows and starts to send them. The arrays may change once it has returned, as far as kernels go that
+    /// are launched after it.
+    void begin(const Columns& columns);
+
+    /// Rows of the lowest rank first, each rank's in its order, become rows first, first + 1, ... of the columns, which
+    /// must be of the same widths as those of begin().
+    void finish(const Columns& columns, std::int64_t first);
+
+    /// What arrives k-th becomes row rows[k]; no row twice.
+    void finish(const Columns& columns, const Array<Exec, std::int32_t>& rows);
+
+private:
+    void finish(const Columns& columns, const std::int32_t* index, std::int64_t first);
+
+    Transport<Exec>*          transport_;
+    Mail<Exec>                mail_;
+    Array<Exec, std::int32_t> rows_;
+    std::vector<Leg>          to_;
+    std::vector<Leg>          from_;
+    Parcels                   out_;
+    Parcels                   in_;
+    std::int64_t              received_ = 0;
+    const std::uint32_t*      arriving_ = nullptr;
+};
+
+} // namespace tread::decomp

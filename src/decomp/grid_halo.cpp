@@ -1,0 +1,127 @@
+#include "decomp/grid_halo.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "kernels/mpm/wall_kern.hpp"
+
+namespace tread::decomp
+{
+namespace
+{
+
+/// The numbers of pages in a list that has all of them.
+std::vector<std::int32_t> places_in(const PageKeys& all, const PageKeys& pages)
+{
+    std::vector<std::int32_t> places;
+    places.reserve(pages.size());
+    for (const std::uint64_t page : pages)
+    {
+        places.push_back(static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), page) - all.begin()));
+    }
+    return places;
+}
+
+/// The other way round: of each of `count` pages its place in `places`, or -1.
+std::vector<std::int32_t> numbers_of(const std::vector<std::int32_t>& places, std::size_t count)
+{
+    std::vector<std::int32_t> numbers(count, -1);
+    std::int32_t              number = 0;
+    for (const std::int32_t place : places) { numbers[static_cast<std::size_t>(place)] = number++; }
+    return numbers;
+}
+
+std::vector<std::int32_t> picked(const std::vector<std::int32_t>& places, const std::vector<std::int32_t>& numbers)
+{
+    std::vector<std::int32_t> out;
+    out.reserve(numbers.size());
+    for (const std::int32_t number : numbers) { out.push_back(places[static_cast<std::size_t>(number)]); }
+    return out;
+}
+
+} // namespace
+
+template<class Exec, class Real>
+GridHalo<Exec, Real>::GridHalo(Decomposition<Exec>& decomposition)
+    : decomposition_(decomposition)
+    , shared_(decomposition.transport.exec())
+    , exchange_(decomposition.transport, "grid halo messages")
+{
+}
+
+template<class Exec, class Real>
+void GridHalo<Exec, Real>::plan(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls)
+{
+    const Exec& exec    = decomposition_.transport.exec();
+    PageKeys    listed  = pages.node_page_key.to_host();
+    const auto  is_held = [&](std::uint64_t page) { return mpm::has_held_nodes(walls, mpm::page_coordinates(page)); };
+    const auto  reached = pages_nearby(decomposition_.communicator, listed);
+    HaloPlan    halo    = plan_halo(decomposition_.rank(), reached, is_held);
+    if (!halo.extra.empty())
+    {
+        PageKeys all;
+        std::merge(listed.begin(), listed.end(), halo.extra.begin(), halo.extra.end(), std::back_inserter(all));
+        mpm::set_node_pages(exec, pages, all);
+        listed = std::move(all);
+    }
+
+    const std::vector<std::int32_t> places = places_in(listed, halo.shared);
+    shared_.page.assign(places);
+    shared_.number_of.assign(numbers_of(places, listed.size()));
+    shared_.first_part.assign(halo.first_part);
+    shared_.part.assign(halo.part);
+    shared_.booked_elsewhere.assign(picked(places, halo.booked_elsewhere));
+
+    std::vector<std::int32_t> rows;
+    std::vector<Leg>          to, from;
+    std::int64_t              arrivals = 0;
+    for (std::size_t rank = 0; rank < halo.send.size(); ++rank)
+    {
+        const auto& send = halo.send[rank];
+        rows.insert(rows.end(), send.begin(), send.end());
+        if (!send.empty()) { to.push_back({static_cast<int>(rank), static_cast<std::int64_t>(send.size())}); }
+        if (halo.arrivals[rank] > 0) { from.push_back({static_cast<int>(rank), halo.arrivals[rank]}); }
+        arrivals += halo.arrivals[rank];
+    }
+    Array<Exec, std::int32_t> sent(exec, "grid halo rows");
+    sent.assign(rows);
+    exchange_.plan(std::move(sent), std::move(to), std::move(from));
+    const std::int64_t count = shared_.page.size();
+    shared_.own.resize(count * mpm::node_page_values);
+    shared_.total.resize(count * mpm::node_page_values);
+    shared_.arrived.resize(arrivals * mpm::node_page_values);
+}
+
+template<class Exec, class Real>
+void GridHalo<Exec, Real>::begin(const mpm::PagesView& pages, const Real* tiles)
+{
+    mpm::sum_own_parts(decomposition_.transport.exec(), pages, tiles, shared_);
+    Columns columns;
+    columns.add(rows(shared_.own.data(), mpm::node_page_values));
+    exchange_.begin(columns);
+}
+
+template<class Exec, class Real>
+void GridHalo<Exec, Real>::finish()
+{
+    Columns columns;
+    columns.add(rows(shared_.arrived.data(), mpm::node_page_values));
+    exchange_.finish(columns, 0);
+    mpm::add_parts(decomposition_.transport.exec(), shared_);
+}
+
+template<class Exec, class Real>
+void GridHalo<Exec, Real>::clear_booked_elsewhere(int width, double* tallies)
+{
+    mpm::clear_booked_elsewhere(decomposition_.transport.exec(), shared_, width, tallies);
+}
+
+template class GridHalo<Cpu, float>;
+template class GridHalo<Cpu, double>;
+#ifdef TREAD_WITH_CUDA
+template class GridHalo<Gpu, float>;
+template class GridHalo<Gpu, double>;
+#endif
+
+} // namespace tread::decomp

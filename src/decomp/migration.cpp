@@ -1,0 +1,175 @@
+#include "decomp/migration.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace tread::decomp
+{
+namespace
+{
+
+/// All planes of all fields.
+template<class Exec, class Real>
+Columns all_fields(mpm::Points<Exec, Real>& points)
+{
+    Columns columns;
+    points.for_each_field([&](auto& field, int components)
+                          { columns.add(planes(field.data(), points.stride, components)); });
+    return columns;
+}
+
+/// Of all ranks, exactly: whole numbers, which wrap.
+struct Checksum
+{
+    std::uint64_t count  = 0;
+    std::uint64_t ids    = 0;
+    std::uint64_t masses = 0; ///< their bits
+};
+
+template<class Exec, class Real>
+Checksum checksum(const Communicator& communicator, const mpm::Points<Exec, Real>& points)
+{
+    Checksum   own;
+    const auto ids    = points.id.to_host();
+    const auto masses = points.mass.to_host();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(points.count); ++i)
+    {
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, &masses[i], sizeof(Real));
+        own.count += 1;
+        own.ids += ids[i];
+        own.masses += bits;
+    }
+    Checksum   all;
+    const auto of_ranks = communicator.gather(std::vector<std::uint64_t>{own.count, own.ids, own.masses});
+    for (std::size_t i = 0; i < of_ranks.size(); i += 3)
+    {
+        all.count += of_ranks[i];
+        all.ids += of_ranks[i + 1];
+        all.masses += of_ranks[i + 2];
+    }
+    return all;
+}
+
+void require_equal(const Checksum& before, const Checksum& after)
+{
+    if (before.count == after.count && before.ids == after.ids && before.masses == after.masses) { return; }
+    throw NumericalError(fmt::format("points changed when they changed ranks: {} before and {} after, sums of ids {} "
+                                     "and {}, of the bits of masses {} and {}",
+                                     before.count, after.count, before.ids, after.ids, before.masses, after.masses));
+}
+
+} // namespace
+
+template<class Exec, class Real>
+Migration<Exec, Real>::Migration(Decomposition<Exec>& decomposition)
+    : decomposition_(decomposition)
+    , leaving_(decomposition.transport.exec())
+    , exchange_(decomposition.transport, "migration messages")
+    , ids_(decomposition.transport.exec(), "ids of leaving points")
+    , departed_(static_cast<std::size_t>(decomposition.ranks()))
+{
+}
+
+template<class Exec, class Real>
+std::int64_t Migration<Exec, Real>::run(mpm::Points<Exec, Real>& points, const mpm::GridGeometry& geometry,
+                                        mpm::OrderScratch<Exec, Real>& scratch)
+{
+    const Exec&         exec         = decomposition_.transport.exec();
+    const Communicator& communicator = decomposition_.communicator;
+    const auto          find         = [&] {
+        mpm::find_leaving(exec, points, geometry, decomposition_.owners.view(), decomposition_.rank(), leaving_,
+                                           scratch);
+    };
+    find();
+    std::vector<std::int32_t> owner    = leaving_.owner.to_host();
+    const bool                homeless = std::find(owner.begin(), owner.end(), -1) != owner.end();
+    if (communicator.maximum(homeless ? 1 : 0) > 0)
+    {
+        adopt_pages();
+        find();
+        owner = leaving_.owner.to_host();
+    }
+    const std::int64_t moved = communicator.sum(static_cast<std::int64_t>(owner.size()));
+    if (moved == 0) { return 0; }
+
+    const bool                             checked = decomposition_.checksums == Checksums::on;
+    const Checksum                         before  = checked ? checksum(communicator, points) : Checksum{};
+    const std::vector<std::int32_t>        row     = leaving_.row.to_host();
+    std::vector<std::vector<std::int32_t>> rows_to(static_cast<std::size_t>(communicator.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) { rows_to[static_cast<std::size_t>(owner[i])].push_back(row[i]); }
+    note_departed(points, owner);
+    exchange_.plan(rows_to);
+    exchange_.begin(all_fields(points));
+    mpm::remove_leaving(exec, points, leaving_, scratch);
+    points.reserve(points.count + exchange_.received());
+    exchange_.finish(all_fields(points), points.count);
+    points.count += exchange_.received();
+    if (checked) { require_equal(before, checksum(communicator, points)); }
+    return moved;
+}
+
+template<class Exec, class Real>
+void Migration<Exec, Real>::note_departed(mpm::Points<Exec, Real>& points, const std::vector<std::int32_t>& owner)
+{
+    ids_.resize(leaving_.row.size());
+    pack_rows(decomposition_.transport.exec(), columns(points.id.data()), leaving_.row.data(), leaving_.row.size(),
+              ids_.data());
+    const std::vector<std::uint32_t> ids = ids_.to_host();
+    for (auto& of_rank : departed_) { of_rank.clear(); }
+    for (std::size_t i = 0; i < ids.size(); ++i) { departed_[static_cast<std::size_t>(owner[i])].push_back(ids[i]); }
+    for (auto& of_rank : departed_) { std::sort(of_rank.begin(), of_rank.end()); }
+}
+
+/// All ranks say which pages without an owner have how many of their points, and come to the same answer.
+template<class Exec, class Real>
+void Migration<Exec, Real>::adopt_pages()
+{
+    const std::vector<std::int32_t>        owner = leaving_.owner.to_host();
+    const std::vector<std::uint64_t>       page  = leaving_.page.to_host();
+    std::map<std::uint64_t, std::uint64_t> found;
+    for (std::size_t i = 0; i < owner.size(); ++i)
+    {
+        if (owner[i] < 0) { ++found[page[i]]; }
+    }
+    std::vector<std::uint64_t> claims; // page, points, rank
+    for (const auto& [key, points] : found)
+    {
+        claims.insert(claims.end(), {key, points, static_cast<std::uint64_t>(decomposition_.rank())});
+    }
+    claims = decomposition_.communicator.gather(claims);
+
+    struct Claim
+    {
+        std::uint64_t points;
+        std::int32_t  rank;
+    };
+    std::map<std::uint64_t, Claim> best;
+    for (std::size_t i = 0; i < claims.size(); i += 3)
+    {
+        const Claim claim{claims[i + 1], static_cast<std::int32_t>(claims[i + 2])};
+        const auto  at = best.emplace(claims[i], claim).first;
+        if (claim.points > at->second.points) { at->second = claim; }
+    }
+    std::vector<std::uint64_t> keys;
+    PageRanks                  ranks;
+    for (const auto& [key, claim] : best)
+    {
+        keys.push_back(key);
+        ranks.push_back(claim.rank);
+    }
+    decomposition_.owners.add(keys, ranks);
+}
+
+template class Migration<Cpu, float>;
+template class Migration<Cpu, double>;
+#ifdef TREAD_WITH_CUDA
+template class Migration<Gpu, float>;
+template class Migration<Gpu, double>;
+#endif
+
+} // namespace tread::decomp

@@ -1,0 +1,110 @@
+#include "decomp/nccl.hpp"
+
+#include <cstdlib>
+#include <cstring>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+namespace tread::decomp
+{
+namespace
+{
+
+// Of nccl.h, version 2: what is used of it, so that it need not be there when tread is built.
+struct UniqueId
+{
+    char bytes[128];
+};
+
+constexpr int success    = 0;
+constexpr int type_uint8 = 1;
+
+using GetUniqueId = int (*)(UniqueId*);
+using InitRank    = int (*)(void** comm, int ranks, UniqueId id, int rank);
+using Destroy     = int (*)(void* comm);
+using Group       = int (*)();
+using Send        = int (*)(const void*, std::size_t count, int type, int peer, void* comm, CUstream_st*);
+using Receive     = int (*)(void*, std::size_t count, int type, int peer, void* comm, CUstream_st*);
+using ErrorString = const char* (*)(int);
+
+} // namespace
+
+/// It stays open until the process ends: its threads may outlive the last communicator.
+struct NcclLibrary
+{
+    void*       handle        = nullptr;
+    GetUniqueId get_unique_id = nullptr;
+    InitRank    init_rank     = nullptr;
+    Destroy     destroy       = nullptr;
+    Group       group_start   = nullptr;
+    Group       group_end     = nullptr;
+    Send        send          = nullptr;
+    Receive     receive       = nullptr;
+    ErrorString error_string  = nullptr;
+
+    template<class Function>
+    bool find(Function& function, const char* name)
+    {
+        function = reinterpret_cast<Function>(dlsym(handle, name));
+        return function != nullptr;
+    }
+
+    bool open()
+    {
+        handle = dlopen("libnccl.so.2", RTLD_NOW | RTLD_LOCAL);
+        return handle != nullptr && find(get_unique_id, "ncclGetUniqueId") && find(init_rank, "ncclCommInitRank") &&
+               find(destroy, "ncclCommDestroy") && find(group_start, "ncclGroupStart") &&
+               find(group_end, "ncclGroupEnd") && find(send, "ncclSend") && find(receive, "ncclRecv") &&
+               find(error_string, "ncclGetErrorString");
+    }
+
+    void check(int result, const char* what) const
+    {
+        if (result == success) { return; }
+        throw EnvironmentError(fmt::format("NCCL: {} in {}", error_string(result), what));
+    }
+};
+
+Nccl::Nccl(const Communicator& communicator)
+    : library_(std::make_unique<NcclLibrary>())
+{
+    if (communicator.maximum(library_->open() ? 0 : 1) > 0)
+    {
+        throw EnvironmentError("NCCL: not every rank finds libnccl.so.2");
+    }
+    // Sends and receives have no use for NVLink multicast, which takes resources of the whole machine.
+    setenv("NCCL_NVLS_ENABLE", "0", 1);
+    UniqueId id{};
+    if (communicator.rank() == 0) { library_->check(library_->get_unique_id(&id), "unique id"); }
+    const std::string text = communicator.broadcast(std::string(id.bytes, sizeof(id.bytes)));
+    std::memcpy(id.bytes, text.data(), sizeof(id.bytes));
+    const int          result = library_->init_rank(&native_, communicator.size(), id, communicator.rank());
+    const std::int64_t worst  = communicator.maximum(result);
+    if (worst == success) { return; }
+    if (result == success) { library_->destroy(native_); }
+    throw EnvironmentError(fmt::format("NCCL does not start: {}", library_->error_string(static_cast<int>(worst))));
+}
+
+Nccl::~Nccl() { library_->destroy(native_); }
+
+void Nccl::exchange(const Gpu& gpu, const Parcels& out, const std::byte* from, const Parcels& in, std::byte* to)
+{
+    const NcclLibrary& nccl = *library_;
+    nccl.check(nccl.group_start(), "group start");
+    for (const Parcel& parcel : in)
+    {
+        nccl.check(nccl.receive(to + parcel.first, static_cast<std::size_t>(parcel.bytes), type_uint8, parcel.rank,
+                                native_, gpu.stream),
+                   "receive");
+    }
+    for (const Parcel& parcel : out)
+    {
+        nccl.check(nccl.send(from + parcel.first, static_cast<std::size_t>(parcel.bytes), type_uint8, parcel.rank,
+                             native_, gpu.stream),
+                   "send");
+    }
+    nccl.check(nccl.group_end(), "group end");
+}
+
+} // namespace tread::decomp

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "backend/array.hpp"
+#include "decomp/partition.hpp"
+#include "kernels/mpm/leaving.hpp"
+
+namespace tread::decomp
+{
+
+/// Which rank owns which page: the same on all ranks, on the host and in the backend's memory.
+template<class Exec>
+class PageMap
+{
+public:
+    explicit PageMap(const Exec& exec);
+
+    /// `key` ascends, each once; a rank each. What was there before is forgotten.
+    void assign(std::vector<std::uint64_t> key, PageRanks rank);
+
+    /// Pages that nobody owned before, in any order.
+    void add(const std::vector<std::uint64_t>& key, const PageRanks& rank);
+
+    const std::vector<std::uint64_t>& keys() const { return key_; }
+    const PageRanks&                  ranks() const { return rank_; }
+
+    /// How often pages were given to ranks: who keeps something that follows from it knows when to look again.
+    std::int64_t changes() const { return changes_; }
+
+    /// The owner of a page, or -1.
+    std::int32_t owner(std::uint64_t page) const;
+
+    /// The same for kernels.
+    mpm::PageOwnersView view() const;
+
+private:
+    std::vector<std::uint64_t> key_;
+    PageRanks                  rank_;
+    std::int64_t               changes_ = 0;
+    Array<Exec, std::uint64_t> device_key_;
+    Array<Exec, std::int32_t>  device_rank_;
+};
+
+} // namespace tread::decomp

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "backend/execution.hpp"
+
+// Rows of several arrays, packed beside each other into messages, and back.
+namespace tread::decomp
+{
+
+/// One array as rows of `count` values of `bytes` (1, 4 or 8) each: value c of row r is number
+/// r * row_step + c * value_step.
+struct Column
+{
+    std::byte*   data;
+    std::int64_t row_step;
+    std::int64_t value_step;
+    std::int32_t bytes;
+    std::int32_t count;
+
+    /// Of a packed row, 4 bytes each.
+    TREAD_HD std::int32_t words() const { return bytes == 8 ? 2 * count : count; }
+};
+
+/// Each row is `length` structs that stand beside each other.
+template<class Row>
+Column rows(Row* data, int length = 1)
+{
+    static_assert(std::is_trivially_destructible_v<Row> && sizeof(Row) % 4 == 0);
+    const auto words = static_cast<std::int32_t>(sizeof(Row) / 4) * length;
+    return {reinterpret_cast<std::byte*>(data), words, 1, 4, words};
+}
+
+/// Component c of row r is data[c * stride + r].
+template<class T>
+Column planes(T* data, std::int64_t stride, int components)
+{
+    static_assert(sizeof(T) == 1 || sizeof(T) == 4 || sizeof(T) == 8);
+    return {reinterpret_cast<std::byte*>(data), 1, stride, static_cast<std::int32_t>(sizeof(T)), components};
+}
+
+constexpr int most_columns = 20;
+
+/// What travels of a row.
+struct Columns
+{
+    int          count = 0;
+    std::int32_t words = 0; ///< of a packed row, 4 bytes each
+    Column       at[most_columns];
+
+    void add(const Column& column)
+    {
+        at[count++] = column;
+        words += column.words();
+    }
+};
+
+/// Of arrays of structs.
+template<class... Row>
+Columns columns(Row*... data)
+{
+    static_assert(sizeof...(Row) <= most_columns);
+    Columns all;
+    (all.add(rows(data)), ...);
+    return all;
+}
+
+/// Row index[k] of the columns becomes packed row k.
+void pack_rows(const Cpu&, const Columns& columns, const std::int32_t* index, std::int64_t count, std::uint32_t* to);
+void pack_rows(const Gpu&, const Columns& columns, const std::int32_t* index, std::int64_t count, std::uint32_t* to);
+
+/// Packed row k becomes row index[k], or first + k where `index` is null, of the columns. Indices must not repeat.
+void unpack_rows(const Cpu&, const std::uint32_t* from, std::int64_t count, const Columns& columns,
+                 const std::int32_t* index, std::int64_t first);
+void unpack_rows(const Gpu&, const std::uint32_t* from, std::int64_t count, const Columns& columns,
+                 const std::int32_t* index, std::int64_t first);
+
+} // namespace tread::decomp

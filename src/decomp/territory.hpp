@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "backend/vector.hpp"
+#include "decomp/partition.hpp"
+
+// Which rank owns which place, for every place there is: the pages of a partition and those that may come to be.
+namespace tread::decomp
+{
+
+/// How positions fall to pages: those of kernels/mpm/pages.hpp.
+struct PageLattice
+{
+    double spacing;       ///< m, of the grid
+    double stencil_shift; ///< in spacings
+};
+
+/// A page that no partition has seen belongs to the rank of the page before it by key; one before all, to that of the
+/// first. The same on every rank, as long as it is made of the same partition.
+class Territory
+{
+public:
+    /// `key` ascending, each once, at least one, and the rank of each.
+    Territory(const PageLattice& lattice, const std::vector<std::uint64_t>& key, const PageRanks& rank);
+
+    std::int32_t owner_of(std::uint64_t page_key) const;
+    std::int32_t owner_of(const Vec3<double>& place) const;
+
+    /// The ranks that own a page which the ball (m) reaches, ascending; all, where it reaches very many pages.
+    std::vector<std::int32_t> owners_near(const Vec3<double>& centre, double radius) const;
+
+private:
+    std::size_t run_of(std::uint64_t page_key) const;
+
+    PageLattice                lattice_;
+    std::vector<std::uint64_t> first_; ///< of each run of pages of one rank, by key
+    std::vector<std::int32_t>  rank_;  ///< of each run
+    std::vector<std::int32_t>  all_;   ///< ranks that own something
+};
+
+} // namespace tread::decomp

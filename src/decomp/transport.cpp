@@ -1,0 +1,185 @@
+#include "decomp/transport.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#if __has_include(<mpi-ext.h>)
+#include <mpi-ext.h>
+#endif
+
+namespace tread::decomp
+{
+namespace
+{
+
+// MPI promises tags up to 32767; the turns of a channel differ, so that a rank that is a step ahead is noticed.
+constexpr int turns         = 64;
+constexpr int most_channels = 32768 / turns;
+
+// MPI counts in int.
+constexpr std::int64_t most_bytes_a_message = std::int64_t{1} << 30;
+
+struct Choice
+{
+    Carrier               carrier;
+    std::unique_ptr<Nccl> nccl;
+    std::string           description;
+};
+
+Choice choose(const Cpu&, const Communicator&, TransportChoice) { return {Carrier::mpi, nullptr, "MPI"}; }
+
+#ifdef TREAD_WITH_CUDA
+/// Whether the MPI library of every rank says so.
+bool mpi_knows_gpus(const Communicator& communicator)
+{
+#if defined(OMPI_HAVE_MPI_EXT_CUDA) && OMPI_HAVE_MPI_EXT_CUDA
+    const bool knows = MPIX_Query_cuda_support() == 1;
+#else
+    const bool knows = false;
+#endif
+    return communicator.maximum(knows ? 0 : 1) == 0;
+}
+
+Choice choose(const Gpu&, const Communicator& communicator, TransportChoice choice)
+{
+    const bool any = choice == TransportChoice::automatic;
+    if (choice == TransportChoice::host) { return {Carrier::host, nullptr, "MPI through pinned host memory"}; }
+    if (choice != TransportChoice::nccl && mpi_knows_gpus(communicator))
+    {
+        return {Carrier::mpi, nullptr, "MPI from GPU memory"};
+    }
+    if (choice == TransportChoice::mpi)
+    {
+        throw EnvironmentError("--transport mpi: this MPI cannot send from GPU memory (MPIX_Query_cuda_support)");
+    }
+    try
+    {
+        return {Carrier::nccl, std::make_unique<Nccl>(communicator), "NCCL"};
+    }
+    catch (const EnvironmentError& error)
+    {
+        if (!any) { throw; }
+        return {Carrier::host, nullptr,
+                fmt::format("MPI through pinned host memory (this MPI cannot send from GPU memory; {})", error.what())};
+    }
+}
+#endif
+
+/// Calls f(first byte, bytes) for pieces that MPI can count; they arrive in the order in which they are sent.
+template<class F>
+void for_each_piece(const Parcel& parcel, F f)
+{
+    for (std::int64_t done = 0; done < parcel.bytes; done += most_bytes_a_message)
+    {
+        f(parcel.first + done, static_cast<int>(std::min(most_bytes_a_message, parcel.bytes - done)));
+    }
+}
+
+/// Only GPUs have it.
+void exchange_by_nccl(Transport<Cpu>&, const Parcels&, const std::byte*, const Parcels&, std::byte*) {}
+
+#ifdef TREAD_WITH_CUDA
+void exchange_by_nccl(Transport<Gpu>& transport, const Parcels& out, const std::byte* from, const Parcels& in,
+                      std::byte* to)
+{
+    transport.nccl().exchange(transport.exec(), out, from, in, to);
+}
+#endif
+
+} // namespace
+
+template<class Exec>
+Transport<Exec>::Transport(const Communicator& communicator, const Exec& exec, TransportChoice choice)
+    : communicator_(communicator)
+    , exec_(exec)
+{
+    Choice chosen = choose(exec, communicator, choice);
+    nccl_         = std::move(chosen.nccl);
+    carrier_      = chosen.carrier;
+    description_  = std::move(chosen.description);
+}
+
+template<class Exec>
+int Transport<Exec>::open_channel()
+{
+    if (channels_ == most_channels) { throw EnvironmentError("transport: too many kinds of messages"); }
+    return channels_++;
+}
+
+template<class Exec>
+Mail<Exec>::Mail(Transport<Exec>& transport, const char* name)
+    : transport_(&transport)
+    , outgoing_(transport.exec(), name, transport.carrier())
+    , incoming_(transport.exec(), name, transport.carrier())
+    , channel_(transport.open_channel())
+{
+}
+
+template<class Exec>
+void Mail<Exec>::depart(const Parcels& out, const Parcels& in)
+{
+    turn_ = (turn_ + 1) % turns;
+    requests_.clear();
+    expected_.clear();
+    if (out.empty() && in.empty()) { return; }
+    if (transport_->carrier() == Carrier::nccl)
+    {
+        exchange_by_nccl(*transport_, out, outgoing_.data(), in, incoming_.data());
+        return;
+    }
+    // What is to go must be written, and what came last must have been read.
+    synchronize(transport_->exec());
+    for (const Parcel& parcel : in) { post_receive(parcel); }
+    for (const Parcel& parcel : out) { post_send(parcel); }
+}
+
+template<class Exec>
+void Mail<Exec>::post_receive(const Parcel& parcel)
+{
+    const auto receive = [&](std::int64_t first, int bytes)
+    {
+        check_mpi(MPI_Irecv(incoming_.data() + first, bytes, MPI_BYTE, parcel.rank, channel_ * turns + turn_,
+                            transport_->communicator().native(), &requests_.emplace_back()),
+                  "receive");
+        expected_.push_back({parcel.rank, first, bytes});
+    };
+    for_each_piece(parcel, receive);
+}
+
+template<class Exec>
+void Mail<Exec>::post_send(const Parcel& parcel)
+{
+    const auto send = [&](std::int64_t first, int bytes)
+    {
+        check_mpi(MPI_Isend(outgoing_.data() + first, bytes, MPI_BYTE, parcel.rank, channel_ * turns + turn_,
+                            transport_->communicator().native(), &requests_.emplace_back()),
+                  "send");
+    };
+    for_each_piece(parcel, send);
+}
+
+template<class Exec>
+void Mail<Exec>::arrive()
+{
+    if (requests_.empty()) { return; }
+    states_.resize(requests_.size());
+    check_mpi(MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), states_.data()), "messages");
+    for (std::size_t i = 0; i < expected_.size(); ++i)
+    {
+        int bytes = 0;
+        MPI_Get_count(&states_[i], MPI_BYTE, &bytes);
+        if (bytes == expected_[i].bytes) { continue; }
+        throw EnvironmentError(
+            fmt::format("MPI: {} bytes came from rank {}, not {}", bytes, expected_[i].rank, expected_[i].bytes));
+    }
+    requests_.clear();
+}
+
+template class Transport<Cpu>;
+template class Mail<Cpu>;
+#ifdef TREAD_WITH_CUDA
+template class Transport<Gpu>;
+template class Mail<Gpu>;
+#endif
+
+} // namespace tread::decomp

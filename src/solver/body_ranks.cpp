@@ -1,0 +1,336 @@
+#include "solver/body_ranks.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "decomp/letters.hpp"
+#include "kernels/dem/pairs_kern.hpp"
+#include "solver/page_loads.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+constexpr std::int32_t alone = -1; ///< place of a body that no two ranks move
+
+/// A body's words in a letter: body, owner, number of holders, holders.
+void write_words(std::vector<std::int32_t>& words, std::int32_t body, std::int32_t owner,
+                 const std::vector<std::int32_t>& holders)
+{
+    words.insert(words.end(), {body, owner, static_cast<std::int32_t>(holders.size())});
+    words.insert(words.end(), holders.begin(), holders.end());
+}
+
+std::vector<decomp::Leg> legs_of(const std::vector<std::vector<std::int32_t>>& lists)
+{
+    std::vector<decomp::Leg> legs;
+    for (std::size_t r = 0; r < lists.size(); ++r)
+    {
+        if (!lists[r].empty()) { legs.push_back({static_cast<int>(r), static_cast<std::int64_t>(lists[r].size())}); }
+    }
+    return legs;
+}
+
+std::vector<std::int32_t> joined(const std::vector<std::vector<std::int32_t>>& lists)
+{
+    std::vector<std::int32_t> all;
+    for (const auto& list : lists) { all.insert(all.end(), list.begin(), list.end()); }
+    return all;
+}
+
+} // namespace
+
+template<class Exec>
+BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const World& world, double sand_reach,
+                           dem::Bodies<Exec>& bodies)
+    : communicator_(decomposition.communicator)
+    , decomposition_(decomposition)
+    , lattice_(page_lattice_of(world))
+    , exec_(decomposition.transport.exec())
+    , sand_reach_(sand_reach)
+    , states_(decomposition.transport, "states of bodies")
+    , arriving_(exec_, "bodies arriving")
+    , shared_body_(exec_, "shared bodies")
+    , shared_place_(exec_, "places of shared bodies")
+    , shared_first_(exec_, "shares of bodies")
+    , shared_row_(exec_, "rows of shares")
+    , wrench_(decomposition.transport, "shares of wrenches")
+    , stiffness_(decomposition.transport, "shares of stiffness")
+    , speed_(decomposition.transport, "shares of speeds")
+{
+    look_at_pages();
+    const std::int32_t here = communicator_.rank();
+    for (std::size_t b = 0; b < world.bodies.size(); ++b)
+    {
+        const auto& form = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
+        bounding_radius_.push_back(form.bounding_radius * world.bodies.scale[b]);
+        role_.push_back(territory_->owner_of(world.bodies.position[b]) == here ? dem::role_owner : dem::role_none);
+    }
+    bodies.role.assign(role_);
+    plan_sharing({});
+}
+
+template<class Exec>
+void BodyRanks<Exec>::look_at_pages()
+{
+    territory_.emplace(lattice_, decomposition_.owners.keys(), decomposition_.owners.ranks());
+    pages_known_ = decomposition_.owners.changes();
+}
+
+template<class Exec>
+bool BodyRanks<Exec>::all(bool value) const
+{
+    return communicator_.maximum(value ? 0 : 1) == 0;
+}
+
+template<class Exec>
+double BodyRanks<Exec>::largest(double value) const
+{
+    const std::vector<double> values = communicator_.gather(value);
+    return *std::max_element(values.begin(), values.end());
+}
+
+template<class Exec>
+double BodyRanks<Exec>::shortest(double value) const
+{
+    double least = 0;
+    for (const double other : communicator_.gather(value))
+    {
+        if (other > 0 && (least == 0 || other < least)) { least = other; }
+    }
+    return least;
+}
+
+template<class Exec>
+void BodyRanks<Exec>::sum_doubles(double* values, std::size_t count) const
+{
+    const std::vector<double> rows = communicator_.gather(std::vector<double>(values, values + count));
+    std::fill(values, values + count, 0.0);
+    for (std::size_t i = 0; i < rows.size(); ++i) { values[i % count] += rows[i]; }
+}
+
+template<class Exec>
+void BodyRanks<Exec>::sum_wanted_travel(dem::Pairs<Exec>& pairs) const
+{
+    double wanted = read(exec_, pairs.measure.data());
+    sum(wanted);
+    copy_from_host(exec_, pairs.measure.data(), &wanted, sizeof(wanted));
+}
+
+template<class Exec>
+void BodyRanks<Exec>::deal(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
+{
+    if (pages_have_changed()) { look_at_pages(); }
+    const std::vector<Holding> decided = decide(bodies, pairs);
+    Lists                      leaving(rank_count()), arriving(rank_count());
+    for (const Holding& body : decided)
+    {
+        for (const std::int32_t holder : body.holders)
+        {
+            if (holder != communicator_.rank()) { leaving[static_cast<std::size_t>(holder)].push_back(body.body); }
+        }
+    }
+    const std::vector<Holding> held = tell(decided, arriving);
+    send_states(bodies, pairs, leaving, arriving);
+    hand_over_records(pairs, decided);
+    take_roles(bodies, held);
+    plan_sharing(held);
+}
+
+/// Of the bodies that this rank has owned until now.
+template<class Exec>
+auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs) const
+    -> std::vector<Holding>
+{
+    const std::vector<Vec3<double>> position = bodies.position.to_host();
+    const std::vector<double>       travel   = pairs.travel.to_host();
+    const std::vector<std::int32_t> is_large = pairs.is_large.to_host();
+
+    double widest = 0, widest_small = 0; // m, that anything which is met reaches
+    for (std::size_t b = 0; b < role_.size(); ++b)
+    {
+        if (role_[b] != dem::role_owner) { continue; }
+        const double reach = bounding_radius_[b] + travel[b];
+        widest             = std::max(widest, reach);
+        if (is_large[b] == 0) { widest_small = std::max(widest_small, reach); }
+    }
+    widest       = largest(widest);
+    widest_small = largest(widest_small);
+
+    std::vector<Holding> decided;
+    for (std::size_t b = 0; b < role_.size(); ++b)
+    {
+        if (role_[b] != dem::role_owner) { continue; }
+        const double beyond = std::max(is_large[b] != 0 ? widest : widest_small, sand_reach_);
+        decided.push_back({static_cast<std::int32_t>(b), territory_->owner_of(position[b]),
+                           territory_->owners_near(position[b], bounding_radius_[b] + travel[b] + beyond)});
+    }
+    return decided;
+}
+
+/// Returns what this rank holds from now on, by body; `arriving`: of each rank, the bodies whose state it sends.
+template<class Exec>
+auto BodyRanks<Exec>::tell(const std::vector<Holding>& decided, Lists& arriving) const -> std::vector<Holding>
+{
+    Lists words(rank_count());
+    for (const Holding& body : decided)
+    {
+        for (const std::int32_t holder : body.holders)
+        {
+            write_words(words[static_cast<std::size_t>(holder)], body.body, body.owner, body.holders);
+        }
+    }
+    std::vector<Holding> held;
+    const Lists          told = decomp::exchange_values(communicator_, words);
+    for (std::size_t r = 0; r < told.size(); ++r)
+    {
+        for (auto word = told[r].begin(); word != told[r].end();)
+        {
+            const auto holders = word + 3, end = holders + word[2];
+            held.push_back({word[0], word[1], {holders, end}});
+            if (r != rank()) { arriving[r].push_back(word[0]); }
+            word = end;
+        }
+    }
+    std::sort(held.begin(), held.end(), [](const Holding& a, const Holding& b) { return a.body < b.body; });
+    return held;
+}
+
+template<class Exec>
+void BodyRanks<Exec>::send_states(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs, const Lists& leaving,
+                                  const Lists& arriving)
+{
+    arriving_.assign(joined(arriving));
+    Array<Exec, std::int32_t> rows(exec_, "bodies leaving");
+    rows.assign(joined(leaving));
+    states_.plan(std::move(rows), legs_of(leaving), legs_of(arriving));
+    const dem::BodiesView view = bodies.view();
+    const decomp::Columns columns =
+        decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.force, view.torque,
+                        view.stiffness, view.locked, pairs.travel.data());
+    states_.begin(columns);
+    states_.finish(columns, arriving_);
+}
+
+template<class Exec>
+void BodyRanks<Exec>::take_roles(dem::Bodies<Exec>& bodies, const std::vector<Holding>& held)
+{
+    std::fill(role_.begin(), role_.end(), dem::role_none);
+    std::int64_t owned = 0, sum_of_owned = 0;
+    for (const Holding& body : held)
+    {
+        const bool own                             = body.owner == communicator_.rank();
+        role_[static_cast<std::size_t>(body.body)] = own ? dem::role_owner : dem::role_guest;
+        owned += own ? 1 : 0;
+        sum_of_owned += own ? body.body : 0;
+    }
+    bodies.role.assign(role_);
+    const auto count = static_cast<std::int64_t>(role_.size());
+    if (communicator_.sum(owned) != count || communicator_.sum(sum_of_owned) != count * (count - 1) / 2)
+    {
+        throw NumericalError("a body was lost on its way from rank to rank");
+    }
+}
+
+/// Both sides of a leg list the bodies that they share in the same order.
+template<class Exec>
+void BodyRanks<Exec>::plan_sharing(const std::vector<Holding>& held)
+{
+    std::vector<std::int32_t> body, first{0}, place(role_.size(), alone);
+    Lists                     rows(rank_count());
+    for (const Holding& one : held)
+    {
+        if (one.holders.size() < 2) { continue; }
+        const auto row                            = static_cast<std::int32_t>(body.size());
+        place[static_cast<std::size_t>(one.body)] = row;
+        body.push_back(one.body);
+        first.push_back(first.back() + static_cast<std::int32_t>(one.holders.size()));
+        for (const std::int32_t holder : one.holders) { rows[static_cast<std::size_t>(holder)].push_back(row); }
+    }
+    rows[rank()].clear();
+
+    std::vector<std::int32_t> next(rank_count(), static_cast<std::int32_t>(body.size()));
+    for (std::size_t r = 1; r < next.size(); ++r)
+    {
+        next[r] = next[r - 1] + static_cast<std::int32_t>(rows[r - 1].size());
+    }
+    std::vector<std::int32_t> share;
+    for (const Holding& one : held)
+    {
+        if (one.holders.size() < 2) { continue; }
+        for (const std::int32_t holder : one.holders)
+        {
+            const auto r = static_cast<std::size_t>(holder);
+            share.push_back(r == rank() ? place[static_cast<std::size_t>(one.body)] : next[r]++);
+        }
+    }
+    shared_body_.assign(body);
+    shared_place_.assign(place);
+    shared_first_.assign(first);
+    shared_row_.assign(share);
+
+    const auto prepare = [&](auto& shares)
+    {
+        Array<Exec, std::int32_t> list(exec_, "rows of shared bodies");
+        list.assign(joined(rows));
+        shares.exchange.plan(std::move(list), legs_of(rows), legs_of(rows));
+        shares.rows.resize(shared_body_.size() + shares.exchange.received());
+    };
+    prepare(wrench_);
+    prepare(stiffness_);
+    prepare(speed_);
+}
+
+template<class Exec>
+template<class Share>
+void BodyRanks<Exec>::pass_on(Shares<Share>& shares)
+{
+    const decomp::Columns columns = decomp::columns(shares.rows.data());
+    shares.exchange.begin(columns);
+    shares.exchange.finish(columns, shared_body_.size());
+}
+
+template<class Exec>
+dem::SharedView BodyRanks<Exec>::shared()
+{
+    return {shared_body_.size(), shared_body_.data(), shared_place_.data(),   shared_first_.data(),
+            shared_row_.data(),  wrench_.rows.data(), stiffness_.rows.data(), speed_.rows.data()};
+}
+
+template<class Exec>
+void BodyRanks<Exec>::collect(dem::Bodies<Exec>& bodies)
+{
+    std::vector<std::int32_t> own;
+    for (std::size_t b = 0; b < role_.size(); ++b)
+    {
+        if (role_[b] == dem::role_owner) { own.push_back(static_cast<std::int32_t>(b)); }
+    }
+    Lists arriving = decomp::gather_values(communicator_, own), leaving(rank_count(), own);
+    arriving[rank()].clear();
+    leaving[rank()].clear();
+    arriving_.assign(joined(arriving));
+    Array<Exec, std::int32_t> rows(exec_, "bodies leaving");
+    rows.assign(joined(leaving));
+    states_.plan(std::move(rows), legs_of(leaving), legs_of(arriving));
+    const dem::BodiesView view = bodies.view();
+    const decomp::Columns columns =
+        decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity);
+    states_.begin(columns);
+    states_.finish(columns, arriving_);
+}
+
+template<class Exec>
+std::int64_t BodyRanks<Exec>::decider(const std::vector<std::int32_t>& is_large, std::uint64_t key) const
+{
+    const std::int64_t a = dem::first_of(key), b = dem::second_of(key);
+    return b < static_cast<std::int64_t>(role_.size()) ? dem::decider_of(is_large.data(), a, b) : a;
+}
+
+template class BodyRanks<Cpu>;
+#ifdef TREAD_WITH_CUDA
+template class BodyRanks<Gpu>;
+#endif
+
+} // namespace tread::solver

@@ -1,0 +1,271 @@
+#include <cstdio>
+#include <set>
+
+#include "physics/rock_scenes.hpp"
+#include "side_by_side.hpp"
+
+// Rocks and wheels over several ranks do what they do on one.
+namespace tread
+{
+namespace
+{
+
+template<class Exec>
+class BodiesOfRanks : public test::BackendTest<Exec>
+{
+protected:
+    static int ranks() { return test::world().size(); }
+};
+TYPED_TEST_SUITE(BodiesOfRanks, test::Backends, test::BackendNames);
+
+constexpr double stone_young = 1e7;
+
+std::string clast(int nodes)
+{
+    return fmt::format(R"(
+[[shape]]
+name      = "clast"
+generate  = {{ kind = "rock", seed = 3, aspect = 0.7, sphericity = 0.9, nodes = {} }}
+sdf_cells = 24
+)",
+                       nodes);
+}
+
+std::string ball()
+{
+    return R"(
+[[shape]]
+name      = "clast"
+generate  = { kind = "sphere", nodes = 162 }
+sdf_cells = 24
+)";
+}
+
+std::string fixed_step(double dt) { return fmt::format("\n[time]\ndt = {}\n", dt); }
+
+/// A rock of 4 cm that slides down a slope of 40 degrees with friction of 0.5, in x, from the first rank to the last.
+TYPED_TEST(BodiesOfRanks, ARockSlidesOverTheirBorder)
+{
+    const Vec3<double> size(0.4, 0.2, 0.2);
+    const std::string  text = test::rock_domain(size, 40,
+                                                "x = \"open\", y = \"open\", bottom = \"fixed\", top = \"open\"", "") +
+                             test::stone(stone_young, 0.5, 0.5) + clast(642) + R"(
+[[body]]
+name = "slider"
+shape = "clast"
+material = "stone"
+density = 2700.0
+diameter = 0.04
+position = [0.17, 0.1, 0.021]
+velocity = [0.8, 0.0, 0.0]
+lock = ["roll", "pitch", "yaw"]
+)" + fixed_step(2e-4) + test::phase("slide", 0, 1);
+    const auto border = [last = this->ranks() - 1](const Vec3<double>& at) { return at[0] < 0.18 ? 0 : last; };
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(text), size, border);
+    const Vec3<double>          start   = run.alone.simulation().named_bodies().front().position;
+    double                      largest = 0, force = 0;
+    for (int step = 0; step < 200; ++step)
+    {
+        run.advance();
+        const solver::BodyRow one = run.alone.simulation().named_bodies().front(),
+                              all = run.together.simulation().named_bodies().front();
+        force                     = std::max(force, one.force.norm());
+        largest =
+            std::max({largest, (one.position - all.position).norm() / 0.04, (one.velocity - all.velocity).norm()});
+        largest = std::max(largest, (one.force - all.force).norm() / std::max(one.force.norm(), 1e-3));
+        run.alone.simulation().begin_mean();
+        run.together.simulation().begin_mean();
+    }
+    std::printf("sliding rock: largest difference %.3g, largest force %.3g N\n", largest, force);
+    EXPECT_LT(largest, 1e-9);
+    if (this->ranks() > 1)
+    {
+        EXPECT_NE(run.owner_of(start), run.owner_of(run.alone.simulation().named_bodies().front().position));
+    }
+}
+
+/// Two rocks, each in the middle of what a rank owns; then one of them at the border.
+TYPED_TEST(BodiesOfRanks, NothingIsSharedFarFromTheBorder)
+{
+    const Vec3<double> size(0.8, 0.2, 0.2);
+    const auto         halves = [second = std::min(1, this->ranks() - 1)](const Vec3<double>& page)
+    { return page[0] < 0.37 ? 0 : second; };
+    for (const double x : {0.2, 0.35})
+    {
+        const std::string  rock  = R"(
+[[body]]
+name = "{}"
+shape = "clast"
+material = "stone"
+density = 2700.0
+diameter = 0.04
+position = [{}, 0.1, 0.05]
+)";
+        const scene::Scene scene = test::load_text(
+            test::rock_domain(size, 0, "x = \"open\", y = \"open\", bottom = \"fixed\", top = \"open\"", "") +
+            test::stone(stone_young, 0.5, 0.5) + clast(162) + fmt::format(fmt::runtime(rock), "one", x) +
+            fmt::format(fmt::runtime(rock), "other", 0.6) + fixed_step(2e-4) + test::phase("fall", 0, 1));
+        const solver::World              world = solver::build_world(scene);
+        decomp::Decomposition<TypeParam> decomposition(test::world(), this->exec(), {});
+        const test::OwnedPages           pages = test::pages_of(solver::page_lattice_of(world), size, halves);
+        decomposition.owners.assign(pages.key, pages.rank);
+        solver::Rigid<TypeParam> rigid(this->exec(), scene, world, solver::make_plan(scene, world), &decomposition);
+        rigid.find_pairs(2e-4);
+        const bool at_border = x > 0.3; // pages are 0.16 m wide, and begin half a spacing off the origin
+        EXPECT_EQ(rigid.shares(), at_border && this->ranks() > 1 && test::world().rank() < 2);
+    }
+}
+
+/// A heap of 1,000 rocks that slumps in x under a tilted weight of several g.
+std::string heap(int rocks, const std::string& form)
+{
+    return R"(
+title = "heap"
+[domain]
+size    = [0.4, 0.13, 0.2]
+gravity = [60.0, 0.0, -40.0]
+walls   = { x = "slip", y = "slip", bottom = "fixed", top = "open" }
+)" + test::stone(stone_young, 0.5, 0.5) +
+           form +
+           fmt::format(R"(
+[[rocks]]
+shape = "clast"
+material = "stone"
+count = {}
+diameter = 0.01
+placement = "grid"
+region = {{ box = [[0.0, 0.0, 0.0], [0.2, 0.13, 0.13]] }}
+)",
+                       rocks) +
+           fixed_step(2e-4) + test::phase("slump", 0, 1);
+}
+
+const Vec3<double> heap_size(0.4, 0.13, 0.2);
+
+auto heap_slabs(int parts) { return test::slabs(heap_size[0], parts); }
+
+/// Rocks whose place belongs to another rank than it did.
+template<class Exec>
+int migrated(const test::SideBySide<Exec>& run, const std::vector<double>& before, const std::vector<double>& after)
+{
+    const auto owner = [&](const std::vector<double>& at, std::size_t b)
+    { return run.owner_of(Vec3<double>(at[3 * b], at[3 * b + 1], at[3 * b + 2])); };
+    int moved = 0;
+    for (std::size_t b = 0; 3 * b < before.size(); ++b) { moved += owner(before, b) != owner(after, b) ? 1 : 0; }
+    return moved;
+}
+
+template<class Exec>
+void expect_as_alone(test::SideBySide<Exec>& run, int steps, double diameter, double bound)
+{
+    for (int step = 0; step < steps; ++step)
+    {
+        run.advance();
+        if (::testing::Test::HasFatalFailure()) { return; }
+    }
+    const io::BodyFields one = run.alone.simulation().body_fields(), all = run.together.simulation().body_fields();
+    const double         places = test::difference(one.position, all.position, diameter),
+                 speeds         = test::difference(one.velocity, all.velocity, 1.0),
+                 turns          = test::difference(one.orientation, all.orientation, 1.0);
+    std::printf("after %d steps: places differ by %.3g diameters, velocities by %.3g m/s, orientations by %.3g\n",
+                steps, places, speeds, turns);
+    EXPECT_LT(places, bound);
+    EXPECT_LT(speeds, bound);
+    EXPECT_LT(turns, bound);
+
+    const solver::RigidCensus of_one = run.alone.simulation().census().rigid,
+                              of_all = run.together.simulation().census().rigid;
+    EXPECT_EQ(of_one.mass, of_all.mass);
+    const double energy = std::abs(of_one.kinetic) + std::abs(of_one.gravity) + of_one.contact;
+    EXPECT_NEAR(of_one.kinetic, of_all.kinetic, bound * energy);
+    EXPECT_NEAR(of_one.contact, of_all.contact, bound * energy);
+    EXPECT_NEAR(of_one.gravity, of_all.gravity, bound * energy);
+    EXPECT_LT((of_one.momentum - of_all.momentum).norm(), bound * of_one.mass);
+    const auto errors_of = [](auto& experiment) { return experiment.simulation().ledger().errors(); };
+    EXPECT_NEAR(errors_of(run.alone).energy, errors_of(run.together).energy, bound);
+    EXPECT_NEAR(errors_of(run.alone).momentum, errors_of(run.together).momentum, bound);
+}
+
+TYPED_TEST(BodiesOfRanks, AHeapOfRocksMigrates)
+{
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(heap(1000, ball())), heap_size,
+                                    heap_slabs(this->ranks()));
+    const auto                  before = run.together.simulation().body_fields().position;
+    expect_as_alone(run, 200, 0.01, 1e-8);
+    const int moved = migrated(run, before, run.together.simulation().body_fields().position);
+    std::printf("%d of 1000 rocks changed their rank\n", moved);
+    if (this->ranks() > 1) { EXPECT_GT(moved, 50); }
+}
+
+TYPED_TEST(BodiesOfRanks, ARankMayBeEmpty)
+{
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(heap(100, clast(162))), heap_size,
+                                    heap_slabs(std::max(1, this->ranks() - 1)));
+    expect_as_alone(run, 100, 0.01, 1e-8);
+}
+
+TYPED_TEST(BodiesOfRanks, TwoRunsGiveTheSameBits)
+{
+    io::BodyFields last;
+    for (int pass = 0; pass < 2; ++pass)
+    {
+        test::SideBySide<TypeParam> run(this->exec(), test::load_text(heap(150, clast(162))), heap_size,
+                                        heap_slabs(this->ranks()));
+        for (int step = 0; step < 100; ++step) { run.together.advance(); }
+        const io::BodyFields now = run.together.simulation().body_fields();
+        if (pass > 0)
+        {
+            EXPECT_EQ(now.position, last.position);
+            EXPECT_EQ(now.orientation, last.orientation);
+            EXPECT_EQ(now.velocity, last.velocity);
+            EXPECT_EQ(now.angular_velocity, last.angular_velocity);
+        }
+        last = now;
+    }
+}
+
+/// On a bed of rocks, above the corner of four ranks; it is dropped and rolls off over the border in x.
+TYPED_TEST(BodiesOfRanks, AWheelRollsOnTheCornerOfFour)
+{
+    const Vec3<double> size(0.4, 0.4, 0.4);
+    const std::string  text = test::rock_domain(size, 0,
+                                                "x = \"slip\", y = \"slip\", bottom = \"fixed\", top = \"open\"", "") +
+                             test::stone(stone_young, 0.5, 0.5) + clast(162) + R"(
+[[shape]]
+name = "wheel"
+generate = { kind = "wheel", radius = 0.1, width = 0.08, wall_thickness = 0.03, grousers = 9, grouser_height = 0.01, grouser_width = 0.01 }
+node_spacing = 0.008
+sdf_cells = 48
+[[rocks]]
+shape = "clast"
+material = "stone"
+count = 120
+diameter = 0.024
+placement = "grid"
+region = { box = [[0.05, 0.05, 0.0], [0.35, 0.35, 0.05]] }
+[[body]]
+name = "wheel"
+shape = "wheel"
+material = "stone"
+mass = 6.0
+position = [0.2, 0.2, 0.145]
+velocity = [0.0, 0.0, -0.6]
+)" + fixed_step(2e-4) + R"(
+[[phase]]
+name = "drive"
+duration = 1
+drive = { body = "wheel", angular_velocity = 3.0, ramp = 0.02 }
+)";
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(text), size,
+                                    test::quarters(0.5 * size, this->ranks()));
+    expect_as_alone(run, 200, 0.024, 1e-8);
+    const solver::BodyRow one = run.alone.simulation().named_bodies().front(),
+                          all = run.together.simulation().named_bodies().front();
+    std::printf("force on the wheel %.6g N, differs by %.3g\n", one.force.norm(), (one.force - all.force).norm());
+    EXPECT_GT(one.force.norm(), 1) << "the wheel stands on rocks";
+    EXPECT_LT((one.force - all.force).norm(), 1e-7 * one.force.norm());
+    EXPECT_LT((one.torque - all.torque).norm(), 1e-7 * one.force.norm());
+}
+
+} // namespace
+} // namespace tread

@@ -1,0 +1,98 @@
+#include <cstdio>
+
+#include "side_by_side.hpp"
+
+// Sand and bodies over several ranks do together what they do on one.
+namespace tread
+{
+namespace
+{
+
+template<class Exec>
+class CoupledRanks : public test::BackendTest<Exec>
+{
+protected:
+    static int ranks() { return test::world().size(); }
+};
+TYPED_TEST_SUITE(CoupledRanks, test::Backends, test::BackendNames);
+
+const Vec3<double> size(0.4, 0.4, 0.6);
+
+/// Sums of as many terms in another order, in double precision, and 200 steps of a bed that does not collide: rounding
+/// of 1e-16 grows by no more than some 1e5.
+constexpr double bound = 1e-9;
+
+template<class Exec>
+void expect_as_alone(test::SideBySide<Exec>& run, int steps)
+{
+    double force = 0, forces = 0;
+    for (int step = 0; step < steps; ++step)
+    {
+        run.advance();
+        if (::testing::Test::HasFatalFailure()) { return; }
+        const auto one = run.alone.simulation().named_bodies(), all = run.together.simulation().named_bodies();
+        for (std::size_t b = 0; b < one.size(); ++b)
+        {
+            force  = std::max(force, one[b].force.norm());
+            forces = std::max(forces, (one[b].force - all[b].force).norm());
+        }
+        run.alone.simulation().begin_mean();
+        run.together.simulation().begin_mean();
+    }
+    const io::BodyFields one = run.alone.simulation().body_fields(), all = run.together.simulation().body_fields();
+    const double         places = test::difference(one.position, all.position, 0.1),
+                 speeds         = test::difference(one.velocity, all.velocity, 1.0);
+    std::printf("after %d steps: places differ by %.3g, velocities by %.3g m/s; forces on named bodies up to %.4g N "
+                "differ by %.3g N\n",
+                steps, places, speeds, force, forces);
+    EXPECT_LT(places, bound);
+    EXPECT_LT(speeds, bound);
+    EXPECT_LE(forces, bound * force);
+
+    const solver::Census of_one = run.alone.simulation().census(), of_all = run.together.simulation().census();
+    EXPECT_EQ(of_one.rigid.mass, of_all.rigid.mass);
+    EXPECT_NEAR(of_one.sand.mass, of_all.sand.mass, 1e-13 * of_one.sand.mass) << "a sum in another order";
+    const double energy = of_one.sand.kinetic + of_one.sand.strain + of_one.rigid.kinetic + of_one.sand_contact;
+    std::printf("energies: sand %.6g + %.6g J, bodies %.6g J, their contact %.6g J\n", of_one.sand.kinetic,
+                of_one.sand.strain, of_one.rigid.kinetic, of_one.sand_contact);
+    EXPECT_NEAR(of_one.sand.kinetic, of_all.sand.kinetic, bound * energy);
+    EXPECT_NEAR(of_one.sand.strain, of_all.sand.strain, bound * energy);
+    EXPECT_NEAR(of_one.sand_contact, of_all.sand_contact, bound * energy);
+    const auto errors_of = [](auto& experiment) { return experiment.simulation().ledger().errors(); };
+    EXPECT_NEAR(errors_of(run.alone).energy, errors_of(run.together).energy, bound);
+    EXPECT_NEAR(errors_of(run.alone).momentum, errors_of(run.together).momentum, bound);
+}
+
+/// A wheel of 4 kg that stands in the sand above the corner of four ranks, and digs itself in.
+TYPED_TEST(CoupledRanks, AWheelStandsOnTheCornerOfFour)
+{
+    const scene::Scene scene =
+        test::load_text(test::roller_text + "\n", {"body[0].position=[0.2, 0.2, 0.305]",
+                                                   "body[0].velocity=[0.0, 0.0, -0.4]", "phase[0].duration=1.0"});
+    test::SideBySide<TypeParam> run(this->exec(), scene, size, test::quarters(0.5 * size, this->ranks()));
+    expect_as_alone(run, 200);
+}
+
+/// It slides over them in x, so that points that hold it by friction change their rank.
+TYPED_TEST(CoupledRanks, AWheelPloughsOverTheBorders)
+{
+    const scene::Scene scene = test::load_text(
+        test::roller_text + "\n", {"body[0].position=[0.14, 0.2, 0.305]", "body[0].velocity=[0.5, 0.0, -0.5]",
+                                   "body[0].lock=[\"y\", \"roll\", \"pitch\", \"yaw\"]", "phase[0].duration=1.0"});
+    test::SideBySide<TypeParam> run(this->exec(), scene, size, test::slabs(size[0], this->ranks()));
+    expect_as_alone(run, 200);
+}
+
+/// Rocks in sand that slumps.
+TYPED_TEST(CoupledRanks, RocksAreCarriedByTheSand)
+{
+    const scene::Scene scene =
+        test::load_text(test::sand_text + test::rocks_text,
+                        {"domain.gravity=[7.0, 0.0, -7.0]", "terrain[0].region.box=[[0.0, 0.0, 0.0], [0.2, 0.4, 0.2]]",
+                         "rocks[0].region.box=[[0.0, 0.0, 0.02], [0.2, 0.4, 0.2]]", "phase[0].duration=1.0"});
+    test::SideBySide<TypeParam> run(this->exec(), scene, size, test::slabs(size[0], this->ranks()));
+    expect_as_alone(run, 200);
+}
+
+} // namespace
+} // namespace tread

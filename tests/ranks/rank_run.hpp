@@ -1,0 +1,116 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "backend.hpp"
+#include "mpi_session.hpp"
+#include "scene_text.hpp"
+#include "solver/page_loads.hpp"
+#include "solver/simulation.hpp"
+
+// A scene carried on by the solver's own pieces, by all ranks together or by this one alone.
+namespace tread::test
+{
+
+/// The rank that owns the page at such coordinates; empty: as the partitioner has it.
+using OwnerOf = std::function<int(mpm::Index3)>;
+
+enum class Ranks
+{
+    all,
+    this_one
+};
+
+template<class Exec, class Real>
+class RankRun
+{
+public:
+    RankRun(const Exec& exec, const std::string& text, Ranks ranks, const OwnerOf& owner_of = {},
+            decomp::TransportChoice transport = decomp::TransportChoice::automatic)
+        : scene_(load_text(text))
+        , world_(solver::build_world(scene_))
+        , phases_(scene_)
+    {
+        if (ranks == Ranks::all) { decompose(exec, owner_of, transport); }
+        simulation_ = std::make_unique<solver::Simulation<Exec, Real>>(
+            exec, scene_, world_, solver::make_plan(scene_, world_), decomposition_.get());
+    }
+
+    void step(int steps)
+    {
+        for (int i = 0; i < steps; ++i)
+        {
+            if (simulation_->measured())
+            {
+                step_ = solver::choose_step(scene_.time, simulation_->limits(), simulation_->pace(), step_.dt);
+            }
+            simulation_->command({}, phases_.phase().damping);
+            simulation_->step(step_, time_, clock_);
+            time_ += step_.dt;
+        }
+    }
+
+    solver::Simulation<Exec, Real>& simulation() { return *simulation_; }
+    double                          time() const { return time_; }
+
+    /// Of a run on all ranks.
+    const decomp::Transport<Exec>& transport() const { return decomposition_->transport; }
+
+    /// This rank's.
+    io::PointFields points() { return simulation_->point_fields(); }
+
+    /// The books after a census.
+    solver::EnergyRow energy() { return simulation_->ledger().energy(simulation_->census()); }
+
+private:
+    void decompose(const Exec& exec, const OwnerOf& owner_of, decomp::TransportChoice transport)
+    {
+        decomp::DecompositionOptions options;
+        options.transport = transport;
+        options.checksums = decomp::Checksums::on;
+        decomposition_    = std::make_unique<decomp::Decomposition<Exec>>(test::world(), exec, options);
+        solver::share_out(*decomposition_, world_);
+        if (owner_of) { assign(owner_of); }
+    }
+
+    /// All pages of the domain, and some around it.
+    void assign(const OwnerOf& owner_of)
+    {
+        const double                               edge = mpm::page_edge * world_.geometry.spacing;
+        std::vector<std::pair<std::uint64_t, int>> owned;
+        const auto last = [&](int axis) { return static_cast<std::int32_t>(world_.geometry.size[axis] / edge) + 2; };
+        for (std::int32_t z = -2; z <= last(2); ++z)
+        {
+            for (std::int32_t y = -2; y <= last(1); ++y)
+            {
+                for (std::int32_t x = -2; x <= last(0); ++x)
+                {
+                    owned.emplace_back(mpm::page_key({x, y, z}), owner_of({x, y, z}) % test::world().size());
+                }
+            }
+        }
+        std::sort(owned.begin(), owned.end());
+        std::vector<std::uint64_t> keys;
+        decomp::PageRanks          ranks;
+        for (const auto& [key, rank] : owned)
+        {
+            keys.push_back(key);
+            ranks.push_back(rank);
+        }
+        decomposition_->owners.assign(keys, ranks);
+    }
+
+    scene::Scene                                    scene_;
+    solver::World                                   world_;
+    solver::PhaseClock                              phases_;
+    std::unique_ptr<decomp::Decomposition<Exec>>    decomposition_;
+    std::unique_ptr<solver::Simulation<Exec, Real>> simulation_;
+    solver::StageClock                              clock_;
+    solver::TimeStep                                step_;
+    double                                          time_ = 0;
+};
+
+} // namespace tread::test

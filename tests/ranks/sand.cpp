@@ -1,0 +1,231 @@
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "rank_run.hpp"
+
+// Sand on several ranks against the same sand on one. Ranks add what they share in another order than one rank does,
+// so that they agree to rounding; points, their ids and masses agree exactly.
+namespace
+{
+
+using namespace tread;
+
+constexpr int steps = 200;
+
+/// A column that falls over across pages of 0.08 m; all kinds of walls.
+std::string column_text()
+{
+    return R"(
+title = "column collapse"
+[domain]
+size    = [0.48, 0.14, 0.28]
+gravity = [0.0, 0.0, -9.81]
+walls   = { x = "slip", y = "frictional", bottom = "fixed", top = "slip", friction = 0.3 }
+[grid]
+spacing = 0.02
+[numerics]
+precision = "double"
+[[material]]
+name = "sand"
+model = "mohr-coulomb"
+density = 1600.0
+young = 1.0e6
+poisson = 0.3
+friction_angle_deg = 31.0
+[[terrain]]
+material = "sand"
+region = { box = [[0.0, 0.0, 0.0], [0.16, 0.14, 0.24]] }
+[[phase]]
+name = "collapse"
+duration = 1.0
+)";
+}
+
+/// A block that flies along x through page after page.
+std::string flight_text()
+{
+    return R"(
+title = "block that flies"
+[domain]
+size    = [1.2, 0.16, 0.16]
+gravity = [30.0, 0.0, 0.0]
+walls   = { x = "slip", y = "slip", bottom = "slip", top = "slip" }
+[grid]
+spacing = 0.02
+[numerics]
+precision = "double"
+[[material]]
+name = "sand"
+model = "mohr-coulomb"
+density = 1600.0
+young = 3.0e5
+poisson = 0.3
+friction_angle_deg = 31.0
+cohesion = 100.0
+[[terrain]]
+material = "sand"
+region = { box = [[0.02, 0.04, 0.04], [0.14, 0.12, 0.12]] }
+[[phase]]
+name = "flight"
+duration = 1.0
+)";
+}
+
+template<class Exec>
+class RankSand : public test::BackendTest<Exec>
+{
+protected:
+    using Run = test::RankRun<Exec, double>;
+
+    /// The largest differences of this rank's points from those of one rank alone, and of the books.
+    void expect_agreement(Run& all, Run& alone, double rounding)
+    {
+        const io::PointFields    own = all.points(), reference = alone.points();
+        std::vector<std::size_t> place(reference.id.size());
+        for (std::size_t i = 0; i < place.size(); ++i) { place[reference.id[i]] = i; }
+        double position = 0, velocity = 0;
+        for (std::size_t i = 0; i < own.id.size(); ++i)
+        {
+            const std::size_t other = place[own.id[i]];
+            for (std::size_t c = 0; c < 3; ++c)
+            {
+                position = std::max(position, std::abs(own.position[3 * i + c] - reference.position[3 * other + c]));
+                velocity = std::max(velocity, static_cast<double>(std::abs(own.velocity[3 * i + c] -
+                                                                           reference.velocity[3 * other + c])));
+            }
+        }
+        const auto energy = all.energy(), expected = alone.energy();
+        std::cout << fmt::format("[ ranks    ] rank {} of {}: {} points, positions differ by {:.2g} m, velocities by "
+                                 "{:.2g} m/s; plastic work {:.10g} J, alone {:.10g} J\n",
+                                 test::world().rank(), test::world().size(), own.id.size(), position, velocity,
+                                 energy.plastic, expected.plastic);
+        EXPECT_LT(position, rounding);
+        EXPECT_LT(velocity, 1e-6); // fp32 in the snapshot
+        EXPECT_NEAR(energy.kinetic_points, expected.kinetic_points, 1e-9 * expected.kinetic_points);
+        EXPECT_NEAR(energy.plastic, expected.plastic, 1e-9 * std::abs(expected.plastic));
+        EXPECT_NEAR(energy.friction, expected.friction, 1e-9 * std::abs(expected.friction));
+        EXPECT_NEAR(energy.transfer, expected.transfer, 1e-7 * std::abs(expected.transfer) + 1e-12);
+        EXPECT_NEAR(energy.total, expected.total, 1e-10 * std::abs(expected.total));
+        expect_all_points(own, reference);
+        expect_balance(all, alone);
+    }
+
+    /// Momentum in kg m/s, of some 10 N over 0.1 s. What walls give is booked once, by one rank.
+    void expect_balance(Run& all, Run& alone)
+    {
+        const solver::Census together = all.simulation().census(), expected = alone.simulation().census();
+        EXPECT_NEAR(together.sand.mass, expected.sand.mass, 1e-13 * expected.sand.mass);
+        for (int c = 0; c < 3; ++c) { EXPECT_NEAR(together.sand.momentum[c], expected.sand.momentum[c], 1e-10); }
+        EXPECT_LT(all.simulation().ledger().balance(together).impulse_error, 1e-12);
+    }
+
+    /// Every point of the scene is on one rank.
+    void expect_all_points(const io::PointFields& own, const io::PointFields& reference)
+    {
+        std::vector<std::int32_t> ids(own.id.begin(), own.id.end());
+        ids = test::world().gather(ids);
+        EXPECT_EQ(ids.size(), reference.id.size());
+        EXPECT_EQ(std::set<std::int32_t>(ids.begin(), ids.end()).size(), reference.id.size());
+    }
+};
+
+TYPED_TEST_SUITE(RankSand, test::Backends, test::BackendNames);
+
+// 200 steps of a sum of some 1e3 terms: 1e-12 m is four orders above what is seen, and eight below the motion.
+constexpr double rounding = 1e-12;
+
+TYPED_TEST(RankSand, ColumnCollapsesAsOnOneRank)
+{
+    typename TestFixture::Run all(this->exec(), column_text(), test::Ranks::all);
+    typename TestFixture::Run alone(this->exec(), column_text(), test::Ranks::this_one);
+    all.step(steps);
+    alone.step(steps);
+    EXPECT_EQ(all.time(), alone.time());
+    this->expect_agreement(all, alone, rounding);
+}
+
+TYPED_TEST(RankSand, PagesMayBelongToAnyRank)
+{
+    const auto scattered = [](mpm::Index3 page) { return (7 * page.x + 5 * page.y + 3 * page.z + 64) % 11; };
+    typename TestFixture::Run all(this->exec(), column_text(), test::Ranks::all, scattered);
+    typename TestFixture::Run alone(this->exec(), column_text(), test::Ranks::this_one);
+    all.step(steps);
+    alone.step(steps);
+    this->expect_agreement(all, alone, rounding);
+}
+
+TYPED_TEST(RankSand, IsTheSameEveryTime)
+{
+    io::PointFields first;
+    for (int run = 0; run < 2; ++run)
+    {
+        typename TestFixture::Run all(this->exec(), column_text(), test::Ranks::all);
+        all.step(100);
+        const io::PointFields found = all.points();
+        if (run == 0) { first = found; }
+        EXPECT_EQ(found.id, first.id);
+        EXPECT_EQ(found.position, first.position);
+        EXPECT_EQ(found.velocity, first.velocity);
+        EXPECT_EQ(found.stress, first.stress);
+    }
+}
+
+TYPED_TEST(RankSand, IsTheSameByEveryTransport)
+{
+    typename TestFixture::Run any(this->exec(), column_text(), test::Ranks::all);
+    typename TestFixture::Run host(this->exec(), column_text(), test::Ranks::all, {}, decomp::TransportChoice::host);
+    std::cout << fmt::format("[ ranks    ] '{}' against '{}'\n", any.transport().description(),
+                             host.transport().description());
+    any.step(50);
+    host.step(50);
+    EXPECT_EQ(any.points().position, host.points().position);
+    EXPECT_EQ(any.points().stress, host.points().stress);
+}
+
+/// Rank after rank gets the block and loses it again.
+TYPED_TEST(RankSand, RanksBecomeEmptyAndFillAgain)
+{
+    const auto                slabs = [](mpm::Index3 page) { return (page.x + 2) / 2; };
+    typename TestFixture::Run all(this->exec(), flight_text(), test::Ranks::all, slabs);
+    typename TestFixture::Run alone(this->exec(), flight_text(), test::Ranks::this_one);
+    const std::int64_t        before = all.simulation().points();
+    int                       empty = 0, full = 0;
+    for (int part = 0; part < 20; ++part)
+    {
+        all.step(20);
+        alone.step(20);
+        (all.simulation().points() == 0 ? empty : full) += 1;
+    }
+    std::cout << fmt::format("[ ranks    ] rank {}: {} points at first, then {} times some, {} times none\n",
+                             test::world().rank(), before, full, empty);
+    this->expect_agreement(all, alone, rounding);
+    EXPECT_GT(full, 0);
+    if (test::world().size() > 1) { EXPECT_GT(empty, 0); }
+}
+
+TYPED_TEST(RankSand, ARankMayHaveNothing)
+{
+    const auto                first_only = [](mpm::Index3) { return 0; };
+    typename TestFixture::Run all(this->exec(), column_text(), test::Ranks::all, first_only);
+    typename TestFixture::Run alone(this->exec(), column_text(), test::Ranks::this_one);
+    all.step(50);
+    alone.step(50);
+    EXPECT_EQ(all.simulation().points() == 0, test::world().rank() > 0);
+    this->expect_agreement(all, alone, rounding);
+}
+
+/// Pages that no rank had go to ranks that all agree on.
+TYPED_TEST(RankSand, NewPagesGetOneOwner)
+{
+    typename TestFixture::Run all(this->exec(), flight_text(), test::Ranks::all);
+    typename TestFixture::Run alone(this->exec(), flight_text(), test::Ranks::this_one);
+    all.step(300);
+    alone.step(300);
+    this->expect_agreement(all, alone, rounding);
+}
+
+} // namespace

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mpi_session.hpp"
+#include "physics/harness.hpp"
+#include "solver/page_loads.hpp"
+
+// A scene on all ranks together beside the same scene on this one alone: the answer that the ranks are held to.
+namespace tread::test
+{
+
+/// The pages of a box from the origin on, of the rank that owner(centre of a page) says.
+struct OwnedPages
+{
+    std::vector<std::uint64_t> key;
+    decomp::PageRanks          rank;
+};
+
+template<class Owner>
+OwnedPages pages_of(const decomp::PageLattice& lattice, const Vec3<double>& size, Owner owner)
+{
+    const double width = mpm::page_edge * lattice.spacing;
+    const auto   pages = [&](int c) { return static_cast<std::int32_t>(std::ceil(size[c] / width)) + 1; };
+
+    std::vector<std::pair<std::uint64_t, std::int32_t>> owned;
+    for (std::int32_t x = -1; x < pages(0); ++x)
+    {
+        for (std::int32_t y = -1; y < pages(1); ++y)
+        {
+            for (std::int32_t z = -1; z < pages(2); ++z)
+            {
+                const Vec3<double> centre = width * (Vec3<double>(x, y, z) + Vec3<double>::Constant(0.5));
+                owned.emplace_back(mpm::page_key({x, y, z}), owner(centre));
+            }
+        }
+    }
+    std::sort(owned.begin(), owned.end());
+    OwnedPages found;
+    for (const auto& [key, rank] : owned)
+    {
+        found.key.push_back(key);
+        found.rank.push_back(rank);
+    }
+    return found;
+}
+
+/// Slabs along x, of equal width, for the first `parts` ranks.
+inline auto slabs(double length, int parts)
+{
+    return [=](const Vec3<double>& at)
+    { return std::clamp(static_cast<int>(std::floor(parts * at[0] / length)), 0, parts - 1); };
+}
+
+/// Quarters that meet in a corner above `centre`: as many ranks as there are, and with three the last two quarters are
+/// of one.
+inline auto quarters(const Vec3<double>& centre, int ranks)
+{
+    return [=](const Vec3<double>& at)
+    { return std::min((at[0] > centre[0] ? 1 : 0) + (at[1] > centre[1] ? 2 : 0), ranks - 1); };
+}
+
+/// The largest difference of two lists of numbers, relative to `scale`.
+inline double difference(const std::vector<double>& one, const std::vector<double>& other, double scale)
+{
+    EXPECT_EQ(one.size(), other.size());
+    double largest = 0;
+    for (std::size_t i = 0; i < one.size(); ++i) { largest = std::max(largest, std::abs(one[i] - other[i]) / scale); }
+    return largest;
+}
+
+template<class Exec>
+class SideBySide
+{
+public:
+    /// owner(place) names a rank for every place of a box of this size (m) from the origin on.
+    template<class Owner>
+    SideBySide(const Exec& exec, const scene::Scene& scene, const Vec3<double>& size, Owner owner)
+        : built_(solver::build_world(scene))
+        , decomposition_(world(), exec, {decomp::TransportChoice::automatic, decomp::Checksums::on})
+        , alone(exec, scene, built_)
+        , together(exec, scene, built_, given(size, owner))
+    {
+    }
+
+    /// One step of both, of the same length and as many substeps.
+    void advance()
+    {
+        const solver::TimeStep one = alone.advance(), all = together.advance();
+        ASSERT_EQ(one.substeps, all.substeps);
+        ASSERT_NEAR(one.dt, all.dt, 1e-9 * one.dt); // by default it follows the state, which differs by rounding
+    }
+
+    /// The rank of a place.
+    std::int32_t owner_of(const Vec3<double>& place) const
+    {
+        return decomp::Territory(lattice(), decomposition_.owners.keys(), decomposition_.owners.ranks())
+            .owner_of(place);
+    }
+
+private:
+    decomp::PageLattice lattice() const { return solver::page_lattice_of(built_); }
+
+    template<class Owner>
+    decomp::Decomposition<Exec>* given(const Vec3<double>& size, Owner owner)
+    {
+        const OwnedPages pages = pages_of(lattice(), size, owner);
+        decomposition_.owners.assign(pages.key, pages.rank);
+        return &decomposition_;
+    }
+
+    solver::World               built_;
+    decomp::Decomposition<Exec> decomposition_;
+
+public:
+    Experiment<Exec> alone, together;
+};
+
+} // namespace tread::test
