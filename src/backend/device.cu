@@ -1,8 +1,25 @@
+#include <limits>
+
 #include "backend/cuda_check.cuh"
 #include "backend/device.hpp"
 
 namespace tread
 {
+
+namespace
+{
+
+/// What arrays give back stays with this process: lists that are found anew take it again, at once and in the order of
+/// the stream.
+void keep_released_memory(int device)
+{
+    cudaMemPool_t pool      = nullptr;
+    std::uint64_t threshold = std::numeric_limits<std::uint64_t>::max();
+    check_cuda(cudaDeviceGetDefaultMemPool(&pool, device), "pool of memory");
+    check_cuda(cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &threshold), "pool of memory");
+}
+
+} // namespace
 
 int device_count()
 {
@@ -25,6 +42,7 @@ Device::Device(int device, Counters& counters)
     : gpu_{nullptr, &counters}
 {
     check_cuda(cudaSetDevice(device), "choice of the device");
+    keep_released_memory(device);
     check_cuda(cudaStreamCreate(&gpu_.stream), "stream of the device");
 }
 

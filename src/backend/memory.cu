@@ -4,29 +4,46 @@
 
 namespace tread
 {
+namespace
+{
+
+cudaMemPool_t memory_pool()
+{
+    int           device = 0;
+    cudaMemPool_t pool   = nullptr;
+    check_cuda(cudaGetDevice(&device), "choice of the device");
+    check_cuda(cudaDeviceGetDefaultMemPool(&pool, device), "pool of memory");
+    return pool;
+}
+
+} // namespace
 
 std::int64_t free_bytes(const Gpu&)
 {
-    std::size_t free = 0, total = 0;
+    std::size_t   free = 0, total = 0;
+    std::uint64_t reserved = 0, used = 0;
     check_cuda(cudaMemGetInfo(&free, &total), "memory of the device");
-    return static_cast<std::int64_t>(free);
+    const cudaMemPool_t pool = memory_pool();
+    check_cuda(cudaMemPoolGetAttribute(pool, cudaMemPoolAttrReservedMemCurrent, &reserved), "pool of memory");
+    check_cuda(cudaMemPoolGetAttribute(pool, cudaMemPoolAttrUsedMemCurrent, &used), "pool of memory");
+    return static_cast<std::int64_t>(free + reserved - used);
 }
 
 void* allocate(const Gpu& gpu, const char* name, std::size_t bytes)
 {
     void*             memory  = nullptr;
     const bool        allowed = gpu.counters->has_room(static_cast<std::int64_t>(bytes));
-    const cudaError_t status  = allowed ? cudaMalloc(&memory, bytes) : cudaErrorMemoryAllocation;
+    const cudaError_t status  = allowed ? cudaMallocAsync(&memory, bytes, gpu.stream) : cudaErrorMemoryAllocation;
     if (status == cudaErrorMemoryAllocation)
     {
         cudaGetLastError(); // a run that ends for want of memory leaves no error behind
         throw out_of_memory("device", name, bytes, free_bytes(gpu), *gpu.counters);
     }
-    check_cuda(status, "cudaMalloc");
+    check_cuda(status, "cudaMallocAsync");
     return memory;
 }
 
-void release(const Gpu&, void* memory) { cudaFree(memory); }
+void release(const Gpu& gpu, void* memory) { cudaFreeAsync(memory, gpu.stream); }
 
 void fill_zero(const Gpu& gpu, void* memory, std::size_t bytes)
 {

@@ -69,6 +69,10 @@ Keys<TimeOptions> time_keys()
                  "Time step. \"auto\" takes the largest stable one; a fixed one is checked."),
         optional("substeps", "", &TimeOptions::substeps, integer_or("auto", 1),
                  "Contact substeps in a step. \"auto\" takes as many as contact between bodies needs."),
+        optional("contact_share", "", &TimeOptions::contact_share, number(above_up_to(0, 0.4)),
+                 "Substep over sqrt(m / sum K) of the stiffest body, where substeps are \"auto\". Contacts are stable "
+                 "to 1.1; over "
+                 "0.4 single impacts lose their energy balance."),
     };
 }
 

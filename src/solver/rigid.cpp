@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,6 +21,8 @@ namespace tread::solver
 {
 namespace
 {
+
+constexpr double hit_twice = 4; ///< times as fast may a light body be that is hit by one that was hit itself
 
 std::vector<double> bounding_radii(const World& world)
 {
@@ -59,8 +62,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     , totals_(exec, "body totals")
     , impulses_(exec, "contact impulses")
     , bounding_radii_(exec, "body bounding radii")
-    , activity_(exec, "body activity")
-    , sums_(exec, "body sums", dem::body_total_width)
+    , sums_(exec, "body sums", sizeof(ReportSums) / sizeof(double))
     , strays_(exec)
     , released_(static_cast<std::size_t>(named_), false)
     , commanded_(static_cast<std::size_t>(named_))
@@ -86,7 +88,6 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     const auto count = static_cast<std::int64_t>(world.bodies.size());
     totals_.resize(count);
     totals_.fill_zero();
-    activity_.resize(count);
     const std::vector<double> radii = bounding_radii(world);
     bounding_radii_.assign(radii);
     smallest_radius_ = *std::min_element(radii.begin(), radii.end());
@@ -147,6 +148,7 @@ std::string Rigid<Exec>::name(std::int64_t body) const
 template<class Exec>
 void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
 {
+    bool changed = false;
     for (std::size_t b = 0; b < commands.size(); ++b)
     {
         const BodyCommand& command = commands[b];
@@ -187,7 +189,9 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
         copy_from_host(exec_, bodies_.velocity.data() + b, &velocity, sizeof(velocity));
         copy_from_host(exec_, bodies_.angular_velocity.data() + b, &spin, sizeof(spin));
         copy_from_host(exec_, bodies_.locked.data() + b, &command.locked, sizeof(command.locked));
+        changed = true;
     }
+    if (changed && listed_) { stage(); }
 }
 
 template<class Exec>
@@ -197,7 +201,7 @@ void Rigid<Exec>::find_pairs(double dt)
         listed_ &&
         dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), dt) <= 1 &&
         (!pairs_.patches.wanted || dem::regroup_patches(exec_, pairs_, bodies_.view(), law_));
-    if (holds) { stage(); } // commands change bodies too
+    if (holds) { stage(); }
     else
     {
         dem::find_pairs(exec_, pairs_, bodies_.view(), law_, dt);
@@ -210,12 +214,20 @@ void Rigid<Exec>::find_pairs(double dt)
 template<class Exec>
 std::int64_t Rigid<Exec>::unwatched_substeps(double dt, std::int64_t substeps, double speed)
 {
-    constexpr double hit_twice = 4;
-    const double     fastest   = std::max(speed, std::exchange(commanded_speed_, 0.0));
-    const double     way       = dt * (hit_twice * fastest + gravity_.norm() * dt * static_cast<double>(substeps));
-    const double     reserve   = dem::rest_reserve * smallest_radius_;
-    watched_                   = way * static_cast<double>(substeps) > reserve;
+    const double way     = dt * (hit_twice * speed + gravity_.norm() * dt * static_cast<double>(substeps));
+    const double reserve = dem::rest_reserve * smallest_radius_;
+    watched_             = way * static_cast<double>(substeps) > reserve;
     return watched_ ? std::max<std::int64_t>(1, static_cast<std::int64_t>(reserve / way)) : substeps;
+}
+
+template<class Exec>
+std::int64_t Rigid<Exec>::unwatched_steps(double dt, double speed) const
+{
+    if (!contacts_) { return std::numeric_limits<std::int64_t>::max(); }
+    // Speed and fall of n steps: n dt (4 v + g n dt) <= reserve.
+    const double fall = gravity_.norm(), reserve = dem::rest_reserve * smallest_radius_, start = hit_twice * speed;
+    const double span = 2 * reserve / (start + std::sqrt(start * start + 4 * fall * reserve));
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(span / dt, 1e9)));
 }
 
 template<class Exec>
@@ -276,59 +288,6 @@ void Rigid<Exec>::count_substeps(double dt, std::int64_t count)
 {
     mean_time_ += static_cast<double>(count) * dt;
     substep_ = dt;
-}
-
-template<class Exec>
-RigidReport Rigid<Exec>::report(double time)
-{
-    RigidReport report;
-    take_totals(report);
-    dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity_.data());
-    const double*     activity = reinterpret_cast<const double*>(activity_.data());
-    constexpr int     width    = sizeof(dem::BodyActivity) / sizeof(double);
-    dem::BodyActivity found;
-    largest_of_rows(exec_, activity, activity_.size(), width, sums_.data());
-    copy_to_host(exec_, &found, sums_.data(), sizeof(found));
-    report.largest_speed = found.speed;
-    sum_rows(exec_, activity, activity_.size(), width, sums_.data());
-    copy_to_host(exec_, &found, sums_.data(), sizeof(found));
-    report.net_force    = found.net_force;
-    report.weight_power = found.weight_power;
-    report.substep      = substep_;
-    if (!std::isfinite(report.net_force) || !std::isfinite(found.speed))
-    {
-        require_finite(time);
-        throw NumericalError(fmt::format("t = {:.6g} s: the sum of the forces on bodies is not a number", time));
-    }
-    if (contacts_)
-    {
-        require_resolved(time, report.largest_speed);
-        require_listed(time);
-        report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time));
-    }
-    return report;
-}
-
-template<class Exec>
-void Rigid<Exec>::take_totals(RigidReport& report)
-{
-    sum_rows(exec_, reinterpret_cast<const double*>(totals_.data()), totals_.size(), dem::body_total_width,
-             sums_.data());
-    dem::BodyTotal now;
-    copy_to_host(exec_, &now, sums_.data(), sizeof(now));
-    report.wall_impulse    = now.wall_impulse - taken_.wall_impulse;
-    report.damping_impulse = now.damping_impulse - taken_.damping_impulse;
-    report.driver_impulse  = now.holding_impulse - taken_.holding_impulse + command_impulse_;
-    report.friction        = now.friction - taken_.friction;
-    report.restitution     = now.restitution - taken_.restitution;
-    report.damped          = now.damping - taken_.damping;
-    // A velocity that is given is given as one of half a substep ago, like all of them.
-    report.driver_work =
-        now.holding_work - taken_.holding_work + command_work_ + 0.5 * substep_ * gravity_.dot(command_impulse_);
-    report.sand_work = now.sand_work - taken_.sand_work;
-    taken_           = now;
-    command_impulse_.setZero();
-    command_work_ = 0;
 }
 
 template<class Exec>

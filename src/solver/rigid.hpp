@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/snapshot.hpp"
@@ -53,7 +54,7 @@ public:
     /// 2. Pairs of bodies, and of bodies and walls, that may touch in the step: found anew if the list may not hold.
     void find_pairs(double dt);
 
-    /// Shows the contacts what somebody else has changed in view() since. find_pairs does.
+    /// Shows the contacts what somebody else has changed in view() since. find_pairs and command do.
     void stage() { dem::stage_bodies(exec_, pairs_, bodies_.view()); }
 
     /// Before `substeps` substeps of dt (s): after how many of them a body may have gone further than find_pairs
@@ -64,6 +65,13 @@ public:
     /// Finds the pairs anew in the middle of a step, for what is left of it (s), if a body might go too far in the next
     /// `ahead` (s); `time` (s) is for messages.
     void find_pairs_if_strayed(double ahead, double left, double time);
+
+    /// After how many steps of dt (s) the list of pairs should be looked at again: one, unless find_pairs allowed for
+    /// more of them without a watch.
+    std::int64_t unwatched_steps(double dt, double speed) const;
+
+    /// m/s, the largest that commands have given since the last call.
+    double take_commanded_speed() { return std::exchange(commanded_speed_, 0.0); }
 
     /// The least sqrt(m / sum K) over bodies, of contacts that are live or may come in the step, s; 0 = none.
     double shortest_contact();
@@ -96,12 +104,22 @@ public:
 private:
     dem::NamedImpulses named_impulses() { return {impulses_.data(), named_}; }
 
-    void   upload(const World& world);
-    void   restore_contacts();
-    void   require_finite(double time);
-    void   require_listed(double time);
-    void   require_resolved(double time, double speed);
-    void   take_totals(RigidReport& report);
+    void upload(const World& world);
+    void restore_contacts();
+    void require_finite(double time);
+    void require_listed(double time);
+    void require_resolved(double time, double speed, const Array<Exec, dem::BodyActivity>& activity);
+    void take(const dem::BodyTotal& now, RigidReport& report);
+
+    /// Over all bodies.
+    struct ReportSums
+    {
+        dem::BodyActivity most;
+        dem::BodyActivity all;
+        dem::BodyTotal    total;
+    };
+    ReportSums sum_for_report(Array<Exec, dem::BodyActivity>& activity);
+
     double guard(double time);
 
     Exec                                    exec_;
@@ -120,13 +138,12 @@ private:
     dem::BodyTotals<Exec>                   totals_;
     Array<Exec, dem::ContactImpulse>        impulses_; ///< of the named bodies, since begin_mean()
     Array<Exec, double>                     bounding_radii_;
-    Array<Exec, dem::BodyActivity>          activity_;
     Array<Exec, double>                     sums_;
     dem::Strays<Exec>                       strays_;
     double                                  smallest_radius_ = 0;     ///< m, of the bounding spheres
     bool                                    listed_          = false; ///< pairs were found
     bool                                    watched_         = false; ///< of the present step: not only at its end
-    double                                  commanded_speed_ = 0; ///< m/s, the largest that commands gave in this step
+    double                                  commanded_speed_ = 0;     ///< m/s, the largest that commands gave
     double                                  overlap_ = 0; ///< largest over radius, before the list was found anew
     dem::BodyLaw                            law_{};
     std::vector<bool>                       released_;            ///< named bodies that were free once

@@ -69,27 +69,26 @@ void Rigid<Exec>::require_listed(double time)
 
 /// A body that leaps over the smallest one in a substep leaps over its contact.
 template<class Exec>
-void Rigid<Exec>::require_resolved(double time, double speed)
+void Rigid<Exec>::require_resolved(double time, double speed, const Array<Exec, dem::BodyActivity>& activity)
 {
     const double leap = speed * substep_;
     if (leap <= longest_leap * smallest_radius_) { return; }
-    const std::vector<dem::BodyActivity> activity = activity_.to_host();
-    const auto                           body =
-        std::find_if(activity.begin(), activity.end(), [&](const auto& one) { return one.speed == speed; });
+    const std::vector<dem::BodyActivity> rows = activity.to_host();
+    const auto body = std::find_if(rows.begin(), rows.end(), [&](const auto& one) { return one.speed == speed; });
     throw NumericalError(fmt::format("t = {:.6g} s: body {} moves {:.4g} m in a substep, {:.3g} of the smallest body's "
                                      "radius (at most {}): more substeps, or a smaller dt",
-                                     time, name(body - activity.begin()), leap, leap / smallest_radius_, longest_leap));
+                                     time, name(body - rows.begin()), leap, leap / smallest_radius_, longest_leap));
 }
 
 template double Rigid<Cpu>::guard(double);
 template void   Rigid<Cpu>::require_finite(double);
 template void   Rigid<Cpu>::require_listed(double);
-template void   Rigid<Cpu>::require_resolved(double, double);
+template void   Rigid<Cpu>::require_resolved(double, double, const Array<Cpu, dem::BodyActivity>&);
 #ifdef TREAD_WITH_CUDA
 template double Rigid<Gpu>::guard(double);
 template void   Rigid<Gpu>::require_finite(double);
 template void   Rigid<Gpu>::require_listed(double);
-template void   Rigid<Gpu>::require_resolved(double, double);
+template void   Rigid<Gpu>::require_resolved(double, double, const Array<Gpu, dem::BodyActivity>&);
 #endif
 
 } // namespace tread::solver

@@ -183,6 +183,7 @@ void Sand<Exec, Real>::order()
     if (relists_ < relists_an_order) { return; }
     mpm::renew_order(exec_, points_, pages_, order_scratch_);
     relists_ = 0;
+    ++orders_;
 }
 
 template<class Exec, class Real>
@@ -197,7 +198,8 @@ void Sand<Exec, Real>::order_in_memory()
 {
     if (ranks_) { ranks_->order(points_, pages_, geometry_, walls_, order_scratch_, step_); }
     else { mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_); }
-    relists_                       = 0;
+    relists_ = 0;
+    ++orders_;
     const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
     tiles_.resize(point_pages * mpm::node_channels * mpm::tile_nodes);
     motion_.resize(node_pages * mpm::motion_channels * mpm::page_cells);

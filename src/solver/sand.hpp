@@ -54,6 +54,9 @@ public:
     /// worth other owners of pages.
     void order();
 
+    /// How often points were moved in memory: what is known of them by their place holds while this stays.
+    std::int64_t orders() const { return orders_; }
+
     /// 4. P2G.
     void scatter();
 
@@ -125,6 +128,7 @@ private:
     mpm::Stir                                  stir_    = mpm::Stir::lost; ///< in those before it
     bool                                       listed_  = false;           ///< since the last step
     int                                        relists_ = 0;               ///< since they were last ordered in memory
+    std::int64_t                               orders_  = 0;
 };
 
 } // namespace tread::solver

@@ -37,8 +37,15 @@ public:
         choose_substep();
     }
 
-    /// Until the bed is at rest, for at most `longest`; returns the time that took, s.
-    double settle(double longest)
+    /// How a bed came to rest.
+    struct Rest
+    {
+        double time;           ///< s, that it took
+        double out_of_balance; ///< sum over bodies of the net force's length, over the weight
+    };
+
+    /// Until the bed is at rest, for at most `longest` (s).
+    Rest settle(double longest)
     {
         constexpr int    look_every = 64;   // steps
         constexpr double at_rest    = 1e-3; // of the weight: a tenth of what a phase asks for
@@ -55,8 +62,7 @@ public:
             if (!(out_of_balance <= at_rest)) { still_since = at; }
             if (at - still_since >= solver::PhaseClock::equilibrium_hold) { break; }
         }
-        rigid_.report(at);
-        return at;
+        return {at, rigid_.report(at).net_force / weight};
     }
 
     /// Goes on with the scene's second phase for so long, s.
@@ -152,7 +158,7 @@ void run_on(const Exec& exec, const DemCase& what, const scene::Scene& scene, co
 {
     const auto       count = static_cast<double>(world.bodies.size());
     DemBench<Exec>   bench(exec, scene, world, what.substeps);
-    const double     settled  = bench.settle(what.settle);
+    const auto       settled  = bench.settle(what.settle);
     constexpr double stirring = 0.05; // s
     if (what.state == BedState::stirred) { bench.stir(stirring); }
     const auto          searches = bench.searches();
@@ -162,12 +168,14 @@ void run_on(const Exec& exec, const DemCase& what, const scene::Scene& scene, co
         3.0 * what.steps / std::max<double>(1, static_cast<double>(bench.searches() - searches));
     std::sort(times.begin(), times.end());
     const solver::ContactCount contacts = bench.contacts();
-    std::cout << fmt::format("{:.0f} bodies, settled in {:.2f} s, a body: {:.2f} pairs, {:.2f} touch, {:.2f} nodes; "
+    std::cout << fmt::format("{:.0f} bodies, settled in {:.2f} s to {:.1e} of their weight, a body: {:.2f} pairs, "
+                             "{:.2f} touch, {:.2f} nodes; "
                              "substep {:.2e} s: {:.1f} us, "
                              "{:.1f}e6 body-steps/s, {:.0f} bytes a body, {:.1f} steps a search\n",
-                             count, settled, contacts.listed / count, contacts.live / count, contacts.nodes / count,
-                             bench.substep(), 1e6 * times[1], 1e-6 * count / times[1],
-                             static_cast<double>(exec.counters->peak_bytes()) / count, steps_a_search);
+                             count, settled.time, settled.out_of_balance, contacts.listed / count,
+                             contacts.live / count, contacts.nodes / count, bench.substep(), 1e6 * times[1],
+                             1e-6 * count / times[1], static_cast<double>(exec.counters->peak_bytes()) / count,
+                             steps_a_search);
     bench.print_parts(what.steps, count);
     std::cout << std::flush;
 }

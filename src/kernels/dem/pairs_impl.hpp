@@ -14,6 +14,27 @@ namespace tread::dem
 namespace pair_steps
 {
 
+/// What only the search needs and what only the substeps need are never there at the same time: each gives its memory
+/// back when the other begins, and takes no more than it wants.
+template<class... Arrays>
+void give_back(Arrays&... arrays)
+{
+    (arrays.fit(0), ...);
+}
+
+template<class Exec>
+void give_back(SortScratch<Exec>& scratch)
+{
+    give_back(scratch.bytes, scratch.keys, scratch.values);
+}
+
+template<class Exec>
+void give_back(Answers<Exec>& answers)
+{
+    give_back(answers.force, answers.torque, answers.stiffness, answers.energy, answers.friction, answers.restitution,
+              answers.place, answers.second_force, answers.second_torque, answers.second_stiffness);
+}
+
 struct MeasureBody
 {
     BodiesView          bodies;
@@ -213,14 +234,12 @@ template<class Exec>
 void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     const std::int64_t count = pairs.key.size();
+    give_back(pairs.by_second, pairs.peak, pairs.second_key);
     pairs.by_second.resize(count);
-    pairs.answers.resize(count);
     pairs.peak.resize(count);
     pairs.second_key.resize(count);
     for_each(exec, "renew pairs", count, Renew{pairs.view(), pairs.second_key.data(), pairs.by_second.data()});
     sort_by_key(exec, pairs.second_key, pairs.by_second, pairs.sort);
-    for_each(exec, "pair places", count, Place{pairs.by_second.data(), pairs.answers.place.data()});
-    for_each(exec, "clear answers", count, ClearAnswers{pairs.answers.view()});
 
     pairs.first.resize(bodies.count + 1);
     pairs.second.resize(bodies.count + 1);
@@ -244,6 +263,7 @@ void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, cons
     for_each(exec, "count pairs", bodies.count + 1, CountPairs{search, pairs.found.data()});
     pairs.key.resize(exclusive_scan(exec, pairs.found, pairs.sort));
     for_each(exec, "write pairs", bodies.count, WritePairs{search, pairs.found.data(), pairs.key.data()});
+    give_back(pairs.reach, pairs.cell_key, pairs.cell_body, pairs.found);
 }
 
 /// Leaves out the pairs that no node can join, and orders the rest: bounding spheres meet far more often than surfaces.
@@ -263,9 +283,32 @@ void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesVie
                        pairs.by_second.data()});
     pairs.key.swap(pairs.second_key);
     pairs.first_node.swap(pairs.by_second);
+    give_back(pairs.second_key, pairs.by_second, pairs.found);
     sort_by_key(exec, pairs.key, pairs.first_node, pairs.sort); // the zero at the end stays there
-    pairs.node.fit(exclusive_scan(exec, pairs.first_node, pairs.sort));
+    pairs.node.resize(exclusive_scan(exec, pairs.first_node, pairs.sort));
     list_contact_nodes(exec, pairs, bodies, law);
+}
+
+/// What the substeps had of a list.
+template<class Exec>
+void end_substeps(Pairs<Exec>& pairs)
+{
+    give_back(pairs.answers);
+    give_back(pairs.node, pairs.pair_of_node, pairs.found_node, pairs.inside, pairs.first_node);
+}
+
+/// What they need beside the list.
+template<class Exec>
+void begin_substeps(const Exec& exec, Pairs<Exec>& pairs)
+{
+    const std::int64_t count = pairs.key.size();
+    pairs.answers.resize(count);
+    pairs.pair_of_node.resize(pairs.node.size());
+    pairs.found_node.resize(pairs.node.size());
+    pairs.inside.resize(node_words(pairs.node.size()));
+    for_each(exec, "pair places", count, Place{pairs.by_second.data(), pairs.answers.place.data()});
+    for_each(exec, "clear answers", count, ClearAnswers{pairs.answers.view()});
+    for_each(exec, "pairs of nodes", count, WritePairsOfNodes{pairs.first_node.data(), pairs.pair_of_node.data()});
 }
 
 template<class Exec>
@@ -319,22 +362,22 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 {
     using namespace pair_steps;
     stage_bodies(exec, pairs, bodies);
+    end_substeps(pairs);
     pairs.key.swap(pairs.last_key);
     pairs.patch.swap(pairs.last_patch);
     pairs.rolling.swap(pairs.last_rolling);
     pairs.patches.place.swap(pairs.patches.last_place);
     allow_travel(exec, pairs, bodies, law.templates, dt);
+    give_back(pairs.by_second);
     const double cell_size = fill_cells(exec, pairs, bodies);
     search(exec, pairs, bodies, law, cell_size);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
     if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }
-    pairs.pair_of_node.fit(pairs.node.size());
-    pairs.found_node.fit(pairs.node.size());
-    pairs.inside.fit(node_words(pairs.node.size()));
-    for_each(exec, "pairs of nodes", pairs.key.size(),
-             WritePairsOfNodes{pairs.first_node.data(), pairs.pair_of_node.data()});
     list_pairs_of_many_nodes(exec, pairs);
+    give_back(pairs.last_key, pairs.last_patch, pairs.last_rolling, pairs.second_key, pairs.found);
+    give_back(pairs.sort);
+    begin_substeps(exec, pairs);
 }
 
 } // namespace tread::dem

@@ -135,6 +135,25 @@ TYPED_TEST(BodyPairs, AreThoseOfBruteForce)
     EXPECT_EQ(scene.pairs.key.to_host(), expected);
 }
 
+/// What the search needs beside the list is given back, so that the substeps may take it; a list of the same pairs then
+/// holds as much as the last one.
+TYPED_TEST(BodyPairs, LeaveNothingOfTheSearchBehind)
+{
+    typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, crowd(900), {});
+    scene.find(step);
+    scene.find(step); // by the motion of neighbours in the last list
+    const std::int64_t held = this->counters.current_bytes();
+    scene.find(step);
+    EXPECT_EQ(this->counters.current_bytes(), held);
+    for (const char* name : {"body reach", "body cells", "bodies by cell", "pairs found", "sort scratch"})
+    {
+        EXPECT_EQ(this->counters.bytes().find(name)->second, 0) << name;
+    }
+    EXPECT_GT(scene.pairs.key.size(), 500);
+    EXPECT_EQ(scene.pairs.last_key.capacity(), 0);
+    EXPECT_EQ(scene.pairs.last_patch.capacity(), 0);
+}
+
 TYPED_TEST(BodyPairs, KnowThePairsOfEachBody)
 {
     const std::vector<Solid>    solids = crowd(300);
