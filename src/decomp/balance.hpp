@@ -44,7 +44,8 @@ private:
 double imbalance_of(const std::vector<double>& loads);
 
 /// Collective. `key`, ascending, and `load` (points) of the pages that this rank owns. Where it is due and worth it,
-/// pages get other owners, those without points none; returns whether they did. `row` is brought up to date.
+/// pages get other owners, those without points none; returns whether they did: points have to follow. `row` is brought
+/// up to date, as if they had.
 template<class Exec>
 bool rebalance(Decomposition<Exec>& decomposition, const BalanceRule& rule, const PageKeys& key,
                const std::vector<double>& load, std::int64_t steps, BalanceRow& row);

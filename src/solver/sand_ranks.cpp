@@ -17,23 +17,18 @@ void SandRanks<Exec, Real>::order(mpm::Points<Exec, Real>& points, mpm::Pages<Ex
                                   const mpm::GridGeometry& geometry, const mpm::GridWalls& walls,
                                   mpm::OrderScratch<Exec, Real>& scratch, std::int64_t step)
 {
-    move_and_order(points, pages, geometry, scratch);
-    if (rebalance(pages, step)) { move_and_order(points, pages, geometry, scratch); }
+    moved_ = migration_.run(points, geometry, scratch);
+    balance_.points_moved += moved_;
+    mpm::order_points(decomposition_.transport.exec(), points, pages, geometry, scratch);
     halo_.plan(pages, walls);
+    dealt_out_ = rebalance(pages, step);
 }
 
 template<class Exec, class Real>
 bool SandRanks<Exec, Real>::is_due(std::int64_t step) const
 {
-    return !balance_.loads.empty() && step >= not_before_ && rule_.is_due(balance_.loads, step - partitioned_);
-}
-
-template<class Exec, class Real>
-void SandRanks<Exec, Real>::move_and_order(mpm::Points<Exec, Real>& points, mpm::Pages<Exec>& pages,
-                                           const mpm::GridGeometry& geometry, mpm::OrderScratch<Exec, Real>& scratch)
-{
-    balance_.points_moved += migration_.run(points, geometry, scratch);
-    mpm::order_points(decomposition_.transport.exec(), points, pages, geometry, scratch);
+    const bool known = !balance_.loads.empty();
+    return dealt_out_ || (known && step >= not_before_ && rule_.is_due(balance_.loads, step - partitioned_));
 }
 
 /// The load of a page is the number of its points. What was not worth it is looked at again when twice as many steps
