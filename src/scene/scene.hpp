@@ -414,6 +414,14 @@ struct Output
     bool operator==(const Output&) const = default;
 };
 
+/// How a run on several ranks deals out its pages.
+struct Balance
+{
+    double threshold = 1.15; ///< largest load of a rank over the mean above which pages may be dealt out anew
+
+    bool operator==(const Balance&) const = default;
+};
+
 struct Scene
 {
     std::string           title;
@@ -429,6 +437,7 @@ struct Scene
     std::vector<Body>     bodies;
     std::vector<Phase>    phases;
     Output                output;
+    Balance               balance;
     std::string           directory; ///< of the scene file; mesh paths are relative to it
 
     bool operator==(const Scene&) const = default;

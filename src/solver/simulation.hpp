@@ -40,6 +40,9 @@ public:
     /// Share of the weight that was out of balance in the last step.
     double unbalanced() const { return unbalanced_; }
 
+    /// How the points fell to the ranks so far; null on one rank or without sand.
+    const decomp::BalanceRow* balance() const { return sand_ ? sand_->balance() : nullptr; }
+
     /// The scene must have sand.
     Sand<Exec, Real>& sand() { return *sand_; }
 
