@@ -125,13 +125,13 @@ private:
     bool                                       cell_means_; ///< of volumetric strain, and of pressure
     Array<Exec, Real>                          cell_divergence_;
     Array<Exec, Real>                          shared_stress_;
-    double                                     mass_    = 0;
-    std::int64_t                               step_    = 0;               ///< number of the last one
-    std::int64_t                               steps_   = 0;               ///< since the last report
-    mpm::Stir                                  stir_    = mpm::Stir::lost; ///< in those before it
-    bool                                       listed_  = false;           ///< since the last step
-    int                                        relists_ = 0;               ///< since they were last ordered in memory
-    std::int64_t                               orders_  = 0;
+    double                                     mass_     = 0;
+    std::int64_t                               step_     = 0;               ///< number of the last one
+    std::int64_t                               steps_    = 0;               ///< since the last report
+    mpm::Stir                                  stir_     = mpm::Stir::lost; ///< in those before it
+    bool                                       listed_   = false;           ///< since the last step
+    int                                        relists_  = 0;               ///< since they were last ordered in memory
+    std::int64_t                               orders_   = 0;
     std::int64_t                               migrated_ = 0; ///< in the last order()
 };
 
