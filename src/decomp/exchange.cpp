@@ -80,6 +80,7 @@ void Exchange<Exec>::plan(Array<Exec, std::int32_t> rows, std::vector<Leg> to, s
     to_       = std::move(to);
     from_     = std::move(from);
     received_ = rows_of(from_);
+    mail_.count_anew();
 }
 
 template<class Exec>

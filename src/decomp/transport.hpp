@@ -68,6 +68,9 @@ public:
     std::byte* outgoing(std::int64_t bytes) { return outgoing_.reserve(bytes); }
     std::byte* incoming(std::int64_t bytes) { return incoming_.reserve(bytes); }
 
+    /// From now on ranks that have messages for each other depart equally often, however often they did before.
+    void count_anew() { turn_ = 0; }
+
     /// Starts sending what kernels that were launched before have written to the outgoing buffer.
     void depart(const Parcels& out, const Parcels& in);
 

@@ -109,7 +109,6 @@ private:
     bool   list_holds(double dt);
     double largest_stray_ahead(double ahead);
     void   check(RigidReport& report, const Array<Exec, dem::BodyActivity>& activity, double time);
-    void   add_up(RigidReport& report) const;
 
     dem::SharedView shared() { return ranks_ ? ranks_->shared() : dem::SharedView{}; }
     double          of_all(double value) const { return ranks_ ? ranks_->largest(value) : value; }

@@ -6,6 +6,7 @@
 
 #include "backend/reduce.hpp"
 #include "base/errors.hpp"
+#include "decomp/combine.hpp"
 #include "kernels/dem/sums.hpp"
 #include "solver/rigid.hpp"
 
@@ -44,8 +45,12 @@ RigidReport Rigid<Exec>::report(double time)
     report.net_force    = found.net_force;
     report.weight_power = found.weight_power;
     together([&] { check(report, activity, time); });
-    if (ranks_) { add_up(report); }
     report.substep = substep_;
+    if (ranks_)
+    {
+        decomp::combine(ranks_->communicator(), reinterpret_cast<double*>(&report), rigid_report_sums,
+                        rigid_report_peaks);
+    }
     return report;
 }
 
@@ -62,15 +67,6 @@ void Rigid<Exec>::check(RigidReport& report, const Array<Exec, dem::BodyActivity
     require_resolved(time, report.largest_speed, activity);
     require_listed(time);
     report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time));
-}
-
-template<class Exec>
-void Rigid<Exec>::add_up(RigidReport& report) const
-{
-    const double overlap = ranks_->largest(report.overlap), speed = ranks_->largest(report.largest_speed);
-    ranks_->sum(report);
-    report.overlap       = overlap;
-    report.largest_speed = speed;
 }
 
 template<class Exec>
