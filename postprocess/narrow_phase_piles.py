@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Lets 1,000 rocks come to rest (configs/studies/rock_pile.toml) by each narrow phase, and writes how high they lie and what each run took
-as a CSV for narrow_phases.py.
+as a CSV for narrow_phases.py. A run that is stopped has no row; its reason is printed.
 
 Needs Debian's python3-h5py and python3-numpy, and a built tread.
 """
@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from tread_post import RunError
-from tread_post.study import run_scene, write_table
+from tread_post.study import STOPPED, run_scene, write_table
 
 SCENE = Path(__file__).resolve().parents[1] / "configs" / "studies" / "rock_pile.toml"
 FIELDS = ("narrow_phase", "nodes", "sdf_cells", "seed", "height_m", "speed_m_s", "energy_error", "steps", "wall_s")
@@ -59,7 +59,10 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             settings = (f"numerics.narrow_phase={phase}", f"shape[0].generate.nodes={nodes}", f"shape[0].sdf_cells={cells}",
                         f"rocks[0].seed={seed}", *options.more)
-            _, run = run_scene(options, SCENE, settings, Path(folder) / "run")
+            code, run = run_scene(options, SCENE, settings, Path(folder) / "run", ends=(0, STOPPED))
+            if code == STOPPED:
+                print(phase, nodes, cells, seed, run.summary["reason"], sep=", ", flush=True)
+                continue
             height, speed, error = measure(run)
             rows.append(dict(zip(FIELDS, (phase, nodes, cells, seed, f"{height:.6g}", f"{speed:.2e}", f"{error:.2e}", run.summary["steps"],
                                           f"{run.summary['wall_s']:.2f}"))))

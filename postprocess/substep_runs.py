@@ -14,13 +14,12 @@ import tomllib
 from pathlib import Path
 
 from tread_post import RunError
-from tread_post.study import processor_time, run_scene, write_table
+from tread_post.study import STOPPED, processor_time, run_scene, write_table
 
 SCENE = Path(__file__).resolve().parents[1] / "configs" / "paper" / "reduced" / "wheel_drop_substeps.toml"
 FIELDS = ("reading", "substeps", "dt_s", "substep_s", "young_Pa", "status", "peak_N", "rest_over_weight", "deepest_mm",
           "energy_error", "steps", "cpu_s", "reason")
 EVERY = 1e-3  # s, of the time series: forces are means over so long
-STOPPED = 3  # exit code of a run that became unstable
 REST = 0.2  # s, the end of the run over which the force at rest is a mean
 
 

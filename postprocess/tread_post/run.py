@@ -109,6 +109,11 @@ class Run:
         return self._table("/balance")
 
     @property
+    def ranks(self):
+        """How the sand fell to the ranks, of a run on several."""
+        return self._table("/ranks")
+
+    @property
     def phases(self):
         """Phases that began, by time."""
         names = [phase.get("name", "") for phase in self.scene.get("phase", [])]

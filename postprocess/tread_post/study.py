@@ -6,6 +6,8 @@ import subprocess
 
 from tread_post.run import Run, RunError
 
+STOPPED = 3  # exit code of a run that ended with a diagnosis
+
 
 def run_scene(options, scene, settings, folder, ends=(0,)):
     """Runs `scene` with KEY=VALUE settings into `folder` by options.tread, .backend and .threads, and returns the exit code, which has to be

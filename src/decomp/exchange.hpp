@@ -18,8 +18,8 @@ struct Leg
 
 /// Rows of arrays that go to other ranks, time and again: planned once, then begin() and finish() as often as needed.
 /// Every rank makes the same plans, and then the same calls as those that it has rows for or from; one whose plan is
-/// empty may leave begin() and finish() out. What the plan does
-/// not change needs no new plan: row numbers, ranks and counts, not the arrays.
+/// empty may leave begin() and finish() out. What the plan does not change needs no new plan: row numbers, ranks and
+/// counts, not the arrays.
 template<class Exec>
 class Exchange
 {

@@ -69,6 +69,10 @@ Keys<TimeOptions> time_keys()
                  "Time step. \"auto\" takes the largest stable one; a fixed one is checked."),
         optional("substeps", "", &TimeOptions::substeps, integer_or("auto", 1),
                  "Contact substeps in a step. \"auto\" takes as many as contact between bodies needs."),
+        optional("contact_share", "", &TimeOptions::contact_share, number(above_up_to(0, 0.4)),
+                 "Substep over sqrt(m / sum K) of the stiffest body, where substeps are \"auto\". Contacts are stable "
+                 "to 1.1; over "
+                 "0.4 single impacts lose their energy balance."),
     };
 }
 
@@ -270,6 +274,13 @@ Keys<Output> output_keys()
             "kinetic_bodies in timeseries.h5 to have fallen by many decades (under damping it falls at a steady rate).",
             "no bed is saved"),
     };
+}
+
+Keys<Balance> balance_keys()
+{
+    return {optional("threshold", "", &Balance::threshold, number(above(1)),
+                     "The largest number of points of a rank over the mean, beyond which pages are given to other "
+                     "ranks, if that is predicted to save more than it costs.")};
 }
 
 } // namespace tread::scene

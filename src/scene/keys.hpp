@@ -29,6 +29,7 @@ Keys<Rocks>       rocks_keys();
 Keys<Body>        body_keys();
 Keys<Phase>       phase_keys();
 Keys<Output>      output_keys();
+Keys<Balance>     balance_keys();
 
 /// Keys of places and sizes, which [[terrain]] and [[rocks]] share (bed_keys.cpp).
 Key<Terrain> terrain_region_key();
@@ -56,6 +57,8 @@ void for_each_table(Visit&& visit)
     visit("body", "A single rigid body, such as a wheel.", &Scene::bodies, body_keys());
     visit("phase", "A span of simulated time; phases run in the order given.", &Scene::phases, phase_keys());
     visit("output", "What is written while the run goes on.", &Scene::output, output_keys());
+    visit("balance", "How the sand falls to the ranks of a run on several: docs/ranks.md.", &Scene::balance,
+          balance_keys());
 }
 
 } // namespace tread::scene

@@ -124,6 +124,8 @@ struct TimeOptions
 {
     std::optional<double>       dt;       ///< s; nothing means "auto"
     std::optional<std::int64_t> substeps; ///< contact substeps a step; nothing means "auto"
+    double                      contact_share =
+        0.2; ///< of sqrt(m / sum K), what automatic substeps take: prototypes 1.7 (measured limit: 1.1)
 
     bool operator==(const TimeOptions&) const = default;
 };
@@ -412,6 +414,14 @@ struct Output
     bool operator==(const Output&) const = default;
 };
 
+/// How a run on several ranks deals out its pages.
+struct Balance
+{
+    double threshold = 1.15; ///< largest load of a rank over the mean above which pages may be dealt out anew
+
+    bool operator==(const Balance&) const = default;
+};
+
 struct Scene
 {
     std::string           title;
@@ -427,6 +437,7 @@ struct Scene
     std::vector<Body>     bodies;
     std::vector<Phase>    phases;
     Output                output;
+    Balance               balance;
     std::string           directory; ///< of the scene file; mesh paths are relative to it
 
     bool operator==(const Scene&) const = default;

@@ -19,9 +19,14 @@ public:
     /// of each rank) have gone to.
     void send_after(const std::vector<std::vector<std::uint32_t>>& departed);
 
-    /// 2. Candidates of the step; nothing moves further in it than `speed` allows.
-    void begin_step(const mpm::PointsView<Real>& points, const mpm::PagesView& pages, const dem::BodiesView& bodies,
-                    double dt, double speed);
+    /// 2. Candidates of the next steps, of `span` (s) in all: found anew if the last ones may not hold. `version` says
+    /// which points, in which places of memory, and which bodies are here. No point or body is faster than `speed`
+    /// (m/s) now, nor will be twice as fast.
+    void find_candidates(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
+                         const dem::BodiesView& bodies, std::int64_t version, double span, double speed);
+
+    /// Shows the contacts what a step did to their points, unless find_candidates has just done so.
+    void begin_step(const mpm::PointsView<Real>& points);
 
     /// Forces on bodies, and the private points' motion over a substep.
     void substep(const dem::BodiesView& bodies, double dt);
@@ -38,7 +43,10 @@ public:
     /// Impulses become the points' contact force.
     void finish_step(const mpm::PointsView<Real>& points, double dt);
 
-    /// Of the last substep (dissipated: of the step); waits for it.
+    /// Takes stock of the last substep, of all ranks; waits for it.
+    void measure();
+
+    /// As last measured (dissipated: since the time before that).
     const contact::Summary& summary() const { return summary_; }
 
 private:
@@ -46,6 +54,10 @@ private:
     contact::PointContact<Exec> contact_;
     contact::PointBodyLaw       law_;
     double                      largest_radius_;
+    double                      skin_;            ///< m
+    double                      used_    = 0;     ///< m of it, since the search
+    std::int64_t                version_ = 0;     ///< at the search; 0 = none yet
+    bool                        begun_   = false; ///< by the search
     contact::Summary            summary_ = contact::Summary::zero();
     const Communicator*         communicator_; ///< null on one rank
 };

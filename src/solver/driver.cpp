@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <iostream>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,17 @@ namespace
 {
 
 constexpr double progress_every = 5; ///< s of wall time
+
+/// Of wall time without a step, on several ranks: then one of them waits for what will not come.
+constexpr std::chrono::minutes longest_silence{30};
+
+/// This process alone; the launcher then ends the others.
+[[noreturn]] void end_silent_run(int rank)
+{
+    std::cerr << fmt::format("tread: error: rank {}: no step in {} minutes: a rank waits for what does not come\n",
+                             rank, longest_silence.count());
+    std::_Exit(static_cast<int>(ExitCode::environment));
+}
 
 double wall_clock()
 {
@@ -44,7 +57,11 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , wall_start_(wall_clock())
     , last_said_(wall_start_)
 {
-    on_root(communicator, [&] { recorder_.emplace(directory, scene, world); });
+    if (communicator.size() > 1)
+    {
+        watchdog_.emplace(longest_silence, [rank = communicator.rank()] { end_silent_run(rank); });
+    }
+    on_root(communicator, [&] { recorder_.emplace(directory, scene, world, communicator.size()); });
     if (plan.snapshots)
     {
         snapshots_.emplace(communicator, directory.snapshots());
@@ -130,6 +147,7 @@ void Driver<Exec, Real>::advance()
     simulation_.command(commands, phases_.phase().damping);
     clock_.begin_step(steps_);
     step = simulation_.step(step, time_, clock_);
+    if (watchdog_) { watchdog_->advance(); }
     time_ += step.dt;
     ++steps_;
     substeps_ += step.substeps;
@@ -174,7 +192,13 @@ void Driver<Exec, Real>::write_row()
         const EnergyRow  energy  = simulation_.ledger().energy(now);
         const BalanceRow balance = simulation_.ledger().balance(now);
         const auto       bodies  = simulation_.named_bodies();
-        on_root(communicator_, [&] { recorder_->write(time_, bodies, energy, balance); });
+        const auto*      ranks   = simulation_.balance();
+        const auto       on_file = [&]
+        {
+            if (ranks != nullptr) { recorder_->write_ranks(time_, *ranks); }
+            recorder_->write(time_, bodies, energy, balance);
+        };
+        on_root(communicator_, on_file);
         simulation_.begin_mean();
     };
     clock_.run(simulation_.exec(), stage::output, write);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/log.hpp"
+#include "base/watchdog.hpp"
 #include "io/run_directory.hpp"
 #include "io/summary.hpp"
 #include "solver/simulation.hpp"
@@ -45,6 +46,7 @@ private:
     PhaseClock                        phases_;
     std::optional<Recorder>           recorder_;  ///< on rank 0
     std::optional<io::SnapshotWriter> snapshots_; ///< only if the scene wants snapshots
+    std::optional<Watchdog>           watchdog_;  ///< on several ranks
     StageClock                        clock_;
     std::vector<io::PhaseReport>      ended_;
     TimeStep                          step_;

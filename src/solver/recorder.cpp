@@ -37,7 +37,7 @@ std::string group(const scene::Body& body) { return "/wheel/" + body.name; }
 
 } // namespace
 
-Recorder::Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world)
+Recorder::Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world, int ranks)
     : scene_(scene)
     , series_(directory.time_series())
 {
@@ -51,12 +51,21 @@ Recorder::Recorder(const io::RunDirectory& directory, const scene::Scene& scene,
     series_.add_table("/balance",
                       {{"time", 1, "s"}, {"mass", 1, "kg"}, {"momentum", 3, "kg m/s"}, {"impulse_error", 1, "1"}});
     series_.add_table("/phases", {{"index", 1, "1"}, {"start", 1, "s"}});
+    if (ranks == 1) { return; }
+    series_.add_table("/ranks",
+                      {{"time", 1, "s"}, {"imbalance", 1, "1"}, {"repartitions", 1, "1"}, {"points_moved", 1, "1"}});
 }
 
 void Recorder::begin_phase(std::size_t index, double time, double surface)
 {
     surface_ = surface;
     series_.append("/phases", {static_cast<double>(index), time});
+}
+
+void Recorder::write_ranks(double time, const decomp::BalanceRow& balance)
+{
+    series_.append("/ranks", {time, balance.imbalance, static_cast<double>(balance.repartitions),
+                              static_cast<double>(balance.points_moved)});
 }
 
 void Recorder::write(double time, const std::vector<BodyRow>& bodies, const EnergyRow& energy,

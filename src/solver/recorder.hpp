@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "decomp/balance.hpp"
 #include "io/run_directory.hpp"
 #include "io/snapshot.hpp"
 #include "io/time_series.hpp"
@@ -23,14 +24,17 @@ struct BodyRow
     double       lowest;           ///< m, height of the lowest point of the rim
 };
 
-/// timeseries.h5 of a run: /wheel/<name>, /energy, /balance, /phases.
+/// timeseries.h5 of a run: /wheel/<name>, /energy, /balance, /phases, and on several ranks /ranks.
 class Recorder
 {
 public:
-    Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world);
+    Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world, int ranks);
 
     /// A phase begins; `surface` = height that sinkage is measured from, m.
     void begin_phase(std::size_t index, double time, double surface);
+
+    /// A row of /ranks, of a run on several ranks.
+    void write_ranks(double time, const decomp::BalanceRow& balance);
 
     void write(double time, const std::vector<BodyRow>& bodies, const EnergyRow& energy, const BalanceRow& balance);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ namespace tread::solver
 namespace
 {
 
+constexpr double hit_twice = 4; ///< times as fast may a light body be that is hit by one that was hit itself
 /// Spacings: how far from the pages of its rank sand may be met. Points may be a page beyond before they change their
 /// rank, and have a radius.
 constexpr double sand_reach = mpm::page_edge + 2;
@@ -54,7 +56,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     , totals_(exec, "body totals")
     , impulses_(exec, "contact impulses")
     , bounding_radii_(exec, "body bounding radii")
-    , sums_(exec, "body sums", dem::body_total_width)
+    , sums_(exec, "body sums", sizeof(ReportSums) / sizeof(double))
     , strays_(exec)
     , released_(static_cast<std::size_t>(named_), false)
     , commanded_(static_cast<std::size_t>(named_))
@@ -144,6 +146,7 @@ std::string Rigid<Exec>::name(std::int64_t body) const
 template<class Exec>
 void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
 {
+    bool changed = false;
     for (std::size_t b = 0; b < commands.size(); ++b)
     {
         const BodyCommand& command = commands[b];
@@ -187,7 +190,9 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
         copy_from_host(exec_, bodies_.velocity.data() + b, &velocity, sizeof(velocity));
         copy_from_host(exec_, bodies_.angular_velocity.data() + b, &spin, sizeof(spin));
         copy_from_host(exec_, bodies_.locked.data() + b, &command.locked, sizeof(command.locked));
+        changed = true;
     }
+    if (changed && listed_) { stage(); }
 }
 
 template<class Exec>
@@ -231,7 +236,11 @@ void Rigid<Exec>::list_pairs_anew(double dt)
     dem::want_travel(exec_, pairs_, bodies_.view(), law_, dt, shared());
     if (ranks_) { ranks_->sum_wanted_travel(pairs_); }
     dem::grant_travel(exec_, pairs_, bodies_.view(), law_, dt);
-    if (ranks_) { ranks_->deal(bodies_, pairs_); }
+    if (ranks_)
+    {
+        ranks_->deal(bodies_, pairs_);
+        ++deals_;
+    }
     dem::list_pairs(exec_, pairs_, bodies_.view(), law_);
     dem::mark_places(exec_, strays_, bodies_.view());
     listed_ = true;
@@ -240,12 +249,20 @@ void Rigid<Exec>::list_pairs_anew(double dt)
 template<class Exec>
 std::int64_t Rigid<Exec>::unwatched_substeps(double dt, std::int64_t substeps, double speed)
 {
-    constexpr double hit_twice = 4;
-    const double     fastest   = of_all(std::max(speed, std::exchange(commanded_speed_, 0.0)));
-    const double     way       = dt * (hit_twice * fastest + gravity_.norm() * dt * static_cast<double>(substeps));
-    const double     reserve   = dem::rest_reserve * smallest_radius_;
-    watched_                   = way * static_cast<double>(substeps) > reserve;
+    const double way     = dt * (hit_twice * speed + gravity_.norm() * dt * static_cast<double>(substeps));
+    const double reserve = dem::rest_reserve * smallest_radius_;
+    watched_             = way * static_cast<double>(substeps) > reserve;
     return watched_ ? std::max<std::int64_t>(1, static_cast<std::int64_t>(reserve / way)) : substeps;
+}
+
+template<class Exec>
+std::int64_t Rigid<Exec>::unwatched_steps(double dt, double speed) const
+{
+    if (!contacts_) { return std::numeric_limits<std::int64_t>::max(); }
+    // Speed and fall of n steps: n dt (4 v + g n dt) <= reserve.
+    const double fall = gravity_.norm(), reserve = dem::rest_reserve * smallest_radius_, start = hit_twice * speed;
+    const double span = 2 * reserve / (start + std::sqrt(start * start + 4 * fall * reserve));
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(span / dt, 1e9)));
 }
 
 template<class Exec>

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/snapshot.hpp"
@@ -60,7 +61,7 @@ public:
     /// 2. Pairs of bodies, and of bodies and walls, that may touch in the step: found anew if the list may not hold.
     void find_pairs(double dt);
 
-    /// Shows the contacts what somebody else has changed in view() since. find_pairs does.
+    /// Shows the contacts what somebody else has changed in view() since. find_pairs and command do.
     void stage() { dem::stage_bodies(exec_, pairs_, bodies_.view()); }
 
     /// Before `substeps` substeps of dt (s): after how many of them a body may have gone further than find_pairs
@@ -71,6 +72,16 @@ public:
     /// Finds the pairs anew in the middle of a step, for what is left of it (s), if a body might go too far in the next
     /// `ahead` (s); `time` (s) is for messages.
     void find_pairs_if_strayed(double ahead, double left, double time);
+
+    /// After how many steps of dt (s) the list of pairs should be looked at again: one, unless find_pairs allowed for
+    /// more of them without a watch.
+    std::int64_t unwatched_steps(double dt, double speed) const;
+
+    /// m/s, the largest that commands have given since the last call, on any rank.
+    double take_commanded_speed() { return of_all(std::exchange(commanded_speed_, 0.0)); }
+
+    /// How often bodies were dealt to the ranks: which of them are here stays while this does. 0 on one rank.
+    std::int64_t deals() const { return deals_; }
 
     /// The least sqrt(m / sum K) over bodies, of contacts that are live or may come in the step, s; 0 = none.
     double shortest_contact();
@@ -108,7 +119,8 @@ private:
     void   list_pairs_anew(double dt);
     bool   list_holds(double dt);
     double largest_stray_ahead(double ahead);
-    void   check(RigidReport& report, const Array<Exec, dem::BodyActivity>& activity, double time);
+    void check(RigidReport& report, double sum_of_speeds, const Array<Exec, dem::BodyActivity>& activity, double time);
+    void add_up(RigidReport& report) const;
 
     dem::SharedView shared() { return ranks_ ? ranks_->shared() : dem::SharedView{}; }
     double          of_all(double value) const { return ranks_ ? ranks_->largest(value) : value; }
@@ -120,10 +132,20 @@ private:
         if (ranks_) { on_every_rank(ranks_->communicator(), checks); }
         else { checks(); }
     }
-    void   require_finite(double time);
-    void   require_listed(double time);
-    void   require_resolved(double time, double speed, const Array<Exec, dem::BodyActivity>& activity);
-    void   take_totals(RigidReport& report);
+    void require_finite(double time);
+    void require_listed(double time);
+    void require_resolved(double time, double speed, const Array<Exec, dem::BodyActivity>& activity);
+    void take(const dem::BodyTotal& now, RigidReport& report);
+
+    /// Over all bodies.
+    struct ReportSums
+    {
+        dem::BodyActivity most;
+        dem::BodyActivity all;
+        dem::BodyTotal    total;
+    };
+    ReportSums sum_for_report(Array<Exec, dem::BodyActivity>& activity);
+
     double guard(double time);
 
     Exec                                    exec_;
@@ -146,8 +168,9 @@ private:
     dem::Strays<Exec>                       strays_;
     double                                  smallest_radius_ = 0;     ///< m, of the bounding spheres
     bool                                    listed_          = false; ///< pairs were found
+    std::int64_t                            deals_           = 0;
     bool                                    watched_         = false; ///< of the present step: not only at its end
-    double                                  commanded_speed_ = 0; ///< m/s, the largest that commands gave in this step
+    double                                  commanded_speed_ = 0;     ///< m/s, the largest that commands gave
     double                                  overlap_ = 0; ///< largest over radius, before the list was found anew
     dem::BodyLaw                            law_{};
     std::vector<bool>                       released_;            ///< named bodies that were free once

@@ -29,36 +29,40 @@ std::vector<double> rows(const std::vector<T>& vectors)
 template<class Exec>
 RigidReport Rigid<Exec>::report(double time)
 {
-    RigidReport report;
-    take_totals(report);
-    const std::int64_t             count = bodies_.position.size();
-    Array<Exec, dem::BodyActivity> activity(exec_, "body activity", count);
-    dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity.data());
-    const double*     values = reinterpret_cast<const double*>(activity.data());
-    constexpr int     width  = sizeof(dem::BodyActivity) / sizeof(double);
-    dem::BodyActivity found;
-    largest_of_rows(exec_, values, count, width, sums_.data());
-    copy_to_host(exec_, &found, sums_.data(), sizeof(found));
-    report.largest_speed = found.speed;
-    sum_rows(exec_, values, count, width, sums_.data());
-    copy_to_host(exec_, &found, sums_.data(), sizeof(found));
-    report.net_force    = found.net_force;
-    report.weight_power = found.weight_power;
-    together([&] { check(report, activity, time); });
-    report.substep = substep_;
-    if (ranks_)
-    {
-        decomp::combine(ranks_->communicator(), reinterpret_cast<double*>(&report), rigid_report_sums,
-                        rigid_report_peaks);
-    }
+    RigidReport                    report;
+    Array<Exec, dem::BodyActivity> activity(exec_, "body activity", bodies_.position.size());
+    const ReportSums               sums = sum_for_report(activity);
+    take(sums.total, report);
+    report.largest_speed = sums.most.speed;
+    report.net_force     = sums.all.net_force;
+    report.weight_power  = sums.all.weight_power;
+    report.substep       = substep_;
+    together([&] { check(report, sums.all.speed, activity, time); });
+    if (ranks_) { add_up(report); }
     return report;
 }
 
-/// Of this rank's bodies.
+/// All in one read.
 template<class Exec>
-void Rigid<Exec>::check(RigidReport& report, const Array<Exec, dem::BodyActivity>& activity, double time)
+typename Rigid<Exec>::ReportSums Rigid<Exec>::sum_for_report(Array<Exec, dem::BodyActivity>& activity)
 {
-    if (!std::isfinite(report.net_force) || !std::isfinite(report.largest_speed))
+    dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity.data());
+    const double* values = reinterpret_cast<const double*>(activity.data());
+    const double* totals = reinterpret_cast<const double*>(totals_.data());
+    constexpr int width  = sizeof(dem::BodyActivity) / sizeof(double);
+    double*       most   = sums_.data();
+    largest_of_rows(exec_, values, activity.size(), width, most);
+    sum_rows(exec_, values, activity.size(), width, most + width);
+    sum_rows(exec_, totals, totals_.size(), dem::body_total_width, most + 2 * width);
+    return read(exec_, reinterpret_cast<const ReportSums*>(most));
+}
+
+/// Of this rank's bodies. The largest speed hides one that is not a number, their sum does not.
+template<class Exec>
+void Rigid<Exec>::check(RigidReport& report, double sum_of_speeds, const Array<Exec, dem::BodyActivity>& activity,
+                        double time)
+{
+    if (!std::isfinite(report.net_force) || !std::isfinite(sum_of_speeds))
     {
         require_finite(time);
         throw NumericalError(fmt::format("t = {:.6g} s: the sum of the forces on bodies is not a number", time));
@@ -70,12 +74,15 @@ void Rigid<Exec>::check(RigidReport& report, const Array<Exec, dem::BodyActivity
 }
 
 template<class Exec>
-void Rigid<Exec>::take_totals(RigidReport& report)
+void Rigid<Exec>::add_up(RigidReport& report) const
 {
-    sum_rows(exec_, reinterpret_cast<const double*>(totals_.data()), totals_.size(), dem::body_total_width,
-             sums_.data());
-    dem::BodyTotal now;
-    copy_to_host(exec_, &now, sums_.data(), sizeof(now));
+    decomp::combine(ranks_->communicator(), reinterpret_cast<double*>(&report), rigid_report_sums, rigid_report_peaks);
+}
+
+/// What has been added to the totals since the last report.
+template<class Exec>
+void Rigid<Exec>::take(const dem::BodyTotal& now, RigidReport& report)
+{
     report.wall_impulse    = now.wall_impulse - taken_.wall_impulse;
     report.damping_impulse = now.damping_impulse - taken_.damping_impulse;
     report.driver_impulse  = now.holding_impulse - taken_.holding_impulse + command_impulse_;

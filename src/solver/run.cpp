@@ -28,6 +28,9 @@ namespace tread::solver
 namespace
 {
 
+/// How long a rank that has failed waits for the others to fail, too.
+constexpr double patience = 10; // s
+
 /// Threads for this process: asked for, or OMP_NUM_THREADS, or the cores over the ranks of this machine.
 int choose_threads(const Communicator& communicator, int asked)
 {
@@ -126,6 +129,7 @@ ExitCode run_on(const Exec& exec, Job& job)
     }
     catch (const NumericalError& error)
     {
+        if (!job.communicator.all_arrive(patience)) { throw; } // it befell this rank alone
         job.log.warning(error.what());
         job.summary.status    = io::RunStatus::failed;
         job.summary.exit_code = error.code();
@@ -145,7 +149,7 @@ ExitCode run_precision(const Exec& exec, Job& job)
 ExitCode run_backend(Backend backend, Job& job)
 {
     Counters           counters;
-    const std::int64_t wanted = estimate(job.scene, job.world, job.plan).memory_bytes;
+    const std::int64_t wanted = estimate(job.scene, job.world, job.plan).memory_bytes / job.communicator.size();
     counters.expect(wanted);
     ExitCode code = ExitCode::finished;
     if (backend == Backend::cpu)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -97,7 +98,6 @@ template<class Exec, class Real>
 Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields,
                        decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
-    , decomposition_(decomposition)
     , geometry_(world.geometry)
     , walls_(world.grid_walls)
     , gravity_(Vec3<double>(scene.domain.gravity[0], scene.domain.gravity[1], scene.domain.gravity[2]).cast<Real>())
@@ -127,20 +127,23 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
 {
     materials_.assign(law_parameters<Real>(scene));
     stirred_in_.fill_zero();
-    if (decomposition != nullptr)
+    if (decomposition == nullptr)
     {
-        migration_.emplace(*decomposition);
-        halo_.emplace(*decomposition);
+        std::vector<std::uint32_t> ids(world.points.size());
+        std::iota(ids.begin(), ids.end(), 0U);
+        upload(world.points, ids, fields);
+        return;
     }
-    upload(world, fields);
+    // Bodies follow the owners of pages at once, points only when they are sorted: both are not moved together yet.
+    ranks_.emplace(*decomposition, fields.coupled ? std::numeric_limits<double>::infinity() : scene.balance.threshold);
+    const OwnPoints own = own_points(world, *decomposition);
+    upload(own.points, own.id, fields);
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::upload(const World& world, mpm::PointFields fields)
+void Sand<Exec, Real>::upload(const HostPoints& host, const std::vector<std::uint32_t>& ids, mpm::PointFields fields)
 {
-    const OwnPoints   own  = decomposition_ == nullptr ? OwnPoints{} : own_points(world, *decomposition_);
-    const HostPoints& host = decomposition_ == nullptr ? world.points : own.points;
-    const auto        n    = host.size();
+    const auto n = host.size();
     points_.allocate(static_cast<std::int64_t>(n), fields);
     if (n == 0) { return; }
     points_.position.assign(planes<double, 3>(host.position));
@@ -152,12 +155,6 @@ void Sand<Exec, Real>::upload(const World& world, mpm::PointFields fields)
     points_.material.assign(host.material);
     if (!host.velocity.empty()) { points_.velocity.assign(planes<Real, 3>(host.velocity)); }
     if (!host.velocity.empty() && fields.coupled) { points_.grid_velocity.assign(planes<Real, 3>(host.velocity)); }
-    std::vector<std::uint32_t> ids = own.id;
-    if (decomposition_ == nullptr)
-    {
-        ids.resize(n);
-        std::iota(ids.begin(), ids.end(), 0U);
-    }
     points_.id.assign(ids);
 }
 
@@ -178,8 +175,9 @@ void Sand<Exec, Real>::order()
         list_anew();
         return;
     }
-    if (stir_ == mpm::Stir::none) { return; }
-    if (stir_ != mpm::Stir::moved)
+    const bool due = ranks_ && ranks_->is_due(step_);
+    if (stir_ == mpm::Stir::none && !due) { return; }
+    if (stir_ != mpm::Stir::moved || due)
     {
         order_in_memory();
         return;
@@ -188,6 +186,7 @@ void Sand<Exec, Real>::order()
     if (relists_ < relists_an_order) { return; }
     mpm::renew_order(exec_, points_, pages_, order_scratch_);
     relists_ = 0;
+    ++orders_;
 }
 
 template<class Exec, class Real>
@@ -200,10 +199,14 @@ void Sand<Exec, Real>::list_anew()
 template<class Exec, class Real>
 void Sand<Exec, Real>::order_in_memory()
 {
-    if (migration_) { migrated_ = migration_->run(points_, geometry_, order_scratch_); }
-    mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_);
-    if (halo_) { halo_->plan(pages_, walls_); }
-    relists_                       = 0;
+    if (ranks_)
+    {
+        ranks_->order(points_, pages_, geometry_, walls_, order_scratch_, step_);
+        migrated_ = ranks_->moved();
+    }
+    else { mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_); }
+    relists_ = 0;
+    ++orders_;
     const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
     tiles_.resize(point_pages * mpm::node_channels * mpm::tile_nodes);
     motion_.resize(node_pages * mpm::motion_channels * mpm::page_cells);
@@ -251,15 +254,15 @@ void Sand<Exec, Real>::scatter()
 template<class Exec, class Real>
 void Sand<Exec, Real>::share()
 {
-    halo_->begin(pages(), tiles_.data());
-    halo_->finish();
+    ranks_->halo().begin(pages(), tiles_.data());
+    ranks_->halo().finish();
 }
 
 template<class Exec, class Real>
 void Sand<Exec, Real>::update_grid(double dt, double damping)
 {
     const mpm::GridStep<Real> step{static_cast<Real>(dt), gravity_, static_cast<Real>(damping), mass_floor_, walls_};
-    const mpm::SharedPagesView<Real> shared = halo_ ? halo_->view() : mpm::SharedPagesView<Real>{};
+    const mpm::SharedPagesView<Real> shared = ranks_ ? ranks_->halo().view() : mpm::SharedPagesView<Real>{};
     mpm::update_grid(exec_, pages(), wall_pages_.view(), shared, tiles_.data(), step, motion_.data(),
                      grid_rows_.data());
     mpm::update_walls(exec_, pages(), wall_pages_.view(), step, motion_.data(), grid_rows_.data());
@@ -288,16 +291,13 @@ SandReport Sand<Exec, Real>::report()
     double*            grid   = totals_.data();
     double*            points = grid + grid_width;
     double*            peaks  = points + point_width;
-    if (halo_) { halo_->clear_booked_elsewhere(grid_width, grid_rows_.data()); }
+    if (ranks_) { ranks_->halo().clear_booked_elsewhere(grid_width, grid_rows_.data()); }
     sum_rows(exec_, grid_rows_.data(), node_pages, grid_width, grid, sums_scratch_);
     sum_rows(exec_, point_rows_.data(), point_pages, point_width, points, sums_scratch_);
     largest_of_rows(exec_, peak_rows_.data(), point_pages, mpm::point_peaks, peaks);
     double read[grid_width + point_width + mpm::point_peaks];
     copy_to_host(exec_, read, grid, sizeof(read));
-    if (decomposition_ != nullptr)
-    {
-        decomp::combine(decomposition_->communicator, read, grid_width + point_width, mpm::point_peaks);
-    }
+    if (ranks_) { decomp::combine(ranks_->communicator(), read, grid_width + point_width, mpm::point_peaks); }
 
     SandReport    report;
     const double* from = read;
@@ -321,7 +321,7 @@ SandCensus Sand<Exec, Real>::census()
     sum_rows(exec_, census_rows_.data(), point_pages, mpm::census_count, totals_.data());
     double total[mpm::census_count];
     copy_to_host(exec_, total, totals_.data(), sizeof(total));
-    if (decomposition_ != nullptr) { decomp::combine(decomposition_->communicator, total, mpm::census_count, 0); }
+    if (ranks_) { decomp::combine(ranks_->communicator(), total, mpm::census_count, 0); }
     mass_ = total[mpm::census_mass];
     return {total[mpm::census_mass], total[mpm::census_kinetic], total[mpm::census_strain],
             Vec3<double>(total + mpm::census_momentum), Vec3<double>(total + mpm::census_moment)};

@@ -4,8 +4,6 @@
 #include <vector>
 
 #include "backend/reduce.hpp"
-#include "decomp/grid_halo.hpp"
-#include "decomp/migration.hpp"
 #include "io/snapshot.hpp"
 #include "kernels/mpm/cell_divergence.hpp"
 #include "kernels/mpm/cell_stress.hpp"
@@ -16,6 +14,7 @@
 #include "kernels/mpm/relist.hpp"
 #include "kernels/mpm/scatter.hpp"
 #include "kernels/mpm/wall_pages.hpp"
+#include "solver/sand_ranks.hpp"
 #include "solver/sand_report.hpp"
 #include "solver/world.hpp"
 
@@ -51,12 +50,15 @@ public:
 
     /// 1. Lists points by page and cell, unless the last report says that none has left its cell; after many such lists
     /// moves them in memory to where the list has them, without waiting. Sorts them and makes the pages anew, and
-    /// waits, when the report says that one comes near pages that are not listed.
+    /// waits, when the report says that one comes near pages that are not listed, or on several ranks when that may be
+    /// worth other owners of pages.
     void order();
 
+    /// How often points were moved in memory: what is known of them by their place holds while this stays.
+    std::int64_t orders() const { return orders_; }
     /// Points that changed their rank in the last order(), of all ranks; and of this one, by rank that they went to.
     std::int64_t                                   migrated() const { return migrated_; }
-    const std::vector<std::vector<std::uint32_t>>& departed() const { return migration_->departed(); }
+    const std::vector<std::vector<std::uint32_t>>& departed() const { return ranks_->migration().departed(); }
 
     /// 4. P2G.
     void scatter();
@@ -86,49 +88,51 @@ public:
     /// What a snapshot shows, of this rank.
     io::PointFields fields() const;
 
+    /// How the points fell to the ranks so far; null on one rank.
+    const decomp::BalanceRow* balance() const { return ranks_ ? &ranks_->balance() : nullptr; }
+
 private:
-    void           upload(const World& world, mpm::PointFields fields);
+    void           upload(const HostPoints& host, const std::vector<std::uint32_t>& ids, mpm::PointFields fields);
     void           order_in_memory();
     void           list_anew();
     void           clear_tallies();
     mpm::MovesView moves();
 
-    Exec                                         exec_;
-    decomp::Decomposition<Exec>*                 decomposition_;
-    mpm::GridGeometry                            geometry_;
-    mpm::GridWalls                               walls_;
-    Vec3<Real>                                   gravity_;
-    Real                                         mass_floor_;
-    mpm::Points<Exec, Real>                      points_;
-    mpm::Pages<Exec>                             pages_;
-    mpm::OrderScratch<Exec, Real>                order_scratch_;
-    mpm::RelistScratch<Exec>                     relist_scratch_;
-    Array<Exec, std::uint16_t>                   moves_to_;
-    Array<Exec, std::int32_t>                    move_counts_;
-    Array<Exec, std::int64_t>                    stirred_in_;
-    mpm::WallPages<Exec, Real>                   wall_pages_;
-    std::optional<decomp::Migration<Exec, Real>> migration_; ///< only on several ranks
-    std::optional<decomp::GridHalo<Exec, Real>>  halo_;      ///< the same
-    Array<Exec, Real>                            tiles_;
-    Array<Exec, Real>                            motion_;
-    Array<Exec, double>                          grid_rows_;
-    Array<Exec, double>                          point_rows_;
-    Array<Exec, double>                          peak_rows_;
-    Array<Exec, double>                          census_rows_;
-    Array<Exec, double>                          totals_;
-    Array<Exec, double>                          sums_scratch_;
-    Array<Exec, mpm::MaterialParameters<Real>>   materials_;
-    double                                       pic_rate_;
-    bool                                         cell_means_; ///< of volumetric strain, and of pressure
-    Array<Exec, Real>                            cell_divergence_;
-    Array<Exec, Real>                            shared_stress_;
-    double                                       mass_     = 0;
-    std::int64_t                                 step_     = 0;               ///< number of the last one
-    std::int64_t                                 steps_    = 0;               ///< since the last report
-    mpm::Stir                                    stir_     = mpm::Stir::lost; ///< in those before it
-    std::int64_t                                 migrated_ = 0;               ///< in the last order()
-    bool                                         listed_   = false;           ///< since the last step
-    int                                          relists_  = 0; ///< since they were last ordered in memory
+    Exec                                       exec_;
+    mpm::GridGeometry                          geometry_;
+    mpm::GridWalls                             walls_;
+    Vec3<Real>                                 gravity_;
+    Real                                       mass_floor_;
+    mpm::Points<Exec, Real>                    points_;
+    mpm::Pages<Exec>                           pages_;
+    mpm::OrderScratch<Exec, Real>              order_scratch_;
+    mpm::RelistScratch<Exec>                   relist_scratch_;
+    Array<Exec, std::uint16_t>                 moves_to_;
+    Array<Exec, std::int32_t>                  move_counts_;
+    Array<Exec, std::int64_t>                  stirred_in_;
+    mpm::WallPages<Exec, Real>                 wall_pages_;
+    std::optional<SandRanks<Exec, Real>>       ranks_; ///< only on several ranks
+    Array<Exec, Real>                          tiles_;
+    Array<Exec, Real>                          motion_;
+    Array<Exec, double>                        grid_rows_;
+    Array<Exec, double>                        point_rows_;
+    Array<Exec, double>                        peak_rows_;
+    Array<Exec, double>                        census_rows_;
+    Array<Exec, double>                        totals_;
+    Array<Exec, double>                        sums_scratch_;
+    Array<Exec, mpm::MaterialParameters<Real>> materials_;
+    double                                     pic_rate_;
+    bool                                       cell_means_; ///< of volumetric strain, and of pressure
+    Array<Exec, Real>                          cell_divergence_;
+    Array<Exec, Real>                          shared_stress_;
+    double                                     mass_    = 0;
+    std::int64_t                               step_    = 0;               ///< number of the last one
+    std::int64_t                               steps_   = 0;               ///< since the last report
+    mpm::Stir                                  stir_    = mpm::Stir::lost; ///< in those before it
+    bool                                       listed_  = false;           ///< since the last step
+    int                                        relists_ = 0;               ///< since they were last ordered in memory
+    std::int64_t                               orders_  = 0;
+    std::int64_t                               migrated_ = 0; ///< in the last order()
 };
 
 } // namespace tread::solver

@@ -77,24 +77,18 @@ template<class Exec, class Real>
 TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& clock)
 {
     if (unmeasured_ > 0 && step.dt != last_.dt) { measure(); } // the books take steps of one length together
+    if (rigid_) { heed_commands(); }
     if (sand_)
     {
         guard_->allow(step, time);
         clock.run(exec_, stage::order, [&] { sand_->order(); });
         if (coupling_ && sand_->migrated() > 0) { coupling_->send_after(sand_->departed()); }
     }
-    if (plan_.body_contact)
-    {
-        clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs(step.dt); });
-        pace_.shortest_contact = rigid_->shortest_contact();
-        step.substeps          = substeps_of(scene_.time, step.dt, limits_, pace_);
-    }
+    if (unmeasured_ == 0) { find_contacts(step, clock); }
+    if (plan_.body_contact) { step.substeps = substeps_of(scene_.time, step.dt, limits_, pace_); }
     if (coupling_)
     {
-        clock.run(
-            exec_, stage::candidates,
-            [&]
-            { coupling_->begin_step(sand_->view(), sand_->pages(), rigid_->view(), step.dt, pace_.largest_speed); });
+        clock.run(exec_, stage::candidates, [&] { coupling_->begin_step(sand_->view()); });
     }
     if (rigid_) { substeps(step, time, clock); }
     if (coupling_)
@@ -118,6 +112,38 @@ TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& cl
         clock.run(exec_, stage::measure, [&] { measure(); });
     }
     return step;
+}
+
+/// A body that a command makes faster than anything was has lists for this step alone.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::heed_commands()
+{
+    const double commanded = rigid_->take_commanded_speed();
+    if (commanded <= pace_.largest_speed) { return; }
+    if (unmeasured_ > 0) { measure(); }
+    pace_.largest_speed = std::max(pace_.largest_speed, commanded);
+    measure_every_      = 1;
+}
+
+/// Of the steps until the next measuring.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::find_contacts(const TimeStep& step, StageClock& clock)
+{
+    const double span = step.dt * static_cast<double>(measure_every_);
+    if (plan_.body_contact)
+    {
+        clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs(span); });
+        pace_.shortest_contact = rigid_->shortest_contact();
+    }
+    if (coupling_)
+    {
+        clock.run(exec_, stage::candidates,
+                  [&]
+                  {
+                      coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(),
+                                                 sand_->orders() + rigid_->deals(), span, pace_.largest_speed);
+                  });
+    }
 }
 
 template<class Exec, class Real>
@@ -177,16 +203,17 @@ void Simulation<Exec, Real>::coupled_substep(double dt, StageClock& clock)
               [&] { rigid_->move(dt, damping_, coupling_ ? coupling_->wrenches() : dem::OutsideWrenches{}); });
 }
 
-/// Where nothing but sand moves, several steps may pass before it is measured: as many as no point needs for half a
-/// cell. A step that is over its limits is watched.
+/// Several steps may pass before sand is measured, as many as no point needs for half a cell, and bodies that it meets,
+/// as many as their list of pairs lasts without a look. A step that is over its limits is watched.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::choose_measuring()
 {
     measure_every_ = 1;
-    if (rigid_ || !sand_ || over_limit(last_, limits_, pace_)) { return; }
+    if (!sand_ || over_limit(last_, limits_, pace_)) { return; }
     const double travel = pace_.largest_speed * last_.dt;
     measure_every_      = static_cast<std::int64_t>(
         std::clamp(unseen_travel * scene_.grid.spacing / travel, 1.0, static_cast<double>(most_unmeasured)));
+    if (rigid_) { measure_every_ = std::min(measure_every_, rigid_->unwatched_steps(last_.dt, pace_.largest_speed)); }
 }
 
 template<class Exec, class Real>
@@ -211,6 +238,7 @@ void Simulation<Exec, Real>::measure()
     ContactReport books;
     if (coupling_)
     {
+        coupling_->measure();
         const contact::Summary& contacts = coupling_->summary();
         pace_.stiffest_point             = contacts.stiffest.value;
         books                            = {contacts.dissipated, contacts.energy};

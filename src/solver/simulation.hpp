@@ -40,6 +40,9 @@ public:
     /// Share of the weight that was out of balance in the last step.
     double unbalanced() const { return unbalanced_; }
 
+    /// How the points fell to the ranks so far; null on one rank or without sand.
+    const decomp::BalanceRow* balance() const { return sand_ ? sand_->balance() : nullptr; }
+
     /// The scene must have sand.
     Sand<Exec, Real>& sand() { return *sand_; }
 
@@ -50,8 +53,9 @@ public:
     void command(const std::vector<BodyCommand>& commands, double damping);
 
     /// One MPM step of `step.dt` with its contact substeps (design: one step). NumericalError, with what, where and
-    /// which limit, when the state cannot be trusted any more; `time` is for that message. Sand without bodies is
-    /// measured every few steps, which pace() and unbalanced() then follow.
+    /// which limit, when the state cannot be trusted any more; `time` is for that message. What moves little is
+    /// measured every few steps only, which pace() and unbalanced() then follow; lists of contacts and N are those of
+    /// the first of these.
     TimeStep step(TimeStep step, double time, StageClock& clock);
 
     /// Whether pace() is of the last step: only then is there reason to choose another dt.
@@ -79,6 +83,8 @@ public:
     const Ledger& ledger() const { return *ledger_; }
 
 private:
+    void heed_commands();
+    void find_contacts(const TimeStep& step, StageClock& clock);
     void substeps(const TimeStep& step, double time, StageClock& clock);
     void coupled_substep(double dt, StageClock& clock);
     bool in_one_launch(double dt, std::int64_t count, StageClock& clock);

@@ -13,7 +13,7 @@
 namespace tread::solver
 {
 
-/// Wall time by stage. On a GPU a stage's end is waited for in one step of sixteen only, so that timing does not open
+/// Wall time by stage. On a GPU a stage's end is waited for in one step of seventeen only, so that timing does not open
 /// gaps between launches; its seconds are scaled from the calls that were timed.
 class StageClock
 {
@@ -49,7 +49,7 @@ private:
         double       seconds = 0;
     };
 
-    static constexpr std::int64_t gpu_sample = 16;
+    static constexpr std::int64_t gpu_sample = 17; ///< steps; no multiple of those between two reports
 
     bool sampled(const Cpu&) const { return true; }
     bool sampled(const Gpu&) const { return step_ % gpu_sample == 0; }

@@ -12,8 +12,7 @@ namespace tread::solver
 namespace
 {
 
-constexpr double contact_safety      = 0.2; ///< of sqrt(m / sum K), prototypes 1.7
-constexpr double contact_warning     = 0.4;
+constexpr double contact_warning     = 0.4; ///< of sqrt(m / sum K), prototypes 1.7
 constexpr double point_contact_bound = 0.5; ///< of k dt^2 / m_p, prototypes 2
 constexpr double point_contact_warn  = 2.0;
 constexpr double travel_bound        = 0.3;               ///< of the spacing, or of the smallest body
@@ -28,7 +27,7 @@ struct Bound
     const char* name;
 };
 
-Bound smallest_bound(const PaceLimits& limits, const Pace& pace)
+Bound smallest_bound(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace)
 {
     Bound      least{limits.longest, "output interval"};
     const auto bound = [&](double dt, const char* name)
@@ -50,7 +49,7 @@ Bound smallest_bound(const PaceLimits& limits, const Pace& pace)
     if (pace.stiffest_point > 0) { bound(std::sqrt(point_contact_bound / pace.stiffest_point), "sand-body contact"); }
     if (!sand && pace.shortest_contact > 0)
     {
-        bound(substeps_alone * contact_safety * pace.shortest_contact, "body-body contact");
+        bound(substeps_alone * options.contact_share * pace.shortest_contact, "body-body contact");
     }
     return least;
 }
@@ -63,7 +62,7 @@ std::int64_t substeps_of(const scene::TimeOptions& options, double dt, const Pac
     double needed = 1;
     if (pace.shortest_contact > 0)
     {
-        needed = std::max(needed, std::ceil(dt / (contact_safety * pace.shortest_contact)));
+        needed = std::max(needed, std::ceil(dt / (options.contact_share * pace.shortest_contact)));
     }
     if (limits.smallest_body > 0)
     {
@@ -80,7 +79,7 @@ TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits
     if (options.dt) { step = {*options.dt, 1, "fixed by the scene"}; }
     else
     {
-        const Bound bound = smallest_bound(limits, pace);
+        const Bound bound = smallest_bound(options, limits, pace);
         step              = {bound.dt, 1, bound.name};
         if (last_dt > 0 && step.dt > growth * last_dt) { step = {growth * last_dt, 1, "growth"}; }
     }

@@ -37,7 +37,8 @@ struct TimeStep
 };
 
 /// The step that the limits of the design allow: c_p dt/h <= courant, v dt <= 0.3 h, k dt^2/m_p <= 0.5 at the stiffest
-/// sand-body contact, dt/N <= 0.2 sqrt(m / sum K), v dt/N <= 0.3 of the smallest body. Grows by at most 5 % a step.
+/// sand-body contact, dt/N <= contact_share sqrt(m / sum K), v dt/N <= 0.3 of the smallest body. Grows by at most 5 % a
+/// step.
 /// Fixed values of the scene are taken as they are.
 TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace, double last_dt);
 

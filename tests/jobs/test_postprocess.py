@@ -82,6 +82,17 @@ def wheel_history(rows):
     }
 
 
+def rank_history(rows):
+    """Sand that moves away from a rank, twice dealt out anew."""
+    time = np.linspace(0, 3, rows)
+    return {
+        "time": (time, "s"),
+        "imbalance": (1.02 + 0.2 * (time % 1.2), "1"),
+        "repartitions": (np.floor(time / 1.2), "1"),
+        "points_moved": (1000 * time + 20000 * np.floor(time / 1.2), "1"),
+    }
+
+
 def drum():
     """A cylinder about y with closed ends."""
     angle = np.linspace(0, 2 * np.pi, 48, endpoint=False)
@@ -156,6 +167,7 @@ def make_run(path):
     with h5py.File(path / "timeseries.h5", "w") as file:
         write_columns(file.create_group("wheel/front wheel"), wheel_history(151))
         write_columns(file.create_group("energy"), {"time": (np.arange(3.0), "s"), "total": (np.ones(3), "J")})
+        write_columns(file.create_group("ranks"), rank_history(60))
         write_columns(file.create_group("phases"), {"index": (np.arange(3.0), "1"), "start": (np.array(STARTS), "s")})
     for number, time in ((0, 0.0), (7, 3.0)):
         write_points(path / "snapshots" / f"points_{number:04}.hdf", time)
@@ -223,6 +235,9 @@ class PostprocessTest(unittest.TestCase):
 
     def test_wheel_history(self):
         self.picture("wheel_history.py")
+
+    def test_balance(self):
+        self.picture("balance.py")
 
     def test_sdf_convergence(self):
         cells = np.array([10.0, 15, 20, 30, 40, 60, 80, 100, 150, 200])

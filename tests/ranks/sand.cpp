@@ -75,6 +75,9 @@ duration = 1.0
 )";
 }
 
+/// Where a test says who owns what, it stays so.
+const std::string owners_stay = "[balance]\nthreshold = 1e6\n";
+
 template<class Exec>
 class RankSand : public test::BackendTest<Exec>
 {
@@ -151,7 +154,7 @@ TYPED_TEST(RankSand, ColumnCollapsesAsOnOneRank)
 TYPED_TEST(RankSand, PagesMayBelongToAnyRank)
 {
     const auto scattered = [](mpm::Index3 page) { return (7 * page.x + 5 * page.y + 3 * page.z + 64) % 11; };
-    typename TestFixture::Run all(this->exec(), column_text(), test::Ranks::all, scattered);
+    typename TestFixture::Run all(this->exec(), column_text() + owners_stay, test::Ranks::all, scattered);
     typename TestFixture::Run alone(this->exec(), column_text(), test::Ranks::this_one);
     all.step(steps);
     alone.step(steps);
@@ -190,7 +193,7 @@ TYPED_TEST(RankSand, IsTheSameByEveryTransport)
 TYPED_TEST(RankSand, RanksBecomeEmptyAndFillAgain)
 {
     const auto                slabs = [](mpm::Index3 page) { return (page.x + 2) / 2; };
-    typename TestFixture::Run all(this->exec(), flight_text(), test::Ranks::all, slabs);
+    typename TestFixture::Run all(this->exec(), flight_text() + owners_stay, test::Ranks::all, slabs);
     typename TestFixture::Run alone(this->exec(), flight_text(), test::Ranks::this_one);
     const std::int64_t        before = all.simulation().points();
     int                       empty = 0, full = 0;
@@ -210,11 +213,27 @@ TYPED_TEST(RankSand, RanksBecomeEmptyAndFillAgain)
 TYPED_TEST(RankSand, ARankMayHaveNothing)
 {
     const auto                first_only = [](mpm::Index3) { return 0; };
-    typename TestFixture::Run all(this->exec(), column_text(), test::Ranks::all, first_only);
+    typename TestFixture::Run all(this->exec(), column_text() + owners_stay, test::Ranks::all, first_only);
     typename TestFixture::Run alone(this->exec(), column_text(), test::Ranks::this_one);
     all.step(50);
     alone.step(50);
     EXPECT_EQ(all.simulation().points() == 0, test::world().rank() > 0);
+    this->expect_agreement(all, alone, rounding);
+}
+
+TYPED_TEST(RankSand, PagesAreDealtOutAnewWhereThatPays)
+{
+    const auto                first_only = [](mpm::Index3) { return 0; };
+    typename TestFixture::Run all(this->exec(), column_text(), test::Ranks::all, first_only);
+    typename TestFixture::Run alone(this->exec(), column_text(), test::Ranks::this_one);
+    EXPECT_EQ(all.simulation().balance()->imbalance, test::world().size());
+    all.step(steps);
+    alone.step(steps);
+    const decomp::BalanceRow& found = *all.simulation().balance();
+    std::cout << fmt::format("[ ranks    ] imbalance {:.3f} after {} repartitions, {} points moved\n", found.imbalance,
+                             found.repartitions, found.points_moved);
+    EXPECT_EQ(found.repartitions, test::world().size() > 1 ? 1 : 0);
+    EXPECT_LT(found.imbalance, 1.15);
     this->expect_agreement(all, alone, rounding);
 }
 

@@ -11,7 +11,7 @@
 #include "kernels/mpm/pages.hpp"
 #include "kernels/mpm/points.hpp"
 
-// Which sand points may touch which body during one MPM step: found once, frozen during the substeps.
+// Which sand points may touch which body during one MPM step, or several: found once, frozen during the substeps.
 namespace tread::contact
 {
 
@@ -23,6 +23,7 @@ struct SearchReach
     double point_drift;    ///< m, how far a point may stand outside the cell that it is listed in
     double largest_radius; ///< m, of any point
     double sampled_below;  ///< m, PointBodyLaw's
+    double skin;           ///< m, twice the way that a body and a point may at least come nearer: room for more steps
 };
 
 /// (body, point) pairs, ordered by body; within a body by page and memory order.
@@ -81,8 +82,9 @@ struct Candidates
 };
 
 /// Every (body, point) pair that can come into contact within the step. A pair is kept when the point lies in the
-/// body's bounding box and under its signed distance, both grown by r_p and by twice what body and point can move, and
-/// the reach of the point's samples: the trilinear interpolant of a distance rises by at most sqrt(3) a metre.
+/// body's bounding box and under its signed distance, both grown by r_p, by the skin or twice what body and point can
+/// move if that is more, and by the reach of the point's samples: the trilinear interpolant of a distance rises by at
+/// most sqrt(3) a metre.
 template<class Exec, class Real>
 void find_candidates(const Exec& exec, Candidates<Exec>& candidates, const mpm::PointsView<Real>& points,
                      const mpm::PagesView& pages, const dem::BodiesView& bodies, const dem::TemplateView* templates,

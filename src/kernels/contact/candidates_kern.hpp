@@ -52,7 +52,7 @@ struct SearchBody
     double                   scale;
     Vec3<double>             position;
     Quat                     orientation;
-    double travel; ///< m, twice what body and points can move in the step, and twice the samples' reach
+    double travel; ///< m, twice what body and points can move in the step or the skin, and twice the samples' reach
 };
 
 TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::TemplateView* templates, std::int64_t b,
@@ -63,7 +63,8 @@ TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::Templa
     const double speed   = bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius + reach.point_speed;
     const bool   sampled = takes_samples(*shape, bodies.scale[b], reach.sampled_below);
     const double patch   = sampled ? patch_reach * reach.largest_radius : 0.0;
-    return {shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], 2.0 * (reach.dt * speed + patch)};
+    const double nearer  = std::fmax(2.0 * reach.dt * speed, reach.skin);
+    return {shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], nearer + 2.0 * patch};
 }
 
 /// Pages whose points may be candidates of the body: those under its axis-aligned box, grown.

@@ -7,8 +7,9 @@
 #include "kernels/contact/summary.hpp"
 #include "kernels/dem/outside.hpp"
 
-// Sand against rigid bodies during one MPM step: begin_step, N times substep, finish_step. During the substeps each
-// point in reach moves on a private copy of (x, v); only the accumulated impulse goes back to the sand.
+// Sand against rigid bodies during one MPM step: begin_step or begin_kept_step, N times substep, finish_step. During
+// the substeps each point in reach moves on a private copy of (x, v); only the accumulated impulse goes back to the
+// sand.
 namespace tread::contact
 {
 
@@ -52,7 +53,7 @@ struct ContactsView
     const std::int32_t* slot_first; ///< [count + 1], or null: one each
     Tangential*         tangential; ///< of the slots
     Response*           response;   ///< of the last substep
-    double*             dissipated; ///< J, friction, of the step so far
+    double*             dissipated; ///< J, friction, since summarise or begin_step
 
     TREAD_HD std::int64_t first_slot(std::int64_t c) const { return slot_first == nullptr ? c : slot_first[c]; }
 };
@@ -79,7 +80,8 @@ struct PointContact
         , run_of_body(exec, "contact run of body")
         , wrench_sums(exec, "contact wrench sums")
         , summary_sums(exec, "contact summary sums")
-        , summaries(exec, "contact summaries")
+        , summary(exec, "contact summary")
+        , all_parts(exec, "contact parts as one run")
         , marks(exec, "contact history marks")
     {
     }
@@ -122,16 +124,23 @@ struct PointContact
     Array<Exec, std::int32_t>       run_of_body;  ///< of Candidates::by_body; -1 = no candidates
     Array<Exec, dem::ContactWrench> wrench_sums;  ///< one for each part of a touched body's candidates
     Array<Exec, Summary>            summary_sums; ///< the same
-    Array<Exec, Summary>            summaries;    ///< one for each touched body
+    Array<Exec, Summary>            summary;      ///< of all
+    Array<Exec, std::int32_t>       all_parts;    ///< first and end of wrench_sums
     Array<Exec, std::int32_t>       marks;
 };
 
-/// Finds the candidates, copies their points (velocity from grid_velocity, impulse zero) and recalls the history.
-/// The points must be coupled (PointFields) and ordered in `pages`.
+/// Finds the candidates, copies their points (velocity from grid_velocity, impulse zero), and keeps and recalls the
+/// history. The points must be coupled (PointFields) and listed in `pages`.
 template<class Exec, class Real>
 void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::PointsView<Real>& points,
                 const mpm::PagesView& pages, const dem::BodiesView& bodies, const PointBodyLaw& law,
                 const SearchReach& reach);
+
+/// The same with the candidates, and their history, that the last begin_step found: for as long as nothing has come
+/// nearer to each other than its reach allowed and points stand where they stood in memory. Allocates nothing.
+template<class Exec, class Real>
+void begin_kept_step(const Exec& exec, PointContact<Exec>& contact, const mpm::PointsView<Real>& points,
+                     const PointBodyLaw& law);
 
 /// Forces of all candidates at the present places of points and bodies: contact.wrenches() for the bodies, which the
 /// caller moves; then the private points move by dt (s, of the substep). Allocates nothing.
@@ -139,12 +148,16 @@ template<class Exec>
 void substep(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesView& bodies, const PointBodyLaw& law,
              double dt);
 
-/// points.contact_force = impulse / dt (s, of the MPM step) for points in reach, zero for the others; keeps the
-/// history of the pairs that carry a tangential force.
+/// points.contact_force = impulse / dt (s, of the MPM step) for points in reach, zero for the others.
 template<class Exec, class Real>
 void finish_step(const Exec& exec, PointContact<Exec>& contact, const mpm::PointsView<Real>& points, double dt);
 
-/// Of the last substep (dissipated: of the step so far). Call before finish_step's points are ordered again.
+/// Puts what the pairs that carry a tangential force remember under their keys in contact.history: for the next search,
+/// which does so itself, or for others.
+template<class Exec>
+void keep_history(const Exec& exec, PointContact<Exec>& contact);
+
+/// Of the last substep (dissipated: since the last summary or begin_step).
 template<class Exec>
 Summary summarise(const Exec& exec, PointContact<Exec>& contact);
 

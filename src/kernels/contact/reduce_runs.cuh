@@ -2,6 +2,7 @@
 
 #include "backend/launch.cuh"
 #include "kernels/contact/runs.hpp"
+#include "kernels/dem/warp_lanes.cuh"
 
 namespace tread::contact
 {
@@ -47,6 +48,13 @@ void reduce_runs(const Gpu& gpu, const char* name, const RunsView& runs, Item it
 {
     constexpr int threads = 128;
     for_each_block<threads>(gpu, name, runs.count, ReduceRun<Sum, Item, Finish, threads>{runs, item, finish});
+}
+
+/// f(r, lanes) for every run r, a short one.
+template<class F>
+void for_each_run(const Gpu& gpu, const char* name, const RunsView& runs, F f)
+{
+    dem::for_each_group<part_lanes>(gpu, name, runs.count, f);
 }
 
 } // namespace tread::contact

@@ -2,6 +2,7 @@
 
 #include "backend/launch.hpp"
 #include "kernels/contact/runs.hpp"
+#include "kernels/dem/body_field_kern.hpp"
 
 namespace tread::contact
 {
@@ -17,6 +18,13 @@ void reduce_runs(const Cpu& cpu, const char* name, const RunsView& runs, Item it
                  for (std::int64_t i = runs.first[run]; i < runs.first[run + 1]; ++i) { sum = sum + item(i); }
                  finish(run, sum);
              });
+}
+
+/// f(r, lanes) for every run r, a short one.
+template<class F>
+void for_each_run(const Cpu& cpu, const char* name, const RunsView& runs, F f)
+{
+    for_each(cpu, name, runs.count, [=](std::int64_t run) { f(run, dem::OneLane{}); });
 }
 
 } // namespace tread::contact

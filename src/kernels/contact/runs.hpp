@@ -90,8 +90,10 @@ void find_runs(const Exec& exec, const Array<Exec, std::int32_t>& keys, Array<Ex
              run_steps::WriteRuns{keys.data(), count, marks.data(), runs.key.data(), runs.first.data()});
 }
 
-/// A long run is summed in parts, so that one body with all the contacts is not one thread's or one block's work.
-constexpr std::int32_t part_items = 512;
+/// A long run is summed in parts, so that one body with all the contacts is not one thread's or one block's work; on a
+/// GPU so many lanes share a part. Most rocks have fewer contacts than lanes.
+constexpr std::int32_t part_items = 32;
+constexpr int          part_lanes = 16;
 
 /// The parts of runs: a run of the list for each part, and a run of parts for each run.
 template<class Exec>
@@ -172,17 +174,6 @@ void split_runs(const Exec& exec, const RunsView& runs, Parts<Exec>& parts, Sort
     for_each(exec, "write parts", count + 1,
              run_steps::WriteParts{runs, parts.first_of_run.data(), count, parts.of_items.key.data(),
                                    parts.of_items.first.data()});
-}
-
-/// For every run r: finish(r, sum over its items i of item(i)), by parts, in a fixed order. `sums` holds one value for
-/// each part.
-template<class Sum, class Exec, class Item, class Finish>
-void reduce_parts(const Exec& exec, const char* name, const RunsView& runs, const Parts<Exec>& parts, Sum* sums,
-                  Item item, Finish finish)
-{
-    const RunsView parts_of_run{runs.count, runs.key, parts.first_of_run.data()};
-    reduce_runs<Sum>(exec, name, parts.of_items.view(), item, run_steps::StoreSum<Sum>{sums});
-    reduce_runs<Sum>(exec, name, parts_of_run, run_steps::LoadSum<Sum>{sums}, finish);
 }
 
 } // namespace tread::contact

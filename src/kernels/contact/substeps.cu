@@ -12,12 +12,16 @@ namespace
 using namespace contact_steps;
 using dem::repeat_threads;
 
-auto wrenches_part(PointContact<Gpu>& contact, const WrenchOf& wrench)
+constexpr std::int64_t few_bodies = 500; ///< each may have a warp to add up what sand does to it
+
+auto forces_part(PointContact<Gpu>& contact, const Respond& respond)
 {
-    using Store          = run_steps::StoreSum<dem::ContactWrench>;
     const RunsView parts = contact.candidates.body_parts.of_items.view();
-    return Part{parts.count, ReduceRun<dem::ContactWrench, WrenchOf, Store, repeat_threads>{
-                                 parts, wrench, {contact.wrench_sums.data()}}};
+    return dem::group_part<repeat_threads, part_lanes>(
+        parts.count, RespondPart<Respond>{parts,
+                                          respond,
+                                          {respond.contacts, respond.points.position, respond.bodies.position},
+                                          contact.wrench_sums.data()});
 }
 
 } // namespace
@@ -33,23 +37,34 @@ bool worth_one_launch(const Gpu&, PointContact<Gpu>& contact, const dem::BodySte
 void run_substeps(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw& law, const dem::BodyStep<Gpu>& step,
                   std::int64_t count)
 {
+    if (contact.candidates.body.size() == 0)
+    {
+        dem::run_substeps(gpu, step, count);
+        return;
+    }
     const ContactsView        contacts = contact.contacts();
     const PrivatePoints       points   = contact.private_points();
     const double              dt       = step.motion.dt;
     const dem::MeetByDistance meet;
-    const auto                respond =
-        items<repeat_threads>(contacts.candidates.count, Respond{contacts, points, step.bodies, law, dt});
-    const auto sum     = wrenches_part(contact, {contacts, points.position, step.bodies.position});
-    const auto advance = items<repeat_threads>(
+    const auto                forces  = forces_part(contact, {contacts, points, step.bodies, law, dt});
+    const auto                advance = items<repeat_threads>(
         points.count, MovePoint{contact.candidates.by_point.view(), contacts, points, law.motion, dt});
+    const auto run = [&](const auto& moved)
+    {
+        repeat<repeat_threads, dem::repeat_blocks_an_sm>(gpu, "substeps of sand and bodies", count,
+                                                         sequence(beside(dem::nodes_part(meet, step), forces),
+                                                                  dem::answers_part(meet, step),
+                                                                  beside(moved, advance)));
+    };
     dem::moving::with_damping(step, dem::moving::SumOutside{step.motion.outside},
                               [&](const auto& move)
                               {
-                                  repeat<repeat_threads, dem::repeat_blocks_an_sm>(
-                                      gpu, "substeps of sand and bodies", count,
-                                      sequence(beside(dem::nodes_part(meet, step), respond),
-                                               beside(dem::answers_part(meet, step), sum),
-                                               beside(dem::move_part(move, step.pairs), advance)));
+                                  const std::int64_t bodies = step.bodies.count;
+                                  if (bodies < few_bodies)
+                                  {
+                                      run(dem::group_part<repeat_threads, warp_size>(bodies, move));
+                                  }
+                                  else { run(dem::move_part(move, step.pairs)); }
                               });
 }
 

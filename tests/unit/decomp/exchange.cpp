@@ -260,7 +260,7 @@ TYPED_TEST(Exchanges, AllocateOnceAndNothingWithoutRows)
 TYPED_TEST(Exchanges, NoticeThatLessCameThanWasPlanned)
 {
     if (this->ranks() < 2) { GTEST_SKIP() << "one rank"; }
-    Transport<TypeParam>           transport(test::world(), this->exec(), TransportChoice::automatic);
+    Transport<TypeParam>           transport(test::world(), this->exec(), TransportChoice::host);
     Exchange<TypeParam>            exchange(transport, "test");
     Array<TypeParam, Pair>         from = this->pairs();
     Array<TypeParam, Pair>         to(this->exec(), "arrived", 2);
@@ -289,7 +289,7 @@ TEST_F(Transports, SayWhatTheyAre)
     const Transport<Gpu> host(test::world(), exec(), TransportChoice::host);
     std::printf("automatic: %s\n", any.description().c_str());
     EXPECT_EQ(host.carrier(), Carrier::host);
-    if (any.carrier() == Carrier::host)
+    if (any.carrier() != Carrier::mpi)
     {
         EXPECT_THROW(Transport<Gpu>(test::world(), exec(), TransportChoice::mpi), EnvironmentError);
     }

@@ -181,7 +181,7 @@ TYPED_TEST(ContactSamples, EachSampleHasItsHistory)
     scene.begin();
     scene.substep(1e-4);
     scene.finish();
-    const auto         before = read_out(scene.contact.history);
+    const auto         before = scene.records();
     std::map<int, int> samples, large;
     for (const auto& record : before)
     {
@@ -200,7 +200,7 @@ TYPED_TEST(ContactSamples, EachSampleHasItsHistory)
     ASSERT_NE(scene.points.id.to_host(), old_ids);
     scene.begin();
     scene.finish();
-    const auto after = read_out(scene.contact.history);
+    const auto after = scene.records();
     ASSERT_EQ(after.size(), before.size());
     for (std::size_t i = 0; i < after.size(); ++i)
     {

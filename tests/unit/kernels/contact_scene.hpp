@@ -98,6 +98,7 @@ struct SceneNumbers
     double               point_drift   = 0;    ///< m
     double               point_speed   = 1;    ///< m/s
     double               sampled_below = 0;    ///< m
+    double               skin          = 0;    ///< m
 };
 
 template<class Exec, class Real>
@@ -131,7 +132,8 @@ public:
     contact::SearchReach reach() const
     {
         const double radius = contact::point_radius(numbers.volume, contact::RadiusRule::sphere);
-        return {numbers.dt, numbers.point_speed, numbers.point_drift, radius * (1 + 1e-6), numbers.sampled_below};
+        return {numbers.dt,          numbers.point_speed,   numbers.point_drift,
+                radius * (1 + 1e-6), numbers.sampled_below, numbers.skin};
     }
 
     contact::PointBodyLaw law() const
@@ -146,6 +148,7 @@ public:
                         contact::RadiusRule::sphere, reach());
     }
     void begin() { begin_step(exec_, contact, points.view(), page_view(), bodies.view(), law(), reach()); }
+    void begin_kept() { begin_kept_step(exec_, contact, points.view(), law()); }
     /// Puts on the bodies what their sand does to them.
     void substep(double dt)
     {
@@ -175,7 +178,15 @@ public:
         bodies.torque.assign(torque);
         bodies.stiffness.assign(stiffness);
     }
-    void             finish() { finish_step(exec_, contact, points.view(), numbers.dt); }
+    void finish() { finish_step(exec_, contact, points.view(), numbers.dt); }
+
+    /// What the contacts remember, by key.
+    std::vector<contact::HistoryRecord> records()
+    {
+        keep_history(exec_, contact);
+        return read_out(contact.history);
+    }
+
     contact::Summary summary() { return summarise(exec_, contact); }
 
     /// Of bodies of 1 kg that meet sand alone.

@@ -1,4 +1,4 @@
-#include "contact_scene.hpp"
+#include "contact_places.hpp"
 
 #include <cstdio>
 #include <map>
@@ -20,33 +20,6 @@ class ContactStep : public ContactTest<Case>
 };
 
 TYPED_TEST_SUITE(ContactStep, ContactCases, ContactCaseNames);
-
-const double radius = contact::point_radius(SceneNumbers{}.volume, contact::RadiusRule::sphere);
-
-AnalyticShape slab() { return box_shape({0.1, 0.1, 0.02}, std::numeric_limits<double>::infinity(), 40); }
-
-/// A slab under the point (0.5, 0.5, 0.3), its upper face at z = 0.3.
-BodyState slab_below() { return {{0.5, 0.5, 0.28}}; }
-
-Vec3<double> point_over_slab(double overlap) { return {0.503, 0.497, 0.3 + radius - overlap}; }
-
-/// Points scattered in the skin of a sphere of radius 0.05 at the centre of the domain, gliding over it.
-std::vector<PointState> skin(std::size_t count)
-{
-    std::mt19937                           random(11);
-    std::normal_distribution<double>       normal;
-    std::uniform_real_distribution<double> depth(0, 0.5 * radius);
-    std::vector<PointState>                sand;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-        const Vec3<double> outwards = Vec3<double>(normal(random), normal(random), normal(random)).normalized();
-        sand.push_back({Vec3<double>::Constant(0.5) + (0.05 + radius - depth(random)) * outwards,
-                        0.1 * Vec3<double>(normal(random), normal(random), normal(random))});
-    }
-    return sand;
-}
-
-BodyState ball() { return {Vec3<double>::Constant(0.5), Quat::Identity(), {0.1, 0, 0}, {0, 3, 1}}; }
 
 Vec3<double> sum(const std::vector<Vec3<double>>& values)
 {
@@ -201,7 +174,7 @@ TYPED_TEST(ContactStep, HistorySurvivesTheOrderingOfPoints)
     const auto                  records = [&]
     {
         std::map<std::uint64_t, Vec3<double>> found;
-        for (const auto& record : read_out(scene.contact.history)) { found[record.key] = record.tangential.force; }
+        for (const auto& record : scene.records()) { found[record.key] = record.tangential.force; }
         EXPECT_EQ(static_cast<std::int64_t>(found.size()), scene.contact.history.key.size());
         return found;
     };

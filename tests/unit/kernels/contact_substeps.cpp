@@ -91,6 +91,34 @@ TYPED_TEST(ContactSubsteps, AreTheSameInOneLaunch)
     EXPECT_NEAR(other.totals.to_host()[0].sand_work, work, limit * std::fabs(work));
 }
 
+/// Before the first touch nothing acts from outside.
+TYPED_TEST(ContactSubsteps, BodiesThatMeetNoSandFallFreely)
+{
+    constexpr double            dt    = 1e-5;
+    constexpr int               count = 20, steps = 3;
+    typename TestFixture::Scene scene(this->exec(), {sphere_shape(0.05, 40)}, balls(), {{{0.1, 0.1, 0.1}}});
+    const auto                  start = scene.bodies.velocity.to_host();
+    for (int i = 0; i < steps; ++i)
+    {
+        scene.begin();
+        ASSERT_EQ(scene.contact.candidates.body.size(), 0);
+        run_substeps(this->exec(), scene.contact, scene.law(), scene.body_step(dt), count);
+        scene.finish();
+    }
+    const auto   end      = scene.bodies.velocity.to_host();
+    const double expected = -9.8 * dt * count * steps;
+    for (std::size_t b = 0; b < end.size(); ++b)
+    {
+        const Vec3<double> gained = end[b] - start[b];
+        std::printf("body %zu fell by %.15g m/s, expected %.15g, tolerance 1e-12 of it (rounding of %d sums)\n", b,
+                    gained[2], expected, count * steps);
+        EXPECT_NEAR(gained[2], expected, 1e-12 * std::fabs(expected));
+        EXPECT_EQ(gained[0], 0);
+        EXPECT_EQ(gained[1], 0);
+    }
+    EXPECT_EQ(scene.totals.to_host()[0].sand_work, 0);
+}
+
 /// What sand does to bodies is what they do to its points.
 TYPED_TEST(ContactSubsteps, ImpulseOfBodiesIsThatOfTheirSand)
 {

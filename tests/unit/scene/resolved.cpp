@@ -23,6 +23,7 @@ spacing = 0.1
 [time]
 dt = 1e-5
 substeps = 7
+contact_share = 0.3
 [numerics]
 precision = "double"
 transfer = "apic"
@@ -158,7 +159,7 @@ TEST(Resolved, what_was_read_is_what_was_written)
     EXPECT_EQ(scene.title, "quotes \" and \\ and \t tab");
     EXPECT_EQ(scene.domain.gravity[2], -0.30000000000000004);
     EXPECT_EQ(scene.domain.walls, (Walls{WallKind::fixed, WallKind::open, WallKind::slip, WallKind::frictional, 0.7}));
-    EXPECT_EQ(scene.time, (TimeOptions{1e-5, 7}));
+    EXPECT_EQ(scene.time, (TimeOptions{1e-5, 7, 0.3}));
     EXPECT_EQ(scene.numerics, (Numerics{Precision::double_, Transfer::apic, std::nullopt, ShapeFunctions::linear,
                                         NarrowPhase::rays, PointMotion::frozen, HertzFactor::paper_eq7,
                                         PointRadius::semi_domain, 1.5, 1e-2, VolumeStrain::cell_average}));
@@ -201,8 +202,8 @@ TEST(Resolved, shows_every_key_that_was_left_to_its_default)
     const auto      text = resolved_toml(load_text(directory, good_scene));
     for (const auto* line :
          {"dt = \"auto\"", "substeps = \"auto\"", "precision = \"single\"", "pic_rate = \"auto\"",
-          "linear_overlap = 0.001", "cohesion = 0.0", "family = \"sand\"", "sdf_cells = \"auto\"",
-          "rolling_radius = \"auto\"", "lock = []", "damping = 0.0", "every = 0.02",
+          "linear_overlap = 0.001", "contact_share = 0.2", "cohesion = 0.0", "family = \"sand\"",
+          "sdf_cells = \"auto\"", "rolling_radius = \"auto\"", "lock = []", "damping = 0.0", "every = 0.02",
           "walls = { x = \"slip\", y = \"slip\", bottom = \"fixed\", top = \"open\", friction = 0.5 }"})
     {
         EXPECT_THAT(text, HasSubstr(std::string(line) + "\n"));

@@ -50,6 +50,12 @@ TEST(TimeStep, SubstepsFollowTheStiffestBody)
     EXPECT_EQ(choose_step({}, sand_limits(), pace, 0).substeps, 1);
     pace.shortest_contact = 3.1e-4; // 0.2 of it is 6.2e-5, dt is 6e-4
     EXPECT_EQ(choose_step({}, sand_limits(), pace, 0).substeps, 10);
+    scene::TimeOptions bold;
+    bold.contact_share = 0.4;
+    EXPECT_EQ(choose_step(bold, sand_limits(), pace, 0).substeps, 5);
+    PaceLimits bodies_alone;
+    bodies_alone.longest = 1;
+    EXPECT_DOUBLE_EQ(choose_step(bold, bodies_alone, pace, 0).dt, 10 * 0.4 * 3.1e-4);
 }
 
 TEST(TimeStep, FixedValuesAreTakenAndChecked)
