@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "decomp/combine.hpp"
 #include "decomp/letters.hpp"
 #include "kernels/dem/pairs_kern.hpp"
 #include "solver/page_loads.hpp"
@@ -88,8 +89,8 @@ bool BodyRanks<Exec>::all(bool value) const
 template<class Exec>
 double BodyRanks<Exec>::largest(double value) const
 {
-    const std::vector<double> values = communicator_.gather(value);
-    return *std::max_element(values.begin(), values.end());
+    decomp::combine(communicator_, &value, 0, 1);
+    return value;
 }
 
 template<class Exec>
@@ -101,14 +102,6 @@ double BodyRanks<Exec>::shortest(double value) const
         if (other > 0 && (least == 0 || other < least)) { least = other; }
     }
     return least;
-}
-
-template<class Exec>
-void BodyRanks<Exec>::sum_doubles(double* values, std::size_t count) const
-{
-    const std::vector<double> rows = communicator_.gather(std::vector<double>(values, values + count));
-    std::fill(values, values + count, 0.0);
-    for (std::size_t i = 0; i < rows.size(); ++i) { values[i % count] += rows[i]; }
 }
 
 template<class Exec>

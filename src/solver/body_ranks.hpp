@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "decomp/combine.hpp"
 #include "decomp/decomposition.hpp"
 #include "decomp/exchange.hpp"
 #include "decomp/territory.hpp"
@@ -40,7 +41,7 @@ public:
     void sum(Row& row) const
     {
         static_assert(sizeof(Row) % sizeof(double) == 0);
-        sum_doubles(reinterpret_cast<double*>(&row), sizeof(Row) / sizeof(double));
+        decomp::combine(communicator_, reinterpret_cast<double*>(&row), sizeof(Row) / sizeof(double), 0);
     }
 
     /// Between dem::want_travel and dem::grant_travel: what all ranks' bodies want.
@@ -86,7 +87,6 @@ private:
     void hand_over_records(dem::Pairs<Exec>& pairs, const std::vector<Holding>& decided);
     void take_roles(dem::Bodies<Exec>& bodies, const std::vector<Holding>& held);
     void plan_sharing(const std::vector<Holding>& held);
-    void sum_doubles(double* values, std::size_t count) const;
 
     template<class Share>
     struct Shares

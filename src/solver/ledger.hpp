@@ -7,11 +7,9 @@
 namespace tread::solver
 {
 
-/// What the bodies did in one step, summed over them.
+/// What the bodies did in one step, summed over them, and the largest of two things. Doubles and nothing else.
 struct RigidReport
 {
-    double       overlap         = 0;                    ///< largest, over the smaller radius of the pair
-    double       largest_speed   = 0;                    ///< m/s
     double       net_force       = 0;                    ///< N, sum over free bodies of |contact + weight|
     double       friction        = 0;                    ///< J, body-body, of the step
     double       restitution     = 0;                    ///< J, body-body normal damping, of the step
@@ -19,11 +17,17 @@ struct RigidReport
     double       driver_work     = 0;                    ///< J, done by what holds and drives bodies, of the step
     double       sand_work       = 0;                    ///< J, done by sand, of the step
     double       weight_power    = 0;                    ///< W, of the weight on the velocity after the step
-    double       substep         = 0;                    ///< s
     Vec3<double> wall_impulse    = Vec3<double>::Zero(); ///< N s, of the step
     Vec3<double> damping_impulse = Vec3<double>::Zero();
     Vec3<double> driver_impulse  = Vec3<double>::Zero();
+    double       overlap         = 0; ///< largest, over the smaller radius of the pair
+    double       largest_speed   = 0; ///< m/s
+    double       substep         = 0; ///< s, the same on all ranks
 };
+
+/// Doubles in it that add up, and those after them of which the largest counts.
+inline constexpr int rigid_report_sums = 16, rigid_report_peaks = 3;
+static_assert(sizeof(RigidReport) == (rigid_report_sums + rigid_report_peaks) * sizeof(double));
 
 /// What the contacts of sand with bodies did in one step.
 struct ContactReport

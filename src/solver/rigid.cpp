@@ -210,10 +210,10 @@ void Rigid<Exec>::find_pairs(double dt)
 template<class Exec>
 bool Rigid<Exec>::list_holds(double dt)
 {
-    const auto all = [&](bool here) { return ranks_ ? ranks_->all(here) : here; };
-    if (!all(listed_ && !(ranks_ && ranks_->pages_have_changed()) && largest_stray_ahead(dt) <= 1)) { return false; }
+    const bool known = listed_ && !(ranks_ && ranks_->pages_have_changed());
+    if (!known || of_all(largest_stray_ahead(dt)) > 1) { return false; }
     if (!pairs_.patches.wanted) { return true; }
-    if (!all(dem::patch_rows_suffice(exec_, pairs_, bodies_.view(), law_))) { return false; }
+    if (of_all(dem::patch_rows_suffice(exec_, pairs_, bodies_.view(), law_) ? 0 : 1) > 0) { return false; }
     dem::regroup_patches(exec_, pairs_, bodies_.view(), law_);
     return true;
 }

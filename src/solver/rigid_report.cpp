@@ -6,6 +6,7 @@
 
 #include "backend/reduce.hpp"
 #include "base/errors.hpp"
+#include "decomp/combine.hpp"
 #include "kernels/dem/sums.hpp"
 #include "solver/rigid.hpp"
 
@@ -75,10 +76,7 @@ void Rigid<Exec>::check(RigidReport& report, double sum_of_speeds, const Array<E
 template<class Exec>
 void Rigid<Exec>::add_up(RigidReport& report) const
 {
-    const double overlap = ranks_->largest(report.overlap), speed = ranks_->largest(report.largest_speed);
-    ranks_->sum(report);
-    report.overlap       = overlap;
-    report.largest_speed = speed;
+    decomp::combine(ranks_->communicator(), reinterpret_cast<double*>(&report), rigid_report_sums, rigid_report_peaks);
 }
 
 /// What has been added to the totals since the last report.
