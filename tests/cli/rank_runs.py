@@ -63,7 +63,7 @@ class Ranks(CommandTest):
             self.assertEqual(sorted(data["id"][()]), list(range(8 * 8 * 2 * 8)))
 
     def test_a_wheel_on_sand_does_on_two_ranks_what_it_does_on_one(self):
-        body = BODY.replace("0.3]", "0.18]") + "velocity = [0.0, 0.0, -0.8]\n"
+        body = BODY.replace("0.3]", "0.165]") + "velocity = [0.0, 0.0, -0.8]\n"
         one, _ = self.run_on(1, text=SCENE + body)
         two, _ = self.run_on(2, text=SCENE + body)
         force = column(one, "wheel/roller/force")
