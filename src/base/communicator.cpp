@@ -167,6 +167,7 @@ std::vector<std::vector<std::uint64_t>>
 Communicator::all_to_all(const std::vector<std::vector<std::uint64_t>>& to) const
 {
     std::vector<std::int64_t> counts;
+    counts.reserve(to.size());
     for (const auto& values : to) { counts.push_back(static_cast<std::int64_t>(values.size())); }
     const std::vector<std::int64_t> coming = all_to_all(counts);
 

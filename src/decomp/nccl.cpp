@@ -69,7 +69,8 @@ struct NcclLibrary
 Nccl::Nccl(const Communicator& communicator)
     : library_(std::make_unique<NcclLibrary>())
 {
-    if (communicator.maximum(library_->open() ? 0 : 1) > 0)
+    const bool opened = library_->open();
+    if (communicator.maximum(opened ? 0 : 1) > 0 || !opened)
     {
         throw EnvironmentError("NCCL: not every rank finds libnccl.so.2");
     }

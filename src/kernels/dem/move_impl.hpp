@@ -273,18 +273,17 @@ struct ShareWrench
 template<class Exec, class Outside, class Run>
 void with_damping(const BodyStep<Exec>& step, const Outside& outside, Run run)
 {
-    const auto& [pairs, bodies, law, totals, named, motion, shared] = step;
     const auto with = [&]<class Damping, class Ranks>(const Damping& damping, const Ranks& ranks)
     {
-        run(Move<Damping, Outside, Ranks>{bodies, pairs.view(), totals, named, motion.gravity, motion.dt, damping,
-                                          outside, ranks});
+        run(Move<Damping, Outside, Ranks>{step.bodies, step.pairs.view(), step.totals, step.named, step.motion.gravity,
+                                          step.motion.dt, damping, outside, ranks});
     };
     const auto among = [&](const auto& damping)
     {
-        if (bodies.role == nullptr) { with(damping, Alone{}); }
-        else { with(damping, Together{shared}); }
+        if (step.bodies.role == nullptr) { with(damping, Alone{}); }
+        else { with(damping, Together{step.shared}); }
     };
-    if (motion.damping > 0) { among(Damped{motion.damping}); }
+    if (step.motion.damping > 0) { among(Damped{step.motion.damping}); }
     else { among(Free{}); }
 }
 

@@ -94,6 +94,9 @@ struct WriteMore
     }
 };
 
+template<class Near>
+WriteMore(BodiesView, const TemplateView*, double, const double*, Near, double*) -> WriteMore<Near>;
+
 struct WriteReach
 {
     BodiesView          bodies;
