@@ -108,7 +108,7 @@ template<class Exec>
 void BodyRanks<Exec>::sum_wanted_travel(dem::Pairs<Exec>& pairs) const
 {
     double wanted = read(exec_, pairs.measure.data());
-    sum(wanted);
+    decomp::combine(communicator_, &wanted, 1, 0);
     copy_from_host(exec_, pairs.measure.data(), &wanted, sizeof(wanted));
 }
 
