@@ -21,6 +21,7 @@ namespace
 {
 
 constexpr double hit_twice = 4; ///< times as fast may a light body be that is hit by one that was hit itself
+
 /// Spacings: how far from the pages of its rank sand may be met. Points may be a page beyond before they change their
 /// rank, and have a radius.
 constexpr double sand_reach = mpm::page_edge + 2;
