@@ -8,7 +8,7 @@ namespace tread
 {
 
 void sort_by_key(const Cpu& cpu, Array<Cpu, std::uint64_t>& keys, Array<Cpu, std::int32_t>& values,
-                 SortScratch<Cpu>& scratch)
+                 SortScratch<Cpu>& scratch, int)
 {
     cpu.counters->launched("sort");
     const std::int64_t n = keys.size();

@@ -1,3 +1,5 @@
+#include <array>
+
 #include <cub/cub.cuh>
 
 #include "backend/count_limit.hpp"
@@ -8,7 +10,7 @@ namespace tread
 {
 
 void sort_by_key(const Gpu& gpu, Array<Gpu, std::uint64_t>& keys, Array<Gpu, std::int32_t>& values,
-                 SortScratch<Gpu>& scratch)
+                 SortScratch<Gpu>& scratch, int bits)
 {
     const std::int64_t n = keys.size();
     if (n == 0) { return; }
@@ -18,13 +20,13 @@ void sort_by_key(const Gpu& gpu, Array<Gpu, std::uint64_t>& keys, Array<Gpu, std
     const int   count = static_cast<int>(n);
     std::size_t bytes = 0;
     check_cuda(cub::DeviceRadixSort::SortPairs(nullptr, bytes, keys.data(), scratch.keys.data(), values.data(),
-                                               scratch.values.data(), count, 0, 64, gpu.stream),
+                                               scratch.values.data(), count, 0, bits, gpu.stream),
                "sort");
     scratch.bytes.resize(static_cast<std::int64_t>(bytes));
     check_cuda(cub::DeviceRadixSort::SortPairs(scratch.bytes.data(), bytes, keys.data(), scratch.keys.data(),
-                                               values.data(), scratch.values.data(), count, 0, 64, gpu.stream),
+                                               values.data(), scratch.values.data(), count, 0, bits, gpu.stream),
                "sort");
-    copy(gpu, keys.data(), scratch.keys.data(), static_cast<std::size_t>(n) * sizeof(std::uint64_t));
+    keys.swap(scratch.keys);
     copy(gpu, values.data(), scratch.values.data(), static_cast<std::size_t>(n) * sizeof(std::int32_t));
 }
 
@@ -45,9 +47,13 @@ std::int64_t exclusive_scan(const Gpu& gpu, Array<Gpu, std::int32_t>& values, So
 {
     const std::int64_t n = values.size();
     if (n == 0) { return 0; }
-    const auto last = static_cast<std::uint32_t>(read(gpu, values.data() + n - 1));
+    scratch.ends.resize(2);
+    std::int32_t* ends = scratch.ends.data();
+    copy(gpu, ends, values.data() + n - 1, sizeof(std::int32_t));
     scan_in_place(gpu, values, scratch);
-    const std::uint32_t sum = static_cast<std::uint32_t>(read(gpu, values.data() + n - 1)) + last; // it wraps
+    copy(gpu, ends + 1, values.data() + n - 1, sizeof(std::int32_t));
+    const auto          both = read(gpu, reinterpret_cast<const std::array<std::uint32_t, 2>*>(ends)); // in one wait
+    const std::uint32_t sum  = both[0] + both[1];                                                      // it wraps
     require_countable(sum);
     return sum;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "backend/array.hpp"
@@ -16,17 +17,28 @@ struct SortScratch
         : bytes(exec, "sort scratch")
         , keys(exec, "sort scratch keys")
         , values(exec, "sort scratch values")
+        , ends(exec, "scan ends")
     {
     }
 
     Array<Exec, unsigned char> bytes;
     Array<Exec, std::uint64_t> keys;
     Array<Exec, std::int32_t>  values;
+    Array<Exec, std::int32_t>  ends; ///< what a scan's last value was, and what it became
 };
 
-/// Sorts both arrays by key, stably: equal keys keep their order. n < 2^31.
-void sort_by_key(const Cpu&, Array<Cpu, std::uint64_t>& keys, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&);
-void sort_by_key(const Gpu&, Array<Gpu, std::uint64_t>& keys, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>&);
+/// Bits that tell the numbers below `count` apart.
+inline int bits_below(std::int64_t count)
+{
+    return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count)));
+}
+
+/// Sorts both arrays by key, stably: equal keys keep their order. n < 2^31 keys; values after the n-th stay. Keys are
+/// below 2^bits: a GPU takes eight of them at a time.
+void sort_by_key(const Cpu&, Array<Cpu, std::uint64_t>& keys, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&,
+                 int bits = 64);
+void sort_by_key(const Gpu&, Array<Gpu, std::uint64_t>& keys, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>&,
+                 int bits = 64);
 
 /// values[i] becomes the sum of the values before i.
 void scan_in_place(const Cpu&, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&);

@@ -240,7 +240,7 @@ void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
     pairs.peak.resize(count);
     pairs.second_key.resize(count);
     for_each(exec, "renew pairs", count, Renew{pairs.view(), pairs.second_key.data(), pairs.by_second.data()});
-    sort_by_key(exec, pairs.second_key, pairs.by_second, pairs.sort);
+    sort_by_key(exec, pairs.second_key, pairs.by_second, pairs.sort, bits_below(most_bodies));
 
     pairs.first.resize(bodies.count + 1);
     pairs.second.resize(bodies.count + 1);
@@ -285,7 +285,7 @@ void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesVie
     pairs.key.swap(pairs.second_key);
     pairs.first_node.swap(pairs.by_second);
     give_back(pairs.second_key, pairs.by_second, pairs.found);
-    sort_by_key(exec, pairs.key, pairs.first_node, pairs.sort); // the zero at the end stays there
+    sort_by_key(exec, pairs.key, pairs.first_node, pairs.sort, 32 + bits_below(bodies.count)); // its last zero stays
     pairs.node.resize(exclusive_scan(exec, pairs.first_node, pairs.sort));
     list_contact_nodes(exec, pairs, bodies, law);
 }
