@@ -63,6 +63,8 @@ void copy(const Cpu&, void* to, const void* from, std::size_t bytes)
 
 void copy_to_host(const Cpu& cpu, void* to, const void* from, std::size_t bytes) { copy(cpu, to, from, bytes); }
 
+void start_copy_to_host(const Cpu& cpu, void* to, const void* from, std::size_t bytes) { copy(cpu, to, from, bytes); }
+
 void copy_from_host(const Cpu& cpu, void* to, const void* from, std::size_t bytes) { copy(cpu, to, from, bytes); }
 
 void synchronize(const Cpu&) {}

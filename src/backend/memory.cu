@@ -61,8 +61,13 @@ void copy(const Gpu& gpu, void* to, const void* from, std::size_t bytes)
 void copy_to_host(const Gpu& gpu, void* to, const void* from, std::size_t bytes)
 {
     if (bytes == 0) { return; }
-    check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, gpu.stream), "copy to the host");
+    start_copy_to_host(gpu, to, from, bytes);
     synchronize(gpu);
+}
+
+void start_copy_to_host(const Gpu& gpu, void* to, const void* from, std::size_t bytes)
+{
+    check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, gpu.stream), "copy to the host");
 }
 
 void copy_from_host(const Gpu& gpu, void* to, const void* from, std::size_t bytes)

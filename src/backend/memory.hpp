@@ -36,6 +36,10 @@ void copy(const Gpu&, void* to, const void* from, std::size_t bytes);
 void copy_to_host(const Cpu&, void* to, const void* from, std::size_t bytes);
 void copy_to_host(const Gpu&, void* to, const void* from, std::size_t bytes);
 
+/// The bytes have arrived after the next synchronize; `to` is memory that the device reaches (Pinned).
+void start_copy_to_host(const Cpu&, void* to, const void* from, std::size_t bytes);
+void start_copy_to_host(const Gpu&, void* to, const void* from, std::size_t bytes);
+
 void copy_from_host(const Cpu&, void* to, const void* from, std::size_t bytes);
 void copy_from_host(const Gpu&, void* to, const void* from, std::size_t bytes);
 

@@ -51,6 +51,7 @@ Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, cons
            0.0}
     , largest_radius_(largest_point_radius(world, law_.radius))
     , skin_(skin_share * largest_radius_)
+    , told_(exec, "contact summary told")
     , communicator_(decomposition == nullptr ? nullptr : &decomposition->communicator)
 {
     constexpr std::size_t most = std::size_t{1} << contact::history_body_bits;
@@ -123,11 +124,21 @@ void Coupling<Exec, Real>::finish_step(const mpm::PointsView<Real>& points, doub
 template<class Exec, class Real>
 void Coupling<Exec, Real>::measure()
 {
-    summary_ = contact::summarise(exec_, contact_);
+    if (!asked_) { ask_measure(); }
+    asked_ = false;
+    synchronize(exec_);
+    summary_ = any_near() ? told_.get() : contact::Summary::zero();
     if (communicator_ == nullptr) { return; }
     const auto of_ranks = decomp::gather_values<contact::Summary>(*communicator_, {summary_});
     summary_            = contact::Summary::zero();
     for (const auto& summary : of_ranks) { summary_ = summary_ + summary.front(); }
+}
+
+template<class Exec, class Real>
+void Coupling<Exec, Real>::ask_measure()
+{
+    if (any_near()) { told_.fetch(contact::summarise(exec_, contact_)); }
+    asked_ = true;
 }
 
 template class Coupling<Cpu, float>;

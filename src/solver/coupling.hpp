@@ -1,5 +1,6 @@
 #pragma once
 
+#include "backend/fetched.hpp"
 #include "decomp/decomposition.hpp"
 #include "kernels/contact/substeps.hpp"
 #include "solver/world.hpp"
@@ -46,20 +47,27 @@ public:
     /// Takes stock of the last substep, of all ranks; waits for it.
     void measure();
 
+    /// Asks for that already, so that one wait serves others' too.
+    void ask_measure();
+
     /// As last measured (dissipated: since the time before that).
     const contact::Summary& summary() const { return summary_; }
 
 private:
-    Exec                        exec_;
-    contact::PointContact<Exec> contact_;
-    contact::PointBodyLaw       law_;
-    double                      largest_radius_;
-    double                      skin_;            ///< m
-    double                      used_    = 0;     ///< m of it, since the search
-    std::int64_t                version_ = 0;     ///< at the search; 0 = none yet
-    bool                        begun_   = false; ///< by the search
-    contact::Summary            summary_ = contact::Summary::zero();
-    const Communicator*         communicator_; ///< null on one rank
+    bool any_near() const { return contact_.candidates.body.size() > 0; }
+
+    Exec                            exec_;
+    contact::PointContact<Exec>     contact_;
+    contact::PointBodyLaw           law_;
+    double                          largest_radius_;
+    double                          skin_;            ///< m
+    double                          used_    = 0;     ///< m of it, since the search
+    std::int64_t                    version_ = 0;     ///< at the search; 0 = none yet
+    bool                            begun_   = false; ///< by the search
+    contact::Summary                summary_ = contact::Summary::zero();
+    Fetched<Exec, contact::Summary> told_;
+    bool                            asked_ = false; ///< for the next summary
+    const Communicator*             communicator_;  ///< null on one rank
 };
 
 } // namespace tread::solver

@@ -58,6 +58,9 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     , impulses_(exec, "contact impulses")
     , bounding_radii_(exec, "body bounding radii")
     , sums_(exec, "body sums", sizeof(ReportSums) / sizeof(double))
+    , told_(exec, "body sums told")
+    , told_stray_(exec, "body travel told")
+    , told_overlap_(exec, "body overlap told")
     , strays_(exec)
     , released_(static_cast<std::size_t>(named_), false)
     , commanded_(static_cast<std::size_t>(named_))
@@ -222,7 +225,8 @@ bool Rigid<Exec>::list_holds(double dt)
 template<class Exec>
 double Rigid<Exec>::largest_stray_ahead(double ahead)
 {
-    return dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), ahead);
+    return read(exec_,
+                dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), ahead));
 }
 
 template<class Exec>
@@ -274,7 +278,8 @@ void Rigid<Exec>::find_pairs_if_strayed(double ahead, double left, double time)
         [&]
         {
             require_finite(time);
-            overlap_ = std::max(overlap_, guard(time)); // the search forgets the peaks of the pairs
+            const double overlap = read(exec_, dem::largest_overlap(exec_, pairs_, bodies_.view(), law_));
+            overlap_ = std::max(overlap_, guard(time, overlap)); // the search forgets the peaks of the pairs
         });
     find_pairs(left);
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "backend/fetched.hpp"
 #include "io/snapshot.hpp"
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/impulses.hpp"
@@ -103,6 +104,9 @@ public:
     /// finite place: `time` (s) is for that message.
     RigidReport report(double time);
 
+    /// Asks for the report already, so that one wait serves others' too.
+    void ask_report();
+
     /// Of the pairs of the last step that touch.
     std::vector<ContactRecord> contacts() const;
 
@@ -119,8 +123,8 @@ private:
     void   list_pairs_anew(double dt);
     bool   list_holds(double dt);
     double largest_stray_ahead(double ahead);
-    void check(RigidReport& report, double sum_of_speeds, const Array<Exec, dem::BodyActivity>& activity, double time);
-    void add_up(RigidReport& report) const;
+    void   check(RigidReport& report, double sum_of_speeds, double time);
+    void   add_up(RigidReport& report) const;
 
     dem::SharedView shared() { return ranks_ ? ranks_->shared() : dem::SharedView{}; }
     double          of_all(double value) const { return ranks_ ? ranks_->largest(value) : value; }
@@ -133,8 +137,8 @@ private:
         else { checks(); }
     }
     void require_finite(double time);
-    void require_listed(double time);
-    void require_resolved(double time, double speed, const Array<Exec, dem::BodyActivity>& activity);
+    void require_listed(double time, double stray);
+    void require_resolved(double time, double speed);
     void take(const dem::BodyTotal& now, RigidReport& report);
 
     /// Over all bodies.
@@ -144,43 +148,45 @@ private:
         dem::BodyActivity all;
         dem::BodyTotal    total;
     };
-    ReportSums sum_for_report(Array<Exec, dem::BodyActivity>& activity);
+    double guard(double time, double overlap);
 
-    double guard(double time);
-
-    Exec                                    exec_;
-    const scene::Scene&                     scene_;
-    const World&                            world_;
-    Vec3<double>                            gravity_;
-    double                                  mass_ = 0;
-    std::int64_t                            named_;
-    bool                                    contacts_; ///< some body may meet another or a wall
-    DeviceTemplates<Exec>                   templates_;
-    DeviceRays<Exec>                        rays_;
-    dem::Bodies<Exec>                       bodies_;
-    dem::Pairs<Exec>                        pairs_;
-    Array<Exec, dem::PairProperties>        properties_;
-    Array<Exec, dem::Plane>                 planes_;
-    dem::BodyTotals<Exec>                   totals_;
-    Array<Exec, dem::ContactImpulse>        impulses_; ///< of the named bodies, since begin_mean()
-    Array<Exec, double>                     bounding_radii_;
-    Array<Exec, double>                     sums_;
-    dem::Strays<Exec>                       strays_;
-    double                                  smallest_radius_ = 0;     ///< m, of the bounding spheres
-    bool                                    listed_          = false; ///< pairs were found
-    std::int64_t                            deals_           = 0;
-    bool                                    watched_         = false; ///< of the present step: not only at its end
-    double                                  commanded_speed_ = 0;     ///< m/s, the largest that commands gave
-    double                                  overlap_ = 0; ///< largest over radius, before the list was found anew
-    dem::BodyLaw                            law_{};
-    std::vector<bool>                       released_;            ///< named bodies that were free once
-    std::vector<std::optional<BodyCommand>> commanded_;           ///< of the named bodies, the last
-    double                                  mean_time_       = 0; ///< s, since begin_mean()
-    double                                  substep_         = 0; ///< s, the last
-    double                                  command_work_    = 0; ///< J, of commands since the last report
-    Vec3<double>                            command_impulse_ = Vec3<double>::Zero();
-    dem::BodyTotal                          taken_{}; ///< totals at the last report
-    std::optional<BodyRanks<Exec>>          ranks_;
+    Exec                                          exec_;
+    const scene::Scene&                           scene_;
+    const World&                                  world_;
+    Vec3<double>                                  gravity_;
+    double                                        mass_ = 0;
+    std::int64_t                                  named_;
+    bool                                          contacts_; ///< some body may meet another or a wall
+    DeviceTemplates<Exec>                         templates_;
+    DeviceRays<Exec>                              rays_;
+    dem::Bodies<Exec>                             bodies_;
+    dem::Pairs<Exec>                              pairs_;
+    Array<Exec, dem::PairProperties>              properties_;
+    Array<Exec, dem::Plane>                       planes_;
+    dem::BodyTotals<Exec>                         totals_;
+    Array<Exec, dem::ContactImpulse>              impulses_; ///< of the named bodies, since begin_mean()
+    Array<Exec, double>                           bounding_radii_;
+    Array<Exec, double>                           sums_;     ///< ReportSums
+    std::optional<Array<Exec, dem::BodyActivity>> activity_; ///< of the report that was asked for
+    Fetched<Exec, ReportSums>                     told_;
+    Fetched<Exec, double>                         told_stray_;
+    Fetched<Exec, double>                         told_overlap_;
+    dem::Strays<Exec>                             strays_;
+    double                                        smallest_radius_ = 0;     ///< m, of the bounding spheres
+    bool                                          listed_          = false; ///< pairs were found
+    std::int64_t                                  deals_           = 0;
+    bool                                          watched_ = false;     ///< of the present step: not only at its end
+    double                                        commanded_speed_ = 0; ///< m/s, the largest that commands gave
+    double                                        overlap_ = 0; ///< largest over radius, before the list was found anew
+    dem::BodyLaw                                  law_{};
+    std::vector<bool>                             released_;            ///< named bodies that were free once
+    std::vector<std::optional<BodyCommand>>       commanded_;           ///< of the named bodies, the last
+    double                                        mean_time_       = 0; ///< s, since begin_mean()
+    double                                        substep_         = 0; ///< s, the last
+    double                                        command_work_    = 0; ///< J, of commands since the last report
+    Vec3<double>                                  command_impulse_ = Vec3<double>::Zero();
+    dem::BodyTotal                                taken_{}; ///< totals at the last report
+    std::optional<BodyRanks<Exec>>                ranks_;
 };
 
 } // namespace tread::solver

@@ -18,11 +18,10 @@ constexpr double longest_leap    = 1;   ///< of the smallest radius, in a subste
 
 } // namespace
 
-/// Largest overlap over radius, if the law can carry it.
+/// The largest overlap over radius, dem::largest_overlap's, if the law can carry it.
 template<class Exec>
-double Rigid<Exec>::guard(double time)
+double Rigid<Exec>::guard(double time, double ratio)
 {
-    const double ratio = dem::largest_overlap(exec_, pairs_, bodies_.view(), law_);
     if (ratio <= deepest_overlap) { return ratio; }
     const std::uint64_t key  = dem::deepest_pair(pairs_, ratio);
     const bool          wall = dem::second_of(key) >= bodies_.position.size();
@@ -54,10 +53,8 @@ void Rigid<Exec>::require_finite(double time)
 
 /// After a step in which nobody watched: a body may have met one that the list of pairs does not have.
 template<class Exec>
-void Rigid<Exec>::require_listed(double time)
+void Rigid<Exec>::require_listed(double time, double largest)
 {
-    if (watched_) { return; }
-    const double largest = dem::largest_stray(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data());
     if (largest <= 1) { return; }
     if (std::isinf(largest)) { require_finite(time); }
     const std::vector<double> shares = strays_.share.to_host();
@@ -69,26 +66,26 @@ void Rigid<Exec>::require_listed(double time)
 
 /// A body that leaps over the smallest one in a substep leaps over its contact.
 template<class Exec>
-void Rigid<Exec>::require_resolved(double time, double speed, const Array<Exec, dem::BodyActivity>& activity)
+void Rigid<Exec>::require_resolved(double time, double speed)
 {
     const double leap = speed * substep_;
     if (leap <= longest_leap * smallest_radius_) { return; }
-    const std::vector<dem::BodyActivity> rows = activity.to_host();
+    const std::vector<dem::BodyActivity> rows = activity_->to_host();
     const auto body = std::find_if(rows.begin(), rows.end(), [&](const auto& one) { return one.speed == speed; });
     throw NumericalError(fmt::format("t = {:.6g} s: body {} moves {:.4g} m in a substep, {:.3g} of the smallest body's "
                                      "radius (at most {}): more substeps, or a smaller dt",
                                      time, name(body - rows.begin()), leap, leap / smallest_radius_, longest_leap));
 }
 
-template double Rigid<Cpu>::guard(double);
+template double Rigid<Cpu>::guard(double, double);
 template void   Rigid<Cpu>::require_finite(double);
-template void   Rigid<Cpu>::require_listed(double);
-template void   Rigid<Cpu>::require_resolved(double, double, const Array<Cpu, dem::BodyActivity>&);
+template void   Rigid<Cpu>::require_listed(double, double);
+template void   Rigid<Cpu>::require_resolved(double, double);
 #ifdef TREAD_WITH_CUDA
-template double Rigid<Gpu>::guard(double);
+template double Rigid<Gpu>::guard(double, double);
 template void   Rigid<Gpu>::require_finite(double);
-template void   Rigid<Gpu>::require_listed(double);
-template void   Rigid<Gpu>::require_resolved(double, double, const Array<Gpu, dem::BodyActivity>&);
+template void   Rigid<Gpu>::require_listed(double, double);
+template void   Rigid<Gpu>::require_resolved(double, double);
 #endif
 
 } // namespace tread::solver

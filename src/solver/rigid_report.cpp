@@ -7,6 +7,7 @@
 #include "backend/reduce.hpp"
 #include "base/errors.hpp"
 #include "decomp/combine.hpp"
+#include "kernels/dem/contact_limits.hpp"
 #include "kernels/dem/sums.hpp"
 #include "solver/rigid.hpp"
 
@@ -29,23 +30,25 @@ std::vector<double> rows(const std::vector<T>& vectors)
 template<class Exec>
 RigidReport Rigid<Exec>::report(double time)
 {
-    RigidReport                    report;
-    Array<Exec, dem::BodyActivity> activity(exec_, "body activity", bodies_.position.size());
-    const ReportSums               sums = sum_for_report(activity);
+    if (!activity_) { ask_report(); }
+    synchronize(exec_);
+    RigidReport      report;
+    const ReportSums sums = told_.get();
     take(sums.total, report);
     report.largest_speed = sums.most.speed;
     report.net_force     = sums.all.net_force;
     report.weight_power  = sums.all.weight_power;
     report.substep       = substep_;
-    together([&] { check(report, sums.all.speed, activity, time); });
+    together([&] { check(report, sums.all.speed, time); });
+    activity_.reset();
     if (ranks_) { add_up(report); }
     return report;
 }
 
-/// All in one read.
 template<class Exec>
-typename Rigid<Exec>::ReportSums Rigid<Exec>::sum_for_report(Array<Exec, dem::BodyActivity>& activity)
+void Rigid<Exec>::ask_report()
 {
+    auto& activity = activity_.emplace(exec_, "body activity", bodies_.position.size());
     dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity.data());
     const double* values = reinterpret_cast<const double*>(activity.data());
     const double* totals = reinterpret_cast<const double*>(totals_.data());
@@ -54,13 +57,18 @@ typename Rigid<Exec>::ReportSums Rigid<Exec>::sum_for_report(Array<Exec, dem::Bo
     largest_of_rows(exec_, values, activity.size(), width, most);
     sum_rows(exec_, values, activity.size(), width, most + width);
     sum_rows(exec_, totals, totals_.size(), dem::body_total_width, most + 2 * width);
-    return read(exec_, reinterpret_cast<const ReportSums*>(most));
+    told_.fetch(reinterpret_cast<const ReportSums*>(most));
+    if (!contacts_) { return; }
+    if (!watched_)
+    {
+        told_stray_.fetch(dem::largest_stray(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data()));
+    }
+    told_overlap_.fetch(dem::largest_overlap(exec_, pairs_, bodies_.view(), law_));
 }
 
 /// Of this rank's bodies. The largest speed hides one that is not a number, their sum does not.
 template<class Exec>
-void Rigid<Exec>::check(RigidReport& report, double sum_of_speeds, const Array<Exec, dem::BodyActivity>& activity,
-                        double time)
+void Rigid<Exec>::check(RigidReport& report, double sum_of_speeds, double time)
 {
     if (!std::isfinite(report.net_force) || !std::isfinite(sum_of_speeds))
     {
@@ -68,9 +76,9 @@ void Rigid<Exec>::check(RigidReport& report, double sum_of_speeds, const Array<E
         throw NumericalError(fmt::format("t = {:.6g} s: the sum of the forces on bodies is not a number", time));
     }
     if (!contacts_) { return; }
-    require_resolved(time, report.largest_speed, activity);
-    require_listed(time);
-    report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time));
+    require_resolved(time, report.largest_speed);
+    if (!watched_) { require_listed(time, told_stray_.get()); }
+    report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time, told_overlap_.get()));
 }
 
 template<class Exec>
@@ -158,12 +166,14 @@ io::BodyFields Rigid<Exec>::fields()
 }
 
 template RigidReport          Rigid<Cpu>::report(double);
+template void                 Rigid<Cpu>::ask_report();
 template RigidCensus          Rigid<Cpu>::census();
 template std::vector<BodyRow> Rigid<Cpu>::named_bodies();
 template void                 Rigid<Cpu>::begin_mean();
 template io::BodyFields       Rigid<Cpu>::fields();
 #ifdef TREAD_WITH_CUDA
 template RigidReport          Rigid<Gpu>::report(double);
+template void                 Rigid<Gpu>::ask_report();
 template RigidCensus          Rigid<Gpu>::census();
 template std::vector<BodyRow> Rigid<Gpu>::named_bodies();
 template void                 Rigid<Gpu>::begin_mean();

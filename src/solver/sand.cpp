@@ -22,8 +22,7 @@ constexpr double mass_floor_share = 1e-20;
 constexpr int relists_an_order = 32;
 
 /// Room for a census, or for what a report reads.
-constexpr std::int64_t totals_size = std::int64_t{mpm::census_count} + std::int64_t{mpm::tally_width(mpm::grid_sums)} +
-                                     std::int64_t{mpm::tally_width(mpm::point_sums)} + std::int64_t{mpm::point_peaks};
+constexpr std::int64_t totals_size = std::int64_t{mpm::census_count} + std::int64_t{std::tuple_size_v<ReportTotals>};
 
 template<class Real>
 std::vector<Real> cast(const std::vector<double>& values)
@@ -119,6 +118,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     , census_rows_(exec, "point census")
     , totals_(exec, "sand totals", totals_size)
     , sums_scratch_(exec, "sand sums scratch")
+    , told_(exec, "sand sums told")
     , materials_(exec, "materials")
     , pic_rate_(pic_rate(scene, world.points))
     , cell_means_(scene.numerics.volume_strain == scene::VolumeStrain::cell_average)
@@ -286,6 +286,25 @@ void Sand<Exec, Real>::gather(double dt)
 template<class Exec, class Real>
 SandReport Sand<Exec, Real>::report()
 {
+    if (!asked_) { ask_report(); }
+    asked_ = false;
+    synchronize(exec_);
+    ReportTotals told = told_.get();
+    if (ranks_) { decomp::combine(ranks_->communicator(), told.data(), sums_told, mpm::point_peaks); }
+    SandReport    report;
+    const double* from = told.data();
+    for (double* to : {report.grid, report.last_grid}) { from = take(from, mpm::grid_sums, to); }
+    for (double* to : {report.points, report.last_points}) { from = take(from, mpm::point_sums, to); }
+    take(from, mpm::point_peaks, report.peaks);
+    report.largest_speed = std::sqrt(report.peaks[mpm::peak_speed_squared]);
+    report.steps         = std::exchange(steps_, 0);
+    stir_                = report.stir();
+    return report;
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::ask_report()
+{
     const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
     constexpr int      grid_width = mpm::tally_width(mpm::grid_sums), point_width = mpm::tally_width(mpm::point_sums);
     double*            grid   = totals_.data();
@@ -295,20 +314,9 @@ SandReport Sand<Exec, Real>::report()
     sum_rows(exec_, grid_rows_.data(), node_pages, grid_width, grid, sums_scratch_);
     sum_rows(exec_, point_rows_.data(), point_pages, point_width, points, sums_scratch_);
     largest_of_rows(exec_, peak_rows_.data(), point_pages, mpm::point_peaks, peaks);
-    double read[grid_width + point_width + mpm::point_peaks];
-    copy_to_host(exec_, read, grid, sizeof(read));
-    if (ranks_) { decomp::combine(ranks_->communicator(), read, grid_width + point_width, mpm::point_peaks); }
-
-    SandReport    report;
-    const double* from = read;
-    for (double* to : {report.grid, report.last_grid}) { from = take(from, mpm::grid_sums, to); }
-    for (double* to : {report.points, report.last_points}) { from = take(from, mpm::point_sums, to); }
-    take(from, mpm::point_peaks, report.peaks);
-    report.largest_speed = std::sqrt(report.peaks[mpm::peak_speed_squared]);
-    report.steps         = std::exchange(steps_, 0);
-    stir_                = report.stir();
+    told_.fetch(reinterpret_cast<const ReportTotals*>(grid));
     clear_tallies();
-    return report;
+    asked_ = true;
 }
 
 template<class Exec, class Real>

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "backend/fetched.hpp"
 #include "backend/reduce.hpp"
 #include "io/snapshot.hpp"
 #include "kernels/mpm/cell_divergence.hpp"
@@ -76,6 +77,9 @@ public:
     /// report of several steps whose stir() is Stir::lost comes too late.
     SandReport report();
 
+    /// Asks for the report already, so that one wait serves others' too.
+    void ask_report();
+
     /// Of the present state; waits for it.
     SandCensus census();
 
@@ -118,8 +122,9 @@ private:
     Array<Exec, double>                        point_rows_;
     Array<Exec, double>                        peak_rows_;
     Array<Exec, double>                        census_rows_;
-    Array<Exec, double>                        totals_;
+    Array<Exec, double>                        totals_; ///< of a census, or ReportTotals
     Array<Exec, double>                        sums_scratch_;
+    Fetched<Exec, ReportTotals>                told_;
     Array<Exec, mpm::MaterialParameters<Real>> materials_;
     double                                     pic_rate_;
     bool                                       cell_means_; ///< of volumetric strain, and of pressure
@@ -128,6 +133,7 @@ private:
     double                                     mass_     = 0;
     std::int64_t                               step_     = 0;               ///< number of the last one
     std::int64_t                               steps_    = 0;               ///< since the last report
+    bool                                       asked_    = false;           ///< for the next
     mpm::Stir                                  stir_     = mpm::Stir::lost; ///< in those before it
     bool                                       listed_   = false;           ///< since the last step
     int                                        relists_  = 0;               ///< since they were last ordered in memory

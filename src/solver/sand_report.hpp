@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "kernels/mpm/gather.hpp"
@@ -7,6 +8,10 @@
 
 namespace tread::solver
 {
+
+/// A report as the backend tells it: tallies of the grid, tallies of the points, peaks of the points.
+inline constexpr int sums_told = mpm::tally_width(mpm::grid_sums) + mpm::tally_width(mpm::point_sums);
+using ReportTotals             = std::array<double, sums_told + mpm::point_peaks>;
 
 /// What the steps since the last report did to the sand.
 struct SandReport

@@ -222,8 +222,10 @@ void Simulation<Exec, Real>::measure()
     const TimeStep&    step  = last_;
     const double       time  = last_time_;
     const std::int64_t steps = std::exchange(unmeasured_, 0);
-    const SandReport   sand  = sand_ ? sand_->report() : SandReport{};
-    const RigidReport  rigid = rigid_ ? rigid_->report(time) : RigidReport{};
+    if (rigid_) { rigid_->ask_report(); }
+    if (coupling_) { coupling_->ask_measure(); }
+    const SandReport  sand  = sand_ ? sand_->report() : SandReport{};
+    const RigidReport rigid = rigid_ ? rigid_->report(time) : RigidReport{};
     if (guard_) { guard_->check(sand, step, time); }
     pace_.largest_speed  = std::max(sand.largest_speed, rigid.largest_speed);
     pace_.overlap        = rigid.overlap;

@@ -144,7 +144,8 @@ private:
         const dem::BodiesView bodies = scene_.bodies.view();
         const dem::BodyLaw    law    = scene_.law();
         double* const         travel = scene_.pairs.travel.data();
-        if (!listed_ || largest_stray_ahead(exec_, strays_, bodies, law.templates, travel, block * dt_) > 1)
+        if (!listed_ ||
+            read(exec_, largest_stray_ahead(exec_, strays_, bodies, law.templates, travel, block * dt_)) > 1)
         {
             scene_.find(block * dt_);
             mark_places(exec_, strays_, bodies);

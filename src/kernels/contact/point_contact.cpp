@@ -5,16 +5,16 @@
 namespace tread::contact
 {
 
-template void    begin_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<float>&, const mpm::PagesView&,
-                            const dem::BodiesView&, const PointBodyLaw&, const SearchReach&);
-template void    begin_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<double>&, const mpm::PagesView&,
-                            const dem::BodiesView&, const PointBodyLaw&, const SearchReach&);
-template void    begin_kept_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<float>&, const PointBodyLaw&);
-template void    begin_kept_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<double>&, const PointBodyLaw&);
-template void    substep(const Cpu&, PointContact<Cpu>&, const dem::BodiesView&, const PointBodyLaw&, double);
-template void    finish_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<float>&, double);
-template void    finish_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<double>&, double);
-template void    keep_history(const Cpu&, PointContact<Cpu>&);
-template Summary summarise(const Cpu&, PointContact<Cpu>&);
+template void begin_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<float>&, const mpm::PagesView&,
+                         const dem::BodiesView&, const PointBodyLaw&, const SearchReach&);
+template void begin_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<double>&, const mpm::PagesView&,
+                         const dem::BodiesView&, const PointBodyLaw&, const SearchReach&);
+template void begin_kept_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<float>&, const PointBodyLaw&);
+template void begin_kept_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<double>&, const PointBodyLaw&);
+template void substep(const Cpu&, PointContact<Cpu>&, const dem::BodiesView&, const PointBodyLaw&, double);
+template void finish_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<float>&, double);
+template void finish_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<double>&, double);
+template void keep_history(const Cpu&, PointContact<Cpu>&);
+template const Summary* summarise(const Cpu&, PointContact<Cpu>&);
 
 } // namespace tread::contact

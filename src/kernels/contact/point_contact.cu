@@ -5,16 +5,16 @@
 namespace tread::contact
 {
 
-template void    begin_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<float>&, const mpm::PagesView&,
-                            const dem::BodiesView&, const PointBodyLaw&, const SearchReach&);
-template void    begin_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<double>&, const mpm::PagesView&,
-                            const dem::BodiesView&, const PointBodyLaw&, const SearchReach&);
-template void    begin_kept_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<float>&, const PointBodyLaw&);
-template void    begin_kept_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<double>&, const PointBodyLaw&);
-template void    substep(const Gpu&, PointContact<Gpu>&, const dem::BodiesView&, const PointBodyLaw&, double);
-template void    finish_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<float>&, double);
-template void    finish_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<double>&, double);
-template void    keep_history(const Gpu&, PointContact<Gpu>&);
-template Summary summarise(const Gpu&, PointContact<Gpu>&);
+template void begin_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<float>&, const mpm::PagesView&,
+                         const dem::BodiesView&, const PointBodyLaw&, const SearchReach&);
+template void begin_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<double>&, const mpm::PagesView&,
+                         const dem::BodiesView&, const PointBodyLaw&, const SearchReach&);
+template void begin_kept_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<float>&, const PointBodyLaw&);
+template void begin_kept_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<double>&, const PointBodyLaw&);
+template void substep(const Gpu&, PointContact<Gpu>&, const dem::BodiesView&, const PointBodyLaw&, double);
+template void finish_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<float>&, double);
+template void finish_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<double>&, double);
+template void keep_history(const Gpu&, PointContact<Gpu>&);
+template const Summary* summarise(const Gpu&, PointContact<Gpu>&);
 
 } // namespace tread::contact

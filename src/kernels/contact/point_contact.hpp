@@ -157,8 +157,9 @@ void finish_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Point
 template<class Exec>
 void keep_history(const Exec& exec, PointContact<Exec>& contact);
 
-/// Of the last substep (dissipated: since the last summary or begin_step).
+/// Of the last substep (dissipated: since the last summary or begin_step), where there are candidates. Returns where
+/// the backend will have it.
 template<class Exec>
-Summary summarise(const Exec& exec, PointContact<Exec>& contact);
+const Summary* summarise(const Exec& exec, PointContact<Exec>& contact);
 
 } // namespace tread::contact

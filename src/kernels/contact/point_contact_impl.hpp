@@ -9,17 +9,20 @@ namespace tread::contact
 
 /// Memory for the candidates found.
 template<class Exec>
-void resize_to_candidates(PointContact<Exec>& contact)
+void resize_to_candidates(const Exec& exec, PointContact<Exec>& contact)
 {
     const auto resize = [](std::int64_t size, auto&... arrays) { (arrays.resize(size), ...); };
     resize(contact.candidates.by_point.key.size(), contact.position, contact.velocity, contact.support, contact.impulse,
            contact.mass, contact.radius, contact.material, contact.id);
     resize(contact.candidates.body.size(), contact.response, contact.dissipated);
     const std::int64_t parts = contact.candidates.body_parts.of_items.key.size();
-    resize(parts, contact.wrench_sums, contact.summary_sums);
     if (parts == 0) { return; }
-    contact.all_parts.assign({0, static_cast<std::int32_t>(parts)});
-    contact.summary.resize(1);
+    resize(parts + 1, contact.wrench_sums); // or two for each block of a lone body's substeps
+    resize(parts, contact.summary_sums);
+    resize(1, contact.summary);
+    resize(2, contact.all_parts);
+    for_each(exec, "all contact parts", 2,
+             contact_steps::EndsOfAll{static_cast<std::int32_t>(parts), contact.all_parts.data()});
 }
 
 /// Memory for the history of the candidates found.
@@ -75,7 +78,7 @@ void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Points
 {
     keep_history(exec, contact);
     find_candidates(exec, contact.candidates, points, pages, bodies, law.templates, law.radius, reach);
-    resize_to_candidates(contact);
+    resize_to_candidates(exec, contact);
     make_slots(exec, contact, bodies, law);
     name_runs(exec, contact, bodies.count);
     begin_kept_step(exec, contact, points, law);
@@ -125,17 +128,16 @@ void finish_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Point
 }
 
 template<class Exec>
-Summary summarise(const Exec& exec, PointContact<Exec>& contact)
+const Summary* summarise(const Exec& exec, PointContact<Exec>& contact)
 {
     using namespace contact_steps;
-    if (contact.candidates.body.size() == 0) { return Summary::zero(); }
     const auto store = [](Array<Exec, Summary>& to) { return run_steps::StoreSum<Summary>{to.data()}; };
     reduce_runs<Summary>(exec, "summarise contacts", contact.candidates.body_parts.of_items.view(),
                          SummaryOf{contact.contacts(), contact.private_points()}, store(contact.summary_sums));
     reduce_runs<Summary>(exec, "summarise contacts", RunsView{1, nullptr, contact.all_parts.data()},
                          run_steps::LoadSum<Summary>{contact.summary_sums.data()}, store(contact.summary));
     contact.dissipated.fill_zero();
-    return read(exec, contact.summary.data());
+    return contact.summary.data();
 }
 
 } // namespace tread::contact

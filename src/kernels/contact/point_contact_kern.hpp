@@ -86,6 +86,16 @@ TREAD_HD Vec3<double> velocity_at(const dem::BodiesView& bodies, std::int32_t b,
     return bodies.velocity[b] + bodies.angular_velocity[b].cross(x - bodies.position[b]);
 }
 
+/// Of body b against a point at x with velocity v (m, m/s); `tangential` goes on by dt (s).
+TREAD_HD Response response_of(const dem::BodiesView& bodies, std::int32_t b, const dem::TemplateView& shape,
+                              const PairConstants& pair, const Vec3<double>& x, const Vec3<double>& v,
+                              Tangential& tangential, double dt)
+{
+    const auto     field = dem::sample_body_sdf(shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], x);
+    const Approach approach{field.distance, field.gradient, v - velocity_at(bodies, b, x)};
+    return point_body_response(pair, approach, tangential, dt);
+}
+
 struct Respond
 {
     ContactsView    contacts;
@@ -107,12 +117,8 @@ struct Respond
         const std::int32_t       b     = contacts.candidates.body[c];
         const std::int32_t       t     = contacts.candidates.touched[c];
         const dem::TemplateView& shape = law.templates[bodies.shape[b]];
-        const Vec3<double>       x     = points.position[t];
-
-        const auto field = dem::sample_body_sdf(shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], x);
-        const Approach approach{field.distance, field.gradient, points.velocity[t] - velocity_at(bodies, b, x)};
-        Tangential&    tangential = contacts.tangential[contacts.first_slot(c)];
-        contacts.response[c]      = point_body_response(pair(b, t, shape), approach, tangential, dt);
+        contacts.response[c] = response_of(bodies, b, shape, pair(b, t, shape), points.position[t], points.velocity[t],
+                                           contacts.tangential[contacts.first_slot(c)], dt);
         contacts.dissipated[c] += contacts.response[c].dissipated;
     }
 };
@@ -206,7 +212,38 @@ struct NoRun
     TREAD_HD void operator()(std::int64_t b) const { run_of_body[b] = -1; }
 };
 
-/// Symplectic Euler under the contact forces of all bodies, summed in body order.
+/// What moves of a private point, and what moves it.
+struct MovingPoint
+{
+    Vec3<double> position;
+    Vec3<double> velocity;
+    Vec3<double> impulse;
+    Vec3<double> support;
+    double       mass;
+
+    /// Symplectic Euler under a contact force (N), by dt (s).
+    TREAD_HD void move(const Vec3<double>& force, PointMotion motion, double dt)
+    {
+        impulse += dt * force;
+        if (motion == PointMotion::frozen) { return; }
+        velocity += dt * (force / mass + support);
+        position += dt * velocity;
+    }
+};
+
+TREAD_HD MovingPoint moving_point(const PrivatePoints& points, std::int64_t t)
+{
+    return {points.position[t], points.velocity[t], points.impulse[t], points.support[t], points.mass[t]};
+}
+
+TREAD_HD void store(const MovingPoint& point, const PrivatePoints& points, std::int64_t t)
+{
+    points.position[t] = point.position;
+    points.velocity[t] = point.velocity;
+    points.impulse[t]  = point.impulse;
+}
+
+/// Under the contact forces of all bodies, summed in body order.
 struct MovePoint
 {
     RunsView      runs;
@@ -222,10 +259,9 @@ struct MovePoint
         {
             force += contacts.response[contacts.candidates.in_order[i]].force;
         }
-        points.impulse[t] += dt * force;
-        if (motion == PointMotion::frozen) { return; }
-        points.velocity[t] += dt * (force / points.mass[t] + points.support[t]);
-        points.position[t] += dt * points.velocity[t];
+        MovingPoint point = moving_point(points, t);
+        point.move(force, motion, dt);
+        store(point, points, t);
     }
 };
 
@@ -269,6 +305,15 @@ struct WriteRecords
             tangential[place[s]] = contacts.tangential[s];
         }
     }
+};
+
+/// One run of all parts.
+struct EndsOfAll
+{
+    std::int32_t  parts;
+    std::int32_t* ends; ///< [2]
+
+    TREAD_HD void operator()(std::int64_t i) const { ends[i] = i == 0 ? 0 : parts; }
 };
 
 struct SummaryOf

@@ -25,7 +25,7 @@ double smallest_contact_time(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView
     return contact_limits::contact_time(cpu, pairs, bodies);
 }
 
-double largest_overlap(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+const double* largest_overlap(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     return contact_limits::overlap(cpu, pairs, bodies, law);
 }

@@ -27,7 +27,7 @@ double smallest_contact_time(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView
     return contact_limits::contact_time(gpu, pairs, bodies);
 }
 
-double largest_overlap(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+const double* largest_overlap(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     return contact_limits::overlap(gpu, pairs, bodies, law);
 }

@@ -31,9 +31,9 @@ double smallest_contact_time(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bo
 double smallest_contact_time(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies);
 
 /// The largest overlap over the smaller equivalent radius of the pair, of any pair since it was listed; 0 if nothing
-/// touched. Warn above 0.1, stop above 0.5.
-double largest_overlap(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-double largest_overlap(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+/// touched; returns where the backend will have it, until pairs.measure is used again. Warn above 0.1, stop above 0.5.
+const double* largest_overlap(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+const double* largest_overlap(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 /// Which pair that is, after largest_overlap has found it.
 template<class Exec>

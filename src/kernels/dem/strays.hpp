@@ -29,16 +29,17 @@ void mark_places(const Cpu&, Strays<Cpu>& strays, const BodiesView& bodies);
 void mark_places(const Gpu&, Strays<Gpu>& strays, const BodiesView& bodies);
 
 /// The largest share of its allowed travel (m, of every body) that any point of a body has moved since; strays.share
-/// holds all. Up to 1 no pair is missing from the list. Infinite for a body that is nowhere. Waits for the backend.
-double largest_stray(const Cpu&, Strays<Cpu>& strays, const BodiesView& bodies, const TemplateView* templates,
-                     const double* travel);
-double largest_stray(const Gpu&, Strays<Gpu>& strays, const BodiesView& bodies, const TemplateView* templates,
-                     const double* travel);
+/// holds all. Up to 1 no pair is missing from the list. Infinite for a body that is nowhere. Returns where the backend
+/// will have it.
+const double* largest_stray(const Cpu&, Strays<Cpu>& strays, const BodiesView& bodies, const TemplateView* templates,
+                            const double* travel);
+const double* largest_stray(const Gpu&, Strays<Gpu>& strays, const BodiesView& bodies, const TemplateView* templates,
+                            const double* travel);
 
 /// The same when the bodies go on for the steps ahead of `ahead` (s), and with what must be left for a body at rest.
-double largest_stray_ahead(const Cpu&, Strays<Cpu>& strays, const BodiesView& bodies, const TemplateView* templates,
-                           const double* travel, double ahead);
-double largest_stray_ahead(const Gpu&, Strays<Gpu>& strays, const BodiesView& bodies, const TemplateView* templates,
-                           const double* travel, double ahead);
+const double* largest_stray_ahead(const Cpu&, Strays<Cpu>& strays, const BodiesView& bodies,
+                                  const TemplateView* templates, const double* travel, double ahead);
+const double* largest_stray_ahead(const Gpu&, Strays<Gpu>& strays, const BodiesView& bodies,
+                                  const TemplateView* templates, const double* travel, double ahead);
 
 } // namespace tread::dem

@@ -73,12 +73,12 @@ Measure measure(Strays<Exec>& strays, const BodiesView& bodies, const TemplateVi
 }
 
 template<class Exec, class Item>
-double largest(const Exec& exec, Strays<Exec>& strays, std::int64_t bodies, const Item& item)
+const double* largest(const Exec& exec, Strays<Exec>& strays, std::int64_t bodies, const Item& item)
 {
     for_each(exec, "measure strays", bodies, item);
     double* found = strays.share.data() + bodies;
     largest_of_rows(exec, strays.share.data(), bodies, 1, found);
-    return read(exec, found);
+    return found;
 }
 
 } // namespace tread::dem::stray_steps

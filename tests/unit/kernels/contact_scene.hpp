@@ -187,7 +187,10 @@ public:
         return read_out(contact.history);
     }
 
-    contact::Summary summary() { return summarise(exec_, contact); }
+    contact::Summary summary()
+    {
+        return contact.candidates.body.size() == 0 ? contact::Summary::zero() : read(exec_, summarise(exec_, contact));
+    }
 
     /// Of bodies of 1 kg that meet sand alone.
     dem::BodyStep<Exec> body_step(double dt)
