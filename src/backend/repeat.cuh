@@ -3,11 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include <cooperative_groups.h>
-
-#include "backend/counters.hpp"
-#include "backend/cuda_check.cuh"
-#include "backend/execution.hpp"
+#include "backend/cooperative.cuh"
 
 // A sequence of parts, run many times by one launch: where each part is a few microseconds of work, launches cost as
 // much as they do.
@@ -120,17 +116,8 @@ void repeat(const Gpu& gpu, const char* name, std::int64_t times, const Parts& p
 {
     const std::int64_t wanted = parts.most_blocks();
     if (wanted == 0 || times == 0) { return; }
-    gpu.counters->launched(name);
     const auto kernel = repeat_kernel<threads, blocks_an_sm, Parts>;
-    int        device = 0, processors = 0, resident = 0;
-    check_cuda(cudaGetDevice(&device), name);
-    check_cuda(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), name);
-    check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&resident, kernel, threads, 0), name);
-    const auto blocks      = static_cast<unsigned>(std::min<std::int64_t>(wanted, std::int64_t{processors} * resident));
-    void*      arguments[] = {&times, const_cast<Parts*>(&parts)};
-    check_cuda(
-        cudaLaunchCooperativeKernel(reinterpret_cast<const void*>(kernel), blocks, threads, arguments, 0, gpu.stream),
-        name);
+    launch_together(gpu, name, kernel, std::min(wanted, resident_blocks(name, kernel, threads)), threads, times, parts);
 }
 
 } // namespace tread

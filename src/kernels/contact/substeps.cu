@@ -1,5 +1,6 @@
 #include "kernels/contact/substeps.hpp"
 
+#include "kernels/contact/lone_body.cuh"
 #include "kernels/contact/point_contact_impl.hpp"
 #include "kernels/contact/reduce_runs.cuh"
 #include "kernels/dem/substeps.cuh"
@@ -24,6 +25,37 @@ auto forces_part(PointContact<Gpu>& contact, const Respond& respond)
                                           contact.wrench_sums.data()});
 }
 
+/// Whether it is one body, which meets nothing but sand.
+bool is_alone(const dem::BodyStep<Gpu>& step)
+{
+    return step.bodies.count == 1 && step.bodies.role == nullptr && step.pairs.key.size() == 0;
+}
+
+/// False where it wants more threads than the device holds at once.
+bool run_alone(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw& law, const dem::BodyStep<Gpu>& step,
+               std::int64_t count)
+{
+    constexpr const char* name = "substeps of sand and a body";
+    const Respond         respond{contact.contacts(), contact.private_points(), step.bodies, law, step.motion.dt};
+    bool                  runs = false;
+    dem::moving::with_damping(step, KnownWrench{},
+                              [&]<class Move>(const Move& move)
+                              {
+                                  const auto         kernel = lone_body_kernel<Move>;
+                                  const std::int64_t blocks = (respond.points.count + lone_threads - 1) / lone_threads;
+                                  runs                      = blocks <= resident_blocks(name, kernel, lone_threads);
+                                  if (!runs) { return; }
+                                  const LoneBody<Move> lone{respond,
+                                                            contact.candidates.by_point.view(),
+                                                            law.motion,
+                                                            move,
+                                                            step.pairs.body.data(),
+                                                            contact.wrench_sums.data()};
+                                  launch_together(gpu, name, kernel, blocks, lone_threads, count, lone);
+                              });
+    return runs;
+}
+
 } // namespace
 
 /// Sampled points and rays have launches of their own.
@@ -42,6 +74,7 @@ void run_substeps(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw
         dem::run_substeps(gpu, step, count);
         return;
     }
+    if (is_alone(step) && run_alone(gpu, contact, law, step, count)) { return; }
     const ContactsView        contacts = contact.contacts();
     const PrivatePoints       points   = contact.private_points();
     const double              dt       = step.motion.dt;

@@ -98,6 +98,39 @@ TEST(LeftOut, RocksAloneKnowNoGrid)
     EXPECT_FALSE(any_with(used.arrays, {"triangles", "boxes", "normals", "ray"}));
 }
 
+/// One list holds the pages around wheels and rocks alike. A body that no sand is near has a look at its own few pages,
+/// and that is all.
+TEST(LeftOut, BodiesFarFromSandHaveNoContactsWithIt)
+{
+    std::string high = test::roller_text;
+    high.replace(high.find("[0.2, 0.2, 0.33]"), 16, "[0.2, 0.2, 0.45]");
+    const Used used = run_steps(load_text(high));
+    EXPECT_FALSE(any_with(used.arrays, {"private", "contact response", "contact wrench", "contact tangential",
+                                        "contact summary sums", "history"}));
+    EXPECT_FALSE(any_with(used.kernels, {"write candidates", "copy contact points", "point-body forces", "recall",
+                                         "move contact points", "give back", "summarise"}));
+    EXPECT_TRUE(used.kernels.count("count contact pages"));
+}
+
+TEST(LeftOut, AWheelOnSandKnowsNoRocks)
+{
+    std::string low = test::roller_text;
+    low.replace(low.find("[0.2, 0.2, 0.33]"), 16, "[0.2, 0.2, 0.305]");
+    const Used used = run_steps(load_text(low));
+    EXPECT_TRUE(used.kernels.count("point-body forces"));
+    EXPECT_FALSE(any_with(used.arrays, {"ray", "rolling", "contact slots"}));
+    EXPECT_FALSE(any_with(used.kernels, {"sampled", "count contact slots", "resistance to rolling"}));
+}
+
+TEST(LeftOut, RocksOnSandKnowNoWheel)
+{
+    const Used used = run_steps(load_text(test::sand_text + test::rocks_text + "placement = \"replace\"\n"));
+    EXPECT_TRUE(used.kernels.count("point-body forces"));
+    EXPECT_FALSE(any_with(used.arrays,
+                          {"patch places", "patches of", "several", "patch keys", "patch records", "rays", "rolling"}));
+    EXPECT_FALSE(any_with(used.kernels, {"group pair nodes", "write patches", "several patches", "deal pair nodes"}));
+}
+
 TEST(LeftOut, TrianglesAreThereForRaysAlone)
 {
     const std::string text = without(test::sand_text, "[[terrain]]") + test::rocks_text + "placement = \"grid\"\n";
