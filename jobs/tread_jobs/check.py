@@ -36,8 +36,8 @@ class Cost:
     def text(self):
         machine = f"{self.gpu_hours:.3g} GPU-hours" if self.gpu_hours else f"{self.core_hours:.3g} core-hours"
         basis = "" if self.checked == self.cases else f" (from {self.checked} of them, evenly spread)"
-        return (f"{self.cases} cases{basis}: at most {self.steps:.3g} steps, {machine} by the model, the longest case {self.longest:.3g} s, "
-                f"disk {self.disk / 1e9:.3g} GB")
+        return (f"{self.cases} cases{basis}: at most {self.steps:.3g} steps, {machine} by the model, "
+                f"the longest case {self.longest:.3g} s, disk {self.disk / 1e9:.3g} GB")
 
     @property
     def table(self):
@@ -46,7 +46,8 @@ class Cost:
 
 def check_cases(program, cases, most, scratch):
     """Plans of `most` cases, evenly spread over all. CampaignError with tread's own words for the first that is wrong."""
-    picked = cases if len(cases) <= most else [cases[round(i * (len(cases) - 1) / (most - 1))] for i in range(most)] if most > 1 else cases[:1]
+    count = min(most, len(cases))
+    picked = [cases[round(index * (len(cases) - 1) / max(1, count - 1))] for index in range(count)]
 
     def check(case):
         scene = scratch / f"{case.name}.toml"
@@ -67,13 +68,13 @@ def cost_of(plans, count, resources, site):
     """Scaled from the cases that were checked to all `count` of them."""
     scale = count / len(plans)
     speed = site.gpu_speed if resources.gpus else site.core_speed
-    # One case's share of its task's devices: several ranks share the work, several cases share one GPU.
     units = resources.gpus if resources.gpus else resources.ranks * resources.threads
-    together = resources.cases_a_task if resources.gpus else 1
     times = [plan.steps * (speed.step + (speed.point * plan.points + speed.body * plan.bodies) / units) for plan in plans]
-    hours = scale * sum(times) * units / together / 3600
+    hours = scale * sum(times) * units / 3600
+    # Cases that share a GPU take turns on it: together they take as long as one after the other.
+    longest = max(times) * (resources.cases_a_task if resources.gpus else 1)
     return Cost(count, len(plans), scale * sum(plan.steps for plan in plans), hours if resources.gpus else 0.0,
-                0.0 if resources.gpus else hours, scale * sum(plan.disk for plan in plans), max(times))
+                0.0 if resources.gpus else hours, scale * sum(plan.disk for plan in plans), longest)
 
 
 def _plan(text, program):
