@@ -49,10 +49,10 @@ def axes_of(campaign):
 
 def answers_of_all(campaign):
     """Every case: axes, means with spreads, and whether they are of a steady state."""
-    labels = [key for key in campaign.columns if key.startswith("labels/")]
+    labels = campaign.label_columns
     quantities = [name for name in QUANTITIES if name in campaign.columns]
     head = ["case", *(key.partition("/")[2] for key in labels), "state", "steady"]
-    head += [f"{name.replace('_', ' ')} {'' if campaign.units[name] == '1' else f'[{campaign.units[name]}]'}" for name in quantities]
+    head += [heading(name, campaign.units[name]) for name in quantities]
     head += [f"{name} error" for name in ("momentum", "energy") if f"{name}_error" in campaign.columns]
     rows = []
     for row in range(len(campaign)):
@@ -65,6 +65,12 @@ def answers_of_all(campaign):
     return section("Answers", note, table(head, rows, marked))
 
 
+def heading(name, unit):
+    """The slip that was measured stands beside the one that was asked for."""
+    label = "slip, measured" if name == "slip" else name.replace("_", " ")
+    return label if unit == "1" else f"{label} [{unit}]"
+
+
 def steadiness(campaign, row):
     if "steady" not in campaign.columns or np.isnan(campaign["steady"][row]):
         return ""
@@ -73,7 +79,10 @@ def steadiness(campaign, row):
 
 def mean_and_spread(campaign, name, row):
     mean, spread = campaign[name][row], campaign[f"{name}_spread"][row]
-    return "" if np.isnan(mean) else f"{mean:.4g} ± {spread:.1g}"
+    if np.isnan(mean):
+        return ""
+    # Spreads to two digits, none where only rounding is left.
+    return f"{mean:.4g}" if spread < 1e-9 * abs(mean) else f"{mean:.4g} ± {float(f'{spread:.2g}'):g}"
 
 
 def figures_of(campaign):
@@ -96,8 +105,7 @@ def rows_with_snapshots(campaign):
     rows = []
     for row in range(len(campaign)):
         try:
-            run = campaign.run(row)
-            if any(run.points(number) is not None for number in run.snapshots):
+            if campaign.run(row).points_times:
                 rows.append(row)
         except RunError:
             continue

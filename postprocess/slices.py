@@ -38,7 +38,7 @@ def arguments():
 
 def chosen_snapshots(run):
     """Up to four, from the start of the last phase to the end."""
-    times = {number: points.time for number in run.snapshots if (points := run.points(number)) is not None}
+    times = run.points_times
     if not times:
         raise RunError(f"{run.path / 'snapshots'}: no snapshot has sand")
     begun = run.phases[-1].start if run.phases else 0.0
@@ -121,7 +121,7 @@ def main():
     options = arguments()
     run = Run(options.run)
     numbers = options.snapshots or chosen_snapshots(run)
-    absent = [number for number in numbers if run.points(number) is None]
+    absent = [number for number in numbers if number not in run.points_times]
     if absent:
         raise RunError(f"{run.path / 'snapshots'}: no sand in snapshot {absent[0]}; this run has {run.snapshots[0]} to {run.snapshots[-1]}")
     at = default_place(run, PLANES[options.plane][0], numbers[0]) if options.at is None else options.at

@@ -46,7 +46,7 @@ def curves_of(table):
     """One Curve for each combination of the axes that are not slip, of the cases that have answers."""
     if "torque" not in table.columns:
         raise RunError(f"{table.path}: no case has driven a wheel to speed")
-    others = [key for key in table.columns if key.startswith("labels/") and key.partition("/")[2] not in (*table.slip_axes, "repeat")]
+    others = [key for key in table.label_columns if key.partition("/")[2] not in (*table.slip_axes, "repeat")]
     groups = {}
     for row in np.flatnonzero(np.isfinite(table["torque"])):
         groups.setdefault(", ".join(table[key][row] for key in others), []).append(row)

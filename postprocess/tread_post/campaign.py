@@ -1,6 +1,7 @@
 """The table that `jobs/campaign.py collect` leaves: axes and answers of all cases."""
 
 import json
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -62,9 +63,13 @@ class CampaignTable:
         """Names of the axes that set slip: what curves are drawn against."""
         return [axis.name for axis in self.axes if any(key.endswith("drive.slip") for key in axis.keys)]
 
-    def scene(self, row):
-        import tomllib
+    @property
+    def label_columns(self):
+        """Names of the columns of labels, in the order of the axes; repeats last."""
+        known = [f"labels/{axis.name}" for axis in self.axes]
+        return known + [key for key in self.columns if key.startswith("labels/") and key not in known]
 
+    def scene(self, row):
         path = self.path / "cases" / f"{int(self['number'][row]):04}" / "scene.toml"
         try:
             return tomllib.loads(path.read_text(encoding="utf-8"))

@@ -9,7 +9,7 @@ BATCHES, FEWEST = 100, 20
 # Of the series, that has to be left after the transient.
 SHORTEST_SHARE = 0.4
 # A trend over the steady part that is this many times its own uncertainty, and this share of the mean or of the spread, is one.
-SIGNIFICANT, NOTABLE = 3.0, 0.1
+SIGNIFICANT, NOTABLE = 3.0, 0.05
 # Batches of the steady part whose means are taken to be independent.
 INDEPENDENT = 8
 
@@ -26,21 +26,20 @@ class Steady:
 
 
 def steady_part(time, values):
-    """Steady of a series [n]; the transient is cut where the standard error of what remains is least (MSER: K. P. White, Simulation 69, 1997),
-    and what remains must be long enough and without trend. None for a series too short to judge."""
+    """Steady of a series [n]. The transient is cut where the standard error of what remains is least (MSER: K. P. White, Simulation 69, 1997),
+    SHORTEST_SHARE of the series remaining at least; what remains must be without trend. None for a series too short to judge."""
     known = np.isfinite(values)
     time, values = time[known], values[known]
     if len(values) < FEWEST:
         return None
     size = max(1, len(values) // BATCHES)
     means = values[: len(values) // size * size].reshape(-1, size).mean(axis=1)
-    kept = np.arange(len(means), 2, -1)
-    errors = [np.var(means[len(means) - count:]) / count for count in kept]
+    cuts = np.arange(int((1 - SHORTEST_SHARE) * len(means)) + 1)
+    errors = [np.var(means[cut:]) / (len(means) - cut) for cut in cuts]
     first = int(np.argmin(errors)) * size
-    long_enough = len(values) - first >= SHORTEST_SHARE * len(values)
-    if long_enough and not _has_trend(time[first:], values[first:]):
-        return _over(time, values, first, True)
-    return _over(time, values, len(values) // 2, False)
+    if _has_trend(time[first:], values[first:]):
+        return _over(time, values, len(values) // 2, False)
+    return _over(time, values, first, True)
 
 
 def _over(time, values, first, is_steady):
