@@ -16,6 +16,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+if sys.version_info < (3, 11):
+    sys.exit("campaign: error: Python 3.11 or later is needed")
+
 from tread_jobs import local, slurm
 from tread_jobs.campaign_file import read_campaign
 from tread_jobs.cases import make_cases

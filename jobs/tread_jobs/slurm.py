@@ -6,7 +6,6 @@ import subprocess
 
 from tread_jobs.errors import MachineError
 
-# A run that counts its own tasks would take those of the job for ranks that MPI lost.
 SBATCH = ("sbatch", "--parsable")
 
 
@@ -22,7 +21,8 @@ def submit(submission):
 
 
 def queued_tasks(jobs):
-    """State, such as PENDING, by "job_task", of those of `jobs` that wait or run. None where SLURM does not answer."""
+    """State, such as PENDING, by "job_task", of those of `jobs` that wait or run; not of those that SLURM only tidies up after.
+    None where SLURM does not answer."""
     if not jobs:
         return {}
     try:
@@ -32,4 +32,4 @@ def queued_tasks(jobs):
     if done.returncode:
         return None
     found = re.findall(r"^(\d+)_(\d+) (\S+)", done.stdout, re.MULTILINE)
-    return {f"{job}_{task}": state for job, task, state in found if job in jobs}
+    return {f"{job}_{task}": state for job, task, state in found if job in jobs and state != "COMPLETING"}

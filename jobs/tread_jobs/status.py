@@ -80,7 +80,8 @@ def _state(case, queue, name, quiet_for):
     summary = read_summary(case)
     if attempt and attempt.code == 0 and summary and summary.get("status") == "finished":
         return CaseState(DONE, f"{summary.get('wall_s', 0):.3g} s", "")
-    if slurm:
+    # Beside others of its task that still run, a case that failed has failed.
+    if slurm and (not attempt or attempt.code == EARLY or slurm == "PENDING"):
         return CaseState(QUEUED, slurm.lower(), "")
     if not attempt:
         return CaseState(NOT_STARTED, "", "")

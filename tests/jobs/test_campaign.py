@@ -2,6 +2,7 @@
 """jobs/campaign.py without SLURM: cases of a campaign file, what is refused, runs on this machine, the script of a task."""
 
 import csv
+import fcntl
 import os
 import shutil
 import signal
@@ -110,6 +111,9 @@ class Expand(CampaignTest):
         (edited.parent / "run").symlink_to(self.directory)
         self.assertIn("leads out of", self.campaign("status", code=2).stderr)
         (edited.parent / "run").unlink()
+        with open(self.output / ".lock", "w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.assertIn("another campaign.py works here", self.campaign("local", program=program, code=2).stderr)
         self.file.write_text(CAMPAIGN.replace("0.1, 0.5", "0.1, 0.6"), encoding="utf-8")
         self.assertIn("another campaign file", self.campaign("submit", program=program, code=2).stderr)
 

@@ -24,14 +24,14 @@ class SlurmTest(CampaignTest):
         self.file.write_text(THREE, encoding="utf-8")
         job = self.campaign("submit").stdout.split()[-1]
         began = self.output / "cases" / "0002" / "run" / "timeseries.h5"
-        slurm_session.wait_until(began.exists, 60, "the long case began")
+        slurm_session.wait_until(began.exists, 240, "the long case began")
         self.assertRegex(self.campaign("status").stdout, "0002  running")
         subprocess.run(["scancel", f"{job}_2"], check=True)
-        slurm_session.wait_until(lambda: not slurm_session.tasks(), 60, "the queue is empty")
+        slurm_session.wait_until(lambda: not slurm_session.tasks(), 240, "the queue is empty")
         self.assertIn("2 done, 1 stopped", self.campaign("status").stdout)
         self.assertRegex(self.campaign("retry").stdout, "1 cases in 1 tasks")
         self.assertRegex(self.campaign("status").stdout, "0002  (queued|running)")
-        slurm_session.wait_until(lambda: not slurm_session.tasks(), 60, "the queue is empty")
+        slurm_session.wait_until(lambda: not slurm_session.tasks(), 240, "the queue is empty")
         self.assertIn("3 done", self.campaign("status").stdout)
         self.campaign("collect")
         rows = (self.output / "campaign.csv").read_text(encoding="utf-8").splitlines()
