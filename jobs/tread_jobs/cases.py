@@ -2,6 +2,7 @@
 
 import hashlib
 import itertools
+import math
 import tomllib
 from dataclasses import dataclass
 
@@ -9,6 +10,8 @@ from tread_jobs.axes import SCENE
 from tread_jobs.errors import CampaignError
 from tread_jobs.scene_keys import canonical, value_at, with_absolute_paths, with_values
 from tread_jobs.toml_text import toml_text
+
+MOST_CASES = 100_000
 
 
 @dataclass(frozen=True)
@@ -29,22 +32,25 @@ class Case:
 
 def make_cases(campaign):
     """All cases, numbered from 0; the same file gives the same cases. CampaignError where axes clash or name no place of the scene."""
+    count = math.prod(len(axis.points) for axis in campaign.axes) * campaign.repeats.count
+    if count > MOST_CASES:
+        raise CampaignError(f"{campaign.path}: {count} cases; at most {MOST_CASES}")
     scenes, cases = {}, []
     for choice in itertools.product(*(range(len(axis.points)) for axis in campaign.axes)):
         chosen = list(zip(campaign.axes, choice))
         file = next((axis.points[i][axis.keys.index(SCENE)] for axis, i in chosen if SCENE in axis.keys), campaign.scene)
-        base = scenes.setdefault(file, None) or _read_scene(campaign, file)
-        scenes[file] = base
-        settings = _settings(campaign, base, chosen)
+        if not isinstance(file, str):
+            raise CampaignError(f"{campaign.path}: scene: a path is a text")
+        if file not in scenes:
+            scenes[file] = _read_scene(campaign, file)
+        settings = _settings(campaign, scenes[file], chosen)
         for repeat in range(campaign.repeats.count):
-            cases.append(_case(campaign, len(cases), base, settings, chosen, repeat))
+            cases.append(_case(campaign, len(cases), scenes[file], settings, chosen, repeat))
     _refuse_equal(cases)
     return cases
 
 
 def _read_scene(campaign, file):
-    if not isinstance(file, str):
-        raise CampaignError(f"{campaign.path}: scene: a path is a text")
     path = campaign.path.parent / file
     try:
         scene = tomllib.loads(path.read_text(encoding="utf-8"))

@@ -86,6 +86,7 @@ class Expand(CampaignTest):
             (CAMPAIGN.replace("slip_sand.toml", "slip_snad.toml"), "slip_snad.toml"),
             (CAMPAIGN + "cases_a_task = 2\nranks = 2\n", "one rank each"),
             (CAMPAIGN + "[repeats]\ncount = 3\n", "the same bits"),
+            (CAMPAIGN + "[repeats]\ncount = 30000\nseeds = ['rocks[0].seed']\n", "120000 cases; at most 100000"),
             ("title = 3 3", "line 1"),
         ):
             self.file.write_text(text, encoding="utf-8")
