@@ -11,7 +11,16 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "jobs" / "campaign.py"
-STAND_IN = pathlib.Path(__file__).with_name("stand_in_tread.py")
+
+
+def program_under_test():
+    """The built program; where it has no checkpoints yet, a stand-in for one that has."""
+    real = os.environ["TREAD"]
+    options = subprocess.run([real, "run", "--help"], capture_output=True, text=True, check=True).stdout
+    return real if "--restart" in options else str(pathlib.Path(__file__).with_name("stand_in_tread.py"))
+
+
+TREAD = program_under_test()
 TWIN = ROOT / "configs" / "paper" / "reduced" / "slip_sand.toml"
 
 CAMPAIGN = f"""
@@ -50,7 +59,7 @@ class CampaignTest(unittest.TestCase):
         self.file = self.directory / "campaign.toml"
         self.file.write_text(CAMPAIGN, encoding="utf-8")
 
-    def campaign(self, command, *options, output=None, program=STAND_IN, path=None, code=0):
+    def campaign(self, command, *options, output=None, program=TREAD, path=None, code=0):
         arguments = [sys.executable, str(PROGRAM), command, str(self.file), "--output", str(output or self.output), *map(str, options)]
         if command in ("expand", "submit", "local", "retry") and program:
             arguments += ["--tread", str(program)]

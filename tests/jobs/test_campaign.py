@@ -14,7 +14,7 @@ import unittest
 
 import h5py
 
-from campaign_fixture import CAMPAIGN, ROOT, STAND_IN, TWIN, CampaignTest
+from campaign_fixture import CAMPAIGN, ROOT, TREAD, TWIN, CampaignTest
 
 AXIS = '[[axis]]\nkey = "material.sand.young"\nvalues = [1e6, 1e7]\n'
 
@@ -193,7 +193,7 @@ class Local(CampaignTest):
         # Fails in cases 0001 and 0002, in two ways, as long as the file `broken` is there.
         program = self.script("fails_in_two", '#!/bin/bash\nif [[ -e broken || -e ../../broken || -e ../../../broken ]]; then\n'
                               'case $1$* in run*0001*) echo "no luck" >&2; exit 3;; run*0002*) kill -9 $$;; esac\nfi\n'
-                              f'exec "{STAND_IN}" "$@"\n')
+                              f'exec "{TREAD}" "$@"\n')
         (self.directory / "broken").touch()
         self.campaign("local", program=program, code=3)
         done = self.campaign("status", code=3)
