@@ -47,8 +47,8 @@ def chosen_snapshots(run):
 
 
 def slice_of(points, axis, at, spacing):
-    """Rows of the points within half their distance of the plane."""
-    return np.flatnonzero(np.abs(points.position[:, axis] - at) <= 0.5 * spacing)
+    """Rows of the points near the plane: one layer, or both where it lies between two."""
+    return np.flatnonzero(np.abs(points.position[:, axis] - at) <= 0.75 * spacing)
 
 
 def draw_panel(axis, run, number, plane, field, norm, colours):
@@ -96,7 +96,7 @@ def figure_of(run, plane, numbers):
     """`plane` is its normal's name and where it stands, m."""
     normal, across, up = PLANES[plane[0]]
     wide, high = window_of(run, plane, numbers)
-    figure, axes = figure_grid(len(numbers), 2, 15.0, 7.2 * high[1] / wide[1] + 0.5, sharex=True, sharey=True)
+    figure, axes = figure_grid(len(numbers), 2, 15.0, 6.4 * high[1] / wide[1] + 0.5 + 1.8 / len(numbers), sharex=True, sharey=True)
     fields = ((displacement, "displacement  [mm]", "YlGnBu"), (shear_rate, "rate of equivalent plastic shear strain  [1/s]", "cividis"))
     for column, ((field, label, colours), norm) in enumerate(zip(fields, norms_of(run, numbers))):
         for row, number in enumerate(numbers):
