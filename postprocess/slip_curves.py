@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Drawbar pull, torque, sinkage and power number of a campaign's wheels against slip: mean and spread over the steady part of each drive.
 
-Hollow where a drive had not become steady. Bands: Wong and Reece's formulas with the strength of the scene's sand and the stiffness of published
+Hollow where a drive had not become steady, or goes on. Bands: Wong and Reece's formulas with the strength of the scene's sand and the stiffness of published
 soils. Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
 """
 
@@ -72,7 +72,7 @@ def values_of(table, curve, quantity):
 
 def plot_curve(axis, table, curve, quantity, style, factor):
     mean, spread, _ = values_of(table, curve, quantity)
-    slip, steady = table["slip"][curve.rows], table["steady"][curve.rows] > 0
+    slip, steady = table["slip"][curve.rows], (table["steady"][curve.rows] > 0) & (table["state"][curve.rows] == "done")
     if quantity == "power_number":
         mean = np.where(np.abs(mean) <= MOST_POWER, mean, np.nan)
     colour, marker = style
@@ -135,7 +135,7 @@ def legend_of(axes, curves, with_soils):
     import matplotlib.pyplot as plt
 
     handles = [plt.Line2D([], [], color=COLOURS[i % 7], marker=MARKERS[i % 7], label=curve.name) for i, curve in enumerate(curves)]
-    handles.append(plt.Line2D([], [], color=GREY, marker="o", linestyle="", markerfacecolor="white", label="not steady: last half of the drive"))
+    handles.append(plt.Line2D([], [], color=GREY, marker="o", linestyle="", markerfacecolor="white", label="not steady, or not done"))
     if with_soils:
         handles += axes[0, 2].get_legend_handles_labels()[0]
         handles.append(plt.Line2D([], [], color=GREY, linestyle="--", label=f"Wong-Reece: {', '.join(soil.name for soil in PUBLISHED)}"))
