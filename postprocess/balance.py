@@ -8,12 +8,8 @@ import argparse
 import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
 from tread_post import Run, RunError
+from tread_post.style import COLOURS, GREY, figure_grid, finish, write
 
 
 def arguments():
@@ -26,24 +22,23 @@ def arguments():
 def figure_of(run):
     ranks = run.ranks
     time = ranks["time"]
-    plt.rcParams.update({"font.size": 12, "axes.spines.top": False, "axes.spines.right": False})
-    figure, (above, below) = plt.subplots(2, 1, figsize=(10, 7), sharex=True, constrained_layout=True)
-    above.plot(time, ranks["imbalance"], color="#0072B2", linewidth=1.6)
+    figure, axes = figure_grid(2, 1, 10.0, 3.5, sharex=True)
+    above, below = axes[:, 0]
+    above.plot(time, ranks["imbalance"], color=COLOURS[0], linewidth=1.6)
     threshold = run.scene.get("balance", {}).get("threshold")
     if threshold is not None and threshold < 10:
-        above.axhline(threshold, color="#999999", linewidth=0.8, linestyle="--", label="threshold of the scene")
+        above.axhline(threshold, color=GREY, linewidth=0.8, linestyle="--", label="threshold of the scene")
         above.legend(loc="upper right", frameon=False)
     renewed = [t for t, old, new in zip(time[1:], ranks["repartitions"], ranks["repartitions"][1:]) if new > old]
     for t in renewed:
-        above.axvline(t, color="#D55E00", linewidth=0.8)
+        above.axvline(t, color=COLOURS[1], linewidth=0.8)
     above.set_ylabel("largest over mean load")
     above.set_ylim(bottom=1)
-    below.plot(time, ranks["points_moved"], color="#333333", linewidth=1.6)
+    below.plot(time, ranks["points_moved"], color=COLOURS[6], linewidth=1.6)
     below.set_ylabel("points that changed ranks")
     below.set_xlabel("time  [s]")
     for axis in (above, below):
-        axis.grid(color="#cccccc", linewidth=0.6)
-        axis.set_axisbelow(True)
+        finish(axis)
     figure.suptitle(run.title, fontsize=15)
     return figure
 
@@ -51,9 +46,7 @@ def figure_of(run):
 def main():
     options = arguments()
     path = options.output or options.run / "balance.png"
-    figure = figure_of(Run(options.run))
-    figure.savefig(path, dpi=110)
-    print(path)
+    write(figure_of(Run(options.run)), path)
 
 
 if __name__ == "__main__":

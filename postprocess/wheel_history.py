@@ -8,17 +8,14 @@ import argparse
 import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 
 from tread_post import Run, RunError
+from tread_post.style import COLOURS, figure_grid, finish, readable, with_unit, write
 
-# Okabe and Ito's colours, which the colour-blind can tell apart; x, y, z, and one for scalars.
-COMPONENT_COLOURS = ("#D55E00", "#009E73", "#0072B2")
-SCALAR_COLOUR = "#333333"
+# x, y, z, and one for scalars.
+COMPONENT_COLOURS = (COLOURS[1], COLOURS[2], COLOURS[0])
+SCALAR_COLOUR = COLOURS[6]
 # Panels in the order of reading: column, label, name of the axis.
 PANELS = (
     ("position", "displacement"),
@@ -40,20 +37,6 @@ def arguments():
     return parser.parse_args()
 
 
-def with_unit(label, unit):
-    return label if unit == "1" else f"{label}  [{unit}]"
-
-
-def readable(values, unit):
-    """Values and unit of which the larger ones have up to three digits before the point."""
-    largest = np.nanmax(np.abs(values), initial=0)
-    if unit == "m" and 0 < largest < 0.5:
-        return values * 1e3, "mm"
-    if unit in ("N", "N m") and largest >= 5e3:
-        return values / 1e3, "k" + unit
-    return values, unit
-
-
 def shade_phases(axes, phases, end):
     """Every second phase lies on grey; names stand over the first row."""
     ends = [phase.start for phase in phases[1:]] + [end]
@@ -72,16 +55,16 @@ def shade_phases(axes, phases, end):
 
 
 def plot_vector(axis, time, values, unit, label):
-    values, unit = readable(values, unit)
+    factor, unit = readable(values, unit)
     for component, name in enumerate("xyz"):
-        axis.plot(time, values[:, component], color=COMPONENT_COLOURS[component], label=name, linewidth=1.6)
+        axis.plot(time, factor * values[:, component], color=COMPONENT_COLOURS[component], label=name, linewidth=1.6)
     axis.set_ylabel(with_unit(label, unit))
     axis.legend(ncol=3, loc="best", frameon=True, framealpha=0.85, edgecolor="none", handlelength=1.4)
 
 
 def plot_scalar(axis, time, values, unit, label):
-    values, unit = readable(values, unit)
-    axis.plot(time, values, color=SCALAR_COLOUR, linewidth=1.6)
+    factor, unit = readable(values, unit)
+    axis.plot(time, factor * values, color=SCALAR_COLOUR, linewidth=1.6)
     axis.set_ylabel(with_unit(label, unit))
 
 
@@ -102,13 +85,11 @@ def figure_of(run, name):
     time = series["time"]
     if len(time) == 0:
         raise RunError(f"{run.path / 'timeseries.h5'}: /wheel/{name} has no rows yet")
-    plt.rcParams.update({"font.size": 12, "axes.spines.top": False, "axes.spines.right": False})
-    figure, axes = plt.subplots(3, 2, figsize=(13, 10), sharex=True, constrained_layout=True)
+    figure, axes = figure_grid(3, 2, height_each=3.3, sharex=True)
     for axis, (column, label) in zip(axes.flat, PANELS):
         plot_panel(axis, series, column, label)
-        axis.grid(color="#cccccc", linewidth=0.6)
         axis.axhline(0, color="#999999", linewidth=0.8)
-        axis.set_axisbelow(True)
+        finish(axis)
     shade_phases(axes, run.phases, time[-1])
     axes[0, 0].set_xlim(time[0], max(time[-1], time[0] + 1e-9))
     for axis in axes[-1]:
@@ -126,10 +107,7 @@ def main():
     output = options.output or options.run / "wheel_history.png"
     for name in names:
         path = output if len(names) == 1 else output.with_stem(f"{output.stem}_{name}")
-        figure = figure_of(run, name)
-        figure.savefig(path, dpi=110)
-        plt.close(figure)
-        print(path)
+        write(figure_of(run, name), path)
 
 
 if __name__ == "__main__":

@@ -1,10 +1,13 @@
 """Draws a snapshot with VTK. Needs a display."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import vtk
 from matplotlib import colormaps
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
+from tread_post.geometry import point_spacing, rotated
 from tread_post.run import RunError
 
 # Pale where nothing moved, as sand is; tells apart without red and green.
@@ -27,24 +30,44 @@ TITLE_LETTERS, SCALE_LETTERS = 26, 22
 SMOOTHING = 2
 
 
-def draw(run, snapshot, output, size):
+@dataclass(frozen=True)
+class View:
+    """What pictures of a film have in common."""
+
+    content: np.ndarray  # [n, 3], m: points that lie inside the frame
+    displacement: float  # m, the end of the scale
+
+
+def view_of(run, snapshots):
+    """The View that all of `snapshots` fit into."""
+    contents, displacements = [], [1e-3]
+    for snapshot in snapshots:
+        points, bodies = run.points(snapshot), run.bodies(snapshot)
+        if points is None and bodies is None:
+            raise RunError(f"{run.path / 'snapshots'}: snapshot {snapshot} has neither points nor bodies")
+        contents.append(outline(points, bodies, run.shapes if bodies is not None else []))
+        if points is not None:
+            moved = np.linalg.norm(points.fields["displacement"], axis=1)
+            displacements.append(float(np.percentile(moved, SCALE_PERCENTILE)) or float(moved.max()))
+    return View(np.concatenate(contents), max(displacements[1:], default=0.0) or displacements[0])
+
+
+def draw(run, snapshot, view, output, size):
     """Writes the picture of a snapshot to `output` (.png), `size` pixels wide and high."""
     points, bodies = run.points(snapshot), run.bodies(snapshot)
-    if points is None and bodies is None:
-        raise RunError(f"{run.path / 'snapshots'}: snapshot {snapshot} has neither points nor bodies")
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1.0, 1.0, 1.0)
     renderer.SetBackground2(0.80, 0.86, 0.93)
     renderer.GradientBackgroundOn()
     add_lights(renderer)
     if points is not None:
-        add_sand(renderer, points, point_spacing(run.scene, points), size)
+        add_sand(renderer, points, point_spacing(run.scene, points), view.displacement, size)
     shapes = run.shapes if bodies is not None else []
     if bodies is not None:
         add_bodies(renderer, bodies, shapes, len(run.scene.get("body", [])))
     time = (points or bodies).time
     add_title(renderer, f"{run.title}\nt = {time:.3f} s", size)
-    aim(renderer, outline(points, bodies, shapes), size)
+    aim(renderer, view.content, size)
     write(renderer, output, size)
 
 
@@ -55,21 +78,9 @@ def add_lights(renderer):
     kit.AddLightsToRenderer(renderer)
 
 
-def point_spacing(scene, points):
-    """Of neighbouring points at the start, m: from the scene, or from the room that the points take."""
-    spacing = scene.get("grid", {}).get("spacing")
-    for terrain in scene.get("terrain", []):
-        if "spacing" in terrain:
-            return terrain["spacing"]
-        if spacing and "points_per_cell" in terrain:
-            return spacing / terrain["points_per_cell"] ** (1 / 3)
-    return (np.prod(np.ptp(points.position, axis=0)) / len(points.position)) ** (1 / 3)
-
-
-def add_sand(renderer, points, spacing, size):
-    """Every point as a sphere as wide as its share of the sand."""
+def add_sand(renderer, points, spacing, largest, size):
+    """Every point as a sphere as wide as its share of the sand, coloured by its displacement up to `largest` (m)."""
     moved = np.linalg.norm(points.fields["displacement"], axis=1)
-    largest = float(np.percentile(moved, SCALE_PERCENTILE)) or float(moved.max()) or 1e-3
     factor, unit = (1e3, "mm") if largest < 0.5 else (1.0, points.units["displacement"])
     end = round_end(largest * factor)
 
@@ -218,12 +229,6 @@ def outline(points, bodies, shapes):
         turned = rotated(bodies.orientation, local * bodies.scale[:, None, None])
         parts.append((bodies.position[:, None] + turned).reshape(-1, 3))
     return np.concatenate(parts)
-
-
-def rotated(orientation, vectors):
-    """Vectors [n, k, 3] turned by unit quaternions [n, 4], w x y z: v + 2 q x (q x v + w v)."""
-    w, q = orientation[:, None, :1], orientation[:, None, 1:]
-    return vectors + 2 * np.cross(q, np.cross(q, vectors) + w * vectors)
 
 
 def aim(renderer, content, size):

@@ -132,6 +132,17 @@ class Run:
         files = (self.path / "snapshots").glob("*_[0-9]*.h*")
         return sorted({int(file.stem.rpartition("_")[2]) for file in files if file.suffix in (".hdf", ".h5")})
 
+    @property
+    def points_times(self):
+        """Time (s) by number of the snapshots that have sand."""
+        times = {}
+        for snapshot in self.snapshots:
+            path = self.path / "snapshots" / f"points_{snapshot:04}.hdf"
+            if path.is_file():
+                with _open(path) as file:
+                    times[snapshot] = float(file.attrs["time"])
+        return times
+
     def points(self, snapshot):
         """None if the scene has no sand."""
         path = self.path / "snapshots" / f"points_{snapshot:04}.hdf"

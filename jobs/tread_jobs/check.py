@@ -1,0 +1,86 @@
+"""What `tread check` says of cases: whether they are right, and what they will cost."""
+
+import os
+import re
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass
+
+from tread_jobs.errors import CampaignError, MachineError
+
+BYTES = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
+
+
+@dataclass(frozen=True)
+class Plan:
+    points: int
+    bodies: int
+    simulated: float  # s, at most
+    steps: float
+    disk: float  # bytes, at most
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Of a whole campaign, at most: phases that end by themselves may end sooner."""
+
+    cases: int
+    checked: int
+    steps: float
+    gpu_hours: float
+    core_hours: float
+    disk: float  # bytes
+    longest: float  # s, the case that takes longest
+
+    @property
+    def text(self):
+        machine = f"{self.gpu_hours:.3g} GPU-hours" if self.gpu_hours else f"{self.core_hours:.3g} core-hours"
+        basis = "" if self.checked == self.cases else f" (from {self.checked} of them, evenly spread)"
+        return (f"{self.cases} cases{basis}: at most {self.steps:.3g} steps, {machine} by the model, "
+                f"the longest case {self.longest:.3g} s, disk {self.disk / 1e9:.3g} GB")
+
+    @property
+    def table(self):
+        return asdict(self)
+
+
+def check_cases(program, cases, most, scratch):
+    """Plans of `most` cases, evenly spread over all. CampaignError with tread's own words for the first that is wrong."""
+    count = min(most, len(cases))
+    picked = [cases[round(index * (len(cases) - 1) / max(1, count - 1))] for index in range(count)]
+
+    def check(case):
+        scene = scratch / f"{case.name}.toml"
+        scene.write_text(case.scene_text, encoding="utf-8")
+        try:
+            done = subprocess.run([program, "check", str(scene)], capture_output=True, text=True, check=False)
+        except OSError as error:
+            raise MachineError(f"{program}: {error.strerror}; --tread names the program") from error
+        if done.returncode:
+            raise CampaignError(f"case {case.name} ({case.labels}): {done.stderr.strip() or done.stdout.strip()}")
+        return _plan(done.stdout, program)
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return list(pool.map(check, picked))
+
+
+def cost_of(plans, count, resources, site):
+    """Scaled from the cases that were checked to all `count` of them."""
+    scale = count / len(plans)
+    speed = site.gpu_speed if resources.gpus else site.core_speed
+    units = resources.gpus if resources.gpus else resources.ranks * resources.threads
+    times = [plan.steps * (speed.step + (speed.point * plan.points + speed.body * plan.bodies) / units) for plan in plans]
+    hours = scale * sum(times) * units / 3600
+    # Cases that share a GPU take turns on it: together they take as long as one after the other.
+    longest = max(times) * (resources.cases_a_task if resources.gpus else 1)
+    return Cost(count, len(plans), scale * sum(plan.steps for plan in plans), hours if resources.gpus else 0.0,
+                0.0 if resources.gpus else hours, scale * sum(plan.disk for plan in plans), longest)
+
+
+def _plan(text, program):
+    counts = re.search(r"^(\d+) points, (\d+) bodies", text, re.MULTILINE)
+    disk = re.search(r"disk at most ([\d.e+]+) ([kMGT]?B)", text)
+    steps = re.search(r"at most ([\d.e+-]+) s simulated: ([\d.e+-]+) steps", text)
+    if not (counts and disk and steps):
+        raise MachineError(f"{program}: check says nothing of points, steps and disk; is it tread?")
+    return Plan(int(counts[1]), int(counts[2]), float(steps[1]), float(steps[2]), float(disk[1]) * BYTES[disk[2]])

@@ -1,0 +1,111 @@
+"""One table of a campaign: axes, answers, what it cost, where it ran. Needs h5py and numpy, and reads runs with postprocess/tread_post."""
+
+import csv
+import datetime
+import io
+import json
+import math
+import sys
+from pathlib import Path
+
+from tread_jobs.errors import MachineError
+from tread_jobs.status import read_summary
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postprocess"))
+try:
+    from tread_post.answers import answers_of
+    from tread_post.campaign import write_campaign_table
+    from tread_post.run import Run, RunError
+except ImportError as missing:
+    raise MachineError(f"collect needs h5py and numpy ({missing}): on Debian /usr/bin/python3 with python3-h5py") from missing
+
+# Of summary.json, with units; errors are those of the run's books.
+NUMBERS = {"time": "s", "steps": "1", "substeps": "1", "points": "1", "bodies": "1", "wall_s": "s", "restarts": "1"}
+ERRORS = {"mass": "1", "momentum": "1", "energy": "1"}
+PROVENANCE = ("scene_hash", "version", "commit", "backend", "devices", "ranks", "start", "end")
+
+
+def collect_campaign(directory, states, dry_run):
+    """Writes campaign.h5 and campaign.csv, or with `dry_run` gives the CSV back, in lines. One row a case, done or not."""
+    manifest, entries = directory.manifest, directory.entries()
+    rows = [_row(directory.cases / entry.name) for entry in entries]
+    groups = {
+        "case": {
+            "number": ([entry.number for entry in entries], "1"),
+            "state": ([states[entry.name].state for entry in entries], "1"),
+            "reason": ([states[entry.name].reason for entry in entries], "1"),
+            "tail": ([states[entry.name].tail for entry in entries], "1"),
+        },
+        "labels": {name: ([entry.labels[name] for entry in entries], "1") for name in entries[0].labels},
+        "axes": {name: column for name in entries[0].labels if (column := _numbers(entries, name, _unit(manifest, name)))},
+        "answers": _columns([row["answers"] for row in rows]),
+        "summary": _columns([row["summary"] for row in rows]),
+        "provenance": {name: ([row["provenance"].get(name, "") for row in rows], "1") for name in PROVENANCE},
+    }
+    table = _csv_text(groups)
+    if dry_run:
+        return table.splitlines()
+    attributes = {
+        "title": manifest["title"], "campaign": (directory.cases / "campaign.toml").read_text(encoding="utf-8"),
+        "axes": json.dumps(manifest["axes"]), "cost": json.dumps(manifest["cost"]),
+        "collected": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+    }
+    write_campaign_table(directory.path / "campaign.h5", attributes, groups)
+    (directory.path / "campaign.csv").write_text(table, encoding="utf-8")
+    return [f"{directory.path / name}: {len(entries)} cases" for name in ("campaign.h5", "campaign.csv")]
+
+
+def _row(case):
+    """Answers, numbers and texts of a case; empty where it has none. A damaged file costs that case's answers, not the table."""
+    summary = read_summary(case) or {}
+    answers = {}
+    try:
+        values, units = answers_of(Run(case / "run"))
+        answers = {name: (value, units[name]) for name, value in values.items()}
+    except RunError:
+        pass
+    numbers = {name: (summary[name], unit) for name, unit in NUMBERS.items() if isinstance(summary.get(name), (int, float))}
+    errors = summary.get("errors") or {}
+    numbers |= {f"{name}_error": (errors[name], unit) for name, unit in ERRORS.items() if isinstance(errors.get(name), (int, float))}
+    texts = {name: _text(summary[name]) for name in PROVENANCE if summary.get(name) is not None}
+    return {"answers": answers, "summary": numbers, "provenance": texts}
+
+
+def _columns(rows):
+    """Columns of all names that any row has; NaN where one has none."""
+    units = {name: unit for row in rows for name, (_, unit) in row.items()}
+    return {name: ([float(row[name][0]) if name in row else math.nan for row in rows], unit) for name, unit in units.items()}
+
+
+def _numbers(entries, name, unit):
+    """The column of an axis whose values are numbers; None for others, whose labels have to do."""
+    values = [entry.values[name] for entry in entries]
+    are_numbers = all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
+    return (values, unit) if are_numbers else None
+
+
+def _unit(manifest, name):
+    return next((axis["unit"] for axis in manifest["axes"] if axis["name"] == name), "1")
+
+
+def _text(value):
+    return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+
+
+def _csv_text(groups):
+    """As campaign.h5, with units in the header; tails of logs are left to it. Axes are numbers where they can be, and else labels."""
+    axes = {f"axis_{name}": groups["axes"].get(name, column) for name, column in groups["labels"].items()}
+    parts = (groups["case"], axes, groups["answers"], groups["summary"], groups["provenance"])
+    columns = [(name, *column) for part in parts for name, column in part.items() if name != "tail"]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([name if unit == "1" else f"{name} [{unit}]" for name, _, unit in columns])
+    for row in zip(*(values for _, values, _ in columns)):
+        writer.writerow([_cell(value) for value in row])
+    return text.getvalue()
+
+
+def _cell(value):
+    if isinstance(value, float):
+        return "" if math.isnan(value) else f"{value:.7g}"
+    return value

@@ -1,0 +1,127 @@
+"""What a case of a campaign is given, and how a site is told: [resources] of the campaign file and a file of jobs/sites."""
+
+import re
+import tomllib
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+
+from tread_jobs.errors import CampaignError
+
+SITES = Path(__file__).resolve().parents[1] / "sites"
+TIME = re.compile(r"(\d+):([0-5]\d):([0-5]\d)")
+# What may stand in a line of #SBATCH, which no shell ever reads, but sbatch splits at spaces.
+TOKEN = re.compile(r"[A-Za-z0-9_.:,@%/+=\[\]&|*-]*")
+
+
+@dataclass(frozen=True)
+class Resources:
+    """Of one case; a task of the array holds `cases_a_task` of them, side by side."""
+
+    nodes: int = 1
+    ranks: int = 1
+    threads: int = 1  # CPU threads a rank
+    gpus: int = 0  # of the task
+    backend: str = "auto"
+    wall_time: str = "04:00:00"
+    signal_lead: int = 180  # s before the limit at which runs are told to write a checkpoint and stop
+    restarts: int = 10  # how often a task that stopped early begins again by itself
+    cases_a_task: int = 1
+    at_once: int = 50  # tasks of the array that run at the same time, at most
+    memory_gb: int = 0  # a node; 0 leaves it to the site
+
+
+@dataclass(frozen=True)
+class Speed:
+    """Seconds that a step takes: step + point * points + body * bodies, on one GPU, or on one CPU core with `cores` shared out."""
+
+    step: float
+    point: float
+    body: float
+
+
+# docs/performance.md: slip_sand and slip_mixed on an H200, whole steps with automatic substeps; one core with Mohr-Coulomb.
+GPU_SPEED = Speed(2.0e-4, 3.4e-10, 5.0e-8)
+CORE_SPEED = Speed(2.0e-5, 4.5e-7, 1.0e-5)
+
+
+@dataclass(frozen=True)
+class Site:
+    """What differs from cluster to cluster."""
+
+    partition: str = ""
+    account: str = ""
+    qos: str = ""
+    constraint: str = ""
+    modules: list[str] = field(default_factory=list)
+    launcher: str = "mpirun"  # srun: srun --mpi=pmix
+    gpus_a_node: int = 0  # 0: whatever is asked for
+    program: str = "tread"
+    gpu_speed: Speed = GPU_SPEED
+    core_speed: Speed = CORE_SPEED
+
+
+def read_resources(table):
+    resources = _filled(Resources, table, "[resources]")
+    for name in ("nodes", "ranks", "threads", "cases_a_task", "at_once", "signal_lead"):
+        if getattr(resources, name) < 1:
+            raise CampaignError(f"[resources] {name}: an integer of at least 1")
+    if min(resources.gpus, resources.restarts, resources.memory_gb) < 0:
+        raise CampaignError("[resources] gpus, restarts and memory_gb are at least 0")
+    if resources.backend not in ("auto", "cpu", "cuda"):
+        raise CampaignError('[resources] backend: "auto", "cpu" or "cuda"')
+    if seconds(resources.wall_time) <= resources.signal_lead:
+        raise CampaignError("[resources] wall_time: HH:MM:SS, longer than signal_lead")
+    if resources.ranks % resources.nodes or resources.gpus % resources.nodes:
+        raise CampaignError("[resources] ranks and gpus are multiples of nodes")
+    if resources.cases_a_task > 1 and (resources.ranks > 1 or resources.gpus > 1):
+        raise CampaignError("[resources] cases_a_task: cases that share a task have one rank each, and one GPU together")
+    return resources
+
+
+def read_site(name):
+    """A file of jobs/sites by its name, or any file by its path; "" is a site without wishes."""
+    if not name:
+        return Site()
+    path = SITES / f"{name}.toml" if re.fullmatch(r"[A-Za-z0-9_-]+", name) else Path(name)
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        known = ", ".join(sorted(file.stem for file in SITES.glob("*.toml")))
+        raise CampaignError(f"site {name}: {error}; jobs/sites has {known}") from error
+    for speed in ("gpu_speed", "core_speed"):
+        if speed in table:
+            table[speed] = _filled(Speed, table[speed], f"{path}: {speed}")
+    site = _filled(Site, table, str(path))
+    for option in ("partition", "account", "qos", "constraint"):
+        if not TOKEN.fullmatch(getattr(site, option)):
+            raise CampaignError(f"{path}: {option}: letters, digits and _.:,@%/+=[]&|*- only")
+    if site.launcher not in ("mpirun", "srun"):
+        raise CampaignError(f'{path}: launcher: "mpirun" or "srun"')
+    if not all(isinstance(module, str) and module and "\n" not in module for module in site.modules):
+        raise CampaignError(f"{path}: modules is a list of names")
+    return site
+
+
+def seconds(text):
+    """Of HH:MM:SS; 0 of anything else."""
+    found = TIME.fullmatch(text)
+    return 3600 * int(found[1]) + 60 * int(found[2]) + int(found[3]) if found else 0
+
+
+def _filled(kind, table, where):
+    """The dataclass with the table's values, each of the type that it has there."""
+    types = {item.name: item.type for item in fields(kind)}
+    if not isinstance(table, dict):
+        raise CampaignError(f"{where}: a table")
+    for name, value in table.items():
+        if name not in types:
+            raise CampaignError(f"{where}: unknown key '{name}'; known are {', '.join(types)}")
+        wanted = types[name]
+        origin = getattr(wanted, "__origin__", wanted)
+        fits = isinstance(value, (int, float) if origin is float else origin) and not isinstance(value, bool)
+        if not fits:
+            raise CampaignError(f"{where}: {name} is no {origin.__name__}")
+    try:
+        return kind(**table)
+    except TypeError as error:
+        raise CampaignError(f"{where}: {error}") from error

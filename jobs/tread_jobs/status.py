@@ -1,0 +1,152 @@
+"""How far each case is, from what stands in its directory; SLURM is asked for what waits or runs, and needs no accounting database."""
+
+import json
+import os
+import re
+import signal
+import socket
+import time
+from dataclasses import dataclass
+
+from tread_jobs.slurm import queued_tasks
+from tread_jobs.submission import past_submissions
+
+DONE, RUNNING, QUEUED, STOPPED, FAILED, STALE, NOT_STARTED = STATES = (
+    "done", "running", "queued", "stopped", "failed", "stale", "not started")
+# What `retry` takes up again.
+UNFINISHED = (STOPPED, FAILED, STALE, NOT_STARTED)
+TAIL = 5  # lines
+EARLY = 75
+
+
+@dataclass(frozen=True)
+class CaseState:
+    state: str
+    reason: str  # of a failure; else short
+    tail: str  # last lines of the run's output, of a failed or stale one
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """The last time that a case began, by its attempts.log."""
+
+    job: str
+    host: str
+    pid: int
+    code: int | None  # None: it has not ended, as far as its script could say
+
+
+def case_states(directory, quiet_for):
+    """CaseState by case name. An attempt on another machine that SLURM does not know counts as stale after `quiet_for` s without a sign of life."""
+    entries = directory.entries()
+    queue = _queue(directory)
+    return {entry.name: _state(directory.cases / entry.name, queue, entry.name, quiet_for) for entry in entries}
+
+
+def summary_text(states):
+    counts = {state: sum(one.state == state for one in states.values()) for state in STATES}
+    return ", ".join(f"{count} {state}" for state, count in counts.items() if count)
+
+
+def read_summary(case):
+    """A run's summary.json; None while there is none that can be read."""
+    try:
+        return json.loads((case / "run" / "summary.json").read_text(encoding="utf-8"))
+    except (OSError, json.JSONDecodeError):
+        return None
+
+
+def _queue(directory):
+    """(SLURM's state by case name, jobs that SLURM answered for)."""
+    submissions = [(tasks, how["job"]) for _, tasks, how in past_submissions(directory) if "job" in how]
+    tasks = queued_tasks({job for _, job in submissions})
+    if tasks is None:
+        return {}, set()
+    states = {}
+    for cases, job in submissions:
+        for number, names in enumerate(cases):
+            if f"{job}_{number}" in tasks:
+                states |= {name: tasks[f"{job}_{number}"] for name in names}
+    return states, {job for _, job in submissions}
+
+
+def _state(case, queue, name, quiet_for):
+    waiting, answered = queue
+    attempt, slurm = _last_attempt(case / "attempts.log"), waiting.get(name)
+    if attempt and attempt.code is None and slurm != "PENDING":
+        if _is_alive(attempt, case, slurm, answered, quiet_for):
+            return CaseState(RUNNING, f"on {attempt.host}", "")
+        return CaseState(STALE, f"began on {attempt.host} and never ended", _tail(case))
+    summary = read_summary(case)
+    if attempt and attempt.code == 0 and summary and summary.get("status") == "finished":
+        return CaseState(DONE, f"{summary.get('wall_s', 0):.3g} s", "")
+    # Beside others of its task that still run, a case that failed has failed.
+    if slurm and (not attempt or attempt.code == EARLY or slurm == "PENDING"):
+        return CaseState(QUEUED, slurm.lower(), "")
+    if not attempt:
+        return CaseState(NOT_STARTED, "", "")
+    if attempt.code == EARLY:
+        return CaseState(STOPPED, (summary or {}).get("reason", "before its first step"), "")
+    return CaseState(FAILED, _reason(attempt, summary), _tail(case))
+
+
+def _is_alive(attempt, case, slurm, answered, quiet_for):
+    if slurm:
+        return True
+    if attempt.job.rpartition("_")[0] in answered:
+        return False
+    if attempt.host == socket.gethostname():
+        return _process_lives(attempt.pid)
+    return time.time() - _last_touched(case) < quiet_for
+
+
+def _process_lives(pid):
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        return True
+    return True
+
+
+def _last_touched(case):
+    return max((path.stat().st_mtime for path in (case / "run", *case.glob("run/*"), case / "output.txt") if path.exists()), default=0.0)
+
+
+def _last_attempt(path):
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return None
+    attempt = None
+    for line in lines:
+        begun = re.search(r" start job (\S+) host (\S+) pid (\d+)$", line)
+        ended = re.search(r" end code (\d+)$", line)
+        if begun:
+            attempt = Attempt(begun[1], begun[2], int(begun[3]), None)
+        elif ended and attempt:
+            attempt = Attempt(attempt.job, attempt.host, attempt.pid, int(ended[1]))
+    return attempt
+
+
+def _reason(attempt, summary):
+    if summary and summary.get("exit_code"):
+        return f"exit {attempt.code}: {summary.get('reason')}"
+    if attempt.code > 128:
+        number = attempt.code - 128
+        name = signal.Signals(number).name if number in set(signal.Signals) else f"signal {number}"
+        return f"killed by {name}"
+    return f"exit {attempt.code}"
+
+
+def _tail(case):
+    """What the run said to the terminal, else its own log."""
+    for path in (case / "output.txt", case / "run" / "log.txt"):
+        try:
+            lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+        except OSError:
+            continue
+        if lines:
+            return "\n".join(lines[-TAIL:])
+    return ""

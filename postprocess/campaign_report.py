@@ -1,0 +1,148 @@
+#!/usr/bin/python3
+"""A campaign on one HTML page that needs nothing else: axes, answers of all cases, figures, failures, provenance.
+
+Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
+"""
+
+import argparse
+import sys
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+import sinkage_slip
+import slices
+import slip_curves
+from tread_post import RunError
+from tread_post.answers import QUANTITIES
+from tread_post.campaign import CampaignTable
+from tread_post.page import figure, page, paragraph, preformatted, section, table
+
+MOST_SLICES = 2  # runs whose sections are shown
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("campaign", type=Path, metavar="DIR", help="of a campaign, after `jobs/campaign.py collect`")
+    parser.add_argument("--output", type=Path, metavar="FILE.html", help="default: DIR/report.html")
+    return parser.parse_args()
+
+
+def summary_of(campaign):
+    counts = Counter(campaign["state"])
+    states = ", ".join(f"{count} {state}" for state, count in counts.most_common())
+    lines = [paragraph(f"{len(campaign)} cases: {states}. Collected {campaign.collected}.")]
+    if "wall_s" in campaign.columns:
+        wall = np.nansum(campaign["wall_s"])
+        cost = campaign.cost
+        hours = cost["gpu_hours"] or cost["core_hours"]
+        lines.append(paragraph(f"Finished runs took {wall:.4g} s ({wall / 3600:.3g} h) of wall time together; expected were at most {hours:.3g} "
+                               f"{'GPU' if cost['gpu_hours'] else 'core'}-hours by the model."))
+    return section("In short", *lines)
+
+
+def axes_of(campaign):
+    rows = [(axis.name, ", ".join(axis.labels), axis.unit if axis.unit != "1" else "", ", ".join(axis.keys)) for axis in campaign.axes]
+    return section("Axes", table(("axis", "values", "unit", "keys of the scene"), rows))
+
+
+def answers_of_all(campaign):
+    """Every case: axes, means with spreads, and whether they are of a steady state."""
+    labels = campaign.label_columns
+    quantities = [name for name in QUANTITIES if name in campaign.columns]
+    head = ["case", *(key.partition("/")[2] for key in labels), "state", "steady"]
+    head += [heading(name, campaign.units[name]) for name in quantities]
+    head += [f"{name} error" for name in ("momentum", "energy") if f"{name}_error" in campaign.columns]
+    rows = []
+    for row in range(len(campaign)):
+        cells = [f"{int(campaign['number'][row]):04}", *(campaign[key][row] for key in labels), campaign["state"][row], steadiness(campaign, row)]
+        cells += [mean_and_spread(campaign, name, row) for name in quantities]
+        cells += [float(campaign[f"{name}_error"][row]) for name in ("momentum", "energy") if f"{name}_error" in campaign.columns]
+        rows.append(cells)
+    marked = {row for row in range(len(campaign)) if campaign["state"][row] != "done"}
+    note = paragraph("Means and standard deviations over the steady part of the last drive. Where no steady part was found: over its last half.")
+    return section("Answers", note, table(head, rows, marked))
+
+
+def heading(name, unit):
+    """The slip that was measured stands beside the one that was asked for."""
+    label = "slip, measured" if name == "slip" else name.replace("_", " ")
+    return label if unit == "1" else f"{label} [{unit}]"
+
+
+def steadiness(campaign, row):
+    if "steady" not in campaign.columns or np.isnan(campaign["steady"][row]):
+        return ""
+    return f"{'from' if campaign['steady'][row] else 'no; from'} {campaign['steady_from'][row]:.2f} s"
+
+
+def mean_and_spread(campaign, name, row):
+    mean, spread = campaign[name][row], campaign[f"{name}_spread"][row]
+    if np.isnan(mean):
+        return ""
+    # Spreads to two digits, none where only rounding is left.
+    return f"{mean:.4g}" if spread < 1e-9 * abs(mean) else f"{mean:.4g} ± {float(f'{spread:.2g}'):g}"
+
+
+def figures_of(campaign):
+    parts = []
+    if "torque" in campaign.columns and campaign.slip_axes:
+        parts.append(figure(slip_curves.figure_of(campaign), "Against slip. Bars: standard deviation over the steady part. Bands: Wong and Reece's formulas "
+                            "with the strength of the scene's sand and the stiffness, exponent and shear length of published soils; dashed: those soils."))
+        traces = sinkage_slip.traces_of(campaign.path)
+        if traces:
+            parts.append(figure(sinkage_slip.figure_of(traces), "Sinkage over the largest of its curve against slip."))
+    for row in rows_with_snapshots(campaign)[:MOST_SLICES]:
+        run = campaign.run(row)
+        numbers = slices.chosen_snapshots(run)
+        at = slices.default_place(run, slices.PLANES["y"][0], numbers[0])
+        parts.append(figure(slices.figure_of(run, ("y", at), numbers), f"Case {int(campaign['number'][row]):04}: sand and bodies on the plane of the wheel."))
+    return section("Figures", *(parts or [paragraph("Nothing to draw yet.")]))
+
+
+def rows_with_snapshots(campaign):
+    rows = []
+    for row in range(len(campaign)):
+        try:
+            if campaign.run(row).points_times:
+                rows.append(row)
+        except RunError:
+            continue
+    return rows
+
+
+def failures_of(campaign):
+    parts = []
+    for row in np.flatnonzero(campaign["state"] != "done"):
+        parts.append(paragraph(f"{int(campaign['number'][row]):04}: {campaign['state'][row]} {campaign['reason'][row]}"))
+        if campaign["tail"][row]:
+            parts.append(preformatted(campaign["tail"][row]))
+    return section("Not done", *(parts or [paragraph("Every case is done.")]))
+
+
+def provenance_of(campaign):
+    keys = [key for key in campaign.columns if key.startswith("provenance/")]
+    rows = [[f"{int(campaign['number'][row]):04}", *(campaign[key][row] for key in keys)] for row in range(len(campaign))]
+    return section("Provenance", table(["case", *(key.partition("/")[2] for key in keys)], rows),
+                   paragraph("The campaign file:"), preformatted(campaign.text))
+
+
+def report_of(campaign):
+    return page(campaign.title, [summary_of(campaign), axes_of(campaign), figures_of(campaign), answers_of_all(campaign), failures_of(campaign),
+                                 provenance_of(campaign)])
+
+
+def main():
+    options = arguments()
+    campaign = CampaignTable(options.campaign)
+    output = options.output or options.campaign / "report.html"
+    output.write_text(report_of(campaign), encoding="utf-8")
+    print(output)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except RunError as error:
+        sys.exit(f"campaign_report: {error}")

@@ -1,0 +1,20 @@
+"""Places and turns, for pictures and sections alike."""
+
+import numpy as np
+
+
+def point_spacing(scene, points):
+    """Of neighbouring points at the start, m: from the scene, or from the room that the points take."""
+    spacing = scene.get("grid", {}).get("spacing")
+    for terrain in scene.get("terrain", []):
+        if "spacing" in terrain:
+            return terrain["spacing"]
+        if spacing and "points_per_cell" in terrain:
+            return spacing / terrain["points_per_cell"] ** (1 / 3)
+    return (np.prod(np.ptp(points.position, axis=0)) / len(points.position)) ** (1 / 3)
+
+
+def rotated(orientation, vectors):
+    """Vectors [n, k, 3] turned by unit quaternions [n, 4], w x y z: v + 2 q x (q x v + w v)."""
+    w, q = orientation[:, None, :1], orientation[:, None, 1:]
+    return vectors + 2 * np.cross(q, np.cross(q, vectors) + w * vectors)

@@ -1,0 +1,62 @@
+"""One HTML page that needs nothing else: figures and styles stand in it."""
+
+import base64
+import html
+import io
+
+STYLE = """
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 1200px; margin: 2em auto; padding: 0 1em; color: #222; background: #fff; }
+h1 { font-size: 1.7em; } h2 { font-size: 1.25em; margin-top: 2em; border-bottom: 1px solid #ccc; }
+table { border-collapse: collapse; font-size: 0.85em; } .wide { overflow-x: auto; }
+th, td { padding: 0.25em 0.7em; border-bottom: 1px solid #e2e2e2; text-align: right; white-space: nowrap; }
+th { background: #f3f3f3; position: sticky; top: 0; } td.text, th.text { text-align: left; }
+tr.not-done td { background: #fdf0e2; } pre { background: #f6f6f6; padding: 0.8em; overflow-x: auto; font-size: 0.8em; }
+img { max-width: 100%; } figcaption { color: #555; font-size: 0.9em; }
+"""
+
+
+def page(title, parts):
+    """The text of the page; `parts` are pieces of HTML."""
+    head = f"<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{escape(title)}</title>\n<style>{STYLE}</style>\n</head>\n"
+    return head + f"<body>\n<h1>{escape(title)}</h1>\n" + "\n".join(parts) + "\n</body>\n</html>\n"
+
+
+def escape(text):
+    return html.escape(str(text))
+
+
+def section(title, *parts):
+    return f"<h2>{escape(title)}</h2>\n" + "\n".join(parts)
+
+
+def paragraph(text):
+    return f"<p>{escape(text)}</p>"
+
+
+def preformatted(text):
+    return f"<pre>{escape(text)}</pre>"
+
+
+def figure(picture, caption):
+    """A matplotlib figure, inlined."""
+    import matplotlib.pyplot as plt
+
+    data = io.BytesIO()
+    picture.savefig(data, format="png", dpi=100, bbox_inches="tight", pad_inches=0.15)
+    plt.close(picture)
+    source = base64.b64encode(data.getvalue()).decode()
+    return f"<figure><img alt=\"{escape(caption)}\" src=\"data:image/png;base64,{source}\"><figcaption>{escape(caption)}</figcaption></figure>"
+
+
+def table(head, rows, marked=()):
+    """Cells are texts, to the left, or numbers; rows whose number is in `marked` stand out."""
+    def cell(tag, value):
+        is_text = isinstance(value, str)
+        shown = value if is_text else "" if value != value else f"{value:.4g}"
+        return f"<{tag}{' class=text' if is_text else ''}>{escape(shown)}</{tag}>"
+
+    lines = ["<tr>" + "".join(cell("th", name) for name in head) + "</tr>"]
+    for number, row in enumerate(rows):
+        kind = ' class="not-done"' if number in marked else ""
+        lines.append(f"<tr{kind}>" + "".join(cell("td", value) for value in row) + "</tr>")
+    return "<div class=\"wide\"><table>\n" + "\n".join(lines) + "\n</table></div>"

@@ -1,0 +1,49 @@
+"""What all figures share: letters, colours, grids, units, and the legend of what is steady."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+# Okabe and Ito's colours, which the colour-blind can tell apart; with markers, so that prints in grey do, too.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#333333")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+GRID, GREY = "#cccccc", "#999999"
+
+
+def figure_grid(rows, columns, width=13.0, height_each=4.2, **options):
+    """Figure and its axes [rows, columns]."""
+    plt.rcParams.update({"font.size": 12, "axes.spines.top": False, "axes.spines.right": False})
+    return plt.subplots(rows, columns, figsize=(width, height_each * rows), constrained_layout=True, squeeze=False, **options)
+
+
+def finish(axis):
+    axis.grid(color=GRID, linewidth=0.6)
+    axis.set_axisbelow(True)
+
+
+def with_unit(label, unit):
+    return label if unit == "1" else f"{label}  [{unit}]"
+
+
+def readable(values, unit):
+    """Factor and unit with which the larger values have up to three digits before the point."""
+    finite = np.abs(values[np.isfinite(values)]) if np.size(values) else np.zeros(0)
+    largest = finite.max() if finite.size else 0.0
+    if unit == "m" and 0 < largest < 0.5:
+        return 1e3, "mm"
+    if unit in ("N", "N m", "J", "Pa") and largest >= 5e3:
+        return 1e-3, "k" + unit
+    return 1.0, unit
+
+
+def legend_below(figure, handles, columns):
+    """Under all panels, where it hides nothing."""
+    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=columns, frameon=False)
+
+
+def write(figure, path):
+    figure.savefig(path, dpi=110, bbox_inches="tight", pad_inches=0.15)
+    plt.close(figure)
+    print(path)

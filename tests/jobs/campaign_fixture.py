@@ -1,0 +1,87 @@
+"""What the tests of campaigns share: a small campaign, a place for it, and jobs/campaign.py."""
+
+import os
+import pathlib
+import stat
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / "jobs" / "campaign.py"
+
+
+def program_under_test():
+    """The built program; where it has no checkpoints yet, a stand-in for one that has."""
+    real = os.environ["TREAD"]
+    options = subprocess.run([real, "run", "--help"], capture_output=True, text=True, check=True).stdout
+    return real if "--restart" in options else str(pathlib.Path(__file__).with_name("stand_in_tread.py"))
+
+
+TREAD = program_under_test()
+TWIN = ROOT / "configs" / "paper" / "reduced" / "slip_sand.toml"
+
+CAMPAIGN = f"""
+title = "A small campaign"
+scene = "{TWIN}"
+
+[set]
+"phase.settle.max_duration" = 0.01
+"phase.drop.duration"       = 0.03
+"phase.drive.duration"      = 0.05
+"phase.drive.drive.ramp"    = 0.01
+"output.every"              = 0.001
+
+[[axis]]
+key    = "phase.drive.drive.slip"
+values = [0.1, 0.5]
+
+[[axis]]
+keys   = ["domain.gravity", "body.wheel.mass"]
+name   = "gravity"
+unit   = "m/s2"
+values = [[[0.0, 0.0, -3.72], 170.8], [[0.0, 0.0, -9.81], 64.8]]
+labels = ["Mars", "Earth"]
+
+[resources]
+wall_time = "00:10:00"
+"""
+
+
+class CampaignTest(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory(prefix="tread-campaign-")
+        self.addCleanup(directory.cleanup)
+        self.directory = pathlib.Path(directory.name)
+        self.output = self.directory / "out"
+        self.file = self.directory / "campaign.toml"
+        self.file.write_text(CAMPAIGN, encoding="utf-8")
+
+    def campaign(self, command, *options, output=None, program=TREAD, path=None, code=0):
+        arguments = [sys.executable, str(PROGRAM), command, str(self.file), "--output", str(output or self.output), *map(str, options)]
+        if command in ("expand", "submit", "local", "retry") and program:
+            arguments += ["--tread", str(program)]
+        environment = {**os.environ, "PATH": path if path is not None else os.environ["PATH"]}
+        done = subprocess.run(arguments, cwd=self.directory, env=environment, capture_output=True, text=True, timeout=250, check=False)
+        self.assertNotIn("Traceback", done.stderr)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def text(self, number, output=None):
+        return ((output or self.output) / "cases" / f"{number:04}" / "scene.toml").read_text(encoding="utf-8")
+
+    def scene(self, number):
+        return tomllib.loads(self.text(number))
+
+    def script(self, name, text):
+        path = self.directory / name
+        path.write_text(text, encoding="utf-8")
+        path.chmod(path.stat().st_mode | stat.S_IXUSR)
+        return path
+
+    def checked_only(self):
+        """A program that says of every scene what `tread check` would: for tests that run nothing."""
+        return self.script("checks_only", "#!/bin/sh\necho '10 points, 1 bodies (0 rocks)\nmemory about 1 B, disk at most 2.5 kB\n"
+                                          "dt 1e-3 s at the start (limit: x), at most 2 s simulated: 2e3 steps at that dt'\n")

@@ -1,0 +1,34 @@
+"""Tests beside a real SLURM: the script starts itself again inside ci/slurm, and asks squeue and scontrol of that."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+INSIDE = "TREAD_TEST_SLURM"
+
+
+def main():
+    """Runs the tests of the calling script inside ci/slurm."""
+    if INSIDE in os.environ:
+        unittest.main()
+    command = [ROOT / "ci" / "slurm", sys.executable, *sys.argv]
+    sys.exit(subprocess.run(command, env={**os.environ, INSIDE: "yes"}, check=False).returncode)
+
+
+def tasks():
+    """State of each task that waits or runs, by "job_task"."""
+    done = subprocess.run(["squeue", "--noheader", "--array", "--format=%i %T"], capture_output=True, text=True, check=True)
+    return dict(line.split() for line in done.stdout.splitlines())
+
+
+def wait_until(holds, seconds, what):
+    """Asks every half second."""
+    end = time.monotonic() + seconds
+    while not holds():
+        if time.monotonic() > end:
+            raise AssertionError(f"{what}: not within {seconds} s; {tasks()}")
+        time.sleep(0.5)
