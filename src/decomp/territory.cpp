@@ -56,10 +56,9 @@ std::size_t Territory::run_of(std::uint64_t page_key) const
 
 std::int32_t Territory::owner_of(std::uint64_t page_key) const { return rank_[run_of(page_key)]; }
 
-std::int32_t Territory::owner_of(const Vec3<double>& place) const
-{
-    return owner_of(mpm::page_key(page_at(lattice_, place)));
-}
+std::uint64_t Territory::page_of(const Vec3<double>& place) const { return mpm::page_key(page_at(lattice_, place)); }
+
+std::int32_t Territory::owner_of(const Vec3<double>& place) const { return owner_of(page_of(place)); }
 
 /// Keys rise with each coordinate of a page: all of a box lie between those of its two corners.
 std::vector<std::int32_t> Territory::owners_near(const Vec3<double>& centre, double radius) const

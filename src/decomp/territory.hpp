@@ -25,6 +25,8 @@ public:
     /// `key` ascending, each once, at least one, and the rank of each.
     Territory(const PageLattice& lattice, const std::vector<std::uint64_t>& key, const PageRanks& rank);
 
+    std::uint64_t page_of(const Vec3<double>& place) const;
+
     std::int32_t owner_of(std::uint64_t page_key) const;
     std::int32_t owner_of(const Vec3<double>& place) const;
 

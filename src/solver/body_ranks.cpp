@@ -315,6 +315,22 @@ void BodyRanks<Exec>::collect(dem::Bodies<Exec>& bodies)
 }
 
 template<class Exec>
+double BodyRanks<Exec>::load() const
+{
+    return body_load * static_cast<double>(std::count(role_.begin(), role_.end(), dem::role_owner));
+}
+
+template<class Exec>
+void BodyRanks<Exec>::add_loads(const dem::Bodies<Exec>& bodies, decomp::PageLoads& loads) const
+{
+    const std::vector<Vec3<double>> position = bodies.position.to_host();
+    for (std::size_t b = 0; b < role_.size(); ++b)
+    {
+        if (role_[b] == dem::role_owner) { loads[territory_->page_of(position[b])] += body_load; }
+    }
+}
+
+template<class Exec>
 std::int64_t BodyRanks<Exec>::decider(const std::vector<std::int32_t>& is_large, std::uint64_t key) const
 {
     const std::int64_t a = dem::first_of(key), b = dem::second_of(key);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "decomp/balance.hpp"
 #include "decomp/combine.hpp"
 #include "decomp/decomposition.hpp"
 #include "decomp/exchange.hpp"
@@ -60,6 +61,9 @@ public:
     void collect(dem::Bodies<Exec>& bodies);
 
     // Not collective.
+    /// Predicted work of this rank's bodies, in points, and on which pages it is.
+    double          load() const;
+    void            add_loads(const dem::Bodies<Exec>& bodies, decomp::PageLoads& loads) const;
     bool            pages_have_changed() const { return pages_known_ != decomposition_.owners.changes(); }
     bool            owns(std::int64_t body) const { return role_[static_cast<std::size_t>(body)] == dem::role_owner; }
     bool            shares() const { return shared_body_.size() > 0; }

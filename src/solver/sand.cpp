@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -134,8 +133,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
         upload(world.points, ids, fields);
         return;
     }
-    // Bodies follow the owners of pages at once, points only when they are sorted: both are not moved together yet.
-    ranks_.emplace(*decomposition, fields.coupled ? std::numeric_limits<double>::infinity() : scene.balance.threshold);
+    ranks_.emplace(*decomposition);
     const OwnPoints own = own_points(world, *decomposition);
     upload(own.points, own.id, fields);
 }
@@ -175,9 +173,8 @@ void Sand<Exec, Real>::order()
         list_anew();
         return;
     }
-    const bool due = ranks_ && ranks_->is_due(step_);
-    if (stir_ == mpm::Stir::none && !due) { return; }
-    if (stir_ != mpm::Stir::moved || due)
+    if (stir_ == mpm::Stir::none) { return; }
+    if (stir_ != mpm::Stir::moved)
     {
         order_in_memory();
         return;
@@ -187,6 +184,24 @@ void Sand<Exec, Real>::order()
     mpm::renew_order(exec_, points_, pages_, order_scratch_);
     relists_ = 0;
     ++orders_;
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::follow_owners()
+{
+    listed_ = false;
+    stir_   = mpm::Stir::lost;
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::add_loads(decomp::PageLoads& loads) const
+{
+    const std::vector<std::uint64_t> page  = pages_.point_page_key.to_host();
+    const std::vector<std::int32_t>  first = pages_.first_point.to_host();
+    for (std::size_t i = 0; i < page.size(); ++i)
+    {
+        if (first[i + 1] > first[i]) { loads[page[i]] += first[i + 1] - first[i]; }
+    }
 }
 
 template<class Exec, class Real>
@@ -201,7 +216,7 @@ void Sand<Exec, Real>::order_in_memory()
 {
     if (ranks_)
     {
-        ranks_->order(points_, pages_, geometry_, walls_, order_scratch_, step_);
+        ranks_->order(points_, pages_, geometry_, walls_, order_scratch_);
         migrated_ = ranks_->moved();
     }
     else { mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_); }
