@@ -134,8 +134,7 @@ void BodyRanks<Exec>::deal(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
 
 /// Of the bodies that this rank has owned until now.
 template<class Exec>
-auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs) const
-    -> std::vector<Holding>
+auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs) -> std::vector<Holding>
 {
     const std::vector<Vec3<double>> position = bodies.position.to_host();
     const std::vector<double>       travel   = pairs.travel.to_host();
@@ -167,23 +166,24 @@ auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<E
 template<class Exec>
 auto BodyRanks<Exec>::tell(const std::vector<Holding>& decided, Lists& arriving) const -> std::vector<Holding>
 {
-    Lists words(rank_count());
+    Lists                words(rank_count());
+    std::vector<Holding> held;
     for (const Holding& body : decided)
     {
         for (const std::int32_t holder : body.holders)
         {
-            write_words(words[static_cast<std::size_t>(holder)], body.body, body.owner, body.holders);
+            if (holder == communicator_.rank()) { held.push_back(body); }
+            else { write_words(words[static_cast<std::size_t>(holder)], body.body, body.owner, body.holders); }
         }
     }
-    std::vector<Holding> held;
-    const Lists          told = decomp::exchange_values(communicator_, words);
+    const Lists told = decomp::exchange_values(communicator_, words);
     for (std::size_t r = 0; r < told.size(); ++r)
     {
         for (auto word = told[r].begin(); word != told[r].end();)
         {
             const auto holders = word + 3, end = holders + word[2];
             held.push_back({word[0], word[1], {holders, end}});
-            if (r != rank()) { arriving[r].push_back(word[0]); }
+            arriving[r].push_back(word[0]);
             word = end;
         }
     }

@@ -85,7 +85,7 @@ private:
     using Lists = std::vector<std::vector<std::int32_t>>; ///< of each rank
 
     void                 look_at_pages();
-    std::vector<Holding> decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs) const;
+    std::vector<Holding> decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs);
     std::vector<Holding> tell(const std::vector<Holding>& decided, Lists& arriving) const;
     void send_states(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs, const Lists& leaving, const Lists& arriving);
     void hand_over_records(dem::Pairs<Exec>& pairs, const std::vector<Holding>& decided);
