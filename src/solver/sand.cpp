@@ -61,26 +61,27 @@ std::vector<Out> interleaved(const Array<Exec, T>& field, const mpm::Points<Exec
     return rows;
 }
 
-/// The points of the pages that a rank owns.
-struct OwnPoints
+std::vector<std::uint32_t> numbers(const HostPoints& points)
 {
-    HostPoints                 points;
-    std::vector<std::uint32_t> id; ///< their numbers in the world
-};
+    if (!points.id.empty()) { return points.id; }
+    std::vector<std::uint32_t> ids(points.size());
+    std::iota(ids.begin(), ids.end(), 0U);
+    return ids;
+}
 
+/// The points of the pages that a rank owns.
 template<class Exec>
-OwnPoints own_points(const World& world, const decomp::Decomposition<Exec>& decomposition)
+HostPoints own_points(const World& world, const decomp::Decomposition<Exec>& decomposition)
 {
-    OwnPoints                 own{world.points, {}};
+    HostPoints                own = world.points;
     std::vector<std::uint8_t> kept;
-    for (const Vec3<double>& at : world.points.position)
+    own.id = numbers(own);
+    for (const Vec3<double>& at : own.position)
     {
         const mpm::Index3 cell = mpm::cell_of(at, 1 / world.geometry.spacing, world.geometry.stencil_shift);
-        const bool        here = decomposition.owners.owner(mpm::page_key(mpm::page_of(cell))) == decomposition.rank();
-        if (here) { own.id.push_back(static_cast<std::uint32_t>(kept.size())); }
-        kept.push_back(here);
+        kept.push_back(decomposition.owners.owner(mpm::page_key(mpm::page_of(cell))) == decomposition.rank());
     }
-    keep_points(own.points, kept);
+    keep_points(own, kept);
     return own;
 }
 
@@ -126,20 +127,14 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
 {
     materials_.assign(law_parameters<Real>(scene));
     stirred_in_.fill_zero();
-    if (decomposition == nullptr)
-    {
-        std::vector<std::uint32_t> ids(world.points.size());
-        std::iota(ids.begin(), ids.end(), 0U);
-        upload(world.points, ids, fields);
-        return;
-    }
-    ranks_.emplace(*decomposition);
-    const OwnPoints own = own_points(world, *decomposition);
-    upload(own.points, own.id, fields);
+    if (decomposition != nullptr) { ranks_.emplace(*decomposition); }
+    const bool only_own = decomposition == nullptr || !world.points.id.empty();
+    if (only_own) { upload(world.points, fields); }
+    else { upload(own_points(world, *decomposition), fields); }
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::upload(const HostPoints& host, const std::vector<std::uint32_t>& ids, mpm::PointFields fields)
+void Sand<Exec, Real>::upload(const HostPoints& host, mpm::PointFields fields)
 {
     const auto n = host.size();
     points_.allocate(static_cast<std::int64_t>(n), fields);
@@ -153,7 +148,7 @@ void Sand<Exec, Real>::upload(const HostPoints& host, const std::vector<std::uin
     points_.material.assign(host.material);
     if (!host.velocity.empty()) { points_.velocity.assign(planes<Real, 3>(host.velocity)); }
     if (!host.velocity.empty() && fields.coupled) { points_.grid_velocity.assign(planes<Real, 3>(host.velocity)); }
-    points_.id.assign(ids);
+    points_.id.assign(numbers(host));
 }
 
 template<class Exec, class Real>

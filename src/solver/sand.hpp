@@ -38,7 +38,7 @@ template<class Exec, class Real>
 class Sand
 {
 public:
-    /// `decomposition`: who owns which page; null on one rank.
+    /// `decomposition`: who owns which page; null on one rank. A world whose points have ids has only this rank's.
     Sand(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields,
          decomp::Decomposition<Exec>* decomposition = nullptr);
 
@@ -96,7 +96,7 @@ public:
     io::PointFields fields() const;
 
 private:
-    void           upload(const HostPoints& host, const std::vector<std::uint32_t>& ids, mpm::PointFields fields);
+    void           upload(const HostPoints& host, mpm::PointFields fields);
     void           order_in_memory();
     void           list_anew();
     void           clear_tallies();
