@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A picture of one snapshot: wheels, rocks, and sand coloured by how far it moved.
+"""A picture of one snapshot: wheels, rocks, and sand coloured by how far it moved, or by the rank that has it.
 
 Needs Debian's python3-h5py, python3-numpy and python3-vtk9, and xvfb where there is no display.
 """
@@ -16,6 +16,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("run", type=Path, metavar="RUN", help="output directory of a run")
     parser.add_argument("--snapshot", default="last", metavar="K|last", help="number of the snapshot; default: last")
+    parser.add_argument("--colour", default="displacement", choices=("displacement", "rank"), help="what the sand shows")
     parser.add_argument("--output", type=Path, metavar="FILE.png", help="default: RUN/render.png")
     parser.add_argument("--size", type=int, nargs=2, default=(1600, 1000), metavar=("W", "H"), help="pixels")
     return parser.parse_args()
@@ -40,7 +41,7 @@ def main():
     from tread_post.picture import draw
 
     output = options.output or options.run / "render.png"
-    draw(run, number, output, tuple(options.size))
+    draw(run, number, output, tuple(options.size), options.colour)
     print(output)
 
 

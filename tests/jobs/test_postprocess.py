@@ -137,7 +137,7 @@ def write_points(path, time):
                 "velocity": (np.zeros((count, 3), np.float32), "m/s"),
                 "stress": (np.zeros((count, 6), np.float32), "Pa"),
                 "plastic_shear": (under.astype(np.float32), "1"),
-                "rank": (np.zeros(count, np.int32), "1"),
+                "rank": ((start[:, 0] > 0.5).astype(np.int32), "1"),
             },
         )
 
@@ -291,6 +291,7 @@ class PostprocessTest(unittest.TestCase):
     def test_render(self):
         self.picture("render.py")
         self.picture("render.py", "--snapshot", "0")
+        self.picture("render.py", "--colour", "rank")
 
     def test_shapes(self):
         mesh = self.run_path.parent / "spindle.obj"
