@@ -75,7 +75,7 @@ public:
     const Communicator& communicator() const { return communicator_; }
 
 private:
-    /// Who owns and who holds a body from now on.
+    /// Who owns and who holds a body from now on, where that is not this rank alone.
     struct Holding
     {
         std::int32_t              body;
@@ -86,10 +86,11 @@ private:
 
     void                 look_at_pages();
     std::vector<Holding> decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs);
+    std::int32_t         next_owner(std::size_t body, const Vec3<double>& place);
     std::vector<Holding> tell(const std::vector<Holding>& decided, Lists& arriving) const;
     void send_states(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs, const Lists& leaving, const Lists& arriving);
     void hand_over_records(dem::Pairs<Exec>& pairs, const std::vector<Holding>& decided);
-    void take_roles(dem::Bodies<Exec>& bodies, const std::vector<Holding>& held);
+    void take_roles(dem::Bodies<Exec>& bodies, const std::vector<Holding>& decided, const std::vector<Holding>& held);
     void plan_sharing(const std::vector<Holding>& held);
 
     template<class Share>
