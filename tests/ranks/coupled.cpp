@@ -105,7 +105,7 @@ TYPED_TEST(CoupledRanks, AWheelPloughsWhilePagesChangeTheirOwner)
                                             "body[0].lock=[\"y\", \"roll\", \"pitch\", \"yaw\"]"}));
     test::SideBySide<TypeParam> run(
         this->exec(), scene, size, [](const Vec3<double>&) { return 0; }, test::Owners::change);
-    expect_as_alone(run, 200);
+    expect_as_alone(run, 100);
     const decomp::BalanceRow& found = *run.together.simulation().balance();
     std::printf("imbalance %.3f after %d repartitions, %d points moved\n", found.imbalance,
                 static_cast<int>(found.repartitions), static_cast<int>(found.points_moved));
@@ -124,7 +124,7 @@ TYPED_TEST(CoupledRanks, ASlumpKeepsItsBalance)
                   "body[0].lock=[\"y\", \"roll\", \"yaw\"]"}));
     test::SideBySide<TypeParam> run(this->exec(), scene, size, test::slabs(0.5 * size[0], this->ranks()),
                                     test::Owners::change);
-    const int                   steps = 600;
+    const int                   steps = 300;
     double                      mean  = 0;
     const auto   now   = [&]() -> const decomp::BalanceRow& { return *run.together.simulation().balance(); };
     const double start = now().imbalance;
@@ -137,7 +137,7 @@ TYPED_TEST(CoupledRanks, ASlumpKeepsItsBalance)
                 mean, now().imbalance, static_cast<int>(now().repartitions), static_cast<int>(now().points_moved));
     if (this->ranks() == 1) { return; }
     EXPECT_GT(now().repartitions, 0);
-    EXPECT_LT(mean, 1.2) << "of the whole run, the steps before the first repartition included";
+    EXPECT_LT(mean, 1.3) << "31 steps at up to 2 before it is due, and 1.15 from then on, are 1.24";
 }
 
 /// Rocks in sand that slumps.
