@@ -84,14 +84,12 @@ struct LoneBody
         for (std::int64_t substep = 0; substep < substeps; ++substep)
         {
             dem::ContactWrench* of_blocks = parts + substep % 2 * gridDim.x;
-            const Response      response  = answer(own, in_block.bodies);
-            sum_of_block(wrench_of(own, response, in_block.bodies), of_blocks + blockIdx.x);
-            own.point.move(response.force, motion, respond.dt);
-            if (substep + 1 == substeps) { write_own(own, response); }
+            sum_of_block(answer(own, in_block.bodies, substep + 1 == substeps), of_blocks + blockIdx.x);
             grid.sync();
             if (threadIdx.x < warp_size) { move_body(of_blocks, in_block); }
             __syncthreads();
         }
+        write_own(own);
         if (blockIdx.x == 0 && threadIdx.x == 0) { write(state); }
     }
 
@@ -160,31 +158,28 @@ private:
         return own;
     }
 
-    __device__ void write_own(const Own& own, const Response& response) const
+    __device__ void write_own(const Own& own) const
     {
         if (!own.there) { return; }
         store(own.point, respond.points, own.t);
-        respond.contacts.response[own.c]   = response;
         respond.contacts.tangential[own.c] = own.tangential;
         respond.contacts.dissipated[own.c] = own.dissipated;
     }
 
     __device__ const dem::TemplateView& shape() const { return respond.law.templates[respond.bodies.shape[0]]; }
 
-    __device__ Response answer(Own& own, const dem::BodiesView& body) const
+    /// What a thread's contact does to the body; its point moves on.
+    __device__ dem::ContactWrench answer(Own& own, const dem::BodiesView& body, bool is_last) const
     {
-        if (!own.there) { return no_response(); }
-        const Response response =
-            response_of(body, 0, shape(), own.pair, own.point.position, own.point.velocity, own.tangential, respond.dt);
+        if (!own.there) { return dem::ContactWrench::zero(); }
+        const Vec3<double> x = own.point.position;
+        const Response     response =
+            response_of(body, 0, shape(), own.pair, x, own.point.velocity, own.tangential, respond.dt);
         own.dissipated += response.dissipated;
-        return response;
-    }
-
-    __device__ static dem::ContactWrench wrench_of(const Own& own, const Response& response,
-                                                   const dem::BodiesView& body)
-    {
-        const Vec3<double> force = -response.force, arm = own.point.position - body.position[0];
-        return {force, arm.cross(force), response.stiffness};
+        if (is_last) { respond.contacts.response[own.c] = response; }
+        own.point.move(response.force, motion, respond.dt);
+        const Vec3<double> force = -response.force;
+        return {force, (x - body.position[0]).cross(force), response.stiffness};
     }
 
     __device__ static void sum_of_block(const dem::ContactWrench& wrench, dem::ContactWrench* sum)
