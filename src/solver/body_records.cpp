@@ -49,6 +49,7 @@ template<class Exec>
 void put_places_back(const std::vector<ContactRecord>& records, dem::Pairs<Exec>& pairs)
 {
     std::vector<Vec3<double>> places;
+    places.reserve(records.size());
     for (const ContactRecord& record : records) { places.push_back(record.place); }
     pairs.patches.last_place.assign(places);
 }
