@@ -1,5 +1,6 @@
 #include "io/h5.hpp"
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
@@ -22,6 +23,7 @@ hid_t type_of()
     else if constexpr (std::is_same_v<T, std::int32_t>) { return H5T_NATIVE_INT32; }
     else if constexpr (std::is_same_v<T, std::int64_t>) { return H5T_NATIVE_INT64; }
     else if constexpr (std::is_same_v<T, std::uint32_t>) { return H5T_NATIVE_UINT32; }
+    else if constexpr (std::is_same_v<T, std::uint64_t>) { return H5T_NATIVE_UINT64; }
     else
     {
         static_assert(std::is_same_v<T, std::uint8_t>);
@@ -89,6 +91,28 @@ void write_attribute_data(const File& file, const std::string& object, const std
     check(H5Awrite(attribute.id(), type, data), file, what);
 }
 
+Handle parallel_access(const std::string& path, const Communicator& communicator)
+{
+    Handle access = property_list(H5P_FILE_ACCESS);
+    checked(H5Pset_fapl_mpio(access.id(), communicator.native(), MPI_INFO_NULL), path, "setting up MPI-IO");
+    H5Pset_coll_metadata_write(access.id(), true);
+    return access;
+}
+
+Handle collective_transfer()
+{
+    Handle transfer = property_list(H5P_DATASET_XFER);
+    H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE);
+    return transfer;
+}
+
+Handle links_with_groups()
+{
+    Handle links = property_list(H5P_LINK_CREATE);
+    H5Pset_create_intermediate_group(links.id(), 1);
+    return links;
+}
+
 } // namespace
 
 hid_t checked(hid_t id, const std::string& path, const std::string& what)
@@ -116,12 +140,21 @@ File File::create(const std::string& path)
 File File::create(const std::string& path, const Communicator& communicator)
 {
     silence();
-    const Handle access = property_list(H5P_FILE_ACCESS);
-    checked(H5Pset_fapl_mpio(access.id(), communicator.native(), MPI_INFO_NULL), path, "setting up MPI-IO");
-    H5Pset_coll_metadata_write(access.id(), true);
-    Handle transfer = property_list(H5P_DATASET_XFER);
-    H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE);
-    const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id());
+    const Handle access   = parallel_access(path, communicator);
+    Handle       transfer = collective_transfer();
+    const hid_t  id       = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id());
+    return {checked(id, path, "creating the file"), path, std::move(transfer)};
+}
+
+File File::create(const std::string& path, const Communicator& communicator, hsize_t user_block)
+{
+    silence();
+    const bool   alone    = communicator.size() == 1;
+    const Handle access   = alone ? property_list(H5P_FILE_ACCESS) : parallel_access(path, communicator);
+    Handle       transfer = alone ? property_list(H5P_DATASET_XFER) : collective_transfer();
+    const Handle creation = property_list(H5P_FILE_CREATE);
+    H5Pset_userblock(creation.id(), user_block);
+    const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
     return {checked(id, path, "creating the file"), path, std::move(transfer)};
 }
 
@@ -161,9 +194,8 @@ Rows rows_of_rank(const Communicator& communicator, std::size_t count)
 
 void create_group(const File& file, const std::string& name)
 {
-    const Handle links = property_list(H5P_LINK_CREATE);
-    H5Pset_create_intermediate_group(links.id(), 1);
-    const hid_t  id = H5Gcreate2(file.id(), name.c_str(), links.id(), H5P_DEFAULT, H5P_DEFAULT);
+    const Handle links = links_with_groups();
+    const hid_t  id    = H5Gcreate2(file.id(), name.c_str(), links.id(), H5P_DEFAULT, H5P_DEFAULT);
     const Handle group{checked(id, file.path(), "creating group " + name), H5Gclose};
 }
 
@@ -174,8 +206,9 @@ void write(const File& file, const std::string& name, const std::vector<T>& valu
     const Handle      in_file  = dataspace(shape(rows.total, width));
     const Handle      creation = property_list(H5P_DATASET_CREATE);
     H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
-    const hid_t id =
-        H5Dcreate2(file.id(), name.c_str(), type_of<T>(), in_file.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT);
+    const Handle links = links_with_groups();
+    const hid_t  id =
+        H5Dcreate2(file.id(), name.c_str(), type_of<T>(), in_file.id(), links.id(), creation.id(), H5P_DEFAULT);
     const Handle dataset{checked(id, file.path(), what), H5Dclose};
 
     const Handle in_memory = dataspace(shape(rows.count, width));
@@ -190,28 +223,77 @@ template void write(const File&, const std::string&, const std::vector<float>&, 
 template void write(const File&, const std::string&, const std::vector<std::int32_t>&, int, const Rows&);
 template void write(const File&, const std::string&, const std::vector<std::int64_t>&, int, const Rows&);
 template void write(const File&, const std::string&, const std::vector<std::uint32_t>&, int, const Rows&);
+template void write(const File&, const std::string&, const std::vector<std::uint64_t>&, int, const Rows&);
 template void write(const File&, const std::string&, const std::vector<std::uint8_t>&, int, const Rows&);
 
-template<class T>
-std::vector<T> read(const File& file, const std::string& name, int width)
+namespace
 {
-    const std::string      what    = "reading " + name;
-    const Handle           dataset = open_dataset(file, name);
+
+/// Rows of a data set that must have `width` columns.
+hsize_t rows_in(const File& file, const Handle& dataset, const std::string& name, int width)
+{
     const Handle           space{H5Dget_space(dataset.id()), H5Sclose};
     const int              rank = H5Sget_simple_extent_ndims(space.id());
     std::array<hsize_t, 2> size{0, 1};
     if (rank == (width == 1 ? 1 : 2)) { H5Sget_simple_extent_dims(space.id(), size.data(), nullptr); }
     if (size[1] != static_cast<hsize_t>(width) || rank != (width == 1 ? 1 : 2))
     {
-        throw EnvironmentError(fmt::format("{}: {} failed: it has not {} columns", file.path(), what, width));
+        throw EnvironmentError(fmt::format("{}: reading {} failed: it has not {} columns", file.path(), name, width));
     }
-    std::vector<T> values(size[0] * size[1]);
-    check(H5Dread(dataset.id(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), file, what);
+    return size[0];
+}
+
+} // namespace
+
+template<class T>
+std::vector<T> read(const File& file, const std::string& name, int width)
+{
+    const Handle   dataset = open_dataset(file, name);
+    std::vector<T> values(rows_in(file, dataset, name, width) * static_cast<hsize_t>(width));
+    check(H5Dread(dataset.id(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), file, "reading " + name);
     return values;
 }
 
 template std::vector<double>       read(const File&, const std::string&, int);
 template std::vector<std::int32_t> read(const File&, const std::string&, int);
+template std::vector<std::uint8_t> read(const File&, const std::string&, int);
+
+template<class T>
+std::vector<T> read_rows(const File& file, const std::string& name, int width, hsize_t first, hsize_t count)
+{
+    const Handle  dataset = open_dataset(file, name);
+    const hsize_t rows    = rows_in(file, dataset, name, width);
+    if (first + count > rows)
+    {
+        throw EnvironmentError(
+            fmt::format("{}: reading {} failed: {} rows, wanted up to {}", file.path(), name, rows, first + count));
+    }
+    std::vector<T> values(count * static_cast<hsize_t>(width));
+    if (count == 0) { return values; }
+    const Handle in_file{H5Dget_space(dataset.id()), H5Sclose};
+    const Handle in_memory = dataspace(shape(count, width));
+    select_rows(file, in_file, first, count, width);
+    check(H5Dread(dataset.id(), type_of<T>(), in_memory.id(), in_file.id(), H5P_DEFAULT, values.data()), file,
+          "reading " + name);
+    return values;
+}
+
+template std::vector<double>        read_rows(const File&, const std::string&, int, hsize_t, hsize_t);
+template std::vector<float>         read_rows(const File&, const std::string&, int, hsize_t, hsize_t);
+template std::vector<std::int32_t>  read_rows(const File&, const std::string&, int, hsize_t, hsize_t);
+template std::vector<std::int64_t>  read_rows(const File&, const std::string&, int, hsize_t, hsize_t);
+template std::vector<std::uint32_t> read_rows(const File&, const std::string&, int, hsize_t, hsize_t);
+template std::vector<std::uint64_t> read_rows(const File&, const std::string&, int, hsize_t, hsize_t);
+template std::vector<std::uint8_t>  read_rows(const File&, const std::string&, int, hsize_t, hsize_t);
+
+bool holds(const File& file, const std::string& name)
+{
+    for (std::size_t end = name.find('/', 1); end != std::string::npos; end = name.find('/', end + 1))
+    {
+        if (H5Lexists(file.id(), name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) { return false; }
+    }
+    return H5Lexists(file.id(), name.c_str(), H5P_DEFAULT) > 0;
+}
 
 std::int64_t count_members(const File& file, const std::string& group)
 {
@@ -244,6 +326,18 @@ double read_number_attribute(const File& file, const std::string& object, const 
     const Handle attribute = open_attribute(file, object, name);
     check(H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &value), file, "reading attribute " + name);
     return value;
+}
+
+std::vector<std::int64_t> read_numbers_attribute(const File& file, const std::string& object, const std::string& name)
+{
+    const auto   what      = fmt::format("reading attribute {} of {}", name, object);
+    const Handle attribute = open_attribute(file, object, name);
+    const Handle space{H5Aget_space(attribute.id()), H5Sclose};
+    const auto   count = H5Sget_simple_extent_npoints(space.id());
+
+    std::vector<std::int64_t> values(static_cast<std::size_t>(std::max<hssize_t>(count, 0)));
+    check(H5Aread(attribute.id(), H5T_NATIVE_INT64, values.data()), file, what);
+    return values;
 }
 
 void create_growing(const File& file, const std::string& name, int width)
@@ -311,6 +405,18 @@ void write_fixed_attribute(const File& file, const std::string& object, const st
     H5Tset_size(type.id(), value.size());
     H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
     write_attribute_data(file, object, name, type.id(), {H5Screate(H5S_SCALAR), H5Sclose}, value.data());
+}
+
+void set_fixed_attribute(const File& file, const std::string& object, const std::string& name, const std::string& value)
+{
+    if (H5Aexists_by_name(file.id(), object.c_str(), name.c_str(), H5P_DEFAULT) <= 0)
+    {
+        write_fixed_attribute(file, object, name, value);
+        return;
+    }
+    const Handle attribute = open_attribute(file, object, name);
+    const Handle type{H5Aget_type(attribute.id()), H5Tclose};
+    check(H5Awrite(attribute.id(), type.id(), value.data()), file, "writing attribute " + name);
 }
 
 } // namespace tread::io::h5

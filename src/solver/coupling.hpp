@@ -7,6 +7,8 @@
 namespace tread::solver
 {
 
+class StateFile;
+
 /// Contact of the sand with the bodies of a scene, on one backend.
 template<class Exec, class Real>
 class Coupling
@@ -49,7 +51,15 @@ public:
     /// As last measured (dissipated: since the time before that).
     const contact::Summary& summary() const { return summary_; }
 
+    /// What contacts remember, and the candidates, into a checkpoint or out of it, after the sand and the bodies.
+    void transfer(StateFile& file, const dem::BodiesView& bodies);
+
 private:
+    std::vector<contact::HistoryRecord> remembered();
+
+    void transfer_records(StateFile& file, std::vector<contact::HistoryRecord>& records);
+    void transfer_candidates(StateFile& file, const dem::BodiesView& bodies);
+
     Exec                        exec_;
     contact::PointContact<Exec> contact_;
     contact::PointBodyLaw       law_;

@@ -210,7 +210,6 @@ std::int64_t find_page_pairs(const Exec& exec, Candidates<Exec>& c, const mpm::P
     return pairs;
 }
 
-/// The order of the candidates by point, and the runs of both orders.
 template<class Exec>
 void order_by_point(const Exec& exec, Candidates<Exec>& c)
 {
