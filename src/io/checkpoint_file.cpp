@@ -105,10 +105,16 @@ void CheckpointWriter::write(const std::string& name, const std::vector<T>& valu
     {
         first.push_back(first.back() + count);
     }
-    const auto rank = static_cast<std::size_t>(communicator_.rank());
-    const auto row  = [&](std::size_t r) { return static_cast<hsize_t>(first[r]); };
-    h5::write(*file_, name, values, width, h5::Rows{row(first.size() - 1), row(rank), row(rank + 1) - row(rank)});
-    h5::write_attribute(*file_, name, first_rows, first);
+    const auto     rank = static_cast<std::size_t>(communicator_.rank());
+    const auto     row  = [&](std::size_t r) { return static_cast<hsize_t>(first[r]); };
+    const h5::Rows rows{row(first.size() - 1), row(rank), row(rank + 1) - row(rank)};
+    // One rank's disk may be full: then all stop here, and none waits in the next call for another.
+    on_every_rank(communicator_,
+                  [&]
+                  {
+                      h5::write(*file_, name, values, width, rows);
+                      h5::write_attribute(*file_, name, first_rows, first);
+                  });
 }
 
 template void CheckpointWriter::write(const std::string&, const std::vector<double>&, int);
@@ -126,9 +132,8 @@ void CheckpointWriter::text(const std::string& name, const std::string& value)
 
 std::int64_t CheckpointWriter::finish()
 {
-    file_->close();
+    on_every_rank(communicator_, [&] { file_->close(); });
     file_.reset();
-    communicator_.barrier();
     Head head;
     on_every_rank(communicator_, [&] { head.bytes = bytes_of(temporary(path_)); });
     head.checksum = checksum(communicator_, temporary(path_), head_bytes, head.bytes);

@@ -73,6 +73,7 @@ std::optional<std::string> Driver<Exec, Real>::run()
     if (options_.checkpoint.empty()) { start(); }
     else { resume(); }
     interruptions_.emplace(scene_.checkpoint, options_.walltime_limit, options_.wall_start, time_, steps_);
+    interruptions_->expect(state_bytes());
     while (!phases_.finished())
     {
         const Interruption asked = look_outside();
@@ -93,6 +94,15 @@ std::optional<std::string> Driver<Exec, Real>::run()
     write_row();
     write_snapshot();
     return {};
+}
+
+/// Roughly, of a checkpoint.
+template<class Exec, class Real>
+std::int64_t Driver<Exec, Real>::state_bytes() const
+{
+    constexpr std::int64_t of_point = 160, of_body = 2000;
+    return of_point * communicator_.sum(simulation_.points()) +
+           of_body * static_cast<std::int64_t>(world_.bodies.size());
 }
 
 template<class Exec, class Real>

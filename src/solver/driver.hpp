@@ -54,6 +54,7 @@ private:
     void write_checkpoint();
 
     Interruption look_outside();
+    std::int64_t state_bytes() const;
 
     void   transfer(StateFile& file);
     void   transfer_files(StateFile& file);

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <memory>
 
@@ -87,6 +88,8 @@ void Driver<Exec, Real>::resume()
     snapshots_due_ = multiples(time_, scene_.output.snapshots_every);
     on_root(communicator_, [&] { io::Checkpoints(directory_.checkpoints()).remove_after(steps_); });
     checkpoints_.newest = directory_.within(options_.checkpoint);
+    checkpoints_.bytes += static_cast<std::int64_t>(std::filesystem::file_size(options_.checkpoint)); // it did not know
+    ++checkpoints_.written;
     log_.info(fmt::format("goes on from {} at {:.6g} s, step {}, in phase '{}'{}", options_.checkpoint, time_, steps_,
                           phases_.phase().name,
                           exact ? "" : fmt::format(" (written by {} rank(s): the same to rounding)", ranks)));
@@ -102,7 +105,7 @@ void Driver<Exec, Real>::transfer(StateFile& file)
     file.numbers("run/steps", time_, steps_, substeps_, step_.dt, step_.substeps, warned_, surface_, wall, restarts_);
     file.numbers("run/checkpoints", checkpoints_.written, checkpoints_.bytes, checkpoints_.seconds);
     file.text("limit", step_.limit);
-    if (file.loads()) { wall_before_ = wall - (wall_clock() - wall_start_); }
+    if (file.loads()) { wall_before_ = wall; }
     std::vector<PhaseRow> ended;
     for (const io::PhaseReport& report : ended_) { ended.push_back(row_of(report)); }
     file.common("run/phases", ended);

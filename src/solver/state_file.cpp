@@ -17,7 +17,7 @@ void StateFile::row_of_numbers(const std::string& name, std::vector<double>& row
 void StateFile::text(const std::string& name, std::string& value)
 {
     if (loads()) { value = reader_->text(name); }
-    else { writer_->text(name, value); }
+    else { writer_->text(name, communicator_.broadcast(value)); } // as rank 0 has it
 }
 
 StateFile::Share StateFile::share(const std::string& name) const
