@@ -171,10 +171,7 @@ TYPED_TEST_SUITE(Restart, test::Backends, test::BackendNames);
 
 TYPED_TEST(Restart, OfSandGivesTheSameBits) { this->expect_same_bits(test::sand_text); }
 
-TYPED_TEST(Restart, OfRocksGivesTheSameBits)
-{
-    this->expect_same_bits(rocks_alone + test::rocks_text + roller_text);
-}
+TYPED_TEST(Restart, OfRocksGivesTheSameBits) { this->expect_same_bits(rocks_alone + test::rocks_text + roller_text); }
 
 TYPED_TEST(Restart, OfSandRocksAndAWheelGivesTheSameBits)
 {
@@ -204,8 +201,8 @@ TYPED_TEST(Restart, WithListsMadeAnewAgreesToRounding)
     {
         for (std::size_t c = 0; c < 3; ++c)
         {
-            furthest = std::max(furthest,
-                                std::abs(points.position[3 * i + c] - others.position[3 * place[points.id[i]] + c]));
+            furthest =
+                std::max(furthest, std::abs(points.position[3 * i + c] - others.position[3 * place[points.id[i]] + c]));
         }
     }
     for (std::size_t i = 0; i < whole.bodies().position.size(); ++i)
@@ -213,8 +210,9 @@ TYPED_TEST(Restart, WithListsMadeAnewAgreesToRounding)
         furthest = std::max(furthest, std::abs(whole.bodies().position[i] - resumed.bodies().position[i]));
     }
     constexpr double tolerance = 1e-9;
-    test::report("furthest that a point or body is off (m)", furthest, 0, tolerance,
-                 "rounding, a few hundred times multiplied by contacts, of places of 0.1 m; a step of the run is 1e-5 m");
+    test::report(
+        "furthest that a point or body is off (m)", furthest, 0, tolerance,
+        "rounding, a few hundred times multiplied by contacts, of places of 0.1 m; a step of the run is 1e-5 m");
     EXPECT_LT(furthest, tolerance);
 }
 
