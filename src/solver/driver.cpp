@@ -81,15 +81,7 @@ std::optional<std::string> Driver<Exec, Real>::run()
         if (asked.stop) { return asked.why; }
         advance();
         write_due();
-        if (!phases_.over(time_, simulation_.unbalanced())) { continue; }
-        end_phase();
-        std::vector<double> spins;
-        for (const BodyRow& body : simulation_.named_bodies())
-        {
-            spins.push_back(body.angular_velocity.dot(body.axle));
-        }
-        phases_.advance(time_, std::move(spins));
-        if (!phases_.finished()) { begin_phase(); }
+        pass_on();
     }
     write_row();
     write_snapshot();
@@ -120,6 +112,18 @@ template<class Exec, class Real>
 Interruption Driver<Exec, Real>::look_outside()
 {
     return simulation_.measured() ? interruptions_->look(communicator_, time_, steps_) : Interruption{};
+}
+
+/// To the next phase, if this one is over.
+template<class Exec, class Real>
+void Driver<Exec, Real>::pass_on()
+{
+    if (!phases_.over(time_, simulation_.unbalanced())) { return; }
+    end_phase();
+    std::vector<double> spins;
+    for (const BodyRow& body : simulation_.named_bodies()) { spins.push_back(body.angular_velocity.dot(body.axle)); }
+    phases_.advance(time_, std::move(spins));
+    if (!phases_.finished()) { begin_phase(); }
 }
 
 template<class Exec, class Real>

@@ -60,6 +60,7 @@ private:
     void   transfer_files(StateFile& file);
     void   begin_phase();
     void   end_phase();
+    void   pass_on();
     void   advance();
     void   write_due();
     void   write_row();

@@ -1,5 +1,5 @@
 #include "backend/launch.cuh"
-#include "kernels/dem/pairs_impl.hpp"
+#include "kernels/dem/resume_list_impl.hpp"
 
 namespace tread::dem
 {

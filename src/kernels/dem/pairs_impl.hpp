@@ -388,20 +388,6 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 }
 
 template<class Exec>
-void resume_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
-{
-    using namespace pair_steps;
-    stage_bodies(exec, pairs, bodies);
-    order_again(exec, pairs, bodies);
-    pairs.patches.group.resize(pairs.node.size());
-    pairs.patches.node.resize(pairs.node.size());
-    list_pairs_of_many_nodes(exec, pairs);
-    give_back(pairs.second_key);
-    give_back(pairs.sort);
-    begin_substeps(exec, pairs);
-}
-
-template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
     begin_list(exec, pairs, bodies, law);
