@@ -54,7 +54,7 @@ void Rigid<Exec>::transfer(StateFile& file)
     else if (file.loads())
     {
         totals_.fill_zero(); // what they grew by was booked when the state was saved
-        taken_  = {};
+        taken_  = read(exec_, totals_.data());
         listed_ = false;
     }
 }
