@@ -22,6 +22,8 @@
 namespace tread::solver
 {
 
+class StateFile;
+
 /// What the sand holds.
 struct SandCensus
 {
@@ -95,7 +97,14 @@ public:
     /// How the points fell to the ranks so far; null on one rank.
     const decomp::BalanceRow* balance() const { return ranks_ ? &ranks_->balance() : nullptr; }
 
+    /// Into a checkpoint, or out of it into sand of the same scene. Due right after a report; changes nothing that
+    /// comes after it. Collective.
+    void transfer(StateFile& file);
+
 private:
+    void           transfer_points(StateFile& file);
+    void           resume_lists();
+    void           make_room();
     void           upload(const HostPoints& host, const std::vector<std::uint32_t>& ids, mpm::PointFields fields);
     void           order_in_memory();
     void           list_anew();

@@ -1,5 +1,7 @@
 #include "solver/sand_ranks.hpp"
 
+#include "solver/state_file.hpp"
+
 namespace tread::solver
 {
 
@@ -50,6 +52,19 @@ bool SandRanks<Exec, Real>::rebalance(const mpm::Pages<Exec>& pages, std::int64_
     if (changed) { partitioned_ = step; }
     else if (rule_.is_due(balance_.loads, step - partitioned_)) { not_before_ = 2 * step - partitioned_; }
     return changed;
+}
+
+template<class Exec, class Real>
+void SandRanks<Exec, Real>::transfer(StateFile& file)
+{
+    std::vector<std::uint64_t> keys  = decomposition_.owners.keys();
+    decomp::PageRanks          ranks = decomposition_.owners.ranks();
+    file.common("ranks/page_key", keys);
+    file.common("ranks/page_owner", ranks);
+    file.common("ranks/loads", balance_.loads);
+    file.numbers("ranks/balance", balance_.imbalance, balance_.repartitions, balance_.points_moved, dealt_out_,
+                 partitioned_, not_before_);
+    if (file.loads()) { decomposition_.owners.assign(keys, ranks); }
 }
 
 template class SandRanks<Cpu, float>;
