@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A picture of one snapshot, or a film of all: wheels, rocks, and sand coloured by how far it moved.
+"""A picture of one snapshot, or a film of all: wheels, rocks, and sand coloured by how far it moved, or by its rank.
 
 Needs Debian's python3-h5py, python3-numpy and python3-vtk9, xvfb where there is no display, and python3-pil for films.
 """
@@ -18,6 +18,7 @@ def arguments():
     parser.add_argument("run", type=Path, metavar="RUN", help="output directory of a run")
     parser.add_argument("--snapshot", default="last", metavar="K|last", help="number of the snapshot; default: last")
     parser.add_argument("--film", action="store_true", help="all snapshots, one after the other, as a GIF")
+    parser.add_argument("--colour", default="displacement", choices=("displacement", "rank"), help="what the sand shows")
     parser.add_argument("--output", type=Path, metavar="FILE", help="default: RUN/render.png, or RUN/render.gif")
     parser.add_argument("--size", type=int, nargs=2, default=(1600, 1000), metavar=("W", "H"), help="pixels")
     return parser.parse_args()
@@ -52,13 +53,13 @@ def main():
     size = tuple(options.size)
     output = options.output or options.run / ("render.gif" if options.film else "render.png")
     if not options.film:
-        draw(run, number, view_of(run, [number]), output, size)
+        draw(run, number, view_of(run, [number]), output, size, options.colour)
     else:
         view = view_of(run, run.snapshots)
         with tempfile.TemporaryDirectory() as folder:
             frames = [Path(folder) / f"{snapshot:04}.png" for snapshot in run.snapshots]
             for snapshot, frame in zip(run.snapshots, frames):
-                draw(run, snapshot, view, frame, size)
+                draw(run, snapshot, view, frame, size, options.colour)
             write_film(frames, output)
     print(output)
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import vtk
 from matplotlib import colormaps
+from matplotlib.colors import to_rgba
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
 from tread_post.geometry import point_spacing, rotated
@@ -12,6 +13,8 @@ from tread_post.run import RunError
 
 # Pale where nothing moved, as sand is; tells apart without red and green.
 COLOURS = "YlGnBu"
+# Of ranks, again and again: Okabe and Ito (2008), told apart by all.
+RANK_COLOURS = ("#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7")
 WHEEL_COLOUR = (0.78, 0.79, 0.82)
 ROCK_COLOUR = (0.62, 0.47, 0.38)
 TEXT_COLOUR = (0.15, 0.15, 0.15)
@@ -28,6 +31,16 @@ FRAME = ((0.03, 0.87), (0.03, 0.90))
 TITLE_LETTERS, SCALE_LETTERS = 26, 22
 # Drawn larger by this factor and averaged: Mesa's software renderer shows black through VTK's own FXAA.
 SMOOTHING = 2
+
+
+@dataclass
+class Shades:
+    """What the colours of the sand say."""
+
+    values: np.ndarray  # [points]
+    table: vtk.vtkLookupTable
+    title: str
+    labels: np.ndarray  # on the scale
 
 
 @dataclass(frozen=True)
@@ -52,8 +65,9 @@ def view_of(run, snapshots):
     return View(np.concatenate(contents), max(displacements[1:], default=0.0) or displacements[0])
 
 
-def draw(run, snapshot, view, output, size):
-    """Writes the picture of a snapshot to `output` (.png), `size` pixels wide and high."""
+def draw(run, snapshot, view, output, size, colour="displacement"):
+    """Writes the picture of a snapshot to `output` (.png), `size` pixels wide and high; the sand by `colour`:
+    "displacement" or "rank"."""
     points, bodies = run.points(snapshot), run.bodies(snapshot)
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1.0, 1.0, 1.0)
@@ -61,7 +75,8 @@ def draw(run, snapshot, view, output, size):
     renderer.GradientBackgroundOn()
     add_lights(renderer)
     if points is not None:
-        add_sand(renderer, points, point_spacing(run.scene, points), view.displacement, size)
+        shades = shades_of_ranks(points) if colour == "rank" else shades_of_displacement(points, view.displacement)
+        add_sand(renderer, points, shades, point_spacing(run.scene, points), size)
     shapes = run.shapes if bodies is not None else []
     if bodies is not None:
         add_bodies(renderer, bodies, shapes, len(run.scene.get("body", [])))
@@ -78,31 +93,45 @@ def add_lights(renderer):
     kit.AddLightsToRenderer(renderer)
 
 
-def add_sand(renderer, points, spacing, largest, size):
-    """Every point as a sphere as wide as its share of the sand, coloured by its displacement up to `largest` (m)."""
+def shades_of_displacement(points, largest):
+    """Up to `largest` (m)."""
     moved = np.linalg.norm(points.fields["displacement"], axis=1)
     factor, unit = (1e3, "mm") if largest < 0.5 else (1.0, points.units["displacement"])
     end = round_end(largest * factor)
+    table = lookup_table(colormaps[COLOURS](np.linspace(0.0, 1.0, 256)), 0.0, end)
+    return Shades(moved * factor, table, f"displacement\n[{unit}]", np.linspace(0.0, end, 5))
 
+
+def shades_of_ranks(points):
+    if "rank" not in points.fields:
+        raise RunError("--colour rank: this snapshot does not say which rank has a point")
+    rank = points.fields["rank"]
+    count = int(rank.max()) + 1
+    colours = [to_rgba(RANK_COLOURS[index % len(RANK_COLOURS)]) for index in range(count)]
+    return Shades(rank, lookup_table(colours, -0.5, count - 0.5), "rank", np.arange(float(count)))
+
+
+def add_sand(renderer, points, shades, spacing, size):
+    """Every point as a sphere as wide as its share of the sand."""
     data = vtk.vtkPolyData()
     data.SetPoints(vtk_points(points.position))
-    scalars = numpy_to_vtk(np.ascontiguousarray(moved * factor, dtype=np.float32), deep=True)
-    scalars.SetName("displacement")
+    scalars = numpy_to_vtk(np.ascontiguousarray(shades.values, dtype=np.float32), deep=True)
+    scalars.SetName("shade")
     data.GetPointData().SetScalars(scalars)
     cells = vtk.vtkCellArray()
-    count = len(moved)
+    count = len(shades.values)
     cells.SetData(id_array(np.arange(count + 1)), id_array(np.arange(count)))
     data.SetVerts(cells)
 
     mapper = vtk.vtkOpenGLSphereMapper()
     mapper.SetInputData(data)
     mapper.SetRadius(0.62 * spacing)
-    mapper.SetLookupTable(lookup_table(end))
-    mapper.SetScalarRange(0.0, end)
+    mapper.SetLookupTable(shades.table)
+    mapper.SetScalarRange(shades.table.GetRange())
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
     renderer.AddActor(actor)
-    add_scale(renderer, mapper.GetLookupTable(), f"displacement\n[{unit}]", size)
+    add_scale(renderer, shades, size)
 
 
 def round_end(value):
@@ -111,11 +140,11 @@ def round_end(value):
     return next(step * power for step in (1, 1.2, 1.6, 2, 2.4, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-9))
 
 
-def lookup_table(largest):
+def lookup_table(colours, low, high):
     table = vtk.vtkLookupTable()
-    table.SetNumberOfTableValues(256)
-    table.SetRange(0.0, largest)
-    for index, colour in enumerate(colormaps[COLOURS](np.linspace(0.0, 1.0, 256))):
+    table.SetNumberOfTableValues(len(colours))
+    table.SetRange(low, high)
+    for index, colour in enumerate(colours):
         table.SetTableValue(index, *colour)
     return table
 
@@ -180,11 +209,12 @@ def id_array(values):
     return numpy_to_vtkIdTypeArray(np.ascontiguousarray(values, dtype=np.int64), deep=True)
 
 
-def add_scale(renderer, table, title, size):
+def add_scale(renderer, shades, size):
     bar = vtk.vtkScalarBarActor()
-    bar.SetLookupTable(table)
-    bar.SetTitle(title)
-    bar.SetNumberOfLabels(5)
+    bar.SetLookupTable(shades.table)
+    bar.SetTitle(shades.title)
+    bar.UseCustomLabelsOn()
+    bar.SetCustomLabels(numpy_to_vtk(shades.labels, deep=True))
     bar.SetLabelFormat("  %-.3g")
     bar.SetPosition(0.88, 0.18)
     bar.SetPosition2(0.10, 0.55)

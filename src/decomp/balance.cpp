@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "decomp/halo_plan.hpp"
 #include "decomp/partition.hpp"
 
 namespace tread::decomp
@@ -35,31 +36,48 @@ std::vector<double> loads_of(const PageGraph& graph, const PageRanks& rank, int 
     return loads;
 }
 
-/// The pages of all ranks with their loads and owners.
+/// The pages of all ranks with their loads, and the rank that has most of each.
 struct AllPages
 {
     PageGraph graph;
-    PageRanks owner;
+    PageRanks present;
 };
 
-template<class Exec>
-AllPages gather_pages(const Decomposition<Exec>& decomposition, const PageKeys& key, const std::vector<double>& load)
+AllPages gather_pages(const Communicator& communicator, const PageLoads& own)
 {
-    const PageKeys            keys  = decomposition.communicator.gather(key);
-    const std::vector<double> loads = decomposition.communicator.gather(load);
-    std::vector<std::size_t>  order(keys.size());
+    PageKeys            own_key;
+    std::vector<double> own_load;
+    for (const auto& [key, load] : own)
+    {
+        own_key.push_back(key);
+        own_load.push_back(load);
+    }
+    const PageKeys            keys  = communicator.gather(own_key);
+    const std::vector<double> loads = communicator.gather(own_load);
+    const PageRanks           ranks = communicator.gather(PageRanks(own.size(), communicator.rank()));
+
+    std::vector<std::size_t> order(keys.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
-    PageKeys            sorted_keys;
-    std::vector<double> sorted_loads;
-    PageRanks           owner;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
+    PageKeys            key;
+    std::vector<double> load;
+    PageRanks           present;
+    double              most = 0;
     for (const std::size_t i : order)
     {
-        sorted_keys.push_back(keys[i]);
-        sorted_loads.push_back(loads[i]);
-        owner.push_back(decomposition.owners.owner(keys[i]));
+        if (key.empty() || keys[i] != key.back())
+        {
+            key.push_back(keys[i]);
+            load.push_back(0);
+            present.push_back(ranks[i]);
+            most = loads[i];
+        }
+        load.back() += loads[i];
+        if (loads[i] <= most) { continue; }
+        most           = loads[i];
+        present.back() = ranks[i];
     }
-    return {page_graph(std::move(sorted_keys), std::move(sorted_loads)), std::move(owner)};
+    return {page_graph(std::move(key), std::move(load)), std::move(present)};
 }
 
 double moved_between(const AllPages& pages, const PageRanks& to)
@@ -67,7 +85,7 @@ double moved_between(const AllPages& pages, const PageRanks& to)
     double moved = 0;
     for (std::size_t page = 0; page < to.size(); ++page)
     {
-        if (to[page] != pages.owner[page]) { moved += pages.graph.load[page]; }
+        if (to[page] != pages.present[page]) { moved += pages.graph.load[page]; }
     }
     return moved;
 }
@@ -94,32 +112,51 @@ bool BalanceRule::is_worth(const std::vector<double>& now, const std::vector<dou
 }
 
 template<class Exec>
-bool rebalance(Decomposition<Exec>& decomposition, const BalanceRule& rule, const PageKeys& key,
-               const std::vector<double>& load, std::int64_t steps, BalanceRow& row)
+Balance<Exec>::Balance(Decomposition<Exec>& decomposition, double threshold)
+    : decomposition_(decomposition)
+    , rule_(threshold)
 {
-    const std::vector<double> now = decomposition.communicator.gather(std::accumulate(load.begin(), load.end(), 0.0));
-    row.imbalance                 = imbalance_of(now);
-    row.loads                     = now;
-    if (!rule.is_due(now, steps)) { return false; }
-    const AllPages   pages = gather_pages(decomposition, key, load);
+}
+
+template<class Exec>
+bool Balance<Exec>::is_due(std::int64_t step) const
+{
+    return !state_.row.loads.empty() && step >= state_.not_before &&
+           rule_.is_due(state_.row.loads, step - state_.partitioned);
+}
+
+/// What was not worth it is looked at again when twice as many steps have gone by.
+template<class Exec>
+bool Balance<Exec>::deal_out(const PageLoads& own, std::int64_t step)
+{
+    const AllPages   pages = gather_pages(decomposition_.communicator, own);
     PartitionOptions options;
-    options.ranks             = decomposition.ranks();
-    const Partition     parts = make_partition(decomposition.communicator, pages.graph, options);
-    const PageRanks     ranks = stay_put(parts.rank, pages.owner, pages.graph.load, options.ranks);
-    std::vector<double> after = loads_of(pages.graph, ranks, options.ranks);
-    if (!rule.is_worth(now, after, moved_between(pages, ranks), steps)) { return false; }
-    decomposition.owners.assign(pages.graph.key, ranks);
-    row.imbalance = imbalance_of(after);
-    row.loads     = std::move(after);
-    ++row.repartitions;
+    options.ranks                   = decomposition_.ranks();
+    const Partition           parts = make_partition(decomposition_.communicator, pages.graph, options);
+    const PageRanks           ranks = stay_put(parts.rank, pages.present, pages.graph.load, options.ranks);
+    const std::vector<double> after = loads_of(pages.graph, ranks, options.ranks);
+    if (!rule_.is_worth(state_.row.loads, after, moved_between(pages, ranks), step - state_.partitioned))
+    {
+        state_.not_before = 2 * step - state_.partitioned;
+        return false;
+    }
+    decomposition_.owners.assign(pages.graph.key, ranks);
+    state_.partitioned = step;
+    ++state_.row.repartitions;
     return true;
 }
 
-template bool rebalance(Decomposition<Cpu>&, const BalanceRule&, const PageKeys&, const std::vector<double>&,
-                        std::int64_t, BalanceRow&);
+template<class Exec>
+void Balance<Exec>::note(double load, std::int64_t points_moved)
+{
+    state_.row.loads     = decomposition_.communicator.gather(load);
+    state_.row.imbalance = imbalance_of(state_.row.loads);
+    state_.row.points_moved += points_moved;
+}
+
+template class Balance<Cpu>;
 #ifdef TREAD_WITH_CUDA
-template bool rebalance(Decomposition<Gpu>&, const BalanceRule&, const PageKeys&, const std::vector<double>&,
-                        std::int64_t, BalanceRow&);
+template class Balance<Gpu>;
 #endif
 
 } // namespace tread::decomp

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "decomp/decomposition.hpp"
-#include "decomp/halo_plan.hpp"
 
 namespace tread::decomp
 {
@@ -12,12 +13,16 @@ namespace tread::decomp
 /// How the work of a run fell to its ranks so far.
 struct BalanceRow
 {
-    double       imbalance    = 1; ///< largest load over the mean, when points were last sorted
+    double       imbalance    = 1; ///< largest load over the mean, when points or bodies last changed their rank
     std::int64_t repartitions = 0;
     std::int64_t points_moved = 0; ///< from rank to rank
 
-    std::vector<double> loads; ///< of the ranks, when points were last sorted
+    std::vector<double> loads; ///< of the ranks, in points, at the same time
 };
+
+/// What a rank has on which pages, in points. A page may be in the loads of several ranks, and need not be owned by the
+/// one that has most of it: what is on it moves before it changes its rank.
+using PageLoads = std::map<std::uint64_t, double>;
 
 /// Decides from counts alone, never from clocks, when pages are to be dealt out anew: the same on every machine.
 class BalanceRule
@@ -43,11 +48,39 @@ private:
 /// Largest over mean; 1 without load.
 double imbalance_of(const std::vector<double>& loads);
 
-/// Collective. `key`, ascending, and `load` (points) of the pages that this rank owns. Where it is due and worth it,
-/// pages get other owners, those without points none; returns whether they did: points have to follow. `row` is brought
-/// up to date, as if they had.
+/// Watches how the work falls to the ranks, and gives pages to others of them. Calls are collective.
 template<class Exec>
-bool rebalance(Decomposition<Exec>& decomposition, const BalanceRule& rule, const PageKeys& key,
-               const std::vector<double>& load, std::int64_t steps, BalanceRow& row);
+class Balance
+{
+public:
+    Balance(Decomposition<Exec>& decomposition, double threshold);
+
+    /// Whether deal_out() is worth a call before step number `step`. The same on all ranks, without a message.
+    bool is_due(std::int64_t step) const;
+
+    /// All pages that have load get owners anew, where that saves more than it costs; returns whether they did: what is
+    /// on them has to follow before anybody asks for an owner again. `own`: of this rank.
+    bool deal_out(const PageLoads& own, std::int64_t step);
+
+    /// After points or bodies may have changed their rank: what this one has now, and how many points of all did.
+    void note(double load, std::int64_t points_moved);
+
+    const BalanceRow& row() const { return state_.row; }
+
+    /// All that it knows, to go on with later.
+    struct State
+    {
+        BalanceRow   row;
+        std::int64_t partitioned = 0; ///< the step before which pages were last dealt out
+        std::int64_t not_before  = 0; ///< the step from which that may be thought of again
+    };
+    const State& state() const { return state_; }
+    void         resume(State state) { state_ = std::move(state); }
+
+private:
+    Decomposition<Exec>& decomposition_;
+    BalanceRule          rule_;
+    State                state_;
+};
 
 } // namespace tread::decomp

@@ -1,6 +1,7 @@
 #include "decomp/territory.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kernels/contact/candidates_kern.hpp"
 
@@ -23,12 +24,18 @@ mpm::Index3 page_at(const PageLattice& lattice, const Vec3<double>& x)
     return {along(0), along(1), along(2)};
 }
 
+/// m, of the page's cells.
+Vec3<double> low_corner(const PageLattice& lattice, const mpm::Index3& page)
+{
+    return lattice.spacing *
+           (mpm::page_edge * Vec3<double>(page.x, page.y, page.z) + Vec3<double>::Constant(lattice.stencil_shift));
+}
+
 /// Whether the ball reaches the page's cells.
 bool reaches(const PageLattice& lattice, const Vec3<double>& centre, double radius, const mpm::Index3& page)
 {
-    const double       width = lattice.spacing * mpm::page_edge;
-    const Vec3<double> low =
-        Vec3<double>(page.x, page.y, page.z) * width + Vec3<double>::Constant(lattice.spacing * lattice.stencil_shift);
+    const double       width   = lattice.spacing * mpm::page_edge;
+    const Vec3<double> low     = low_corner(lattice, page);
     const Vec3<double> nearest = centre.cwiseMax(low).cwiseMin(low + Vec3<double>::Constant(width));
     return (nearest - centre).squaredNorm() <= radius * radius;
 }
@@ -56,26 +63,48 @@ std::size_t Territory::run_of(std::uint64_t page_key) const
 
 std::int32_t Territory::owner_of(std::uint64_t page_key) const { return rank_[run_of(page_key)]; }
 
-std::int32_t Territory::owner_of(const Vec3<double>& place) const
-{
-    return owner_of(mpm::page_key(page_at(lattice_, place)));
-}
+std::uint64_t Territory::page_of(const Vec3<double>& place) const { return mpm::page_key(page_at(lattice_, place)); }
 
-/// Keys rise with each coordinate of a page: all of a box lie between those of its two corners.
-std::vector<std::int32_t> Territory::owners_near(const Vec3<double>& centre, double radius) const
+std::int32_t Territory::owner_of(const Vec3<double>& place) const { return owner_of(page_of(place)); }
+
+auto Territory::find_others(const mpm::Index3& page, std::int32_t reach) const -> OwnedPages
 {
-    const Vec3<double>     reach = Vec3<double>::Constant(radius);
-    const contact::PageBox box{page_at(lattice_, centre - reach), page_at(lattice_, centre + reach)};
-    const std::size_t      first = run_of(mpm::page_key(box.low)), last = run_of(mpm::page_key(box.high));
-    if (first == last) { return {rank_[first]}; }
-    if (box.pages() > most_pages) { return all_; }
-    std::vector<std::int32_t> ranks;
+    const double           width  = lattice_.spacing * mpm::page_edge;
+    const Vec3<double>     centre = low_corner(lattice_, page) + Vec3<double>::Constant(0.5 * width);
+    const Vec3<double>     half   = Vec3<double>::Constant(width * reach);
+    const contact::PageBox box{page_at(lattice_, centre - half), page_at(lattice_, centre + half)};
+    const std::int32_t     own = owner_of(mpm::page_key(page));
+    OwnedPages             others;
+    // Keys rise with each coordinate of a page: all of a box lie between those of its two corners.
+    if (run_of(mpm::page_key(box.low)) == run_of(mpm::page_key(box.high))) { return others; }
     for (std::int64_t i = 0; i < box.pages(); ++i)
     {
-        const mpm::Index3 page = box.page(i);
-        if (!reaches(lattice_, centre, radius, page)) { continue; }
-        const std::int32_t owner = owner_of(mpm::page_key(page));
-        if (ranks.empty() || ranks.back() != owner) { ranks.push_back(owner); }
+        const mpm::Index3  at    = box.page(i);
+        const std::int32_t owner = owner_of(mpm::page_key(at));
+        if (owner != own) { others.push_back({at, owner}); }
+    }
+    return others;
+}
+
+auto Territory::others_near(const mpm::Index3& page, std::int32_t reach) -> const OwnedPages&
+{
+    const auto [at, is_new] = others_[reach].try_emplace(mpm::page_key(page));
+    if (is_new) { at->second = find_others(page, reach); }
+    return at->second;
+}
+
+std::vector<std::int32_t> Territory::owners_near(const Vec3<double>& centre, double radius)
+{
+    const double reach = std::ceil(radius / (lattice_.spacing * mpm::page_edge));
+    if (std::pow(2 * reach + 1, 3) > most_pages) { return all_; }
+    const mpm::Index3         page = page_at(lattice_, centre);
+    std::vector<std::int32_t> ranks{owner_of(mpm::page_key(page))};
+    for (const OwnedPage& other : others_near(page, static_cast<std::int32_t>(reach)))
+    {
+        if (other.owner != ranks.back() && reaches(lattice_, centre, radius, other.page))
+        {
+            ranks.push_back(other.owner);
+        }
     }
     keep_each_once(ranks);
     return ranks;

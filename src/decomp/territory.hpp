@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <unordered_map>
 #include <vector>
 
 #include "backend/vector.hpp"
 #include "decomp/partition.hpp"
+#include "kernels/mpm/page_key.hpp"
 
 // Which rank owns which place, for every place there is: the pages of a partition and those that may come to be.
 namespace tread::decomp
@@ -25,19 +28,34 @@ public:
     /// `key` ascending, each once, at least one, and the rank of each.
     Territory(const PageLattice& lattice, const std::vector<std::uint64_t>& key, const PageRanks& rank);
 
+    std::uint64_t page_of(const Vec3<double>& place) const;
+
     std::int32_t owner_of(std::uint64_t page_key) const;
     std::int32_t owner_of(const Vec3<double>& place) const;
 
     /// The ranks that own a page which the ball (m) reaches, ascending; all, where it reaches very many pages.
-    std::vector<std::int32_t> owners_near(const Vec3<double>& centre, double radius) const;
+    /// Remembers what is around the ball's page: next to nothing for the next ball there.
+    std::vector<std::int32_t> owners_near(const Vec3<double>& centre, double radius);
 
 private:
-    std::size_t run_of(std::uint64_t page_key) const;
+    struct OwnedPage
+    {
+        mpm::Index3  page;
+        std::int32_t owner;
+    };
+    using OwnedPages = std::vector<OwnedPage>;
+
+    std::size_t       run_of(std::uint64_t page_key) const;
+    OwnedPages        find_others(const mpm::Index3& page, std::int32_t reach) const;
+    const OwnedPages& others_near(const mpm::Index3& page, std::int32_t reach);
 
     PageLattice                lattice_;
     std::vector<std::uint64_t> first_; ///< of each run of pages of one rank, by key
     std::vector<std::int32_t>  rank_;  ///< of each run
     std::vector<std::int32_t>  all_;   ///< ranks that own something
+
+    /// By reach, in pages, and page: pages up to that far from it that are not its owner's.
+    std::map<std::int32_t, std::unordered_map<std::uint64_t, OwnedPages>> others_;
 };
 
 } // namespace tread::decomp

@@ -292,11 +292,10 @@ Keys<CheckpointOptions> checkpoint_keys()
 
 Keys<Balance> balance_keys()
 {
-    return {
-        optional("threshold", "", &Balance::threshold, number(above(1)),
-                 "The largest number of points of a rank over the mean, beyond which pages are given to other "
-                 "ranks, if that is predicted to save more than it costs. Where bodies meet sand, pages stay as first "
-                 "dealt out.")};
+    return {optional(
+        "threshold", "", &Balance::threshold, number(above(1)),
+        "The largest predicted work of a rank over the mean, beyond which pages are given to other ranks, if that "
+        "is predicted to save more than it costs.")};
 }
 
 } // namespace tread::scene

@@ -16,6 +16,10 @@ namespace
 
 constexpr std::int32_t alone = -1; ///< place of a body that no two ranks move
 
+/// Spacings: a body this near to a page of its rank stays with it. At a border it would else go to and fro with all
+/// that its contacts remember. What it may meet is known to its rank from as much further off.
+constexpr double owner_slack = 0.25;
+
 /// A body's words in a letter: body, owner, number of holders, holders.
 void write_words(std::vector<std::int32_t>& words, std::int32_t body, std::int32_t owner,
                  const std::vector<std::int32_t>& holders)
@@ -128,14 +132,22 @@ void BodyRanks<Exec>::deal(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
     const std::vector<Holding> held = tell(decided, arriving);
     send_states(bodies, pairs, leaving, arriving);
     hand_over_records(pairs, decided);
-    take_roles(bodies, held);
+    take_roles(bodies, decided, held);
     plan_sharing(held);
 }
 
-/// Of the bodies that this rank has owned until now.
 template<class Exec>
-auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs) const
-    -> std::vector<Holding>
+std::int32_t BodyRanks<Exec>::next_owner(std::size_t body, const Vec3<double>& place)
+{
+    const std::int32_t              own   = communicator_.rank();
+    const double                    slack = std::min(owner_slack * lattice_.spacing, bounding_radius_[body]);
+    const std::vector<std::int32_t> near  = territory_->owners_near(place, slack);
+    return std::find(near.begin(), near.end(), own) != near.end() ? own : territory_->owner_of(place);
+}
+
+/// Of the bodies that this rank has owned until now; those that it goes on to hold alone are left out.
+template<class Exec>
+auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs) -> std::vector<Holding>
 {
     const std::vector<Vec3<double>> position = bodies.position.to_host();
     const std::vector<double>       travel   = pairs.travel.to_host();
@@ -156,34 +168,39 @@ auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<E
     for (std::size_t b = 0; b < role_.size(); ++b)
     {
         if (role_[b] != dem::role_owner) { continue; }
-        const double beyond = std::max(is_large[b] != 0 ? widest : widest_small, sand_reach_);
-        decided.push_back({static_cast<std::int32_t>(b), territory_->owner_of(position[b]),
-                           territory_->owners_near(position[b], bounding_radius_[b] + travel[b] + beyond)});
+        const double              met    = (is_large[b] != 0 ? widest : widest_small) + owner_slack * lattice_.spacing;
+        const double              beyond = std::max(met, sand_reach_);
+        std::vector<std::int32_t> holders =
+            territory_->owners_near(position[b], bounding_radius_[b] + travel[b] + beyond);
+        if (holders.size() == 1 && holders.front() == communicator_.rank()) { continue; }
+        decided.push_back({static_cast<std::int32_t>(b), next_owner(b, position[b]), std::move(holders)});
     }
     return decided;
 }
 
-/// Returns what this rank holds from now on, by body; `arriving`: of each rank, the bodies whose state it sends.
+/// Returns what this rank holds from now on beside others, by body; `arriving`: of each rank, the bodies whose state it
+/// sends.
 template<class Exec>
 auto BodyRanks<Exec>::tell(const std::vector<Holding>& decided, Lists& arriving) const -> std::vector<Holding>
 {
-    Lists words(rank_count());
+    Lists                words(rank_count());
+    std::vector<Holding> held;
     for (const Holding& body : decided)
     {
         for (const std::int32_t holder : body.holders)
         {
-            write_words(words[static_cast<std::size_t>(holder)], body.body, body.owner, body.holders);
+            if (holder == communicator_.rank()) { held.push_back(body); }
+            else { write_words(words[static_cast<std::size_t>(holder)], body.body, body.owner, body.holders); }
         }
     }
-    std::vector<Holding> held;
-    const Lists          told = decomp::exchange_values(communicator_, words);
+    const Lists told = decomp::exchange_values(communicator_, words);
     for (std::size_t r = 0; r < told.size(); ++r)
     {
         for (auto word = told[r].begin(); word != told[r].end();)
         {
             const auto holders = word + 3, end = holders + word[2];
             held.push_back({word[0], word[1], {holders, end}});
-            if (r != rank()) { arriving[r].push_back(word[0]); }
+            arriving[r].push_back(word[0]);
             word = end;
         }
     }
@@ -208,18 +225,24 @@ void BodyRanks<Exec>::send_states(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& p
 }
 
 template<class Exec>
-void BodyRanks<Exec>::take_roles(dem::Bodies<Exec>& bodies, const std::vector<Holding>& held)
+void BodyRanks<Exec>::take_roles(dem::Bodies<Exec>& bodies, const std::vector<Holding>& decided,
+                                 const std::vector<Holding>& held)
 {
-    std::fill(role_.begin(), role_.end(), dem::role_none);
-    std::int64_t owned = 0, sum_of_owned = 0;
+    for (std::int32_t& role : role_) { role = role == dem::role_owner ? role : dem::role_none; }
+    for (const Holding& body : decided) { role_[static_cast<std::size_t>(body.body)] = dem::role_none; }
     for (const Holding& body : held)
     {
         const bool own                             = body.owner == communicator_.rank();
         role_[static_cast<std::size_t>(body.body)] = own ? dem::role_owner : dem::role_guest;
-        owned += own ? 1 : 0;
-        sum_of_owned += own ? body.body : 0;
     }
     bodies.role.assign(role_);
+    std::int64_t owned = 0, sum_of_owned = 0;
+    for (std::size_t b = 0; b < role_.size(); ++b)
+    {
+        if (role_[b] != dem::role_owner) { continue; }
+        ++owned;
+        sum_of_owned += static_cast<std::int64_t>(b);
+    }
     const auto count = static_cast<std::int64_t>(role_.size());
     if (communicator_.sum(owned) != count || communicator_.sum(sum_of_owned) != count * (count - 1) / 2)
     {
@@ -312,6 +335,22 @@ void BodyRanks<Exec>::collect(dem::Bodies<Exec>& bodies)
         decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity);
     states_.begin(columns);
     states_.finish(columns, arriving_);
+}
+
+template<class Exec>
+double BodyRanks<Exec>::load() const
+{
+    return body_load * static_cast<double>(std::count(role_.begin(), role_.end(), dem::role_owner));
+}
+
+template<class Exec>
+void BodyRanks<Exec>::add_loads(const dem::Bodies<Exec>& bodies, decomp::PageLoads& loads) const
+{
+    const std::vector<Vec3<double>> position = bodies.position.to_host();
+    for (std::size_t b = 0; b < role_.size(); ++b)
+    {
+        if (role_[b] == dem::role_owner) { loads[territory_->page_of(position[b])] += body_load; }
+    }
 }
 
 template<class Exec>

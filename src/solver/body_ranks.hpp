@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "decomp/balance.hpp"
 #include "decomp/combine.hpp"
 #include "decomp/decomposition.hpp"
 #include "decomp/exchange.hpp"
@@ -60,6 +61,9 @@ public:
     void collect(dem::Bodies<Exec>& bodies);
 
     // Not collective.
+    /// Predicted work of this rank's bodies, in points, and on which pages it is.
+    double          load() const;
+    void            add_loads(const dem::Bodies<Exec>& bodies, decomp::PageLoads& loads) const;
     bool            pages_have_changed() const { return pages_known_ != decomposition_.owners.changes(); }
     bool            owns(std::int64_t body) const { return role_[static_cast<std::size_t>(body)] == dem::role_owner; }
     bool            shares() const { return shared_body_.size() > 0; }
@@ -71,7 +75,7 @@ public:
     const Communicator& communicator() const { return communicator_; }
 
 private:
-    /// Who owns and who holds a body from now on.
+    /// Who owns and who holds a body from now on, where that is not this rank alone.
     struct Holding
     {
         std::int32_t              body;
@@ -81,11 +85,12 @@ private:
     using Lists = std::vector<std::vector<std::int32_t>>; ///< of each rank
 
     void                 look_at_pages();
-    std::vector<Holding> decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs) const;
+    std::vector<Holding> decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs);
+    std::int32_t         next_owner(std::size_t body, const Vec3<double>& place);
     std::vector<Holding> tell(const std::vector<Holding>& decided, Lists& arriving) const;
     void send_states(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs, const Lists& leaving, const Lists& arriving);
     void hand_over_records(dem::Pairs<Exec>& pairs, const std::vector<Holding>& decided);
-    void take_roles(dem::Bodies<Exec>& bodies, const std::vector<Holding>& held);
+    void take_roles(dem::Bodies<Exec>& bodies, const std::vector<Holding>& decided, const std::vector<Holding>& held);
     void plan_sharing(const std::vector<Holding>& held);
 
     template<class Share>

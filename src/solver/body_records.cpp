@@ -29,23 +29,28 @@ std::vector<ContactRecord> last_records(const dem::Pairs<Exec>& pairs)
 }
 
 template<class Exec>
-void put_back(const std::vector<ContactRecord>& records, bool with_places, dem::Pairs<Exec>& pairs)
+void put_back(const std::vector<ContactRecord>& records, dem::Pairs<Exec>& pairs)
 {
     std::vector<std::uint64_t> keys;
     std::vector<dem::Patch>    patches;
     std::vector<dem::Rolling>  rolling;
-    std::vector<Vec3<double>>  places;
     for (const ContactRecord& record : records)
     {
         keys.push_back(record.key);
         patches.push_back(record.patch);
         rolling.push_back(record.rolling);
-        places.push_back(record.place);
     }
     pairs.last_key.assign(keys);
     pairs.last_patch.assign(patches);
     if (pairs.resists_rolling) { pairs.last_rolling.assign(rolling); }
-    if (with_places) { pairs.patches.last_place.assign(places); }
+}
+
+template<class Exec>
+void put_places_back(const std::vector<ContactRecord>& records, dem::Pairs<Exec>& pairs)
+{
+    std::vector<Vec3<double>> places;
+    for (const ContactRecord& record : records) { places.push_back(record.place); }
+    pairs.patches.last_place.assign(places);
 }
 
 } // namespace
@@ -59,7 +64,7 @@ void BodyRanks<Exec>::hand_over_records(dem::Pairs<Exec>& pairs, const std::vect
         if (body.owner != communicator_.rank()) { moved[body.body] = static_cast<std::size_t>(body.owner); }
     }
     if (all(moved.empty())) { return; }
-    const bool with_places = !all(pairs.patches.last_place.size() == 0);
+    const bool have_places = !all(pairs.patches.last_place.size() == 0);
 
     const std::vector<std::int32_t>         is_large = pairs.is_large.to_host();
     std::vector<ContactRecord>              kept;
@@ -69,12 +74,15 @@ void BodyRanks<Exec>::hand_over_records(dem::Pairs<Exec>& pairs, const std::vect
         const auto to = moved.find(decider(is_large, record.key));
         (to == moved.end() ? kept : leaving[to->second]).push_back(record);
     }
+    const auto by_key = [](const ContactRecord& a, const ContactRecord& b) { return a.key < b.key; };
     for (const auto& arriving : decomp::exchange_values(communicator_, leaving))
     {
+        const auto own = static_cast<std::ptrdiff_t>(kept.size());
         kept.insert(kept.end(), arriving.begin(), arriving.end());
+        std::inplace_merge(kept.begin(), kept.begin() + own, kept.end(), by_key); // each rank's ascend
     }
-    std::sort(kept.begin(), kept.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
-    put_back(kept, with_places, pairs);
+    put_back(kept, pairs);
+    if (have_places) { put_places_back(kept, pairs); }
 }
 
 template void BodyRanks<Cpu>::hand_over_records(dem::Pairs<Cpu>&, const std::vector<Holding>&);

@@ -24,16 +24,22 @@ decomp::PageLattice page_lattice_of(const World& world);
 /// The pages that hold points or centres of bodies, and what they weigh. Without points the pages are four bodies wide.
 decomp::PageGraph page_graph_of(const World& world);
 
-/// Collective: gives every page of the world to a rank. Returns how, for the log.
+/// Collective: gives every page of a graph that all ranks have to one of them. Returns how, for the log.
 template<class Exec>
-std::string share_out(decomp::Decomposition<Exec>& decomposition, const World& world)
+std::string share_out(decomp::Decomposition<Exec>& decomposition, const decomp::PageGraph& graph)
 {
     decomp::PartitionOptions options;
     options.ranks                 = decomposition.ranks();
-    decomp::PageGraph       graph = page_graph_of(world);
     const decomp::Partition found = decomp::make_partition(decomposition.communicator, graph, options);
     decomposition.owners.assign(graph.key, found.rank);
     return describe_partition(graph, found, options.ranks);
+}
+
+/// The same of the pages of a world.
+template<class Exec>
+std::string share_out(decomp::Decomposition<Exec>& decomposition, const World& world)
+{
+    return share_out(decomposition, page_graph_of(world));
 }
 
 /// Collective: how a world falls to `ranks`, by each partitioner: a line each.

@@ -86,6 +86,11 @@ public:
     /// How often bodies were dealt to the ranks: which of them are here stays while this does. 0 on one rank.
     std::int64_t deals() const { return deals_; }
 
+    /// Predicted work of the bodies that this rank owns, in points, on several ranks; added to the pages that they are
+    /// on.
+    double load() const { return ranks_->load(); }
+    void   add_loads(decomp::PageLoads& loads) const { ranks_->add_loads(bodies_, loads); }
+
     /// The least sqrt(m / sum K) over bodies, of contacts that are live or may come in the step, s; 0 = none.
     double shortest_contact();
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -61,26 +60,27 @@ std::vector<Out> interleaved(const Array<Exec, T>& field, const mpm::Points<Exec
     return rows;
 }
 
-/// The points of the pages that a rank owns.
-struct OwnPoints
+std::vector<std::uint32_t> numbers(const HostPoints& points)
 {
-    HostPoints                 points;
-    std::vector<std::uint32_t> id; ///< their numbers in the world
-};
+    if (!points.id.empty()) { return points.id; }
+    std::vector<std::uint32_t> ids(points.size());
+    std::iota(ids.begin(), ids.end(), 0U);
+    return ids;
+}
 
+/// The points of the pages that a rank owns.
 template<class Exec>
-OwnPoints own_points(const World& world, const decomp::Decomposition<Exec>& decomposition)
+HostPoints own_points(const World& world, const decomp::Decomposition<Exec>& decomposition)
 {
-    OwnPoints                 own{world.points, {}};
+    HostPoints                own = world.points;
     std::vector<std::uint8_t> kept;
-    for (const Vec3<double>& at : world.points.position)
+    own.id = numbers(own);
+    for (const Vec3<double>& at : own.position)
     {
         const mpm::Index3 cell = mpm::cell_of(at, 1 / world.geometry.spacing, world.geometry.stencil_shift);
-        const bool        here = decomposition.owners.owner(mpm::page_key(mpm::page_of(cell))) == decomposition.rank();
-        if (here) { own.id.push_back(static_cast<std::uint32_t>(kept.size())); }
-        kept.push_back(here);
+        kept.push_back(decomposition.owners.owner(mpm::page_key(mpm::page_of(cell))) == decomposition.rank());
     }
-    keep_points(own.points, kept);
+    keep_points(own, kept);
     return own;
 }
 
@@ -127,21 +127,14 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
 {
     materials_.assign(law_parameters<Real>(scene));
     stirred_in_.fill_zero();
-    if (decomposition == nullptr)
-    {
-        std::vector<std::uint32_t> ids(world.points.size());
-        std::iota(ids.begin(), ids.end(), 0U);
-        upload(world.points, ids, fields);
-        return;
-    }
-    // Bodies follow the owners of pages at once, points only when they are sorted: both are not moved together yet.
-    ranks_.emplace(*decomposition, fields.coupled ? std::numeric_limits<double>::infinity() : scene.balance.threshold);
-    const OwnPoints own = own_points(world, *decomposition);
-    upload(own.points, own.id, fields);
+    if (decomposition != nullptr) { ranks_.emplace(*decomposition); }
+    const bool only_own = decomposition == nullptr || !world.points.id.empty();
+    if (only_own) { upload(world.points, fields); }
+    else { upload(own_points(world, *decomposition), fields); }
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::upload(const HostPoints& host, const std::vector<std::uint32_t>& ids, mpm::PointFields fields)
+void Sand<Exec, Real>::upload(const HostPoints& host, mpm::PointFields fields)
 {
     const auto n = host.size();
     points_.allocate(static_cast<std::int64_t>(n), fields);
@@ -155,7 +148,7 @@ void Sand<Exec, Real>::upload(const HostPoints& host, const std::vector<std::uin
     points_.material.assign(host.material);
     if (!host.velocity.empty()) { points_.velocity.assign(planes<Real, 3>(host.velocity)); }
     if (!host.velocity.empty() && fields.coupled) { points_.grid_velocity.assign(planes<Real, 3>(host.velocity)); }
-    points_.id.assign(ids);
+    points_.id.assign(numbers(host));
 }
 
 template<class Exec, class Real>
@@ -175,9 +168,8 @@ void Sand<Exec, Real>::order()
         list_anew();
         return;
     }
-    const bool due = ranks_ && ranks_->is_due(step_);
-    if (stir_ == mpm::Stir::none && !due) { return; }
-    if (stir_ != mpm::Stir::moved || due)
+    if (stir_ == mpm::Stir::none) { return; }
+    if (stir_ != mpm::Stir::moved)
     {
         order_in_memory();
         return;
@@ -187,6 +179,24 @@ void Sand<Exec, Real>::order()
     mpm::renew_order(exec_, points_, pages_, order_scratch_);
     relists_ = 0;
     ++orders_;
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::follow_owners()
+{
+    listed_ = false;
+    stir_   = mpm::Stir::lost;
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::add_loads(decomp::PageLoads& loads) const
+{
+    const std::vector<std::uint64_t> page  = pages_.point_page_key.to_host();
+    const std::vector<std::int32_t>  first = pages_.first_point.to_host();
+    for (std::size_t i = 0; i < page.size(); ++i)
+    {
+        if (first[i + 1] > first[i]) { loads[page[i]] += first[i + 1] - first[i]; }
+    }
 }
 
 template<class Exec, class Real>
@@ -201,7 +211,7 @@ void Sand<Exec, Real>::order_in_memory()
 {
     if (ranks_)
     {
-        ranks_->order(points_, pages_, geometry_, walls_, order_scratch_, step_);
+        ranks_->order(points_, pages_, geometry_, walls_, order_scratch_);
         migrated_ = ranks_->moved();
     }
     else { mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_); }

@@ -5,6 +5,7 @@
 
 #include "backend/fetched.hpp"
 #include "backend/reduce.hpp"
+#include "decomp/balance.hpp"
 #include "io/snapshot.hpp"
 #include "kernels/mpm/cell_divergence.hpp"
 #include "kernels/mpm/cell_stress.hpp"
@@ -40,7 +41,7 @@ template<class Exec, class Real>
 class Sand
 {
 public:
-    /// `decomposition`: who owns which page; null on one rank.
+    /// `decomposition`: who owns which page; null on one rank. A world whose points have ids has only this rank's.
     Sand(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields,
          decomp::Decomposition<Exec>* decomposition = nullptr);
 
@@ -53,9 +54,15 @@ public:
 
     /// 1. Lists points by page and cell, unless the last report says that none has left its cell; after many such lists
     /// moves them in memory to where the list has them, without waiting. Sorts them and makes the pages anew, and
-    /// waits, when the report says that one comes near pages that are not listed, or on several ranks when that may be
-    /// worth other owners of pages.
+    /// waits, when the report says that one comes near pages that are not listed.
     void order();
+
+    /// After pages got other owners, with no step since the last report: the next order() sorts points anew, and so
+    /// brings them there.
+    void follow_owners();
+
+    /// Adds what this rank has on its pages, where they were last listed.
+    void add_loads(decomp::PageLoads& loads) const;
 
     /// How often points were moved in memory: what is known of them by their place holds while this stays.
     std::int64_t orders() const { return orders_; }
@@ -94,9 +101,6 @@ public:
     /// What a snapshot shows, of this rank.
     io::PointFields fields() const;
 
-    /// How the points fell to the ranks so far; null on one rank.
-    const decomp::BalanceRow* balance() const { return ranks_ ? &ranks_->balance() : nullptr; }
-
     /// Into a checkpoint, or out of it into sand of the same scene. Due right after a report; changes nothing that
     /// comes after it. Collective.
     void transfer(StateFile& file);
@@ -105,7 +109,7 @@ private:
     void           transfer_points(StateFile& file);
     void           resume_lists();
     void           make_room();
-    void           upload(const HostPoints& host, const std::vector<std::uint32_t>& ids, mpm::PointFields fields);
+    void           upload(const HostPoints& host, mpm::PointFields fields);
     void           order_in_memory();
     void           list_anew();
     void           clear_tallies();

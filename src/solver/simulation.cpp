@@ -44,6 +44,7 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     , gravity_(vector(scene.domain.gravity))
     , weight_(free_weight(scene, world))
 {
+    if (decomposition != nullptr) { balance_.emplace(*decomposition, scene.balance.threshold); }
     if (plan.sand)
     {
         sand_.emplace(exec, scene, world, mpm::PointFields{plan.affine, plan.plasticity, plan.coupling}, decomposition);
@@ -78,11 +79,10 @@ TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& cl
 {
     if (unmeasured_ > 0 && step.dt != last_.dt) { measure(); } // the books take steps of one length together
     if (rigid_) { heed_commands(); }
-    if (sand_)
+    if (sand_) { guard_->allow(step, time); }
+    if (sand_ || balance_)
     {
-        guard_->allow(step, time);
-        clock.run(exec_, stage::order, [&] { sand_->order(); });
-        if (coupling_ && sand_->migrated() > 0) { coupling_->send_after(sand_->departed()); }
+        clock.run(exec_, stage::order, [&] { arrange(); });
     }
     if (unmeasured_ == 0) { find_contacts(step, clock); }
     if (plan_.body_contact) { step.substeps = substeps_of(scene_.time, step.dt, limits_, pace_); }
@@ -107,11 +107,36 @@ TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& cl
     }
     last_      = step;
     last_time_ = time;
+    ++steps_;
     if (++unmeasured_ >= measure_every_)
     {
         clock.run(exec_, stage::measure, [&] { measure(); });
     }
     return step;
+}
+
+/// Lists points; on several ranks, all goes to the rank that owns its page: points, and what contacts remember of them,
+/// here, bodies when their pairs are found next.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::arrange()
+{
+    if (balance_ && unmeasured_ == 0 && balance_->is_due(steps_)) { deal_out_pages(); }
+    if (sand_) { sand_->order(); }
+    const std::int64_t moved = sand_ ? sand_->migrated() : 0;
+    if (coupling_ && moved > 0) { coupling_->send_after(sand_->departed()); }
+    if (!balance_ || version() == arranged_) { return; }
+    arranged_           = version();
+    const double points = sand_ ? static_cast<double>(sand_->count()) : 0, bodies = rigid_ ? rigid_->load() : 0;
+    balance_->note(points + bodies, moved);
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::deal_out_pages()
+{
+    decomp::PageLoads loads;
+    if (sand_) { sand_->add_loads(loads); }
+    if (rigid_) { rigid_->add_loads(loads); }
+    if (balance_->deal_out(loads, steps_) && sand_) { sand_->follow_owners(); }
 }
 
 /// A body that a command makes faster than anything was has lists for this step alone.
@@ -138,10 +163,9 @@ void Simulation<Exec, Real>::find_contacts(const TimeStep& step, StageClock& clo
     if (coupling_)
     {
         clock.run(exec_, stage::candidates,
-                  [&]
-                  {
-                      coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(),
-                                                 sand_->orders() + rigid_->deals(), span, pace_.largest_speed);
+                  [&] {
+                      coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(), version(), span,
+                                                 pace_.largest_speed);
                   });
     }
 }
@@ -263,6 +287,7 @@ template<class Exec, class Real>
 Census Simulation<Exec, Real>::census()
 {
     if (unmeasured_ > 0) { measure(); }
+    arrange();
     Census now;
     if (sand_) { now.sand = sand_->census(); }
     if (rigid_) { now.rigid = rigid_->census(); }

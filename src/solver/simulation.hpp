@@ -42,8 +42,8 @@ public:
     /// Share of the weight that was out of balance in the last step.
     double unbalanced() const { return unbalanced_; }
 
-    /// How the points fell to the ranks so far; null on one rank or without sand.
-    const decomp::BalanceRow* balance() const { return sand_ ? sand_->balance() : nullptr; }
+    /// How the work fell to the ranks so far; null on one rank.
+    const decomp::BalanceRow* balance() const { return balance_ ? &balance_->row() : nullptr; }
 
     /// The scene must have sand.
     Sand<Exec, Real>& sand() { return *sand_; }
@@ -93,6 +93,9 @@ public:
     const Ledger& ledger() const { return *ledger_; }
 
 private:
+    void transfer_balance(StateFile& file);
+    void arrange();
+    void deal_out_pages();
     void heed_commands();
     void find_contacts(const TimeStep& step, StageClock& clock);
     void substeps(const TimeStep& step, double time, StageClock& clock);
@@ -101,26 +104,32 @@ private:
     void measure();
     void choose_measuring();
 
-    Exec                                exec_;
-    decomp::Decomposition<Exec>*        decomposition_;
-    const scene::Scene&                 scene_;
-    const World&                        world_;
-    Plan                                plan_;
-    PaceLimits                          limits_;
-    Pace                                pace_;
-    Vec3<double>                        gravity_;
-    double                              weight_; ///< N, of sand and rocks
-    double                              unbalanced_ = 1;
-    double                              damping_    = 0;
-    TimeStep                            last_;              ///< step, and
-    double                              last_time_     = 0; ///< s, when it began
-    std::int64_t                        unmeasured_    = 0; ///< steps since the last measuring
-    std::int64_t                        measure_every_ = 1; ///< steps
-    std::optional<Sand<Exec, Real>>     sand_;
-    std::optional<Rigid<Exec>>          rigid_;
-    std::optional<Coupling<Exec, Real>> coupling_;
-    std::optional<Ledger>               ledger_;
-    std::optional<SandGuard>            guard_;
+    /// Which points, in which places of memory, and which bodies are on this rank stays while this does.
+    std::int64_t version() const { return (sand_ ? sand_->orders() : 0) + (rigid_ ? rigid_->deals() : 0); }
+
+    Exec                                 exec_;
+    decomp::Decomposition<Exec>*         decomposition_;
+    const scene::Scene&                  scene_;
+    const World&                         world_;
+    Plan                                 plan_;
+    PaceLimits                           limits_;
+    Pace                                 pace_;
+    Vec3<double>                         gravity_;
+    double                               weight_; ///< N, of sand and rocks
+    double                               unbalanced_ = 1;
+    double                               damping_    = 0;
+    TimeStep                             last_;              ///< step, and
+    double                               last_time_     = 0; ///< s, when it began
+    std::int64_t                         unmeasured_    = 0; ///< steps since the last measuring
+    std::int64_t                         measure_every_ = 1; ///< steps
+    std::int64_t                         steps_         = 0; ///< taken
+    std::int64_t                         arranged_      = 0; ///< version() that the balance has noted
+    std::optional<decomp::Balance<Exec>> balance_;           ///< only on several ranks
+    std::optional<Sand<Exec, Real>>      sand_;
+    std::optional<Rigid<Exec>>           rigid_;
+    std::optional<Coupling<Exec, Real>>  coupling_;
+    std::optional<Ledger>                ledger_;
+    std::optional<SandGuard>             guard_;
 };
 
 } // namespace tread::solver

@@ -187,6 +187,7 @@ std::int64_t keep_points(HostPoints& points, const std::vector<std::uint8_t>& ke
     compact(points.material);
     compact(points.terrain);
     compact(points.velocity);
+    compact(points.id);
     compact(points.position);
     return static_cast<std::int64_t>(before - points.size());
 }

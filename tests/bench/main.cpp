@@ -7,6 +7,7 @@
 #include "base/communicator.hpp"
 #include "dem.hpp"
 #include "mpm.hpp"
+#include "scene.hpp"
 
 // Benchmarks: print figures, assert none.
 namespace
@@ -18,6 +19,28 @@ template<class T>
 void add_word(CLI::App& command, const std::string& name, T& value, const std::map<std::string, T>& words)
 {
     command.add_option(name, value)->transform(CLI::CheckedTransformer(words))->type_name("WORD");
+}
+
+void add_backend(CLI::App& command, bench::Backend& backend)
+{
+    add_word<bench::Backend>(command, "--backend", backend,
+                             {{"cpu", bench::Backend::cpu}, {"cuda", bench::Backend::cuda}});
+}
+
+void add_transport(CLI::App& command, decomp::TransportChoice& transport)
+{
+    add_word<decomp::TransportChoice>(command, "--transport", transport,
+                                      {{"auto", decomp::TransportChoice::automatic},
+                                       {"mpi", decomp::TransportChoice::mpi},
+                                       {"nccl", decomp::TransportChoice::nccl},
+                                       {"host", decomp::TransportChoice::host}});
+}
+
+template<class Case>
+void add_scene(CLI::App& command, Case& what)
+{
+    command.add_option("SCENE", what.scene, "TOML file")->required();
+    command.add_option("--set", what.overrides, "a.b=c, as of tread run")->expected(1)->take_all();
 }
 
 void add_mpm_options(CLI::App& command, bench::MpmCase& mpm, double& points)
@@ -36,8 +59,7 @@ void add_mpm_options(CLI::App& command, bench::MpmCase& mpm, double& points)
         {{"flip", scene::Transfer::flip}, {"apic", scene::Transfer::apic}, {"aflip", scene::Transfer::aflip}});
     add_word<scene::Precision>(command, "--precision", mpm.precision,
                                {{"single", scene::Precision::single_}, {"double", scene::Precision::double_}});
-    add_word<bench::Backend>(command, "--backend", mpm.backend,
-                             {{"cpu", bench::Backend::cpu}, {"cuda", bench::Backend::cuda}});
+    add_backend(command, mpm.backend);
 }
 
 } // namespace
@@ -53,23 +75,24 @@ int main(int argc, char** argv)
     decomp::TransportChoice transport       = decomp::TransportChoice::automatic;
     add_word<bench::Scaling>(*scaling_command, "--mode", scaling,
                              {{"weak", bench::Scaling::weak}, {"strong", bench::Scaling::strong}});
-    add_word<decomp::TransportChoice>(*scaling_command, "--transport", transport,
-                                      {{"auto", decomp::TransportChoice::automatic},
-                                       {"mpi", decomp::TransportChoice::mpi},
-                                       {"nccl", decomp::TransportChoice::nccl},
-                                       {"host", decomp::TransportChoice::host}});
+    add_transport(*scaling_command, transport);
     for (CLI::App* command : {mpm_command, scaling_command}) { add_mpm_options(*command, mpm, points); }
     bench::DemCase dem;
     CLI::App*      dem_command = app.add_subcommand("dem", "Substeps of a scene's bodies");
-    dem_command->add_option("SCENE", dem.scene, "TOML file")->required();
-    dem_command->add_option("--set", dem.overrides, "a.b=c, as of tread run")->expected(1)->take_all();
+    add_scene(*dem_command, dem);
     dem_command->add_option("--settle", dem.settle, "s, at most, to equilibrium before anything is timed");
     dem_command->add_option("--substeps", dem.substeps, "Between two searches for pairs");
     dem_command->add_option("--steps", dem.steps, "Timed steps of so many substeps, three times");
     add_word<bench::BedState>(*dem_command, "--state", dem.state,
                               {{"settled", bench::BedState::settled}, {"stirred", bench::BedState::stirred}});
-    add_word<bench::Backend>(*dem_command, "--backend", dem.backend,
-                             {{"cpu", bench::Backend::cpu}, {"cuda", bench::Backend::cuda}});
+    add_backend(*dem_command, dem.backend);
+    bench::SceneCase scene;
+    CLI::App*        scene_command = app.add_subcommand("scene", "Steps of a scene on the ranks of mpirun");
+    add_scene(*scene_command, scene);
+    scene_command->add_option("--settle", scene.settle, "Steps before anything is timed");
+    scene_command->add_option("--steps", scene.steps, "Timed steps, three times");
+    add_transport(*scene_command, scene.transport);
+    add_backend(*scene_command, scene.backend);
     app.require_subcommand(1);
     CLI11_PARSE(app, argc, argv);
     mpm.points = static_cast<std::int64_t>(points);
@@ -80,6 +103,11 @@ int main(int argc, char** argv)
         {
             const MpiSession session;
             bench::run_scaling(session.world(), mpm, scaling, transport);
+        }
+        else if (scene_command->parsed())
+        {
+            const MpiSession session;
+            bench::run_scene(session.world(), scene);
         }
         else { bench::run_mpm(mpm); }
     }

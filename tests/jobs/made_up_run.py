@@ -144,7 +144,7 @@ def write_points(path, time):
                 "stress": (np.zeros((count, 6), np.float32), "Pa"),
                 "plastic_shear": (under.astype(np.float32), "1"),
                 "plastic_rate": ((0.5 * under).astype(np.float32), "1/s"),
-                "rank": (np.zeros(count, np.int32), "1"),
+                "rank": ((start[:, 0] > 0.5).astype(np.int32), "1"),
             },
         )
 

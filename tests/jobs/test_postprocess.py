@@ -125,6 +125,7 @@ class PostprocessTest(unittest.TestCase):
     def test_render(self):
         self.picture("render.py")
         self.picture("render.py", "--snapshot", "0")
+        self.picture("render.py", "--colour", "rank")
 
     def test_shapes(self):
         mesh = self.run_path.parent / "spindle.obj"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,17 +75,24 @@ inline double difference(const std::vector<double>& one, const std::vector<doubl
     return largest;
 }
 
+enum class Owners
+{
+    stay,  ///< as the test has them
+    change ///< where the scene's rule of balance wants that
+};
+
 template<class Exec>
 class SideBySide
 {
 public:
     /// owner(place) names a rank for every place of a box of this size (m) from the origin on.
     template<class Owner>
-    SideBySide(const Exec& exec, const scene::Scene& scene, const Vec3<double>& size, Owner owner)
+    SideBySide(const Exec& exec, const scene::Scene& scene, const Vec3<double>& size, Owner owner,
+               Owners owners = Owners::stay)
         : built_(solver::build_world(scene))
         , decomposition_(world(), exec, {decomp::TransportChoice::automatic, decomp::Checksums::on})
         , alone(exec, scene, built_)
-        , together(exec, scene, built_, given(size, owner))
+        , together(exec, with(owners, scene), built_, given(size, owner))
     {
     }
 
@@ -105,6 +113,12 @@ public:
 
 private:
     decomp::PageLattice lattice() const { return solver::page_lattice_of(built_); }
+
+    static scene::Scene with(Owners owners, scene::Scene scene)
+    {
+        if (owners == Owners::stay) { scene.balance.threshold = std::numeric_limits<double>::infinity(); }
+        return scene;
+    }
 
     template<class Owner>
     decomp::Decomposition<Exec>* given(const Vec3<double>& size, Owner owner)

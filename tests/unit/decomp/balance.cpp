@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "backend/counters.hpp"
+#include "kernels/mpm/page_key.hpp"
+#include "mpi_session.hpp"
+
 // When pages are dealt out anew.
 namespace tread::decomp
 {
@@ -36,6 +40,62 @@ TEST(Balance, MuchThatMovesWantsMoreSteps)
     const std::vector<double> now{1.3e6, 0.7e6}, after{1e6, 1e6};
     EXPECT_TRUE(rule.is_worth(now, after, 0, 120));
     EXPECT_FALSE(rule.is_worth(now, after, 2e6, 120));
+}
+
+/// A row of 32 pages of 100 points that rank 0 has, but for the last, of which all ranks have the same share.
+PageLoads mostly_of_the_first()
+{
+    PageLoads loads;
+    const int last = 31;
+    for (std::int32_t x = 0; x < last && test::world().rank() == 0; ++x) { loads[mpm::page_key({x, 0, 0})] = 100; }
+    loads[mpm::page_key({last, 0, 0})] = 100.0 / test::world().size();
+    return loads;
+}
+
+double sum_of(const PageLoads& loads)
+{
+    double sum = 0;
+    for (const auto& [page, load] : loads) { sum += load; }
+    return sum;
+}
+
+TEST(Balance, DealsOutWhatOneRankHasTooMuchOf)
+{
+    const int          ranks = test::world().size();
+    Counters           counters;
+    Decomposition<Cpu> decomposition(test::world(), Cpu{&counters}, {});
+    Balance<Cpu>       balance(decomposition, 1.15);
+    const PageLoads    own = mostly_of_the_first();
+    EXPECT_FALSE(balance.is_due(1'000'000)) << "nothing is known yet";
+    balance.note(sum_of(own), 0);
+    EXPECT_NEAR(balance.row().imbalance, (31.0 + 1.0 / ranks) * ranks / 32, 1e-12);
+    EXPECT_FALSE(balance.is_due(10));
+    EXPECT_EQ(balance.is_due(1000), ranks > 1);
+    if (ranks == 1) { return; }
+
+    ASSERT_TRUE(balance.deal_out(own, 1000));
+    EXPECT_EQ(balance.row().repartitions, 1);
+    EXPECT_FALSE(balance.is_due(1010)) << "that was just done";
+    std::vector<double> loads(static_cast<std::size_t>(ranks), 0.0);
+    EXPECT_EQ(decomposition.owners.keys().size(), 32U) << "the page that all ranks have counts once";
+    for (const std::int32_t owner : decomposition.owners.ranks()) { loads[static_cast<std::size_t>(owner)] += 100; }
+    EXPECT_LT(imbalance_of(loads), 1.15);
+}
+
+TEST(Balance, WaitsTwiceAsLongWhereItWasNotWorthIt)
+{
+    if (test::world().size() == 1) { GTEST_SKIP() << "one rank"; }
+    Counters           counters;
+    Decomposition<Cpu> decomposition(test::world(), Cpu{&counters}, {});
+    Balance<Cpu>       balance(decomposition, 1.15);
+    PageLoads          own; // one page, which nobody can divide
+    if (test::world().rank() == 0) { own[mpm::page_key({0, 0, 0})] = 3200; }
+    balance.note(sum_of(own), 0);
+    ASSERT_TRUE(balance.is_due(1000));
+    EXPECT_FALSE(balance.deal_out(own, 1000));
+    EXPECT_FALSE(balance.is_due(1999));
+    EXPECT_TRUE(balance.is_due(2000));
+    EXPECT_EQ(balance.row().repartitions, 0);
 }
 
 } // namespace

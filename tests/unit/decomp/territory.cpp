@@ -56,8 +56,8 @@ TEST(Territory, GivesPagesThatNobodyKnowsToTheRankBeforeThem)
 
 TEST(Territory, FindsAllRanksThatABallReaches)
 {
-    const Territory territory = row_of_pages();
-    using Ranks               = std::vector<std::int32_t>;
+    Territory territory = row_of_pages();
+    using Ranks         = std::vector<std::int32_t>;
     EXPECT_EQ(territory.owners_near(middle(0, 0, 0), 0.1), (Ranks{0}));
     EXPECT_EQ(territory.owners_near(middle(1, 0, 0), 0.19), (Ranks{0}));
     EXPECT_EQ(territory.owners_near(middle(1, 0, 0), 0.21), (Ranks{0, 1}));
@@ -68,7 +68,7 @@ TEST(Territory, FindsAllRanksThatABallReaches)
 TEST(Territory, ABallThatPassesACornerDoesNotReachThePageBehindIt)
 {
     // Four pages in x and y, each of a rank of its own.
-    const Territory territory(
+    Territory territory(
         lattice,
         {mpm::page_key({0, 0, 0}), mpm::page_key({1, 0, 0}), mpm::page_key({0, 1, 0}), mpm::page_key({1, 1, 0})},
         {0, 1, 2, 3});
