@@ -86,7 +86,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     const auto count = static_cast<std::int64_t>(world.bodies.size());
     totals_.resize(count);
     totals_.fill_zero();
-    taken_ = read(exec_, totals_.data()); // nothing, of any body
+    taken_                          = read(exec_, totals_.data()); // nothing, of any body
     const std::vector<double> radii = bounding_radii(world);
     bounding_radii_.assign(radii);
     smallest_radius_ = *std::min_element(radii.begin(), radii.end());
