@@ -64,7 +64,8 @@ def values_of(table, curve, quantity):
     mean, spread = (table[sources.get(quantity, quantity) + suffix][curve.rows] for suffix in ("", "_spread"))
     if quantity not in sources:
         return mean, spread, table.units[quantity]
-    by = table["weight"][curve.rows]
+    # A wheel that is still in the air weighs on nothing.
+    by = np.where(table["weight"][curve.rows] > 0, table["weight"][curve.rows], np.nan)
     if quantity == "torque_share":
         by = by * (curve.wheel.radius if curve.wheel else np.nan)
     return mean / by, spread / by, "1"

@@ -100,7 +100,9 @@ def soils_like(scene, width):
 
 
 def wheel_of(scene, weight):
-    """The driven wheel of a scene by its generator's or its preset's radius and width; None where neither says."""
+    """The driven wheel of a scene by its generator's or its preset's radius and width; None where neither says, or where it has no weight."""
+    if not weight > 0:
+        return None
     presets = {"perseverance": (0.26, 0.33), "curiosity": (0.25, 0.4), "spirit": (0.13, 0.16), "viper": (0.25, 0.2)}
     driven = [phase["drive"]["body"] for phase in scene.get("phase", []) if "drive" in phase]
     body = next((body for body in scene.get("body", []) if driven and body["name"] == driven[-1]), None)
