@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -110,6 +111,8 @@ ExitCode on_ranks(const Command& command)
             world.abort(code);
         }
         if (world.rank() == 0) { std::cerr << "tread: error: " << text_of(error) << std::endl; }
+        // HDF5 dies in MPI_Finalize of a file that it could not write: the disk is still full.
+        if (code == ExitCode::environment && world.size() == 1) { std::_Exit(static_cast<int>(code)); }
     }
     return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
 }

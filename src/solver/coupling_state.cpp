@@ -54,17 +54,21 @@ void Coupling<Exec, Real>::transfer_records(StateFile& file, std::vector<contact
     for (std::size_t i = 0; i < keys.size(); ++i) { records.push_back({keys[i], tangential[i]}); }
 }
 
-/// Pairs that are listed have a place for what they remember whether they do or not.
+/// Pairs that are listed have a place for what they remember whether they do or not; the search that follows files it
+/// under the ids of the points that the last step has copied.
 template<class Exec, class Real>
 void Coupling<Exec, Real>::transfer_candidates(StateFile& file, const dem::BodiesView& bodies)
 {
     file.own("candidates/body", contact_.candidates.body);
     file.own("candidates/point", contact_.candidates.point);
     std::vector<contact::Tangential> tangential = contact_.tangential.to_host();
+    std::vector<std::uint32_t>       ids        = contact_.id.to_host();
     file.own("candidates/tangential", tangential);
+    file.own("candidates/id", ids);
     if (!file.loads()) { return; }
     contact::resume_candidates(exec_, contact_, bodies, law_);
     contact_.tangential.assign(tangential);
+    contact_.id.assign(ids);
 }
 
 template void Coupling<Cpu, float>::transfer(StateFile&, const dem::BodiesView&);
