@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -109,6 +111,8 @@ ExitCode on_ranks(const Command& command)
             world.abort(code);
         }
         if (world.rank() == 0) { std::cerr << "tread: error: " << text_of(error) << std::endl; }
+        // HDF5 dies in MPI_Finalize of a file that it could not write: the disk is still full.
+        if (code == ExitCode::environment && world.size() == 1) { std::_Exit(static_cast<int>(code)); }
     }
     return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
 }
@@ -245,6 +249,39 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments)
         ->allow_extra_args(false);
 }
 
+/// s, of "HH:MM:SS".
+double seconds_of(const std::string& text)
+{
+    unsigned   hours = 0, minutes = 0, seconds = 0;
+    int        read       = 0;
+    const bool understood = std::sscanf(text.c_str(), "%4u:%2u:%2u%n", &hours, &minutes, &seconds, &read) == 3 &&
+                            static_cast<std::size_t>(read) == text.size() && minutes < 60 && seconds < 60 &&
+                            hours + minutes + seconds > 0;
+    if (!understood) { throw CLI::ValidationError("--walltime-limit", text + ": not a time over 0 as HH:MM:SS"); }
+    return 3600.0 * hours + 60.0 * minutes + seconds;
+}
+
+solver::RestartOptions restart_of(const std::string& word)
+{
+    if (word == "none") { return {solver::RestartMode::none, ""}; }
+    if (word == "auto") { return {solver::RestartMode::automatic, ""}; }
+    return {solver::RestartMode::file, word};
+}
+
+void add_restart_options(CLI::App& command, RunArguments& arguments)
+{
+    command
+        .add_option_function<std::string>(
+            "--restart", [&](const std::string& word) { arguments.options.restart = restart_of(word); },
+            "Go on from the newest usable checkpoint of the run directory (auto) or from a file; default none")
+        ->type_name("auto|none|FILE");
+    command
+        .add_option_function<std::string>(
+            "--walltime-limit", [&](const std::string& text) { arguments.options.walltime_limit = seconds_of(text); },
+            "Write a checkpoint and stop (exit code 75) before so much wall time is over")
+        ->type_name("HH:MM:SS");
+}
+
 void add_run_options(CLI::App& command, RunArguments& arguments)
 {
     add_scene_options(command, arguments.scene);
@@ -269,6 +306,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments)
         ->type_name("DIR");
     command.add_flag_callback(
         "--overwrite", [&] { arguments.options.existing = io::Existing::overwrite; }, "Replace the run that is there");
+    add_restart_options(command, arguments);
     command.add_option("--threads", arguments.options.threads, "CPU threads; default: what OpenMP finds")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));

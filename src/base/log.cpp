@@ -28,11 +28,11 @@ void Log::warning(std::string_view line)
     keep(std::move(marked));
 }
 
-void Log::open(const std::string& path)
+void Log::open(const std::string& path, LogFile file)
 {
     if (!speaks_) { return; }
     path_ = path;
-    file_.open(path);
+    file_.open(path, file == LogFile::anew ? std::ios::out : std::ios::app);
     for (std::string& line : early_) { keep(std::move(line)); }
     early_.clear();
 }

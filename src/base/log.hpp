@@ -16,6 +16,12 @@ enum class Terminal
     silent
 };
 
+enum class LogFile
+{
+    anew,
+    continued
+};
+
 /// What a run says: lines to rank 0's terminal, and to a file from the moment that there is one. Other ranks are mute.
 class Log
 {
@@ -28,9 +34,9 @@ public:
     /// To standard error, marked "warning: ".
     void warning(std::string_view line);
 
-    /// Starts the file at `path` with every line said so far. EnvironmentError when it cannot be written, here and in
-    /// the calls above.
-    void open(const std::string& path);
+    /// Starts the file at `path`, or goes on at its end, with every line said so far. EnvironmentError when it cannot
+    /// be written, here and in the calls above.
+    void open(const std::string& path, LogFile file = LogFile::anew);
 
 private:
     void keep(std::string line);

@@ -121,7 +121,8 @@ Balance<Exec>::Balance(Decomposition<Exec>& decomposition, double threshold)
 template<class Exec>
 bool Balance<Exec>::is_due(std::int64_t step) const
 {
-    return !row_.loads.empty() && step >= not_before_ && rule_.is_due(row_.loads, step - partitioned_);
+    return !state_.row.loads.empty() && step >= state_.not_before &&
+           rule_.is_due(state_.row.loads, step - state_.partitioned);
 }
 
 /// What was not worth it is looked at again when twice as many steps have gone by.
@@ -134,23 +135,23 @@ bool Balance<Exec>::deal_out(const PageLoads& own, std::int64_t step)
     const Partition           parts = make_partition(decomposition_.communicator, pages.graph, options);
     const PageRanks           ranks = stay_put(parts.rank, pages.present, pages.graph.load, options.ranks);
     const std::vector<double> after = loads_of(pages.graph, ranks, options.ranks);
-    if (!rule_.is_worth(row_.loads, after, moved_between(pages, ranks), step - partitioned_))
+    if (!rule_.is_worth(state_.row.loads, after, moved_between(pages, ranks), step - state_.partitioned))
     {
-        not_before_ = 2 * step - partitioned_;
+        state_.not_before = 2 * step - state_.partitioned;
         return false;
     }
     decomposition_.owners.assign(pages.graph.key, ranks);
-    partitioned_ = step;
-    ++row_.repartitions;
+    state_.partitioned = step;
+    ++state_.row.repartitions;
     return true;
 }
 
 template<class Exec>
 void Balance<Exec>::note(double load, std::int64_t points_moved)
 {
-    row_.loads     = decomposition_.communicator.gather(load);
-    row_.imbalance = imbalance_of(row_.loads);
-    row_.points_moved += points_moved;
+    state_.row.loads     = decomposition_.communicator.gather(load);
+    state_.row.imbalance = imbalance_of(state_.row.loads);
+    state_.row.points_moved += points_moved;
 }
 
 template class Balance<Cpu>;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "decomp/decomposition.hpp"
@@ -64,14 +65,22 @@ public:
     /// After points or bodies may have changed their rank: what this one has now, and how many points of all did.
     void note(double load, std::int64_t points_moved);
 
-    const BalanceRow& row() const { return row_; }
+    const BalanceRow& row() const { return state_.row; }
+
+    /// All that it knows, to go on with later.
+    struct State
+    {
+        BalanceRow   row;
+        std::int64_t partitioned = 0; ///< the step before which pages were last dealt out
+        std::int64_t not_before  = 0; ///< the step from which that may be thought of again
+    };
+    const State& state() const { return state_; }
+    void         resume(State state) { state_ = std::move(state); }
 
 private:
     Decomposition<Exec>& decomposition_;
     BalanceRule          rule_;
-    BalanceRow           row_;
-    std::int64_t         partitioned_ = 0; ///< the step before which pages were last dealt out
-    std::int64_t         not_before_  = 0; ///< the step from which that may be thought of again
+    State                state_;
 };
 
 } // namespace tread::decomp

@@ -110,11 +110,12 @@ void require_in_range(const std::string& path, const BedFile& bed)
 
 } // namespace
 
-void write_bed(const std::string& path, const BedFile& bed)
+void write_bed(const std::string& path, const BedFile& bed, const Provenance& provenance)
 {
     const std::string temporary = path + ".tmp";
     h5::File          file      = h5::File::create(temporary);
     h5::write_attribute(file, "/", "format", format_name);
+    write_provenance(file, provenance);
     write_kinds(file, bed.kinds);
     h5::create_group(file, "/rocks");
     write_with_unit(file, "/rocks/kind", bed.kind, 1, "1");

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "io/provenance.hpp"
+
 // bed.h5: rocks at rest, as one run leaves them and another starts with them.
 namespace tread::io
 {
@@ -52,7 +54,7 @@ struct BedFile
 };
 
 /// The file appears when it is whole. EnvironmentError when it cannot be written.
-void write_bed(const std::string& path, const BedFile& bed);
+void write_bed(const std::string& path, const BedFile& bed, const Provenance& provenance = {});
 
 /// EnvironmentError when it cannot be read, is no bed, or numbers in it are out of their range.
 BedFile read_bed(const std::string& path);

@@ -3,8 +3,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -50,6 +53,34 @@ void write_atomically(const std::string& path, const std::string& text)
 void rename_file(const std::string& from, const std::string& to)
 {
     if (std::rename(from.c_str(), to.c_str()) != 0) { fail(to); }
+}
+
+void overwrite_start(const std::string& path, const std::string& text)
+{
+    const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "r+"));
+    if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() || std::fflush(file.get()) != 0 ||
+        fsync(fileno(file.get())) != 0)
+    {
+        fail(path);
+    }
+}
+
+void flush_directory(const std::string& path)
+{
+    const int  directory = open(path.c_str(), O_RDONLY | O_DIRECTORY);
+    const bool flushed   = directory >= 0 && fsync(directory) == 0;
+    const int  reason    = errno;
+    if (directory >= 0) { close(directory); }
+    errno = reason;
+    if (!flushed) { fail(path); }
+}
+
+std::string read_file(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::string   bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    if (!file) { throw EnvironmentError(fmt::format("{}: cannot be read", path)); }
+    return bytes;
 }
 
 } // namespace tread::io

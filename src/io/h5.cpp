@@ -1,9 +1,8 @@
 #include "io/h5.hpp"
 
-#include <array>
-#include <type_traits>
-
 #include <fmt/format.h>
+
+#include "io/h5_parts.hpp"
 
 namespace tread::io::h5
 {
@@ -13,21 +12,6 @@ namespace
 
 // Rows that a growing data set takes at a time: 8 KiB a column.
 constexpr hsize_t growth = 1024;
-
-template<class T>
-hid_t type_of()
-{
-    if constexpr (std::is_same_v<T, double>) { return H5T_NATIVE_DOUBLE; }
-    else if constexpr (std::is_same_v<T, float>) { return H5T_NATIVE_FLOAT; }
-    else if constexpr (std::is_same_v<T, std::int32_t>) { return H5T_NATIVE_INT32; }
-    else if constexpr (std::is_same_v<T, std::int64_t>) { return H5T_NATIVE_INT64; }
-    else if constexpr (std::is_same_v<T, std::uint32_t>) { return H5T_NATIVE_UINT32; }
-    else
-    {
-        static_assert(std::is_same_v<T, std::uint8_t>);
-        return H5T_NATIVE_UINT8;
-    }
-}
 
 // The error stack's innermost entry says most: "unable to create file: ... Permission denied".
 herr_t take_innermost(unsigned depth, const H5E_error2_t* entry, void* reason)
@@ -39,45 +23,6 @@ herr_t take_innermost(unsigned depth, const H5E_error2_t* entry, void* reason)
 // Called before anything may fail: HDF5 prints its whole stack to standard error unless told not to.
 void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
-Handle property_list(hid_t kind) { return {H5Pcreate(kind), H5Pclose}; }
-
-std::vector<hsize_t> shape(hsize_t rows, int width)
-{
-    if (width == 1) { return {rows}; }
-    return {rows, static_cast<hsize_t>(width)};
-}
-
-Handle dataspace(const std::vector<hsize_t>& size)
-{
-    return {H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose};
-}
-
-void check(herr_t result, const File& file, const std::string& what) { checked(result, file.path(), what); }
-
-void select_rows(const File& file, const Handle& space, hsize_t first, hsize_t count, int width)
-{
-    if (count == 0)
-    {
-        H5Sselect_none(space.id());
-        return;
-    }
-    const std::vector<hsize_t> start{first, 0};
-    const std::vector<hsize_t> size = shape(count, width);
-    check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), file,
-          "selecting rows");
-}
-
-Handle open_dataset(const File& file, const std::string& name)
-{
-    return {checked(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), file.path(), "opening " + name), H5Dclose};
-}
-
-Handle open_attribute(const File& file, const std::string& object, const std::string& name)
-{
-    const hid_t id = H5Aopen_by_name(file.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-    return {checked(id, file.path(), fmt::format("opening attribute {} of {}", name, object)), H5Aclose};
-}
-
 void write_attribute_data(const File& file, const std::string& object, const std::string& name, hid_t type,
                           const Handle& space, const void* data)
 {
@@ -87,6 +32,28 @@ void write_attribute_data(const File& file, const std::string& object, const std
         checked(H5Acreate2(at.id(), name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT), file.path(), what),
         H5Aclose};
     check(H5Awrite(attribute.id(), type, data), file, what);
+}
+
+Handle parallel_access(const std::string& path, const Communicator& communicator)
+{
+    Handle access = property_list(H5P_FILE_ACCESS);
+    checked(H5Pset_fapl_mpio(access.id(), communicator.native(), MPI_INFO_NULL), path, "setting up MPI-IO");
+    H5Pset_coll_metadata_write(access.id(), true);
+    return access;
+}
+
+Handle collective_transfer()
+{
+    Handle transfer = property_list(H5P_DATASET_XFER);
+    H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE);
+    return transfer;
+}
+
+Handle links_with_groups()
+{
+    Handle links = property_list(H5P_LINK_CREATE);
+    H5Pset_create_intermediate_group(links.id(), 1);
+    return links;
 }
 
 } // namespace
@@ -116,12 +83,21 @@ File File::create(const std::string& path)
 File File::create(const std::string& path, const Communicator& communicator)
 {
     silence();
-    const Handle access = property_list(H5P_FILE_ACCESS);
-    checked(H5Pset_fapl_mpio(access.id(), communicator.native(), MPI_INFO_NULL), path, "setting up MPI-IO");
-    H5Pset_coll_metadata_write(access.id(), true);
-    Handle transfer = property_list(H5P_DATASET_XFER);
-    H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE);
-    const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id());
+    const Handle access   = parallel_access(path, communicator);
+    Handle       transfer = collective_transfer();
+    const hid_t  id       = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id());
+    return {checked(id, path, "creating the file"), path, std::move(transfer)};
+}
+
+File File::create(const std::string& path, const Communicator& communicator, hsize_t user_block)
+{
+    silence();
+    const bool   alone    = communicator.size() == 1;
+    const Handle access   = alone ? property_list(H5P_FILE_ACCESS) : parallel_access(path, communicator);
+    Handle       transfer = alone ? property_list(H5P_DATASET_XFER) : collective_transfer();
+    const Handle creation = property_list(H5P_FILE_CREATE);
+    H5Pset_userblock(creation.id(), user_block);
+    const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
     return {checked(id, path, "creating the file"), path, std::move(transfer)};
 }
 
@@ -161,9 +137,8 @@ Rows rows_of_rank(const Communicator& communicator, std::size_t count)
 
 void create_group(const File& file, const std::string& name)
 {
-    const Handle links = property_list(H5P_LINK_CREATE);
-    H5Pset_create_intermediate_group(links.id(), 1);
-    const hid_t  id = H5Gcreate2(file.id(), name.c_str(), links.id(), H5P_DEFAULT, H5P_DEFAULT);
+    const Handle links = links_with_groups();
+    const hid_t  id    = H5Gcreate2(file.id(), name.c_str(), links.id(), H5P_DEFAULT, H5P_DEFAULT);
     const Handle group{checked(id, file.path(), "creating group " + name), H5Gclose};
 }
 
@@ -174,8 +149,9 @@ void write(const File& file, const std::string& name, const std::vector<T>& valu
     const Handle      in_file  = dataspace(shape(rows.total, width));
     const Handle      creation = property_list(H5P_DATASET_CREATE);
     H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
-    const hid_t id =
-        H5Dcreate2(file.id(), name.c_str(), type_of<T>(), in_file.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT);
+    const Handle links = links_with_groups();
+    const hid_t  id =
+        H5Dcreate2(file.id(), name.c_str(), type_of<T>(), in_file.id(), links.id(), creation.id(), H5P_DEFAULT);
     const Handle dataset{checked(id, file.path(), what), H5Dclose};
 
     const Handle in_memory = dataspace(shape(rows.count, width));
@@ -190,61 +166,8 @@ template void write(const File&, const std::string&, const std::vector<float>&, 
 template void write(const File&, const std::string&, const std::vector<std::int32_t>&, int, const Rows&);
 template void write(const File&, const std::string&, const std::vector<std::int64_t>&, int, const Rows&);
 template void write(const File&, const std::string&, const std::vector<std::uint32_t>&, int, const Rows&);
+template void write(const File&, const std::string&, const std::vector<std::uint64_t>&, int, const Rows&);
 template void write(const File&, const std::string&, const std::vector<std::uint8_t>&, int, const Rows&);
-
-template<class T>
-std::vector<T> read(const File& file, const std::string& name, int width)
-{
-    const std::string      what    = "reading " + name;
-    const Handle           dataset = open_dataset(file, name);
-    const Handle           space{H5Dget_space(dataset.id()), H5Sclose};
-    const int              rank = H5Sget_simple_extent_ndims(space.id());
-    std::array<hsize_t, 2> size{0, 1};
-    if (rank == (width == 1 ? 1 : 2)) { H5Sget_simple_extent_dims(space.id(), size.data(), nullptr); }
-    if (size[1] != static_cast<hsize_t>(width) || rank != (width == 1 ? 1 : 2))
-    {
-        throw EnvironmentError(fmt::format("{}: {} failed: it has not {} columns", file.path(), what, width));
-    }
-    std::vector<T> values(size[0] * size[1]);
-    check(H5Dread(dataset.id(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), file, what);
-    return values;
-}
-
-template std::vector<double>       read(const File&, const std::string&, int);
-template std::vector<std::int32_t> read(const File&, const std::string&, int);
-
-std::int64_t count_members(const File& file, const std::string& group)
-{
-    H5G_info_t   info;
-    const Handle at{checked(H5Gopen2(file.id(), group.c_str(), H5P_DEFAULT), file.path(), "opening " + group),
-                    H5Gclose};
-    check(H5Gget_info(at.id(), &info), file, "reading " + group);
-    return static_cast<std::int64_t>(info.nlinks);
-}
-
-std::string read_text_attribute(const File& file, const std::string& object, const std::string& name)
-{
-    const auto   what      = fmt::format("reading attribute {} of {}", name, object);
-    const Handle attribute = open_attribute(file, object, name);
-    const Handle type{H5Aget_type(attribute.id()), H5Tclose};
-    if (H5Tis_variable_str(type.id()) <= 0)
-    {
-        throw EnvironmentError(fmt::format("{}: {} failed: it is no text", file.path(), what));
-    }
-    char* text = nullptr;
-    check(H5Aread(attribute.id(), type.id(), &text), file, what);
-    std::string value = text == nullptr ? "" : text;
-    H5free_memory(text);
-    return value;
-}
-
-double read_number_attribute(const File& file, const std::string& object, const std::string& name)
-{
-    double       value     = 0;
-    const Handle attribute = open_attribute(file, object, name);
-    check(H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &value), file, "reading attribute " + name);
-    return value;
-}
 
 void create_growing(const File& file, const std::string& name, int width)
 {
@@ -311,6 +234,18 @@ void write_fixed_attribute(const File& file, const std::string& object, const st
     H5Tset_size(type.id(), value.size());
     H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
     write_attribute_data(file, object, name, type.id(), {H5Screate(H5S_SCALAR), H5Sclose}, value.data());
+}
+
+void set_fixed_attribute(const File& file, const std::string& object, const std::string& name, const std::string& value)
+{
+    if (H5Aexists_by_name(file.id(), object.c_str(), name.c_str(), H5P_DEFAULT) <= 0)
+    {
+        write_fixed_attribute(file, object, name, value);
+        return;
+    }
+    const Handle attribute = open_attribute(file, object, name);
+    const Handle type{H5Aget_type(attribute.id()), H5Tclose};
+    check(H5Awrite(attribute.id(), type.id(), value.data()), file, "writing attribute " + name);
 }
 
 } // namespace tread::io::h5

@@ -53,6 +53,10 @@ public:
     /// New, or emptied; all ranks of the communicator together through MPI-IO.
     static File create(const std::string& path, const Communicator& communicator);
 
+    /// The same with `user_block` bytes before it (512 times a power of 2) that HDF5 leaves to others; by this process
+    /// alone where the communicator has no other.
+    static File create(const std::string& path, const Communicator& communicator, hsize_t user_block);
+
     /// For more rows. Takes no file lock: a reader that has the file open must not end the run.
     static File append(const std::string& path);
 
@@ -86,8 +90,8 @@ Rows rows_of_rank(const Communicator& communicator, std::size_t count);
 
 void create_group(const File& file, const std::string& name);
 
-/// `values` = [rows.count][width], row-major; width 1 makes a one-dimensional data set. T: double, float, int32, int64,
-/// uint32, uint8.
+/// `values` = [rows.count][width], row-major; width 1 makes a one-dimensional data set, in groups that are made if need
+/// be. T: double, float, int32, int64, uint64, uint32, uint8.
 template<class T>
 void write(const File& file, const std::string& name, const std::vector<T>& values, int width, const Rows& rows);
 
@@ -103,12 +107,21 @@ void write(const File& file, const std::string& name, const std::vector<T>& valu
 template<class T>
 std::vector<T> read(const File& file, const std::string& name, int width);
 
+/// The same of `count` rows from `first` on.
+template<class T>
+std::vector<T> read_rows(const File& file, const std::string& name, int width, hsize_t first, hsize_t count);
+
+/// Whether there is an object of that path.
+bool holds(const File& file, const std::string& name);
+
 /// How many objects a group holds.
 std::int64_t count_members(const File& file, const std::string& group);
 
 /// Attributes that write_attribute wrote.
 std::string read_text_attribute(const File& file, const std::string& object, const std::string& name);
 double      read_number_attribute(const File& file, const std::string& object, const std::string& name);
+
+std::vector<std::int64_t> read_numbers_attribute(const File& file, const std::string& object, const std::string& name);
 
 /// An empty data set of doubles that grows by append_rows.
 void create_growing(const File& file, const std::string& name, int width);
@@ -125,6 +138,10 @@ void write_attribute(const File& file, const std::string& object, const std::str
 /// As a string of fixed length in ASCII, which is what VTK's reader accepts.
 void write_fixed_attribute(const File& file, const std::string& object, const std::string& name,
                            const std::string& value);
+
+/// The same for one that may be there already, of the same length: it is written over, and the file does not grow.
+void set_fixed_attribute(const File& file, const std::string& object, const std::string& name,
+                         const std::string& value);
 
 /// Throws unless `id` is valid; else passes it on. `what` and `path` go into the message.
 hid_t checked(hid_t id, const std::string& path, const std::string& what);

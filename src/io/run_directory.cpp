@@ -17,16 +17,17 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr const char* scene_file = "scene.toml";
+constexpr const char* scene_file   = "scene.toml";
+constexpr const char* summary_file = "summary.json";
 
 // Everything that a run writes, besides scene.toml.
-constexpr std::array<const char*, 6> run_files = {"log.txt",   "summary.json", "timeseries.h5",
-                                                  "snapshots", "checkpoints",  "bed.h5"};
+constexpr std::array<const char*, 6> run_files = {"log.txt",   summary_file,  "timeseries.h5",
+                                                  "snapshots", "checkpoints", "bed.h5"};
 
 bool holds_run(const fs::path& directory)
 {
     std::error_code none;
-    return fs::exists(directory / scene_file, none) || fs::exists(directory / "summary.json", none);
+    return fs::exists(directory / scene_file, none) || fs::exists(directory / summary_file, none);
 }
 
 // The first directory that create_directories would make: what to remove if the run cannot start after all.
@@ -44,35 +45,76 @@ fs::path first_missing(fs::path directory)
 
 void prepare(const fs::path& directory, Existing existing, const std::string& resolved_scene)
 {
-    if (existing == Existing::refuse && holds_run(directory))
+    write_atomically((directory / scene_file).string(), resolved_scene);
+    for (const char* name : run_files)
     {
-        throw InputError(fmt::format("{}: holds a run already; --overwrite replaces it, --output names another place",
-                                     directory.string()));
+        if (existing != Existing::resume || std::string(name) == summary_file) { fs::remove_all(directory / name); }
     }
-    const fs::path missing = first_missing(directory);
-    try
-    {
-        fs::create_directories(directory);
-        write_atomically((directory / scene_file).string(), resolved_scene);
-        for (const char* name : run_files) { fs::remove_all(directory / name); }
-    }
-    catch (const std::exception& error)
-    {
-        std::error_code none;
-        if (!missing.empty()) { fs::remove_all(missing, none); }
-        throw EnvironmentError(fmt::format("the output directory cannot be used: {}", error.what()));
-    }
+}
+
+fs::path normal(const std::string& path)
+{
+    const fs::path directory = fs::path(path).lexically_normal();
+    return directory.has_filename() ? directory : directory.parent_path(); // "runs/a/" is "runs/a"
 }
 
 } // namespace
 
 RunDirectory RunDirectory::create(const Communicator& communicator, const std::string& path, Existing existing,
-                                  const std::string& resolved_scene)
+                                  const std::string& resolved_scene, std::optional<DirectoryLock> lock)
 {
-    fs::path directory = fs::path(path).lexically_normal();
-    if (!directory.has_filename()) { directory = directory.parent_path(); } // "runs/a/" is "runs/a"
-    on_root(communicator, [&] { prepare(directory, existing, resolved_scene); });
-    return RunDirectory(directory.string());
+    const fs::path directory = normal(path);
+    fs::path       missing;
+    const auto     make = [&]
+    {
+        if (existing == Existing::refuse && tread::io::holds_run(directory))
+        {
+            throw InputError(fmt::format(
+                "{}: holds a run already; --overwrite replaces it, --restart auto goes on with it, --output "
+                "names another place",
+                directory.string()));
+        }
+        missing = first_missing(directory);
+        fs::create_directories(directory);
+    };
+    const auto usable = [&](const auto& work)
+    {
+        try
+        {
+            work();
+        }
+        catch (const InputError&)
+        {
+            throw;
+        }
+        catch (const std::exception& error)
+        {
+            std::error_code none;
+            if (!missing.empty()) { fs::remove_all(missing, none); }
+            throw EnvironmentError(fmt::format("the output directory cannot be used: {}", error.what()));
+        }
+    };
+    on_root(communicator, [&] { usable(make); });
+    if (!lock)
+    {
+        usable([&] { lock.emplace(communicator, directory.string()); });
+    }
+    on_root(communicator, [&] { usable([&] { prepare(directory, existing, resolved_scene); }); });
+    RunDirectory made(directory.string());
+    made.lock_ = std::move(lock);
+    return made;
 }
+
+RunDirectory RunDirectory::at(const std::string& path) { return RunDirectory(normal(path).string()); }
+
+std::string RunDirectory::within(const std::string& file) const
+{
+    const fs::path relative = fs::path(file).lexically_relative(path_);
+    return relative.empty() || *relative.begin() == ".." ? file : relative.string();
+}
+
+bool RunDirectory::exists() const { return fs::is_directory(path_); }
+
+bool RunDirectory::holds_run() const { return tread::io::holds_run(path_); }
 
 } // namespace tread::io

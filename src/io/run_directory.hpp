@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/communicator.hpp"
+#include "io/directory_lock.hpp"
 
 namespace tread::io
 {
@@ -11,7 +13,8 @@ namespace tread::io
 enum class Existing
 {
     refuse,
-    overwrite
+    overwrite,
+    resume ///< keep its files, but for summary.json, and go on with them
 };
 
 /// Where a run writes. Paths of its files; the directory exists.
@@ -19,12 +22,22 @@ class RunDirectory
 {
 public:
     /// Makes the directory (and those above it) and writes scene.toml, whose presence marks it as a run's. With
-    /// Existing::overwrite an earlier run's files go first, files of others stay. Collective.
+    /// Existing::overwrite an earlier run's files go first, files of others stay. Locks it, unless the caller has.
+    /// Collective.
     ///
     /// InputError when it holds a run and `existing` says refuse; EnvironmentError when it cannot be made or written,
-    /// and then nothing of it is left behind.
+    /// and then nothing of it is left behind, or when another process has its lock.
     static RunDirectory create(const Communicator& communicator, const std::string& path, Existing existing,
-                               const std::string& resolved_scene);
+                               const std::string& resolved_scene, std::optional<DirectoryLock> lock = {});
+
+    /// The same without making anything: where a run would be, or is.
+    static RunDirectory at(const std::string& path);
+
+    /// Of a file: as seen from the directory, if it is in it.
+    std::string within(const std::string& file) const;
+
+    bool exists() const;
+    bool holds_run() const;
 
     const std::string& path() const { return path_; }
     std::string        log() const { return path_ + "/log.txt"; }
@@ -32,6 +45,8 @@ public:
     std::string        time_series() const { return path_ + "/timeseries.h5"; }
     std::string        bed() const { return path_ + "/bed.h5"; }
     std::string        snapshots() const { return path_ + "/snapshots"; }
+    std::string        checkpoints() const { return path_ + "/checkpoints"; }
+    std::string        scene() const { return path_ + "/scene.toml"; }
 
 private:
     explicit RunDirectory(std::string path)
@@ -39,7 +54,8 @@ private:
     {
     }
 
-    std::string path_;
+    std::string                  path_;
+    std::optional<DirectoryLock> lock_;
 };
 
 } // namespace tread::io

@@ -1,5 +1,6 @@
 #include "io/snapshot.hpp"
 
+#include <cstdio>
 #include <filesystem>
 #include <utility>
 
@@ -40,13 +41,18 @@ std::vector<double> flattened(const std::vector<Eigen::Vector3d>& points)
     return values;
 }
 
+constexpr const char* series_name = "points.hdf.series";
+
+std::string points_name(std::size_t number) { return fmt::format("points_{:04}.hdf", number); }
+
 std::string temporary(const std::string& path) { return path + ".tmp"; }
 
 } // namespace
 
-void write_bodies(const std::string& path, double time, const BodyFields& bodies)
+void write_bodies(const std::string& path, double time, const BodyFields& bodies, const Provenance& provenance)
 {
     h5::File file = h5::File::create(path);
+    write_provenance(file, provenance);
     h5::write_attribute(file, "/", "time", time);
     write_with_unit(file, "/position", bodies.position, 3, "m");
     write_with_unit(file, "/orientation", bodies.orientation, 4, "1");
@@ -57,9 +63,10 @@ void write_bodies(const std::string& path, double time, const BodyFields& bodies
     file.close();
 }
 
-SnapshotWriter::SnapshotWriter(const Communicator& communicator, std::string directory)
+SnapshotWriter::SnapshotWriter(const Communicator& communicator, std::string directory, Provenance provenance)
     : communicator_(&communicator)
     , directory_(std::move(directory))
+    , provenance_(std::move(provenance))
 {
     on_root(communicator,
             [&]
@@ -77,6 +84,7 @@ void SnapshotWriter::write_shapes(const std::vector<NamedMesh>& shapes) const
             [&]
             {
                 h5::File file = h5::File::create(temporary(path));
+                write_provenance(file, provenance_);
                 for (std::size_t i = 0; i < shapes.size(); ++i)
                 {
                     const std::string group = fmt::format("/{}", i);
@@ -90,15 +98,34 @@ void SnapshotWriter::write_shapes(const std::vector<NamedMesh>& shapes) const
             });
 }
 
+void SnapshotWriter::resume(std::vector<double> times)
+{
+    times_ = std::move(times);
+    on_root(*communicator_,
+            [&]
+            {
+                for (const auto& entry : std::filesystem::directory_iterator(directory_))
+                {
+                    const std::string name   = entry.path().filename().string();
+                    int               number = -1;
+                    if (std::sscanf(name.c_str(), "points_%d.hdf", &number) == 1 ||
+                        std::sscanf(name.c_str(), "bodies_%d.h5", &number) == 1)
+                    {
+                        if (number >= static_cast<int>(times_.size())) { std::filesystem::remove(entry.path()); }
+                    }
+                }
+                if (std::filesystem::exists(directory_ + "/" + series_name)) { write_series(); }
+            });
+}
+
 void SnapshotWriter::write(double time, const PointFields& points, const BodyFields& bodies)
 {
-    const int number = next_++;
+    const std::size_t number = times_.size();
+    times_.push_back(time);
     if (communicator_->maximum(static_cast<std::int64_t>(points.position.size())) > 0)
     {
-        const std::string name = fmt::format("points_{:04}.hdf", number);
-        const std::string path = directory_ + "/" + name;
-        write_points(*communicator_, temporary(path), time, points);
-        series_.push_back({name, time});
+        const std::string path = directory_ + "/" + points_name(number);
+        write_points(*communicator_, temporary(path), time, points, provenance_);
         on_root(*communicator_,
                 [&]
                 {
@@ -112,20 +139,28 @@ void SnapshotWriter::write(double time, const PointFields& points, const BodyFie
         on_root(*communicator_,
                 [&]
                 {
-                    write_bodies(temporary(path), time, bodies);
+                    write_bodies(temporary(path), time, bodies, provenance_);
                     rename_file(temporary(path), path);
                 });
     }
 }
 
+/// Of the snapshots that have points: all, unless the last of them left the domain.
 void SnapshotWriter::write_series() const
 {
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
-    for (const Entry& entry : series_) { files.push_back({{"name", entry.name}, {"time", entry.time}}); }
+    for (std::size_t number = 0; number < times_.size(); ++number)
+    {
+        const std::string name = points_name(number);
+        if (std::filesystem::exists(directory_ + "/" + name))
+        {
+            files.push_back({{"name", name}, {"time", times_[number]}});
+        }
+    }
     nlohmann::ordered_json series;
     series["file-series-version"] = "1.0";
     series["files"]               = files;
-    write_atomically(directory_ + "/points.hdf.series", series.dump(1) + "\n");
+    write_atomically(directory_ + "/" + series_name, series.dump(1) + "\n");
 }
 
 } // namespace tread::io

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "io/provenance.hpp"
 #include "shape/mesh.hpp"
 
 namespace tread::io
@@ -48,7 +49,13 @@ class SnapshotWriter
 {
 public:
     /// Makes the directory.
-    SnapshotWriter(const Communicator& communicator, std::string directory);
+    SnapshotWriter(const Communicator& communicator, std::string directory, Provenance provenance = {});
+
+    /// Times (s) of the snapshots so far, by number.
+    const std::vector<double>& times() const { return times_; }
+
+    /// Goes on behind those: later ones that are there are removed, and the series lists no others.
+    void resume(std::vector<double> times);
 
     /// shapes.h5: /<index>/{vertices [v][3] m, triangles [t][3]}, attribute name.
     void write_shapes(const std::vector<NamedMesh>& shapes) const;
@@ -58,27 +65,23 @@ public:
     void write(double time, const PointFields& points, const BodyFields& bodies);
 
 private:
-    struct Entry
-    {
-        std::string name;
-        double      time;
-    };
-
     void write_series() const;
 
     const Communicator* communicator_;
     std::string         directory_;
-    int                 next_ = 0;
-    std::vector<Entry>  series_;
+    Provenance          provenance_;
+    std::vector<double> times_;
 };
 
 /// One VTKHDF 1.0 file: an UnstructuredGrid of vertices, one partition a rank, with point data `displacement`,
 /// `velocity`, `stress`, `plastic_shear`, `plastic_rate`, `material`, `id` and `rank`; each carries `units`. Stress
 /// components stand in VTK's order xx, yy, zz, xy, yz, xz (also in the attribute `components`). `time` is an attribute
-/// of the root. Every rank calls. Layout: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html#vtkhdf
-void write_points(const Communicator& communicator, const std::string& path, double time, const PointFields& points);
+/// of the root, beside the provenance. Every rank calls. Layout:
+/// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html#vtkhdf
+void write_points(const Communicator& communicator, const std::string& path, double time, const PointFields& points,
+                  const Provenance& provenance = {});
 
 /// One HDF5 file with the arrays of BodyFields, `units` on each, `time` on the root. This process alone.
-void write_bodies(const std::string& path, double time, const BodyFields& bodies);
+void write_bodies(const std::string& path, double time, const BodyFields& bodies, const Provenance& provenance = {});
 
 } // namespace tread::io

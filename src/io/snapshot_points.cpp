@@ -77,7 +77,8 @@ void write_point_data(const h5::File& file, const Communicator& communicator, co
 
 } // namespace
 
-void write_points(const Communicator& communicator, const std::string& path, double time, const PointFields& points)
+void write_points(const Communicator& communicator, const std::string& path, double time, const PointFields& points,
+                  const Provenance& provenance)
 {
     const std::size_t count = points.position.size() / 3;
     const h5::Rows    rows  = h5::rows_of_rank(communicator, count);
@@ -87,6 +88,7 @@ void write_points(const Communicator& communicator, const std::string& path, dou
     h5::write_attribute(file, "/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
     h5::write_fixed_attribute(file, "/VTKHDF", "Type", "UnstructuredGrid");
     h5::write_attribute(file, "/", "time", time);
+    write_provenance(file, provenance, communicator.broadcast(utc_now())); // all ranks must write the same
 
     write_partition_sizes(file, communicator, static_cast<std::int64_t>(count));
     h5::write(file, "/VTKHDF/Points", points.position, 3, rows);

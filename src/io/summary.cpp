@@ -4,6 +4,7 @@
 
 #include "base/version.hpp"
 #include "io/files.hpp"
+#include "io/provenance.hpp"
 
 namespace tread::io
 {
@@ -97,6 +98,7 @@ std::string to_json(const Summary& summary)
     json["reason"]            = summary.reason;
     json["scene_hash"]        = summary.scene_hash;
     json["version"]           = version;
+    json["commit"]            = commit();
     json["backend"]           = summary.backend;
     json["devices"]           = summary.devices;
     json["ranks"]             = summary.ranks;
@@ -111,6 +113,13 @@ std::string to_json(const Summary& summary)
     json["sim_per_wall"]      = per_wall_second(summary.time, summary.wall_s);
     json["peak_device_bytes"] = summary.peak_device_bytes;
     json["peak_host_bytes"]   = summary.peak_host_bytes;
+    json["start"]             = summary.start;
+    json["end"]               = utc_now();
+    json["restarts"]          = summary.restarts;
+    json["checkpoint"]        = summary.checkpoints.newest.empty() ? Json() : Json(summary.checkpoints.newest);
+    json["checkpoints"]       = {{"written", summary.checkpoints.written},
+                                 {"bytes", summary.checkpoints.bytes},
+                                 {"seconds", summary.checkpoints.seconds}};
     json["terrain"]           = terrain_of(summary.bed);
     json["rocks"]             = rocks_of(summary.bed);
     json["rock_share"]        = summary.bed.rock_share;

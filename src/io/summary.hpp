@@ -76,7 +76,17 @@ struct BedReport
     double                     rock_share = 0; ///< volume of rocks over that of rocks and points
 };
 
-/// What a run did; summary.json holds these fields by these names, with schema and version.
+/// What writing the state has cost.
+struct CheckpointReport
+{
+    std::string  newest; ///< path within the run's directory; empty = none
+    std::int64_t written = 0;
+    std::int64_t bytes   = 0; ///< of all of them
+    double       seconds = 0;
+};
+
+/// What a run did; summary.json holds these fields by these names, with schema, version, commit
+/// and `end`, the time of writing.
 struct Summary
 {
     RunStatus                status    = RunStatus::finished;
@@ -98,7 +108,10 @@ struct Summary
     std::vector<StageReport> stages;
     ErrorReport              errors;
     std::vector<PhaseReport> phases;
-    BedReport                bed; ///< in summary.json: terrain, rocks, rock_share
+    CheckpointReport         checkpoints;  ///< with those of the runs that this one went on from
+    std::int64_t             restarts = 0; ///< how often it was stopped and went on
+    std::string              start;        ///< UTC, of the first of these runs
+    BedReport                bed;          ///< in summary.json: terrain, rocks, rock_share
 };
 
 /// The text of summary.json. steps_per_s and sim_per_wall follow from the fields; numbers that are not finite are null.

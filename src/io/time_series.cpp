@@ -11,21 +11,25 @@
 namespace tread::io
 {
 
-TimeSeries::TimeSeries(std::string path)
+TimeSeries::TimeSeries(std::string path, const Provenance& provenance, SeriesFile series)
     : path_(std::move(path))
 {
+    if (series == SeriesFile::continued) { return; }
     h5::File file = h5::File::create(path_);
     h5::write_attribute(file, "/", "schema", std::string("tread-timeseries"));
     h5::write_attribute(file, "/", "schema_version", std::vector<std::int64_t>{1, 0});
+    write_provenance(file, provenance);
     file.close();
 }
 
 void TimeSeries::add_table(const std::string& group, std::vector<Column> columns)
 {
-    h5::File file = h5::File::append(path_);
-    h5::create_group(file, group);
+    h5::File   file  = h5::File::append(path_);
+    const bool there = h5::holds(file, group);
+    if (!there) { h5::create_group(file, group); }
     for (const Column& column : columns)
     {
+        if (there) { break; }
         const std::string name = group + "/" + column.name;
         h5::create_growing(file, name, column.width);
         h5::write_attribute(file, name, "units", column.unit);
@@ -65,6 +69,7 @@ void TimeSeries::flush()
             table.waiting[c].clear();
         }
     }
+    stamp_written(file);
     file.close();
 }
 

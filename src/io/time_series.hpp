@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "io/provenance.hpp"
+
 namespace tread::io
 {
 
@@ -14,15 +16,20 @@ struct Column
     std::string unit;  ///< "m/s"; "1" if it has none
 };
 
+enum class SeriesFile
+{
+    anew,
+    continued ///< as it is; rows follow those that are there
+};
+
 /// timeseries.h5: a data set for every column of every table, one row a time. Of one process. The file is closed
 /// between flushes, so that it can be read while the run goes on. EnvironmentError when it cannot be written.
 class TimeSeries
 {
 public:
-    /// Starts a new file.
-    explicit TimeSeries(std::string path);
+    explicit TimeSeries(std::string path, const Provenance& provenance = {}, SeriesFile file = SeriesFile::anew);
 
-    /// `group` as in "/wheel/front"; groups above it are made.
+    /// `group` as in "/wheel/front"; groups above it are made. What a continued file has, stays.
     void add_table(const std::string& group, std::vector<Column> columns);
 
     /// One row: the values of all columns, one column after the other. Kept in memory until flush().

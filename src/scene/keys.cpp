@@ -276,6 +276,20 @@ Keys<Output> output_keys()
     };
 }
 
+Keys<CheckpointOptions> checkpoint_keys()
+{
+    return {
+        optional("every_wall", "s", &CheckpointOptions::every_wall, number(at_least(0)),
+                 "Wall time between checkpoints; 0: never for that."),
+        optional("every_time", "s", &CheckpointOptions::every_time, number(at_least(0)),
+                 "Simulated time between checkpoints; 0: never for that."),
+        optional("every_steps", "", &CheckpointOptions::every_steps, integer<std::int64_t>(0),
+                 "Steps between checkpoints; 0: never for that."),
+        optional("keep", "", &CheckpointOptions::keep, integer<std::int64_t>(1),
+                 "How many of the newest checkpoints stay."),
+    };
+}
+
 Keys<Balance> balance_keys()
 {
     return {optional(

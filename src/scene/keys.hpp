@@ -31,6 +31,8 @@ Keys<Phase>       phase_keys();
 Keys<Output>      output_keys();
 Keys<Balance>     balance_keys();
 
+Keys<CheckpointOptions> checkpoint_keys();
+
 /// Keys of places and sizes, which [[terrain]] and [[rocks]] share (bed_keys.cpp).
 Key<Terrain> terrain_region_key();
 Key<Terrain> terrain_height_key();
@@ -57,6 +59,8 @@ void for_each_table(Visit&& visit)
     visit("body", "A single rigid body, such as a wheel.", &Scene::bodies, body_keys());
     visit("phase", "A span of simulated time; phases run in the order given.", &Scene::phases, phase_keys());
     visit("output", "What is written while the run goes on.", &Scene::output, output_keys());
+    visit("checkpoint", "When the state is written to `checkpoints/`, for `--restart`: docs/restart.md.",
+          &Scene::checkpoint, checkpoint_keys());
     visit("balance", "How the sand falls to the ranks of a run on several: docs/ranks.md.", &Scene::balance,
           balance_keys());
 }

@@ -414,6 +414,17 @@ struct Output
     bool operator==(const Output&) const = default;
 };
 
+/// When the whole state is written, to go on from.
+struct CheckpointOptions
+{
+    double       every_wall  = 600; ///< s of wall time; 0 = never
+    double       every_time  = 0;   ///< s of simulated time; 0 = never
+    std::int64_t every_steps = 0;   ///< 0 = never
+    std::int64_t keep        = 2;   ///< newest that stay
+
+    bool operator==(const CheckpointOptions&) const = default;
+};
+
 /// How a run on several ranks deals out its pages.
 struct Balance
 {
@@ -437,6 +448,7 @@ struct Scene
     std::vector<Body>     bodies;
     std::vector<Phase>    phases;
     Output                output;
+    CheckpointOptions     checkpoint;
     Balance               balance;
     std::string           directory; ///< of the scene file; mesh paths are relative to it
 

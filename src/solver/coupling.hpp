@@ -8,6 +8,8 @@
 namespace tread::solver
 {
 
+class StateFile;
+
 /// Contact of the sand with the bodies of a scene, on one backend.
 template<class Exec, class Real>
 class Coupling
@@ -53,8 +55,16 @@ public:
     /// As last measured (dissipated: since the time before that).
     const contact::Summary& summary() const { return summary_; }
 
+    /// What contacts remember, and the candidates, into a checkpoint or out of it, after the sand and the bodies.
+    void transfer(StateFile& file, const dem::BodiesView& bodies);
+
 private:
     bool any_near() const { return contact_.candidates.body.size() > 0; }
+
+    std::vector<contact::HistoryRecord> remembered();
+
+    void transfer_records(StateFile& file, std::vector<contact::HistoryRecord>& records);
+    void transfer_candidates(StateFile& file, const dem::BodiesView& bodies);
 
     Exec                            exec_;
     contact::PointContact<Exec>     contact_;

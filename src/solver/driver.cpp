@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "io/checkpoints.hpp"
 #include "io/progress.hpp"
 #include "solver/packing.hpp"
 #include "solver/saved_bed.hpp"
@@ -29,11 +30,6 @@ constexpr std::chrono::minutes longest_silence{30};
     std::_Exit(static_cast<int>(ExitCode::environment));
 }
 
-double wall_clock()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 std::vector<io::NamedMesh> meshes(const World& world)
 {
     std::vector<io::NamedMesh> named;
@@ -45,7 +41,8 @@ std::vector<io::NamedMesh> meshes(const World& world)
 
 template<class Exec, class Real>
 Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const scene::Scene& scene, const World& world,
-                           const io::RunDirectory& directory, const Plan& plan, Simulation<Exec, Real>& simulation)
+                           const io::RunDirectory& directory, const Plan& plan, Simulation<Exec, Real>& simulation,
+                           const DriverOptions& options)
     : communicator_(communicator)
     , log_(log)
     , scene_(scene)
@@ -53,6 +50,7 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , plan_(plan)
     , directory_(directory)
     , simulation_(simulation)
+    , options_(options)
     , phases_(scene)
     , wall_start_(wall_clock())
     , last_said_(wall_start_)
@@ -61,44 +59,79 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     {
         watchdog_.emplace(longest_silence, [rank = communicator.rank()] { end_silent_run(rank); });
     }
-    on_root(communicator, [&] { recorder_.emplace(directory, scene, world, communicator.size()); });
     if (plan.snapshots)
     {
-        snapshots_.emplace(communicator, directory.snapshots());
+        snapshots_.emplace(communicator, directory.snapshots(), options.provenance);
         if (plan.bodies) { snapshots_->write_shapes(meshes(world)); }
     }
+    on_root(communicator, [&] { io::Checkpoints(directory_.checkpoints()).prepare(); });
 }
 
 template<class Exec, class Real>
-void Driver<Exec, Real>::run()
+std::optional<std::string> Driver<Exec, Real>::run()
 {
-    begin_phase();
-    write_row();
-    write_snapshot();
+    if (options_.checkpoint.empty()) { start(); }
+    else { resume(); }
+    interruptions_.emplace(scene_.checkpoint, options_.walltime_limit, options_.wall_start, time_, steps_);
+    interruptions_->expect(state_bytes());
     while (!phases_.finished())
     {
+        const Interruption asked = look_outside();
+        if (asked.write) { write_checkpoint(); }
+        if (asked.stop) { return asked.why; }
         advance();
         write_due();
-        if (!phases_.over(time_, simulation_.unbalanced())) { continue; }
-        end_phase();
-        std::vector<double> spins;
-        for (const BodyRow& body : simulation_.named_bodies())
-        {
-            spins.push_back(body.angular_velocity.dot(body.axle));
-        }
-        phases_.advance(time_, std::move(spins));
-        if (!phases_.finished()) { begin_phase(); }
+        pass_on();
     }
     write_row();
     write_snapshot();
+    return {};
+}
+
+/// Roughly, of a checkpoint.
+template<class Exec, class Real>
+std::int64_t Driver<Exec, Real>::state_bytes() const
+{
+    constexpr std::int64_t of_point = 160, of_body = 2000;
+    return of_point * communicator_.sum(simulation_.points()) +
+           of_body * static_cast<std::int64_t>(world_.bodies.size());
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::start()
+{
+    on_root(communicator_,
+            [&] { recorder_.emplace(directory_, scene_, world_, communicator_.size(), options_.provenance); });
+    begin_phase();
+    write_row();
+    write_snapshot();
+}
+
+/// Only what was measured can be saved: that is after a few steps at most.
+template<class Exec, class Real>
+Interruption Driver<Exec, Real>::look_outside()
+{
+    return simulation_.measured() ? interruptions_->look(communicator_, time_, steps_) : Interruption{};
+}
+
+/// To the next phase, if this one is over.
+template<class Exec, class Real>
+void Driver<Exec, Real>::pass_on()
+{
+    if (!phases_.over(time_, simulation_.unbalanced())) { return; }
+    end_phase();
+    std::vector<double> spins;
+    for (const BodyRow& body : simulation_.named_bodies()) { spins.push_back(body.angular_velocity.dot(body.axle)); }
+    phases_.advance(time_, std::move(spins));
+    if (!phases_.finished()) { begin_phase(); }
 }
 
 template<class Exec, class Real>
 void Driver<Exec, Real>::begin_phase()
 {
     log_.info(fmt::format("phase '{}' begins at {:.6g} s", phases_.phase().name, time_));
-    const double surface = simulation_.surface_height();
-    on_root(communicator_, [&] { recorder_->begin_phase(phases_.index(), time_, surface); });
+    surface_ = simulation_.surface_height();
+    on_root(communicator_, [&] { recorder_->begin_phase(phases_.index(), time_, surface_); });
     warned_ = false;
 }
 
@@ -126,7 +159,7 @@ template<class Exec, class Real>
 void Driver<Exec, Real>::write_bed()
 {
     const io::BedFile bed = make_bed(scene_, world_, simulation_.body_fields(), simulation_.contacts());
-    on_root(communicator_, [&] { io::write_bed(directory_.bed(), bed); });
+    on_root(communicator_, [&] { io::write_bed(directory_.bed(), bed, options_.provenance); });
     log_.info(fmt::format("bed of {} rocks with {} contacts: {}", bed.size(), bed.contacts.stiffness.size(),
                           directory_.bed()));
 }
@@ -166,19 +199,18 @@ void Driver<Exec, Real>::warn_once(const TimeStep& step)
 template<class Exec, class Real>
 void Driver<Exec, Real>::write_due()
 {
-    // The first step at or past each time; half a nanosecond forgives the rounding of a sum of steps.
-    const auto due = [&](double every, std::int64_t written)
-    { return every > 0 && time_ + 5e-10 >= every * static_cast<double>(written + 1); };
-    const bool row      = due(scene_.output.every, rows_);
-    const bool snapshot = due(scene_.output.snapshots_every, snapshots_due_);
-    if (row)
+    // The first step at or past each time. A row asks for what is measured, and waits for that: measured on its
+    // account, it would change the steps that follow.
+    const std::int64_t rows      = multiples(time_, scene_.output.every);
+    const std::int64_t snapshots = multiples(time_, scene_.output.snapshots_every);
+    if (rows > rows_ && simulation_.measured())
     {
-        rows_ = static_cast<std::int64_t>(std::floor((time_ + 5e-10) / scene_.output.every));
+        rows_ = rows;
         write_row();
     }
-    if (snapshot)
+    if (snapshots > snapshots_due_)
     {
-        snapshots_due_ = static_cast<std::int64_t>(std::floor((time_ + 5e-10) / scene_.output.snapshots_every));
+        snapshots_due_ = snapshots;
         write_snapshot();
     }
 }
@@ -240,11 +272,14 @@ void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<Stage>& 
     summary.steps    = steps_;
     summary.substeps = substeps_;
     summary.time     = time_;
-    summary.wall_s   = wall_clock() - wall_start_;
+    summary.wall_s   = wall_before_ + wall_clock() - wall_start_;
     summary.points   = communicator_.sum(simulation_.points());
     summary.stages   = clock_.reports(stages);
     summary.errors   = simulation_.ledger().errors();
     summary.phases   = ended_;
+    summary.restarts = restarts_;
+
+    summary.checkpoints = checkpoints_;
 }
 
 template class Driver<Cpu, float>;

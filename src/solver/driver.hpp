@@ -1,13 +1,35 @@
 #pragma once
 
+#include <cmath>
+
 #include "base/log.hpp"
 #include "base/watchdog.hpp"
+#include "io/provenance.hpp"
 #include "io/run_directory.hpp"
 #include "io/summary.hpp"
+#include "solver/checkpoint_clock.hpp"
 #include "solver/simulation.hpp"
 
 namespace tread::solver
 {
+
+class StateFile;
+
+/// When a run has to end before its phases do, and what it goes on from.
+struct DriverOptions
+{
+    io::Provenance provenance;
+    std::string    checkpoint;         ///< to go on from; empty = from the start
+    double         wall_start     = 0; ///< wall_clock() of the run's start
+    double         walltime_limit = 0; ///< s since then; 0 = none
+};
+
+/// How many multiples of `every` (s; 0: none) have gone by at `time`; half a nanosecond forgives the rounding of a sum
+/// of steps.
+inline std::int64_t multiples(double time, double every)
+{
+    return every > 0 ? static_cast<std::int64_t>(std::floor((time + 5e-10) / every)) : 0;
+}
 
 /// Carries a simulation through the phases of its scene, and writes what the scene asks for. Collective: all ranks take
 /// the same steps; rank 0 writes what is not written together.
@@ -16,17 +38,29 @@ class Driver
 {
 public:
     Driver(const Communicator& communicator, Log& log, const scene::Scene& scene, const World& world,
-           const io::RunDirectory& directory, const Plan& plan, Simulation<Exec, Real>& simulation);
+           const io::RunDirectory& directory, const Plan& plan, Simulation<Exec, Real>& simulation,
+           const DriverOptions& options);
 
-    /// All phases. NumericalError when the run has to stop; what happened until then is in report().
-    void run();
+    /// All phases: nothing comes back. Or, when a signal or the wall-time limit ended it after a checkpoint, why.
+    /// NumericalError when the run has to stop; what happened until then is in report().
+    std::optional<std::string> run();
 
     /// Steps, substeps, times, errors and stages so far.
     void report(io::Summary& summary, const std::vector<Stage>& stages) const;
 
 private:
+    void start();
+    void resume();
+    void write_checkpoint();
+
+    Interruption look_outside();
+    std::int64_t state_bytes() const;
+
+    void   transfer(StateFile& file);
+    void   transfer_files(StateFile& file);
     void   begin_phase();
     void   end_phase();
+    void   pass_on();
     void   advance();
     void   write_due();
     void   write_row();
@@ -43,6 +77,7 @@ private:
     Plan                              plan_;
     io::RunDirectory                  directory_;
     Simulation<Exec, Real>&           simulation_;
+    DriverOptions                     options_;
     PhaseClock                        phases_;
     std::optional<Recorder>           recorder_;  ///< on rank 0
     std::optional<io::SnapshotWriter> snapshots_; ///< only if the scene wants snapshots
@@ -56,8 +91,13 @@ private:
     std::int64_t                      rows_          = 0; ///< time-series rows that were due so far
     std::int64_t                      snapshots_due_ = 0;
     bool                              warned_        = false;
+    double                            surface_       = 0; ///< m, at the start of the phase
     double                            wall_start_;
+    double                            wall_before_ = 0; ///< s, of the runs that this one goes on from
     double                            last_said_;
+    io::CheckpointReport              checkpoints_;
+    std::int64_t                      restarts_ = 0;
+    std::optional<CheckpointClock>    interruptions_;
 };
 
 } // namespace tread::solver

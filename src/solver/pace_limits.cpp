@@ -8,12 +8,18 @@
 
 namespace tread::solver
 {
+namespace
+{
+
+constexpr double longest_step = 0.02; ///< s, where nothing moves: what then begins is seen soon
+
+} // namespace
 
 PaceLimits pace_limits(const scene::Scene& scene, const World& world, const Plan& plan)
 {
     PaceLimits limits;
     limits.gravity = Vec3<double>(scene.domain.gravity.data()).norm();
-    limits.longest = scene.output.every;
+    limits.longest = longest_step;
     if (plan.bodies)
     {
         limits.smallest_body = *std::min_element(world.bodies.radius.begin(), world.bodies.radius.end());

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "kernels/dem/bodies.hpp"
+#include "solver/state_file.hpp"
 
 namespace tread::solver
 {
@@ -67,6 +68,12 @@ void PhaseClock::advance(double time, std::vector<double> spins)
     start_       = time;
     still_since_ = std::numeric_limits<double>::infinity();
     start_spins_ = std::move(spins);
+}
+
+void PhaseClock::transfer(StateFile& file)
+{
+    file.numbers("phases/now", index_, start_, still_since_, ending_.kind, ending_.after, ending_.unbalanced);
+    file.common("phases/start_spins", start_spins_);
 }
 
 BodyCommand PhaseClock::command(std::size_t body, double time) const

@@ -11,6 +11,8 @@
 namespace tread::solver
 {
 
+class StateFile;
+
 /// What a phase asks of one named body at one time.
 struct BodyCommand
 {
@@ -69,6 +71,9 @@ public:
 
     static constexpr double equilibrium_ratio = 1e-2;
     static constexpr double equilibrium_hold  = 0.05; ///< s
+
+    /// Into a checkpoint, or out of it.
+    void transfer(StateFile& file);
 
 private:
     const scene::Scene& scene_;

@@ -49,6 +49,7 @@ std::vector<Stage> stages(const scene::Scene&, const Plan& plan, int ranks)
         needs(stage::measure, true, "the next time step and the balances", ""),
         needs(stage::output, true, "time series", ""),
         needs(stage::snapshots, plan.snapshots, "snapshots_every", "output.snapshots_every = 0"),
+        needs(stage::checkpoints, true, "[checkpoint], signals, the wall-time limit", ""),
         needs(stage::halo, ranks > 1 && plan.sand, "nodes that ranks share", ranks > 1 ? no_sand : "one rank"),
     };
 }

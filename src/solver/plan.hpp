@@ -54,6 +54,7 @@ inline constexpr const char* damping      = "local damping";
 inline constexpr const char* measure      = "measure";
 inline constexpr const char* output       = "output";
 inline constexpr const char* snapshots    = "snapshots";
+inline constexpr const char* checkpoints  = "checkpoints";
 inline constexpr const char* halo         = "halo";
 } // namespace stage
 

@@ -37,9 +37,10 @@ std::string group(const scene::Body& body) { return "/wheel/" + body.name; }
 
 } // namespace
 
-Recorder::Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world, int ranks)
+Recorder::Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world, int ranks,
+                   const io::Provenance& provenance, io::SeriesFile file)
     : scene_(scene)
-    , series_(directory.time_series())
+    , series_(directory.time_series(), provenance, file)
 {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     {

@@ -28,7 +28,14 @@ struct BodyRow
 class Recorder
 {
 public:
-    Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world, int ranks);
+    Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world, int ranks,
+             const io::Provenance& provenance, io::SeriesFile file = io::SeriesFile::anew);
+
+    /// The height that sinkage is measured from, m, in the present phase.
+    void measure_from(double surface) { surface_ = surface; }
+
+    /// All rows are in the file.
+    void flush() { series_.flush(); }
 
     /// A phase begins; `surface` = height that sinkage is measured from, m.
     void begin_phase(std::size_t index, double time, double surface);

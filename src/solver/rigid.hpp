@@ -25,6 +25,8 @@
 namespace tread::solver
 {
 
+class StateFile;
+
 struct ContactCount
 {
     double listed;
@@ -120,7 +122,16 @@ public:
     void                 begin_mean();
     io::BodyFields       fields();
 
+    /// Into a checkpoint, or out of it into bodies of the same scene; due between two steps, and changes nothing that
+    /// comes after it. Contact energies are known again after the next substep.
+    void transfer(StateFile& file);
+
 private:
+    void transfer_commands(StateFile& file);
+    void transfer_means(StateFile& file);
+    void transfer_contacts(StateFile& file);
+    void transfer_lists(StateFile& file);
+
     dem::NamedImpulses named_impulses() { return {impulses_.data(), named_}; }
 
     void   upload(const World& world);

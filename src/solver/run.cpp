@@ -10,8 +10,10 @@
 #include <omp.h>
 
 #include "backend/memory.hpp"
+#include "base/signals.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
+#include "io/checkpoint_file.hpp"
 #include "io/progress.hpp"
 #include "scene/resolved.hpp"
 #include "solver/bed.hpp"
@@ -92,6 +94,7 @@ struct Job
     const RunOptions&   options;
     std::vector<Stage>  stages;
     io::RunDirectory    directory;
+    DriverOptions       driver;
     io::Summary         summary;
 };
 
@@ -121,11 +124,17 @@ ExitCode run_on(const Exec& exec, Job& job)
 {
     std::optional<decomp::Decomposition<Exec>> decomposition = decompose(exec, job);
     Simulation<Exec, Real> simulation(exec, job.scene, job.world, job.plan, decomposition ? &*decomposition : nullptr);
-    Driver<Exec, Real>     driver(job.communicator, job.log, job.scene, job.world, job.directory, job.plan, simulation);
+    Driver<Exec, Real>     driver(job.communicator, job.log, job.scene, job.world, job.directory, job.plan, simulation,
+                                  job.driver);
     try
     {
-        driver.run();
-        job.summary.reason = "all phases ran";
+        const std::optional<std::string> interruption = driver.run();
+        job.summary.reason                            = interruption ? "stopped by " + *interruption : "all phases ran";
+        if (interruption)
+        {
+            job.summary.status    = io::RunStatus::stopped;
+            job.summary.exit_code = ExitCode::stopped_early;
+        }
     }
     catch (const NumericalError& error)
     {
@@ -168,6 +177,7 @@ ExitCode run_backend(Backend backend, Job& job)
         {
             job.summary.devices.push_back(name);
         }
+        job.driver.provenance.devices = job.summary.devices;
         require_room("device", wanted, free_bytes(device.gpu()));
         code                          = run_precision(device.gpu(), job);
         job.summary.peak_device_bytes = counters.peak_bytes();
@@ -176,13 +186,44 @@ ExitCode run_backend(Backend backend, Job& job)
     return code;
 }
 
+const char* name_of(Backend backend) { return backend == Backend::cpu ? "cpu" : "cuda"; }
+
+void say_start(Job& job, Backend backend, int threads)
+{
+    Log& log = job.log;
+    log.info(fmt::format("tread {} ({}): {}", version, commit(), job.scene.title));
+    log.info(fmt::format("backend {}, {} rank(s), {} thread(s), {} precision", name_of(backend),
+                         job.communicator.size(), threads,
+                         job.scene.numerics.precision == scene::Precision::single_ ? "single" : "double"));
+    job.summary.bed = describe_bed(job.scene, job.world);
+    say_plan(log, job.world, job.stages);
+    for (const std::string& line : bed_lines(job.summary.bed)) { log.info(line); }
+}
+
+/// UTC; a run that goes on began when the first part of it did.
+std::string start_of(const Communicator& communicator, const std::string& checkpoint)
+{
+    std::string start;
+    on_root(communicator,
+            [&] { start = checkpoint.empty() ? io::utc_now() : io::CheckpointReader(checkpoint).text("start"); });
+    return communicator.broadcast(start);
+}
+
 } // namespace
 
 ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& scene, const RunOptions& options)
 {
-    const Backend backend = choose_backend(options.backend);
-    const int     threads = choose_threads(communicator, options.threads);
+    const double      wall_start = wall_clock();
+    const SignalWatch signals;
+    const Backend     backend = choose_backend(options.backend);
+    const int         threads = choose_threads(communicator, options.threads);
     omp_set_num_threads(threads);
+    RestartPlan restart = plan_restart(communicator, scene, options.restart, options.output, options.existing);
+    if (restart.finished)
+    {
+        log.info(fmt::format("{}: the run is finished; nothing is left to do", options.output));
+        return ExitCode::finished;
+    }
     const World world = build_world(scene);
     const Plan  plan  = make_plan(scene, world);
     require_ranks_can(communicator, scene);
@@ -194,25 +235,28 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
             plan,
             options,
             stages(scene, plan, communicator.size()),
-            io::RunDirectory::create(communicator, options.output, options.existing, scene::resolved_toml(scene)),
+            io::RunDirectory::create(communicator, options.output, restart.existing, scene::resolved_toml(scene),
+                                     restart.lock),
+            {},
             {}};
-    log.open(job.directory.log());
-    log.info(fmt::format("tread {}: {}", version, scene.title));
-    log.info(fmt::format("backend {}, {} rank(s), {} thread(s), {} precision", backend == Backend::cpu ? "cpu" : "cuda",
-                         communicator.size(), threads,
-                         scene.numerics.precision == scene::Precision::single_ ? "single" : "double"));
-    job.summary.bed = describe_bed(scene, world);
-    say_plan(log, world, job.stages);
-    for (const std::string& line : bed_lines(job.summary.bed)) { log.info(line); }
+    log.open(job.directory.log(), restart.existing == io::Existing::resume ? LogFile::continued : LogFile::anew);
+    say_start(job, backend, threads);
+    for (const std::string& remark : restart.remarks) { log.warning(remark); }
     job.summary.scene_hash = scene::scene_hash(scene);
-    job.summary.backend    = backend == Backend::cpu ? "cpu" : "cuda";
+    job.summary.backend    = name_of(backend);
     job.summary.ranks      = communicator.size();
     job.summary.threads    = threads;
     job.summary.bodies     = static_cast<std::int64_t>(world.bodies.size());
+    job.summary.start      = start_of(communicator, restart.checkpoint);
+    job.driver             = {{job.summary.scene_hash, job.summary.backend, {}, communicator.size(), job.summary.start},
+                              restart.checkpoint,
+                              wall_start,
+                              options.walltime_limit};
     const ExitCode code    = run_backend(backend, job);
     log.info(fmt::format("\n{}", io::timing_table(job.summary.stages, job.summary.wall_s)));
     log.info(fmt::format("errors: mass {:.3g}, momentum {:.3g}, energy {:.3g}", job.summary.errors.mass,
                          job.summary.errors.momentum, job.summary.errors.energy));
+    if (code != ExitCode::finished) { log.info(job.summary.reason); }
     on_root(communicator, [&] { io::write_summary(job.directory.summary(), job.summary); });
     return code;
 }

@@ -8,6 +8,7 @@
 #include "decomp/decomposition.hpp"
 #include "io/run_directory.hpp"
 #include "scene/scene.hpp"
+#include "solver/restart.hpp"
 
 namespace tread::solver
 {
@@ -34,12 +35,16 @@ struct RunOptions
     int           threads  = 0; ///< OpenMP threads; 0 = OMP_NUM_THREADS, or the cores over the local ranks
     GpuSharing    gpus     = GpuSharing::refused;
 
+    RestartOptions restart;
+    double         walltime_limit = 0; ///< s since the start of run(); 0 = none
+
     decomp::DecompositionOptions decomposition; ///< of a run on several ranks
 };
 
 /// Runs a scene from its first phase to its last. The scene's geometry is built and checked before the run directory
 /// is made. Writes scene.toml, log.txt, timeseries.h5, snapshots and summary.json; a run that is stopped by a
-/// NumericalError leaves a summary that says so, and its exit code comes back.
+/// NumericalError, a signal or the wall-time limit leaves a summary that says so, and its exit code comes back. Goes on
+/// with an earlier run if options.restart says so; with one that is finished nothing is left to do.
 /// Collective; on several ranks every rank computes with the pages that are its own. Throws InputError and
 /// EnvironmentError for what is found before the first step.
 ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& scene, const RunOptions& options);

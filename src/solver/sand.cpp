@@ -160,9 +160,9 @@ mpm::PagesView Sand<Exec, Real>::pages() const
 template<class Exec, class Real>
 void Sand<Exec, Real>::order()
 {
+    if (listed_) { return; } // and what moved then is still to be told
     migrated_ = 0;
-    if (listed_) { return; }
-    listed_ = true;
+    listed_   = true;
     if (steps_ > 0)
     {
         list_anew();
@@ -217,6 +217,13 @@ void Sand<Exec, Real>::order_in_memory()
     else { mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_); }
     relists_ = 0;
     ++orders_;
+    make_room();
+}
+
+/// For what steps write of the points and pages that there are.
+template<class Exec, class Real>
+void Sand<Exec, Real>::make_room()
+{
     const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
     tiles_.resize(point_pages * mpm::node_channels * mpm::tile_nodes);
     motion_.resize(node_pages * mpm::motion_channels * mpm::page_cells);

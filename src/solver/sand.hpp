@@ -23,6 +23,8 @@
 namespace tread::solver
 {
 
+class StateFile;
+
 /// What the sand holds.
 struct SandCensus
 {
@@ -99,7 +101,14 @@ public:
     /// What a snapshot shows, of this rank.
     io::PointFields fields() const;
 
+    /// Into a checkpoint, or out of it into sand of the same scene. Due right after a report; changes nothing that
+    /// comes after it. Collective.
+    void transfer(StateFile& file);
+
 private:
+    void           transfer_points(StateFile& file);
+    void           resume_lists();
+    void           make_room();
     void           upload(const HostPoints& host, mpm::PointFields fields);
     void           order_in_memory();
     void           list_anew();

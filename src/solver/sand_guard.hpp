@@ -3,6 +3,7 @@
 #include <string>
 
 #include "solver/energy_watch.hpp"
+#include "solver/state_file.hpp"
 #include "solver/time_step.hpp"
 
 namespace tread::solver
@@ -28,6 +29,9 @@ public:
     /// c_p dt/h from which on sand was destroyed whatever its points a cell (verification catalogue E: 0.82 at 1 a
     /// cell, 0.98 at 8). Where a scene is loose enough to live with more, its energy tells nothing.
     static constexpr double hopeless_courant = 1;
+
+    /// Into a checkpoint, or out of it.
+    void transfer(StateFile& file) { file.doubles("sand/energy_watch", energy_); }
 
 private:
     [[noreturn]] void fail(const std::string& what, const TimeStep& step, double time) const;

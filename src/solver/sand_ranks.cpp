@@ -1,5 +1,7 @@
 #include "solver/sand_ranks.hpp"
 
+#include "solver/state_file.hpp"
+
 namespace tread::solver
 {
 
@@ -19,6 +21,16 @@ void SandRanks<Exec, Real>::order(mpm::Points<Exec, Real>& points, mpm::Pages<Ex
     moved_ = migration_.run(points, geometry, scratch);
     mpm::order_points(decomposition_.transport.exec(), points, pages, geometry, scratch);
     halo_.plan(pages, walls);
+}
+
+template<class Exec, class Real>
+void SandRanks<Exec, Real>::transfer(StateFile& file)
+{
+    std::vector<std::uint64_t> keys  = decomposition_.owners.keys();
+    decomp::PageRanks          ranks = decomposition_.owners.ranks();
+    file.common("ranks/page_key", keys);
+    file.common("ranks/page_owner", ranks);
+    if (file.loads()) { decomposition_.owners.assign(keys, ranks); }
 }
 
 template class SandRanks<Cpu, float>;

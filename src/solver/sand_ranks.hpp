@@ -6,6 +6,8 @@
 namespace tread::solver
 {
 
+class StateFile;
+
 /// What sand on several ranks has beyond sand on one: points that change ranks, and nodes that ranks share. Collective.
 template<class Exec, class Real>
 class SandRanks
@@ -21,6 +23,12 @@ public:
     /// Points of all ranks that changed their rank in the last order().
     std::int64_t                         moved() const { return moved_; }
     const decomp::Migration<Exec, Real>& migration() const { return migration_; }
+
+    /// Who owns which page, into a checkpoint or out of it; the same number of ranks.
+    void transfer(StateFile& file);
+
+    /// After that, with the pages that were ordered then.
+    void resume(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls) { halo_.plan(pages, walls); }
 
     decomp::GridHalo<Exec, Real>& halo() { return halo_; }
     const Communicator&           communicator() const { return decomposition_.communicator; }

@@ -19,6 +19,8 @@
 namespace tread::solver
 {
 
+class StateFile;
+
 /// The state of a scene on one backend, and one step of it. Parts that the plan leaves out do not exist. With a
 /// decomposition every call is collective, and what comes back is the same on all ranks unless a line says otherwise.
 template<class Exec, class Real>
@@ -79,10 +81,19 @@ public:
     /// point and half a point's size; 0 without sand.
     double surface_height();
 
+    /// Into a checkpoint, or out of it into a simulation of the same scene, on as many ranks if it is to be exact; when
+    /// measured(). Saving changes nothing that comes after it.
+    void transfer(StateFile& file);
+
+    /// Whether what is saved now can be loaded to the bit: on several ranks what bodies and their contacts are listed
+    /// by is not saved.
+    bool saves_exactly() const { return decomposition_ == nullptr || !rigid_; }
+
     Ledger&       ledger() { return *ledger_; }
     const Ledger& ledger() const { return *ledger_; }
 
 private:
+    void transfer_balance(StateFile& file);
     void arrange();
     void deal_out_pages();
     void heed_commands();

@@ -1,7 +1,31 @@
 #include "solver/stage_clock.hpp"
 
+#include <sstream>
+
+#include "solver/state_file.hpp"
+
 namespace tread::solver
 {
+
+void StageClock::transfer(StateFile& file)
+{
+    std::string         names;
+    std::vector<double> values;
+    for (const auto& [name, row] : rows_)
+    {
+        names += name + "\n";
+        values.insert(values.end(), {static_cast<double>(row.calls), static_cast<double>(row.timed), row.seconds});
+    }
+    file.text("stages", names);
+    file.common("stages", values);
+    if (!file.loads()) { return; }
+    std::istringstream lines(names);
+    auto               value = values.begin();
+    for (std::string name; std::getline(lines, name) && value != values.end(); value += 3)
+    {
+        rows_[name] = {static_cast<std::int64_t>(value[0]), static_cast<std::int64_t>(value[1]), value[2]};
+    }
+}
 
 std::vector<io::StageReport> StageClock::reports(const std::vector<Stage>& stages) const
 {

@@ -13,6 +13,8 @@
 namespace tread::solver
 {
 
+class StateFile;
+
 /// Wall time by stage. On a GPU a stage's end is waited for in one step of seventeen only, so that timing does not open
 /// gaps between launches; its seconds are scaled from the calls that were timed.
 class StageClock
@@ -37,6 +39,21 @@ public:
         row.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         ++row.timed;
     }
+
+    /// Of what waits for the backend by itself, and is too rare to be sampled.
+    template<class F>
+    void run_timed(const char* name, F f)
+    {
+        Row&       row   = rows_[name];
+        const auto start = std::chrono::steady_clock::now();
+        f();
+        row.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        ++row.calls;
+        ++row.timed;
+    }
+
+    /// Into a checkpoint, or out of it: of this run and of those that it goes on from.
+    void transfer(StateFile& file);
 
     /// The plan's stages with calls and seconds.
     std::vector<io::StageReport> reports(const std::vector<Stage>& stages) const;

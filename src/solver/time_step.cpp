@@ -29,7 +29,7 @@ struct Bound
 
 Bound smallest_bound(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace)
 {
-    Bound      least{limits.longest, "output interval"};
+    Bound      least{limits.longest, "longest step"};
     const auto bound = [&](double dt, const char* name)
     {
         if (dt < least.dt) { least = {dt, name}; }

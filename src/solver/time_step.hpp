@@ -26,7 +26,7 @@ struct PaceLimits
     double courant       = 0; ///< c_p dt/h: 0.4 at 1 point a cell, 0.6 at 8 and more
     double smallest_body = 0; ///< m, smallest radius; 0 without bodies
     double gravity       = 0; ///< m/s2
-    double longest       = 0; ///< s, no step is longer: the output interval
+    double longest       = 0; ///< s, no step is longer
 };
 
 struct TimeStep

@@ -8,5 +8,6 @@ template void find_candidates(const Gpu&, Candidates<Gpu>&, const mpm::PointsVie
                               const dem::BodiesView&, const dem::TemplateView*, RadiusRule, const SearchReach&);
 template void find_candidates(const Gpu&, Candidates<Gpu>&, const mpm::PointsView<double>&, const mpm::PagesView&,
                               const dem::BodiesView&, const dem::TemplateView*, RadiusRule, const SearchReach&);
+template void order_by_point(const Gpu&, Candidates<Gpu>&);
 
 } // namespace tread::contact

@@ -90,4 +90,8 @@ void find_candidates(const Exec& exec, Candidates<Exec>& candidates, const mpm::
                      const mpm::PagesView& pages, const dem::BodiesView& bodies, const dem::TemplateView* templates,
                      RadiusRule radius, const SearchReach& reach);
 
+/// The order of the candidates by point, and the runs of both orders, of body and point as find_candidates leaves them.
+template<class Exec>
+void order_by_point(const Exec& exec, Candidates<Exec>& candidates);
+
 } // namespace tread::contact

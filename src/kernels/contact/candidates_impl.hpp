@@ -210,9 +210,8 @@ std::int64_t find_page_pairs(const Exec& exec, Candidates<Exec>& c, const mpm::P
     return pairs;
 }
 
-/// The order of the candidates by point, of so many points, and the runs of both orders.
 template<class Exec>
-void order_by_point(const Exec& exec, Candidates<Exec>& c, std::int64_t points)
+void order_by_point(const Exec& exec, Candidates<Exec>& c)
 {
     using namespace candidate_steps;
     const std::int64_t count = c.body.size();
@@ -223,7 +222,8 @@ void order_by_point(const Exec& exec, Candidates<Exec>& c, std::int64_t points)
     find_runs(exec, c.body, c.marks, c.by_body, c.sort);
     split_runs(exec, c.by_body.view(), c.body_parts, c.sort);
     for_each(exec, "candidate sort keys", count, SortKeys{c.point.data(), c.sort_keys.data(), c.in_order.data()});
-    sort_by_key(exec, c.sort_keys, c.in_order, c.sort, bits_below(points));
+    constexpr int point_bits = 31; // of an index
+    sort_by_key(exec, c.sort_keys, c.in_order, c.sort, point_bits);
     for_each(exec, "candidate sorted points", count, Narrow{c.sort_keys.data(), c.sorted_points.data()});
     find_runs(exec, c.sorted_points, c.marks, c.by_point, c.sort);
     for_each(exec, "touched points", count, WriteTouched{c.in_order.data(), c.marks.data(), c.touched.data()});
@@ -251,7 +251,7 @@ void find_candidates(const Exec& exec, Candidates<Exec>& c, const mpm::PointsVie
     c.point.resize(found);
     for_each(exec, "write candidates", cells,
              WriteCandidates<Real>{probe, c.cell_first.data(), c.body.data(), c.point.data()});
-    order_by_point(exec, c, points.count);
+    order_by_point(exec, c);
 }
 
 } // namespace tread::contact

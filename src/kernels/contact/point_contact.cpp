@@ -14,6 +14,7 @@ template void begin_kept_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsV
 template void substep(const Cpu&, PointContact<Cpu>&, const dem::BodiesView&, const PointBodyLaw&, double);
 template void finish_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<float>&, double);
 template void finish_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<double>&, double);
+template void resume_candidates(const Cpu&, PointContact<Cpu>&, const dem::BodiesView&, const PointBodyLaw&);
 template void keep_history(const Cpu&, PointContact<Cpu>&);
 template const Summary* summarise(const Cpu&, PointContact<Cpu>&);
 

@@ -14,6 +14,7 @@ template void begin_kept_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsV
 template void substep(const Gpu&, PointContact<Gpu>&, const dem::BodiesView&, const PointBodyLaw&, double);
 template void finish_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<float>&, double);
 template void finish_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<double>&, double);
+template void resume_candidates(const Gpu&, PointContact<Gpu>&, const dem::BodiesView&, const PointBodyLaw&);
 template void keep_history(const Gpu&, PointContact<Gpu>&);
 template const Summary* summarise(const Gpu&, PointContact<Gpu>&);
 

@@ -157,6 +157,13 @@ void finish_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Point
 template<class Exec>
 void keep_history(const Exec& exec, PointContact<Exec>& contact);
 
+/// Of candidates that were loaded (contact.candidates.body and point): all that begin_step makes of these but what the
+/// points are, which begin_kept_step copies, and what the pairs remember, which the caller puts into
+/// contact.tangential.
+template<class Exec>
+void resume_candidates(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesView& bodies,
+                       const PointBodyLaw& law);
+
 /// Of the last substep (dissipated: since the last summary or begin_step), where there are candidates. Returns where
 /// the backend will have it.
 template<class Exec>

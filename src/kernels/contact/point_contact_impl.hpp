@@ -54,6 +54,18 @@ void name_runs(const Exec& exec, PointContact<Exec>& contact, std::int64_t bodie
 }
 
 template<class Exec>
+void resume_candidates(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesView& bodies,
+                       const PointBodyLaw& law)
+{
+    if (contact.candidates.body.size() > 0) { order_by_point(exec, contact.candidates); }
+    resize_to_candidates(exec, contact);
+    make_slots(exec, contact, bodies, law);
+    name_runs(exec, contact, bodies.count);
+    resize(contact.history, 0);
+    if (contact.dissipated.size() > 0) { contact.dissipated.fill_zero(); }
+}
+
+template<class Exec>
 void keep_history(const Exec& exec, PointContact<Exec>& contact)
 {
     using namespace contact_steps;

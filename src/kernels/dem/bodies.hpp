@@ -88,6 +88,26 @@ struct Bodies
                 role.data()};
     }
 
+    /// Calls f(name, array) for every array but the roles, which are a rank's own affair.
+    template<class F>
+    void for_each_field(F f)
+    {
+        f("position", position);
+        f("orientation", orientation);
+        f("velocity", velocity);
+        f("angular_velocity", angular_velocity);
+        f("mass", mass);
+        f("inertia", inertia);
+        f("scale", scale);
+        f("shape", shape);
+        f("material", material);
+        f("locked", locked);
+        f("damped", damped);
+        f("force", force);
+        f("torque", torque);
+        f("stiffness", stiffness);
+    }
+
     Array<Exec, Vec3<double>>  position;
     Array<Exec, Quat>          orientation;
     Array<Exec, Vec3<double>>  velocity;

@@ -1,5 +1,5 @@
 #include "backend/launch.hpp"
-#include "kernels/dem/pairs_impl.hpp"
+#include "kernels/dem/resume_list_impl.hpp"
 
 namespace tread::dem
 {
@@ -11,6 +11,7 @@ template void share_speeds(const Cpu&, Pairs<Cpu>&, const BodiesView&, const Sha
 template void want_travel(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, const SharedView&);
 template void grant_travel(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double);
 template void list_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&);
+template void resume_list(const Cpu&, Pairs<Cpu>&, const BodiesView&);
 template void find_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double);
 
 } // namespace tread::dem

@@ -1,5 +1,5 @@
 #include "backend/launch.cuh"
-#include "kernels/dem/pairs_impl.hpp"
+#include "kernels/dem/resume_list_impl.hpp"
 
 namespace tread::dem
 {
@@ -11,6 +11,7 @@ template void share_speeds(const Gpu&, Pairs<Gpu>&, const BodiesView&, const Sha
 template void want_travel(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double, const SharedView&);
 template void grant_travel(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double);
 template void list_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&);
+template void resume_list(const Gpu&, Pairs<Gpu>&, const BodiesView&);
 template void find_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double);
 
 } // namespace tread::dem

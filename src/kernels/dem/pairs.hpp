@@ -77,7 +77,7 @@ struct PairsView
     std::uint32_t*      inside;     ///< [node_words], bit i of all: node i was inside at the last look
 };
 
-/// Owner of what PairsView shows, and of the search's scratch. A checkpoint stores key and patch.
+/// Owner of what PairsView shows, and of the search's scratch.
 template<class Exec>
 struct Pairs
 {
@@ -198,5 +198,10 @@ void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 /// Last: the list, of the pairs that this rank answers.
 template<class Exec>
 void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
+
+/// Of a list that was loaded (pairs.key, patch, rolling, travel, first_node, node, and of patches place and several):
+/// all that list_pairs makes of these. Overlaps are as of a new list.
+template<class Exec>
+void resume_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
 
 } // namespace tread::dem

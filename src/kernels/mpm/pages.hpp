@@ -74,6 +74,21 @@ struct Pages
                 point_page_of.data()};
     }
 
+    /// Calls f(name, array) for every array.
+    template<class F>
+    void for_each_field(F f)
+    {
+        f("point_page_key", point_page_key);
+        f("first_point", first_point);
+        f("cell_first_point", cell_first_point);
+        f("point_at", point_at);
+        f("place_at", place_at);
+        f("neighbour", neighbour);
+        f("node_page_key", node_page_key);
+        f("node_page_of", node_page_of);
+        f("point_page_of", point_page_of);
+    }
+
     Array<Exec, std::uint64_t> point_page_key;
     Array<Exec, std::int32_t>  first_point;
     Array<Exec, std::int32_t>  cell_first_point;

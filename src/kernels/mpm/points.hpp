@@ -142,26 +142,33 @@ struct Points
     template<class F>
     void for_each_field(F f)
     {
-        const auto visit = [&](auto& array, int components)
+        for_each_named_field([&](const char*, auto& array, int components) { f(array, components); });
+    }
+
+    /// Calls f(name, array, components) for these.
+    template<class F>
+    void for_each_named_field(F f)
+    {
+        const auto visit = [&](const char* name, auto& array, int components)
         {
-            if (array.size() > 0) { f(array, components); }
+            if (array.size() > 0) { f(name, array, components); }
         };
-        visit(position, 3);
-        visit(start, 3);
-        visit(velocity, 3);
-        visit(stress, 6);
-        visit(mass, 1);
-        visit(volume, 1);
-        visit(volume_ratio, 1);
-        visit(id, 1);
-        visit(material, 1);
-        visit(affine, 9);
-        visit(plastic_shear, 1);
-        visit(plastic_rate, 1);
-        visit(volume_gap, 1);
-        visit(contact_force, 3);
-        visit(grid_velocity, 3);
-        visit(support, 3);
+        visit("position", position, 3);
+        visit("start", start, 3);
+        visit("velocity", velocity, 3);
+        visit("stress", stress, 6);
+        visit("mass", mass, 1);
+        visit("volume", volume, 1);
+        visit("volume_ratio", volume_ratio, 1);
+        visit("id", id, 1);
+        visit("material", material, 1);
+        visit("affine", affine, 9);
+        visit("plastic_shear", plastic_shear, 1);
+        visit("plastic_rate", plastic_rate, 1);
+        visit("volume_gap", volume_gap, 1);
+        visit("contact_force", contact_force, 3);
+        visit("grid_velocity", grid_velocity, 3);
+        visit("support", support, 3);
     }
 
     std::int64_t count  = 0; ///< points alive

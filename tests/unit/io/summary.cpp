@@ -43,6 +43,12 @@ TEST(Summary, json_holds_every_field)
                             "reason",
                             "scene_hash",
                             "version",
+                            "commit",
+                            "start",
+                            "end",
+                            "restarts",
+                            "checkpoint",
+                            "checkpoints",
                             "backend",
                             "devices",
                             "ranks",
@@ -67,6 +73,7 @@ TEST(Summary, json_holds_every_field)
         EXPECT_TRUE(json.contains(key)) << key;
     }
     EXPECT_EQ(json["status"], "failed");
+    EXPECT_TRUE(json["checkpoint"].is_null());
     EXPECT_EQ(json["exit_code"], 3);
     EXPECT_EQ(json["reason"], summary.reason);
     EXPECT_EQ(json["steps_per_s"], 50.0);

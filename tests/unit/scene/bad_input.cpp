@@ -42,7 +42,7 @@ const std::vector<BadCase> key_cases{
      "[grid] spacin: unknown key; did you mean \"spacing\"?; accepted: spacing"},
     {"misspelt_key_on_which_others_hang", "until = \"equi", "untill = \"equi", 52,
      "[phase.settle] untill: unknown key"},
-    {"unknown_table", "[grid]", "[checkpoint]\nkeep = 2\n[grid]", 5, " checkpoint: unknown key"},
+    {"unknown_table", "[grid]", "[restart]\nkeep = 2\n[grid]", 5, " restart: unknown key"},
     {"misspelt_table", "[grid]", "[numeric]\nhertz = \"standard\"\n[grid]", 5, "did you mean \"numerics\"?"},
     {"unknown_narrow_phase", "[grid]", "[numerics]\nnarrow_phase = \"triangles\"\n[grid]", 6,
      "[numerics] narrow_phase: unknown word \"triangles\"; accepted: \"sdf\" | \"rays\""},

@@ -1,0 +1,158 @@
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "io/checkpoint_file.hpp"
+#include "io/checkpoints.hpp"
+#include "io/files.hpp"
+#include "scene/resolved.hpp"
+#include "solver/driver.hpp"
+#include "solver/state_file.hpp"
+
+// A run into a checkpoint, and out of it.
+namespace tread::solver
+{
+namespace
+{
+
+/// io::PhaseReport as doubles; its name is the scene's.
+struct PhaseRow
+{
+    double start, time, settled, unbalanced, packing_fraction; ///< settled: below 0 = it was not to
+};
+
+PhaseRow row_of(const io::PhaseReport& report)
+{
+    const double settled = !report.settled ? -1.0 : *report.settled ? 1.0 : 0.0;
+    return {report.start, report.time, settled, report.unbalanced,
+            report.packing_fraction.value_or(std::numeric_limits<double>::quiet_NaN())};
+}
+
+io::PhaseReport report_of(const std::string& name, const PhaseRow& row)
+{
+    io::PhaseReport report{name, row.start, row.time, std::nullopt, row.unbalanced, std::nullopt};
+    if (row.settled >= 0) { report.settled = row.settled > 0; }
+    if (!std::isnan(row.packing_fraction)) { report.packing_fraction = row.packing_fraction; }
+    return report;
+}
+
+constexpr const char* exact_word = "exact";
+
+} // namespace
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::write_checkpoint()
+{
+    const io::Checkpoints there(directory_.checkpoints());
+    const std::string     path  = there.path(steps_);
+    const double          start = wall_clock();
+    const auto            write = [&]
+    {
+        io::CheckpointWriter writer(communicator_, path);
+        io::write_provenance(writer.file(), options_.provenance, communicator_.broadcast(io::utc_now()));
+        const Fidelity fidelity = simulation_.saves_exactly() ? Fidelity::exact : Fidelity::physical;
+        writer.text("fidelity", fidelity == Fidelity::exact ? exact_word : "physical");
+        writer.text("scene", scene::resolved_toml(scene_));
+        StateFile file(communicator_, writer, fidelity);
+        transfer(file);
+        const std::int64_t bytes = writer.finish();
+        checkpoints_.newest      = directory_.within(path);
+        checkpoints_.bytes += bytes;
+        ++checkpoints_.written;
+        on_root(communicator_, [&] { there.settle(path, static_cast<int>(scene_.checkpoint.keep)); });
+        return bytes;
+    };
+    std::int64_t bytes = 0;
+    clock_.run_timed(stage::checkpoints, [&] { bytes = write(); });
+    const double seconds = wall_clock() - start;
+    checkpoints_.seconds += seconds;
+    interruptions_->written(time_, steps_, seconds);
+    log_.info(fmt::format("checkpoint at {:.6g} s, step {}: {}, {:.3g} MB in {:.3g} s", time_, steps_,
+                          checkpoints_.newest, static_cast<double>(bytes) / 1e6, seconds));
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::resume()
+{
+    std::unique_ptr<io::CheckpointReader> reader;
+    on_every_rank(communicator_, [&] { reader = std::make_unique<io::CheckpointReader>(options_.checkpoint); });
+    const auto ranks = static_cast<int>(reader->first_rows("simulation/pace").size()) - 1;
+    const bool exact = reader->text("fidelity") == exact_word && ranks == communicator_.size();
+    StateFile  file(communicator_, *reader, exact ? Fidelity::exact : Fidelity::physical);
+    transfer(file);
+    ++restarts_;
+    rows_          = multiples(time_, scene_.output.every);
+    snapshots_due_ = multiples(time_, scene_.output.snapshots_every);
+    on_root(communicator_, [&] { io::Checkpoints(directory_.checkpoints()).remove_after(steps_); });
+    checkpoints_.newest = directory_.within(options_.checkpoint);
+    checkpoints_.bytes += static_cast<std::int64_t>(std::filesystem::file_size(options_.checkpoint)); // it did not know
+    ++checkpoints_.written;
+    log_.info(fmt::format("goes on from {} at {:.6g} s, step {}, in phase '{}'{}", options_.checkpoint, time_, steps_,
+                          phases_.phase().name,
+                          exact ? "" : fmt::format(" (written by {} rank(s): the same to rounding)", ranks)));
+    if (time_ >= phases_.latest_end() - 5e-10) { pass_on(); } // the scene has made it shorter since
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::transfer(StateFile& file)
+{
+    simulation_.transfer(file);
+    phases_.transfer(file);
+    clock_.transfer(file);
+    double wall = wall_before_ + wall_clock() - wall_start_;
+    file.numbers("run/steps", time_, steps_, substeps_, step_.dt, step_.substeps, warned_, surface_, wall, restarts_);
+    file.numbers("run/checkpoints", checkpoints_.written, checkpoints_.bytes, checkpoints_.seconds);
+    file.text("limit", step_.limit);
+    if (file.loads()) { wall_before_ = wall; }
+    std::vector<PhaseRow> ended;
+    for (const io::PhaseReport& report : ended_) { ended.push_back(row_of(report)); }
+    file.common("run/phases", ended);
+    ended_.clear();
+    for (std::size_t p = 0; p < ended.size(); ++p) { ended_.push_back(report_of(scene_.phases[p].name, ended[p])); }
+    transfer_files(file);
+}
+
+/// The time series goes along as a file: whatever becomes of it later, the rows up to here are safe, and those behind
+/// are gone when the run goes on from here.
+template<class Exec, class Real>
+void Driver<Exec, Real>::transfer_files(StateFile& file)
+{
+    std::vector<double> times = snapshots_ ? snapshots_->times() : std::vector<double>{};
+    file.common("run/snapshots", times);
+    if (file.loads() && snapshots_) { snapshots_->resume(times); }
+
+    std::vector<std::uint8_t> bytes;
+    const auto                read = [&]
+    {
+        recorder_->flush();
+        const std::string text = io::read_file(directory_.time_series());
+        bytes.assign(text.begin(), text.end());
+    };
+    if (!file.loads()) { on_root(communicator_, read); }
+    file.common("run/timeseries", bytes);
+    if (!file.loads()) { return; }
+    const auto restore = [&]
+    {
+        io::write_atomically(directory_.time_series(), std::string(bytes.begin(), bytes.end()));
+        recorder_.emplace(directory_, scene_, world_, communicator_.size(), options_.provenance,
+                          io::SeriesFile::continued);
+        recorder_->measure_from(surface_);
+    };
+    on_root(communicator_, restore);
+}
+
+template void Driver<Cpu, float>::write_checkpoint();
+template void Driver<Cpu, double>::write_checkpoint();
+template void Driver<Cpu, float>::resume();
+template void Driver<Cpu, double>::resume();
+#ifdef TREAD_WITH_CUDA
+template void Driver<Gpu, float>::write_checkpoint();
+template void Driver<Gpu, double>::write_checkpoint();
+template void Driver<Gpu, float>::resume();
+template void Driver<Gpu, double>::resume();
+#endif
+
+} // namespace tread::solver

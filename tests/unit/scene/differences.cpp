@@ -1,0 +1,42 @@
+#include "scene/differences.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tread::scene
+{
+namespace
+{
+
+constexpr const char* before =
+    "title = \"a\"\n\n[domain]\nsize = [1, 1, 1]\n\n[[phase]]\nname = \"settle\"\nduration = "
+    "0.1\n\n[[phase]]\nname = \"drive\"\nduration = 0.2\n\n[output]\nevery = 0.02\n";
+constexpr const char* after = "title = \"b\"\n\n[domain]\nsize = [1, 1, 2]\n\n[[phase]]\nname = \"settle\"\nduration = "
+                              "0.3\n\n[[phase]]\nname = \"drive\"\nmax_duration = 0.2\n\n[output]\nevery = 0.02\n";
+
+std::vector<std::string> lines(std::size_t phase, bool refused)
+{
+    std::vector<std::string> found;
+    for (const Difference& difference : differences(before, after))
+    {
+        if (may_change(difference, phase) != refused) { found.push_back(describe(difference)); }
+    }
+    return found;
+}
+
+TEST(Differences, AreNamedByTableIndexAndKey)
+{
+    EXPECT_EQ(lines(0, true), (std::vector<std::string>{"[domain] size: [1, 1, 2], was [1, 1, 1]",
+                                                        "[[phase]] 1 duration: not given, was 0.2",
+                                                        "[[phase]] 1 max_duration: 0.2, was not given"}));
+    EXPECT_EQ(lines(0, false),
+              (std::vector<std::string>{"title: \"b\", was \"a\"", "[[phase]] 0 duration: 0.3, was 0.1"}));
+    EXPECT_TRUE(differences(before, before).empty());
+}
+
+TEST(Differences, ThePastMayNotChange)
+{
+    EXPECT_EQ(lines(1, false), std::vector<std::string>{"title: \"b\", was \"a\""});
+}
+
+} // namespace
+} // namespace tread::scene
