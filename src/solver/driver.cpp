@@ -3,7 +3,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -106,13 +108,15 @@ std::optional<std::string> Driver<Exec, Real>::carry_on()
     return {};
 }
 
-/// Roughly, of a checkpoint.
+/// Roughly, of a checkpoint: with the time series, on rank 0.
 template<class Exec, class Real>
 std::int64_t Driver<Exec, Real>::state_bytes() const
 {
-    constexpr std::int64_t of_point = 160, of_body = 2000;
-    return of_point * communicator_.sum(simulation_.points()) +
-           of_body * static_cast<std::int64_t>(world_.bodies.size());
+    constexpr std::int64_t of_point = 31 * sizeof(Real) + 46, of_body = 2500, of_file = 1000000;
+    std::error_code        none;
+    const auto             series = std::filesystem::file_size(directory_.time_series(), none);
+    return of_file + of_point * communicator_.sum(simulation_.points()) +
+           of_body * static_cast<std::int64_t>(world_.bodies.size()) + (none ? 0 : static_cast<std::int64_t>(series));
 }
 
 template<class Exec, class Real>
