@@ -160,7 +160,8 @@ TEST(Plan, SaysWhyAStageIsLeftOut)
         EXPECT_FALSE(stage.why.empty()) << stage.name;
         EXPECT_EQ(stage.on, stage.name == stage::order || stage.name == stage::scatter || stage.name == stage::grid ||
                                 stage.name == stage::gather || stage.name == stage::plasticity ||
-                                stage.name == stage::measure || stage.name == stage::output)
+                                stage.name == stage::measure || stage.name == stage::output ||
+                                stage.name == stage::checkpoints)
             << stage.name;
     }
 }
