@@ -80,7 +80,7 @@ def plot_rattle(axis, rows):
     for kind, points in lines.items():
         axis.plot(*zip(*points), marker="o", color=COLOURS[kind], label=kind)
     axis.set(xscale="log", yscale="log", xlabel=r"$k\,dt^2/m_p$")
-    axis.set_title("at rest, 64 a cell: standard deviation of the force over W", fontsize=11)
+    axis.set_title("at rest, 64 a cell:\ndeviation of the force over W", fontsize=11)
 
 
 def figure_of(rows):

@@ -10,7 +10,7 @@ namespace tread::decomp
 namespace
 {
 
-constexpr std::int64_t most_pages = 1 << 15; ///< that are looked up for one ball
+constexpr std::int32_t most_reach = 15; ///< pages, around which all are looked up for one ball
 
 void keep_each_once(std::vector<std::int32_t>& ranks)
 {
@@ -86,20 +86,31 @@ auto Territory::find_others(const mpm::Index3& page, std::int32_t reach) const -
     return others;
 }
 
-auto Territory::others_near(const mpm::Index3& page, std::int32_t reach) -> const OwnedPages&
+auto Territory::others_near(std::uint64_t page_key, std::int32_t reach) -> const OwnedPages&
 {
-    const auto [at, is_new] = others_[reach].try_emplace(mpm::page_key(page));
-    if (is_new) { at->second = find_others(page, reach); }
+    const auto [at, is_new] = others_[reach].try_emplace(page_key);
+    if (is_new) { at->second = find_others(mpm::page_coordinates(page_key), reach); }
     return at->second;
+}
+
+Surroundings Territory::surroundings(const Vec3<double>& centre, double radius) const
+{
+    const double pages = std::ceil(radius / (lattice_.spacing * mpm::page_edge));
+    return {page_of(centre), static_cast<std::int32_t>(std::min<double>(pages, most_reach + 1))};
+}
+
+bool Territory::is_within(const Surroundings& around, std::int32_t rank)
+{
+    return around.reach <= most_reach && owner_of(around.page) == rank &&
+           others_near(around.page, around.reach).empty();
 }
 
 std::vector<std::int32_t> Territory::owners_near(const Vec3<double>& centre, double radius)
 {
-    const double reach = std::ceil(radius / (lattice_.spacing * mpm::page_edge));
-    if (std::pow(2 * reach + 1, 3) > most_pages) { return all_; }
-    const mpm::Index3         page = page_at(lattice_, centre);
-    std::vector<std::int32_t> ranks{owner_of(mpm::page_key(page))};
-    for (const OwnedPage& other : others_near(page, static_cast<std::int32_t>(reach)))
+    const Surroundings around = surroundings(centre, radius);
+    if (around.reach > most_reach) { return all_; }
+    std::vector<std::int32_t> ranks{owner_of(around.page)};
+    for (const OwnedPage& other : others_near(around.page, around.reach))
     {
         if (other.owner != ranks.back() && reaches(lattice_, centre, radius, other.page))
         {

@@ -20,6 +20,15 @@ struct PageLattice
     double stencil_shift; ///< in spacings
 };
 
+/// A page, and how many pages around it count. As made here, none.
+struct Surroundings
+{
+    std::uint64_t page  = mpm::no_page;
+    std::int32_t  reach = 0;
+
+    bool operator==(const Surroundings&) const = default;
+};
+
 /// A page that no partition has seen belongs to the rank of the page before it by key; one before all, to that of the
 /// first. The same on every rank, as long as it is made of the same partition.
 class Territory
@@ -37,6 +46,12 @@ public:
     /// Remembers what is around the ball's page: next to nothing for the next ball there.
     std::vector<std::int32_t> owners_near(const Vec3<double>& centre, double radius);
 
+    /// The pages that a ball (m) can reach, wherever in its page the centre is.
+    Surroundings surroundings(const Vec3<double>& centre, double radius) const;
+
+    /// Whether all of them are the rank's; false where they are very many. Remembers what it found.
+    bool is_within(const Surroundings& around, std::int32_t rank);
+
 private:
     struct OwnedPage
     {
@@ -47,7 +62,7 @@ private:
 
     std::size_t       run_of(std::uint64_t page_key) const;
     OwnedPages        find_others(const mpm::Index3& page, std::int32_t reach) const;
-    const OwnedPages& others_near(const mpm::Index3& page, std::int32_t reach);
+    const OwnedPages& others_near(std::uint64_t page_key, std::int32_t reach);
 
     PageLattice                lattice_;
     std::vector<std::uint64_t> first_; ///< of each run of pages of one rank, by key

@@ -83,8 +83,9 @@ std::optional<std::string> Driver<Exec, Real>::run()
         write_due();
         pass_on();
     }
-    write_row();
-    write_snapshot();
+    // What was due at the last step is there already.
+    if (last_row_ < steps_) { write_row(); }
+    if (last_snapshot_ < steps_) { write_snapshot(); }
     return {};
 }
 
@@ -234,12 +235,14 @@ void Driver<Exec, Real>::write_row()
         simulation_.begin_mean();
     };
     clock_.run(simulation_.exec(), stage::output, write);
+    last_row_ = steps_;
 }
 
 template<class Exec, class Real>
 void Driver<Exec, Real>::write_snapshot()
 {
     if (!snapshots_) { return; }
+    last_snapshot_ = steps_;
     clock_.run(simulation_.exec(), stage::snapshots,
                [&] { snapshots_->write(time_, simulation_.point_fields(), simulation_.body_fields()); });
 }

@@ -11,16 +11,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "jobs" / "campaign.py"
-
-
-def program_under_test():
-    """The built program; where it has no checkpoints yet, a stand-in for one that has."""
-    real = os.environ["TREAD"]
-    options = subprocess.run([real, "run", "--help"], capture_output=True, text=True, check=True).stdout
-    return real if "--restart" in options else str(pathlib.Path(__file__).with_name("stand_in_tread.py"))
-
-
-TREAD = program_under_test()
+TREAD = os.environ["TREAD"]
 TWIN = ROOT / "configs" / "paper" / "reduced" / "slip_sand.toml"
 
 CAMPAIGN = f"""

@@ -65,6 +65,17 @@ TEST(Territory, FindsAllRanksThatABallReaches)
     EXPECT_EQ(territory.owners_near(middle(3, 0, 0), 1e6), (Ranks{0, 1, 2, 3}));
 }
 
+TEST(Territory, KnowsWhereAllAroundAPageIsOneRanks)
+{
+    Territory territory = row_of_pages();
+    EXPECT_TRUE(territory.is_within(territory.surroundings(middle(0, 0, 0), 0.1), 0));
+    EXPECT_FALSE(territory.is_within(territory.surroundings(middle(0, 0, 0), 0.1), 1));
+    EXPECT_FALSE(territory.is_within(territory.surroundings(middle(1, 0, 0), 0.19), 0)) << "another place in the page";
+    EXPECT_FALSE(territory.is_within(territory.surroundings(middle(0, 0, 0), 1e6), 0)) << "too many pages to look at";
+    EXPECT_EQ(territory.surroundings(middle(1, 0, 0), 0.19), territory.surroundings(middle(1, 0, 0), 0.3));
+    EXPECT_NE(territory.surroundings(middle(1, 0, 0), 0.1), Surroundings{});
+}
+
 TEST(Territory, ABallThatPassesACornerDoesNotReachThePageBehindIt)
 {
     // Four pages in x and y, each of a rank of its own.
