@@ -11,6 +11,8 @@ from pathlib import Path
 from tread_jobs.errors import CampaignError
 
 SCHEMA = 1
+# What tasks read and write in the directory of a case.
+WRITTEN = ("scene.toml", "run", "output.txt", "attempts.log")
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,7 @@ class CampaignDirectory:
             scene = folder / "scene.toml"
             if not scene.is_file():
                 raise CampaignError(f"{scene}: is missing; expand into a new directory")
-            if not scene.resolve().is_relative_to(self.cases) or not (folder / "run").resolve().is_relative_to(self.cases):
+            if not all((folder / name).resolve().is_relative_to(self.cases) for name in WRITTEN):
                 raise CampaignError(f"{folder}: leads out of the campaign's directory")
             if hashlib.sha256(scene.read_bytes()).hexdigest() != entry.digest:
                 raise CampaignError(f"{scene}: was edited after expand; change the campaign file and expand into a new directory")

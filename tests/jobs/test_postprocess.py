@@ -167,6 +167,10 @@ class PostprocessTest(unittest.TestCase):
             (path / "timeseries.h5").write_bytes(b"not HDF5")
             with self.assertRaisesRegex(RunError, "timeseries.h5"):
                 Run(path).wheels
+            with h5py.File(path / "timeseries.h5", "w") as file:
+                file.attrs["schema_version"] = [2, 0]
+            with self.assertRaisesRegex(RunError, "timeseries.h5: schema version 2.0; read here is 1.x"):
+                Run(path).wheels
 
 
 if __name__ == "__main__":

@@ -60,9 +60,6 @@ class SlurmCampaignTest(CampaignTest):
         checkpoints = self.case(which) / "run" / "checkpoints"
         slurm_session.wait_until(lambda: list(checkpoints.glob("*.h5")), 240, f"case {which} wrote a checkpoint")
 
-    def wait_for_empty_queue(self, seconds):
-        slurm_session.wait_until(lambda: not slurm_session.tasks(), seconds, "the queue is empty")
-
     def delay_until_the_limit(self, which):
         """Keeps a run from computing until it has been told that its time is up, however fast the machine is."""
         program = self.program_of(which)
@@ -80,7 +77,7 @@ class SlurmCampaignTest(CampaignTest):
         subprocess.run(["scancel", f"{job}_{self.cases.index(CANCELLED)}"], check=True)
         self.wait_for_checkpoint(LATE)
         self.delay_until_the_limit(LATE)
-        self.wait_for_empty_queue(900)
+        slurm_session.wait_for_empty_queue(900)
 
         done = self.campaign("status", code=3).stdout
         print(done)
@@ -89,7 +86,7 @@ class SlurmCampaignTest(CampaignTest):
         self.assertRegex((self.case(LATE) / "attempts.log").read_text(), "(?s)code 75\n.* start .*code 0\n$")
 
         self.assertRegex(self.campaign("retry").stdout, "2 cases in 2 tasks")
-        self.wait_for_empty_queue(900)
+        slurm_session.wait_for_empty_queue(900)
         self.assertIn("12 done", self.campaign("status").stdout)
         self.campaign("collect")
         with open(self.output / "campaign.csv", newline="", encoding="utf-8") as file:
