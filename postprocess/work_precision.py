@@ -42,7 +42,7 @@ def sentence(rows, within):
     """Of one quantity: the cheapest setting within a tolerance, or why there is none to name."""
     name, choice = rows[0].quantity, candidates(rows)
     uncertainty, reference = rows[0].uncertainty, rows[0].reference
-    known = f"what is right is known to {percent(uncertainty)} ({reference})"
+    known = f"against {reference}" if uncertainty == 0 else f"what is right is known to {percent(uncertainty)} ({reference})"
     if not uncertainty <= within:
         return f"{name}: nothing can be said within {percent(within)}: {known}"
     found = cheapest_within(choice, within, cost, error)
