@@ -42,7 +42,7 @@ def sentence(rows, within):
     """Of one quantity: the cheapest setting within a tolerance, or why there is none to name."""
     name, choice = rows[0].quantity, candidates(rows)
     uncertainty, reference = rows[0].uncertainty, rows[0].reference
-    known = f"against {reference}" if uncertainty == 0 else f"what is right is known to {percent(uncertainty)} ({reference})"
+    known = known_text(uncertainty, reference)
     if not uncertainty <= within:
         return f"{name}: nothing can be said within {percent(within)}: {known}"
     found = cheapest_within(choice, within, cost, error)
@@ -52,6 +52,12 @@ def sentence(rows, within):
         return f"{name}: no variant is within {percent(within)}{nearest}; {known}"
     scatter = f"; perturbed repeats scatter by {percent(found.scatter)}" if found.scatter > 0 else ""
     return f"{name} within {percent(within)}: {found.setting_text}; {cheaper(found, choice)}; {known}{scatter}"
+
+
+def known_text(uncertainty, reference):
+    if math.isnan(uncertainty):
+        return f"what is right is not known ({reference})"
+    return f"against {reference}" if uncertainty == 0 else f"what is right is known to {percent(uncertainty)} ({reference})"
 
 
 def sentence_of_all(study, within):
@@ -75,7 +81,7 @@ def cheaper(found, choice):
 
 
 def percent(value):
-    return f"{100 * value:.2g} %" if math.isfinite(value) else "nothing"
+    return f"{100 * value:.2g} %"
 
 
 def print_front(rows):
