@@ -79,11 +79,3 @@ def approach(mass, stiffness, gap, closing, time, steps=40000):
         overlaps[step], speeds[step] = max(place, 0.0), speed
     at = np.linspace(0, time[-1], steps + 1)
     return np.interp(time, at, overlaps), np.interp(time, at, speeds)
-
-
-def in_rows(history, time):
-    """A finely sampled history as a run would write it at `time`: forces are means over the time since the row before."""
-    impulse = np.concatenate(([0.0], np.cumsum(0.5 * (history.force[1:] + history.force[:-1]) * np.diff(history.time))))
-    force = np.concatenate(([0.0], np.diff(np.interp(time, history.time, impulse)) / np.maximum(np.diff(time), 1e-300)))
-    columns = (history.body_velocity, history.points_velocity, force, history.body_kinetic, history.points_kinetic, history.elastic)
-    return History(history.label, time, *(column if column is force else np.interp(time, history.time, column) for column in columns))
