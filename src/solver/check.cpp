@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "base/bytes_text.hpp"
+#include "scene/resolved.hpp"
 #include "solver/bed.hpp"
 #include "solver/estimate.hpp"
 #include "solver/page_loads.hpp"
@@ -39,7 +40,7 @@ std::string check(const Communicator& communicator, const scene::Scene& scene, i
     const World    world = build_world(scene);
     const Plan     plan  = make_plan(scene, world);
     const Estimate wants = estimate(scene, world, plan);
-    std::string    text  = fmt::format("{}\n\nstages of a step:\n", scene.title);
+    std::string    text  = fmt::format("{}\nscene {}\n\nstages of a step:\n", scene.title, scene::scene_hash(scene));
     for (const Stage& stage : stages(scene, plan, ranks))
     {
         text += fmt::format("  {:<4}{:<28}{}\n", stage.on ? "on" : "off", stage.name, stage.why);
