@@ -256,6 +256,7 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
     log.info(fmt::format("\n{}", io::timing_table(job.summary.stages, job.summary.wall_s)));
     log.info(fmt::format("errors: mass {:.3g}, momentum {:.3g}, energy {:.3g}", job.summary.errors.mass,
                          job.summary.errors.momentum, job.summary.errors.energy));
+    log.info("resolution: " + io::verdict_line(job.summary.figures));
     if (code != ExitCode::finished) { log.info(job.summary.reason); }
     on_root(communicator, [&] { io::write_summary(job.directory.summary(), job.summary); });
     return code;
