@@ -280,9 +280,11 @@ void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<Stage>& 
     summary.stages   = clock_.reports(stages);
     summary.errors   = simulation_.ledger().errors();
     summary.phases   = ended_;
+    summary.figures  = figures(simulation_.extremes(), summary.errors, simulation_.limits(), world_, plan_);
     summary.restarts = restarts_;
 
-    summary.checkpoints = checkpoints_;
+    summary.checkpoints   = checkpoints_;
+    summary.points_across = points_across(simulation_.extremes(), world_);
 }
 
 template class Driver<Cpu, float>;

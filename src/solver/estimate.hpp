@@ -17,7 +17,9 @@ struct Estimate
     double       time;          ///< s simulated, at most
     double       dt;            ///< s, at the start
     std::string  limit;         ///< what sets dt
-    double       steps;         ///< at that dt, at most
+    double       resting_dt;    ///< s, once rocks lie on each other; dt without rocks
+    double       substeps;      ///< of each such step
+    double       steps;         ///< of these, at most
 };
 
 /// EnvironmentError when a run that wants `wanted` bytes of "host" or "device" memory does not fit into `free` even if
