@@ -90,7 +90,10 @@ def _summary(run, _, words):
         "driven": lambda: history_of(run).time[-1],
         "energy_error": lambda: summary["errors"]["energy"],
     }
-    return made_up[words[0]]() if words[0] in made_up else summary[words[0]]
+    try:
+        return made_up[words[0]]() if words[0] in made_up else summary[words[0]]
+    except KeyError as missing:
+        raise Absent(f"the summary of {run.path.name} has no {missing}") from missing
 
 
 def _impact(run, _, words):

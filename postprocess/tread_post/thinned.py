@@ -39,8 +39,8 @@ def _thin_table(name, group, target, rows, start):
     if "time" in values:
         values = put_together(values, rows, start)
     for key, value in values.items():
-        # Times and coordinates need their digits; what is measured has six.
-        kept = value if key == "time" or value.dtype.kind != "f" else value.astype(np.float32)
+        # Times need their digits; what is measured has six.
+        kept = value if key in ("time", "start") or value.dtype.kind != "f" else value.astype(np.float32)
         item = target.create_dataset(f"{name}/{key}", data=kept, compression="gzip", compression_opts=9, shuffle=True)
         item.attrs.update(columns[key].attrs)
 
