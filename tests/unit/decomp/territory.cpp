@@ -36,7 +36,7 @@ Territory row_of_pages()
 
 TEST(Territory, BelongsToTheOwnersOfPages)
 {
-    const Territory territory = row_of_pages();
+    Territory territory = row_of_pages();
     for (std::int32_t x = 0; x < 8; ++x)
     {
         EXPECT_EQ(territory.owner_of(middle(x, 0, 0)), x / 2);
@@ -44,12 +44,21 @@ TEST(Territory, BelongsToTheOwnersOfPages)
     }
 }
 
-TEST(Territory, GivesPagesThatNobodyKnowsToTheRankBeforeThem)
+TEST(Territory, GivesPagesThatNobodyKnowsToTheNearestOwner)
 {
-    const Territory territory = row_of_pages();
-    // By key, (1, 1, 0) is behind (1, 0, 0) and before (2, 0, 0); (-1, 0, 0) is before all.
-    EXPECT_EQ(territory.owner_of(middle(1, 1, 0)), 0);
-    EXPECT_EQ(territory.owner_of(middle(-1, 0, 0)), 0);
+    Territory territory = row_of_pages();
+    for (std::int32_t x = 0; x < 8; ++x)
+    {
+        EXPECT_EQ(territory.owner_of(middle(x, 1, 0)), x / 2);
+        EXPECT_EQ(territory.owner_of(middle(x, 0, -2)), x / 2);
+    }
+    EXPECT_EQ(territory.owner_of(middle(-2, 1, 1)), 0);
+}
+
+TEST(Territory, GivesPagesFarFromAllToTheRankBeforeThem)
+{
+    Territory territory = row_of_pages();
+    EXPECT_EQ(territory.owner_of(middle(-3, 0, 0)), 0); // before all by key
     EXPECT_EQ(territory.owner_of(middle(100, 100, 100)), 3);
     EXPECT_EQ(territory.owner_of(Vec3<double>(1e300, 0, 0)), territory.owner_of(Vec3<double>(1e301, 0, 0)));
 }
