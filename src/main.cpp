@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -21,6 +20,7 @@
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
 #include "io/describe.hpp"
+#include "io/h5.hpp"
 #include "io/sdf_report.hpp"
 #include "scene/load.hpp"
 #include "shape/form.hpp"
@@ -95,6 +95,7 @@ constexpr double patience = 10; // s
 template<class Command>
 ExitCode on_ranks(const Command& command)
 {
+    io::h5::begin();
     const MpiSession    session;
     const Communicator& world = session.world();
     ExitCode            code  = ExitCode::finished;
@@ -112,8 +113,6 @@ ExitCode on_ranks(const Command& command)
             world.abort(code);
         }
         if (world.rank() == 0) { std::cerr << "tread: error: " << text_of(error) << std::endl; }
-        // HDF5 dies in MPI_Finalize of a file that it could not write: the disk is still full.
-        if (code == ExitCode::environment && world.size() == 1) { std::_Exit(static_cast<int>(code)); }
     }
     return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
 }
