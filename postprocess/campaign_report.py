@@ -65,11 +65,15 @@ def answers_of_all(campaign):
     for row in range(len(campaign)):
         cells = [f"{int(campaign['number'][row]):04}", *(campaign[key][row] for key in labels), campaign["state"][row], steadiness(campaign, row)]
         cells += [mean_and_spread(campaign, name, row) for name in quantities]
-        cells += [float(campaign[f"{name}_error"][row]) for name in ("momentum", "energy") if f"{name}_error" in campaign.columns]
+        cells += [short(campaign[f"{name}_error"][row]) for name in ("momentum", "energy") if f"{name}_error" in campaign.columns]
         rows.append(cells)
     marked = {row for row in range(len(campaign)) if campaign["state"][row] != "done"}
     note = paragraph("Means and standard deviations over the steady part of the last drive. Where no steady part was found: over its last half.")
     return section("Answers", note, table(head, rows, marked))
+
+
+def short(number):
+    return "" if np.isnan(number) else f"{number:.1e}"
 
 
 def steadiness(campaign, row):

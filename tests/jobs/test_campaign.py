@@ -155,9 +155,11 @@ class Expand(CampaignTest):
 
 
 class Submit(CampaignTest):
-    def test_without_sbatch(self):
+    def test_no_sbatch_or_one_that_refuses(self):
         self.campaign("expand", program=self.checked_only())
         self.assertIn("sbatch", self.campaign("submit", program=self.checked_only(), path="/nowhere", code=4).stderr)
+        self.script("sbatch", "#!/bin/sh\necho 'sbatch: error: invalid partition' >&2\nexit 1\n")
+        self.assertIn("invalid partition", self.campaign("submit", program=self.checked_only(), path=str(self.directory), code=4).stderr)
         self.assertEqual(list((self.output / "submissions").iterdir()), [])
         self.assertIn("no such program", self.campaign("submit", program="/nowhere/tread", code=4).stderr)
 
