@@ -152,6 +152,13 @@ class Judgement(unittest.TestCase):
         self.assertAlmostEqual(judged.reference.value, 7, 2)
         self.assertIn("mean of 3 perturbed repeats", judged.reference.text)
 
+    def test_what_does_not_converge_corrects_nothing(self):
+        wavering = [Variant(str(h), {"grid.spacing": h}, value, h == 0.4, False) for h, value in ((0.4, 5.0), (0.2, 5.6), (0.1, 5.3))]
+        judged = judge(wavering, self.number, None, "star")
+        self.assertEqual(judged.reference.value, 5.0)
+        self.assertAlmostEqual(judged.reference.uncertainty, 0.6)
+        self.assertTrue(math.isnan(judged.errors["0.4"]))
+
     def test_what_is_known_is_not_extrapolated(self):
         judged = judge(self.grid(), self.number, known_value(8.0, 0.15, "two laboratories"), "grid")
         self.assertEqual((judged.reference.value, judged.reference.uncertainty), (8.0, 1.2))
@@ -173,6 +180,11 @@ class Judgement(unittest.TestCase):
         self.assertTrue(math.isnan(judged.errors["0.1"]))
         self.assertAlmostEqual(judged.errors["0.4"], 0.3 * rms / 1.1)
         self.assertAlmostEqual(judged.reference.uncertainty, 0.1 * rms / 1.1)
+        # In the middle of a star, finer ones tell; an "auto" has no size.
+        star = [Variant(str(h), {"grid.spacing": h, "time.dt": "auto"}, h, h == 0.2, False) for h in (0.4, 0.2, 0.1)]
+        star.append(Variant("dt", {"grid.spacing": 0.2, "time.dt": 1e-4}, 0.25, False, False))
+        judged = judge(star, curve, None, "star")
+        self.assertAlmostEqual(judged.reference.uncertainty, math.hypot(0.1, 0.05) * rms / 1.2)
 
 
 class Answers(unittest.TestCase):
