@@ -73,7 +73,7 @@ class Fronts(unittest.TestCase):
 
     def rows(self, errors, quantity="torque", uncertainty=0.004, scatter=math.nan):
         """Spacings 0.04, 0.03, 0.02, of 1, 5 and 41 s."""
-        return [Row(f"{number:04}", {"grid.spacing": spacing, "time.substeps": "12"}, "", "done", 1e3, 1, 100, 100, wall, 1e6, quantity, "N m", 1.0, 1.0,
+        return [Row(f"{number:04}", {"grid.spacing": spacing, "time.substeps": "12"}, "", "done", "", 1e3, 1, 100, 100, wall, 1e6, quantity, "N m", 1.0, 1.0,
                     uncertainty, scatter, error, "order 1")
                 for number, (spacing, wall, error) in enumerate(zip(("0.04", "0.03", "0.02"), (1, 5, 41), errors))]
 
@@ -88,6 +88,11 @@ class Fronts(unittest.TestCase):
         none = work_precision.sentence(self.rows((0.08, 0.07, 0.06)), 0.02)
         self.assertIn("no variant is within 2 %; the best of the others is off by 6 % (spacing 0.02", none)
         self.assertIn("nothing can be said", work_precision.sentence(self.rows((0.01, 0.01, 0.01), uncertainty=math.nan), 0.02))
+
+    def test_the_runs_own_verdict_is_passed_on(self):
+        rows = [Row(**{**vars(row), "verdict": verdict}) for row, verdict in zip(self.rows((0.01, 0.01, 0.01)), ("under-resolved", "resolved", ""))]
+        self.assertTrue(work_precision.sentence(rows, 0.02).endswith("; the run calls itself under-resolved"))
+        self.assertTrue(work_precision.sentence(rows[1:], 0.02).endswith("(order 1)"))
 
     def test_sentence_of_all(self):
         both = Study([], ["grid.spacing"], self.rows((0.01, 0.03, 0.001)) + self.rows((0.09, 0.01, 0.02), "sinkage"))
