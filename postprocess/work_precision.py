@@ -62,7 +62,8 @@ def sentence(rows, within, cost=COSTS["time"]):
         nearest = f"; the best of the others is off by {percent(best.error)} ({best.setting_text})" if best else ""
         return f"{name}: no variant is within {percent(within)}{nearest}; {known}"
     scatter = f"; perturbed repeats scatter by {percent(found.scatter)}" if found.scatter > 0 else ""
-    return f"{name} within {percent(within)}: {found.setting_text}; {cheaper(found, choice, cost)}; {known}{scatter}"
+    verdict = f"; the run calls itself {found.verdict}" if found.verdict not in ("", "resolved") else ""
+    return f"{name} within {percent(within)}: {found.setting_text}; {cheaper(found, choice, cost)}; {known}{scatter}{verdict}"
 
 
 def known_text(uncertainty, reference):
@@ -105,7 +106,7 @@ def print_table(rows, cost):
     front = pareto_front(candidates(rows), cost.of, error)
     for row in sorted(rows, key=lambda row: (row.wall_s if math.isfinite(row.wall_s) else math.inf)):
         mark = "*" if row in front else " "
-        told = row.repeat or (row.state if row.state != "done" else "")
+        told = row.repeat or (row.state if row.state != "done" else row.verdict)
         print("  ".join([f"{mark} {row.variant:<7}", *(row.settings[key].rjust(width) for key, width in zip(keys, widths)), f"{row.points:>9.0f}",
                          f"{row.memory_bytes / 1e6:>9.3g}", f"{row.wall_s:>9.3g}", f"{row.measured:>11.5g}", f"{100 * row.error:>7.3g} %", told]).rstrip())
 

@@ -93,6 +93,7 @@ def _row(entry, keys, state, directory, name, quantity, judged, hub_run):
     is_curve = reference.curve is not None
     return Row(
         entry.name, settings, entry.labels[PERTURBATION] if _is_perturbed(entry, axes) else "", state,
+        (summary.get("resolution") or {}).get("verdict", ""),
         *(float(summary.get(number, math.nan)) for number in ("points", "bodies", "steps", "substeps", "wall_s")),
         float(summary.get("peak_device_bytes") or summary.get("peak_host_bytes", math.nan)), name, quantity.unit,
         math.nan if is_curve else measured, reference.value, reference.uncertainty * share, judged.scatter * share,

@@ -19,6 +19,7 @@ class Limit:
     uncertainty: float  # in the values' unit; NaN where nothing tells
     order: float | None  # observed; None where the sequence does not converge monotonically
     text: str  # how it was found
+    is_limit: bool = False  # what the sequence goes to, not only its finest value
 
 
 def limit_of(sizes, values, scatter=0.0):
@@ -44,7 +45,8 @@ def limit_of(sizes, values, scatter=0.0):
     used = min(max(order, LOWEST), HIGHEST)
     correction = (f1 - f2) / ((h2 / h1) ** used - 1)
     factor = FACTOR if math.isclose(used, order, rel_tol=1e-6) else CAREFUL_FACTOR
-    return Limit(f1 + correction, max(factor * abs(correction), scatter), order, f"extrapolated, order {order:.2g}")
+    return Limit(f1 + correction, max(factor * abs(correction), scatter), order, f"extrapolated, order {order:.2g}",
+                 is_limit=True)
 
 
 def observed_order(fine_ratio, coarse_ratio, differences):

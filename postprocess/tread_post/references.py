@@ -130,7 +130,7 @@ def _arm(hub, variants, key):
 
 
 def _limit(hub, variants, measured, scatter, design):
-    """The errors of several keys add up: each arm's limit less the hub's value is a correction."""
+    """The errors of several keys add up: what each key converges to, less the hub's value, is a correction."""
     noise = 0.0 if math.isnan(scatter) else scatter
     own = [variant.name for variant in variants if variant.is_own or variant.is_perturbed]
     is_mean = design == "star" and len(own) > 1
@@ -140,8 +140,10 @@ def _limit(hub, variants, measured, scatter, design):
         limit = _limit_along(key, hub, variants, {**measured, hub.name: middle}, noise)
         if limit is None:
             continue
-        value += limit.value - middle
-        squares += limit.uncertainty**2
+        # What does not converge corrects nothing, but may be as far off as it is.
+        correction = limit.value - middle
+        value += correction if limit.is_limit else 0.0
+        squares += (limit.uncertainty if limit.is_limit else max(limit.uncertainty, abs(correction))) ** 2
         texts.append(f"{key}: {limit.text}")
         orders.append(limit.order)
     text = "; ".join(texts) or "nothing that refines was varied: compared with this variant"
@@ -156,21 +158,22 @@ def _limit_along(key, hub, variants, measured, noise):
     best = BEST_WORDS.get(key.rpartition(".")[2])
     if best is not None:
         found = [variant for variant in arm if variant.settings[key] == best]
-        return Limit(measured[found[0].name], 0.0, None, best) if found and len(arm) > 1 else None
+        return Limit(measured[found[0].name], 0.0, None, best, is_limit=True) if found and len(arm) > 1 else None
     sized = {size_of(key, variant.settings[key]): measured[variant.name] for variant in arm if size_of(key, variant.settings[key]) is not None}
     return limit_of(list(sized), list(sized.values()), noise) if len(sized) > 1 else None
 
 
 def _limit_of_curves(hub, variants, measured):
-    """The hub's own curve; what it may be off by is how far it is from the next coarser ones."""
+    """The hub's own curve; what it may be off by is how far it is, along each key, from the finest variant, or where it is that itself, from the
+    next coarser one."""
     curve = measured[hub.name]
     spread, squares = float(np.ptp(curve)) or 1.0, 0.0
     for key in hub.settings:
-        sizes = sorted((size, variant.name) for variant in _arm(hub, variants, key)
-                       if (size := size_of(key, variant.settings[key])) is not None and size > size_of(key, hub.settings[key]))
-        if sizes:
-            squares += (_rms(measured[sizes[0][1]] - curve) / spread) ** 2
-    return Reference(math.nan, math.sqrt(squares), f"variant {hub.name} itself; next coarser ones differ by the uncertainty", hub.name, curve)
+        arm = sorted((size, variant.name) for variant in _arm(hub, variants, key) if (size := size_of(key, variant.settings[key])) is not None)
+        others = [name for size, name in arm if size != size_of(key, hub.settings[key])]
+        if others:
+            squares += (_rms(measured[others[0]] - curve) / spread) ** 2
+    return Reference(math.nan, math.sqrt(squares), f"variant {hub.name} itself; the finest others differ by the uncertainty", hub.name, curve)
 
 
 def _rms(values):

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from tread_post.run import RunError
 
 # Between the settings and these stands nothing; what is before them is a setting.
-TEXTS = ("repeat", "state", "quantity", "unit", "reference")
+TEXTS = ("repeat", "state", "verdict", "quantity", "unit", "reference")
 NUMBERS = ("points", "bodies", "steps", "substeps", "wall_s", "memory_bytes", "measured", "right", "uncertainty", "scatter", "error")
-COLUMNS = ("repeat", "state", "points", "bodies", "steps", "substeps", "wall_s", "memory_bytes", "quantity", "unit", "measured", "right",
+COLUMNS = ("repeat", "state", "verdict", "points", "bodies", "steps", "substeps", "wall_s", "memory_bytes", "quantity", "unit", "measured", "right",
            "uncertainty", "scatter", "error", "reference")
 
 
@@ -20,6 +20,7 @@ class Row:
     settings: dict  # text by key
     repeat: str  # what was perturbed; empty of a variant proper
     state: str
+    verdict: str  # of the run on its own resolution; empty where it gives none
     points: float
     bodies: float
     steps: float

@@ -73,7 +73,7 @@ class Fronts(unittest.TestCase):
 
     def rows(self, errors, quantity="torque", uncertainty=0.004, scatter=math.nan):
         """Spacings 0.04, 0.03, 0.02, of 1, 5 and 41 s."""
-        return [Row(f"{number:04}", {"grid.spacing": spacing, "time.substeps": "12"}, "", "done", 1e3, 1, 100, 100, wall, 1e6, quantity, "N m", 1.0, 1.0,
+        return [Row(f"{number:04}", {"grid.spacing": spacing, "time.substeps": "12"}, "", "done", "", 1e3, 1, 100, 100, wall, 1e6, quantity, "N m", 1.0, 1.0,
                     uncertainty, scatter, error, "order 1")
                 for number, (spacing, wall, error) in enumerate(zip(("0.04", "0.03", "0.02"), (1, 5, 41), errors))]
 
@@ -88,6 +88,11 @@ class Fronts(unittest.TestCase):
         none = work_precision.sentence(self.rows((0.08, 0.07, 0.06)), 0.02)
         self.assertIn("no variant is within 2 %; the best of the others is off by 6 % (spacing 0.02", none)
         self.assertIn("nothing can be said", work_precision.sentence(self.rows((0.01, 0.01, 0.01), uncertainty=math.nan), 0.02))
+
+    def test_the_runs_own_verdict_is_passed_on(self):
+        rows = [Row(**{**vars(row), "verdict": verdict}) for row, verdict in zip(self.rows((0.01, 0.01, 0.01)), ("under-resolved", "resolved", ""))]
+        self.assertTrue(work_precision.sentence(rows, 0.02).endswith("; the run calls itself under-resolved"))
+        self.assertTrue(work_precision.sentence(rows[1:], 0.02).endswith("(order 1)"))
 
     def test_sentence_of_all(self):
         both = Study([], ["grid.spacing"], self.rows((0.01, 0.03, 0.001)) + self.rows((0.09, 0.01, 0.02), "sinkage"))
@@ -152,6 +157,13 @@ class Judgement(unittest.TestCase):
         self.assertAlmostEqual(judged.reference.value, 7, 2)
         self.assertIn("mean of 3 perturbed repeats", judged.reference.text)
 
+    def test_what_does_not_converge_corrects_nothing(self):
+        wavering = [Variant(str(h), {"grid.spacing": h}, value, h == 0.4, False) for h, value in ((0.4, 5.0), (0.2, 5.6), (0.1, 5.3))]
+        judged = judge(wavering, self.number, None, "star")
+        self.assertEqual(judged.reference.value, 5.0)
+        self.assertAlmostEqual(judged.reference.uncertainty, 0.6)
+        self.assertTrue(math.isnan(judged.errors["0.4"]))
+
     def test_what_is_known_is_not_extrapolated(self):
         judged = judge(self.grid(), self.number, known_value(8.0, 0.15, "two laboratories"), "grid")
         self.assertEqual((judged.reference.value, judged.reference.uncertainty), (8.0, 1.2))
@@ -173,6 +185,11 @@ class Judgement(unittest.TestCase):
         self.assertTrue(math.isnan(judged.errors["0.1"]))
         self.assertAlmostEqual(judged.errors["0.4"], 0.3 * rms / 1.1)
         self.assertAlmostEqual(judged.reference.uncertainty, 0.1 * rms / 1.1)
+        # In the middle of a star, finer ones tell; an "auto" has no size.
+        star = [Variant(str(h), {"grid.spacing": h, "time.dt": "auto"}, h, h == 0.2, False) for h in (0.4, 0.2, 0.1)]
+        star.append(Variant("dt", {"grid.spacing": 0.2, "time.dt": 1e-4}, 0.25, False, False))
+        judged = judge(star, curve, None, "star")
+        self.assertAlmostEqual(judged.reference.uncertainty, math.hypot(0.1, 0.05) * rms / 1.2)
 
 
 class Answers(unittest.TestCase):
