@@ -14,6 +14,7 @@ void Sand<Exec, Real>::transfer(StateFile& file)
     if (!file.loads()) { order(); }
     transfer_points(file);
     file.numbers("sand/steps", step_, relists_, orders_, mass_);
+    file.doubles("sand/left", left_);
     if (file.exact())
     {
         pages_.for_each_field([&](const char* name, auto& array) { file.own(fmt::format("pages/{}", name), array); });
