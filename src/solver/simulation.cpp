@@ -86,8 +86,8 @@ void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, d
 template<class Exec, class Real>
 TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& clock)
 {
+    if (rigid_) { heed_commands(step); }
     if (unmeasured_ > 0 && step.dt != last_.dt) { measure(); } // the books take steps of one length together
-    if (rigid_) { heed_commands(); }
     if (sand_) { guard_->allow(step, time); }
     if (sand_ || balance_)
     {
@@ -148,15 +148,17 @@ void Simulation<Exec, Real>::deal_out_pages()
     if (balance_->deal_out(loads, steps_) && sand_) { sand_->follow_owners(); }
 }
 
-/// A body that a command makes faster than anything was has lists for this step alone.
+/// A body that a command makes faster than anything was has lists for this step alone, which is as short as that wants.
 template<class Exec, class Real>
-void Simulation<Exec, Real>::heed_commands()
+void Simulation<Exec, Real>::heed_commands(TimeStep& step)
 {
     const double commanded = rigid_->take_commanded_speed();
     if (commanded <= pace_.largest_speed) { return; }
     if (unmeasured_ > 0) { measure(); }
-    pace_.largest_speed = std::max(pace_.largest_speed, commanded);
-    measure_every_      = 1;
+    pace_.largest_speed   = std::max(pace_.largest_speed, commanded);
+    measure_every_        = 1;
+    const TimeStep wanted = choose_step(scene_.time, limits_, pace_, 0);
+    if (wanted.dt < step.dt && !scene_.time.dt) { step = wanted; }
 }
 
 /// Of the steps until the next measuring.

@@ -58,7 +58,8 @@ public:
     /// Tells the named bodies what to do (held, driven, free) until the next call; `damping` of the phase.
     void command(const std::vector<BodyCommand>& commands, double damping);
 
-    /// One MPM step of `step.dt` with its contact substeps (design: one step). NumericalError, with what, where and
+    /// One MPM step of `step.dt`, or a shorter one where a command has made a body too fast for it, with its contact
+    /// substeps (design: one step). NumericalError, with what, where and
     /// which limit, when the state cannot be trusted any more; `time` is for that message. What moves little is
     /// measured every few steps only, which pace() and unbalanced() then follow; lists of contacts and N are those of
     /// the first of these.
@@ -101,7 +102,7 @@ private:
     void transfer_balance(StateFile& file);
     void arrange();
     void deal_out_pages();
-    void heed_commands();
+    void heed_commands(TimeStep& step);
     void find_contacts(const TimeStep& step, StageClock& clock);
     void substeps(const TimeStep& step, double time, StageClock& clock);
     void coupled_substep(double dt, StageClock& clock);
