@@ -23,6 +23,7 @@ class Entry:
     labels: dict
     values: dict
     digest: str
+    is_own: bool = False  # the scene as it is, in the midst of arms
 
     @property
     def name(self):
@@ -56,8 +57,8 @@ class CampaignDirectory:
         (fresh / "campaign.toml").write_text(campaign.text, encoding="utf-8")
         manifest = {
             "schema": SCHEMA, "title": campaign.title, "campaign": str(campaign.path.resolve()), "digest": campaign.digest, "cost": cost,
-            "axes": [{"name": axis.name, "unit": axis.unit, "keys": axis.keys, "labels": axis.labels} for axis in campaign.axes],
-            "cases": [{"number": case.number, "labels": case.labels, "values": case.values, "digest": case.digest} for case in cases],
+            "axes": [{"name": axis.name, "unit": axis.unit, "keys": axis.keys, "labels": axis.labels} for axis in campaign.axes + campaign.arms],
+            "cases": [{"number": case.number, "labels": case.labels, "values": case.values, "digest": case.digest, "is_own": case.is_own} for case in cases],
         }
         (fresh / "manifest.json").write_text(json.dumps(manifest, indent=1), encoding="utf-8")
         fresh.rename(self.cases)

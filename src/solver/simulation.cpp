@@ -30,6 +30,14 @@ double free_weight(const scene::Scene& scene, const World& world)
     return (sand + rocks) * vector(scene.domain.gravity).norm();
 }
 
+/// m/s; bodies get theirs by command.
+double speed_at_start(const scene::Scene& scene)
+{
+    double speed = 0;
+    for (const scene::Terrain& terrain : scene.terrain) { speed = std::max(speed, vector(terrain.velocity).norm()); }
+    return speed;
+}
+
 } // namespace
 
 template<class Exec, class Real>
@@ -44,6 +52,7 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     , gravity_(vector(scene.domain.gravity))
     , weight_(free_weight(scene, world))
 {
+    pace_.largest_speed = speed_at_start(scene);
     if (decomposition != nullptr) { balance_.emplace(*decomposition, scene.balance.threshold); }
     if (plan.sand)
     {
@@ -277,6 +286,7 @@ void Simulation<Exec, Real>::measure()
                                              contacts.flattest.value, least_gradient));
         }
     }
+    extremes_.note(step, steps, limits_, pace_, coupling_ ? coupling_->summary() : contact::Summary::zero());
     unbalanced_ = weight_ > 0 ? (sand.last_grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
     ledger_->steps(step.dt, steps, sand, rigid, books, (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
     if (guard_) { guard_->watch(sand, step, time); }
@@ -308,9 +318,17 @@ void Simulation<Exec, Real>::begin_mean()
 }
 
 template<class Exec, class Real>
-io::PointFields Simulation<Exec, Real>::point_fields()
+void Simulation<Exec, Real>::copy_points(PointCopy<Exec, Real>& copy) const
 {
-    return sand_ ? sand_->fields() : io::PointFields{};
+    if (sand_) { sand_->copy_to(copy); }
+}
+
+template<class Exec, class Real>
+io::PointFields Simulation<Exec, Real>::point_fields() const
+{
+    PointCopy<Exec, Real> copy(exec_);
+    copy_points(copy);
+    return copy.rows();
 }
 
 template<class Exec, class Real>

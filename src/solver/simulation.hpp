@@ -5,6 +5,7 @@
 
 #include "io/snapshot.hpp"
 #include "solver/coupling.hpp"
+#include "solver/extremes.hpp"
 #include "solver/ledger.hpp"
 #include "solver/phases.hpp"
 #include "solver/plan.hpp"
@@ -42,6 +43,9 @@ public:
     /// Share of the weight that was out of balance in the last step.
     double unbalanced() const { return unbalanced_; }
 
+    /// What was worst in all steps that were measured.
+    const Extremes& extremes() const { return extremes_; }
+
     /// How the work fell to the ranks so far; null on one rank.
     const decomp::BalanceRow* balance() const { return balance_ ? &balance_->row() : nullptr; }
 
@@ -70,8 +74,9 @@ public:
     std::vector<BodyRow> named_bodies();
     void                 begin_mean();
 
-    /// Of this rank.
-    io::PointFields point_fields();
+    /// What a snapshot shows. Points are this rank's.
+    void            copy_points(PointCopy<Exec, Real>& copy) const;
+    io::PointFields point_fields() const;
     io::BodyFields  body_fields();
 
     /// Of bodies with bodies and walls.
@@ -114,6 +119,7 @@ private:
     Plan                                 plan_;
     PaceLimits                           limits_;
     Pace                                 pace_;
+    Extremes                             extremes_;
     Vec3<double>                         gravity_;
     double                               weight_; ///< N, of sand and rocks
     double                               unbalanced_ = 1;

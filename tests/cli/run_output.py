@@ -47,7 +47,10 @@ class RunOutput(CommandTest):
         self.assertEqual(summary["bodies"], 1)
         self.assertGreaterEqual(summary["time"], 0.02)
         self.assertEqual([(phase["name"], phase["settled"]) for phase in summary["phases"]], [("rest", None)])
-        self.assertTrue((self.output / "log.txt").read_text())
+        resolution = summary["resolution"]
+        self.assertIn(resolution["verdict"], ("resolved", "marginal", "under-resolved"))
+        self.assertAlmostEqual(resolution["figures"]["margin_wave"]["value"], 1.0, places=6)
+        self.assertIn(f"resolution: {resolution['verdict']}", (self.output / "log.txt").read_text())
 
     def check_time_series(self):
         with h5py.File(self.output / "timeseries.h5", "r") as file:

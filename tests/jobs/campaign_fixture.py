@@ -66,6 +66,9 @@ class CampaignTest(unittest.TestCase):
     def scene(self, number):
         return tomllib.loads(self.text(number))
 
+    def scene_of(self, output, number):
+        return tomllib.loads(self.text(number, output))
+
     def script(self, name, text):
         path = self.directory / name
         path.write_text(text, encoding="utf-8")

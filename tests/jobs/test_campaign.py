@@ -54,6 +54,21 @@ class Expand(CampaignTest):
         self.assertEqual(found, [(slip, seed) for slip in (0.0, 0.3, 0.6, 0.9) for seed in (1, 2)])
         self.assertEqual(self.scene(0)["shape"][-1]["file"], str((self.directory / "spare.stl").resolve()))
 
+    def test_arms_vary_alone_around_the_scene_as_it_is(self):
+        arms = ('[[arm]]\nkey = "material.sand.young"\nvalues = [1e6, 1e7, 2e7]\n'
+                '[[arm]]\nkey = "time.dt"\nname = "step"\nvalues = [1e-5]\n')
+        self.file.write_text(f'scene = "{TWIN}"\n{arms}', encoding="utf-8")
+        self.assertIn("4 cases", self.campaign("expand", program=self.checked_only()).stdout)
+        # 1e7 is what the scene has itself: no case of its own.
+        found = [(self.scene(n)["material"][0]["young"], self.scene(n).get("time", {}).get("dt")) for n in range(4)]
+        self.assertEqual(found, [(1e7, None), (1e6, None), (2e7, None), (1e7, 1e-5)])
+        self.assertRegex(self.campaign("status").stdout, "0003 .*young 1e\\+07, step 1e-05")
+        # Beside axes, the scene as it is makes one more.
+        self.file.write_text(f'scene = "{TWIN}"\n{arms}[[axis]]\nkey = "phase.drive.drive.slip"\nvalues = [0.1, 0.3]\n', encoding="utf-8")
+        self.campaign("expand", program=self.checked_only(), output=self.directory / "both")
+        slips = [self.scene_of(self.directory / "both", n)["phase"][2]["drive"]["slip"] for n in range(5)]
+        self.assertEqual(slips, [0.1, 0.3, 0.3, 0.3, 0.3])
+
     def test_scenes_written_are_scenes_read(self):
         sys.path.insert(0, str(ROOT / "jobs"))
         from tread_jobs.toml_text import toml_text
@@ -68,6 +83,8 @@ class Expand(CampaignTest):
         two = CAMPAIGN.replace("[resources]", AXIS + "[resources]")
         for text, words in (
             (two.replace("young", "yuong"), "yuong"),
+            ('scene = "a.toml"\n', r"no \[\[axis\]\] and no \[\[arm\]\]"),
+            (f'[[axis]]\nkey = "scene"\nvalues = ["{TWIN}"]\n' + AXIS.replace("axis", "arm"), "arm.*vary the keys of one scene"),
             (CAMPAIGN.replace("values = [0.1, 0.5]", "values = []"), r"\[\[axis\]\] 1 .*no values"),
             (CAMPAIGN.replace("values = [0.1, 0.5]", "values = [0.1, 0.1]"), "stands there twice"),
             (CAMPAIGN.replace("values = [0.1, 0.5]", "range = { from = 0, to = 1, count = 0 }"), "count is an integer of at least 1"),
