@@ -16,6 +16,7 @@
 #include "base/communicator.hpp"
 #include "base/errors.hpp"
 #include "base/log.hpp"
+#include "base/script.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
 #include "io/describe.hpp"
@@ -360,12 +361,18 @@ ExitCode dispatch(CLI::App& app, int argc, char** argv)
         ->check(CLI::Range(1, 4096));
     add_sdf_options(*sdf_command, sdf_arguments);
     info_command->add_option("file", info_path, "timeseries.h5, a snapshot ...")->type_name("FILE.h5")->required();
+    // Its options are the script's, help included.
+    CLI::App* study_command =
+        app.add_subcommand("study", "Error against run time of a scene's variants: docs/study.md");
+    study_command->set_help_flag();
+    study_command->prefix_command();
     app.require_subcommand(1);
     app.parse(argc, argv);
 
     if (*run_command) { return run(run_arguments); }
     if (*check_command) { return check(check_arguments); }
     if (*sdf_command) { return sdf(sdf_arguments); }
+    if (*study_command) { become_script("jobs/study.py", study_command->remaining()); }
     return info(info_path);
 }
 

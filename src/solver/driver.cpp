@@ -103,8 +103,9 @@ std::optional<std::string> Driver<Exec, Real>::carry_on()
         write_due();
         pass_on();
     }
-    write_row();
-    write_snapshot();
+    // What was due at the last step is there already.
+    if (last_row_ < steps_) { write_row(); }
+    if (last_snapshot_ < steps_) { write_snapshot(); }
     return {};
 }
 
@@ -259,6 +260,7 @@ void Driver<Exec, Real>::write_row()
         simulation_.begin_mean();
     };
     clock_.run(simulation_.exec(), stage::output, write);
+    last_row_ = steps_;
 }
 
 /// Rows wait while a snapshot is being written; one that failed is said here.
@@ -283,6 +285,7 @@ template<class Exec, class Real>
 void Driver<Exec, Real>::write_snapshot()
 {
     if (!snapshots_) { return; }
+    last_snapshot_ = steps_;
     clock_.run(simulation_.exec(), stage::snapshots, [&] { snapshots_->write(time_, simulation_); });
 }
 
@@ -319,9 +322,11 @@ void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<Stage>& 
     summary.stages   = clock_.reports(stages);
     summary.errors   = simulation_.ledger().errors();
     summary.phases   = ended_;
+    summary.figures  = figures(simulation_.extremes(), summary.errors, simulation_.limits(), world_, plan_);
     summary.restarts = restarts_;
 
-    summary.checkpoints = checkpoints_;
+    summary.checkpoints   = checkpoints_;
+    summary.points_across = points_across(simulation_.extremes(), world_);
 }
 
 template class Driver<Cpu, float>;

@@ -96,6 +96,8 @@ private:
     std::int64_t                         substeps_      = 0;
     std::int64_t                         rows_          = 0; ///< time-series rows that were due so far
     std::int64_t                         snapshots_due_ = 0;
+    std::int64_t                         last_row_      = -1; ///< step of the last row that was written
+    std::int64_t                         last_snapshot_ = -1; ///< the same of snapshots
     bool                                 warned_        = false;
     double                               surface_       = 0; ///< m, at the start of the phase
     double                               wall_start_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <unordered_set>
 
 #include <fmt/format.h>
@@ -166,6 +167,29 @@ std::int64_t ray_bytes(const World& world)
     return bytes;
 }
 
+/// s, the least sqrt(m / sum K) of rocks that lie on each other, C R sqrt(density / E): in settled piles of irregular
+/// rocks C is 0.89 to 0.92 from 1e7 to 1e10 Pa, and with a tenth and ten times the linear_overlap 0.54 and 1.5 to 1.7
+/// (docs/studies, "The substep that contacts allow"). 0 without rocks.
+double resting_contact(const scene::Scene& scene, const World& world)
+{
+    constexpr double pile = 0.9, usual_overlap = 1e-3;
+    double           least = 0;
+    for (auto b = static_cast<std::size_t>(world.bodies.named); b < world.bodies.size(); ++b)
+    {
+        const double radius  = world.bodies.radius[b];
+        const double density = world.bodies.mass[b] / (4.0 / 3 * std::numbers::pi * std::pow(radius, 3));
+        const auto&  stone   = scene.materials[static_cast<std::size_t>(world.bodies.material[b])];
+        if (!std::isfinite(stone.young)) { continue; }
+        const double time = radius * std::sqrt(density / stone.young);
+        least             = least == 0 ? time : std::min(least, time);
+    }
+    return pile * least * std::pow(scene.numerics.linear_overlap / usual_overlap, 0.25);
+}
+
+/// Measured at the worst moment, a bed's fall (docs/performance.md, "Bodies on the H200"): 1.94 to 2.7 kB where bodies
+/// meet each other.
+std::int64_t bytes_per_body(const Plan& plan) { return plan.body_contact ? 2200 : 700; }
+
 /// Columns of doubles (solver/recorder.cpp) that grow by 1024 rows (io/h5.cpp), and what names them.
 std::int64_t time_series_bytes(std::int64_t rows, std::int64_t named)
 {
@@ -214,25 +238,30 @@ void require_room(const char* memory, std::int64_t wanted, std::int64_t free)
 
 Estimate estimate(const scene::Scene& scene, const World& world, const Plan& plan)
 {
-    constexpr std::int64_t bytes_per_body = 880;
-    const auto             points         = static_cast<std::int64_t>(world.points.size());
-    const auto             bodies         = static_cast<std::int64_t>(world.bodies.size());
-    const PageCounts       pages          = plan.sand ? count_pages(world) : PageCounts{};
-    Estimate               wants{};
+    const auto       points = static_cast<std::int64_t>(world.points.size());
+    const auto       bodies = static_cast<std::int64_t>(world.bodies.size());
+    const PageCounts pages  = plan.sand ? count_pages(world) : PageCounts{};
+    Estimate         wants{};
     wants.time         = longest_time(scene);
-    wants.memory_bytes = bodies * bytes_per_body + template_bytes(world) + (plan.rays ? ray_bytes(world) : 0);
+    wants.memory_bytes = bodies * bytes_per_body(plan) + template_bytes(world) + (plan.rays ? ray_bytes(world) : 0);
     if (plan.sand)
     {
         const std::int64_t sand = points * bytes_per_point(scene, plan) + page_bytes(scene, pages);
         wants.memory_bytes += sand;
         wants.bytes_a_point = static_cast<double>(sand) / static_cast<double>(points);
     }
-    wants.snapshot_bytes = plan.snapshots ? points * snapshot_memory_per_point(scene, plan) : 0;
-    wants.disk           = disk_use(scene, world, plan, pages);
-    const TimeStep step  = choose_step(scene.time, pace_limits(scene, world, plan), {}, 0);
-    wants.dt             = step.dt;
-    wants.limit          = step.limit;
-    wants.steps          = std::ceil(wants.time / step.dt);
+    wants.snapshot_bytes    = plan.snapshots ? points * snapshot_memory_per_point(scene, plan) : 0;
+    wants.disk              = disk_use(scene, world, plan, pages);
+    const PaceLimits limits = pace_limits(scene, world, plan);
+    const TimeStep   first  = choose_step(scene.time, limits, {}, 0);
+    wants.dt                = first.dt;
+    wants.limit             = first.limit;
+    Pace resting;
+    resting.shortest_contact = resting_contact(scene, world);
+    const TimeStep later     = choose_step(scene.time, limits, resting, 0);
+    wants.resting_dt         = later.dt;
+    wants.substeps           = static_cast<double>(later.substeps);
+    wants.steps              = std::ceil(wants.time / later.dt);
     return wants;
 }
 

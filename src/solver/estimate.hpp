@@ -24,10 +24,12 @@ struct Estimate
     double       bytes_a_point;  ///< of the sand, pages included; 0 without sand
     std::int64_t snapshot_bytes; ///< of the host, while one is written behind the computation; 0 without
     DiskUse      disk;
-    double       time;  ///< s simulated, at most
-    double       dt;    ///< s, at the start
-    std::string  limit; ///< what sets dt
-    double       steps; ///< at that dt, at most
+    double       time;       ///< s simulated, at most
+    double       dt;         ///< s, at the start
+    std::string  limit;      ///< what sets dt
+    double       resting_dt; ///< s, once rocks lie on each other; dt without rocks
+    double       substeps;   ///< of each such step
+    double       steps;      ///< of these, at most
 };
 
 /// EnvironmentError when a run that wants `wanted` bytes of "host" or "device" memory does not fit into `free` even if

@@ -194,12 +194,14 @@ void Sand<Exec, Real>::list_anew()
 template<class Exec, class Real>
 void Sand<Exec, Real>::order_in_memory()
 {
+    std::int64_t left = 0;
     if (ranks_)
     {
-        ranks_->order(points_, pages_, geometry_, walls_, order_scratch_);
+        left      = ranks_->order(points_, pages_, geometry_, walls_, order_scratch_);
         migrated_ = ranks_->moved();
     }
-    else { mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_); }
+    else { left = mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_); }
+    keep_account_of(left);
     relists_ = 0;
     ++orders_;
     make_room();
@@ -298,6 +300,8 @@ SandReport Sand<Exec, Real>::report()
     for (double* to : {report.grid, report.last_grid}) { from = take(from, mpm::grid_sums, to); }
     for (double* to : {report.points, report.last_points}) { from = take(from, mpm::point_sums, to); }
     take(from, mpm::point_peaks, report.peaks);
+    report.last_points[mpm::point_kinetic] += left_[mpm::census_kinetic];
+    report.last_points[mpm::point_strain] += left_[mpm::census_strain];
     report.largest_speed = std::sqrt(report.peaks[mpm::peak_speed_squared]);
     report.steps         = std::exchange(steps_, 0);
     stir_                = report.stir();
@@ -333,6 +337,7 @@ SandCensus Sand<Exec, Real>::census()
     copy_to_host(exec_, total, totals_.data(), sizeof(total));
     if (ranks_) { decomp::combine(ranks_->communicator(), total, mpm::census_count, 0); }
     mass_ = total[mpm::census_mass];
+    for (std::size_t c = 0; c < left_.size(); ++c) { total[c] += left_[c]; }
     return {total[mpm::census_mass], total[mpm::census_kinetic], total[mpm::census_strain],
             Vec3<double>(total + mpm::census_momentum), Vec3<double>(total + mpm::census_moment)};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -89,10 +90,10 @@ public:
     /// Asks for the report already, so that one wait serves others' too.
     void ask_report();
 
-    /// Of the present state; waits for it.
+    /// Of the present state; waits for it. What has left the domain counts as it was when it left.
     SandCensus census();
 
-    /// Of the last census, kg.
+    /// kg, of what is in the domain, at the last census or since more has left it.
     double mass() const { return mass_; }
 
     /// m, in memory order, of this rank.
@@ -112,6 +113,7 @@ private:
     void           make_room();
     void           upload(const HostPoints& host, mpm::PointFields fields);
     void           order_in_memory();
+    void           keep_account_of(std::int64_t left);
     void           list_anew();
     void           clear_tallies();
     mpm::MovesView moves();
@@ -144,6 +146,7 @@ private:
     bool                                       cell_means_; ///< of volumetric strain, and of pressure
     Array<Exec, Real>                          cell_divergence_;
     Array<Exec, Real>                          shared_stress_;
+    std::array<double, mpm::census_count>      left_{}; ///< census of what has left the domain, of all ranks
     double                                     mass_     = 0;
     std::int64_t                               step_     = 0;               ///< number of the last one
     std::int64_t                               steps_    = 0;               ///< since the last report

@@ -28,6 +28,7 @@ void Sand<Exec, Real>::transfer(StateFile& file, const HostPoints& built)
     transfer_points(file);
     if (file.loads()) { restore_lasting(built); }
     file.numbers("sand/steps", step_, relists_, orders_, mass_);
+    file.doubles("sand/left", left_);
     if (file.exact())
     {
         pages_.for_each_field([&](const char* name, auto& array) { file.own(fmt::format("pages/{}", name), array); });

@@ -111,6 +111,7 @@ class RestartTest(CommandTest):
         ended = self.summary()
         self.assertEqual((ended["status"], ended["restarts"], ended["start"]), ("finished", 1, stopped["start"]))
         self.assertEqual(ended["steps"], self.summary(whole)["steps"])
+        self.assertEqual(ended["resolution"], self.summary(whole)["resolution"])
         self.assertGreaterEqual(ended["checkpoints"]["written"], stopped["checkpoints"]["written"])
         self.assertLessEqual(len(self.checkpoints()), 2)
         self.assert_same_bits(whole, self.output)
