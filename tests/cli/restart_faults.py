@@ -135,8 +135,8 @@ class Faults(RestartTest):
                              "--set=output.snapshots_every=0.005")
 
     def test_a_disk_that_is_full_for_several_ranks(self):
-        self.check_full_disk(lasting(SCENE, 0.05), 3000, "--set=checkpoint.every_steps=8", "--set=checkpoint.keep=100",
-                             "--set=output.snapshots_every=0.01", launcher=(*MPIRUN, "-n", "2"))
+        self.check_full_disk(lasting(SCENE, 0.04), 2100, "--set=checkpoint.every_steps=16", "--set=checkpoint.keep=100",
+                             "--set=output.snapshots_every=0.02", launcher=(*MPIRUN, "-n", "2"))
 
     def test_a_killed_run_loses_nothing_older_than_its_last_checkpoint(self):
         self.check_killed_runs(lasting(MIXED, 0.1), 8, seed=7)
