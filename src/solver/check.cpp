@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "base/bytes_text.hpp"
+#include "scene/resolved.hpp"
 #include "solver/bed.hpp"
 #include "solver/estimate.hpp"
 #include "solver/left_out.hpp"
@@ -47,7 +48,7 @@ std::string check(const Communicator& communicator, const scene::Scene& scene, i
     const World    world = build_world(scene);
     const Plan     plan  = make_plan(scene, world);
     const Estimate wants = estimate(scene, world, plan);
-    std::string    text  = fmt::format("{}\n\nstages of a step:\n", scene.title);
+    std::string    text  = fmt::format("{}\nscene {}\n\nstages of a step:\n", scene.title, scene::scene_hash(scene));
     for (const Stage& stage : stages(scene, plan, ranks))
     {
         text += fmt::format("  {:<4}{:<28}{}{}\n", stage.on ? "on" : "off", stage.name, stage.why,
@@ -58,7 +59,14 @@ std::string check(const Communicator& communicator, const scene::Scene& scene, i
     for (const std::string& line : bed_lines(describe_bed(scene, world))) { text += "  " + line + "\n"; }
     if (plan.bodies) { text += "shapes at scale 1:\n" + shape_lines(world); }
     text += fmt::format("memory about {} on the backend, disk at most {}\n", bytes_text(wants.memory_bytes),
-                        bytes_text(wants.disk_bytes));
+                        bytes_text(wants.disk.all()));
+    text += fmt::format("  of it snapshots {}, time series {}, checkpoints {} ({} kept, one on its way)\n",
+                        bytes_text(wants.disk.snapshots), bytes_text(wants.disk.time_series),
+                        bytes_text(wants.disk.checkpoints), scene.checkpoint.keep);
+    if (wants.snapshot_bytes > 0)
+    {
+        text += fmt::format("host memory about {} while a snapshot is written\n", bytes_text(wants.snapshot_bytes));
+    }
     text += fmt::format("dt {:.4g} s at the start (limit: {}), at most {:.4g} s simulated: {:.3g} steps{}\n", wants.dt,
                         wants.limit, wants.time, wants.steps, resting_text(plan, wants));
     if (plan.sand) { text += fmt::format("sand {:.0f} bytes a point, pages included\n", wants.bytes_a_point); }

@@ -10,6 +10,7 @@
 #include <omp.h>
 
 #include "backend/memory.hpp"
+#include "base/process_age.hpp"
 #include "base/signals.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
@@ -215,7 +216,7 @@ std::string start_of(const Communicator& communicator, const std::string& checkp
 
 ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& scene, const RunOptions& options)
 {
-    const double      wall_start = wall_clock();
+    const double      wall_start = wall_clock() - process_age();
     const SignalWatch signals;
     const Backend     backend = choose_backend(options.backend);
     const int         threads = choose_threads(communicator, options.threads);

@@ -45,21 +45,6 @@ std::vector<Real> planes(const std::vector<Eigen::Matrix<double, components, 1>>
     return out;
 }
 
-/// The living points' planes of one field as rows on the host.
-template<class Out, class Exec, class Real, class T>
-std::vector<Out> interleaved(const Array<Exec, T>& field, const mpm::Points<Exec, Real>& points, int components)
-{
-    const std::vector<T> planes = field.to_host();
-    const auto           n = static_cast<std::size_t>(points.count), stride = static_cast<std::size_t>(points.stride),
-               width = static_cast<std::size_t>(components);
-    std::vector<Out> rows(n * width);
-    for (std::size_t i = 0; i < n; ++i)
-    {
-        for (std::size_t c = 0; c < width; ++c) { rows[i * width + c] = static_cast<Out>(planes[c * stride + i]); }
-    }
-    return rows;
-}
-
 std::vector<std::uint32_t> numbers(const HostPoints& points)
 {
     if (!points.id.empty()) { return points.id; }
@@ -360,35 +345,14 @@ SandCensus Sand<Exec, Real>::census()
 template<class Exec, class Real>
 std::vector<Vec3<double>> Sand<Exec, Real>::positions() const
 {
-    const std::vector<double> rows = interleaved<double>(points_.position, points_, 3);
+    const std::vector<double> planes = points_.position.to_host();
+    const auto                stride = static_cast<std::size_t>(points_.stride);
     std::vector<Vec3<double>> out;
-    for (std::size_t i = 0; i < rows.size(); i += 3) { out.emplace_back(rows[i], rows[i + 1], rows[i + 2]); }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(points_.count); ++i)
+    {
+        out.emplace_back(planes[i], planes[stride + i], planes[2 * stride + i]);
+    }
     return out;
-}
-
-template<class Exec, class Real>
-io::PointFields Sand<Exec, Real>::fields() const
-{
-    io::PointFields fields;
-    fields.position                 = interleaved<double>(points_.position, points_, 3);
-    const std::vector<double> start = interleaved<double>(points_.start, points_, 3);
-    fields.displacement.resize(start.size());
-    for (std::size_t i = 0; i < start.size(); ++i)
-    {
-        fields.displacement[i] = static_cast<float>(fields.position[i] - start[i]);
-    }
-    fields.velocity                = interleaved<float>(points_.velocity, points_, 3);
-    fields.stress                  = interleaved<float>(points_.stress, points_, 6);
-    const std::vector<float> ratio = interleaved<float>(points_.volume_ratio, points_, 1);
-    for (std::size_t i = 0; i < fields.stress.size(); ++i) { fields.stress[i] /= ratio[i / 6]; } // Kirchhoff to Cauchy
-    if (points_.plastic_shear.size() > 0)
-    {
-        fields.plastic_shear = interleaved<float>(points_.plastic_shear, points_, 1);
-        fields.plastic_rate  = interleaved<float>(points_.plastic_rate, points_, 1);
-    }
-    fields.material = interleaved<std::int32_t>(points_.material, points_, 1);
-    fields.id       = interleaved<std::uint32_t>(points_.id, points_, 1);
-    return fields;
 }
 
 template class Sand<Cpu, float>;

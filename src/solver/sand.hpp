@@ -7,7 +7,6 @@
 #include "backend/fetched.hpp"
 #include "backend/reduce.hpp"
 #include "decomp/balance.hpp"
-#include "io/snapshot.hpp"
 #include "kernels/mpm/cell_divergence.hpp"
 #include "kernels/mpm/cell_stress.hpp"
 #include "kernels/mpm/census.hpp"
@@ -17,6 +16,7 @@
 #include "kernels/mpm/relist.hpp"
 #include "kernels/mpm/scatter.hpp"
 #include "kernels/mpm/wall_pages.hpp"
+#include "solver/point_copy.hpp"
 #include "solver/sand_ranks.hpp"
 #include "solver/sand_report.hpp"
 #include "solver/world.hpp"
@@ -99,15 +99,16 @@ public:
     /// m, in memory order, of this rank.
     std::vector<Vec3<double>> positions() const;
 
-    /// What a snapshot shows, of this rank.
-    io::PointFields fields() const;
+    /// Takes what a snapshot shows, of this rank.
+    void copy_to(PointCopy<Exec, Real>& copy) const { copy.take(exec_, points_); }
 
-    /// Into a checkpoint, or out of it into sand of the same scene. Due right after a report; changes nothing that
-    /// comes after it. Collective.
-    void transfer(StateFile& file);
+    /// Into a checkpoint, or out of it into sand of the same scene, which was built as `built`. Due right after a
+    /// report; changes nothing that comes after it. Collective.
+    void transfer(StateFile& file, const HostPoints& built);
 
 private:
     void           transfer_points(StateFile& file);
+    void           restore_lasting(const HostPoints& built);
     void           resume_lists();
     void           make_room();
     void           upload(const HostPoints& host, mpm::PointFields fields);

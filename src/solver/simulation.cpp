@@ -320,9 +320,17 @@ void Simulation<Exec, Real>::begin_mean()
 }
 
 template<class Exec, class Real>
-io::PointFields Simulation<Exec, Real>::point_fields()
+void Simulation<Exec, Real>::copy_points(PointCopy<Exec, Real>& copy) const
 {
-    return sand_ ? sand_->fields() : io::PointFields{};
+    if (sand_) { sand_->copy_to(copy); }
+}
+
+template<class Exec, class Real>
+io::PointFields Simulation<Exec, Real>::point_fields() const
+{
+    PointCopy<Exec, Real> copy(exec_);
+    copy_points(copy);
+    return copy.rows();
 }
 
 template<class Exec, class Real>

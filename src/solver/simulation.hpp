@@ -75,8 +75,9 @@ public:
     std::vector<BodyRow> named_bodies();
     void                 begin_mean();
 
-    /// Of this rank.
-    io::PointFields point_fields();
+    /// What a snapshot shows. Points are this rank's.
+    void            copy_points(PointCopy<Exec, Real>& copy) const;
+    io::PointFields point_fields() const;
     io::BodyFields  body_fields();
 
     /// Of bodies with bodies and walls.

@@ -11,7 +11,7 @@ template<class Exec, class Real>
 void Simulation<Exec, Real>::transfer(StateFile& file)
 {
     if (balance_ && file.exact()) { transfer_balance(file); }
-    if (sand_) { sand_->transfer(file); }
+    if (sand_) { sand_->transfer(file, world_.points); }
     if (rigid_) { rigid_->transfer(file); }
     if (coupling_) { coupling_->transfer(file, rigid_->view()); }
     file.doubles("simulation/pace", pace_);
