@@ -30,6 +30,7 @@ Keys<Body>        body_keys();
 Keys<Phase>       phase_keys();
 Keys<Output>      output_keys();
 Keys<Balance>     balance_keys();
+Keys<Reference>   reference_keys();
 
 Keys<CheckpointOptions> checkpoint_keys();
 
@@ -63,6 +64,8 @@ void for_each_table(Visit&& visit)
           &Scene::checkpoint, checkpoint_keys());
     visit("balance", "How the sand falls to the ranks of a run on several: docs/ranks.md.", &Scene::balance,
           balance_keys());
+    visit("reference", "The right answer, as far as it is known, for `tread study`: docs/study.md. Changes no run.",
+          &Scene::reference, reference_keys());
 }
 
 } // namespace tread::scene

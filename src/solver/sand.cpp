@@ -45,21 +45,6 @@ std::vector<Real> planes(const std::vector<Eigen::Matrix<double, components, 1>>
     return out;
 }
 
-/// The living points' planes of one field as rows on the host.
-template<class Out, class Exec, class Real, class T>
-std::vector<Out> interleaved(const Array<Exec, T>& field, const mpm::Points<Exec, Real>& points, int components)
-{
-    const std::vector<T> planes = field.to_host();
-    const auto           n = static_cast<std::size_t>(points.count), stride = static_cast<std::size_t>(points.stride),
-               width = static_cast<std::size_t>(components);
-    std::vector<Out> rows(n * width);
-    for (std::size_t i = 0; i < n; ++i)
-    {
-        for (std::size_t c = 0; c < width; ++c) { rows[i * width + c] = static_cast<Out>(planes[c * stride + i]); }
-    }
-    return rows;
-}
-
 std::vector<std::uint32_t> numbers(const HostPoints& points)
 {
     if (!points.id.empty()) { return points.id; }
@@ -209,12 +194,14 @@ void Sand<Exec, Real>::list_anew()
 template<class Exec, class Real>
 void Sand<Exec, Real>::order_in_memory()
 {
+    std::int64_t left = 0;
     if (ranks_)
     {
-        ranks_->order(points_, pages_, geometry_, walls_, order_scratch_);
+        left      = ranks_->order(points_, pages_, geometry_, walls_, order_scratch_);
         migrated_ = ranks_->moved();
     }
-    else { mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_); }
+    else { left = mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_); }
+    keep_account_of(left);
     relists_ = 0;
     ++orders_;
     make_room();
@@ -313,6 +300,8 @@ SandReport Sand<Exec, Real>::report()
     for (double* to : {report.grid, report.last_grid}) { from = take(from, mpm::grid_sums, to); }
     for (double* to : {report.points, report.last_points}) { from = take(from, mpm::point_sums, to); }
     take(from, mpm::point_peaks, report.peaks);
+    report.last_points[mpm::point_kinetic] += left_[mpm::census_kinetic];
+    report.last_points[mpm::point_strain] += left_[mpm::census_strain];
     report.largest_speed = std::sqrt(report.peaks[mpm::peak_speed_squared]);
     report.steps         = std::exchange(steps_, 0);
     stir_                = report.stir();
@@ -348,6 +337,7 @@ SandCensus Sand<Exec, Real>::census()
     copy_to_host(exec_, total, totals_.data(), sizeof(total));
     if (ranks_) { decomp::combine(ranks_->communicator(), total, mpm::census_count, 0); }
     mass_ = total[mpm::census_mass];
+    for (std::size_t c = 0; c < left_.size(); ++c) { total[c] += left_[c]; }
     return {total[mpm::census_mass], total[mpm::census_kinetic], total[mpm::census_strain],
             Vec3<double>(total + mpm::census_momentum), Vec3<double>(total + mpm::census_moment)};
 }
@@ -355,35 +345,14 @@ SandCensus Sand<Exec, Real>::census()
 template<class Exec, class Real>
 std::vector<Vec3<double>> Sand<Exec, Real>::positions() const
 {
-    const std::vector<double> rows = interleaved<double>(points_.position, points_, 3);
+    const std::vector<double> planes = points_.position.to_host();
+    const auto                stride = static_cast<std::size_t>(points_.stride);
     std::vector<Vec3<double>> out;
-    for (std::size_t i = 0; i < rows.size(); i += 3) { out.emplace_back(rows[i], rows[i + 1], rows[i + 2]); }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(points_.count); ++i)
+    {
+        out.emplace_back(planes[i], planes[stride + i], planes[2 * stride + i]);
+    }
     return out;
-}
-
-template<class Exec, class Real>
-io::PointFields Sand<Exec, Real>::fields() const
-{
-    io::PointFields fields;
-    fields.position                 = interleaved<double>(points_.position, points_, 3);
-    const std::vector<double> start = interleaved<double>(points_.start, points_, 3);
-    fields.displacement.resize(start.size());
-    for (std::size_t i = 0; i < start.size(); ++i)
-    {
-        fields.displacement[i] = static_cast<float>(fields.position[i] - start[i]);
-    }
-    fields.velocity                = interleaved<float>(points_.velocity, points_, 3);
-    fields.stress                  = interleaved<float>(points_.stress, points_, 6);
-    const std::vector<float> ratio = interleaved<float>(points_.volume_ratio, points_, 1);
-    for (std::size_t i = 0; i < fields.stress.size(); ++i) { fields.stress[i] /= ratio[i / 6]; } // Kirchhoff to Cauchy
-    if (points_.plastic_shear.size() > 0)
-    {
-        fields.plastic_shear = interleaved<float>(points_.plastic_shear, points_, 1);
-        fields.plastic_rate  = interleaved<float>(points_.plastic_rate, points_, 1);
-    }
-    fields.material = interleaved<std::int32_t>(points_.material, points_, 1);
-    fields.id       = interleaved<std::uint32_t>(points_.id, points_, 1);
-    return fields;
 }
 
 template class Sand<Cpu, float>;
