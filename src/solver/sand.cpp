@@ -45,21 +45,6 @@ std::vector<Real> planes(const std::vector<Eigen::Matrix<double, components, 1>>
     return out;
 }
 
-/// The living points' planes of one field as rows on the host.
-template<class Out, class Exec, class Real, class T>
-std::vector<Out> interleaved(const Array<Exec, T>& field, const mpm::Points<Exec, Real>& points, int components)
-{
-    const std::vector<T> planes = field.to_host();
-    const auto           n = static_cast<std::size_t>(points.count), stride = static_cast<std::size_t>(points.stride),
-               width = static_cast<std::size_t>(components);
-    std::vector<Out> rows(n * width);
-    for (std::size_t i = 0; i < n; ++i)
-    {
-        for (std::size_t c = 0; c < width; ++c) { rows[i * width + c] = static_cast<Out>(planes[c * stride + i]); }
-    }
-    return rows;
-}
-
 std::vector<std::uint32_t> numbers(const HostPoints& points)
 {
     if (!points.id.empty()) { return points.id; }
@@ -128,6 +113,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     materials_.assign(law_parameters<Real>(scene));
     stirred_in_.fill_zero();
     if (decomposition != nullptr) { ranks_.emplace(*decomposition); }
+    if (scene.sleep.distance) { sleep_.emplace(exec, scene, world, fields); }
     const bool only_own = decomposition == nullptr || !world.points.id.empty();
     if (only_own) { upload(world.points, fields); }
     else { upload(own_points(world, *decomposition), fields); }
@@ -182,6 +168,15 @@ void Sand<Exec, Real>::order()
 }
 
 template<class Exec, class Real>
+void Sand<Exec, Real>::look_who_sleeps(const std::vector<BodyReach>& bodies, double damping)
+{
+    if (sleep_->look(points_, pages_, geometry_, bodies, materials_.data(), order_scratch_, damping == 0))
+    {
+        order_in_memory();
+    }
+}
+
+template<class Exec, class Real>
 void Sand<Exec, Real>::follow_owners()
 {
     listed_ = false;
@@ -209,6 +204,7 @@ void Sand<Exec, Real>::list_anew()
 template<class Exec, class Real>
 void Sand<Exec, Real>::order_in_memory()
 {
+    if (sleep_) { sleep_->leave_pages(); }
     if (ranks_)
     {
         ranks_->order(points_, pages_, geometry_, walls_, order_scratch_);
@@ -218,6 +214,7 @@ void Sand<Exec, Real>::order_in_memory()
     relists_ = 0;
     ++orders_;
     make_room();
+    if (sleep_) { sleep_->enter_pages(pages_, pages(), order_scratch_.sort); }
 }
 
 /// For what steps write of the points and pages that there are.
@@ -283,6 +280,7 @@ void Sand<Exec, Real>::update_grid(double dt, double damping)
     mpm::update_grid(exec_, pages(), wall_pages_.view(), shared, tiles_.data(), step, motion_.data(),
                      grid_rows_.data());
     mpm::update_walls(exec_, pages(), wall_pages_.view(), step, motion_.data(), grid_rows_.data());
+    if (sleep_) { sleep_->hold(pages(), tiles_.data(), step, motion_.data(), grid_rows_.data()); }
 }
 
 template<class Exec, class Real>
@@ -296,6 +294,7 @@ void Sand<Exec, Real>::gather(double dt)
     const mpm::GatherStep<Real> step{static_cast<Real>(dt), materials_.data(),
                                      static_cast<Real>(pic_share(pic_rate_, dt)), cell_divergence_.data()};
     mpm::gather(exec_, points_.view(), pages(), motion_.data(), step, moves(), point_rows_.data(), peak_rows_.data());
+    if (sleep_) { sleep_->pass(dt); }
     listed_ = false;
     ++steps_;
 }
@@ -316,6 +315,12 @@ SandReport Sand<Exec, Real>::report()
     report.largest_speed = std::sqrt(report.peaks[mpm::peak_speed_squared]);
     report.steps         = std::exchange(steps_, 0);
     stir_                = report.stir();
+    if (sleep_)
+    {
+        report.last_points[mpm::point_strain] += sleep_->census().strain;
+        const Vec3<double> stopped = sleep_->take_impulse();
+        for (int c = 0; c < 3; ++c) { report.grid[mpm::grid_wall_impulse + c] += stopped[c]; }
+    }
     return report;
 }
 
@@ -332,6 +337,7 @@ void Sand<Exec, Real>::ask_report()
     sum_rows(exec_, point_rows_.data(), point_pages, point_width, points, sums_scratch_);
     largest_of_rows(exec_, peak_rows_.data(), point_pages, mpm::point_peaks, peaks);
     told_.fetch(reinterpret_cast<const ReportTotals*>(grid));
+    if (sleep_) { sleep_->note(peak_rows_.data()); }
     clear_tallies();
     asked_ = true;
 }
@@ -347,43 +353,10 @@ SandCensus Sand<Exec, Real>::census()
     double total[mpm::census_count];
     copy_to_host(exec_, total, totals_.data(), sizeof(total));
     if (ranks_) { decomp::combine(ranks_->communicator(), total, mpm::census_count, 0); }
-    mass_ = total[mpm::census_mass];
-    return {total[mpm::census_mass], total[mpm::census_kinetic], total[mpm::census_strain],
-            Vec3<double>(total + mpm::census_momentum), Vec3<double>(total + mpm::census_moment)};
-}
-
-template<class Exec, class Real>
-std::vector<Vec3<double>> Sand<Exec, Real>::positions() const
-{
-    const std::vector<double> rows = interleaved<double>(points_.position, points_, 3);
-    std::vector<Vec3<double>> out;
-    for (std::size_t i = 0; i < rows.size(); i += 3) { out.emplace_back(rows[i], rows[i + 1], rows[i + 2]); }
-    return out;
-}
-
-template<class Exec, class Real>
-io::PointFields Sand<Exec, Real>::fields() const
-{
-    io::PointFields fields;
-    fields.position                 = interleaved<double>(points_.position, points_, 3);
-    const std::vector<double> start = interleaved<double>(points_.start, points_, 3);
-    fields.displacement.resize(start.size());
-    for (std::size_t i = 0; i < start.size(); ++i)
-    {
-        fields.displacement[i] = static_cast<float>(fields.position[i] - start[i]);
-    }
-    fields.velocity                = interleaved<float>(points_.velocity, points_, 3);
-    fields.stress                  = interleaved<float>(points_.stress, points_, 6);
-    const std::vector<float> ratio = interleaved<float>(points_.volume_ratio, points_, 1);
-    for (std::size_t i = 0; i < fields.stress.size(); ++i) { fields.stress[i] /= ratio[i / 6]; } // Kirchhoff to Cauchy
-    if (points_.plastic_shear.size() > 0)
-    {
-        fields.plastic_shear = interleaved<float>(points_.plastic_shear, points_, 1);
-        fields.plastic_rate  = interleaved<float>(points_.plastic_rate, points_, 1);
-    }
-    fields.material = interleaved<std::int32_t>(points_.material, points_, 1);
-    fields.id       = interleaved<std::uint32_t>(points_.id, points_, 1);
-    return fields;
+    SandCensus census = census_of(total);
+    if (sleep_) { census = census + sleep_->census(); }
+    mass_ = census.mass;
+    return census;
 }
 
 template class Sand<Cpu, float>;

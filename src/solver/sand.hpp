@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "backend/fetched.hpp"
@@ -9,7 +10,6 @@
 #include "io/snapshot.hpp"
 #include "kernels/mpm/cell_divergence.hpp"
 #include "kernels/mpm/cell_stress.hpp"
-#include "kernels/mpm/census.hpp"
 #include "kernels/mpm/gather.hpp"
 #include "kernels/mpm/grid.hpp"
 #include "kernels/mpm/order.hpp"
@@ -18,22 +18,13 @@
 #include "kernels/mpm/wall_pages.hpp"
 #include "solver/sand_ranks.hpp"
 #include "solver/sand_report.hpp"
+#include "solver/sand_sleep.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
 {
 
 class StateFile;
-
-/// What the sand holds.
-struct SandCensus
-{
-    double       mass     = 0;                    ///< kg
-    double       kinetic  = 0;                    ///< J
-    double       strain   = 0;                    ///< J
-    Vec3<double> momentum = Vec3<double>::Zero(); ///< kg m/s
-    Vec3<double> moment   = Vec3<double>::Zero(); ///< kg m, mass times position
-};
 
 /// The sand of a scene on one backend: points, pages, grid and the four calls of an MPM step. With a decomposition a
 /// rank holds the points of the pages that it owns, every call is collective, and reports are of all ranks.
@@ -46,7 +37,9 @@ public:
          decomp::Decomposition<Exec>* decomposition = nullptr);
 
     /// Of this rank.
-    std::int64_t             count() const { return points_.count; }
+    std::int64_t count() const { return points_.count + (sleep_ ? sleep_->points().count : 0); }
+
+    /// Those that do not sleep, and their pages.
     mpm::PointsView<Real>    view() { return points_.view(); }
     mpm::Points<Exec, Real>& points() { return points_; }
     mpm::PagesView           pages() const;
@@ -56,6 +49,11 @@ public:
     /// moves them in memory to where the list has them, without waiting. Sorts them and makes the pages anew, and
     /// waits, when the report says that one comes near pages that are not listed.
     void order();
+
+    /// After order(), where sand may sleep: whether to look which of it does before a step with this damping, as
+    /// nothing is faster than `speed` (m/s); and the look. With damping none sleeps.
+    bool sleep_is_due(double speed, double damping) const { return sleep_ && sleep_->is_due(speed, damping); }
+    void look_who_sleeps(const std::vector<BodyReach>& bodies, double damping);
 
     /// After pages got other owners, with no step since the last report: the next order() sorts points anew, and so
     /// brings them there.
@@ -92,8 +90,8 @@ public:
     /// Of the present state; waits for it.
     SandCensus census();
 
-    /// Of the last census, kg.
-    double mass() const { return mass_; }
+    /// Of what does not sleep, by the last census, kg.
+    double mass() const { return mass_ - (sleep_ ? sleep_->census().mass : 0); }
 
     /// m, in memory order, of this rank.
     std::vector<Vec3<double>> positions() const;
@@ -106,7 +104,7 @@ public:
     void transfer(StateFile& file);
 
 private:
-    void           transfer_points(StateFile& file);
+    void           transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder);
     void           resume_lists();
     void           make_room();
     void           upload(const HostPoints& host, mpm::PointFields fields);
@@ -129,6 +127,7 @@ private:
     Array<Exec, std::int64_t>                  stirred_in_;
     mpm::WallPages<Exec, Real>                 wall_pages_;
     std::optional<SandRanks<Exec, Real>>       ranks_; ///< only on several ranks
+    std::optional<SandSleep<Exec, Real>>       sleep_; ///< only if the scene has sleep.distance
     Array<Exec, Real>                          tiles_;
     Array<Exec, Real>                          motion_;
     Array<Exec, double>                        grid_rows_;

@@ -12,16 +12,21 @@ template<class Exec, class Real>
 void Sand<Exec, Real>::transfer(StateFile& file)
 {
     if (!file.loads()) { order(); }
-    transfer_points(file);
+    transfer_points(file, points_, "points");
     file.numbers("sand/steps", step_, relists_, orders_, mass_);
     if (file.exact())
     {
         pages_.for_each_field([&](const char* name, auto& array) { file.own(fmt::format("pages/{}", name), array); });
         if (ranks_) { ranks_->transfer(file); }
+        if (file.loads()) { resume_lists(); }
+        if (sleep_)
+        {
+            transfer_points(file, sleep_->points(), "asleep");
+            sleep_->transfer(file, pages_, pages(), order_scratch_.sort);
+        }
     }
     if (!file.loads()) { return; }
-    if (file.exact()) { resume_lists(); }
-    else
+    if (!file.exact())
     {
         order_in_memory();
         migrated_ = 0; // what belongs to the points did not wait for them elsewhere
@@ -31,21 +36,21 @@ void Sand<Exec, Real>::transfer(StateFile& file)
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::transfer_points(StateFile& file)
+void Sand<Exec, Real>::transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder)
 {
-    StateFile::Share rows{0, points_.count};
+    StateFile::Share rows{0, points.count};
     if (file.loads())
     {
-        rows = file.share("points/id_0");
-        points_.reserve(rows.count);
-        points_.count = rows.count;
+        rows = file.share(fmt::format("{}/id_0", folder));
+        points.reserve(rows.count);
+        points.count = rows.count;
     }
-    points_.for_each_named_field(
+    points.for_each_named_field(
         [&](const char* name, auto& field, int components)
         {
             for (int c = 0; c < components; ++c)
             {
-                file.plane(exec_, fmt::format("points/{}_{}", name, c), field.data() + c * points_.stride, rows);
+                file.plane(exec_, fmt::format("{}/{}_{}", folder, name, c), field.data() + c * points.stride, rows);
             }
         });
 }

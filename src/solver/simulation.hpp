@@ -95,6 +95,7 @@ public:
 private:
     void transfer_balance(StateFile& file);
     void arrange();
+    void look_who_sleeps();
     void deal_out_pages();
     void heed_commands();
     void find_contacts(const TimeStep& step, StageClock& clock);
