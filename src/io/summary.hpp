@@ -106,6 +106,7 @@ struct Summary
     std::int64_t             peak_device_bytes = 0;
     std::int64_t             peak_host_bytes   = 0;
     std::vector<StageReport> stages;
+    std::optional<double>    asleep; ///< mean share of the points that slept; null where none may
     ErrorReport              errors;
     std::vector<PhaseReport> phases;
     CheckpointReport         checkpoints;  ///< with those of the runs that this one went on from

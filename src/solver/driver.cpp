@@ -278,6 +278,7 @@ void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<Stage>& 
     summary.errors   = simulation_.ledger().errors();
     summary.phases   = ended_;
     summary.restarts = restarts_;
+    summary.asleep   = simulation_.mean_asleep();
 
     summary.checkpoints = checkpoints_;
 }

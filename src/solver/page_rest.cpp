@@ -190,6 +190,7 @@ std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& 
         asleep.insert(asleep.end(), tired.begin(), tired.end());
     }
     std::sort(asleep.begin(), asleep.end());
+    asleep.erase(std::unique(asleep.begin(), asleep.end()), asleep.end()); // points may have come into a sleeping page
     return asleep;
 }
 

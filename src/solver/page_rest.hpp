@@ -32,7 +32,7 @@ struct BodyReach
     double       radius;
 };
 
-/// What there is to choose from. Keys ascend.
+/// What there is to choose from. Keys ascend. A page to which points have come since it fell asleep is in both lists.
 struct RestState
 {
     std::vector<AwakePage>     awake;

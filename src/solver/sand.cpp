@@ -177,6 +177,13 @@ void Sand<Exec, Real>::look_who_sleeps(const std::vector<BodyReach>& bodies, dou
 }
 
 template<class Exec, class Real>
+std::optional<double> Sand<Exec, Real>::mean_asleep() const
+{
+    if (!sleep_) { return {}; }
+    return count() > 0 ? sleep_->mean_count() / static_cast<double>(count()) : 0;
+}
+
+template<class Exec, class Real>
 void Sand<Exec, Real>::follow_owners()
 {
     listed_ = false;

@@ -55,6 +55,9 @@ public:
     bool sleep_is_due(double speed, double damping) const { return sleep_ && sleep_->is_due(speed, damping); }
     void look_who_sleeps(const std::vector<BodyReach>& bodies, double damping);
 
+    /// Mean share of the points that slept so far; nothing where none may.
+    std::optional<double> mean_asleep() const;
+
     /// After pages got other owners, with no step since the last report: the next order() sorts points anew, and so
     /// brings them there.
     void follow_owners();

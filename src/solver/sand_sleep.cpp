@@ -63,6 +63,14 @@ SandSleep<Exec, Real>::SandSleep(const Exec& exec, const scene::Scene& scene, co
 }
 
 template<class Exec, class Real>
+void SandSleep<Exec, Real>::pass(double dt)
+{
+    watch_.pass(dt);
+    slept_ += dt * static_cast<double>(points_.count);
+    lived_ += dt;
+}
+
+template<class Exec, class Real>
 bool SandSleep<Exec, Real>::is_due(double speed, double damping) const
 {
     if (damping > 0) { return !asleep_.empty(); }
@@ -85,7 +93,7 @@ bool SandSleep<Exec, Real>::look(mpm::Points<Exec, Real>& points, const mpm::Pag
     SandCensus woken, fallen;
     move(points_, points, without(asleep_, chosen), geometry, scratch, materials, woken);
     const std::int64_t before = points_.count;
-    move(points, points_, without(chosen, asleep_), geometry, scratch, materials, fallen);
+    move(points, points_, chosen, geometry, scratch, materials, fallen);
     stop(before);
     impulse_ -= fallen.momentum;
     fallen.kinetic  = 0;
@@ -187,6 +195,7 @@ void SandSleep<Exec, Real>::transfer(StateFile& file, const mpm::Pages<Exec>& pa
     file.own("sleep/asleep", asleep_);
     file.doubles("sleep/census", census_);
     file.doubles("sleep/stopped", impulse_);
+    file.numbers("sleep/time", slept_, lived_);
     if (file.loads())
     {
         asleep_key_.assign(asleep_);

@@ -27,7 +27,10 @@ public:
     const SandCensus& census() const { return census_; }
 
     /// A step of dt (s) was taken.
-    void pass(double dt) { watch_.pass(dt); }
+    void pass(double dt);
+
+    /// Points that slept so far, over time.
+    double mean_count() const { return lived_ > 0 ? slept_ / lived_ : 0; }
 
     /// At each measuring: peaks[point page][mpm::PointPeak].
     void note(const double* peaks) { watch_.note(peaks); }
@@ -75,6 +78,8 @@ private:
     PageWatch<Exec>            watch_;
     SandCensus                 census_;
     Vec3<double>               impulse_ = Vec3<double>::Zero();
+    double                     slept_   = 0; ///< s, summed over points
+    double                     lived_   = 0; ///< s
 };
 
 } // namespace tread::solver

@@ -48,6 +48,9 @@ public:
     /// The scene must have sand.
     Sand<Exec, Real>& sand() { return *sand_; }
 
+    /// Mean share of the points that slept so far; nothing where none may.
+    std::optional<double> mean_asleep() const { return sand_ ? sand_->mean_asleep() : std::nullopt; }
+
     /// Of this rank.
     std::int64_t points() const { return sand_ ? sand_->count() : 0; }
 

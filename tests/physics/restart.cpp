@@ -171,11 +171,21 @@ TYPED_TEST_SUITE(Restart, test::Backends, test::BackendNames);
 
 TYPED_TEST(Restart, OfSandGivesTheSameBits) { this->expect_same_bits(test::sand_text); }
 
-TYPED_TEST(Restart, OfRocksGivesTheSameBits) { this->expect_same_bits(rocks_alone + test::rocks_text + "placement = \"rain\"\n" + roller_text); }
+TYPED_TEST(Restart, OfRocksGivesTheSameBits)
+{
+    this->expect_same_bits(rocks_alone + test::rocks_text + "placement = \"rain\"\n" + roller_text);
+}
 
 TYPED_TEST(Restart, OfSandRocksAndAWheelGivesTheSameBits)
 {
     this->expect_same_bits(test::sand_text + test::rocks_text + roller_text);
+}
+
+/// Far from the roller: what slept was saved asleep, and goes on sleeping as long.
+TYPED_TEST(Restart, OfSleepingSandGivesTheSameBits)
+{
+    this->expect_same_bits(test::sand_text + roller_text +
+                           "[sleep]\ndistance = 0.02\nspeed = 0.2\nrest = 2e-3\nload = 5.0\n");
 }
 
 /// Lists are made anew, as on another number of ranks: sums are taken in another order, and nothing else is different.

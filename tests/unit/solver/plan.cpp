@@ -81,6 +81,17 @@ TEST(LeftOut, OneRankSharesNothing)
     EXPECT_FALSE(any_with(used.kernels, {"shared", "leaving", "pack rows", "booked elsewhere"}));
 }
 
+TEST(LeftOut, WithoutADistanceNothingSleeps)
+{
+    const std::vector<std::string> arrays{"sleep", "held", "wake", "largest speeds"}, kernels{"held", "hold", "keep"};
+    const Used                     used = run_steps(load_text(test::sand_text));
+    EXPECT_FALSE(any_with(used.arrays, arrays));
+    EXPECT_FALSE(any_with(used.kernels, kernels));
+    const Used sleeping = run_steps(load_text(test::sand_text + "\n[sleep]\ndistance = 0.2\n"));
+    EXPECT_TRUE(sleeping.arrays.count("largest speeds of pages"));
+    EXPECT_TRUE(sleeping.kernels.count("keep largest speeds"));
+}
+
 TEST(LeftOut, PlainFlipHasNoAffineVelocities)
 {
     EXPECT_TRUE(run_steps(load_text(test::sand_text)).arrays.count("point affine velocity"));
