@@ -11,15 +11,19 @@ from pathlib import Path
 
 import numpy as np
 
+import drives
 import sinkage_slip
 import slices
 import slip_curves
 from tread_post import RunError
-from tread_post.answers import QUANTITIES
 from tread_post.campaign import CampaignTable
 from tread_post.page import figure, page, paragraph, preformatted, section, table
+from tread_post.style import readable, with_unit
 
 MOST_SLICES = 2  # runs whose sections are shown
+# Columns of the table of answers, as far as slip is no axis. What follows from the axes is in campaign.csv.
+SHOWN = ("slip", "drawbar_pull", "torque", "sinkage", "power_number")
+PROVENANCE = ("version", "commit", "backend", "devices", "ranks", "start", "end", "scene_hash")
 
 
 def arguments():
@@ -39,6 +43,9 @@ def summary_of(campaign):
         hours = cost["gpu_hours"] or cost["core_hours"]
         lines.append(paragraph(f"Finished runs took {wall:.4g} s ({wall / 3600:.3g} h) of wall time together; expected were at most {hours:.3g} "
                                f"{'GPU' if cost['gpu_hours'] else 'core'}-hours by the model."))
+    if "steady" in campaign.columns:
+        judged = np.isfinite(campaign["steady"])
+        lines.append(paragraph(f"{int(campaign['steady'][judged].sum())} of {judged.sum()} drives became steady."))
     return section("In short", *lines)
 
 
@@ -50,49 +57,54 @@ def axes_of(campaign):
 def answers_of_all(campaign):
     """Every case: axes, means with spreads, and whether they are of a steady state."""
     labels = campaign.label_columns
-    quantities = [name for name in QUANTITIES if name in campaign.columns]
+    quantities = [name for name in SHOWN if name in campaign.columns and not (name == "slip" and campaign.slip_axes)]
     head = ["case", *(key.partition("/")[2] for key in labels), "state", "steady"]
-    head += [heading(name, campaign.units[name]) for name in quantities]
+    head += [with_unit(name.replace("_", " "), readable(campaign[name], campaign.units[name])[1]) for name in quantities]
     head += [f"{name} error" for name in ("momentum", "energy") if f"{name}_error" in campaign.columns]
     rows = []
     for row in range(len(campaign)):
         cells = [f"{int(campaign['number'][row]):04}", *(campaign[key][row] for key in labels), campaign["state"][row], steadiness(campaign, row)]
         cells += [mean_and_spread(campaign, name, row) for name in quantities]
-        cells += [float(campaign[f"{name}_error"][row]) for name in ("momentum", "energy") if f"{name}_error" in campaign.columns]
+        cells += [short(campaign[f"{name}_error"][row]) for name in ("momentum", "energy") if f"{name}_error" in campaign.columns]
         rows.append(cells)
     marked = {row for row in range(len(campaign)) if campaign["state"][row] != "done"}
     note = paragraph("Means and standard deviations over the steady part of the last drive. Where no steady part was found: over its last half.")
     return section("Answers", note, table(head, rows, marked))
 
 
-def heading(name, unit):
-    """The slip that was measured stands beside the one that was asked for."""
-    label = "slip, measured" if name == "slip" else name.replace("_", " ")
-    return label if unit == "1" else f"{label} [{unit}]"
+def short(number):
+    return "" if np.isnan(number) else f"{number:.1e}"
 
 
 def steadiness(campaign, row):
     if "steady" not in campaign.columns or np.isnan(campaign["steady"][row]):
         return ""
-    return f"{'from' if campaign['steady'][row] else 'no; from'} {campaign['steady_from'][row]:.2f} s"
+    return f"{'yes' if campaign['steady'][row] else 'no'}, from {campaign['steady_from'][row]:.2f} s"
 
 
 def mean_and_spread(campaign, name, row):
-    mean, spread = campaign[name][row], campaign[f"{name}_spread"][row]
+    """Both to the place of the spread's second digit; no spread where only rounding is left."""
+    factor, _ = readable(campaign[name], campaign.units[name])
+    mean, spread = factor * campaign[name][row], factor * campaign[f"{name}_spread"][row]
     if np.isnan(mean):
         return ""
-    # Spreads to two digits, none where only rounding is left.
-    return f"{mean:.4g}" if spread < 1e-9 * abs(mean) else f"{mean:.4g} ± {float(f'{spread:.2g}'):g}"
+    if spread <= 1e-9 * max(abs(mean), 1e-3):
+        return f"{mean:.4g}"
+    places = max(0, 1 - int(np.floor(np.log10(spread))))
+    return f"{mean:.{places}f} ± {spread:.{places}f}"
 
 
 def figures_of(campaign):
     parts = []
-    if "torque" in campaign.columns and campaign.slip_axes:
+    has_drives = "torque" in campaign.columns
+    if has_drives and campaign.slip_axes:
         parts.append(figure(slip_curves.figure_of(campaign), "Against slip. Bars: standard deviation over the steady part. Bands: Wong and Reece's formulas "
                             "with the strength of the scene's sand and the stiffness, exponent and shear length of published soils; dashed: those soils."))
-        traces = sinkage_slip.traces_of(campaign.path)
-        if traces:
-            parts.append(figure(sinkage_slip.figure_of(traces), "Sinkage over the largest of its curve against slip."))
+    if has_drives and drives.groups_of(campaign):
+        parts.append(figure(drives.figure_of(campaign), "The drives against time, from the end of their ramps. Dots: from where the means are taken; filled where "
+                            "the drive is steady from there on."))
+    if has_drives and campaign.slip_axes and (traces := sinkage_slip.traces_of(campaign.path)):
+        parts.append(figure(sinkage_slip.figure_of(traces), "Sinkage over the largest of its curve against slip."))
     for row in rows_with_snapshots(campaign)[:MOST_SLICES]:
         run = campaign.run(row)
         numbers = slices.chosen_snapshots(run)
@@ -122,9 +134,10 @@ def failures_of(campaign):
 
 
 def provenance_of(campaign):
-    keys = [key for key in campaign.columns if key.startswith("provenance/")]
-    rows = [[f"{int(campaign['number'][row]):04}", *(campaign[key][row] for key in keys)] for row in range(len(campaign))]
-    return section("Provenance", table(["case", *(key.partition("/")[2] for key in keys)], rows),
+    keys = [key for name in PROVENANCE if (key := f"provenance/{name}") in campaign.columns]
+    restarts = campaign.columns.get("restarts", np.full(len(campaign), np.nan))
+    rows = [[f"{int(campaign['number'][row]):04}", *(campaign[key][row] for key in keys), restarts[row]] for row in range(len(campaign))]
+    return section("Provenance", table(["case", *(key.partition("/")[2].replace("_", " ") for key in keys), "restarts"], rows),
                    paragraph("The campaign file:"), preformatted(campaign.text))
 
 

@@ -11,13 +11,12 @@ from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import LogLocator
 
 from tread_post import RunError
+from tread_post.style import figure_grid, finish, legend_below, write
 
 # Okabe and Ito's colours, which the colour-blind can tell apart.
 COLOURS = {("sdf", 32): "#0072B2", ("sdf", 64): "#009E73", ("sdf", 128): "#E69F00", "rays": "#D55E00"}
@@ -118,14 +117,15 @@ def plot_panel(axis, title, dots):
         axis.errorbar(dot.time, dot.error, yerr=[[min(dot.low, 0.9 * dot.error)], [dot.high]], fmt=MARKERS.get(dot.nodes, "x"),
                       color=colour, markersize=7, elinewidth=0.8, capsize=2)
     axis.set(xscale="log", yscale="log", xlabel=title[1])
-    axis.set_title(title[0], fontsize=11)
-    axis.grid(color="#cccccc", linewidth=0.6)
-    axis.set_axisbelow(True)
+    axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axis.xaxis.set_minor_formatter("")
+    axis.set_title(title[0], fontsize=12)
+    finish(axis)
 
 
 def figure_of(panels):
-    plt.rcParams.update({"font.size": 11, "axes.spines.top": False, "axes.spines.right": False})
-    figure, axes = plt.subplots(1, len(panels), figsize=(6 * len(panels) + 1.5, 4.8), constrained_layout=True, squeeze=False)
+    figure, axes = figure_grid(1, len(panels), 5.0 * len(panels), 5.0)
     for axis, (title, dots) in zip(axes.flat, panels.items()):
         plot_panel(axis, title, dots)
     handles = [
@@ -133,7 +133,7 @@ def figure_of(panels):
                    label="rays" if key == "rays" else f"distance field, {key[1]} cells") for key, colour in COLOURS.items()
     ]
     handles += [plt.Line2D([], [], marker=marker, linestyle="", color="#777777", label=f"{nodes} nodes") for nodes, marker in MARKERS.items()]
-    axes[0][-1].legend(handles=handles, fontsize=9, edgecolor="none", loc="upper left", bbox_to_anchor=(1.02, 1))
+    legend_below(figure, handles, len(COLOURS))
     return figure
 
 
@@ -141,8 +141,7 @@ def main():
     options = arguments()
     impacts = read(options.impacts, Impact, "bench_narrow_phases")
     piles = read(options.piles, Pile, "narrow_phase_piles.py") if options.piles else []
-    figure_of(panels_of(impacts, piles)).savefig(options.output, dpi=110)
-    print(options.output)
+    write(figure_of(panels_of(impacts, piles)), options.output)
 
 
 if __name__ == "__main__":

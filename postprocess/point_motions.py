@@ -69,7 +69,7 @@ def plot_bars(axis, rows, value, title):
         axis.barh([index + 0.2 * (place - 1.5) for index, _ in found], [size for _, size in found], height=0.18, color=COLOURS[kind], label=kind)
     axis.set_yticks(range(len(cases)), [f"{case.partition(' at ')[2]}\n{points} a cell" for case, points in cases])
     axis.invert_yaxis()
-    axis.set_title(title, fontsize=11)
+    axis.set_title(title, fontsize=13)
 
 
 def plot_rattle(axis, rows):
@@ -80,23 +80,23 @@ def plot_rattle(axis, rows):
     for kind, points in lines.items():
         axis.plot(*zip(*points), marker="o", color=COLOURS[kind], label=kind)
     axis.set(xscale="log", yscale="log", xlabel=r"$k\,dt^2/m_p$")
-    axis.set_title("at rest, 64 a cell: standard deviation of the force over W", fontsize=11)
+    axis.set_title("at rest, 64 a cell:\nstandard deviation of the force over W", fontsize=13)
 
 
 def figure_of(rows):
-    plt.rcParams.update({"font.size": 10, "axes.spines.top": False, "axes.spines.right": False})
-    figure, axes = plt.subplots(1, 3, figsize=(16, 5), constrained_layout=True)
+    plt.rcParams.update({"font.size": 12, "axes.spines.top": False, "axes.spines.right": False})
+    figure, axes = plt.subplots(1, 3, figsize=(16, 5.6), constrained_layout=True)
     chosen = {word: [row for row in rows if row.case.startswith(word)] for word in ("held", "drawn", "at rest")}
-    plot_bars(axes[0], chosen["held"], lambda row: 1e3 * abs(row.creep_m_s), "pushed sideways: creep  [mm/s]")
+    plot_bars(axes[0], chosen["held"], lambda row: 1e3 * abs(row.creep_m_s), "pushed sideways:\ncreep  [mm/s]")
     axes[0].set_xscale("log")
     axes[0].axvline(0.2, color="#999999", linewidth=1)
-    plot_bars(axes[1], chosen["drawn"], lambda row: row.pull, "drawn along: drag over W (friction 0.3)")
+    plot_bars(axes[1], chosen["drawn"], lambda row: row.pull, "drawn along:\ndrag over W (friction 0.3)")
     axes[1].axvline(0.3, color="#999999", linewidth=1)
     plot_rattle(axes[2], chosen["at rest"])
     for axis in axes:
         axis.grid(color="#cccccc", linewidth=0.6)
         axis.set_axisbelow(True)
-    axes[2].legend(fontsize=9, edgecolor="none")
+    axes[2].legend(fontsize=11, edgecolor="none")
     return figure
 
 

@@ -49,7 +49,7 @@ def traces_of(path):
 
 
 def figure_of(traces):
-    figure, axes = figure_grid(1, 1, 10.0, 7.0)
+    figure, axes = figure_grid(1, 1, 10.0, 6.0)
     axis = axes[0, 0]
     for number, (name, slip, sinkage, are_means) in enumerate(traces):
         colour = COLOURS[number % len(COLOURS)]
@@ -60,7 +60,7 @@ def figure_of(traces):
     for (name, (slip, sinkage)), marker in zip(PUBLISHED.items(), ("*", "x")):
         # Their largest slip is 0.6, where the sinkage is not yet the largest that a wheel reaches.
         axis.plot(slip, np.array(sinkage) / max(PUBLISHED["Ding et al. 2011, smooth"][1]), marker, color="black", markersize=9,
-                  linestyle="none", label=f"{name}, over that at 0.6")
+                  linestyle="none", label=f"{name}, over the smooth wheel's at 0.6")
     axis.set(xlabel="slip", ylabel="sinkage / largest sinkage", xlim=SHOWN, ylim=(0, 1.05))
     axis.legend(loc="lower right", framealpha=0.9, edgecolor="none")
     finish(axis)

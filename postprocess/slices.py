@@ -22,6 +22,8 @@ PLANES = {"x": (0, 1, 2), "y": (1, 0, 2), "z": (2, 0, 1)}
 NAMES = "xyz"
 # Single points that fly off do not stretch the scale of displacement; slower than this share of the fastest shear is at rest.
 PERCENTILE, DECADES = 99.5, 3
+# Width of a point's dot, in distances of points: no gaps between sheared layers.
+DOT = 1.7
 # Of the highest sand, up to which wheels are shown.
 ABOVE = 1.7
 
@@ -57,7 +59,8 @@ def draw_panel(axis, run, number, plane, field, norm, colours):
     distance = point_spacing(run.scene, points)
     rows = slice_of(points, normal, plane[1], distance)
     place = points.position[rows][:, (across, up)]
-    dots = EllipseCollection(np.full(len(rows), 1.2 * distance), np.full(len(rows), 1.2 * distance), np.zeros(len(rows)), units="xy",
+    width = np.full(len(rows), DOT * distance)
+    dots = EllipseCollection(width, width, np.zeros(len(rows)), units="xy",
                              offsets=place, transOffset=axis.transData, norm=norm, cmap=colours, linewidths=0)
     dots.set_array(np.maximum(field(points)[rows], norm.vmin))
     axis.add_collection(dots)

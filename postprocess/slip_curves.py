@@ -18,8 +18,8 @@ from tread_post.style import COLOURS, GREY, MARKERS, figure_grid, finish, legend
 from tread_post.wong_reece import PUBLISHED, predict, soils_like, wheel_of
 
 PANELS = (
-    ("drawbar_pull", "drawbar pull"), ("torque", "driving torque"), ("sinkage", "sinkage"),
-    ("pull_share", "drawbar pull / weight"), ("torque_share", "torque / (weight x radius)"), ("power_number", "power number  P / (W v)"),
+    ("drawbar_pull", "drawbar pull"), ("pull_share", "drawbar pull / weight"), ("torque", "driving torque"),
+    ("torque_share", "torque / (weight x radius)"), ("sinkage", "sinkage"), ("power_number", "power number  P / (W v)"),
 )
 # Beyond a slip of 0.95 the power number, a ratio to the advance, says nothing.
 MOST_POWER = 12.0
@@ -114,7 +114,7 @@ def different_wheels(curves):
 
 def figure_of(table):
     curves = curves_of(table)
-    figure, axes = figure_grid(2, 3, 16.0, 4.6)
+    figure, axes = figure_grid(3, 2, 13.0, 4.6)
     scales = {}
     for axis, (quantity, label) in zip(axes.flat, PANELS):
         values = np.concatenate([values_of(table, curve, quantity)[0] for curve in curves])
@@ -126,19 +126,19 @@ def figure_of(table):
         finish(axis)
     wheels = different_wheels(curves)
     if wheels and soils_like(curves[0].scene, 1.0):
-        plot_predictions((axes[0, 2], axes[1, 0], axes[1, 1]), wheels, curves[0].scene, scales["sinkage"])
-    legend_below(figure, legend_of(axes, curves, bool(wheels)), 3)
+        plot_predictions((axes[2, 0], axes[0, 1], axes[1, 1]), wheels, curves[0].scene, scales["sinkage"])
+    legend_below(figure, legend_of(axes[2, 0], curves, bool(wheels)), 2)
     figure.suptitle(table.title, fontsize=15)
     return figure
 
 
-def legend_of(axes, curves, with_soils):
+def legend_of(axis, curves, with_soils):
     import matplotlib.pyplot as plt
 
     handles = [plt.Line2D([], [], color=COLOURS[i % 7], marker=MARKERS[i % 7], label=curve.name) for i, curve in enumerate(curves)]
     handles.append(plt.Line2D([], [], color=GREY, marker="o", linestyle="", markerfacecolor="white", label="not steady, or not done"))
     if with_soils:
-        handles += axes[0, 2].get_legend_handles_labels()[0]
+        handles += axis.get_legend_handles_labels()[0]
         handles.append(plt.Line2D([], [], color=GREY, linestyle="--", label=f"Wong-Reece: {', '.join(soil.name for soil in PUBLISHED)}"))
     return handles
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -17,9 +16,11 @@
 #include "base/communicator.hpp"
 #include "base/errors.hpp"
 #include "base/log.hpp"
+#include "base/script.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
 #include "io/describe.hpp"
+#include "io/h5.hpp"
 #include "io/sdf_report.hpp"
 #include "scene/load.hpp"
 #include "shape/form.hpp"
@@ -94,6 +95,7 @@ constexpr double patience = 10; // s
 template<class Command>
 ExitCode on_ranks(const Command& command)
 {
+    io::h5::begin();
     const MpiSession    session;
     const Communicator& world = session.world();
     ExitCode            code  = ExitCode::finished;
@@ -111,8 +113,6 @@ ExitCode on_ranks(const Command& command)
             world.abort(code);
         }
         if (world.rank() == 0) { std::cerr << "tread: error: " << text_of(error) << std::endl; }
-        // HDF5 dies in MPI_Finalize of a file that it could not write: the disk is still full.
-        if (code == ExitCode::environment && world.size() == 1) { std::_Exit(static_cast<int>(code)); }
     }
     return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
 }
@@ -361,12 +361,18 @@ ExitCode dispatch(CLI::App& app, int argc, char** argv)
         ->check(CLI::Range(1, 4096));
     add_sdf_options(*sdf_command, sdf_arguments);
     info_command->add_option("file", info_path, "timeseries.h5, a snapshot ...")->type_name("FILE.h5")->required();
+    // Its options are the script's, help included.
+    CLI::App* study_command =
+        app.add_subcommand("study", "Error against run time of a scene's variants: docs/study.md");
+    study_command->set_help_flag();
+    study_command->prefix_command();
     app.require_subcommand(1);
     app.parse(argc, argv);
 
     if (*run_command) { return run(run_arguments); }
     if (*check_command) { return check(check_arguments); }
     if (*sdf_command) { return sdf(sdf_arguments); }
+    if (*study_command) { become_script("jobs/study.py", study_command->remaining()); }
     return info(info_path);
 }
 

@@ -22,9 +22,8 @@ class Axis:
     labels: tuple[str, ...]  # one a point
 
 
-def read_axis(table, number):
-    """An [[axis]] of a campaign file. CampaignError names it and says what is wrong."""
-    where = f"[[axis]] {number}"
+def read_axis(table, where):
+    """An [[axis]] or [[arm]] of a campaign file, which `where` names. CampaignError says what is wrong."""
     unknown = sorted(set(table) - set(KEYS_OF_AXIS))
     if unknown:
         raise CampaignError(f"{where}: unknown key '{unknown[0]}'; known are {', '.join(KEYS_OF_AXIS)}")

@@ -9,7 +9,7 @@ from tread_jobs.axes import Axis, read_axis
 from tread_jobs.errors import CampaignError
 from tread_jobs.resources import Resources, read_resources
 
-TABLES = ("title", "scene", "axis", "repeats", "set", "resources")
+TABLES = ("title", "scene", "axis", "arm", "repeats", "set", "resources")
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,8 @@ class Campaign:
     title: str
     scene: str  # as the file has it; relative to the file
     settings: dict  # keys that all cases share, over those of the scene
-    axes: tuple[Axis, ...]
+    axes: tuple[Axis, ...]  # every combination of their values
+    arms: tuple[Axis, ...]  # each value alone, around the scene as it is
     repeats: Repeats
     resources: Resources
 
@@ -41,12 +42,16 @@ def read_campaign(path):
     path = Path(path)
     try:
         text = path.read_text(encoding="utf-8")
-        table = tomllib.loads(text)
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except (OSError, UnicodeDecodeError) as error:
         raise CampaignError(f"{path}: {error}") from error
+    return parse_campaign(path, text)
+
+
+def parse_campaign(path, text):
+    """The campaign that `text` is, as if it stood in the file at `path`."""
     try:
-        return _campaign(path, text, table)
-    except CampaignError as error:
+        return _campaign(path, text, tomllib.loads(text))
+    except (CampaignError, tomllib.TOMLDecodeError) as error:
         raise CampaignError(f"{path}: {error}") from error
 
 
@@ -57,16 +62,24 @@ def _campaign(path, text, table):
     title, scene, settings = table.get("title", path.stem), table.get("scene", ""), table.get("set", {})
     if not isinstance(title, str) or not isinstance(scene, str) or not isinstance(settings, dict):
         raise CampaignError("title and scene are texts, set is a table")
-    tables = table.get("axis", [])
-    if not isinstance(tables, list) or not tables or not all(isinstance(axis, dict) for axis in tables):
-        raise CampaignError("no [[axis]]: a campaign varies something")
-    axes = tuple(read_axis(axis, number) for number, axis in enumerate(tables, 1))
-    names = [axis.name for axis in axes]
+    axes, arms = _axes(table, "axis"), _axes(table, "arm")
+    if not axes and not arms:
+        raise CampaignError("no [[axis]] and no [[arm]]: a campaign varies something")
+    if arms and any("scene" in axis.keys for axis in axes + arms):
+        raise CampaignError("[[arm]]s vary the keys of one scene: no axis and no arm is called scene beside them")
+    names = [axis.name for axis in axes + arms]
     if len(set(names)) < len(names):
         raise CampaignError(f"two axes are called '{max(names, key=names.count)}': give one of them another name")
     if not scene and not any("scene" in axis.keys for axis in axes):
         raise CampaignError("scene is missing: the file that all cases start from")
-    return Campaign(path, text, title, scene, settings, axes, _repeats(table.get("repeats", {})), read_resources(table.get("resources", {})))
+    return Campaign(path, text, title, scene, settings, axes, arms, _repeats(table.get("repeats", {})), read_resources(table.get("resources", {})))
+
+
+def _axes(table, kind):
+    tables = table.get(kind, [])
+    if not isinstance(tables, list) or not all(isinstance(axis, dict) for axis in tables):
+        raise CampaignError(f"{kind} is no [[{kind}]]")
+    return tuple(read_axis(axis, f"[[{kind}]] {number}") for number, axis in enumerate(tables, 1))
 
 
 def _repeats(table):

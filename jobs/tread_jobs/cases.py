@@ -1,12 +1,12 @@
-"""From a campaign to its cases: every combination of its axes, the last axis fastest, then repeats."""
+"""From a campaign to its cases: every combination of its axes, the last axis fastest, then each value of its arms alone; repeats within."""
 
 import hashlib
 import itertools
 import math
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from tread_jobs.axes import SCENE
+from tread_jobs.axes import SCENE, label_of
 from tread_jobs.errors import CampaignError
 from tread_jobs.scene_keys import canonical, value_at, with_absolute_paths, with_values
 from tread_jobs.toml_text import toml_text
@@ -20,6 +20,8 @@ class Case:
     labels: dict  # text by axis; with repeats, also "repeat"
     values: dict  # by axis: the value of its first key
     scene_text: str
+    varied: tuple[str, ...]  # the axes that set something
+    is_own: bool = False  # the scene as it is, in the midst of arms
 
     @property
     def name(self):
@@ -32,22 +34,46 @@ class Case:
 
 def make_cases(campaign):
     """All cases, numbered from 0; the same file gives the same cases. CampaignError where axes clash or name no place of the scene."""
-    count = math.prod(len(axis.points) for axis in campaign.axes) * campaign.repeats.count
+    count = (math.prod(len(axis.points) for axis in campaign.axes) + sum(len(arm.points) for arm in campaign.arms)) * campaign.repeats.count
     if count > MOST_CASES:
         raise CampaignError(f"{campaign.path}: {count} cases; at most {MOST_CASES}")
     scenes, cases = {}, []
-    for choice in itertools.product(*(range(len(axis.points)) for axis in campaign.axes)):
-        chosen = list(zip(campaign.axes, choice))
-        file = next((axis.points[i][axis.keys.index(SCENE)] for axis, i in chosen if SCENE in axis.keys), campaign.scene)
-        if not isinstance(file, str):
-            raise CampaignError(f"{campaign.path}: scene: a path is a text")
-        if file not in scenes:
-            scenes[file] = _read_scene(campaign, file)
-        settings = _settings(campaign, scenes[file], chosen)
-        for repeat in range(campaign.repeats.count):
-            cases.append(_case(campaign, len(cases), scenes[file], settings, chosen, repeat))
+    for chosen in _combinations(campaign.axes):
+        cases += _cases_of(campaign, chosen, scenes, len(cases))
     _refuse_equal(cases)
+    for chosen in _single_values(campaign.arms):
+        cases = without_repetition(cases + _cases_of(campaign, chosen, scenes, len(cases)), _body)
     return cases
+
+
+def without_repetition(cases, identity):
+    """The first of all cases of which `identity` is equal, numbered anew; the one that stays is the scene as it is if any of them was."""
+    kept = {}
+    for case in cases:
+        first = kept.setdefault(identity(case), case)
+        kept[identity(case)] = replace(first, is_own=first.is_own or case.is_own)
+    return [replace(case, number=number) for number, case in enumerate(kept.values())]
+
+
+def _combinations(axes):
+    """Lists of (axis, index of its value); nothing where there are no axes."""
+    return [list(zip(axes, choice)) for choice in itertools.product(*(range(len(axis.points)) for axis in axes))] if axes else []
+
+
+def _single_values(arms):
+    """Likewise: the scene as it is, then each value alone."""
+    return [[], *([(arm, index)] for arm in arms for index in range(len(arm.points)))] if arms else []
+
+
+def _cases_of(campaign, chosen, scenes, number):
+    """The repeats of one choice; `scenes` keeps those that were read."""
+    file = next((axis.points[i][axis.keys.index(SCENE)] for axis, i in chosen if SCENE in axis.keys), campaign.scene)
+    if not isinstance(file, str):
+        raise CampaignError(f"{campaign.path}: scene: a path is a text")
+    if file not in scenes:
+        scenes[file] = _read_scene(campaign, file)
+    settings = _settings(campaign, scenes[file], chosen)
+    return [_case(campaign, number + repeat, scenes[file], settings, chosen, repeat) for repeat in range(campaign.repeats.count)]
 
 
 def _read_scene(campaign, file):
@@ -86,8 +112,11 @@ def with_paths_of(campaign, settings):
 
 
 def _case(campaign, number, base, settings, chosen, repeat):
-    labels = {axis.name: axis.labels[index] for axis, index in chosen}
-    values = {axis.name: axis.points[index][0] for axis, index in chosen}
+    labels, values = {}, {}
+    for axis in campaign.axes + campaign.arms:
+        index = next((index for other, index in chosen if other is axis), None)
+        values[axis.name] = _own_value(base, settings, axis) if index is None else axis.points[index][0]
+        labels[axis.name] = label_of(values[axis.name]) if index is None else axis.labels[index]
     seeds = {}
     if campaign.repeats.count > 1:
         labels["repeat"], values["repeat"] = str(repeat), repeat
@@ -99,13 +128,23 @@ def _case(campaign, number, base, settings, chosen, repeat):
             seeds[place] = first + repeat
     scene = with_values(base, {**settings, **seeds})
     scene["title"] = f"{campaign.title}: " + ", ".join(f"{name} {label}" for name, label in labels.items())
-    return Case(number, labels, values, toml_text(scene))
+    return Case(number, labels, values, toml_text(scene), tuple(axis.name for axis, _ in chosen), is_own=not chosen)
+
+
+def _own_value(base, settings, axis):
+    """What the scene itself says, or [set] for it; the word "default" where neither does."""
+    place = canonical(base, axis.keys[0])
+    return settings.get(place, value_at(base, place, "default"))
 
 
 def _refuse_equal(cases):
     seen = {}
     for case in cases:
-        body = case.scene_text.partition("\n")[2] if case.scene_text.startswith("title") else case.scene_text
-        if body in seen:
-            raise CampaignError(f"cases {seen[body].name} and {case.name} are the same scene: {case.labels}")
-        seen[body] = case
+        if _body(case) in seen:
+            raise CampaignError(f"cases {seen[_body(case)].name} and {case.name} are the same scene: {case.labels}")
+        seen[_body(case)] = case
+
+
+def _body(case):
+    """The scene but for its title, which is the first line."""
+    return case.scene_text.partition("\n")[2] if case.scene_text.startswith("title") else case.scene_text

@@ -18,6 +18,8 @@ class Plan:
     simulated: float  # s, at most
     steps: float
     disk: float  # bytes, at most
+    memory: float  # bytes on the backend
+    scene: str  # hash of the resolved scene: equal for equal runs; "" where the program does not say
 
 
 @dataclass(frozen=True)
@@ -67,9 +69,8 @@ def check_cases(program, cases, most, scratch):
 def cost_of(plans, count, resources, site):
     """Scaled from the cases that were checked to all `count` of them."""
     scale = count / len(plans)
-    speed = site.gpu_speed if resources.gpus else site.core_speed
     units = resources.gpus if resources.gpus else resources.ranks * resources.threads
-    times = [plan.steps * (speed.step + (speed.point * plan.points + speed.body * plan.bodies) / units) for plan in plans]
+    times = [seconds_of(plan, resources, site) for plan in plans]
     hours = scale * sum(times) * units / 3600
     # Cases that share a GPU take turns on it: together they take as long as one after the other.
     longest = max(times) * (resources.cases_a_task if resources.gpus else 1)
@@ -77,10 +78,23 @@ def cost_of(plans, count, resources, site):
                 0.0 if resources.gpus else hours, scale * sum(plan.disk for plan in plans), longest)
 
 
+def seconds_of(plan, resources, site):
+    """What a case takes by the model, at most."""
+    speed = site.gpu_speed if resources.gpus else site.core_speed
+    units = resources.gpus if resources.gpus else resources.ranks * resources.threads
+    return plan.steps * (speed.step + (speed.point * plan.points + speed.body * plan.bodies) / units)
+
+
 def _plan(text, program):
     counts = re.search(r"^(\d+) points, (\d+) bodies", text, re.MULTILINE)
     disk = re.search(r"disk at most ([\d.e+]+) ([kMGT]?B)", text)
     steps = re.search(r"at most ([\d.e+-]+) s simulated: ([\d.e+-]+) steps", text)
-    if not (counts and disk and steps):
-        raise MachineError(f"{program}: check says nothing of points, steps and disk; is it tread?")
-    return Plan(int(counts[1]), int(counts[2]), float(steps[1]), float(steps[2]), float(disk[1]) * BYTES[disk[2]])
+    memory = re.search(r"memory about ([\d.e+]+) ([kMGT]?B)", text)
+    scene = re.search(r"^scene ([0-9a-f]{16})$", text, re.MULTILINE)
+    if not (counts and disk and steps and memory):
+        raise MachineError(f"{program}: check says nothing of points, steps, memory and disk; is it tread?")
+    return Plan(int(counts[1]), int(counts[2]), float(steps[1]), float(steps[2]), _bytes(disk), _bytes(memory), scene[1] if scene else "")
+
+
+def _bytes(found):
+    return float(found[1]) * BYTES[found[2]]

@@ -37,7 +37,7 @@ def collect_campaign(directory, states, dry_run):
             "tail": ([states[entry.name].tail for entry in entries], "1"),
         },
         "labels": {name: ([entry.labels[name] for entry in entries], "1") for name in entries[0].labels},
-        "axes": {name: column for name in entries[0].labels if (column := _numbers(entries, name, _unit(manifest, name)))},
+        "axes": {name: column for name in entries[0].labels if (column := _numbers(entries, manifest, name))},
         "answers": _columns([row["answers"] for row in rows]),
         "summary": _columns([row["summary"] for row in rows]),
         "provenance": {name: ([row["provenance"].get(name, "") for row in rows], "1") for name in PROVENANCE},
@@ -77,15 +77,12 @@ def _columns(rows):
     return {name: ([float(row[name][0]) if name in row else math.nan for row in rows], unit) for name, unit in units.items()}
 
 
-def _numbers(entries, name, unit):
-    """The column of an axis whose values are numbers; None for others, whose labels have to do."""
+def _numbers(entries, manifest, name):
+    """The column of an axis whose values are numbers; None for others, and for linked keys, whose labels have to do."""
+    axis = next((axis for axis in manifest["axes"] if axis["name"] == name), {"unit": "1", "keys": [name]})
     values = [entry.values[name] for entry in entries]
     are_numbers = all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
-    return (values, unit) if are_numbers else None
-
-
-def _unit(manifest, name):
-    return next((axis["unit"] for axis in manifest["axes"] if axis["name"] == name), "1")
+    return (values, axis["unit"]) if are_numbers and len(axis["keys"]) == 1 else None
 
 
 def _text(value):

@@ -11,6 +11,8 @@ from pathlib import Path
 from tread_jobs.errors import CampaignError
 
 SCHEMA = 1
+# What tasks read and write in the directory of a case.
+WRITTEN = ("scene.toml", "run", "output.txt", "attempts.log")
 
 
 @dataclass(frozen=True)
@@ -21,6 +23,7 @@ class Entry:
     labels: dict
     values: dict
     digest: str
+    is_own: bool = False  # the scene as it is, in the midst of arms
 
     @property
     def name(self):
@@ -54,8 +57,8 @@ class CampaignDirectory:
         (fresh / "campaign.toml").write_text(campaign.text, encoding="utf-8")
         manifest = {
             "schema": SCHEMA, "title": campaign.title, "campaign": str(campaign.path.resolve()), "digest": campaign.digest, "cost": cost,
-            "axes": [{"name": axis.name, "unit": axis.unit, "keys": axis.keys, "labels": axis.labels} for axis in campaign.axes],
-            "cases": [{"number": case.number, "labels": case.labels, "values": case.values, "digest": case.digest} for case in cases],
+            "axes": [{"name": axis.name, "unit": axis.unit, "keys": axis.keys, "labels": axis.labels} for axis in campaign.axes + campaign.arms],
+            "cases": [{"number": case.number, "labels": case.labels, "values": case.values, "digest": case.digest, "is_own": case.is_own} for case in cases],
         }
         (fresh / "manifest.json").write_text(json.dumps(manifest, indent=1), encoding="utf-8")
         fresh.rename(self.cases)
@@ -84,7 +87,7 @@ class CampaignDirectory:
             scene = folder / "scene.toml"
             if not scene.is_file():
                 raise CampaignError(f"{scene}: is missing; expand into a new directory")
-            if not scene.resolve().is_relative_to(self.cases) or not (folder / "run").resolve().is_relative_to(self.cases):
+            if not all((folder / name).resolve().is_relative_to(self.cases) for name in WRITTEN):
                 raise CampaignError(f"{folder}: leads out of the campaign's directory")
             if hashlib.sha256(scene.read_bytes()).hexdigest() != entry.digest:
                 raise CampaignError(f"{scene}: was edited after expand; change the campaign file and expand into a new directory")

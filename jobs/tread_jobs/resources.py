@@ -8,7 +8,7 @@ from pathlib import Path
 from tread_jobs.errors import CampaignError
 
 SITES = Path(__file__).resolve().parents[1] / "sites"
-TIME = re.compile(r"(\d+):([0-5]\d):([0-5]\d)")
+TIME = re.compile(r"([0-9]{1,4}):([0-5][0-9]):([0-5][0-9])")
 # What may stand in a line of #SBATCH, which no shell ever reads, but sbatch splits at spaces.
 TOKEN = re.compile(r"[A-Za-z0-9_.:,@%/+=\[\]&|*-]*")
 

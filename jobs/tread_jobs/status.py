@@ -28,12 +28,21 @@ class CaseState:
 
 @dataclass(frozen=True)
 class Attempt:
-    """The last time that a case began, by its attempts.log."""
+    """A time that a case began, by its attempts.log."""
 
     job: str
     host: str
     pid: int
     code: int | None  # None: it has not ended, as far as its script could say
+
+
+@dataclass(frozen=True)
+class Queue:
+    """What SLURM knows of a campaign."""
+
+    cases: dict  # state, such as PENDING, by case name
+    tasks: dict  # the same by "job_task"
+    jobs: set  # that it answered for
 
 
 def case_states(directory, quiet_for):
@@ -57,25 +66,26 @@ def read_summary(case):
 
 
 def _queue(directory):
-    """(SLURM's state by case name, jobs that SLURM answered for)."""
     submissions = [(tasks, how["job"]) for _, tasks, how in past_submissions(directory) if "job" in how]
     tasks = queued_tasks({job for _, job in submissions})
     if tasks is None:
-        return {}, set()
-    states = {}
-    for cases, job in submissions:
-        for number, names in enumerate(cases):
+        return Queue({}, {}, set())
+    cases = {}
+    for lists, job in submissions:
+        for number, names in enumerate(lists):
             if f"{job}_{number}" in tasks:
-                states |= {name: tasks[f"{job}_{number}"] for name in names}
-    return states, {job for _, job in submissions}
+                cases |= {name: tasks[f"{job}_{number}"] for name in names}
+    return Queue(cases, tasks, {job for _, job in submissions})
 
 
 def _state(case, queue, name, quiet_for):
-    waiting, answered = queue
-    attempt, slurm = _last_attempt(case / "attempts.log"), waiting.get(name)
+    attempts, slurm = _attempts(case / "attempts.log"), queue.cases.get(name)
+    # Of two jobs with one case, the run's lock sends the later away while the earlier goes on.
+    alive = [one for one in attempts if one.code is None and _is_alive(one, case, queue, quiet_for)]
+    if alive:
+        return CaseState(RUNNING, f"on {alive[-1].host}", "")
+    attempt = attempts[-1] if attempts else None
     if attempt and attempt.code is None and slurm != "PENDING":
-        if _is_alive(attempt, case, slurm, answered, quiet_for):
-            return CaseState(RUNNING, f"on {attempt.host}", "")
         return CaseState(STALE, f"began on {attempt.host} and never ended", _tail(case))
     summary = read_summary(case)
     if attempt and attempt.code == 0 and summary and summary.get("status") == "finished":
@@ -90,10 +100,10 @@ def _state(case, queue, name, quiet_for):
     return CaseState(FAILED, _reason(attempt, summary), _tail(case))
 
 
-def _is_alive(attempt, case, slurm, answered, quiet_for):
-    if slurm:
-        return True
-    if attempt.job.rpartition("_")[0] in answered:
+def _is_alive(attempt, case, queue, quiet_for):
+    if attempt.job in queue.tasks:
+        return queue.tasks[attempt.job] != "PENDING"
+    if attempt.job.rpartition("_")[0] in queue.jobs:
         return False
     if attempt.host == socket.gethostname():
         return _process_lives(attempt.pid)
@@ -114,20 +124,20 @@ def _last_touched(case):
     return max((path.stat().st_mtime for path in (case / "run", *case.glob("run/*"), case / "output.txt") if path.exists()), default=0.0)
 
 
-def _last_attempt(path):
+def _attempts(path):
+    """In the order in which they began, the last one to end last."""
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
     except OSError:
-        return None
-    attempt = None
+        return []
+    attempts = {}
     for line in lines:
-        begun = re.search(r" start job (\S+) host (\S+) pid (\d+)$", line)
-        ended = re.search(r" end code (\d+)$", line)
-        if begun:
-            attempt = Attempt(begun[1], begun[2], int(begun[3]), None)
-        elif ended and attempt:
-            attempt = Attempt(attempt.job, attempt.host, attempt.pid, int(ended[1]))
-    return attempt
+        found = re.search(r" (start|end) job (\S+) host (\S+) pid (\d+)(?: code (\d+))?$", line)
+        if found:
+            who, code = (found[2], found[3], int(found[4])), found[5]
+            attempts.pop(who, None)
+            attempts[who] = Attempt(*who, int(code) if code else None)
+    return list(attempts.values())
 
 
 def _reason(attempt, summary):

@@ -54,8 +54,8 @@ def past_submissions(directory):
 
 def _fillings(directory, tasks, resources, site, program):
     """Everything that a shell reads is quoted; what #SBATCH lines hold was checked when it was read."""
-    # A run that was stopped begins from the start.
-    options = ["--overwrite", "--backend", resources.backend, "--threads", str(resources.threads), "--quiet"]
+    options = ["--restart", "auto", "--walltime-limit", resources.wall_time, "--backend", resources.backend,
+               "--threads", str(resources.threads), "--quiet"]
     modules = "\n".join(f"module load {shlex.quote(module)}" for module in site.modules)
     return {
         "array": f"0-{len(tasks) - 1}%{resources.at_once}",

@@ -5,10 +5,10 @@ import html
 import io
 
 STYLE = """
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 1200px; margin: 2em auto; padding: 0 1em; color: #222; background: #fff; }
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 1280px; margin: 2em auto; padding: 0 1em; color: #222; background: #fff; }
 h1 { font-size: 1.7em; } h2 { font-size: 1.25em; margin-top: 2em; border-bottom: 1px solid #ccc; }
 table { border-collapse: collapse; font-size: 0.85em; } .wide { overflow-x: auto; }
-th, td { padding: 0.25em 0.7em; border-bottom: 1px solid #e2e2e2; text-align: right; white-space: nowrap; }
+th, td { padding: 0.25em 0.55em; border-bottom: 1px solid #e2e2e2; text-align: right; white-space: nowrap; }
 th { background: #f3f3f3; position: sticky; top: 0; } td.text, th.text { text-align: left; }
 tr.not-done td { background: #fdf0e2; } pre { background: #f6f6f6; padding: 0.8em; overflow-x: auto; font-size: 0.8em; }
 img { max-width: 100%; } figcaption { color: #555; font-size: 0.9em; }

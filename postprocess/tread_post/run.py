@@ -9,6 +9,9 @@ import h5py
 import numpy as np
 
 
+SCHEMA_VERSION = (1, 0)
+
+
 class RunError(Exception):
     """A file of the run is missing or does not hold what it should; the message names it."""
 
@@ -193,9 +196,14 @@ def _open(path):
         raise RunError(f"{path}: no such file")
     try:
         # Without a lock: the run may be writing.
-        return h5py.File(path, "r", locking=False)
+        file = h5py.File(path, "r", locking=False)
     except OSError as error:
         raise RunError(f"{path}: {error}") from error
+    version = tuple(int(number) for number in file.attrs.get("schema_version", SCHEMA_VERSION))
+    if version[0] != SCHEMA_VERSION[0]:
+        file.close()
+        raise RunError(f"{path}: schema version {'.'.join(map(str, version))}; read here is {SCHEMA_VERSION[0]}.x")
+    return file
 
 
 def _text(value):

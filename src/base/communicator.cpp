@@ -33,6 +33,7 @@ std::int64_t reduce(MPI_Comm communicator, std::int64_t value, MPI_Op operation)
 template<class T>
 std::vector<T> gather_all(const Communicator& communicator, T value, MPI_Datatype type)
 {
+    if (communicator.size() == 1) { return std::vector<T>{value}; }
     std::vector<T> values(static_cast<std::size_t>(communicator.size()));
     check_mpi(MPI_Allgather(&value, 1, type, values.data(), 1, type, communicator.native()), "all-gather");
     return values;
@@ -41,6 +42,7 @@ std::vector<T> gather_all(const Communicator& communicator, T value, MPI_Datatyp
 template<class T>
 std::vector<T> gather_all(const Communicator& communicator, const std::vector<T>& values, MPI_Datatype type)
 {
+    if (communicator.size() == 1) { return values; }
     std::vector<int> counts, places;
     int              place = 0;
     for (const std::int64_t count : communicator.gather(static_cast<std::int64_t>(values.size())))
@@ -74,7 +76,11 @@ Communicator::~Communicator()
     MPI_Comm_free(&native_);
 }
 
-void Communicator::barrier() const { check_mpi(MPI_Barrier(native_), "barrier"); }
+void Communicator::barrier() const
+{
+    if (size_ == 1) { return; }
+    check_mpi(MPI_Barrier(native_), "barrier");
+}
 
 bool Communicator::all_arrive(double seconds) const
 {
@@ -109,6 +115,7 @@ int Communicator::local_rank() const
 
 std::string Communicator::broadcast(const std::string& text, int from) const
 {
+    if (size_ == 1) { return text; }
     std::int64_t length = static_cast<std::int64_t>(text.size());
     check_mpi(MPI_Bcast(&length, 1, MPI_INT64_T, from, native_), "broadcast");
     std::string result = text;
@@ -117,8 +124,14 @@ std::string Communicator::broadcast(const std::string& text, int from) const
     return result;
 }
 
-std::int64_t Communicator::sum(std::int64_t value) const { return reduce(native_, value, MPI_SUM); }
-std::int64_t Communicator::maximum(std::int64_t value) const { return reduce(native_, value, MPI_MAX); }
+std::int64_t Communicator::sum(std::int64_t value) const
+{
+    return size_ == 1 ? value : reduce(native_, value, MPI_SUM);
+}
+std::int64_t Communicator::maximum(std::int64_t value) const
+{
+    return size_ == 1 ? value : reduce(native_, value, MPI_MAX);
+}
 
 std::vector<std::int64_t> Communicator::gather(std::int64_t value) const
 {

@@ -16,7 +16,8 @@ namespace tread
 void check_mpi(int result, const char* what);
 
 /// A group of MPI ranks with its own message space (a duplicate: no message of ours meets another library's).
-/// Every call below is collective: all ranks make it, in the same order. A failing MPI call is an EnvironmentError.
+/// Every call below is collective: all ranks make it, in the same order. A failing MPI call is an EnvironmentError. A
+/// rank that is alone has the answer without MPI, in any thread (all_arrive and what follows it apart).
 class Communicator
 {
 public:
@@ -30,16 +31,6 @@ public:
     MPI_Comm native() const { return native_; }
 
     void barrier() const;
-
-    /// Whether all other ranks call this within so many seconds; infinity waits for them. Whatever messages and
-    /// collective calls they are in meanwhile, a rank that has failed may call it.
-    bool all_arrive(double seconds) const;
-
-    /// Ends the processes of all ranks; `code` becomes the exit code of the job.
-    [[noreturn]] void abort(ExitCode code) const;
-
-    /// This rank's number among those on its machine.
-    int local_rank() const;
 
     /// The text of one rank, on every rank.
     std::string broadcast(const std::string& text, int from = 0) const;
@@ -57,6 +48,16 @@ public:
     std::vector<std::int32_t>  gather(const std::vector<std::int32_t>& values) const;
     std::vector<std::uint64_t> gather(const std::vector<std::uint64_t>& values) const;
     std::vector<double>        gather(const std::vector<double>& values) const;
+
+    /// Whether all other ranks call this within so many seconds; infinity waits for them. Whatever messages and
+    /// collective calls they are in meanwhile, a rank that has failed may call it.
+    bool all_arrive(double seconds) const;
+
+    /// Ends the processes of all ranks; `code` becomes the exit code of the job.
+    [[noreturn]] void abort(ExitCode code) const;
+
+    /// This rank's number among those on its machine.
+    int local_rank() const;
 
     /// to[r] goes to rank r; of every rank what it had for this one.
     std::vector<std::int64_t>               all_to_all(const std::vector<std::int64_t>& to) const;

@@ -62,21 +62,14 @@ void Exchange<Exec>::plan(const std::vector<std::vector<std::int32_t>>& rows_to)
         rows.insert(rows.end(), rows_to[rank].begin(), rows_to[rank].end());
         to.push_back({static_cast<int>(rank), static_cast<std::int64_t>(rows_to[rank].size())});
     }
-    rows_.assign(rows);
-    plan(std::move(rows_), std::move(to));
-}
-
-template<class Exec>
-void Exchange<Exec>::plan(Array<Exec, std::int32_t> rows, std::vector<Leg> to)
-{
     std::vector<Leg> from = announced(transport_->communicator(), to);
-    plan(std::move(rows), std::move(to), std::move(from));
+    plan(rows, std::move(to), std::move(from));
 }
 
 template<class Exec>
-void Exchange<Exec>::plan(Array<Exec, std::int32_t> rows, std::vector<Leg> to, std::vector<Leg> from)
+void Exchange<Exec>::plan(const std::vector<std::int32_t>& rows, std::vector<Leg> to, std::vector<Leg> from)
 {
-    rows_     = std::move(rows);
+    rows_.assign(rows);
     to_       = std::move(to);
     from_     = std::move(from);
     received_ = rows_of(from_);

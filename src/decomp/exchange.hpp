@@ -30,12 +30,9 @@ public:
     /// Collective. rows_to[r]: the rows for rank r, in the order in which they are to arrive; none for the own rank.
     void plan(const std::vector<std::vector<std::int32_t>>& rows_to);
 
-    /// Collective. `rows` on the backend: first those for the first rank of `to`, which ascend, and so on.
-    void plan(Array<Exec, std::int32_t> rows, std::vector<Leg> to);
-
-    /// As before where both sides know already what comes; not collective. The way back of an exchange `there` has
-    /// legs there.from() and there.to().
-    void plan(Array<Exec, std::int32_t> rows, std::vector<Leg> to, std::vector<Leg> from);
+    /// As before where both sides know already what comes; not collective. `rows`: first those for the first rank of
+    /// `to`, which ascend, and so on. The way back of an exchange `there` has legs there.from() and there.to().
+    void plan(const std::vector<std::int32_t>& rows, std::vector<Leg> to, std::vector<Leg> from);
 
     /// Ranks ascend.
     const std::vector<Leg>& to() const { return to_; }

@@ -84,9 +84,7 @@ void GridHalo<Exec, Real>::plan(mpm::Pages<Exec>& pages, const mpm::GridWalls& w
         if (halo.arrivals[rank] > 0) { from.push_back({static_cast<int>(rank), halo.arrivals[rank]}); }
         arrivals += halo.arrivals[rank];
     }
-    Array<Exec, std::int32_t> sent(exec, "grid halo rows");
-    sent.assign(rows);
-    exchange_.plan(std::move(sent), std::move(to), std::move(from));
+    exchange_.plan(rows, std::move(to), std::move(from));
     const std::int64_t count = shared_.page.size();
     shared_.own.resize(count * mpm::node_page_values);
     shared_.total.resize(count * mpm::node_page_values);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernels/contact/candidates_kern.hpp"
 
@@ -10,7 +11,8 @@ namespace tread::decomp
 namespace
 {
 
-constexpr std::int64_t most_pages = 1 << 15; ///< that are looked up for one ball
+constexpr std::int32_t farthest_owner = 2;  ///< pages, between one that is owned and one that goes with it
+constexpr std::int32_t most_reach     = 15; ///< pages, around which all are looked up for one ball
 
 void keep_each_once(std::vector<std::int32_t>& ranks)
 {
@@ -22,6 +24,27 @@ mpm::Index3 page_at(const PageLattice& lattice, const Vec3<double>& x)
 {
     const auto along = [&](int c) { return contact::page_coordinate(x[c], lattice.spacing, lattice.stencil_shift); };
     return {along(0), along(1), along(2)};
+}
+
+/// Calls visit for the pages up to `reach` away along each axis that have keys, the page itself among them.
+template<class Visit>
+void for_each_around(const mpm::Index3& page, std::int32_t reach, const Visit& visit)
+{
+    const auto end   = [&](std::int32_t along) { return std::min(along + reach, mpm::page_bias - 1); };
+    const auto begin = [&](std::int32_t along) { return std::max(along - reach, -mpm::page_bias); };
+    for (std::int32_t z = begin(page.z); z <= end(page.z); ++z)
+    {
+        for (std::int32_t y = begin(page.y); y <= end(page.y); ++y)
+        {
+            for (std::int32_t x = begin(page.x); x <= end(page.x); ++x) { visit(mpm::Index3{x, y, z}); }
+        }
+    }
+}
+
+std::int64_t squared_distance(const mpm::Index3& a, const mpm::Index3& b)
+{
+    const std::int64_t x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+    return x * x + y * y + z * z;
 }
 
 /// m, of the page's cells.
@@ -44,62 +67,88 @@ bool reaches(const PageLattice& lattice, const Vec3<double>& centre, double radi
 
 Territory::Territory(const PageLattice& lattice, const std::vector<std::uint64_t>& key, const PageRanks& rank)
     : lattice_(lattice)
+    , key_(key)
+    , rank_(rank)
     , all_(rank)
 {
-    for (std::size_t page = 0; page < key.size(); ++page)
-    {
-        if (page > 0 && rank[page] == rank_.back()) { continue; }
-        first_.push_back(key[page]);
-        rank_.push_back(rank[page]);
-    }
     keep_each_once(all_);
 }
 
-std::size_t Territory::run_of(std::uint64_t page_key) const
+std::size_t Territory::last_up_to(std::uint64_t page_key) const
 {
-    const auto after = std::upper_bound(first_.begin(), first_.end(), page_key);
-    return after == first_.begin() ? 0 : static_cast<std::size_t>(after - first_.begin()) - 1;
+    const auto after = std::upper_bound(key_.begin(), key_.end(), page_key);
+    return after == key_.begin() ? 0 : static_cast<std::size_t>(after - key_.begin()) - 1;
 }
 
-std::int32_t Territory::owner_of(std::uint64_t page_key) const { return rank_[run_of(page_key)]; }
+std::int32_t Territory::nearest_owner(std::uint64_t page_key) const
+{
+    const mpm::Index3 page     = mpm::page_coordinates(page_key);
+    std::int64_t      shortest = std::numeric_limits<std::int64_t>::max();
+    std::size_t       nearest  = last_up_to(page_key);
+    for_each_around(page, farthest_owner,
+                    [&](const mpm::Index3& at)
+                    {
+                        const std::uint64_t key   = mpm::page_key(at);
+                        const std::size_t   found = last_up_to(key);
+                        const std::int64_t  way   = squared_distance(page, at);
+                        if (key_[found] != key || way >= shortest) { return; }
+                        shortest = way;
+                        nearest  = found;
+                    });
+    return rank_[nearest];
+}
+
+std::int32_t Territory::owner_of(std::uint64_t page_key)
+{
+    const std::size_t at = last_up_to(page_key);
+    if (key_[at] == page_key) { return rank_[at]; }
+    const auto [unseen, is_new] = unseen_.try_emplace(page_key);
+    if (is_new) { unseen->second = nearest_owner(page_key); }
+    return unseen->second;
+}
 
 std::uint64_t Territory::page_of(const Vec3<double>& place) const { return mpm::page_key(page_at(lattice_, place)); }
 
-std::int32_t Territory::owner_of(const Vec3<double>& place) const { return owner_of(page_of(place)); }
+std::int32_t Territory::owner_of(const Vec3<double>& place) { return owner_of(page_of(place)); }
 
-auto Territory::find_others(const mpm::Index3& page, std::int32_t reach) const -> OwnedPages
+auto Territory::find_others(const mpm::Index3& page, std::int32_t reach) -> OwnedPages
 {
-    const double           width  = lattice_.spacing * mpm::page_edge;
-    const Vec3<double>     centre = low_corner(lattice_, page) + Vec3<double>::Constant(0.5 * width);
-    const Vec3<double>     half   = Vec3<double>::Constant(width * reach);
-    const contact::PageBox box{page_at(lattice_, centre - half), page_at(lattice_, centre + half)};
-    const std::int32_t     own = owner_of(mpm::page_key(page));
-    OwnedPages             others;
-    // Keys rise with each coordinate of a page: all of a box lie between those of its two corners.
-    if (run_of(mpm::page_key(box.low)) == run_of(mpm::page_key(box.high))) { return others; }
-    for (std::int64_t i = 0; i < box.pages(); ++i)
-    {
-        const mpm::Index3  at    = box.page(i);
-        const std::int32_t owner = owner_of(mpm::page_key(at));
-        if (owner != own) { others.push_back({at, owner}); }
-    }
+    const std::int32_t own = owner_of(mpm::page_key(page));
+    OwnedPages         others;
+    for_each_around(page, reach,
+                    [&](const mpm::Index3& at)
+                    {
+                        const std::int32_t owner = owner_of(mpm::page_key(at));
+                        if (owner != own) { others.push_back({at, owner}); }
+                    });
     return others;
 }
 
-auto Territory::others_near(const mpm::Index3& page, std::int32_t reach) -> const OwnedPages&
+auto Territory::others_near(std::uint64_t page_key, std::int32_t reach) -> const OwnedPages&
 {
-    const auto [at, is_new] = others_[reach].try_emplace(mpm::page_key(page));
-    if (is_new) { at->second = find_others(page, reach); }
+    const auto [at, is_new] = others_[reach].try_emplace(page_key);
+    if (is_new) { at->second = find_others(mpm::page_coordinates(page_key), reach); }
     return at->second;
+}
+
+Surroundings Territory::surroundings(const Vec3<double>& centre, double radius) const
+{
+    const double pages = std::ceil(radius / (lattice_.spacing * mpm::page_edge));
+    return {page_of(centre), static_cast<std::int32_t>(std::min<double>(pages, most_reach + 1))};
+}
+
+bool Territory::is_within(const Surroundings& around, std::int32_t rank)
+{
+    return around.reach <= most_reach && owner_of(around.page) == rank &&
+           others_near(around.page, around.reach).empty();
 }
 
 std::vector<std::int32_t> Territory::owners_near(const Vec3<double>& centre, double radius)
 {
-    const double reach = std::ceil(radius / (lattice_.spacing * mpm::page_edge));
-    if (std::pow(2 * reach + 1, 3) > most_pages) { return all_; }
-    const mpm::Index3         page = page_at(lattice_, centre);
-    std::vector<std::int32_t> ranks{owner_of(mpm::page_key(page))};
-    for (const OwnedPage& other : others_near(page, static_cast<std::int32_t>(reach)))
+    const Surroundings around = surroundings(centre, radius);
+    if (around.reach > most_reach) { return all_; }
+    std::vector<std::int32_t> ranks{owner_of(around.page)};
+    for (const OwnedPage& other : others_near(around.page, around.reach))
     {
         if (other.owner != ranks.back() && reaches(lattice_, centre, radius, other.page))
         {

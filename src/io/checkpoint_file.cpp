@@ -130,19 +130,30 @@ void CheckpointWriter::text(const std::string& name, const std::string& value)
     h5::write_attribute(*file_, "/", name, value);
 }
 
+void CheckpointWriter::number(const std::string& name, std::int64_t value)
+{
+    h5::write_attribute(*file_, "/", name, std::vector<std::int64_t>{value});
+}
+
+/// What a rank has written may be on its machine alone until that machine flushes it.
 std::int64_t CheckpointWriter::finish()
 {
     on_every_rank(communicator_, [&] { file_->close(); });
     file_.reset();
     Head head;
-    on_every_rank(communicator_, [&] { head.bytes = bytes_of(temporary(path_)); });
+    on_every_rank(communicator_,
+                  [&]
+                  {
+                      flush_to_disk(temporary(path_));
+                      head.bytes = bytes_of(temporary(path_));
+                  });
     head.checksum = checksum(communicator_, temporary(path_), head_bytes, head.bytes);
     on_root(communicator_,
             [&]
             {
                 overwrite_start(temporary(path_), text_of(head));
                 rename_file(temporary(path_), path_);
-                flush_directory(std::filesystem::path(path_).parent_path().string());
+                flush_to_disk(std::filesystem::path(path_).parent_path().string());
             });
     finished_ = true;
     return head.bytes;

@@ -27,7 +27,9 @@ public:
     template<class T>
     void write(const std::string& name, const std::vector<T>& values, int width);
 
+    /// Attributes of the whole file.
     void text(const std::string& name, const std::string& value);
+    void number(const std::string& name, std::int64_t value);
 
     const h5::File& file() const { return *file_; }
 
@@ -63,7 +65,8 @@ public:
         return h5::read_rows<T>(file_, name, width, static_cast<hsize_t>(first), static_cast<hsize_t>(count));
     }
 
-    std::string text(const std::string& name) const { return h5::read_text_attribute(file_, "/", name); }
+    std::string  text(const std::string& name) const { return h5::read_text_attribute(file_, "/", name); }
+    std::int64_t number(const std::string& name) const { return h5::read_numbers_attribute(file_, "/", name).at(0); }
 
 private:
     h5::File file_;

@@ -44,14 +44,24 @@ std::string Checkpoints::path(std::int64_t step) const
     return fmt::format("{}/checkpoint_{:010}.h5", directory_, step);
 }
 
+std::optional<std::int64_t> Checkpoints::step_of(const std::string& path)
+{
+    std::smatch       parts;
+    const std::string name = fs::path(path).filename().string();
+    if (!std::regex_match(name, parts, std::regex("checkpoint_([0-9]{10,18})\\.h5"))) { return {}; }
+    return std::stoll(parts[1]);
+}
+
 std::vector<std::string> Checkpoints::newest_first() const
 {
-    std::vector<std::string> names = names_like(directory_, "checkpoint_[0-9]{10,}\\.h5");
-    const auto               later = [](const std::string& a, const std::string& b)
-    { return a.size() != b.size() ? a.size() > b.size() : a > b; };
-    std::sort(names.begin(), names.end(), later);
-    for (std::string& name : names) { name = directory_ + "/" + name; }
-    return names;
+    std::vector<std::string> paths;
+    for (const std::string& name : names_like(directory_, "checkpoint_.*\\.h5"))
+    {
+        if (step_of(name)) { paths.push_back(directory_ + "/" + name); }
+    }
+    std::sort(paths.begin(), paths.end(),
+              [](const std::string& a, const std::string& b) { return *step_of(a) > *step_of(b); });
+    return paths;
 }
 
 void Checkpoints::prepare() const
@@ -71,10 +81,9 @@ void Checkpoints::settle(const std::string& newest, int keep) const
 
 void Checkpoints::remove_after(std::int64_t step) const
 {
-    const std::string last = path(step);
     for (const std::string& there : newest_first())
     {
-        if (there.size() > last.size() || (there.size() == last.size() && there > last)) { remove_one(there); }
+        if (*step_of(there) > step) { remove_one(there); }
     }
 }
 

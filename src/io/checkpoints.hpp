@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,10 @@ public:
     /// Of the state after so many steps.
     std::string path(std::int64_t step) const;
 
-    /// Paths of those there are, newest first.
+    /// That of a path as above; empty if its name is another.
+    static std::optional<std::int64_t> step_of(const std::string& path);
+
+    /// Paths of those there are, newest first: by their steps, whatever the clock said when they were written.
     std::vector<std::string> newest_first() const;
 
     /// Makes the directory if need be, and removes what a run that was killed has left half written.

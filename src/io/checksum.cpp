@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <vector>
 
 #include <fcntl.h>
@@ -69,6 +70,36 @@ private:
     int         id_;
 };
 
+/// Of the blocks from `begin` on, up to `last`; threads take them side by side.
+std::vector<std::uint64_t> sums_of_blocks(const Input& input, std::int64_t first, std::int64_t end, std::int64_t begin,
+                                          std::int64_t last)
+{
+    std::vector<std::uint64_t> sums(static_cast<std::size_t>(last - begin));
+    std::exception_ptr         failed;
+#pragma omp parallel
+    {
+        std::vector<char> bytes(static_cast<std::size_t>(block_bytes));
+#pragma omp for
+        for (std::int64_t block = begin; block < last; ++block)
+        {
+            try
+            {
+                const std::int64_t at    = first + block * block_bytes;
+                const auto         count = static_cast<std::size_t>(std::min(block_bytes, end - at));
+                input.read(at, count, bytes);
+                sums[static_cast<std::size_t>(block - begin)] = sum_of(bytes, count);
+            }
+            catch (const EnvironmentError&)
+            {
+#pragma omp critical
+                failed = std::current_exception();
+            }
+        }
+    }
+    if (failed) { std::rethrow_exception(failed); }
+    return sums;
+}
+
 } // namespace
 
 std::uint64_t checksum(const Communicator& communicator, const std::string& path, std::int64_t first, std::int64_t end)
@@ -76,19 +107,7 @@ std::uint64_t checksum(const Communicator& communicator, const std::string& path
     const std::int64_t blocks = (end - first + block_bytes - 1) / block_bytes, ranks = communicator.size();
     const std::int64_t begin = blocks * communicator.rank() / ranks, last = blocks * (communicator.rank() + 1) / ranks;
     std::vector<std::uint64_t> own;
-    on_every_rank(communicator,
-                  [&]
-                  {
-                      const Input       input(path);
-                      std::vector<char> bytes(static_cast<std::size_t>(block_bytes));
-                      for (std::int64_t block = begin; block < last; ++block)
-                      {
-                          const std::int64_t at    = first + block * block_bytes;
-                          const auto         count = static_cast<std::size_t>(std::min(block_bytes, end - at));
-                          input.read(at, count, bytes);
-                          own.push_back(sum_of(bytes, count));
-                      }
-                  });
+    on_every_rank(communicator, [&] { own = sums_of_blocks(Input(path), first, end, begin, last); });
     std::uint64_t sum = start;
     for (const std::uint64_t block : communicator.gather(own)) { sum = step(sum, block); }
     return sum;

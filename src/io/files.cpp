@@ -65,12 +65,12 @@ void overwrite_start(const std::string& path, const std::string& text)
     }
 }
 
-void flush_directory(const std::string& path)
+void flush_to_disk(const std::string& path)
 {
-    const int  directory = open(path.c_str(), O_RDONLY | O_DIRECTORY);
-    const bool flushed   = directory >= 0 && fsync(directory) == 0;
-    const int  reason    = errno;
-    if (directory >= 0) { close(directory); }
+    const int  file    = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool flushed = file >= 0 && fsync(file) == 0;
+    const int  reason  = errno;
+    if (file >= 0) { close(file); }
     errno = reason;
     if (!flushed) { fail(path); }
 }

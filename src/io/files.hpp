@@ -15,8 +15,8 @@ void rename_file(const std::string& from, const std::string& to);
 /// Puts `text` in the place of a file's first bytes; returns when all of the file is on the disk. EnvironmentError.
 void overwrite_start(const std::string& path, const std::string& text);
 
-/// Returns when the names in a directory are on the disk. EnvironmentError.
-void flush_directory(const std::string& path);
+/// Returns when a file's bytes, or the names in a directory, are on the disk. EnvironmentError.
+void flush_to_disk(const std::string& path);
 
 /// All bytes of a file. EnvironmentError.
 std::string read_file(const std::string& path);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/errors.hpp"
 #include "io/h5_parts.hpp"
 
 namespace tread::io::h5
@@ -58,6 +59,12 @@ Handle links_with_groups()
 
 } // namespace
 
+void begin()
+{
+    H5dont_atexit();
+    if (H5open() < 0) { throw EnvironmentError("HDF5: the library cannot be used"); }
+}
+
 hid_t checked(hid_t id, const std::string& path, const std::string& what)
 {
     if (id >= 0) { return id; }
@@ -78,15 +85,6 @@ File File::create(const std::string& path)
     silence();
     const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     return {checked(id, path, "creating the file"), path, property_list(H5P_DATASET_XFER)};
-}
-
-File File::create(const std::string& path, const Communicator& communicator)
-{
-    silence();
-    const Handle access   = parallel_access(path, communicator);
-    Handle       transfer = collective_transfer();
-    const hid_t  id       = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id());
-    return {checked(id, path, "creating the file"), path, std::move(transfer)};
 }
 
 File File::create(const std::string& path, const Communicator& communicator, hsize_t user_block)

@@ -13,6 +13,10 @@
 namespace tread::io::h5
 {
 
+/// To be called before MPI begins. HDF5 then leaves its open files alone when MPI ends: it would once more write what a
+/// full disk has refused, and end the process by a signal. Every file is closed by its File, which says what fails.
+void begin();
+
 /// An open HDF5 object of any kind; closes itself.
 class Handle
 {
@@ -50,12 +54,9 @@ public:
     /// New, or emptied if there was one; this process alone.
     static File create(const std::string& path);
 
-    /// New, or emptied; all ranks of the communicator together through MPI-IO.
-    static File create(const std::string& path, const Communicator& communicator);
-
-    /// The same with `user_block` bytes before it (512 times a power of 2) that HDF5 leaves to others; by this process
-    /// alone where the communicator has no other.
-    static File create(const std::string& path, const Communicator& communicator, hsize_t user_block);
+    /// New, or emptied; all ranks of the communicator together through MPI-IO, without MPI where there is only one.
+    /// Before it are `user_block` bytes (0, or 512 times a power of 2) that HDF5 leaves to others.
+    static File create(const std::string& path, const Communicator& communicator, hsize_t user_block = 0);
 
     /// For more rows. Takes no file lock: a reader that has the file open must not end the run.
     static File append(const std::string& path);

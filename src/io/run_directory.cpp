@@ -43,13 +43,16 @@ fs::path first_missing(fs::path directory)
     return missing;
 }
 
+/// scene.toml goes first and comes last: whenever this is killed, what it says is of the files beside it.
 void prepare(const fs::path& directory, Existing existing, const std::string& resolved_scene)
 {
-    write_atomically((directory / scene_file).string(), resolved_scene);
-    for (const char* name : run_files)
+    if (existing == Existing::resume) { fs::remove(directory / summary_file); }
+    else
     {
-        if (existing != Existing::resume || std::string(name) == summary_file) { fs::remove_all(directory / name); }
+        fs::remove(directory / scene_file);
+        for (const char* name : run_files) { fs::remove_all(directory / name); }
     }
+    write_atomically((directory / scene_file).string(), resolved_scene);
 }
 
 fs::path normal(const std::string& path)

@@ -106,13 +106,12 @@ void SnapshotWriter::resume(std::vector<double> times)
             {
                 for (const auto& entry : std::filesystem::directory_iterator(directory_))
                 {
-                    const std::string name   = entry.path().filename().string();
-                    int               number = -1;
-                    if (std::sscanf(name.c_str(), "points_%d.hdf", &number) == 1 ||
-                        std::sscanf(name.c_str(), "bodies_%d.h5", &number) == 1)
-                    {
-                        if (number >= static_cast<int>(times_.size())) { std::filesystem::remove(entry.path()); }
-                    }
+                    const std::string name     = entry.path().filename().string();
+                    int               number   = -1;
+                    const bool        numbered = std::sscanf(name.c_str(), "points_%d.hdf", &number) == 1 ||
+                                          std::sscanf(name.c_str(), "bodies_%d.h5", &number) == 1;
+                    const bool later = numbered && number >= static_cast<int>(times_.size());
+                    if (later || entry.path().extension() == ".tmp") { std::filesystem::remove(entry.path()); }
                 }
                 if (std::filesystem::exists(directory_ + "/" + series_name)) { write_series(); }
             });
@@ -125,24 +124,30 @@ void SnapshotWriter::write(double time, const PointFields& points, const BodyFie
     if (communicator_->maximum(static_cast<std::int64_t>(points.position.size())) > 0)
     {
         const std::string path = directory_ + "/" + points_name(number);
-        write_points(*communicator_, temporary(path), time, points, provenance_);
-        on_root(*communicator_,
-                [&]
-                {
-                    rename_file(temporary(path), path);
-                    write_series();
-                });
+        whole_or_not(path, [&] { write_points(*communicator_, temporary(path), time, points, provenance_); });
+        on_root(*communicator_, [&] { write_series(); });
     }
     if (communicator_->maximum(static_cast<std::int64_t>(bodies.position.size())) > 0)
     {
         const std::string path = fmt::format("{}/bodies_{:04}.h5", directory_, number);
-        on_root(*communicator_,
-                [&]
-                {
-                    write_bodies(temporary(path), time, bodies, provenance_);
-                    rename_file(temporary(path), path);
-                });
+        whole_or_not(path, [&]
+                     { on_root(*communicator_, [&] { write_bodies(temporary(path), time, bodies, provenance_); }); });
     }
+}
+
+/// `work` writes the file under its temporary name.
+void SnapshotWriter::whole_or_not(const std::string& path, const std::function<void()>& work) const
+{
+    try
+    {
+        work();
+    }
+    catch (const Error&)
+    {
+        if (communicator_->rank() == 0) { std::remove(temporary(path).c_str()); }
+        throw;
+    }
+    on_root(*communicator_, [&] { rename_file(temporary(path), path); });
 }
 
 /// Of the snapshots that have points: all, unless the last of them left the domain.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,7 @@ struct NamedMesh
 };
 
 /// The numbered snapshots of one run. A file appears under its name when it is whole. Every rank calls; a failure is an
-/// EnvironmentError.
+/// EnvironmentError on all of them, and leaves nothing of the file.
 class SnapshotWriter
 {
 public:
@@ -54,7 +55,8 @@ public:
     /// Times (s) of the snapshots so far, by number.
     const std::vector<double>& times() const { return times_; }
 
-    /// Goes on behind those: later ones that are there are removed, and the series lists no others.
+    /// Goes on behind those: later ones that are there are removed, as are half-written ones, and the series lists no
+    /// others.
     void resume(std::vector<double> times);
 
     /// shapes.h5: /<index>/{vertices [v][3] m, triangles [t][3]}, attribute name.
@@ -66,6 +68,7 @@ public:
 
 private:
     void write_series() const;
+    void whole_or_not(const std::string& path, const std::function<void()>& work) const;
 
     const Communicator* communicator_;
     std::string         directory_;

@@ -1,5 +1,6 @@
 #include <array>
 #include <numeric>
+#include <optional>
 
 #include "io/h5.hpp"
 #include "io/snapshot.hpp"
@@ -26,53 +27,87 @@ std::vector<float> in_vtk_order(const std::vector<float>& stress)
     return reordered;
 }
 
-// Every rank is a partition; its numbers are one entry of each of these data sets.
-void write_partition_sizes(const h5::File& file, const Communicator& communicator, std::int64_t count)
+/// A file of all ranks. What fails for one fails for all: none waits in the next call for another.
+class SharedFile
 {
-    const h5::Rows one = h5::rows_of_rank(communicator, 1);
+public:
+    SharedFile(const Communicator& communicator, const std::string& path)
+        : communicator_(communicator)
+    {
+        on_every_rank(communicator, [&] { file_.emplace(h5::File::create(path, communicator)); });
+    }
+
+    /// `work` takes the h5::File.
+    template<class Work>
+    void together(const Work& work)
+    {
+        on_every_rank(communicator_, [&] { work(*file_); });
+    }
+
+    template<class T>
+    void write(const std::string& name, const std::vector<T>& values, int width)
+    {
+        const h5::Rows rows = h5::rows_of_rank(communicator_, values.size() / static_cast<std::size_t>(width));
+        together([&](const h5::File& h5) { h5::write(h5, "/VTKHDF/" + name, values, width, rows); });
+    }
+
+    /// Nothing where no rank has any.
+    template<class T>
+    void write_field(const std::string& name, const std::vector<T>& values, int width, const std::string& unit)
+    {
+        if (communicator_.maximum(static_cast<std::int64_t>(values.size())) == 0) { return; }
+        write("PointData/" + name, values, width);
+        together([&](const h5::File& h5) { h5::write_attribute(h5, "/VTKHDF/PointData/" + name, "units", unit); });
+    }
+
+    void close()
+    {
+        together([](h5::File& h5) { h5.close(); });
+    }
+
+private:
+    const Communicator&     communicator_;
+    std::optional<h5::File> file_;
+};
+
+// Every rank is a partition; its numbers are one entry of each of these data sets.
+void write_partition_sizes(SharedFile& file, std::int64_t count)
+{
     for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
     {
-        h5::write(file, std::string("/VTKHDF/") + name, std::vector<std::int64_t>{count}, 1, one);
+        file.write(name, std::vector<std::int64_t>{count}, 1);
     }
 }
 
 // Point i is the only corner of cell i; numbers start anew in each partition.
-void write_cells(const h5::File& file, const Communicator& communicator, const h5::Rows& rows)
+void write_cells(SharedFile& file, std::size_t count)
 {
-    std::vector<std::int64_t> numbers(rows.count + 1);
+    std::vector<std::int64_t> numbers(count + 1);
     std::iota(numbers.begin(), numbers.end(), 0);
-    h5::write(file, "/VTKHDF/Offsets", numbers, 1, h5::rows_of_rank(communicator, numbers.size()));
+    file.write("Offsets", numbers, 1);
     numbers.pop_back();
-    h5::write(file, "/VTKHDF/Connectivity", numbers, 1, rows);
-    h5::write(file, "/VTKHDF/Types", std::vector<std::uint8_t>(rows.count, vertex_cell), 1, rows);
+    file.write("Connectivity", numbers, 1);
+    file.write("Types", std::vector<std::uint8_t>(count, vertex_cell), 1);
 }
 
-template<class T>
-void write_field(const h5::File& file, const Communicator& communicator, const std::string& name,
-                 const std::vector<T>& values, int width, const h5::Rows& rows, const std::string& unit)
+void write_point_data(SharedFile& file, const PointFields& points, std::int32_t rank)
 {
-    if (communicator.maximum(static_cast<std::int64_t>(values.size())) == 0) { return; }
-    const std::string path = "/VTKHDF/PointData/" + name;
-    h5::write(file, path, values, width, rows);
-    h5::write_attribute(file, path, "units", unit);
-}
-
-void write_point_data(const h5::File& file, const Communicator& communicator, const PointFields& points,
-                      const h5::Rows& rows)
-{
-    h5::create_group(file, "/VTKHDF/PointData");
-    write_field(file, communicator, "displacement", points.displacement, 3, rows, "m");
-    write_field(file, communicator, "velocity", points.velocity, 3, rows, "m/s");
-    write_field(file, communicator, "stress", in_vtk_order(points.stress), 6, rows, "Pa");
-    write_field(file, communicator, "plastic_shear", points.plastic_shear, 1, rows, "1");
-    write_field(file, communicator, "plastic_rate", points.plastic_rate, 1, rows, "1/s");
-    write_field(file, communicator, "material", points.material, 1, rows, "1");
-    write_field(file, communicator, "id", points.id, 1, rows, "1");
-    write_field(file, communicator, "rank", std::vector<std::int32_t>(rows.count, communicator.rank()), 1, rows, "1");
-    if (communicator.maximum(static_cast<std::int64_t>(points.stress.size())) > 0)
-    {
-        h5::write_attribute(file, "/VTKHDF/PointData/stress", "components", std::string("xx yy zz xy yz xz"));
-    }
+    file.together([](const h5::File& h5) { h5::create_group(h5, "/VTKHDF/PointData"); });
+    file.write_field("displacement", points.displacement, 3, "m");
+    file.write_field("velocity", points.velocity, 3, "m/s");
+    file.write_field("stress", in_vtk_order(points.stress), 6, "Pa");
+    file.write_field("plastic_shear", points.plastic_shear, 1, "1");
+    file.write_field("plastic_rate", points.plastic_rate, 1, "1/s");
+    file.write_field("material", points.material, 1, "1");
+    file.write_field("id", points.id, 1, "1");
+    file.write_field("rank", std::vector<std::int32_t>(points.position.size() / 3, rank), 1, "1");
+    file.together(
+        [](const h5::File& h5)
+        {
+            const char* stress = "/VTKHDF/PointData/stress";
+            if (!h5::holds(h5, stress)) { return; }
+            h5::write_attribute(h5, stress, "components", std::string("xx yy zz xy yz xz"));
+        });
 }
 
 } // namespace
@@ -80,21 +115,23 @@ void write_point_data(const h5::File& file, const Communicator& communicator, co
 void write_points(const Communicator& communicator, const std::string& path, double time, const PointFields& points,
                   const Provenance& provenance)
 {
-    const std::size_t count = points.position.size() / 3;
-    const h5::Rows    rows  = h5::rows_of_rank(communicator, count);
-
-    h5::File file = h5::File::create(path, communicator);
-    h5::create_group(file, "/VTKHDF");
-    h5::write_attribute(file, "/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
-    h5::write_fixed_attribute(file, "/VTKHDF", "Type", "UnstructuredGrid");
-    h5::write_attribute(file, "/", "time", time);
-    write_provenance(file, provenance, communicator.broadcast(utc_now())); // all ranks must write the same
-
-    write_partition_sizes(file, communicator, static_cast<std::int64_t>(count));
-    h5::write(file, "/VTKHDF/Points", points.position, 3, rows);
-    h5::write_attribute(file, "/VTKHDF/Points", "units", std::string("m"));
-    write_cells(file, communicator, rows);
-    write_point_data(file, communicator, points, rows);
+    const std::size_t count   = points.position.size() / 3;
+    const std::string written = communicator.broadcast(utc_now()); // all ranks must write the same
+    SharedFile        file(communicator, path);
+    file.together(
+        [&](const h5::File& h5)
+        {
+            h5::create_group(h5, "/VTKHDF");
+            h5::write_attribute(h5, "/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+            h5::write_fixed_attribute(h5, "/VTKHDF", "Type", "UnstructuredGrid");
+            h5::write_attribute(h5, "/", "time", time);
+            write_provenance(h5, provenance, written);
+        });
+    write_partition_sizes(file, static_cast<std::int64_t>(count));
+    file.write("Points", points.position, 3);
+    file.together([](const h5::File& h5) { h5::write_attribute(h5, "/VTKHDF/Points", "units", std::string("m")); });
+    write_cells(file, count);
+    write_point_data(file, points, communicator.rank());
     file.close();
 }
 

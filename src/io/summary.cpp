@@ -87,6 +87,22 @@ Json rocks_of(const BedReport& bed)
     return tables;
 }
 
+/// A run that failed is under-resolved whatever its figures say: they are those of its better part.
+Json resolution_of(const Summary& summary)
+{
+    Json figures = Json::object();
+    for (const Figure& figure : summary.figures)
+    {
+        figures[figure.name] = {{"value", figure.value},
+                                {"resolved", figure.resolved},
+                                {"marginal", figure.marginal},
+                                {"verdict", name_of(figure.verdict())}};
+    }
+    const bool    failed  = summary.status == RunStatus::failed;
+    const Verdict verdict = failed ? Verdict::under_resolved : verdict_of(summary.figures);
+    return {{"verdict", name_of(verdict)}, {"points_across", summary.points_across}, {"figures", figures}};
+}
+
 } // namespace
 
 std::string to_json(const Summary& summary)
@@ -126,8 +142,12 @@ std::string to_json(const Summary& summary)
     json["phases"]            = phases_of(summary);
     json["asleep"]            = summary.asleep ? Json(*summary.asleep) : Json();
     json["stages"]            = stages_of(summary);
-    json["errors"]            = {
-                   {"mass", summary.errors.mass}, {"momentum", summary.errors.momentum}, {"energy", summary.errors.energy}};
+    json["errors"]            = {{"mass", summary.errors.mass},
+                                 {"momentum", summary.errors.momentum},
+                                 {"energy", summary.errors.energy},
+                                 {"transfer", summary.errors.transfer},
+                                 {"coupling", summary.errors.coupling}};
+    json["resolution"]        = resolution_of(summary);
     return json.dump(2) + "\n";
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/exit_code.hpp"
+#include "io/resolution.hpp"
 
 namespace tread::io
 {
@@ -33,6 +34,8 @@ struct ErrorReport
     double mass     = 0; ///< relative
     double momentum = 0; ///< impulse imbalance over total weight x time
     double energy   = 0; ///< unaccounted over the largest energy that changed hands
+    double transfer = 0; ///< lost between points and grid, over the same
+    double coupling = 0; ///< left between sand and bodies by their contacts, over the same
 };
 
 /// A phase that ended.
@@ -108,6 +111,8 @@ struct Summary
     std::vector<StageReport> stages;
     std::optional<double>    asleep; ///< mean share of the points that slept; null where none may
     ErrorReport              errors;
+    double                   points_across = 0; ///< the contact patch of a named body on sand; 0 = none
+    std::vector<Figure>      figures;           ///< with points_across, `resolution`
     std::vector<PhaseReport> phases;
     CheckpointReport         checkpoints;  ///< with those of the runs that this one went on from
     std::int64_t             restarts = 0; ///< how often it was stopped and went on

@@ -84,7 +84,7 @@ bool may_change(const Difference& difference, std::size_t phase)
     const std::string &table = difference.table, &key = difference.key;
     if (table.empty()) { return key == "title"; }
     if (table == "output") { return key == "every" || key == "snapshots_every"; }
-    if (table == "checkpoint" || table == "balance") { return true; }
+    if (table == "checkpoint" || table == "balance" || table == "reference") { return true; }
     const bool given_both = !difference.was.empty() && !difference.is.empty();
     return table == "phase" && difference.index >= phase && given_both && (key == "duration" || key == "max_duration");
 }

@@ -319,4 +319,20 @@ Keys<Sleep> sleep_keys()
     };
 }
 
+Keys<Reference> reference_keys()
+{
+    return {
+        optional("form", "", &Reference::form,
+                 word<ReferenceForm>(
+                     {"none", "hertz-impact", "fixed-free-bar", "geostatic", "weight", "rolling-ball", "run-out"}),
+                 "A closed form whose answer follows from the scene, which has to be of its kind."),
+        optional(
+            "file", "", &Reference::file, path(),
+            "A CSV of a first column `time` (s) and others named as quantities of a study (`torque`, `sinkage` ...). A "
+            "relative path starts at the scene file.",
+            "no file")
+            .when("form = \"none\"", [](const Reference& reference) { return reference.form == ReferenceForm::none; }),
+    };
+}
+
 } // namespace tread::scene

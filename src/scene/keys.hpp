@@ -31,6 +31,7 @@ Keys<Phase>       phase_keys();
 Keys<Output>      output_keys();
 Keys<Balance>     balance_keys();
 Keys<Sleep>       sleep_keys();
+Keys<Reference>   reference_keys();
 
 Keys<CheckpointOptions> checkpoint_keys();
 
@@ -67,6 +68,8 @@ void for_each_table(Visit&& visit)
     visit("sleep",
           "Sand that lies still far from what moves is left out of the steps, if `distance` is given: docs/sleep.md.",
           &Scene::sleep, sleep_keys());
+    visit("reference", "The right answer, as far as it is known, for `tread study`: docs/study.md. Changes no run.",
+          &Scene::reference, reference_keys());
 }
 
 } // namespace tread::scene

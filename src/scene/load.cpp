@@ -126,6 +126,14 @@ void complete_beds(Scene& scene, const Node& document, Problems& problems)
     }
 }
 
+void complete_reference(Scene& scene, const Node& document, Problems& problems)
+{
+    const Node* table = find(document, "reference");
+    const Node* file  = table != nullptr ? find(*table, "file") : nullptr;
+    if (file == nullptr || scene.reference.file.empty()) { return; }
+    complete_path(scene, scene.reference.file, *file, "reference", "file", "CSV", problems);
+}
+
 template<class T>
 void complete_places(Scene& scene, std::vector<T>& items, const Node& document, const std::string& table,
                      Problems& problems)
@@ -154,6 +162,7 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
     complete_wall_friction(scene, document);
     complete_meshes(scene, document, problems);
     complete_beds(scene, document, problems);
+    complete_reference(scene, document, problems);
     complete_places(scene, scene.terrain, document, "terrain", problems);
     complete_places(scene, scene.rocks, document, "rocks", problems);
     validate(scene, document, problems);

@@ -47,9 +47,10 @@ std::string resolved_toml(const Scene& scene)
 
 std::string scene_hash(const Scene& scene)
 {
-    Scene untitled = scene;
-    untitled.title.clear();
-    return fmt::format("{:016x}", fnv1a(resolved_toml(untitled)));
+    Scene computed = scene;
+    computed.title.clear();
+    computed.reference = {};
+    return fmt::format("{:016x}", fnv1a(resolved_toml(computed)));
 }
 
 } // namespace tread::scene

@@ -11,7 +11,8 @@ namespace tread::scene
 /// load_scene of it gives the same scene (but for `directory`) from any directory.
 std::string resolved_toml(const Scene& scene);
 
-/// 64-bit FNV-1a of the resolved scene without its title, as 16 hexadecimal digits: equal for equal runs.
+/// 64-bit FNV-1a of the resolved scene without its title and what no run reads, as 16 hexadecimal digits: equal for
+/// equal runs.
 std::string scene_hash(const Scene& scene);
 
 } // namespace tread::scene

@@ -444,6 +444,27 @@ struct Sleep
     bool operator==(const Sleep&) const = default;
 };
 
+/// A closed form whose answer follows from the scene: docs/study.md says from what.
+enum class ReferenceForm
+{
+    none,
+    hertz_impact,
+    fixed_free_bar,
+    geostatic,
+    weight,
+    rolling_ball,
+    run_out
+};
+
+/// What is known of the right answer. `tread study` compares runs with it; no run reads it.
+struct Reference
+{
+    ReferenceForm form = ReferenceForm::none;
+    std::string   file; ///< of times and values; absolute when loaded; empty = none
+
+    bool operator==(const Reference&) const = default;
+};
+
 struct Scene
 {
     std::string           title;
@@ -462,6 +483,7 @@ struct Scene
     CheckpointOptions     checkpoint;
     Balance               balance;
     Sleep                 sleep;
+    Reference             reference;
     std::string           directory; ///< of the scene file; mesh paths are relative to it
 
     bool operator==(const Scene&) const = default;

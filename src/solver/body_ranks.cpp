@@ -65,13 +65,14 @@ BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const Wor
     , stiffness_(decomposition.transport, "shares of stiffness")
     , speed_(decomposition.transport, "shares of speeds")
 {
+    role_.resize(world.bodies.size());
     look_at_pages();
     const std::int32_t here = communicator_.rank();
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
     {
         const auto& form = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
         bounding_radius_.push_back(form.bounding_radius * world.bodies.scale[b]);
-        role_.push_back(territory_->owner_of(world.bodies.position[b]) == here ? dem::role_owner : dem::role_none);
+        role_[b] = territory_->owner_of(world.bodies.position[b]) == here ? dem::role_owner : dem::role_none;
     }
     bodies.role.assign(role_);
     plan_sharing({});
@@ -82,6 +83,7 @@ void BodyRanks<Exec>::look_at_pages()
 {
     territory_.emplace(lattice_, decomposition_.owners.keys(), decomposition_.owners.ranks());
     pages_known_ = decomposition_.owners.changes();
+    inside_.assign(role_.size(), decomp::Surroundings{});
 }
 
 template<class Exec>
@@ -145,6 +147,17 @@ std::int32_t BodyRanks<Exec>::next_owner(std::size_t body, const Vec3<double>& p
     return std::find(near.begin(), near.end(), own) != near.end() ? own : territory_->owner_of(place);
 }
 
+/// Whether all around the page of one of this rank's bodies is this rank's. Most bodies are where they were when last
+/// asked for, and there it was.
+template<class Exec>
+bool BodyRanks<Exec>::is_inside(std::size_t body, const decomp::Surroundings& around)
+{
+    if (inside_[body] == around) { return true; }
+    if (!territory_->is_within(around, communicator_.rank())) { return false; }
+    inside_[body] = around;
+    return true;
+}
+
 /// Of the bodies that this rank has owned until now; those that it goes on to hold alone are left out.
 template<class Exec>
 auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs) -> std::vector<Holding>
@@ -168,10 +181,10 @@ auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<E
     for (std::size_t b = 0; b < role_.size(); ++b)
     {
         if (role_[b] != dem::role_owner) { continue; }
-        const double              met    = (is_large[b] != 0 ? widest : widest_small) + owner_slack * lattice_.spacing;
-        const double              beyond = std::max(met, sand_reach_);
-        std::vector<std::int32_t> holders =
-            territory_->owners_near(position[b], bounding_radius_[b] + travel[b] + beyond);
+        const double met   = (is_large[b] != 0 ? widest : widest_small) + owner_slack * lattice_.spacing;
+        const double reach = bounding_radius_[b] + travel[b] + std::max(met, sand_reach_);
+        if (is_inside(b, territory_->surroundings(position[b], reach))) { continue; }
+        std::vector<std::int32_t> holders = territory_->owners_near(position[b], reach);
         if (holders.size() == 1 && holders.front() == communicator_.rank()) { continue; }
         decided.push_back({static_cast<std::int32_t>(b), next_owner(b, position[b]), std::move(holders)});
     }
@@ -213,9 +226,7 @@ void BodyRanks<Exec>::send_states(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& p
                                   const Lists& arriving)
 {
     arriving_.assign(joined(arriving));
-    Array<Exec, std::int32_t> rows(exec_, "bodies leaving");
-    rows.assign(joined(leaving));
-    states_.plan(std::move(rows), legs_of(leaving), legs_of(arriving));
+    states_.plan(joined(leaving), legs_of(leaving), legs_of(arriving));
     const dem::BodiesView view = bodies.view();
     const decomp::Columns columns =
         decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.force, view.torque,
@@ -289,9 +300,7 @@ void BodyRanks<Exec>::plan_sharing(const std::vector<Holding>& held)
 
     const auto prepare = [&](auto& shares)
     {
-        Array<Exec, std::int32_t> list(exec_, "rows of shared bodies");
-        list.assign(joined(rows));
-        shares.exchange.plan(std::move(list), legs_of(rows), legs_of(rows));
+        shares.exchange.plan(joined(rows), legs_of(rows), legs_of(rows));
         shares.rows.resize(shared_body_.size() + shares.exchange.received());
     };
     prepare(wrench_);
@@ -327,9 +336,7 @@ void BodyRanks<Exec>::collect(dem::Bodies<Exec>& bodies)
     arriving[rank()].clear();
     leaving[rank()].clear();
     arriving_.assign(joined(arriving));
-    Array<Exec, std::int32_t> rows(exec_, "bodies leaving");
-    rows.assign(joined(leaving));
-    states_.plan(std::move(rows), legs_of(leaving), legs_of(arriving));
+    states_.plan(joined(leaving), legs_of(leaving), legs_of(arriving));
     const dem::BodiesView view = bodies.view();
     const decomp::Columns columns =
         decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity);

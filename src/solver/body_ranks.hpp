@@ -86,6 +86,7 @@ private:
 
     void                 look_at_pages();
     std::vector<Holding> decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs);
+    bool                 is_inside(std::size_t body, const decomp::Surroundings& around);
     std::int32_t         next_owner(std::size_t body, const Vec3<double>& place);
     std::vector<Holding> tell(const std::vector<Holding>& decided, Lists& arriving) const;
     void send_states(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs, const Lists& leaving, const Lists& arriving);
@@ -116,20 +117,21 @@ private:
     decomp::PageLattice          lattice_;
     Exec                         exec_;
 
-    double                           sand_reach_;
-    std::int64_t                     pages_known_ = 0; ///< changes of the map of pages that the territory has
-    std::optional<decomp::Territory> territory_;
-    std::vector<double>              bounding_radius_; ///< m, by body
-    std::vector<std::int32_t>        role_;            ///< by body
-    decomp::Exchange<Exec>           states_;
-    Array<Exec, std::int32_t>        arriving_;
-    Array<Exec, std::int32_t>        shared_body_;
-    Array<Exec, std::int32_t>        shared_place_;
-    Array<Exec, std::int32_t>        shared_first_;
-    Array<Exec, std::int32_t>        shared_row_;
-    Shares<dem::WrenchShare>         wrench_;
-    Shares<dem::StiffnessShare>      stiffness_;
-    Shares<double>                   speed_;
+    double                            sand_reach_;
+    std::int64_t                      pages_known_ = 0; ///< changes of the map of pages that the territory has
+    std::optional<decomp::Territory>  territory_;
+    std::vector<double>               bounding_radius_; ///< m, by body
+    std::vector<std::int32_t>         role_;            ///< by body
+    std::vector<decomp::Surroundings> inside_;          ///< by body: where it was last seen inside this rank's pages
+    decomp::Exchange<Exec>            states_;
+    Array<Exec, std::int32_t>         arriving_;
+    Array<Exec, std::int32_t>         shared_body_;
+    Array<Exec, std::int32_t>         shared_place_;
+    Array<Exec, std::int32_t>         shared_first_;
+    Array<Exec, std::int32_t>         shared_row_;
+    Shares<dem::WrenchShare>          wrench_;
+    Shares<dem::StiffnessShare>       stiffness_;
+    Shares<double>                    speed_;
 };
 
 } // namespace tread::solver

@@ -51,6 +51,7 @@ Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, cons
            0.0}
     , largest_radius_(largest_point_radius(world, law_.radius))
     , skin_(skin_share * largest_radius_)
+    , named_(world.bodies.named)
     , told_(exec, "contact summary told")
     , communicator_(decomposition == nullptr ? nullptr : &decomposition->communicator)
 {
@@ -137,7 +138,7 @@ void Coupling<Exec, Real>::measure()
 template<class Exec, class Real>
 void Coupling<Exec, Real>::ask_measure()
 {
-    if (any_near()) { told_.fetch(contact::summarise(exec_, contact_)); }
+    if (any_near()) { told_.fetch(contact::summarise(exec_, contact_, named_)); }
     asked_ = true;
 }
 

@@ -74,6 +74,7 @@ private:
     double                          used_    = 0;     ///< m of it, since the search
     std::int64_t                    version_ = 0;     ///< at the search; 0 = none yet
     bool                            begun_   = false; ///< by the search
+    std::int64_t                    named_;           ///< bodies, the first ones, whose contacts are counted apart
     contact::Summary                summary_ = contact::Summary::zero();
     Fetched<Exec, contact::Summary> told_;
     bool                            asked_ = false; ///< for the next summary

@@ -9,9 +9,9 @@ template<class Exec, class Real>
 void Coupling<Exec, Real>::transfer(StateFile& file, const dem::BodiesView& bodies)
 {
     file.numbers("contact/steps", used_, version_, begun_);
-    file.numbers("contact/summary", summary_.live, summary_.energy, summary_.dissipated, summary_.stiffest.value,
-                 summary_.stiffest.body, summary_.stiffest.point_id, summary_.deepest.value, summary_.deepest.body,
-                 summary_.deepest.point_id, summary_.flattest.value, summary_.flattest.body,
+    file.numbers("contact/summary", summary_.live, summary_.live_named, summary_.energy, summary_.dissipated,
+                 summary_.stiffest.value, summary_.stiffest.body, summary_.stiffest.point_id, summary_.deepest.value,
+                 summary_.deepest.body, summary_.deepest.point_id, summary_.flattest.value, summary_.flattest.body,
                  summary_.flattest.point_id);
     std::vector<contact::HistoryRecord> records;
     if (!file.loads()) { records = remembered(); }

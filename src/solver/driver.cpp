@@ -61,14 +61,32 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     }
     if (plan.snapshots)
     {
-        snapshots_.emplace(communicator, directory.snapshots(), options.provenance);
-        if (plan.bodies) { snapshots_->write_shapes(meshes(world)); }
+        io::SnapshotWriter files(communicator, directory.snapshots(), options.provenance);
+        if (plan.bodies) { files.write_shapes(meshes(world)); }
+        snapshots_.emplace(communicator, simulation.exec(), std::move(files));
     }
     on_root(communicator, [&] { io::Checkpoints(directory_.checkpoints()).prepare(); });
 }
 
+/// However it ends, what is in the time series is in its file.
 template<class Exec, class Real>
 std::optional<std::string> Driver<Exec, Real>::run()
+{
+    try
+    {
+        const std::optional<std::string> interruption = carry_on();
+        finish_files();
+        return interruption;
+    }
+    catch (const NumericalError&)
+    {
+        finish_files();
+        throw;
+    }
+}
+
+template<class Exec, class Real>
+std::optional<std::string> Driver<Exec, Real>::carry_on()
 {
     if (options_.checkpoint.empty()) { start(); }
     else { resume(); }
@@ -83,8 +101,9 @@ std::optional<std::string> Driver<Exec, Real>::run()
         write_due();
         pass_on();
     }
-    write_row();
-    write_snapshot();
+    // What was due at the last step is there already.
+    if (last_row_ < steps_) { write_row(); }
+    if (last_snapshot_ < steps_) { write_snapshot(); }
     return {};
 }
 
@@ -152,7 +171,9 @@ void Driver<Exec, Real>::end_phase()
         log_.info(fmt::format("packing fraction of the rocks {:.4f}", *report.packing_fraction));
     }
     ended_.push_back(report);
-    if (saves) { write_bed(); }
+    if (!saves) { return; }
+    if (snapshots_) { snapshots_->finish(); }
+    write_bed();
 }
 
 template<class Exec, class Real>
@@ -229,19 +250,39 @@ void Driver<Exec, Real>::write_row()
         {
             if (ranks != nullptr) { recorder_->write_ranks(time_, *ranks); }
             recorder_->write(time_, bodies, energy, balance);
+            if (files_are_free()) { recorder_->flush(); }
         };
         on_root(communicator_, on_file);
         simulation_.begin_mean();
     };
     clock_.run(simulation_.exec(), stage::output, write);
+    last_row_ = steps_;
+}
+
+/// Rows wait while a snapshot is being written; one that failed is said here.
+template<class Exec, class Real>
+bool Driver<Exec, Real>::files_are_free()
+{
+    if (!snapshots_) { return true; }
+    if (snapshots_->writing()) { return false; }
+    snapshots_->finish();
+    return true;
+}
+
+/// Snapshots are all there, and so are rows that waited for one.
+template<class Exec, class Real>
+void Driver<Exec, Real>::finish_files()
+{
+    if (snapshots_) { snapshots_->finish(); }
+    if (recorder_) { recorder_->flush(); }
 }
 
 template<class Exec, class Real>
 void Driver<Exec, Real>::write_snapshot()
 {
     if (!snapshots_) { return; }
-    clock_.run(simulation_.exec(), stage::snapshots,
-               [&] { snapshots_->write(time_, simulation_.point_fields(), simulation_.body_fields()); });
+    last_snapshot_ = steps_;
+    clock_.run(simulation_.exec(), stage::snapshots, [&] { snapshots_->write(time_, simulation_); });
 }
 
 template<class Exec, class Real>
@@ -277,10 +318,12 @@ void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<Stage>& 
     summary.stages   = clock_.reports(stages);
     summary.errors   = simulation_.ledger().errors();
     summary.phases   = ended_;
+    summary.figures  = figures(simulation_.extremes(), summary.errors, simulation_.limits(), world_, plan_);
     summary.restarts = restarts_;
     summary.asleep   = simulation_.mean_asleep();
 
-    summary.checkpoints = checkpoints_;
+    summary.checkpoints   = checkpoints_;
+    summary.points_across = points_across(simulation_.extremes(), world_);
 }
 
 template class Driver<Cpu, float>;

@@ -9,6 +9,7 @@
 #include "io/summary.hpp"
 #include "solver/checkpoint_clock.hpp"
 #include "solver/simulation.hpp"
+#include "solver/snapshots.hpp"
 
 namespace tread::solver
 {
@@ -20,7 +21,7 @@ struct DriverOptions
 {
     io::Provenance provenance;
     std::string    checkpoint;         ///< to go on from; empty = from the start
-    double         wall_start     = 0; ///< wall_clock() of the run's start
+    double         wall_start     = 0; ///< wall_clock() of the process's start
     double         walltime_limit = 0; ///< s since then; 0 = none
 };
 
@@ -49,6 +50,8 @@ public:
     void report(io::Summary& summary, const std::vector<Stage>& stages) const;
 
 private:
+    std::optional<std::string> carry_on();
+
     void start();
     void resume();
     void write_checkpoint();
@@ -58,46 +61,51 @@ private:
 
     void   transfer(StateFile& file);
     void   transfer_files(StateFile& file);
+    void   require_same_world(StateFile& file) const;
     void   begin_phase();
     void   end_phase();
     void   pass_on();
     void   advance();
     void   write_due();
     void   write_row();
+    bool   files_are_free();
+    void   finish_files();
     void   write_snapshot();
     void   write_bed();
     void   say_progress();
     void   warn_once(const TimeStep& step);
     double end_time() const;
 
-    const Communicator&               communicator_;
-    Log&                              log_;
-    const scene::Scene&               scene_;
-    const World&                      world_;
-    Plan                              plan_;
-    io::RunDirectory                  directory_;
-    Simulation<Exec, Real>&           simulation_;
-    DriverOptions                     options_;
-    PhaseClock                        phases_;
-    std::optional<Recorder>           recorder_;  ///< on rank 0
-    std::optional<io::SnapshotWriter> snapshots_; ///< only if the scene wants snapshots
-    std::optional<Watchdog>           watchdog_;  ///< on several ranks
-    StageClock                        clock_;
-    std::vector<io::PhaseReport>      ended_;
-    TimeStep                          step_;
-    double                            time_          = 0;
-    std::int64_t                      steps_         = 0;
-    std::int64_t                      substeps_      = 0;
-    std::int64_t                      rows_          = 0; ///< time-series rows that were due so far
-    std::int64_t                      snapshots_due_ = 0;
-    bool                              warned_        = false;
-    double                            surface_       = 0; ///< m, at the start of the phase
-    double                            wall_start_;
-    double                            wall_before_ = 0; ///< s, of the runs that this one goes on from
-    double                            last_said_;
-    io::CheckpointReport              checkpoints_;
-    std::int64_t                      restarts_ = 0;
-    std::optional<CheckpointClock>    interruptions_;
+    const Communicator&                  communicator_;
+    Log&                                 log_;
+    const scene::Scene&                  scene_;
+    const World&                         world_;
+    Plan                                 plan_;
+    io::RunDirectory                     directory_;
+    Simulation<Exec, Real>&              simulation_;
+    DriverOptions                        options_;
+    PhaseClock                           phases_;
+    std::optional<Recorder>              recorder_;  ///< on rank 0
+    std::optional<Snapshots<Exec, Real>> snapshots_; ///< only if the scene wants snapshots
+    std::optional<Watchdog>              watchdog_;  ///< on several ranks
+    StageClock                           clock_;
+    std::vector<io::PhaseReport>         ended_;
+    TimeStep                             step_;
+    double                               time_          = 0;
+    std::int64_t                         steps_         = 0;
+    std::int64_t                         substeps_      = 0;
+    std::int64_t                         rows_          = 0; ///< time-series rows that were due so far
+    std::int64_t                         snapshots_due_ = 0;
+    std::int64_t                         last_row_      = -1; ///< step of the last row that was written
+    std::int64_t                         last_snapshot_ = -1; ///< the same of snapshots
+    bool                                 warned_        = false;
+    double                               surface_       = 0; ///< m, at the start of the phase
+    double                               wall_start_;
+    double                               wall_before_ = 0; ///< s, of the runs that this one goes on from
+    double                               last_said_;
+    io::CheckpointReport                 checkpoints_;
+    std::int64_t                         restarts_ = 0;
+    std::optional<CheckpointClock>       interruptions_;
 };
 
 } // namespace tread::solver

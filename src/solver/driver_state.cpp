@@ -11,6 +11,7 @@
 #include "scene/resolved.hpp"
 #include "solver/driver.hpp"
 #include "solver/state_file.hpp"
+#include "solver/world_measures.hpp"
 
 // A run into a checkpoint, and out of it.
 namespace tread::solver
@@ -51,7 +52,9 @@ void Driver<Exec, Real>::write_checkpoint()
     const double          start = wall_clock();
     const auto            write = [&]
     {
+        if (snapshots_) { snapshots_->finish(); }
         io::CheckpointWriter writer(communicator_, path);
+        writer.number("step", steps_);
         io::write_provenance(writer.file(), options_.provenance, communicator_.broadcast(io::utc_now()));
         const Fidelity fidelity = simulation_.saves_exactly() ? Fidelity::exact : Fidelity::physical;
         writer.text("fidelity", fidelity == Fidelity::exact ? exact_word : "physical");
@@ -99,6 +102,7 @@ void Driver<Exec, Real>::resume()
 template<class Exec, class Real>
 void Driver<Exec, Real>::transfer(StateFile& file)
 {
+    require_same_world(file);
     simulation_.transfer(file);
     phases_.transfer(file);
     clock_.transfer(file);
@@ -113,6 +117,19 @@ void Driver<Exec, Real>::transfer(StateFile& file)
     ended_.clear();
     for (std::size_t p = 0; p < ended.size(); ++p) { ended_.push_back(report_of(scene_.phases[p].name, ended[p])); }
     transfer_files(file);
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::require_same_world(StateFile& file) const
+{
+    const std::vector<double> here  = measures(world_);
+    std::vector<double>       there = here;
+    file.common("run/world", there);
+    if (are_same(here, there)) { return; }
+    throw InputError(
+        fmt::format("{}: the scene builds other points or bodies than when this was written: a file that it "
+                    "names (mesh, heights, bed) has changed since",
+                    options_.checkpoint));
 }
 
 /// The time series goes along as a file: whatever becomes of it later, the rows up to here are safe, and those behind

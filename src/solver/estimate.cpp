@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <unordered_set>
 
 #include <fmt/format.h>
@@ -113,10 +114,34 @@ std::int64_t page_bytes(const scene::Scene& scene, const PageCounts& pages)
     return pages.points * point_page + pages.nodes * node_page + pages.walls * wall_page + found * (8 + 4);
 }
 
-std::int64_t sand_bytes(const scene::Scene& scene, const World& world, const Plan& plan)
+/// Of a point in a snapshot (io/snapshot_points.cpp): position, displacement, velocity, stress, material, id, rank, and
+/// what makes a cell of it.
+std::int64_t snapshot_bytes_per_point(const Plan& plan)
 {
-    const auto points = static_cast<std::int64_t>(world.points.size());
-    return points * bytes_per_point(scene, plan) + page_bytes(scene, count_pages(world));
+    return 24 + 12 + 12 + 24 + 4 + 4 + 4 + (plan.plasticity ? 8 : 0) + 8 + 8 + 1;
+}
+
+/// Of the copy that a snapshot is made of (solver/point_copy.hpp), and of its rows.
+std::int64_t snapshot_memory_per_point(const scene::Scene& scene, const Plan& plan)
+{
+    const std::int64_t real = bytes_of_real(scene);
+    return 2 * 24 + 10 * real + 4 + 1 + (plan.plasticity ? 2 * real : 0) + snapshot_bytes_per_point(plan) + 2 * 24;
+}
+
+/// What changes of a point (solver/sand_state.cpp), its id and its place in the lists.
+std::int64_t checkpoint_bytes_per_point(const scene::Scene& scene, const Plan& plan)
+{
+    const std::int64_t real = bytes_of_real(scene);
+    return 24 + 10 * real + 4 + 4 + 1 + (plan.affine ? 9 * real : 0) + (plan.plasticity ? 3 * real : 0) +
+           (plan.coupling ? 9 * real : 0);
+}
+
+/// The lists of pages in a checkpoint (kernels/mpm/pages.hpp).
+std::int64_t checkpoint_page_bytes(const PageCounts& pages)
+{
+    constexpr std::int64_t point_page = 8 + 4 + 4 * mpm::page_cells + 4 * mpm::directions + 8 * 4,
+                           node_page  = 8 + 8 * 4;
+    return pages.points * point_page + pages.nodes * node_page;
 }
 
 std::int64_t template_bytes(const World& world)
@@ -142,6 +167,37 @@ std::int64_t ray_bytes(const World& world)
     return bytes;
 }
 
+/// s, the least sqrt(m / sum K) of rocks that lie on each other, C R sqrt(density / E): in settled piles of irregular
+/// rocks C is 0.89 to 0.92 from 1e7 to 1e10 Pa, and with a tenth and ten times the linear_overlap 0.54 and 1.5 to 1.7
+/// (docs/studies, "The substep that contacts allow"). 0 without rocks.
+double resting_contact(const scene::Scene& scene, const World& world)
+{
+    constexpr double pile = 0.9, usual_overlap = 1e-3;
+    double           least = 0;
+    for (auto b = static_cast<std::size_t>(world.bodies.named); b < world.bodies.size(); ++b)
+    {
+        const double radius  = world.bodies.radius[b];
+        const double density = world.bodies.mass[b] / (4.0 / 3 * std::numbers::pi * std::pow(radius, 3));
+        const auto&  stone   = scene.materials[static_cast<std::size_t>(world.bodies.material[b])];
+        if (!std::isfinite(stone.young)) { continue; }
+        const double time = radius * std::sqrt(density / stone.young);
+        least             = least == 0 ? time : std::min(least, time);
+    }
+    return pile * least * std::pow(scene.numerics.linear_overlap / usual_overlap, 0.25);
+}
+
+/// Measured at the worst moment, a bed's fall (docs/performance.md, "Bodies on the H200"): 1.94 to 2.7 kB where bodies
+/// meet each other.
+std::int64_t bytes_per_body(const Plan& plan) { return plan.body_contact ? 2200 : 700; }
+
+/// Columns of doubles (solver/recorder.cpp) that grow by 1024 rows (io/h5.cpp), and what names them.
+std::int64_t time_series_bytes(std::int64_t rows, std::int64_t named)
+{
+    constexpr std::int64_t of_scene = 8 * (15 + 6 + 2 + 4), of_body = 8 * 20, growth = 1024, names_of_table = 12000;
+    const std::int64_t     taken = (rows + growth - 1) / growth * growth;
+    return taken * (of_scene + named * of_body) + (5 + named) * names_of_table;
+}
+
 double longest_time(const scene::Scene& scene)
 {
     double time = 0;
@@ -150,6 +206,23 @@ double longest_time(const scene::Scene& scene)
         time += phase.until == scene::StopRule::duration ? phase.duration : phase.max_duration;
     }
     return time;
+}
+
+DiskUse disk_use(const scene::Scene& scene, const World& world, const Plan& plan, const PageCounts& pages)
+{
+    constexpr std::int64_t of_file = 30000, snapshot_of_body = 116, checkpoint_of_body = 2500;
+    const auto             points   = static_cast<std::int64_t>(world.points.size());
+    const auto             bodies   = static_cast<std::int64_t>(world.bodies.size());
+    const double           time     = longest_time(scene);
+    const std::int64_t     snapshot = points * snapshot_bytes_per_point(plan) + bodies * snapshot_of_body + 2 * of_file;
+    DiskUse                use{};
+    use.snapshots =
+        plan.snapshots ? (2 + static_cast<std::int64_t>(time / scene.output.snapshots_every)) * snapshot : 0;
+    use.time_series = time_series_bytes(2 + static_cast<std::int64_t>(time / scene.output.every), world.bodies.named);
+    const std::int64_t checkpoint = points * checkpoint_bytes_per_point(scene, plan) + checkpoint_page_bytes(pages) +
+                                    bodies * checkpoint_of_body + use.time_series + of_file;
+    use.checkpoints = (scene.checkpoint.keep + 1) * checkpoint;
+    return use;
 }
 
 } // namespace
@@ -165,28 +238,30 @@ void require_room(const char* memory, std::int64_t wanted, std::int64_t free)
 
 Estimate estimate(const scene::Scene& scene, const World& world, const Plan& plan)
 {
-    constexpr std::int64_t bytes_per_body = 880, snapshot_bytes_per_point = 100, snapshot_bytes_per_body = 140;
-    constexpr std::int64_t bytes_per_row = 200;
-    const auto             points        = static_cast<std::int64_t>(world.points.size());
-    const auto             bodies        = static_cast<std::int64_t>(world.bodies.size());
-    Estimate               wants{};
+    const auto       points = static_cast<std::int64_t>(world.points.size());
+    const auto       bodies = static_cast<std::int64_t>(world.bodies.size());
+    const PageCounts pages  = plan.sand ? count_pages(world) : PageCounts{};
+    Estimate         wants{};
     wants.time         = longest_time(scene);
-    wants.memory_bytes = bodies * bytes_per_body + template_bytes(world) + (plan.rays ? ray_bytes(world) : 0);
+    wants.memory_bytes = bodies * bytes_per_body(plan) + template_bytes(world) + (plan.rays ? ray_bytes(world) : 0);
     if (plan.sand)
     {
-        const std::int64_t sand = sand_bytes(scene, world, plan);
+        const std::int64_t sand = points * bytes_per_point(scene, plan) + page_bytes(scene, pages);
         wants.memory_bytes += sand;
         wants.bytes_a_point = static_cast<double>(sand) / static_cast<double>(points);
     }
-    const double snapshots = plan.snapshots ? 2 + wants.time / scene.output.snapshots_every : 0;
-    const double rows      = 2 + wants.time / scene.output.every;
-    wants.disk_bytes       = static_cast<std::int64_t>(
-        snapshots * static_cast<double>(points * snapshot_bytes_per_point + bodies * snapshot_bytes_per_body) +
-        rows * static_cast<double>(bytes_per_row * (2 + world.bodies.named)));
-    const TimeStep step = choose_step(scene.time, pace_limits(scene, world, plan), {}, 0);
-    wants.dt            = step.dt;
-    wants.limit         = step.limit;
-    wants.steps         = std::ceil(wants.time / step.dt);
+    wants.snapshot_bytes    = plan.snapshots ? points * snapshot_memory_per_point(scene, plan) : 0;
+    wants.disk              = disk_use(scene, world, plan, pages);
+    const PaceLimits limits = pace_limits(scene, world, plan);
+    const TimeStep   first  = choose_step(scene.time, limits, {}, 0);
+    wants.dt                = first.dt;
+    wants.limit             = first.limit;
+    Pace resting;
+    resting.shortest_contact = resting_contact(scene, world);
+    const TimeStep later     = choose_step(scene.time, limits, resting, 0);
+    wants.resting_dt         = later.dt;
+    wants.substeps           = static_cast<double>(later.substeps);
+    wants.steps              = std::ceil(wants.time / later.dt);
     return wants;
 }
 

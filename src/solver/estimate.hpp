@@ -8,16 +8,28 @@
 namespace tread::solver
 {
 
+/// Bytes that a run's files come to, at most.
+struct DiskUse
+{
+    std::int64_t snapshots;
+    std::int64_t time_series;
+    std::int64_t checkpoints; ///< as many as are kept, and the one that is being written
+    std::int64_t all() const { return snapshots + time_series + checkpoints; }
+};
+
 /// What a run will want, from counts alone.
 struct Estimate
 {
-    std::int64_t memory_bytes;  ///< of the backend
-    double       bytes_a_point; ///< of the sand, pages included; 0 without sand
-    std::int64_t disk_bytes;    ///< snapshots and time series, at most
-    double       time;          ///< s simulated, at most
-    double       dt;            ///< s, at the start
-    std::string  limit;         ///< what sets dt
-    double       steps;         ///< at that dt, at most
+    std::int64_t memory_bytes;   ///< of the backend
+    double       bytes_a_point;  ///< of the sand, pages included; 0 without sand
+    std::int64_t snapshot_bytes; ///< of the host, while one is written behind the computation; 0 without
+    DiskUse      disk;
+    double       time;       ///< s simulated, at most
+    double       dt;         ///< s, at the start
+    std::string  limit;      ///< what sets dt
+    double       resting_dt; ///< s, once rocks lie on each other; dt without rocks
+    double       substeps;   ///< of each such step
+    double       steps;      ///< of these, at most
 };
 
 /// EnvironmentError when a run that wants `wanted` bytes of "host" or "device" memory does not fit into `free` even if

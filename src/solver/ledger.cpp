@@ -91,7 +91,12 @@ EnergyRow Ledger::energy(const Census& now)
     {
         largest_exchange_ = std::max(largest_exchange_, std::abs(exchange));
     }
-    if (largest_exchange_ > 0) { errors_.energy = (row.total - start_energy_ - gained(now)) / largest_exchange_; }
+    if (largest_exchange_ > 0)
+    {
+        errors_.energy   = (row.total - start_energy_ - gained(now)) / largest_exchange_;
+        errors_.transfer = transfer_ / largest_exchange_;
+        errors_.coupling = coupling_ / largest_exchange_;
+    }
     return row;
 }
 

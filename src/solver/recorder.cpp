@@ -97,7 +97,6 @@ void Recorder::write(double time, const std::vector<BodyRow>& bodies, const Ener
     append(row, balance.momentum);
     row.push_back(balance.impulse_error);
     series_.append("/balance", row);
-    series_.flush();
 }
 
 } // namespace tread::solver

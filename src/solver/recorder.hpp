@@ -34,7 +34,7 @@ public:
     /// The height that sinkage is measured from, m, in the present phase.
     void measure_from(double surface) { surface_ = surface; }
 
-    /// All rows are in the file.
+    /// All rows are in the file; until then they wait in memory.
     void flush() { series_.flush(); }
 
     /// A phase begins; `surface` = height that sinkage is measured from, m.

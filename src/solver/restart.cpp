@@ -84,13 +84,30 @@ bool as_rank_0_has_it(const Communicator& communicator, bool value)
     return communicator.maximum(communicator.rank() == 0 && value ? 1 : 0) > 0;
 }
 
+/// Why a checkpoint of a run's own directory cannot be used, or nothing. One under another's name would count as newer
+/// or older than it is, and go when it should stay.
+std::optional<std::string> damage_of(const Communicator& communicator, const std::string& path)
+{
+    if (const auto damage = io::damage_of(communicator, path)) { return damage; }
+    std::string found;
+    on_root(communicator,
+            [&]
+            {
+                const std::int64_t step = io::CheckpointReader(path).number("step");
+                if (io::Checkpoints::step_of(path) == step) { return; }
+                found = fmt::format("it holds step {}, which is not what its name says", step);
+            });
+    found = communicator.broadcast(found);
+    return found.empty() ? std::nullopt : std::optional<std::string>(found);
+}
+
 /// The newest that is usable goes into the plan.
 void choose(const Communicator& communicator, const io::RunDirectory& directory, RestartPlan& plan)
 {
     const std::vector<std::string> there = newest_first(communicator, directory);
     for (const std::string& path : there)
     {
-        const std::optional<std::string> damage = io::damage_of(communicator, path);
+        const std::optional<std::string> damage = damage_of(communicator, path);
         if (!damage)
         {
             plan.checkpoint = path;
@@ -131,16 +148,14 @@ RestartPlan plan_from_directory(const Communicator& communicator, const scene::S
 RestartPlan plan_from_file(const Communicator& communicator, const scene::Scene& scene, const std::string& file,
                            const io::RunDirectory& directory, RestartPlan plan)
 {
-    if (const auto damage = io::damage_of(communicator, file))
+    const bool own = as_rank_0_has_it(communicator, lies_in(file, directory.checkpoints()));
+    if (const auto damage = own ? damage_of(communicator, file) : io::damage_of(communicator, file))
     {
         throw EnvironmentError(fmt::format("{}: cannot be used: {}", file, *damage));
     }
     on_root(communicator, [&] { require_same_scene(file, scene); });
     plan.checkpoint = file;
-    if (as_rank_0_has_it(communicator, lies_in(file, directory.checkpoints())))
-    {
-        plan.existing = io::Existing::resume;
-    }
+    if (own) { plan.existing = io::Existing::resume; }
     return plan;
 }
 

@@ -10,6 +10,7 @@
 #include <omp.h>
 
 #include "backend/memory.hpp"
+#include "base/process_age.hpp"
 #include "base/signals.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
@@ -19,6 +20,7 @@
 #include "solver/bed.hpp"
 #include "solver/driver.hpp"
 #include "solver/estimate.hpp"
+#include "solver/left_out.hpp"
 #include "solver/page_loads.hpp"
 #include "solver/rank_devices.hpp"
 #ifdef TREAD_WITH_CUDA
@@ -65,7 +67,7 @@ Backend choose_backend(BackendChoice choice)
 }
 #endif
 
-void say_plan(Log& log, const World& world, const std::vector<Stage>& stages)
+void say_plan(Log& log, const scene::Scene& scene, const World& world, const std::vector<Stage>& stages)
 {
     log.info(fmt::format("{} points, {} bodies ({} rocks)", world.points.size(), world.bodies.size(),
                          static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named));
@@ -79,7 +81,8 @@ void say_plan(Log& log, const World& world, const std::vector<Stage>& stages)
     }
     for (const Stage& stage : stages)
     {
-        if (!stage.on) { log.info(fmt::format("left out: {} - {}", stage.name, stage.why)); }
+        if (stage.on) { continue; }
+        log.info(fmt::format("left out: {} - {}{}", stage.name, stage.why, price_text(stage, scene, world)));
     }
 }
 
@@ -197,7 +200,7 @@ void say_start(Job& job, Backend backend, int threads)
                          job.communicator.size(), threads,
                          job.scene.numerics.precision == scene::Precision::single_ ? "single" : "double"));
     job.summary.bed = describe_bed(job.scene, job.world);
-    say_plan(log, job.world, job.stages);
+    say_plan(log, job.scene, job.world, job.stages);
     for (const std::string& line : bed_lines(job.summary.bed)) { log.info(line); }
 }
 
@@ -214,7 +217,7 @@ std::string start_of(const Communicator& communicator, const std::string& checkp
 
 ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& scene, const RunOptions& options)
 {
-    const double      wall_start = wall_clock();
+    const double      wall_start = wall_clock() - process_age();
     const SignalWatch signals;
     const Backend     backend = choose_backend(options.backend);
     const int         threads = choose_threads(communicator, options.threads);
@@ -257,6 +260,7 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
     log.info(fmt::format("\n{}", io::timing_table(job.summary.stages, job.summary.wall_s)));
     log.info(fmt::format("errors: mass {:.3g}, momentum {:.3g}, energy {:.3g}", job.summary.errors.mass,
                          job.summary.errors.momentum, job.summary.errors.energy));
+    log.info("resolution: " + io::verdict_line(job.summary.figures));
     if (code != ExitCode::finished) { log.info(job.summary.reason); }
     on_root(communicator, [&] { io::write_summary(job.directory.summary(), job.summary); });
     return code;

@@ -212,12 +212,14 @@ template<class Exec, class Real>
 void Sand<Exec, Real>::order_in_memory()
 {
     if (sleep_) { sleep_->leave_pages(); }
+    std::int64_t left = 0;
     if (ranks_)
     {
-        ranks_->order(points_, pages_, geometry_, walls_, order_scratch_);
+        left      = ranks_->order(points_, pages_, geometry_, walls_, order_scratch_);
         migrated_ = ranks_->moved();
     }
-    else { mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_); }
+    else { left = mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_); }
+    keep_account_of(left);
     relists_ = 0;
     ++orders_;
     make_room();
@@ -319,6 +321,8 @@ SandReport Sand<Exec, Real>::report()
     for (double* to : {report.grid, report.last_grid}) { from = take(from, mpm::grid_sums, to); }
     for (double* to : {report.points, report.last_points}) { from = take(from, mpm::point_sums, to); }
     take(from, mpm::point_peaks, report.peaks);
+    report.last_points[mpm::point_kinetic] += left_[mpm::census_kinetic];
+    report.last_points[mpm::point_strain] += left_[mpm::census_strain];
     report.largest_speed = std::sqrt(report.peaks[mpm::peak_speed_squared]);
     report.steps         = std::exchange(steps_, 0);
     stir_                = report.stir();
@@ -363,7 +367,30 @@ SandCensus Sand<Exec, Real>::census()
     SandCensus census = census_of(total);
     if (sleep_) { census = census + sleep_->census(); }
     mass_ = census.mass;
-    return census;
+    return census + census_of(left_.data());
+}
+
+template<class Exec, class Real>
+std::vector<const mpm::Points<Exec, Real>*> Sand<Exec, Real>::all_points() const
+{
+    if (!sleep_) { return {&points_}; }
+    return {&points_, &sleep_->points()};
+}
+
+template<class Exec, class Real>
+std::vector<Vec3<double>> Sand<Exec, Real>::positions() const
+{
+    std::vector<Vec3<double>> out;
+    for (const mpm::Points<Exec, Real>* points : all_points())
+    {
+        const std::vector<double> planes = points->position.to_host();
+        const auto                stride = static_cast<std::size_t>(points->stride);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(points->count); ++i)
+        {
+            out.emplace_back(planes[i], planes[stride + i], planes[2 * stride + i]);
+        }
+    }
+    return out;
 }
 
 template class Sand<Cpu, float>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,7 +8,6 @@
 #include "backend/fetched.hpp"
 #include "backend/reduce.hpp"
 #include "decomp/balance.hpp"
-#include "io/snapshot.hpp"
 #include "kernels/mpm/cell_divergence.hpp"
 #include "kernels/mpm/cell_stress.hpp"
 #include "kernels/mpm/gather.hpp"
@@ -16,6 +16,7 @@
 #include "kernels/mpm/relist.hpp"
 #include "kernels/mpm/scatter.hpp"
 #include "kernels/mpm/wall_pages.hpp"
+#include "solver/point_copy.hpp"
 #include "solver/sand_ranks.hpp"
 #include "solver/sand_report.hpp"
 #include "solver/sand_sleep.hpp"
@@ -90,28 +91,33 @@ public:
     /// Asks for the report already, so that one wait serves others' too.
     void ask_report();
 
-    /// Of the present state; waits for it.
+    /// Of the present state; waits for it. What has left the domain counts as it was when it left.
     SandCensus census();
 
-    /// Of what does not sleep, by the last census, kg.
+    /// kg, of what is in the domain and does not sleep, at the last census or since more has left or fallen asleep.
     double mass() const { return mass_ - (sleep_ ? sleep_->census().mass : 0); }
 
     /// m, in memory order, of this rank.
     std::vector<Vec3<double>> positions() const;
 
-    /// What a snapshot shows, of this rank.
-    io::PointFields fields() const;
+    /// Takes what a snapshot shows, of this rank.
+    void copy_to(PointCopy<Exec, Real>& copy) const { copy.take(exec_, all_points()); }
 
-    /// Into a checkpoint, or out of it into sand of the same scene. Due right after a report; changes nothing that
-    /// comes after it. Collective.
-    void transfer(StateFile& file);
+    /// Into a checkpoint, or out of it into sand of the same scene, which was built as `built`. Due right after a
+    /// report; changes nothing that comes after it. Collective.
+    void transfer(StateFile& file, const HostPoints& built);
 
 private:
-    void           transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder);
+    void transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder);
+    /// Those of the steps, then those that sleep.
+    std::vector<const mpm::Points<Exec, Real>*> all_points() const;
+
+    void           restore_lasting(mpm::Points<Exec, Real>& points, const HostPoints& built);
     void           resume_lists();
     void           make_room();
     void           upload(const HostPoints& host, mpm::PointFields fields);
     void           order_in_memory();
+    void           keep_account_of(std::int64_t left);
     void           list_anew();
     void           clear_tallies();
     mpm::MovesView moves();
@@ -145,6 +151,7 @@ private:
     bool                                       cell_means_; ///< of volumetric strain, and of pressure
     Array<Exec, Real>                          cell_divergence_;
     Array<Exec, Real>                          shared_stress_;
+    std::array<double, mpm::census_count>      left_{}; ///< census of what has left the domain, of all ranks
     double                                     mass_     = 0;
     std::int64_t                               step_     = 0;               ///< number of the last one
     std::int64_t                               steps_    = 0;               ///< since the last report

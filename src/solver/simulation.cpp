@@ -31,6 +31,14 @@ double free_weight(const scene::Scene& scene, const World& world)
     return (sand + rocks) * vector(scene.domain.gravity).norm();
 }
 
+/// m/s; bodies get theirs by command.
+double speed_at_start(const scene::Scene& scene)
+{
+    double speed = 0;
+    for (const scene::Terrain& terrain : scene.terrain) { speed = std::max(speed, vector(terrain.velocity).norm()); }
+    return speed;
+}
+
 } // namespace
 
 template<class Exec, class Real>
@@ -45,6 +53,7 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     , gravity_(vector(scene.domain.gravity))
     , weight_(free_weight(scene, world))
 {
+    pace_.largest_speed = speed_at_start(scene);
     if (decomposition != nullptr) { balance_.emplace(*decomposition, scene.balance.threshold); }
     if (plan.sand)
     {
@@ -78,8 +87,8 @@ void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, d
 template<class Exec, class Real>
 TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& clock)
 {
+    if (rigid_) { heed_commands(step); }
     if (unmeasured_ > 0 && step.dt != last_.dt) { measure(); } // the books take steps of one length together
-    if (rigid_) { heed_commands(); }
     if (sand_) { guard_->allow(step, time); }
     if (sand_ || balance_)
     {
@@ -152,15 +161,17 @@ void Simulation<Exec, Real>::look_who_sleeps()
     sand_->look_who_sleeps(bodies, damping_);
 }
 
-/// A body that a command makes faster than anything was has lists for this step alone.
+/// A body that a command makes faster than anything was has lists for this step alone, which is as short as that wants.
 template<class Exec, class Real>
-void Simulation<Exec, Real>::heed_commands()
+void Simulation<Exec, Real>::heed_commands(TimeStep& step)
 {
     const double commanded = rigid_->take_commanded_speed();
     if (commanded <= pace_.largest_speed) { return; }
     if (unmeasured_ > 0) { measure(); }
-    pace_.largest_speed = std::max(pace_.largest_speed, commanded);
-    measure_every_      = 1;
+    pace_.largest_speed   = std::max(pace_.largest_speed, commanded);
+    measure_every_        = 1;
+    const TimeStep wanted = choose_step(scene_.time, limits_, pace_, 0);
+    if (wanted.dt < step.dt && !scene_.time.dt) { step = wanted; }
 }
 
 /// Of the steps until the next measuring.
@@ -290,6 +301,7 @@ void Simulation<Exec, Real>::measure()
                                              contacts.flattest.value, least_gradient));
         }
     }
+    extremes_.note(step, steps, limits_, pace_, coupling_ ? coupling_->summary() : contact::Summary::zero());
     unbalanced_ = weight_ > 0 ? (sand.last_grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
     ledger_->steps(step.dt, steps, sand, rigid, books, (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
     if (guard_) { guard_->watch(sand, step, time); }
@@ -321,9 +333,17 @@ void Simulation<Exec, Real>::begin_mean()
 }
 
 template<class Exec, class Real>
-io::PointFields Simulation<Exec, Real>::point_fields()
+void Simulation<Exec, Real>::copy_points(PointCopy<Exec, Real>& copy) const
 {
-    return sand_ ? sand_->fields() : io::PointFields{};
+    if (sand_) { sand_->copy_to(copy); }
+}
+
+template<class Exec, class Real>
+io::PointFields Simulation<Exec, Real>::point_fields() const
+{
+    PointCopy<Exec, Real> copy(exec_);
+    copy_points(copy);
+    return copy.rows();
 }
 
 template<class Exec, class Real>

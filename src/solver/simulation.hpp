@@ -5,6 +5,7 @@
 
 #include "io/snapshot.hpp"
 #include "solver/coupling.hpp"
+#include "solver/extremes.hpp"
 #include "solver/ledger.hpp"
 #include "solver/phases.hpp"
 #include "solver/plan.hpp"
@@ -42,6 +43,9 @@ public:
     /// Share of the weight that was out of balance in the last step.
     double unbalanced() const { return unbalanced_; }
 
+    /// What was worst in all steps that were measured.
+    const Extremes& extremes() const { return extremes_; }
+
     /// How the work fell to the ranks so far; null on one rank.
     const decomp::BalanceRow* balance() const { return balance_ ? &balance_->row() : nullptr; }
 
@@ -57,7 +61,8 @@ public:
     /// Tells the named bodies what to do (held, driven, free) until the next call; `damping` of the phase.
     void command(const std::vector<BodyCommand>& commands, double damping);
 
-    /// One MPM step of `step.dt` with its contact substeps (design: one step). NumericalError, with what, where and
+    /// One MPM step of `step.dt`, or a shorter one where a command has made a body too fast for it, with its contact
+    /// substeps (design: one step). NumericalError, with what, where and
     /// which limit, when the state cannot be trusted any more; `time` is for that message. What moves little is
     /// measured every few steps only, which pace() and unbalanced() then follow; lists of contacts and N are those of
     /// the first of these.
@@ -73,8 +78,9 @@ public:
     std::vector<BodyRow> named_bodies();
     void                 begin_mean();
 
-    /// Of this rank.
-    io::PointFields point_fields();
+    /// What a snapshot shows. Points are this rank's.
+    void            copy_points(PointCopy<Exec, Real>& copy) const;
+    io::PointFields point_fields() const;
     io::BodyFields  body_fields();
 
     /// Of bodies with bodies and walls.
@@ -100,7 +106,7 @@ private:
     void arrange();
     void look_who_sleeps();
     void deal_out_pages();
-    void heed_commands();
+    void heed_commands(TimeStep& step);
     void find_contacts(const TimeStep& step, StageClock& clock);
     void substeps(const TimeStep& step, double time, StageClock& clock);
     void coupled_substep(double dt, StageClock& clock);
@@ -118,6 +124,7 @@ private:
     Plan                                 plan_;
     PaceLimits                           limits_;
     Pace                                 pace_;
+    Extremes                             extremes_;
     Vec3<double>                         gravity_;
     double                               weight_; ///< N, of sand and rocks
     double                               unbalanced_ = 1;

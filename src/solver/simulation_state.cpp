@@ -11,10 +11,11 @@ template<class Exec, class Real>
 void Simulation<Exec, Real>::transfer(StateFile& file)
 {
     if (balance_ && file.exact()) { transfer_balance(file); }
-    if (sand_) { sand_->transfer(file); }
+    if (sand_) { sand_->transfer(file, world_.points); }
     if (rigid_) { rigid_->transfer(file); }
     if (coupling_) { coupling_->transfer(file, rigid_->view()); }
     file.doubles("simulation/pace", pace_);
+    file.doubles("simulation/extremes", extremes_);
     file.numbers("simulation/steps", unbalanced_, damping_, last_.dt, last_.substeps, last_time_, measure_every_);
     file.doubles("simulation/ledger", *ledger_);
     if (guard_) { guard_->transfer(file); }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -117,14 +118,16 @@ public:
     template<class Exec, class T>
     void plane(const Exec& exec, const std::string& name, T* data, const Share& rows)
     {
-        std::vector<T> values(static_cast<std::size_t>(rows.count));
+        const auto count = static_cast<std::size_t>(rows.count);
         if (loads())
         {
-            values = read<T>(name, rows.first, rows.count);
-            copy_from_host(exec, data, values.data(), values.size() * sizeof(T));
+            const std::vector<T> values = read<T>(name, rows.first, rows.count);
+            copy_from_host(exec, data, values.data(), count * sizeof(T));
             return;
         }
-        copy_to_host(exec, values.data(), data, values.size() * sizeof(T));
+        std::vector<T>& values = std::get<std::vector<T>>(planes_);
+        values.resize(count);
+        copy_to_host(exec, values.data(), data, count * sizeof(T));
         write(name, values);
     }
 
@@ -141,12 +144,16 @@ private:
     void write(const std::string& name, const std::vector<T>& values)
     {
         static_assert(std::is_trivially_destructible_v<T> && sizeof(T) % sizeof(Word<T>) == 0);
-        std::vector<Word<T>> words(values.size() * width<T>);
-        if (!values.empty())
+        if constexpr (std::is_arithmetic_v<T>) { writer_->write(name, values, 1); }
+        else
         {
-            std::memcpy(words.data(), static_cast<const void*>(values.data()), values.size() * sizeof(T));
+            std::vector<Word<T>> words(values.size() * width<T>);
+            if (!values.empty())
+            {
+                std::memcpy(words.data(), static_cast<const void*>(values.data()), values.size() * sizeof(T));
+            }
+            writer_->write(name, words, width<T>);
         }
-        writer_->write(name, words, width<T>);
     }
 
     template<class T>
@@ -176,6 +183,9 @@ private:
     io::CheckpointWriter*       writer_ = nullptr;
     const io::CheckpointReader* reader_ = nullptr;
     Fidelity                    fidelity_;
+
+    /// Planes on their way: memory that is new costs more than what is put into it.
+    std::tuple<std::vector<double>, std::vector<float>, std::vector<std::uint32_t>, std::vector<std::uint8_t>> planes_;
 };
 
 } // namespace tread::solver

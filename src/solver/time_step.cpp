@@ -12,14 +12,12 @@ namespace tread::solver
 namespace
 {
 
-constexpr double contact_warning     = 0.4; ///< of sqrt(m / sum K), prototypes 1.7
-constexpr double point_contact_bound = 0.5; ///< of k dt^2 / m_p, prototypes 2
-constexpr double point_contact_warn  = 2.0;
-constexpr double travel_bound        = 0.3;               ///< of the spacing, or of the smallest body
-constexpr double unseen_fall         = dem::rest_reserve; ///< of a body's radius: what its pairs have left
-constexpr double overlap_warning     = 0.1;               ///< of a radius: the head-on case itself reaches 0.11
-constexpr double growth              = 1.05;
-constexpr double substeps_alone      = 10; ///< substeps a step where no sand sets the step
+constexpr double contact_warning    = 0.4; ///< of sqrt(m / sum K), prototypes 1.7
+constexpr double point_contact_warn = 2.0;
+constexpr double unseen_fall        = dem::rest_reserve; ///< of a body's radius: what its pairs have left
+constexpr double overlap_warning    = 0.1;               ///< of a radius: the head-on case itself reaches 0.11
+constexpr double growth             = 1.05;
+constexpr double substeps_alone     = 10; ///< substeps a step where no sand sets the step
 
 struct Bound
 {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "solver/body_grid.hpp"
 #include "solver/cover.hpp"
 #include "solver/geostatic.hpp"
 #include "solver/grading.hpp"
@@ -22,6 +23,8 @@ namespace tread::solver
 {
 namespace
 {
+
+constexpr double deepest_at_start = 0.1; ///< of the smaller radius: what contacts carry without a warning
 
 mpm::WallRule wall_rule(scene::WallKind kind)
 {
@@ -256,6 +259,34 @@ void require_clear_of_sand(const scene::Scene& scene, const World& world)
     }
 }
 
+/// Coincident surfaces are no node inside the other: centres tell them.
+bool overlap(const World& world, std::size_t one, std::size_t other)
+{
+    const HostBodies& bodies  = world.bodies;
+    const double      deepest = deepest_at_start * std::min(bodies.radius[one], bodies.radius[other]);
+    return !apart(world, one, other, -deepest) || distance(world, one, bodies.position[other]) < -deepest ||
+           distance(world, other, bodies.position[one]) < -deepest;
+}
+
+void require_clear_of_each_other(const scene::Scene& scene, const World& world)
+{
+    for (std::size_t b = 1; b < scene.bodies.size(); ++b)
+    {
+        for (std::size_t a = 0; a < b; ++a)
+        {
+            const double far = bounding_radius(world, a) + bounding_radius(world, b);
+            if ((world.bodies.position[a] - world.bodies.position[b]).norm() > far || !overlap(world, a, b))
+            {
+                continue;
+            }
+            throw InputError(
+                fmt::format("[[body]] '{}': its position puts it into '{}', by more than {} of the smaller "
+                            "one's radius",
+                            scene.bodies[b].name, scene.bodies[a].name, deepest_at_start));
+        }
+    }
+}
+
 void add_rocks(const scene::Scene& scene, const std::vector<std::vector<RockDraw>>& draws, SavedBeds& beds,
                World& world)
 {
@@ -302,6 +333,7 @@ World build_world(const scene::Scene& scene)
     world.points        = make_terrain(scene);
     world.point_spacing = terrain_spacing(scene);
     for (const scene::Body& body : scene.bodies) { add_body(scene, body, world); }
+    require_clear_of_each_other(scene, world);
     require_clear_of_sand(scene, world);
     add_rocks(scene, draws, beds, world);
     set_geostatic_stress(scene, world.bodies, world.points);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "physics/rock_scenes.hpp"
 #include "physics/sphere_on_bed.hpp"
 
 // Prints docs/studies/point_motions.csv: a sphere or wheel on a bed with the three motions of points in the substeps;
@@ -73,6 +74,26 @@ test::SphereOnBed rolling()
     return bed;
 }
 
+/// One layer of points that a sphere and a slab which nothing moves touch from both sides.
+test::SphereOnBed between_bodies(const test::MeshFile& slab, double half_height)
+{
+    test::SphereOnBed bed = held(1);
+    bed.depth             = bed.spacing;
+    bed.bottom            = 6 * bed.spacing;
+    const double level    = bed.bottom - 0.13 * bed.spacing - half_height; // clear of the points' radius
+    bed.beneath           = test::file_shape("slab", slab, 0.02, 64) + fmt::format(R"(
+[[body]]
+name     = "slab"
+shape    = "slab"
+material = "steel"
+mass     = 10.0
+position = [{}, {}, {}]
+lock     = ["x", "y", "z", "roll", "pitch", "yaw"]
+)",
+                                                                                   bed.width / 2, bed.width / 2, level);
+    return bed;
+}
+
 /// 64 points a cell: k dt^2/m_p is large for steps that the grid still carries.
 test::SphereOnBed rattling(const std::string& dt)
 {
@@ -88,7 +109,9 @@ test::SphereOnBed rattling(const std::string& dt)
     return bed;
 }
 
-std::vector<Case> cases()
+const Vec3<double> half_slab{0.11, 0.11, 0.02}; // m
+
+std::vector<Case> cases(const test::MeshFile& slab)
 {
     std::vector<Case> all{{"held at 0.15 W, elastic", held(1)},
                           {"held at 0.15 W, elastic", held(8)},
@@ -98,7 +121,8 @@ std::vector<Case> cases()
                           {"drawn at 0.1 m/s, sand", drawn(0.1, sand, 1)},
                           {"drawn at 0.01 m/s, sand", drawn(0.01, sand, 1)},
                           {"drawn at 0.1 m/s, sand, 10 us", drawn_in_short_steps()},
-                          {"rolling at 0.1 m/s, sand", rolling()}};
+                          {"rolling at 0.1 m/s, sand", rolling()},
+                          {"held at 0.15 W between two bodies, elastic", between_bodies(slab, half_slab[2])}};
     for (const char* dt : {"2.0e-4", "4.0e-4", "5.6e-4", "8.0e-4"}) { all.push_back({"at rest", rattling(dt)}); }
     return all;
 }
@@ -130,7 +154,8 @@ int main(int argc, char** argv)
     Counters          counters;
     const Cpu         cpu{&counters};
     std::printf("case,points_per_cell,motion,substeps,dt_s,spring,creep_m_s,pull,pull_jitter,lift,jitter,height_m\n");
-    for (const Case& one : cases())
+    const test::MeshFile slab(test::box_mesh(half_slab));
+    for (const Case& one : cases(slab))
     {
         if (!one.name.starts_with(wanted)) { continue; }
         print(cpu, one, "supported", 1); // all motions are one then

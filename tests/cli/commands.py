@@ -3,10 +3,12 @@
 
 import pathlib
 import re
+import shutil
+import subprocess
 import unittest
 
 from bad_input import binary_stl, cube
-from command import BODY, SCENE, CommandTest
+from command import BODY, SCENE, TREAD, CommandTest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
@@ -20,9 +22,28 @@ class Commands(CommandTest):
     def test_help_names_every_command(self):
         result = self.tread("--help")
         self.assertEqual(result.returncode, 0)
-        for command in ("run", "check", "sdf", "info"):
+        for command in ("run", "check", "study", "sdf", "info"):
             self.assertIn(f"  {command} ", result.stdout)
             self.assertEqual(self.tread(command, "--help").returncode, 0)
+
+    def test_study_is_its_script_with_this_program(self):
+        help_text = self.tread("study", "--help").stdout
+        self.assertIn("--vary", help_text)
+        scene = self.write("scene.toml", SCENE)
+        done = self.tread("study", scene, "--vary", "grid.spacing=0.05,0.1", "--dry-run")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("2 variants", done.stdout)
+        self.assertEqual(self.files(), ["scene.toml"])
+
+    def test_study_needs_python_and_its_script(self):
+        done = self.tread("study", "scene.toml", environment={"TREAD_PYTHON": "/nowhere/python3"})
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("/nowhere/python3: No such file", done.stderr)
+        self.assertIn("TREAD_PYTHON", done.stderr)
+        shutil.copy(TREAD, self.directory / "tread")
+        done = subprocess.run([self.directory / "tread", "study", "scene.toml"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("there is no jobs/study.py above", done.stderr)
 
     def test_check_writes_nothing(self):
         scene = self.write("scene.toml", SCENE + BODY)

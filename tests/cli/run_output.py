@@ -5,6 +5,7 @@ import json
 import unittest
 
 import h5py
+import numpy as np
 import vtk
 
 from command import BODY, SCENE, CommandTest
@@ -46,7 +47,10 @@ class RunOutput(CommandTest):
         self.assertEqual(summary["bodies"], 1)
         self.assertGreaterEqual(summary["time"], 0.02)
         self.assertEqual([(phase["name"], phase["settled"]) for phase in summary["phases"]], [("rest", None)])
-        self.assertTrue((self.output / "log.txt").read_text())
+        resolution = summary["resolution"]
+        self.assertIn(resolution["verdict"], ("resolved", "marginal", "under-resolved"))
+        self.assertAlmostEqual(resolution["figures"]["margin_wave"]["value"], 1.0, places=6)
+        self.assertIn(f"resolution: {resolution['verdict']}", (self.output / "log.txt").read_text())
 
     def check_time_series(self):
         with h5py.File(self.output / "timeseries.h5", "r") as file:
@@ -56,13 +60,19 @@ class RunOutput(CommandTest):
                 self.assertIn("units", dataset.attrs, name)
                 same_table = {len(item) for item in dataset.parent.values() if isinstance(item, h5py.Dataset)}
                 self.assertEqual(same_table, {len(dataset)}, name)
+                # The last output time is the end of the run: one row, not two.
+                if name.endswith("/time"):
+                    self.assertTrue((np.diff(dataset[:]) > 0).all(), name)
+            self.assertAlmostEqual(file["energy/time"][-1], 0.02)
         info = self.tread("info", self.output / "timeseries.h5")
         self.assertIn("units = s", info.stdout)
 
     def check_snapshots(self):
         snapshots = self.output / "snapshots"
         series = json.loads((snapshots / "points.hdf.series").read_text())["files"]
-        self.assertGreaterEqual(len(series), 2)
+        self.assertEqual([entry["name"] for entry in series], ["points_0000.hdf", "points_0001.hdf", "points_0002.hdf"])
+        times = [entry["time"] for entry in series]
+        self.assertTrue(times[0] < times[1] < times[2], times)
         for entry in series:
             reader = vtk.vtkHDFReader()
             reader.SetFileName(str(snapshots / entry["name"]))

@@ -11,16 +11,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "jobs" / "campaign.py"
-
-
-def program_under_test():
-    """The built program; where it has no checkpoints yet, a stand-in for one that has."""
-    real = os.environ["TREAD"]
-    options = subprocess.run([real, "run", "--help"], capture_output=True, text=True, check=True).stdout
-    return real if "--restart" in options else str(pathlib.Path(__file__).with_name("stand_in_tread.py"))
-
-
-TREAD = program_under_test()
+TREAD = os.environ["TREAD"]
 TWIN = ROOT / "configs" / "paper" / "reduced" / "slip_sand.toml"
 
 CAMPAIGN = f"""
@@ -74,6 +65,9 @@ class CampaignTest(unittest.TestCase):
 
     def scene(self, number):
         return tomllib.loads(self.text(number))
+
+    def scene_of(self, output, number):
+        return tomllib.loads(self.text(number, output))
 
     def script(self, name, text):
         path = self.directory / name

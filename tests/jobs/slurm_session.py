@@ -32,3 +32,14 @@ def wait_until(holds, seconds, what):
         if time.monotonic() > end:
             raise AssertionError(f"{what}: not within {seconds} s; {tasks()}")
         time.sleep(0.5)
+
+
+def wait_for_empty_queue(seconds):
+    """Empty for two seconds: between its lives a job that is requeued is unknown for a moment."""
+    looks = []
+
+    def stays_empty():
+        looks.append(not tasks())
+        return len(looks) >= 4 and all(looks[-4:])
+
+    wait_until(stays_empty, seconds, "the queue is empty")

@@ -216,7 +216,7 @@ class CampaignPagesTest(unittest.TestCase):
         self.assertEqual((curves[0].wheel.radius, curves[0].wheel.weight), (0.2, 635.0))
 
     def test_pictures_and_page(self):
-        for name in ("slip_curves.py", "sinkage_slip.py", "campaign_report.py"):
+        for name in ("slip_curves.py", "drives.py", "sinkage_slip.py", "campaign_report.py"):
             output = self.path / (f"{name}.html" if "report" in name else f"{name}.png")
             done = subprocess.run([sys.executable, str(ROOT / "postprocess" / name), str(self.path), "--output", str(output)],
                                   capture_output=True, text=True, timeout=240, check=False)
@@ -227,10 +227,11 @@ class CampaignPagesTest(unittest.TestCase):
         self.assertIn("8 cases: 7 done, 1 failed", page)
         self.assertIn("exit 3: &lt;script&gt;", page)
         self.assertNotIn("<script", page)
-        self.assertEqual(page.count("data:image/png;base64,"), 4)  # curves, sinkage, two sections
+        self.assertEqual(page.count("data:image/png;base64,"), 5)  # curves, drives, sinkage, two sections
         # Self-contained: nothing is loaded from anywhere.
         self.assertEqual(re.findall(r"(?:src|href)=\"(?!data:)", page), [])
-        self.assertIn("0.015 ± 0.0025", page)
+        self.assertIn("15.0 ± 2.5", page)  # mm
+        self.assertIn("6 of 7 drives became steady", page)
 
     def test_tables_of_other_schemas(self):
         for version, words in (((2, 0), "read here is"), (None, "schema None")):

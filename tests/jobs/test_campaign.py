@@ -1,14 +1,13 @@
 #!/usr/bin/python3
-"""jobs/campaign.py without SLURM: cases of a campaign file, what is refused, runs on this machine, the script of a task."""
+"""jobs/campaign.py without SLURM: cases of a campaign file, what is refused, runs on this machine."""
 
 import csv
 import fcntl
 import os
+import re
 import shutil
-import signal
 import subprocess
 import sys
-import time
 import tomllib
 import unittest
 
@@ -55,6 +54,21 @@ class Expand(CampaignTest):
         self.assertEqual(found, [(slip, seed) for slip in (0.0, 0.3, 0.6, 0.9) for seed in (1, 2)])
         self.assertEqual(self.scene(0)["shape"][-1]["file"], str((self.directory / "spare.stl").resolve()))
 
+    def test_arms_vary_alone_around_the_scene_as_it_is(self):
+        arms = ('[[arm]]\nkey = "material.sand.young"\nvalues = [1e6, 1e7, 2e7]\n'
+                '[[arm]]\nkey = "time.dt"\nname = "step"\nvalues = [1e-5]\n')
+        self.file.write_text(f'scene = "{TWIN}"\n{arms}', encoding="utf-8")
+        self.assertIn("4 cases", self.campaign("expand", program=self.checked_only()).stdout)
+        # 1e7 is what the scene has itself: no case of its own.
+        found = [(self.scene(n)["material"][0]["young"], self.scene(n).get("time", {}).get("dt")) for n in range(4)]
+        self.assertEqual(found, [(1e7, None), (1e6, None), (2e7, None), (1e7, 1e-5)])
+        self.assertRegex(self.campaign("status").stdout, "0003 .*young 1e\\+07, step 1e-05")
+        # Beside axes, the scene as it is makes one more.
+        self.file.write_text(f'scene = "{TWIN}"\n{arms}[[axis]]\nkey = "phase.drive.drive.slip"\nvalues = [0.1, 0.3]\n', encoding="utf-8")
+        self.campaign("expand", program=self.checked_only(), output=self.directory / "both")
+        slips = [self.scene_of(self.directory / "both", n)["phase"][2]["drive"]["slip"] for n in range(5)]
+        self.assertEqual(slips, [0.1, 0.3, 0.3, 0.3, 0.3])
+
     def test_scenes_written_are_scenes_read(self):
         sys.path.insert(0, str(ROOT / "jobs"))
         from tread_jobs.toml_text import toml_text
@@ -69,6 +83,8 @@ class Expand(CampaignTest):
         two = CAMPAIGN.replace("[resources]", AXIS + "[resources]")
         for text, words in (
             (two.replace("young", "yuong"), "yuong"),
+            ('scene = "a.toml"\n', r"no \[\[axis\]\] and no \[\[arm\]\]"),
+            (f'[[axis]]\nkey = "scene"\nvalues = ["{TWIN}"]\n' + AXIS.replace("axis", "arm"), "arm.*vary the keys of one scene"),
             (CAMPAIGN.replace("values = [0.1, 0.5]", "values = []"), r"\[\[axis\]\] 1 .*no values"),
             (CAMPAIGN.replace("values = [0.1, 0.5]", "values = [0.1, 0.1]"), "stands there twice"),
             (CAMPAIGN.replace("values = [0.1, 0.5]", "range = { from = 0, to = 1, count = 0 }"), "count is an integer of at least 1"),
@@ -109,9 +125,10 @@ class Expand(CampaignTest):
         for command in ("expand", "submit", "local", "status", "collect", "retry"):
             self.assertIn("0002/scene.toml: was edited", self.campaign(command, program=program, code=2).stderr)
         edited.write_text(kept, encoding="utf-8")
-        (edited.parent / "run").symlink_to(self.directory)
-        self.assertIn("leads out of", self.campaign("status", code=2).stderr)
-        (edited.parent / "run").unlink()
+        for name in ("run", "output.txt", "attempts.log"):
+            (edited.parent / name).symlink_to(self.directory / "thesis.tex")
+            self.assertIn("0002: leads out of", self.campaign("status", code=2).stderr)
+            (edited.parent / name).unlink()
         with open(self.output / ".lock", "w", encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             self.assertIn("another campaign.py works here", self.campaign("local", program=program, code=2).stderr)
@@ -138,9 +155,11 @@ class Expand(CampaignTest):
 
 
 class Submit(CampaignTest):
-    def test_without_sbatch(self):
+    def test_no_sbatch_or_one_that_refuses(self):
         self.campaign("expand", program=self.checked_only())
         self.assertIn("sbatch", self.campaign("submit", program=self.checked_only(), path="/nowhere", code=4).stderr)
+        self.script("sbatch", "#!/bin/sh\necho 'sbatch: error: invalid partition' >&2\nexit 1\n")
+        self.assertIn("invalid partition", self.campaign("submit", program=self.checked_only(), path=str(self.directory), code=4).stderr)
         self.assertEqual(list((self.output / "submissions").iterdir()), [])
         self.assertIn("no such program", self.campaign("submit", program="/nowhere/tread", code=4).stderr)
 
@@ -224,7 +243,7 @@ class Local(CampaignTest):
         self.file.write_text(CAMPAIGN + "cases_a_task = 3\n", encoding="utf-8")
         self.campaign("local", program=program)
         log = (self.output / "cases/0003/attempts.log").read_text()
-        self.assertEqual([line.split(" ", 1)[1].split(" pid")[0] for line in log.splitlines()][1::2], ["end code 75", "end code 0"])
+        self.assertEqual(re.findall(r" end .* code (\d+)$", log, re.MULTILINE), ["75", "0"])
         self.assertEqual((self.output / "submissions/0001/tasks.txt").read_text(), "0000 0001 0002\n0003\n")
 
     def test_states_from_what_is_there(self):
@@ -234,61 +253,13 @@ class Local(CampaignTest):
         gone.wait()
         (cases / "0000/attempts.log").write_text(f"T start job local_0 host {host} pid {os.getpid()}\n")
         (cases / "0001/attempts.log").write_text(f"T start job local_0 host {host} pid {gone.pid}\n")
-        (cases / "0002/attempts.log").write_text("T start job 7_0 host elsewhere pid 1\nT end code 75\n")
+        (cases / "0002/attempts.log").write_text("T start job 7_0 host elsewhere pid 1\nT end job 7_0 host elsewhere pid 1 code 75\n")
         (cases / "0003/attempts.log").write_text("T start job 7_1 host elsewhere pid 1\n")
         (cases / "0003/output.txt").touch()
         states = [line.split("  ")[1].strip() for line in self.campaign("status", code=3).stdout.splitlines()[:4]]
         self.assertEqual(states, ["running", "stale", "stopped", "running"])
         os.utime(cases / "0003/output.txt", (0, 0))
         self.assertIn("1 running, 1 stopped, 2 stale", self.campaign("status", code=3).stdout)
-
-
-class TaskScript(CampaignTest):
-    """The script of a task under signals, with an scontrol that writes down what it was asked."""
-
-    def start(self, restarts_so_far=0, slurm=True):
-        # Like tread: writes a checkpoint and exits with 75 when told by USR2.
-        program = self.script("waits_for_signal", "#!/bin/bash\n[[ $1 == run ]] || exec \"$TREAD\" \"$@\"\ntrap 'exit 75' USR2\n"
-                              'mkdir -p "$4"; touch "$4/ready"\nwhile true; do sleep 0.05; done\n')
-        self.script("scontrol", f'#!/bin/sh\necho "$@" >> "{self.directory}/scontrol.txt"\n')
-        self.file.write_text(CAMPAIGN + "cases_a_task = 2\nrestarts = 2\n", encoding="utf-8")
-        self.campaign("expand", program=program)
-        script = self.campaign("submit", "--dry-run", program=program).stdout.partition("0001\n")[2]
-        (self.directory / "tasks.txt").write_text("0000 0001\n0002 0003\n")
-        (self.directory / "task").write_text(script)
-        environment = {**os.environ, "PATH": f"{self.directory}:{os.environ['PATH']}", "SLURM_ARRAY_TASK_ID": "1",
-                       "SLURM_RESTART_COUNT": str(restarts_so_far)}
-        if slurm:
-            environment |= {"SLURM_ARRAY_JOB_ID": "12", "SLURM_JOB_ID": "14"}
-        process = subprocess.Popen(["bash", "task"], cwd=self.directory, env=environment, stderr=subprocess.PIPE, text=True)
-        ready = [self.output / "cases" / name / "run" / "ready" for name in ("0002", "0003")]
-        for _ in range(400):
-            if all(path.exists() for path in ready):
-                return process
-            time.sleep(0.025)
-        process.kill()
-        self.fail("the runs did not begin")
-
-    def end(self, process, number):
-        process.send_signal(number)
-        stderr = process.communicate(timeout=30)[1]
-        asked = self.directory / "scontrol.txt"
-        return process.returncode, asked.read_text() if asked.exists() else "", stderr
-
-    def test_the_time_limit_requeues(self):
-        self.assertEqual(self.end(self.start(), signal.SIGUSR2)[:2], (75, "requeue 12_1\n"))
-        self.assertIn("end code 75", (self.output / "cases/0003/attempts.log").read_text())
-
-    def test_at_most_so_many_times(self):
-        code, asked, stderr = self.end(self.start(restarts_so_far=2), signal.SIGUSR2)
-        self.assertEqual((code, asked), (75, ""))
-        self.assertIn("stopped early 3 times", stderr)
-
-    def test_cancelled_is_not_begun_again(self):
-        self.assertEqual(self.end(self.start(), signal.SIGTERM)[:2], (75, ""))
-
-    def test_without_slurm(self):
-        self.assertEqual(self.end(self.start(slurm=False), signal.SIGUSR1)[:2], (75, ""))
 
 
 if __name__ == "__main__":

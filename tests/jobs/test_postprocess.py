@@ -87,20 +87,6 @@ class PostprocessTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreater(colours_of(output), 40, "a picture of something")
 
-    def test_work_precision(self):
-        table = self.run_path.parent / "work.csv"
-        head = "case,quantity,spacing,points_per_cell,transfer,precision,points,steps,cpu_s,error,reference\n"
-        # The second is beaten by the first in both; the third costs more and is better.
-        rows = ("bar,error,0.1,1,flip,single,10,100,1.0,0.02,T\n", "bar,error,0.1,8,apic,single,80,100,2.0,0.03,T\n",
-                "bar,error,0.05,1,flip,double,20,200,4.0,0.005,T\n")
-        table.write_text(head + "".join(rows), encoding="utf-8")
-        output = table.with_suffix(".png")
-        done = self.command("work_precision.py", table, "--output", output)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        front = [line.split()[1:4] for line in done.stdout.splitlines() if line.startswith("bar")]
-        self.assertEqual(front, [["0.1", "1", "flip"], ["0.05", "1", "flip"]])
-        self.assertGreater(colours_of(output), 24, "a picture of something")
-
     def test_head_on_knows_hertz(self):
         scene = tomllib.loads((ROOT / "configs/paper/head_on_1.toml").read_text(encoding="utf-8"))
         time = np.linspace(0, 0.1, 4001)
@@ -151,7 +137,7 @@ class PostprocessTest(unittest.TestCase):
             ("render.py", (self.run_path, "--snapshot", "3"), "this run has 0 to 7"),
             ("wheel_history.py", (self.run_path, "--wheel", "rear"), "/wheel/rear"),
             ("sdf_convergence.py", (self.run_path / "timeseries.h5",), "no report of tread sdf"),
-            ("work_precision.py", (self.run_path / "scene.toml",), "no table of work_precision_runs.py"),
+            ("work_precision.py", (self.run_path / "scene.toml",), "no table of a study"),
             ("point_motions.py", (self.run_path / "scene.toml",), "no table of bench_point_motions"),
             ("head_on.py", (self.run_path / "absent",), "no scene.toml"),
         ):
@@ -166,6 +152,10 @@ class PostprocessTest(unittest.TestCase):
             (path / "scene.toml").write_text(SCENE, encoding="utf-8")
             (path / "timeseries.h5").write_bytes(b"not HDF5")
             with self.assertRaisesRegex(RunError, "timeseries.h5"):
+                Run(path).wheels
+            with h5py.File(path / "timeseries.h5", "w") as file:
+                file.attrs["schema_version"] = [2, 0]
+            with self.assertRaisesRegex(RunError, "timeseries.h5: schema version 2.0; read here is 1.x"):
                 Run(path).wheels
 
 

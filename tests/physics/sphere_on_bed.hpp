@@ -22,6 +22,8 @@ struct SphereOnBed
     double      spacing         = 0.01;                  ///< m, h
     int         points_per_cell = 1;
     double      width = 0.24, depth = 0.08;      ///< m, of the bed
+    double      bottom    = 0;                   ///< m, height of its lower side
+    std::string beneath   = {};                  ///< tables of what carries it there
     double      radius    = 0.1;                 ///< m
     std::string form      = "kind = \"sphere\""; ///< of the body; of radius 0.5 m at scale 1 if a sphere
     double      weight    = 111;                 ///< N
@@ -43,7 +45,7 @@ inline std::string sphere_on_bed_text(const SphereOnBed& bed)
 {
     // Half a spacing of points below the surface, and a point's radius above it; clear by a hundredth of a cell.
     const double lattice  = bed.spacing / std::cbrt(bed.points_per_cell);
-    const double height   = bed.depth + bed.radius + (0.6204 - 0.5) * lattice + 0.01 * bed.spacing;
+    const double height   = bed.bottom + bed.depth + bed.radius + (0.6204 - 0.5) * lattice + 0.01 * bed.spacing;
     const bool   sphere   = bed.form.find("sphere") != std::string::npos;
     const auto   diameter = sphere ? fmt::format("diameter = {}", 2 * bed.radius) : std::string();
     return fmt::format(R"(
@@ -76,7 +78,7 @@ between  = ["bed", "steel"]
 friction = {friction}
 [[terrain]]
 material        = "bed"
-region          = {{ box = [[0.0, 0.0, 0.0], [{width}, {width}, {depth}]] }}
+region          = {{ box = [[0.0, 0.0, {bottom}], [{width}, {width}, {surface}]] }}
 points_per_cell = {points}
 [[shape]]
 name      = "ball"
@@ -90,6 +92,7 @@ material = "steel"
 mass     = {mass}
 position = [{middle}, {middle}, {height}]
 lock     = ["y", "roll", "pitch", "yaw"]
+{beneath}
 [[phase]]
 name     = "settle"
 damping  = 0.7
@@ -98,11 +101,12 @@ duration = {settling}
 name     = "watch"
 duration = {free}
 )",
-                       fmt::arg("width", bed.width), fmt::arg("top", bed.depth + 3 * bed.radius),
+                       fmt::arg("width", bed.width), fmt::arg("top", bed.bottom + bed.depth + 3 * bed.radius),
                        fmt::arg("gravity_x", bed.sideways * gravity_of_beds), fmt::arg("gravity", gravity_of_beds),
                        fmt::arg("spacing", bed.spacing), fmt::arg("dt", bed.dt), fmt::arg("substeps", bed.substeps),
                        fmt::arg("motion", bed.motion), fmt::arg("density", bed.density), fmt::arg("young", bed.young),
-                       fmt::arg("law", bed.law), fmt::arg("friction", bed.friction), fmt::arg("depth", bed.depth),
+                       fmt::arg("law", bed.law), fmt::arg("friction", bed.friction), fmt::arg("bottom", bed.bottom),
+                       fmt::arg("surface", bed.bottom + bed.depth), fmt::arg("beneath", bed.beneath),
                        fmt::arg("points", bed.points_per_cell), fmt::arg("diameter", diameter),
                        fmt::arg("form", bed.form), fmt::arg("cells", bed.sdf_cells),
                        fmt::arg("mass", bed.weight / gravity_of_beds), fmt::arg("middle", 0.5 * bed.width),
@@ -185,7 +189,7 @@ Watched watch_sphere(
             simulation.begin_mean();
             times.push_back(time);
             places.push_back(ball.position[0]);
-            heights.push_back(ball.position[2] - bed.radius - bed.depth);
+            heights.push_back(ball.position[2] - bed.radius - bed.depth - bed.bottom);
             pulls.push_back(-ball.force[0] / bed.weight);
             lifts.push_back(ball.force[2] / bed.weight);
             torques.push_back(ball.torque[1] / (bed.weight * bed.radius));

@@ -164,9 +164,9 @@ template<class Exec>
 void resume_candidates(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesView& bodies,
                        const PointBodyLaw& law);
 
-/// Of the last substep (dissipated: since the last summary or begin_step), where there are candidates. Returns where
-/// the backend will have it.
+/// Of the last substep (dissipated: since the last summary or begin_step), where there are candidates; live_named
+/// counts contacts of the first `named` bodies. Returns where the backend will have it.
 template<class Exec>
-const Summary* summarise(const Exec& exec, PointContact<Exec>& contact);
+const Summary* summarise(const Exec& exec, PointContact<Exec>& contact, std::int64_t named);
 
 } // namespace tread::contact

@@ -140,12 +140,12 @@ void finish_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Point
 }
 
 template<class Exec>
-const Summary* summarise(const Exec& exec, PointContact<Exec>& contact)
+const Summary* summarise(const Exec& exec, PointContact<Exec>& contact, std::int64_t named)
 {
     using namespace contact_steps;
     const auto store = [](Array<Exec, Summary>& to) { return run_steps::StoreSum<Summary>{to.data()}; };
     reduce_runs<Summary>(exec, "summarise contacts", contact.candidates.body_parts.of_items.view(),
-                         SummaryOf{contact.contacts(), contact.private_points()}, store(contact.summary_sums));
+                         SummaryOf{contact.contacts(), contact.private_points(), named}, store(contact.summary_sums));
     reduce_runs<Summary>(exec, "summarise contacts", RunsView{1, nullptr, contact.all_parts.data()},
                          run_steps::LoadSum<Summary>{contact.summary_sums.data()}, store(contact.summary));
     contact.dissipated.fill_zero();

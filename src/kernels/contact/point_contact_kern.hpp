@@ -320,6 +320,7 @@ struct SummaryOf
 {
     ContactsView  contacts;
     PrivatePoints points;
+    std::int64_t  named; ///< bodies, the first ones, whose contacts are counted apart
 
     TREAD_HD Summary operator()(std::int64_t c) const
     {
@@ -330,6 +331,7 @@ struct SummaryOf
         const std::int32_t  b = contacts.candidates.body[c], t = contacts.candidates.touched[c];
         const std::uint32_t id = points.id[t];
         summary.live           = 1;
+        summary.live_named     = b < named ? 1 : 0;
         summary.energy         = response.energy;
         summary.stiffest       = {response.stiffness / points.mass[t], b, id};
         summary.deepest        = {response.overlap / points.radius[t], b, id};

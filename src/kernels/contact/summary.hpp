@@ -24,6 +24,7 @@ TREAD_HD Extreme smaller(const Extreme& a, const Extreme& b) { return b.value < 
 struct Summary
 {
     std::int64_t live;       ///< contacts with overlap
+    std::int64_t live_named; ///< of these, of the bodies that the caller asked for
     double       energy;     ///< J, elastic, normal and tangential
     double       dissipated; ///< J, lost to friction
     Extreme      stiffest;   ///< 1/s2, k_n / m_p: the time step wants k_n dt^2 / m_p <= 0.5
@@ -34,13 +35,14 @@ struct Summary
 
     TREAD_HD static Summary zero()
     {
-        return {0, 0.0, 0.0, {0.0, -1, 0}, {0.0, -1, 0}, {std::numeric_limits<double>::infinity(), -1, 0}};
+        return {0, 0, 0.0, 0.0, {0.0, -1, 0}, {0.0, -1, 0}, {std::numeric_limits<double>::infinity(), -1, 0}};
     }
 };
 
 TREAD_HD Summary operator+(const Summary& a, const Summary& b)
 {
     return {a.live + b.live,
+            a.live_named + b.live_named,
             a.energy + b.energy,
             a.dissipated + b.dissipated,
             larger(a.stiffest, b.stiffest),

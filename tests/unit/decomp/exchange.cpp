@@ -198,9 +198,7 @@ TYPED_TEST(Exchanges, GoBackToWhereTheyCameFrom)
 
     std::vector<std::int32_t> each;
     for (std::int32_t k = 0; k < there.received(); ++k) { each.push_back(k); }
-    Array<TypeParam, std::int32_t> rows(this->exec(), "guest rows");
-    rows.assign(each);
-    back.plan(std::move(rows), there.from(), there.to());
+    back.plan(each, there.from(), there.to());
     Array<TypeParam, Pair> home(this->exec(), "home", there.sent());
     back.begin(columns(guests.data()));
     back.finish(columns(home.data()), 0);
@@ -260,19 +258,19 @@ TYPED_TEST(Exchanges, AllocateOnceAndNothingWithoutRows)
 TYPED_TEST(Exchanges, NoticeThatLessCameThanWasPlanned)
 {
     if (this->ranks() < 2) { GTEST_SKIP() << "one rank"; }
-    Transport<TypeParam>           transport(test::world(), this->exec(), TransportChoice::host);
-    Exchange<TypeParam>            exchange(transport, "test");
-    Array<TypeParam, Pair>         from = this->pairs();
-    Array<TypeParam, Pair>         to(this->exec(), "arrived", 2);
-    Array<TypeParam, std::int32_t> rows(this->exec(), "rows");
-    std::vector<Leg>               out, in;
+    Transport<TypeParam>      transport(test::world(), this->exec(), TransportChoice::host);
+    Exchange<TypeParam>       exchange(transport, "test");
+    Array<TypeParam, Pair>    from = this->pairs();
+    Array<TypeParam, Pair>    to(this->exec(), "arrived", 2);
+    std::vector<std::int32_t> rows;
+    std::vector<Leg>          out, in;
     if (this->rank() == 0)
     {
-        rows.assign({5});
-        out = {{1, 1}};
+        rows = {5};
+        out  = {{1, 1}};
     }
     if (this->rank() == 1) { in = {{0, 2}}; }
-    exchange.plan(std::move(rows), out, in);
+    exchange.plan(rows, out, in);
     exchange.begin(columns(from.data()));
     if (this->rank() == 1) { EXPECT_THROW(exchange.finish(columns(to.data()), 0), EnvironmentError); }
     else { exchange.finish(columns(to.data()), 0); }

@@ -36,7 +36,7 @@ Territory row_of_pages()
 
 TEST(Territory, BelongsToTheOwnersOfPages)
 {
-    const Territory territory = row_of_pages();
+    Territory territory = row_of_pages();
     for (std::int32_t x = 0; x < 8; ++x)
     {
         EXPECT_EQ(territory.owner_of(middle(x, 0, 0)), x / 2);
@@ -44,12 +44,21 @@ TEST(Territory, BelongsToTheOwnersOfPages)
     }
 }
 
-TEST(Territory, GivesPagesThatNobodyKnowsToTheRankBeforeThem)
+TEST(Territory, GivesPagesThatNobodyKnowsToTheNearestOwner)
 {
-    const Territory territory = row_of_pages();
-    // By key, (1, 1, 0) is behind (1, 0, 0) and before (2, 0, 0); (-1, 0, 0) is before all.
-    EXPECT_EQ(territory.owner_of(middle(1, 1, 0)), 0);
-    EXPECT_EQ(territory.owner_of(middle(-1, 0, 0)), 0);
+    Territory territory = row_of_pages();
+    for (std::int32_t x = 0; x < 8; ++x)
+    {
+        EXPECT_EQ(territory.owner_of(middle(x, 1, 0)), x / 2);
+        EXPECT_EQ(territory.owner_of(middle(x, 0, -2)), x / 2);
+    }
+    EXPECT_EQ(territory.owner_of(middle(-2, 1, 1)), 0);
+}
+
+TEST(Territory, GivesPagesFarFromAllToTheRankBeforeThem)
+{
+    Territory territory = row_of_pages();
+    EXPECT_EQ(territory.owner_of(middle(-3, 0, 0)), 0); // before all by key
     EXPECT_EQ(territory.owner_of(middle(100, 100, 100)), 3);
     EXPECT_EQ(territory.owner_of(Vec3<double>(1e300, 0, 0)), territory.owner_of(Vec3<double>(1e301, 0, 0)));
 }
@@ -63,6 +72,17 @@ TEST(Territory, FindsAllRanksThatABallReaches)
     EXPECT_EQ(territory.owners_near(middle(1, 0, 0), 0.21), (Ranks{0, 1}));
     EXPECT_EQ(territory.owners_near(middle(3, 0, 0), 0.61), (Ranks{0, 1, 2}));
     EXPECT_EQ(territory.owners_near(middle(3, 0, 0), 1e6), (Ranks{0, 1, 2, 3}));
+}
+
+TEST(Territory, KnowsWhereAllAroundAPageIsOneRanks)
+{
+    Territory territory = row_of_pages();
+    EXPECT_TRUE(territory.is_within(territory.surroundings(middle(0, 0, 0), 0.1), 0));
+    EXPECT_FALSE(territory.is_within(territory.surroundings(middle(0, 0, 0), 0.1), 1));
+    EXPECT_FALSE(territory.is_within(territory.surroundings(middle(1, 0, 0), 0.19), 0)) << "another place in the page";
+    EXPECT_FALSE(territory.is_within(territory.surroundings(middle(0, 0, 0), 1e6), 0)) << "too many pages to look at";
+    EXPECT_EQ(territory.surroundings(middle(1, 0, 0), 0.19), territory.surroundings(middle(1, 0, 0), 0.3));
+    EXPECT_NE(territory.surroundings(middle(1, 0, 0), 0.1), Surroundings{});
 }
 
 TEST(Territory, ABallThatPassesACornerDoesNotReachThePageBehindIt)

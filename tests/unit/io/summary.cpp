@@ -31,6 +31,7 @@ TEST(Summary, json_holds_every_field)
     summary.devices   = {"NVIDIA H200"};
     summary.stages    = some_stages();
     summary.errors    = {1e-9, 2e-3, std::numeric_limits<double>::quiet_NaN()};
+    summary.figures   = {{"contact_cells", 7, 20, 6}};
 
     summary.phases = {{"settle", 0, 0.2, true, 1e-3, 0.6}, {"drive", 0.2, 0.3, std::nullopt, 0.1, std::nullopt}};
 
@@ -69,7 +70,8 @@ TEST(Summary, json_holds_every_field)
                             "phases",
                             "asleep",
                             "stages",
-                            "errors"})
+                            "errors",
+                            "resolution"})
     {
         EXPECT_TRUE(json.contains(key)) << key;
     }
@@ -82,6 +84,9 @@ TEST(Summary, json_holds_every_field)
     EXPECT_EQ(json["stages"][2]["on"], false);
     EXPECT_EQ(json["stages"][2]["why"], "no rocks");
     EXPECT_EQ(json["errors"]["momentum"], 2e-3);
+    EXPECT_EQ(json["resolution"]["figures"]["contact_cells"]["verdict"], "marginal");
+    EXPECT_EQ(json["resolution"]["figures"]["contact_cells"]["marginal"], 6);
+    EXPECT_EQ(json["resolution"]["verdict"], "under-resolved") << "the run failed";
     EXPECT_EQ(json["phases"][0]["settled"], true);
     EXPECT_TRUE(json["phases"][1]["settled"].is_null());
     EXPECT_EQ(json["phases"][1]["unbalanced"], 0.1);

@@ -33,6 +33,8 @@ TEST(Differences, AreNamedByTableIndexAndKey)
     EXPECT_TRUE(differences(before, before).empty());
 }
 
+TEST(Differences, TheRightAnswerMay) { EXPECT_TRUE(may_change({"reference", 0, "form", "\"none\"", "\"weight\""}, 0)); }
+
 TEST(Differences, ThePastMayNotChange)
 {
     EXPECT_EQ(lines(1, false), std::vector<std::string>{"title: \"b\", was \"a\""});

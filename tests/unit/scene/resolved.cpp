@@ -225,6 +225,22 @@ TEST(SceneHash, is_that_of_the_run_and_not_of_its_spelling)
     EXPECT_NE(scene_hash(load_text(directory, slip)), hash);
 }
 
+TEST(SceneHash, knows_nothing_of_the_right_answer)
+{
+    const Directory directory;
+    const auto      measured = directory.write("measured.csv", "time,torque\n0,0\n");
+    const auto      scene    = load_text(directory, good_scene);
+    const auto      form     = load_text(directory, good_scene + "[reference]\nform = \"weight\"\n");
+    const auto      file     = load_text(directory, good_scene + "[reference]\nfile = \"measured.csv\"\n");
+    EXPECT_EQ(form.reference.form, ReferenceForm::weight);
+    EXPECT_EQ(file.reference.file, measured);
+    for (const Scene& known : {form, file})
+    {
+        EXPECT_EQ(load_text(directory, resolved_toml(known)), known);
+        EXPECT_EQ(scene_hash(known), scene_hash(scene));
+    }
+}
+
 TEST(SceneHash, of_an_empty_scene_is_fnv1a_of_its_text)
 {
     std::uint64_t hash = 14695981039346656037u;

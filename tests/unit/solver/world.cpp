@@ -1,6 +1,7 @@
 #include <cmath>
 #include <iostream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/errors.hpp"
@@ -105,6 +106,32 @@ TEST(World, TooManyRocksAreRefusedWithTheNumberThatFits)
 TEST(World, RocksInSandWithoutReplaceAreRefused)
 {
     EXPECT_THROW(build_world(load_text(test::sand_text + test::rocks_text + "placement = \"rain\"\n")), InputError);
+}
+
+std::string two_balls(double second)
+{
+    std::string text = test::roller_text;
+    text.replace(text.find("kind = \"wheel\""), text.find(" }\nsdf_cells") - text.find("kind = \"wheel\""),
+                 "kind = \"sphere\", nodes = 162");
+    text.replace(text.find("mass     = 4.0"), 14, "mass     = 4.0\ndiameter = 0.1");
+    return text + fmt::format(R"(
+[[body]]
+name     = "second"
+shape    = "roller"
+material = "steel"
+mass     = 4.0
+diameter = 0.1
+position = [0.2, 0.2, {}]
+)",
+                              second);
+}
+
+/// Balls with one centre and one radius have no node inside each other.
+TEST(World, BodiesInEachOtherAreRefused)
+{
+    EXPECT_THROW(build_world(load_text(two_balls(0.33))), InputError);
+    EXPECT_THROW(build_world(load_text(two_balls(0.35))), InputError);
+    EXPECT_NO_THROW(build_world(load_text(two_balls(0.428)))) << "a contact that holds them, from the start";
 }
 
 TEST(World, TheBedHasTheMassOfItsBox)

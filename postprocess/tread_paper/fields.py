@@ -1,0 +1,105 @@
+"""How far the terrain has moved: along a plane through the wheel, and seen from above. From snapshots, whole ones or thinned."""
+
+import h5py
+import numpy as np
+from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.colors import Normalize
+
+from tread_post.geometry import point_spacing
+from tread_post.sections import outline_of
+from tread_post.style import figure_grid
+
+PERCENTILE = 99.5
+# Of the terrain's height, up to which sections are shown.
+ABOVE = 1.8
+# Of the view from above, across the domain, at most.
+CELLS = 80
+
+
+def figure_of(title, shown, common_scale=True):
+    """A row for each (label, run, snapshot number): section, view from above."""
+    terrains = [_terrain(run, number) for _, run, number in shown]
+    largest = [max(np.percentile(moved, PERCENTILE), 1e-4) for _, moved, _ in terrains]
+    size = shown[0][1].scene["domain"]["size"]
+    high = min(size[2], ABOVE * max(place[:, 2].max() for place, _, _ in terrains))
+    figure, axes = figure_grid(len(shown), 2, 15.0, 7.5 * max(high, size[1]) / size[0] * 0.85 + 1.1)
+    for row, ((label, run, number), terrain, scale) in enumerate(zip(shown, terrains, largest)):
+        norm = Normalize(0, 1e3 * (max(largest) if common_scale else scale))
+        section, above = axes[row]
+        dots = _dots(section, terrain, norm, (0, 2), _near(run, number, terrain))
+        _draw_from_above(above, terrain, norm, size)
+        bodies = run.bodies(number)
+        if bodies is not None:
+            middle = float(bodies.position[0, 1])
+            cut = outline_of(_first(bodies, len(run.scene.get("body", []))), run.shapes, 1, middle)
+            section.add_collection(LineCollection(cut[:, :, (0, 2)], colors="#222222", linewidths=0.9))
+        section.set(xlim=(0, size[0]), ylim=(0, high), aspect="equal", ylabel="z  [m]", title=label)
+        above.set(xlim=(0, size[0]), ylim=(0, size[1]), aspect="equal", ylabel="y  [m]", title="from above")
+        figure.colorbar(dots, ax=axes[row, :], label="displacement  [mm]", shrink=0.8, extend="max")
+    for axis in axes[-1]:
+        axis.set_xlabel("x  [m]")
+    figure.suptitle(title, fontsize=14)
+    return figure
+
+
+def last_snapshot(run):
+    return run.snapshots[-1]
+
+
+def _terrain(run, number):
+    """Places [n, 3] (m), how far each has moved (m), and their sizes (m), of points and rocks."""
+    places, moved, sizes = [], [], []
+    points, bodies = run.points(number), run.bodies(number)
+    if points is not None:
+        places.append(points.position)
+        moved.append(np.linalg.norm(points.fields["displacement"], axis=1))
+        sizes.append(np.full(len(points.position), 1.2 * point_spacing(run.scene, points)))
+    rocks = _rocks(run, number, bodies)
+    if rocks is not None:
+        for parts, part in zip((places, moved, sizes), rocks):
+            parts.append(part)
+    return np.concatenate(places), np.concatenate(moved), np.concatenate(sizes)
+
+
+def _rocks(run, number, bodies):
+    """Of a thinned snapshot, which says how far rocks have come; None where there are none, or the snapshot does not say."""
+    named = len(run.scene.get("body", []))
+    path = run.path / "snapshots" / f"bodies_{number:04}.h5"
+    if bodies is None or len(bodies.position) <= named:
+        return None
+    with h5py.File(path, "r", locking=False) as file:
+        if "displacement" not in file:
+            return None
+        moved = np.linalg.norm(file["displacement"][named:], axis=1)
+    return bodies.position[named:], moved, bodies.scale[named:]
+
+
+def _first(bodies, count):
+    return type(bodies)(bodies.time, *(part[:count] for part in (bodies.position, bodies.orientation, bodies.scale, bodies.shape)))
+
+
+def _near(run, number, terrain):
+    bodies = run.bodies(number)
+    middle = bodies.position[0, 1] if bodies is not None else 0.5 * run.scene["domain"]["size"][1]
+    return np.flatnonzero(np.abs(terrain[0][:, 1] - middle) <= 0.75 * terrain[2])
+
+
+def _draw_from_above(axis, terrain, norm, size):
+    """The displacement of what is highest in each cell of a lattice."""
+    place, moved, sizes = terrain
+    cell = max(2.5 * np.median(sizes), size[1] / CELLS)
+    counts = [int(np.ceil(length / cell)) for length in size[:2]]
+    seen = np.full(counts, np.nan)
+    order = np.argsort(place[:, 2])
+    at = np.clip((place[order, :2] / cell).astype(int), 0, np.array(counts) - 1)
+    seen[at[:, 0], at[:, 1]] = 1e3 * moved[order]  # the highest comes last
+    axis.pcolormesh(cell * np.arange(counts[0] + 1), cell * np.arange(counts[1] + 1), seen.T, norm=norm, cmap="YlGnBu")
+
+
+def _dots(axis, terrain, norm, plane, rows):
+    place, moved, size = (part[rows] for part in terrain)
+    dots = EllipseCollection(size, size, np.zeros(len(rows)), units="xy", offsets=place[:, plane], transOffset=axis.transData, norm=norm,
+                             cmap="YlGnBu", linewidths=0)
+    dots.set_array(1e3 * moved)
+    axis.add_collection(dots)
+    return dots

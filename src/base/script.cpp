@@ -1,0 +1,65 @@
+#include "base/script.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/errors.hpp"
+
+namespace tread
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+fs::path this_program()
+{
+    std::error_code error;
+    const fs::path  path = fs::read_symlink("/proc/self/exe", error);
+    if (error) { throw EnvironmentError(fmt::format("/proc/self/exe: {}", error.message())); }
+    return path;
+}
+
+fs::path find_script(const fs::path& program, const std::string& name)
+{
+    for (fs::path folder = program.parent_path();; folder = folder.parent_path())
+    {
+        for (const fs::path& script : {folder / name, folder / "share" / "tread" / name})
+        {
+            std::error_code error;
+            if (fs::is_regular_file(script, error)) { return script; }
+        }
+        if (folder == folder.parent_path())
+        {
+            throw EnvironmentError(
+                fmt::format("there is no {0} above {1}, nor share/tread/{0}: it is part of tread's sources", name,
+                            program.string()));
+        }
+    }
+}
+
+} // namespace
+
+void become_script(const std::string& name, const std::vector<std::string>& arguments)
+{
+    const fs::path    program = this_program();
+    const char* const named   = std::getenv("TREAD_PYTHON");
+    // Debian's Python has the packages that the scripts use; another one may stand first on PATH.
+    std::vector<std::string> words{named != nullptr ? named : "/usr/bin/python3", find_script(program, name).string(),
+                                   "--tread", program.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& word : words) { pointers.push_back(word.data()); }
+    pointers.push_back(nullptr);
+    execvp(pointers.front(), pointers.data());
+    throw EnvironmentError(fmt::format(
+        "{} needs Python 3.11 with h5py, numpy and matplotlib: {}: {}; TREAD_PYTHON names another interpreter", name,
+        words.front(), std::strerror(errno)));
+}
+
+} // namespace tread

@@ -1,0 +1,93 @@
+#include "solver/extremes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread::solver
+{
+namespace
+{
+
+/// Automatic steps over those taken: 1 where the run takes what the code would, below it where steps are longer.
+double margin(double automatic, double taken) { return taken > 0 ? automatic / taken : 1e9; }
+
+void add_books(std::vector<io::Figure>& figures, const io::ErrorReport& errors)
+{
+    figures.push_back({"mass_error", errors.mass, 1e-6, 1e-3});
+    figures.push_back({"momentum_error", errors.momentum, 1e-4, 1e-2});
+    figures.push_back({"energy_error", std::abs(errors.energy), 0.01, 0.05});
+}
+
+void add_sand(std::vector<io::Figure>& figures, const Extremes& extremes, const io::ErrorReport& errors,
+              const PaceLimits& limits)
+{
+    figures.push_back({"transfer_loss", std::abs(errors.transfer), 0.02, 0.1});
+    figures.push_back({"margin_wave", margin(limits.courant, extremes.courant), 0.999, 0.8});
+    figures.push_back({"margin_travel", margin(travel_bound, extremes.travel), 0.6, 0.3});
+}
+
+void add_contact_with_sand(std::vector<io::Figure>& figures, const Extremes& extremes, const io::ErrorReport& errors,
+                           const World& world, const Plan& plan)
+{
+    figures.push_back({"coupling_error", std::abs(errors.coupling), 0.01, 0.05});
+    figures.push_back({"margin_sand_contact", std::sqrt(margin(point_contact_bound, extremes.spring)), 0.7, 0.5});
+    figures.push_back({"point_overlap", extremes.point_overlap, 1, 2});
+    const double points = points_across(extremes, world);
+    if (points == 0) { return; }
+    const double cells = points * world.point_spacing / world.geometry.spacing;
+    if (plan.plasticity) { figures.push_back({"contact_cells", cells, 20, 6}); }
+    else { figures.push_back({"contact_cells", cells, 4, 2}); }
+}
+
+void add_bodies(std::vector<io::Figure>& figures, const Extremes& extremes, const World& world)
+{
+    if (extremes.substep > 0)
+    {
+        figures.push_back(
+            {"margin_body_contact", margin(scene::TimeOptions{}.contact_share, extremes.substep), 0.5, 0.25});
+    }
+    figures.push_back({"body_overlap", extremes.body_overlap, 0.1, 0.3});
+    double off = 0;
+    for (const auto& form : world.templates) { off = std::max(off, std::abs(form.sdf_volume_ratio - 1)); }
+    figures.push_back({"field_volume_error", off, 0.02, 0.1});
+}
+
+} // namespace
+
+void Extremes::note(const TimeStep& step, std::int64_t steps, const PaceLimits& limits, const Pace& pace,
+                    const contact::Summary& contacts)
+{
+    const double shortest = pace.shortest_contact;
+    if (limits.spacing > 0)
+    {
+        courant = std::max(courant, limits.wave_speed * step.dt / limits.spacing);
+        travel  = std::max(travel, pace.largest_speed * step.dt / limits.spacing);
+    }
+    spring        = std::max(spring, pace.stiffest_point * step.dt * step.dt);
+    body_overlap  = std::max(body_overlap, pace.overlap);
+    point_overlap = std::max(point_overlap, contacts.deepest.value);
+    if (shortest > 0) { substep = std::max(substep, step.dt / static_cast<double>(step.substeps) / shortest); }
+    if (contacts.live_named == 0) { return; }
+    const double span = step.dt * static_cast<double>(steps);
+    touched += span;
+    touching += span * static_cast<double>(contacts.live_named);
+}
+
+double points_across(const Extremes& extremes, const World& world)
+{
+    if (extremes.touched == 0) { return 0; }
+    return std::sqrt(extremes.touching / extremes.touched / static_cast<double>(world.bodies.named));
+}
+
+std::vector<io::Figure> figures(const Extremes& extremes, const io::ErrorReport& errors, const PaceLimits& limits,
+                                const World& world, const Plan& plan)
+{
+    std::vector<io::Figure> figures;
+    add_books(figures, errors);
+    if (plan.sand) { add_sand(figures, extremes, errors, limits); }
+    if (plan.coupling) { add_contact_with_sand(figures, extremes, errors, world, plan); }
+    if (plan.bodies) { add_bodies(figures, extremes, world); }
+    return figures;
+}
+
+} // namespace tread::solver

@@ -1,0 +1,214 @@
+#!/usr/bin/python3
+"""Thinned runs, and the paper's numbers and figures beside ours, from made-up runs. Needs what postprocess/ needs."""
+
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "postprocess"))
+
+import head_on  # noqa: E402
+from made_up_run import SCENE, STARTS, colours_of, make_run, write_columns  # noqa: E402
+from tread_paper.cases import FIGURES  # noqa: E402
+from tread_paper.history import history_of, smoothed  # noqa: E402
+from tread_paper.measures import Absent, Measures  # noqa: E402
+from tread_paper.rolling import centres, rolled_over  # noqa: E402
+from tread_paper.table import put_into, rows_of, table_of  # noqa: E402
+from tread_post import Run, RunError  # noqa: E402
+from tread_post.thinned import put_together, thin  # noqa: E402
+
+# The made-up wheel turns at 0.7 rad/s on 0.2 m with slip 0.3, which is 0.098 m/s, for 1.9 s of a ramp of 0.2 s.
+SPEED, DRIVEN = 0.098, 2.1
+# What the made-up scene lacks for weights and friction; its radius stands in it.
+MORE = 'load = 635.0\n[[contact]]\nbetween = ["wheel", "sand"]\nfriction = 0.3\n'
+RUNS = ("wheel_drop_sand", "wheel_drop_mixed", "rolling_sand", "slip_sand", "slip_mixed", "spirit", "spirit_coarse", "curiosity_rock_coarse",
+        "wheel_drop_substeps_1", "wheel_drop_substeps_100")
+DOCS = ROOT / "docs"
+
+
+def make_impact(path):
+    """A head-on run that is Hertz's law itself, with as much energy as it has."""
+    text = (ROOT / "configs/paper/head_on_27.toml").read_text(encoding="utf-8")
+    time = np.linspace(0, 0.1, 401)
+    law = head_on.hertz(tomllib.loads(text), 1, time)
+    path.mkdir()
+    (path / "scene.toml").write_text(text, encoding="utf-8")
+    (path / "summary.json").write_text('{"terrain": [{"mass": %r}], "points": 904960, "steps": 400, "time": 0.1}' %
+                                       (2 * law.points_kinetic[0] / law.points_velocity[0] ** 2), encoding="utf-8")
+    mass = 2 * law.body_kinetic[0] / law.body_velocity[0] ** 2
+    points_mass = 2 * law.points_kinetic[0] / law.points_velocity[0] ** 2
+    zero = np.zeros_like(time)
+    vector = lambda values: np.stack((values, zero, zero), axis=1)  # noqa: E731
+    with h5py.File(path / "timeseries.h5", "w") as file:
+        write_columns(file.create_group("wheel/ball"), {"time": (time, "s"), "velocity": (vector(law.body_velocity), "m/s"),
+                                                        "force": (vector(-law.force), "N")})
+        write_columns(file.create_group("energy"), {"time": (time, "s"), "kinetic_points": (law.points_kinetic, "J"), "half_step": (zero, "J"),
+                                                    "strain": (law.elastic, "J"), "contact": (zero, "J")})
+        write_columns(file.create_group("balance"), {"time": (time, "s"), "momentum": (vector(mass * law.body_velocity +
+                                                                                             points_mass * law.points_velocity), "kg m/s")})
+
+
+class PaperTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = tempfile.TemporaryDirectory()
+        cls.runs = Path(cls.directory.name) / "runs"
+        first = cls.runs / RUNS[0]
+        make_run(first)
+        (first / "scene.toml").write_text(SCENE.replace('shape = "drum"\n[[phase]]', f'shape = "drum"\n{MORE}[[phase]]', 1), encoding="utf-8")
+        for name in RUNS[1:]:
+            shutil.copytree(first, cls.runs / name)
+        for name in ("head_on_1", "head_on_8", "head_on_27"):
+            make_impact(cls.runs / name)
+        cls.measures = Measures(cls.runs)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.directory.cleanup()
+
+    def test_rows_put_together_keep_means(self):
+        time = np.cumsum(np.array([0.0, 1, 1, 2, 1, 3]))
+        force = np.array([9.0, 1, 2, 3, 4, 5])
+        put = put_together({"time": time, "force": force, "slip": force}, 3, 0.0)
+        self.assertEqual(list(put["time"]), [1, 4, 8])
+        self.assertEqual(list(put["slip"]), [1, 3, 5])
+        self.assertEqual(list(put["force"]), [1, (2 * 1 + 3 * 2) / 3, (4 * 1 + 5 * 3) / 4])
+        whole = put_together({"time": time, "force": force}, 10, 2.0)
+        self.assertEqual(list(whole["force"]), [2, 3, 4, 5])
+
+    def test_a_thinned_run_is_a_run(self):
+        run, folder = Run(self.runs / "slip_sand"), self.runs.parent / "thinned"
+        thin(run, folder, 40, STARTS[2], [7])
+        small = Run(folder)
+        self.assertEqual(small.summary, run.summary)
+        self.assertEqual([phase.start for phase in small.phases], list(STARTS))
+        self.assertLessEqual(len(small.wheel("front wheel")["time"]), 41)
+        whole, few = history_of(run), history_of(small)
+        self.assertAlmostEqual(few.series("torque")[1:].mean(), whole.series("torque")[len(whole.time) % 3:].mean(), delta=1.0)
+        self.assertEqual(small.snapshots, [7])
+        self.assertLess(len(small.points(7).position), 0.3 * len(run.points(7).position))
+        # The wheel comes first, and the section through it is whole.
+        np.testing.assert_allclose(small.bodies(7).position[0], run.bodies(7).position[0], atol=1e-6)
+        near = lambda points: np.sum(np.abs(points.position[:, 1] - 0.25) < 0.007)  # noqa: E731
+        self.assertEqual(near(small.points(7)), near(run.points(7)))
+
+    def test_the_command_thins(self):
+        folder = self.runs.parent / "by_command"
+        done = self.command("thin.py", self.runs / "slip_sand", folder, "--phase", "drive", "--times", "2.1", "--rows", "20")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(Run(folder).snapshots, [7])
+        done = self.command("thin.py", self.runs / "slip_sand", folder, "--phase", "dance")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("no phase 'dance'", done.stderr)
+
+    def command(self, name, *options):
+        program = [sys.executable, str(ROOT / "postprocess" / name), *map(str, options)]
+        return subprocess.run(program, capture_output=True, text=True, timeout=240, check=False)
+
+    def test_measures(self):
+        measure = self.measures
+        self.assertAlmostEqual(measure("slip_sand mean speed 1 2"), SPEED, 6)
+        self.assertAlmostEqual(measure("slip_sand mean speed_share 1 2"), 0.7, 6)
+        self.assertAlmostEqual(measure("slip_sand last sinkage"), 0.03, 6)
+        self.assertAlmostEqual(measure("slip_sand mean torque_share 1 2"), 45 / (0.3 * 635 * 0.2), 2)
+        self.assertAlmostEqual(measure("slip_sand mean lift_share 1 2"), 1, 2)
+        self.assertAlmostEqual(measure("slip_sand when way over 0.098"), 1.1, delta=0.03)  # half of the ramp is lost
+        self.assertAlmostEqual(measure("slip_sand quiet way 0.5"), 1.1, delta=0.1)
+        self.assertAlmostEqual(measure("slip_sand summary driven"), DRIVEN, 2)
+        for text in ("slip_sand mean speed 2 5", "absent mean speed", "slip_sand when way over 9"):
+            with self.assertRaises(Absent):
+                measure(text)
+        for text in ("slip_sand dance speed", "slip_sand mean beauty", "slip_sand"):
+            with self.assertRaises(RunError):
+                measure(text)
+
+    def test_measures_of_an_impact_are_hertz(self):
+        for name, expected, tolerance in (("force", 10019.6, 10), ("contact", 24.609e-3, 5e-4), ("body_speed", -1, 1e-3), ("points_speed", 1, 1e-3),
+                                          ("kinetic", 0, 1e-3), ("total", 0, 1e-3), ("recovered", 1, 1e-3)):
+            self.assertAlmostEqual(self.measures(f"head_on_27 impact {name}"), expected, delta=tolerance, msg=name)
+        self.assertGreater(self.measures("head_on_27 impact both_elastic"), 0.5)
+
+    def test_verdicts(self):
+        rows = [
+            {"what": "in", "paper": "1", "measure": "slip_sand mean speed 1 2", "within": [0.09, 0.1]},
+            {"what": "out", "paper": "1", "measure": "slip_sand mean speed 1 2", "scale": 1e3, "format": "{:.0f} mm/s", "within": [0.09, 0.1],
+             "otherwise": "differs because"},
+            {"what": "order", "paper": "<", "measure": ["slip_sand mean slip 1 2", "absent last way", "slip_sand mean lift 1 2"],
+             "format": "{:.1f}, {:.1f}, {:.0f}", "order": "<"},
+            {"what": "none", "paper": "1", "measure": "absent last way", "within": [0, 1]},
+            {"what": "said", "paper": "1", "ours": "2", "verdict": "impossible"},
+        ]
+        lines = table_of(rows, self.measures)[2:]
+        self.assertEqual(lines[0], "| in | 1 | 0.098 | agrees |")
+        self.assertEqual(lines[1], "| out | 1 | 98 mm/s | differs because |")
+        self.assertTrue(lines[2].startswith("| order | < | 0.3, -, 63") and lines[2].endswith("| agrees |"), lines[2])
+        self.assertEqual(lines[3], "| none | 1 | not measured: absent was not run | open |")
+        self.assertEqual(lines[4], "| said | 1 | 2 | impossible |")
+
+    def test_tables_take_their_place(self):
+        self.assertEqual(put_into("a\n<!-- x -->\nold\n<!-- end of x -->\nb\n", "x", ["new"]), "a\n<!-- x -->\nnew\n<!-- end of x -->\nb\n")
+        with self.assertRaises(RunError):
+            put_into("a", "x", ["new"])
+
+    def test_every_row_of_the_documents_is_sound(self):
+        text = (DOCS / "paper.md").read_text(encoding="utf-8")
+        impacts = {f"head_on_{name}" for name in ("1", "8", "27", "27_paper_dt", "1_paper_dt")}
+        runs = self.runs.parent / "any"
+        runs.mkdir(exist_ok=True)
+        for case in (*FIGURES, "cost"):
+            rows = rows_of(DOCS / "paper" / f"{case}.toml")
+            self.assertGreater(len(rows), 4)
+            put_into(text, case, [])
+            for row in rows:
+                asked = row.get("measure", [])
+                for name in {line.split()[0] for line in ([asked] if isinstance(asked, str) else asked)}:
+                    if not (runs / name).exists():
+                        (runs / name).symlink_to(self.runs / ("head_on_27" if name in impacts else "slip_sand"))
+            self.assertEqual(len(table_of([row for row in rows if "summary" not in str(row.get("measure"))], Measures(runs))[0]), len(
+                "| | paper | here | verdict |"))
+        for bad in ('[[row]]\nwhat = "a"\npaper = "b"\nours = "c"\n', '[[row]]\nwhat = "a"\npaper = "b"\nours = "c"\nverdict = "d"\nhue = 1\n'):
+            (self.runs.parent / "bad.toml").write_text(bad, encoding="utf-8")
+            with self.assertRaises(RunError):
+                rows_of(self.runs.parent / "bad.toml")
+
+    def test_every_case_is_drawn(self):
+        folder, document = self.runs.parent / "drawn", self.runs.parent / "drawn.md"
+        folder.mkdir()
+        shutil.copyfile(DOCS / "paper.md", document)
+        for path in (DOCS / "paper").glob("*.toml"):
+            shutil.copyfile(path, folder / path.name)
+        for run in RUNS:  # what cost asks of a summary
+            (self.runs / run / "summary.json").write_text('{"points": 1, "bodies": 2, "steps": 3, "substeps": 6, "time": 3.0, "wall_s": 1.0, "sim_per_wall": 3.0,'
+                                                          ' "steps_per_s": 3.0, "peak_device_bytes": 1e6, "errors": {"energy": 1e-6}}', encoding="utf-8")
+        done = self.command("paper.py", "all", "--runs", self.runs, "--output", folder, "--document", document)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        drawn = {name for figures in FIGURES.values() for name in figures}
+        absent = {"curiosity_core_coarse_fields"}  # no such run was made up
+        for name in drawn - absent:
+            self.assertGreater(colours_of(folder / f"{name}.png"), 24, name)
+        self.assertIn("| 3.4 sand, own step | 4159 s at 127/s, 2600 MB | 1.0 s for 3.00 s simulated, 3 s/s; 3 steps/s, N 2.0; 1 MB; energy 1e-06 |",
+                      document.read_text(encoding="utf-8"))
+
+    def test_a_wheel_that_rolls_over_the_ripple(self):
+        history = history_of(Run(self.runs / "curiosity_rock_coarse"))
+        _, forward = rolled_over(history, "speed")
+        _, upward = rolled_over(history, "vertical_speed")
+        np.testing.assert_allclose(np.hypot(forward, upward), 0.7 * 0.2, rtol=1e-6)
+        crest = centres(np.linspace(1.39, 1.41, 201), 0.2)[100]
+        np.testing.assert_allclose(crest, (1.4, 0.2 + 0.2), atol=1e-6)
+
+    def test_smoothing_keeps_a_line(self):
+        time = np.linspace(0, 1, 101)
+        np.testing.assert_allclose(smoothed(time, 3 * time, 0.095)[10:-10], 3 * time[10:-10], atol=1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()

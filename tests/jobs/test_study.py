@@ -1,0 +1,368 @@
+#!/usr/bin/python3
+"""`tread study`: limits and fronts of made-up data with known answers, what is refused, and studies of scenes that take a second."""
+
+import csv
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "jobs"), str(ROOT / "postprocess")]
+
+import work_precision  # noqa: E402
+from made_up_run import colours_of, make_run  # noqa: E402
+from tread_jobs.study_plan import read_setting, read_variation  # noqa: E402
+from tread_post import Run  # noqa: E402
+from tread_post.closed_forms import FORMS  # noqa: E402
+from tread_post.convergence import limit_of  # noqa: E402
+from tread_post.fronts import pareto_front  # noqa: E402
+from tread_post.quantities import QUANTITIES, Quantity, window_of  # noqa: E402
+from tread_post.references import Variant, from_file, judge, known_value  # noqa: E402
+from tread_post.study_table import Row, Study, read_study, write_study  # noqa: E402
+
+TREAD = os.environ["TREAD"]
+
+
+class Limits(unittest.TestCase):
+    def test_orders_and_limits_are_found(self):
+        for order in (0.7, 1.0, 1.5, 2.0):
+            for sizes in ((0.1, 0.05, 0.025), (0.09, 0.04, 0.03), (0.03, 0.02, 0.4, 0.015)):
+                found = limit_of(sizes, [3 - 5 * size**order for size in sizes])
+                self.assertAlmostEqual(found.order, order, 9)
+                self.assertAlmostEqual(found.value, 3, 9)
+                finest = 5 * min(sizes) ** order
+                self.assertAlmostEqual(found.uncertainty, 1.25 * finest, 9)
+
+    def test_orders_that_nobody_believes_are_taken_with_care(self):
+        for order, used in ((0.2, 0.5), (4.0, 2.0)):
+            found = limit_of((4, 2, 1), [size**order for size in (4, 2, 1)])
+            correction = (2**order - 1) / (2**used - 1)
+            self.assertAlmostEqual(found.order, order, 9)
+            self.assertAlmostEqual(found.value, 1 - correction, 9)
+            self.assertAlmostEqual(found.uncertainty, 3 * correction, 9)
+
+    def test_without_monotone_convergence_the_spread_is_told(self):
+        for values in ((1.0, 1.4, 1.1), (1.0, 1.1, 1.3), (1.0, 1.1, 1.2)):  # back and forth; ever faster away; as fast, which is order 0
+            found = limit_of((0.4, 0.2, 0.1), values)
+            self.assertIsNone(found.order)
+            self.assertEqual(found.value, values[2])
+            self.assertAlmostEqual(found.uncertainty, max(values) - min(values))
+            self.assertIn("no monotone convergence", found.text)
+
+    def test_too_little_and_noise(self):
+        self.assertTrue(math.isnan(limit_of((0.1,), (1.0,)).uncertainty))
+        two = limit_of((0.1, 0.2), (1.0, 1.3))
+        self.assertEqual((two.value, two.order), (1.0, None))
+        self.assertAlmostEqual(two.uncertainty, 0.3)
+        noisy = limit_of((4, 2, 1), (1.04, 1.02, 1.01), scatter=0.02)
+        self.assertEqual((noisy.value, noisy.uncertainty, noisy.order), (1.01, 0.04, None))
+        self.assertAlmostEqual(limit_of((4, 2, 1), (1.3, 1.0, 1.0)).uncertainty, 0.3)
+
+
+class Fronts(unittest.TestCase):
+    def test_front(self):
+        rows = [(1, 0.5), (2, 0.5), (3, 0.1), (2.5, 0.2), (4, 0.15), (5, math.nan), (6, 0.1), (0.5, math.inf)]
+        self.assertEqual(pareto_front(rows, lambda row: row[0], lambda row: row[1]), [(1, 0.5), (2.5, 0.2), (3, 0.1)])
+        self.assertEqual(pareto_front([], lambda row: row, lambda row: row), [])
+
+    def rows(self, errors, quantity="torque", uncertainty=0.004, scatter=math.nan):
+        """Spacings 0.04, 0.03, 0.02, of 1, 5 and 41 s."""
+        return [Row(f"{number:04}", {"grid.spacing": spacing, "time.substeps": "12"}, "", "done", "", 1e3, 1, 100, 100, wall, 1e6, quantity, "N m", 1.0, 1.0,
+                    uncertainty, scatter, error, "order 1")
+                for number, (spacing, wall, error) in enumerate(zip(("0.04", "0.03", "0.02"), (1, 5, 41), errors))]
+
+    def test_sentences(self):
+        rows = self.rows((0.08, 0.015, 0.002), scatter=0.003)
+        self.assertEqual(work_precision.sentence(rows, 0.02),
+                         "torque within 2 %: spacing 0.03, substeps 12; 8.2 times cheaper than the dearest (5 s against 41 s); "
+                         "what is right is known to 0.4 % (order 1); perturbed repeats scatter by 0.3 %")
+        self.assertIn("spacing 0.04, substeps 12; 41 times cheaper", work_precision.sentence(rows, 0.1))
+        self.assertEqual(work_precision.sentence(rows, 0.001),
+                         "torque: nothing can be said within 0.1 %: what is right is known to 0.4 % (order 1)")
+        none = work_precision.sentence(self.rows((0.08, 0.07, 0.06)), 0.02)
+        self.assertIn("no variant is within 2 %; the best of the others is off by 6 % (spacing 0.02", none)
+        self.assertIn("nothing can be said", work_precision.sentence(self.rows((0.01, 0.01, 0.01), uncertainty=math.nan), 0.02))
+
+    def test_the_runs_own_verdict_is_passed_on(self):
+        rows = [Row(**{**vars(row), "verdict": verdict}) for row, verdict in zip(self.rows((0.01, 0.01, 0.01)), ("under-resolved", "resolved", ""))]
+        self.assertTrue(work_precision.sentence(rows, 0.02).endswith("; the run calls itself under-resolved"))
+        self.assertTrue(work_precision.sentence(rows[1:], 0.02).endswith("(order 1)"))
+
+    def test_sentence_of_all(self):
+        both = Study([], ["grid.spacing"], self.rows((0.01, 0.03, 0.001)) + self.rows((0.09, 0.01, 0.02), "sinkage"))
+        self.assertEqual(work_precision.sentence_of_all(both, 0.035),
+                         "torque, sinkage together within 3.5 %: spacing 0.03, substeps 12; 8.2 times cheaper than the dearest (5 s against 41 s)")
+        unknown = Study([], ["grid.spacing"], self.rows((0.01, 0.03, 0.001)) + self.rows((0.09, 0.01, 0.02), "sinkage", uncertainty=0.5))
+        self.assertEqual(work_precision.sentence_of_all(unknown, 0.05), "")
+
+    def test_repeats_and_failures_are_no_candidates(self):
+        rows = self.rows((0.01, 0.01, 0.01))
+        spoilt = [Row(**{**vars(rows[0]), "repeat": "1e-09 m"}), Row(**{**vars(rows[1]), "state": "failed"}), rows[2]]
+        self.assertIn("spacing 0.02, substeps 12; the dearest variant", work_precision.sentence(spoilt, 0.02))
+
+    def test_table_and_picture(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "study.csv"
+            rows = self.rows((0.08, math.nan, 0.002)) + self.rows((0.02, 0.01, 1e-12), "sinkage")
+            write_study(path, ["Of a wheel", "on sand"], ["grid.spacing", "time.substeps"], rows)
+            study = read_study(path)
+            self.assertEqual((study.comments, study.keys, study.quantities), (["Of a wheel", "on sand"], ["grid.spacing", "time.substeps"], ["torque", "sinkage"]))
+            self.assertEqual([vars(row) | {"error": 0, "scatter": 0} for row in study.rows], [vars(row) | {"error": 0, "scatter": 0} for row in rows])
+            self.assertTrue(math.isnan(study.rows[1].error))
+            done = subprocess.run([sys.executable, str(ROOT / "postprocess" / "work_precision.py"), str(path), "--within", "0.02"], capture_output=True,
+                                  text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stdout, r"\* 0002 +0.02 +12 .* 0.2 %")
+            self.assertGreater(colours_of(path.with_suffix(".png")), 10)
+            for text in ("", "a,b\n1,2\n"):
+                path.write_text(text, encoding="utf-8")
+                done = subprocess.run([sys.executable, str(ROOT / "postprocess" / "work_precision.py"), str(path)], capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 1)
+                self.assertRegex(done.stderr, "no table of a study|no rows")
+
+
+class Judgement(unittest.TestCase):
+    """Variants whose answer is 7 + 3 h + 0.5 dt^2, and 0.01 more in single precision."""
+
+    number = Quantity("N", lambda run: run, "")
+
+    def variant(self, name, h, dt, precision, own=False, perturbed=False, shift=0.0):
+        value = 7 + 3 * h + 0.5 * dt**2 + (0.01 if precision == "single" else 0.0) + shift
+        return Variant(name, {"grid.spacing": h, "time.dt": dt, "numerics.precision": precision}, value, own, perturbed)
+
+    def grid(self):
+        return [self.variant(f"{h} {dt} {p}", h, dt, p) for h in (0.4, 0.2, 0.1) for dt in (0.8, 0.4, 0.2) for p in ("single", "double")]
+
+    def test_corrections_of_a_grid_add_up(self):
+        judged = judge(self.grid(), self.number, None, "grid")
+        self.assertAlmostEqual(judged.reference.value, 7, 9)
+        self.assertAlmostEqual(judged.errors["0.4 0.8 single"], (1.2 + 0.32 + 0.01) / 7, 9)
+        self.assertIn("variant 0.1 0.2 double; grid.spacing: extrapolated, order 1; time.dt: extrapolated, order 2", judged.reference.text)
+        self.assertAlmostEqual(judged.reference.uncertainty, 1.25 * math.hypot(0.3, 0.02), 9)
+
+    def test_corrections_of_a_star_add_up_around_the_scene_itself(self):
+        star = [self.variant("own", 0.2, 0.4, "single", own=True), self.variant("h", 0.1, 0.4, "single"), self.variant("H", 0.4, 0.4, "single"),
+                self.variant("t", 0.2, 0.2, "single"), self.variant("T", 0.2, 0.8, "single"), self.variant("p", 0.2, 0.4, "double")]
+        judged = judge(star, self.number, None, "star")
+        self.assertAlmostEqual(judged.reference.value, 7, 9)
+        repeats = [self.variant(f"r{number}", 0.2, 0.4, "single", perturbed=True, shift=shift) for number, shift in enumerate((-1e-3, 1e-3))]
+        judged = judge(star + repeats, self.number, None, "star")
+        self.assertAlmostEqual(judged.scatter, 1e-3, 9)
+        self.assertAlmostEqual(judged.reference.value, 7, 2)
+        self.assertIn("mean of 3 perturbed repeats", judged.reference.text)
+
+    def test_what_does_not_converge_corrects_nothing(self):
+        wavering = [Variant(str(h), {"grid.spacing": h}, value, h == 0.4, False) for h, value in ((0.4, 5.0), (0.2, 5.6), (0.1, 5.3))]
+        judged = judge(wavering, self.number, None, "star")
+        self.assertEqual(judged.reference.value, 5.0)
+        self.assertAlmostEqual(judged.reference.uncertainty, 0.6)
+        self.assertTrue(math.isnan(judged.errors["0.4"]))
+
+    def test_what_is_known_is_not_extrapolated(self):
+        judged = judge(self.grid(), self.number, known_value(8.0, 0.15, "two laboratories"), "grid")
+        self.assertEqual((judged.reference.value, judged.reference.uncertainty), (8.0, 1.2))
+        self.assertAlmostEqual(judged.errors["0.1 0.2 double"], abs(7.32 - 8) / 8, 9)
+
+    def test_without_refinement_a_variant_is_compared_with_itself(self):
+        words = [Variant(word, {"numerics.narrow_phase": word}, value, word == "sdf", False) for word, value in (("sdf", 2.0), ("rays", 2.5))]
+        judged = judge(words, self.number, None, "star")
+        self.assertIn("nothing that refines was varied", judged.reference.text)
+        self.assertTrue(math.isnan(judged.errors["sdf"]))
+        self.assertAlmostEqual(judged.errors["rays"], 0.25)
+
+    def test_curves_are_compared_with_the_finest(self):
+        place = np.linspace(0, 1, 11)
+        curve = Quantity("m", lambda run: place * (1 + run), "")
+        variants = [Variant(str(h), {"grid.spacing": h}, h, False, False) for h in (0.4, 0.2, 0.1)]
+        judged = judge(variants, curve, None, "grid")
+        rms = math.sqrt(np.mean(place**2))
+        self.assertTrue(math.isnan(judged.errors["0.1"]))
+        self.assertAlmostEqual(judged.errors["0.4"], 0.3 * rms / 1.1)
+        self.assertAlmostEqual(judged.reference.uncertainty, 0.1 * rms / 1.1)
+        # In the middle of a star, finer ones tell; an "auto" has no size.
+        star = [Variant(str(h), {"grid.spacing": h, "time.dt": "auto"}, h, h == 0.2, False) for h in (0.4, 0.2, 0.1)]
+        star.append(Variant("dt", {"grid.spacing": 0.2, "time.dt": 1e-4}, 0.25, False, False))
+        judged = judge(star, curve, None, "star")
+        self.assertAlmostEqual(judged.reference.uncertainty, math.hypot(0.1, 0.05) * rms / 1.2)
+
+
+class Answers(unittest.TestCase):
+    def test_of_a_drive(self):
+        with tempfile.TemporaryDirectory() as folder:
+            make_run(Path(folder) / "run")
+            run = Run(Path(folder) / "run")
+            self.assertAlmostEqual(window_of(run).time[0], 2.06, 2)  # half of 1.1 to 3 s, at rows 0.02 s apart
+            self.assertAlmostEqual(QUANTITIES["torque"].measure(run), 45, 0)
+            self.assertAlmostEqual(QUANTITIES["drawbar_pull"].measure(run), 40, 9)
+            self.assertAlmostEqual(QUANTITIES["sinkage"].measure(run), 0.03, 3)
+            profile = QUANTITIES["profile"].measure(run)
+            # The rut behind the wheel at x = 0.62 m, of a bed of 1 m.
+            self.assertAlmostEqual(profile[8] - profile[20], -0.03, 2)
+            table = Path(folder) / "known.csv"
+            table.write_text("# of a laboratory\ntime,torque\n0,0\n1,50\n4,50\n", encoding="utf-8")
+            self.assertEqual(from_file(table, "torque", QUANTITIES["torque"], run).value, 50)
+            self.assertIsNone(from_file(table, "sinkage", QUANTITIES["sinkage"], run))
+
+    def test_forms_name_what_a_scene_lacks(self):
+        self.assertIn("[[body]]", FORMS["hertz-impact"].needs({"body": []}))
+        self.assertIn("mass or load", FORMS["weight"].needs({"body": [{"density": 1.0}]}))
+        self.assertEqual(FORMS["weight"].needs({"body": [{"mass": 1.0}]}), "")
+        self.assertIn("leans", FORMS["rolling-ball"].needs({"body": [{"diameter": 1, "mass": 1}], "domain": {"gravity": [0, 0, -9.8]}}))
+
+
+class Options(unittest.TestCase):
+    def test_values_are_toml_and_bare_words(self):
+        found = read_variation("domain.gravity=[0, 0, -9.8],[0,0,-3.7]")
+        self.assertEqual((found.key, found.values), ("domain.gravity", ([0, 0, -9.8], [0, 0, -3.7])))
+        self.assertEqual(read_variation('time.dt=auto,1e-4,"auto"').values, ("auto", 1e-4, "auto"))
+        self.assertEqual(read_setting("body[0].lock=[\"y\"]"), ("body[0].lock", ["y"]))
+
+
+BALL = """
+title = "a ball that rolls down"
+[domain]
+size    = [2.0, 1.0, 1.0]
+gravity = [0.8, 0.0, -9.8]
+walls   = { x = "open", y = "open" }
+[time]
+dt       = 1e-3
+substeps = 10
+[[material]]
+name    = "steel"
+model   = "elastic"
+density = 2500.0
+young   = 3e6
+poisson = 0.3
+[[contact]]
+between  = ["steel", "wall"]
+friction = 0.5
+[[shape]]
+name     = "ball"
+generate = { kind = "sphere", nodes = 162 }
+[[body]]
+name     = "ball"
+shape    = "ball"
+material = "steel"
+diameter = 0.1
+mass     = 1.3
+position = [0.5, 0.5, 0.05]
+[[phase]]
+name     = "roll"
+duration = 0.2
+[reference]
+form = "rolling-ball"
+"""
+
+
+class Studies(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory(prefix="tread-study-")
+        self.addCleanup(directory.cleanup)
+        self.directory = Path(directory.name)
+        self.scene = self.directory / "ball.toml"
+        self.scene.write_text(BALL, encoding="utf-8")
+
+    def study(self, *options, scene=None, code=0):
+        command = [TREAD, "study", str(scene or self.scene), "--threads", "1", *options]
+        done = subprocess.run(command, cwd=self.directory, capture_output=True, text=True, timeout=250, check=False)
+        self.assertNotIn("Traceback", done.stderr)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def rows(self, output):
+        with open(self.directory / output / "study.csv", encoding="utf-8") as file:
+            return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+    def test_closed_form_from_end_to_end(self):
+        """A ball rolls down to half a percent: the tolerance of tests/physics/rolling.cpp."""
+        options = ("--vary", "time.dt=2e-3,1e-3", "--vary", "time.substeps=10,20", "--output", "out", "--jobs", "2")
+        done = self.study(*options)
+        rows = self.rows("out")
+        self.assertEqual([(row["time.dt"], row["time.substeps"]) for row in rows], [("0.002", "10"), ("0.002", "20"), ("0.001", "10"), ("0.001", "20")])
+        for row in rows:
+            self.assertAlmostEqual(float(row["right"]), 5 / 7 * 0.8, 2)
+            self.assertLess(float(row["error"]), 5e-3)
+            self.assertEqual((row["state"], row["reference"], row["bodies"]), ("done", "a ball that rolls", "1"))
+            self.assertGreater(float(row["wall_s"]), 0)
+            self.assertGreater(float(row["memory_bytes"]), 0)
+        self.assertRegex(done.stdout, r"acceleration within 5 %: dt \S+, substeps \d+; (the dearest|[\d.]+ times cheaper)")
+        self.assertGreater(colours_of(self.directory / "out" / "study.png"), 10)
+        # Again: nothing is run, and the table is the same. Other values are another study.
+        before = (self.directory / "out" / "study.csv").read_text(encoding="utf-8")
+        self.assertNotIn("task", self.study(*options).stdout)
+        self.assertEqual((self.directory / "out" / "study.csv").read_text(encoding="utf-8"), before)
+        self.assertIn("was expanded from another", self.study("--vary", "time.dt=2e-3,3e-3", "--output", "out", code=2).stderr)
+
+    def test_what_was_interrupted_goes_on(self):
+        options = ("--vary", "time.dt=2e-3,1e-3", "--output", "out")
+        self.study(*options)
+        cases = self.directory / "out" / "variants" / "cases"
+        kept = (cases / "0000" / "run" / "summary.json").stat().st_mtime_ns
+        for path in sorted((cases / "0001").rglob("*"), reverse=True):
+            if path.name != "scene.toml" or path.parent.name == "run":
+                path.rmdir() if path.is_dir() else path.unlink()
+        done = self.study(*options)
+        self.assertIn("task 0 (cases 0001): done", done.stdout)
+        self.assertEqual((cases / "0000" / "run" / "summary.json").stat().st_mtime_ns, kept)
+        self.assertEqual(len(self.rows("out")), 2)
+
+    def test_star_with_repeats_and_without_the_closed_form(self):
+        self.study("--design", "star", "--vary", "time.dt=4e-3,2e-3", "--vary", "numerics.precision=single,double", "--repeats", "2", "--output", "out",
+                   "--reference", "finest", "--quantities", "acceleration,energy")
+        rows = [row for row in self.rows("out") if row["quantity"] == "acceleration"]
+        # Single precision is the default, so that it is the scene as it is; that one is compared with itself.
+        self.assertEqual([(row["time.dt"], row["numerics.precision"], row["repeat"]) for row in rows],
+                         [("0.001", "single", ""), ("0.004", "single", ""), ("0.002", "single", ""), ("0.001", "double", ""),
+                          ("0.001", "single", "1e-09 m"), ("0.001", "single", "2e-09 m")])
+        self.assertIn("mean of 3 perturbed repeats", rows[0]["reference"])
+        self.assertLess(float(rows[0]["scatter"]), 1e-5)
+        self.assertLess(abs(float(rows[0]["right"]) / (5 / 7 * 0.8) - 1), 1e-2)
+
+    def test_a_variant_that_stops_is_told(self):
+        """Two substeps of 1e-2 s are far beyond what contact bears: exit 3 of that variant, and a table of the others."""
+        done = self.study("--vary", "time.dt=2e-2,1e-3", "--set", "time.substeps=2", "--output", "out", code=3)
+        self.assertRegex(done.stdout, r"variant 0000: exit 3: .*substeps")
+        self.assertEqual([(row["state"], row["error"] != "") for row in self.rows("out")], [("failed", False), ("done", True)])
+
+    def test_dry_run_writes_nothing(self):
+        done = self.study("--vary", "time.dt=2e-3,1e-3", "--dry-run")
+        self.assertIn("2 variants, about", done.stdout)
+        self.assertEqual(sorted(path.name for path in self.directory.iterdir()), ["ball.toml"])
+
+    def test_what_is_refused(self):
+        for options, words in (
+            ((), "--vary KEY=A,B,... is missing"),
+            (("--vary", "time.dt"), "--vary time.dt: KEY=VALUE,VALUE"),
+            (("--vary", "time.dt=1e-3"), "at least two values"),
+            (("--vary", "time.dt=1e-3,"), "an empty value"),
+            (("--vary", "time.dt=1e-3,1e-3"), "stands there twice"),
+            (("--vary", "time.dt=1e-3,0"), r"\[time\] dt: 0 is out of range; accepted: number > 0, or \"auto\" \(s\)"),
+            (("--vary", "time.substeps=1,2.5"), r"\[time\] substeps: .*accepted: .*integer"),
+            (("--vary", "time.td=1e-3,2e-3"), r"\[time\] td: unknown key; accepted: dt, substeps"),
+            (("--vary", "body.bell.mass=1,2"), "no 'bell' among ball"),
+            (("--vary", "time.dt=1e-3,2e-3", "--vary", "time.dt=3e-3,4e-3"), "two axes are called 'time.dt'"),
+            (("--vary", "time.dt=1e-3,2e-3", "--set", "time.dt=1e-3"), "clash"),
+            (("--vary", "time.dt=1e-3,2e-3", "--quantities", "torqe"), "--quantities torqe: unknown; this scene has force,"),
+            (("--vary", "time.dt=1e-3,2e-3", "--reference", "coarsest"), "--reference coarsest: finest, or"),
+            (("--vary", "time.dt=1e-3,2e-3", "--reference", "torque=5"), "--reference torque: is not compared"),
+            (("--vary", "time.dt=1e-3,2e-3", "--perturb", "seed", "--repeats", "1"), r"draws no \[\[rocks\]\]"),
+            (("--vary", "time.dt=1e-3,2e-3", "--within", "2"), "over 0 and under 100%"),
+            (("--vary", "time.dt=1e-3,2e-3", "--jobs", "0"), "at least 1"),
+        ):
+            with self.subTest(options=options):
+                done = self.study(*options, "--output", "out", code=2)
+                self.assertRegex(done.stderr, words)
+        self.assertIn("nowhere.toml", self.study("--vary", "time.dt=1e-3,2e-3", scene="nowhere.toml", code=2).stderr)
+        self.scene.write_text(BALL.replace("rolling-ball", "run-out"), encoding="utf-8")
+        self.assertIn("the scene is not of its kind, which wants one box", self.study("--vary", "time.dt=1e-3,2e-3", code=2).stderr)
+        self.assertEqual(sorted(path.name for path in self.directory.iterdir()), ["ball.toml"])
+
+
+if __name__ == "__main__":
+    unittest.main()

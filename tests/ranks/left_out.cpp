@@ -1,0 +1,109 @@
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "rank_run.hpp"
+
+// What MPI is asked for by name: of a scene on one rank nothing, of sand on several what its parts need. The calls of
+// the library come here first, as MPI's profiling interface has it.
+namespace
+{
+
+using namespace tread;
+
+std::set<std::string>& called()
+{
+    static std::set<std::string> names;
+    return names;
+}
+
+} // namespace
+
+extern "C"
+{
+    int MPI_Allgather(const void* from, int count, MPI_Datatype type, void* to, int each, MPI_Datatype of,
+                      MPI_Comm comm)
+    {
+        called().insert("Allgather");
+        return PMPI_Allgather(from, count, type, to, each, of, comm);
+    }
+
+    int MPI_Allgatherv(const void* from, int count, MPI_Datatype type, void* to, const int* counts, const int* first,
+                       MPI_Datatype of, MPI_Comm comm)
+    {
+        called().insert("Allgatherv");
+        return PMPI_Allgatherv(from, count, type, to, counts, first, of, comm);
+    }
+
+    int MPI_Allreduce(const void* from, void* to, int count, MPI_Datatype type, MPI_Op op, MPI_Comm comm)
+    {
+        called().insert("Allreduce");
+        return PMPI_Allreduce(from, to, count, type, op, comm);
+    }
+
+    int MPI_Alltoall(const void* from, int count, MPI_Datatype type, void* to, int each, MPI_Datatype of, MPI_Comm comm)
+    {
+        called().insert("Alltoall");
+        return PMPI_Alltoall(from, count, type, to, each, of, comm);
+    }
+
+    int MPI_Alltoallv(const void* from, const int* counts, const int* first, MPI_Datatype type, void* to,
+                      const int* each, const int* at, MPI_Datatype of, MPI_Comm comm)
+    {
+        called().insert("Alltoallv");
+        return PMPI_Alltoallv(from, counts, first, type, to, each, at, of, comm);
+    }
+
+    int MPI_Bcast(void* data, int count, MPI_Datatype type, int root, MPI_Comm comm)
+    {
+        called().insert("Bcast");
+        return PMPI_Bcast(data, count, type, root, comm);
+    }
+
+    int MPI_Barrier(MPI_Comm comm)
+    {
+        called().insert("Barrier");
+        return PMPI_Barrier(comm);
+    }
+
+    int MPI_Isend(const void* data, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm, MPI_Request* request)
+    {
+        called().insert("Isend");
+        return PMPI_Isend(data, count, type, to, tag, comm, request);
+    }
+
+    int MPI_Irecv(void* data, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm, MPI_Request* request)
+    {
+        called().insert("Irecv");
+        return PMPI_Irecv(data, count, type, from, tag, comm, request);
+    }
+}
+
+namespace
+{
+
+std::set<std::string> calls_of_steps(const std::string& text, test::Ranks ranks)
+{
+    Counters                   counters;
+    test::RankRun<Cpu, double> run(Cpu{&counters}, text, ranks);
+    called().clear();
+    run.step(5);
+    return called();
+}
+
+using Names = std::set<std::string>;
+
+TEST(LeftOutOnRanks, OneRankAloneAsksNothingOfMpi)
+{
+    EXPECT_EQ(calls_of_steps(test::sand_text, test::Ranks::this_one), Names{});
+}
+
+/// Five steps of a bed at rest, with checksums of what goes to other ranks.
+TEST(LeftOutOnRanks, SandOnSeveralAsksForWhatItShares)
+{
+    if (test::world().size() == 1) { GTEST_SKIP() << "one rank"; }
+    EXPECT_EQ(calls_of_steps(test::sand_text, test::Ranks::all), (Names{"Allgather", "Irecv", "Isend"}));
+}
+
+} // namespace
