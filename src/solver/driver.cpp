@@ -324,6 +324,7 @@ void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<Stage>& 
     summary.phases   = ended_;
     summary.figures  = figures(simulation_.extremes(), summary.errors, simulation_.limits(), world_, plan_);
     summary.restarts = restarts_;
+    summary.asleep   = simulation_.mean_asleep();
 
     summary.checkpoints   = checkpoints_;
     summary.points_across = points_across(simulation_.extremes(), world_);
