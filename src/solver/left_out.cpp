@@ -19,7 +19,8 @@ struct Item
     std::int64_t count; ///< that the scene has
 };
 
-/// Of one item: bytes, and nanoseconds a step of one core (docs/performance.md, "What a stage costs").
+/// Of one item: bytes, and nanoseconds of one core a step, for bodies a substep (docs/performance.md, "What a stage
+/// costs").
 struct Price
 {
     std::string name; ///< of the stage
@@ -36,10 +37,10 @@ std::vector<Price> prices(const scene::Scene& scene, const World& world)
     const Item   near   = {"point near a body", 0};
     const Item   moving = {"point and body", point.count + body.count};
     return {{stage::order, point, 35, 20},
-            {stage::pairs, body, 700, 300},
-            {stage::candidates, point, 9 * real, 5},
+            {stage::pairs, body, 700, 100},
+            {stage::candidates, point, 9 * real, 1},
             {stage::sand_contact, near, 300, 100},
-            {stage::body_contact, body, 700, 700},
+            {stage::body_contact, body, 700, 1000},
             {stage::integrate, body, 630, 100},
             {stage::scatter, point, 20 * real, 54},
             {stage::grid, point, 4 * real, 24},

@@ -14,13 +14,14 @@ SandRanks<Exec, Real>::SandRanks(decomp::Decomposition<Exec>& decomposition)
 }
 
 template<class Exec, class Real>
-void SandRanks<Exec, Real>::order(mpm::Points<Exec, Real>& points, mpm::Pages<Exec>& pages,
-                                  const mpm::GridGeometry& geometry, const mpm::GridWalls& walls,
-                                  mpm::OrderScratch<Exec, Real>& scratch)
+std::int64_t SandRanks<Exec, Real>::order(mpm::Points<Exec, Real>& points, mpm::Pages<Exec>& pages,
+                                          const mpm::GridGeometry& geometry, const mpm::GridWalls& walls,
+                                          mpm::OrderScratch<Exec, Real>& scratch)
 {
-    moved_ = migration_.run(points, geometry, scratch);
-    mpm::order_points(decomposition_.transport.exec(), points, pages, geometry, scratch);
+    moved_                  = migration_.run(points, geometry, scratch);
+    const std::int64_t left = mpm::order_points(decomposition_.transport.exec(), points, pages, geometry, scratch);
     halo_.plan(pages, walls);
+    return left;
 }
 
 template<class Exec, class Real>

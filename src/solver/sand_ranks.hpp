@@ -16,9 +16,9 @@ public:
     explicit SandRanks(decomp::Decomposition<Exec>& decomposition);
 
     /// Brings all points to the owners of their pages, and orders them there (mpm::order_points); finds out what is
-    /// shared.
-    void order(mpm::Points<Exec, Real>& points, mpm::Pages<Exec>& pages, const mpm::GridGeometry& geometry,
-               const mpm::GridWalls& walls, mpm::OrderScratch<Exec, Real>& scratch);
+    /// shared. Gives how many points of this rank have left the domain.
+    std::int64_t order(mpm::Points<Exec, Real>& points, mpm::Pages<Exec>& pages, const mpm::GridGeometry& geometry,
+                       const mpm::GridWalls& walls, mpm::OrderScratch<Exec, Real>& scratch);
 
     /// Points of all ranks that changed their rank in the last order().
     std::int64_t                         moved() const { return moved_; }

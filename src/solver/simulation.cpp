@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "solver/body_reaches.hpp"
 #include "solver/pace_limits.hpp"
 #include "solver/surface.hpp"
 
@@ -86,12 +87,16 @@ void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, d
 template<class Exec, class Real>
 TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& clock)
 {
+    if (rigid_) { heed_commands(step); }
     if (unmeasured_ > 0 && step.dt != last_.dt) { measure(); } // the books take steps of one length together
-    if (rigid_) { heed_commands(); }
     if (sand_) { guard_->allow(step, time); }
     if (sand_ || balance_)
     {
         clock.run(exec_, stage::order, [&] { arrange(); });
+    }
+    if (sand_ && unmeasured_ == 0 && sand_->sleep_is_due(pace_.largest_speed, damping_))
+    {
+        clock.run(exec_, stage::sleep, [&] { look_who_sleeps(); });
     }
     if (unmeasured_ == 0) { find_contacts(step, clock); }
     if (plan_.body_contact) { step.substeps = substeps_of(scene_.time, step.dt, limits_, pace_); }
@@ -148,15 +153,25 @@ void Simulation<Exec, Real>::deal_out_pages()
     if (balance_->deal_out(loads, steps_) && sand_) { sand_->follow_owners(); }
 }
 
-/// A body that a command makes faster than anything was has lists for this step alone.
 template<class Exec, class Real>
-void Simulation<Exec, Real>::heed_commands()
+void Simulation<Exec, Real>::look_who_sleeps()
+{
+    std::vector<BodyReach> bodies;
+    if (rigid_) { bodies = body_reaches(exec_, rigid_->view(), world_); }
+    sand_->look_who_sleeps(bodies, damping_);
+}
+
+/// A body that a command makes faster than anything was has lists for this step alone, which is as short as that wants.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::heed_commands(TimeStep& step)
 {
     const double commanded = rigid_->take_commanded_speed();
     if (commanded <= pace_.largest_speed) { return; }
     if (unmeasured_ > 0) { measure(); }
-    pace_.largest_speed = std::max(pace_.largest_speed, commanded);
-    measure_every_      = 1;
+    pace_.largest_speed   = std::max(pace_.largest_speed, commanded);
+    measure_every_        = 1;
+    const TimeStep wanted = choose_step(scene_.time, limits_, pace_, 0);
+    if (wanted.dt < step.dt && !scene_.time.dt) { step = wanted; }
 }
 
 /// Of the steps until the next measuring.

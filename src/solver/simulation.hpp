@@ -52,13 +52,17 @@ public:
     /// The scene must have sand.
     Sand<Exec, Real>& sand() { return *sand_; }
 
+    /// Mean share of the points that slept so far; nothing where none may.
+    std::optional<double> mean_asleep() const { return sand_ ? sand_->mean_asleep() : std::nullopt; }
+
     /// Of this rank.
     std::int64_t points() const { return sand_ ? sand_->count() : 0; }
 
     /// Tells the named bodies what to do (held, driven, free) until the next call; `damping` of the phase.
     void command(const std::vector<BodyCommand>& commands, double damping);
 
-    /// One MPM step of `step.dt` with its contact substeps (design: one step). NumericalError, with what, where and
+    /// One MPM step of `step.dt`, or a shorter one where a command has made a body too fast for it, with its contact
+    /// substeps (design: one step). NumericalError, with what, where and
     /// which limit, when the state cannot be trusted any more; `time` is for that message. What moves little is
     /// measured every few steps only, which pace() and unbalanced() then follow; lists of contacts and N are those of
     /// the first of these.
@@ -100,8 +104,9 @@ public:
 private:
     void transfer_balance(StateFile& file);
     void arrange();
+    void look_who_sleeps();
     void deal_out_pages();
-    void heed_commands();
+    void heed_commands(TimeStep& step);
     void find_contacts(const TimeStep& step, StageClock& clock);
     void substeps(const TimeStep& step, double time, StageClock& clock);
     void coupled_substep(double dt, StageClock& clock);

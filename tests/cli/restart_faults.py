@@ -135,7 +135,7 @@ class Faults(RestartTest):
                              "--set=output.snapshots_every=0.005")
 
     def test_a_disk_that_is_full_for_several_ranks(self):
-        self.check_full_disk(lasting(SCENE, 0.05), 1300, "--set=checkpoint.every_steps=8", "--set=checkpoint.keep=100",
+        self.check_full_disk(lasting(SCENE, 0.05), 3000, "--set=checkpoint.every_steps=8", "--set=checkpoint.keep=100",
                              "--set=output.snapshots_every=0.01", launcher=(*MPIRUN, "-n", "2"))
 
     def test_a_killed_run_loses_nothing_older_than_its_last_checkpoint(self):

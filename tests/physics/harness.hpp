@@ -80,7 +80,7 @@ public:
         if (adjust_) { adjust_(commands); }
         simulation_.command(commands, phases_.phase().damping);
         const solver::TimeStep taken = simulation_.step(step_, time_, clock_);
-        time_ += step_.dt;
+        time_ += taken.dt;
         return taken;
     }
 

@@ -48,8 +48,7 @@ public:
                 step_ = solver::choose_step(scene_.time, simulation_->limits(), simulation_->pace(), step_.dt);
             }
             simulation_->command({}, phases_.phase().damping);
-            simulation_->step(step_, time_, clock_);
-            time_ += step_.dt;
+            time_ += simulation_->step(step_, time_, clock_).dt;
         }
     }
 

@@ -44,10 +44,10 @@ def say(done, count, cell, result):
 def write(path, backend, pairs):
     with open(path, "w", newline="", encoding="utf-8") as file:
         rows = csv.writer(file)
-        rows.writerow(["name", "map", "x", "y", "backend", "outcome", "expected", *FIGURES, "reason"])
+        rows.writerow(["name", "map", "x", "y", "x_label", "y_label", "backend", "outcome", "expected", *FIGURES, "reason"])
         for cell, result in pairs:
             figures = [f"{value:.6g}" if isinstance(value, float) else value for value in (result.figures.get(name, "") for name in FIGURES)]
-            rows.writerow([cell.name, cell.map, cell.x, cell.y, backend, result.outcome, "yes" if result.expected else "no", *figures,
+            rows.writerow([cell.name, cell.map, cell.x, cell.y, cell.x_label, cell.y_label, backend, result.outcome, "yes" if result.expected else "no", *figures,
                            result.reason])
 
 
@@ -66,7 +66,7 @@ def main():
     with ThreadPoolExecutor(options.jobs) as pool:
         list(pool.map(run, cells))
     pairs = [(cell, results[cell.name]) for cell in cells]
-    counts = {outcome: sum(result.outcome == outcome for _, result in pairs) for outcome in ("stable", "stopped", "refused", "wrong")}
+    counts = {outcome: sum(result.outcome == outcome for _, result in pairs) for outcome in ("stable", "told", "stopped", "refused", "wrong")}
     unexpected = sum(not result.expected for _, result in pairs)
     print(", ".join(f"{count} {outcome}" for outcome, count in counts.items()) + f"; {unexpected} not as they may be")
     return 1 if unexpected else 0

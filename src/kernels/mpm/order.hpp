@@ -38,12 +38,13 @@ struct OrderScratch
 };
 
 /// Orders points in memory by page and cell, stably, and rebuilds the page tables. Points more than two cells outside
-/// the domain are dropped from the end (points.count shrinks). Post: every point is listed in the range of its cell;
+/// the domain are dropped (points.count shrinks): how many comes back, and until points are added they stand behind the
+/// others. Post: every point is listed in the range of its cell;
 /// the list is the order in memory; page keys ascend; every page within two cells of a point is
 /// listed.
 template<class Exec, class Real>
-void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, const GridGeometry& geometry,
-                  OrderScratch<Exec, Real>& scratch);
+std::int64_t order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages,
+                          const GridGeometry& geometry, OrderScratch<Exec, Real>& scratch);
 
 /// Moves the points in memory to where the list has them; lists and tables of pages stay.
 template<class Exec, class Real>

@@ -340,8 +340,8 @@ void build_node_pages(const Exec& exec, Pages<Exec>& pages, OrderScratch<Exec, R
 }
 
 template<class Exec, class Real>
-void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, const GridGeometry& geometry,
-                  OrderScratch<Exec, Real>& scratch)
+std::int64_t order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages,
+                          const GridGeometry& geometry, OrderScratch<Exec, Real>& scratch)
 {
     const std::int64_t n = points.count;
     scratch.keys.resize(n);
@@ -352,6 +352,7 @@ void order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pag
     gather_points(exec, points, scratch.order.data(), scratch.sort);
     build_point_pages(exec, points, pages, geometry, scratch);
     build_node_pages(exec, pages, scratch);
+    return n - points.count;
 }
 
 template<class Exec>

@@ -1,0 +1,42 @@
+#include <numeric>
+
+#include "decomp/combine.hpp"
+#include "solver/sand.hpp"
+
+// Sand that leaves the domain, in the books.
+namespace tread::solver
+{
+
+/// `left` points of this rank stand behind the others: listed as those of one page, they are counted as a page is.
+template<class Exec, class Real>
+void Sand<Exec, Real>::keep_account_of(std::int64_t left)
+{
+    double row[mpm::census_count] = {};
+    if (left > 0)
+    {
+        std::vector<std::int32_t> places(static_cast<std::size_t>(left));
+        std::iota(places.begin(), places.end(), static_cast<std::int32_t>(points_.count));
+        Array<Exec, std::int32_t> place(exec_, "points that left"), range(exec_, "range of points that left");
+        place.assign(places);
+        range.assign({0, static_cast<std::int32_t>(left)});
+        mpm::PagesView page = pages();
+        page.point_pages    = 1;
+        page.first_point    = range.data();
+        page.point_at       = place.data();
+        census_rows_.resize(mpm::census_count);
+        mpm::take_census(exec_, points_.view(), page, materials_.data(), census_rows_.data());
+        copy_to_host(exec_, row, census_rows_.data(), sizeof(row));
+    }
+    if (ranks_) { decomp::combine(ranks_->communicator(), row, mpm::census_count, 0); }
+    for (std::size_t c = 0; c < left_.size(); ++c) { left_[c] += row[c]; }
+    mass_ -= row[mpm::census_mass];
+}
+
+template void Sand<Cpu, float>::keep_account_of(std::int64_t);
+template void Sand<Cpu, double>::keep_account_of(std::int64_t);
+#ifdef TREAD_WITH_CUDA
+template void Sand<Gpu, float>::keep_account_of(std::int64_t);
+template void Sand<Gpu, double>::keep_account_of(std::int64_t);
+#endif
+
+} // namespace tread::solver

@@ -1,0 +1,56 @@
+#include <cmath>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "scene_text.hpp"
+#include "solver/simulation.hpp"
+
+// Sand that leaves through an open wall stays in the books.
+namespace
+{
+
+using namespace tread;
+using namespace tread::solver;
+
+std::string thrown_out()
+{
+    std::string text = test::sand_text;
+    text.replace(
+        text.find("gravity = [0.0, 0.0, -9.81]"), 27,
+        "gravity = [0.0, 0.0, -9.81]\nwalls = { x = \"open\", y = \"open\", bottom = \"open\", top = \"open\" }");
+    text.replace(text.find("material = \"sand\"\n"), 18, "material = \"sand\"\nvelocity = [5.0, 0.0, 0.0]\n");
+    return text;
+}
+
+TEST(Leaving, BooksKeepWhatHasLeft)
+{
+    const scene::Scene        scene = test::load_text(thrown_out());
+    const World               world = build_world(scene);
+    Counters                  counters;
+    Simulation<Cpu, double>   simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
+    const std::vector<Census> start{simulation.census()};
+    StageClock                clock;
+    TimeStep                  step;
+    double                    time = 0;
+    EXPECT_DOUBLE_EQ(simulation.pace().largest_speed, 5) << "the first step knows it";
+    for (; time < 0.4; time += step.dt)
+    {
+        step = choose_step(scene.time, simulation.limits(), simulation.pace(), step.dt);
+        step = simulation.step(step, time, clock);
+    }
+    const Census now = simulation.census();
+    EXPECT_EQ(simulation.points(), 0) << "at 5 m/s 0.4 m and the margin of two cells take 0.1 s, and falling less";
+    Ledger& books = simulation.ledger();
+    books.energy(now);
+    books.balance(now);
+    std::cout << "[ books    ] mass " << books.errors().mass << ", momentum " << books.errors().momentum << ", energy "
+              << books.errors().energy << '\n';
+    EXPECT_LT(books.errors().mass, 1e-14);
+    EXPECT_LT(books.errors().momentum, 1e-12);
+    // What leaves takes half a step of its weight's power with it: g dt / v, here 9.81 * 1e-3 / 5.
+    EXPECT_LT(std::abs(books.errors().energy), 4e-3);
+    EXPECT_NEAR(now.sand.mass, start.front().sand.mass, 1e-12 * now.sand.mass);
+}
+
+} // namespace
