@@ -23,6 +23,10 @@ from tread_post.style import readable, with_unit
 MOST_SLICES = 2  # runs whose sections are shown
 # Columns of the table of answers, as far as slip is no axis. What follows from the axes is in campaign.csv.
 SHOWN = ("slip", "drawbar_pull", "torque", "sinkage", "power_number")
+OF_CURVES = ("Against slip. Bars: standard deviation over the steady part. Bands: Wong and Reece's formulas with the strength of the scene's sand "
+             "and the stiffness, exponent and shear length of published soils; dashed: those soils.")
+OF_DRIVES = ("The drives against time, from the end of their ramps. Dots: from where the means are taken; filled where the drive is steady "
+             "from there on.")
 PROVENANCE = ("version", "commit", "backend", "devices", "ranks", "start", "end", "scene_hash")
 
 
@@ -98,18 +102,17 @@ def figures_of(campaign):
     parts = []
     has_drives = "torque" in campaign.columns
     if has_drives and campaign.slip_axes:
-        parts.append(figure(slip_curves.figure_of(campaign), "Against slip. Bars: standard deviation over the steady part. Bands: Wong and Reece's formulas "
-                            "with the strength of the scene's sand and the stiffness, exponent and shear length of published soils; dashed: those soils."))
+        parts.append(figure(slip_curves.figure_of(campaign), OF_CURVES))
     if has_drives and drives.groups_of(campaign):
-        parts.append(figure(drives.figure_of(campaign), "The drives against time, from the end of their ramps. Dots: from where the means are taken; filled where "
-                            "the drive is steady from there on."))
+        parts.append(figure(drives.figure_of(campaign), OF_DRIVES))
     if has_drives and campaign.slip_axes and (traces := sinkage_slip.traces_of(campaign.path)):
         parts.append(figure(sinkage_slip.figure_of(traces), "Sinkage over the largest of its curve against slip."))
     for row in rows_with_snapshots(campaign)[:MOST_SLICES]:
         run = campaign.run(row)
         numbers = slices.chosen_snapshots(run)
         at = slices.default_place(run, slices.PLANES["y"][0], numbers[0])
-        parts.append(figure(slices.figure_of(run, ("y", at), numbers), f"Case {int(campaign['number'][row]):04}: sand and bodies on the plane of the wheel."))
+        case = f"{int(campaign['number'][row]):04}"
+        parts.append(figure(slices.figure_of(run, ("y", at), numbers), f"Case {case}: sand and bodies on the plane of the wheel."))
     return section("Figures", *(parts or [paragraph("Nothing to draw yet.")]))
 
 
