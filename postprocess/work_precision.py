@@ -142,8 +142,9 @@ def star_looks(study):
         return {"marker": "o" if differing[row.variant] else "*", "edgecolors": colour, "facecolors": colour}
 
     handles = [plt.Line2D([], [], linestyle="", marker="*", color="#333333", markersize=10, label="the scene as it is")]
+    varied = [key for key in study.keys if any(key in keys for keys in differing.values())]
     handles += [plt.Line2D([], [], linestyle="", marker="o", color=colours[key], label=f"{short_name(key, study.keys)} instead of {usual[key]}")
-                for key in study.keys]
+                for key in varied]
     return Looks(marker, lambda row: "".join(row.settings[key] for key in differing[row.variant]), handles)
 
 
