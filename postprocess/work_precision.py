@@ -131,9 +131,10 @@ class Looks:
 
 def star_looks(study):
     """Of variants that differ from the usual ones in one key at most: a colour a key, and the value beside it. None of others."""
-    usual = {key: Counter(row.settings[key] for row in study.rows).most_common(1)[0][0] for key in study.keys}
-    differing = {row.variant: [key for key in study.keys if row.settings[key] != usual[key]] for row in study.rows}
-    if max(map(len, differing.values())) > 1 or len(study.keys) < 2:
+    rows = candidates(study.rows)
+    usual = {key: Counter(row.settings[key] for row in rows).most_common(1)[0][0] for key in study.keys}
+    differing = {row.variant: [key for key in study.keys if row.settings[key] != usual[key]] for row in rows}
+    if not rows or max(map(len, differing.values())) > 1 or len(study.keys) < 2:
         return None
     colours = dict(zip(study.keys, COLOURS * len(study.keys)))
 
@@ -150,7 +151,7 @@ def star_looks(study):
 
 def grid_looks(study):
     """The key with most values gives the colour, the next the marker, a third whether it is filled."""
-    values = {key: list(dict.fromkeys(row.settings[key] for row in study.rows)) for key in study.keys}
+    values = {key: list(dict.fromkeys(row.settings[key] for row in candidates(study.rows))) for key in study.keys}
     shown = sorted(study.keys, key=lambda key: -len(values[key]))[:3]
 
     def marker(row):
