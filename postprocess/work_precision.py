@@ -131,9 +131,10 @@ class Looks:
 
 def star_looks(study):
     """Of variants that differ from the usual ones in one key at most: a colour a key, and the value beside it. None of others."""
-    usual = {key: Counter(row.settings[key] for row in study.rows).most_common(1)[0][0] for key in study.keys}
-    differing = {row.variant: [key for key in study.keys if row.settings[key] != usual[key]] for row in study.rows}
-    if max(map(len, differing.values())) > 1 or len(study.keys) < 2:
+    rows = candidates(study.rows)
+    usual = {key: Counter(row.settings[key] for row in rows).most_common(1)[0][0] for key in study.keys}
+    differing = {row.variant: [key for key in study.keys if row.settings[key] != usual[key]] for row in rows}
+    if not rows or max(map(len, differing.values())) > 1 or len(study.keys) < 2:
         return None
     colours = dict(zip(study.keys, COLOURS * len(study.keys)))
 
@@ -142,14 +143,15 @@ def star_looks(study):
         return {"marker": "o" if differing[row.variant] else "*", "edgecolors": colour, "facecolors": colour}
 
     handles = [plt.Line2D([], [], linestyle="", marker="*", color="#333333", markersize=10, label="the scene as it is")]
+    varied = [key for key in study.keys if any(key in keys for keys in differing.values())]
     handles += [plt.Line2D([], [], linestyle="", marker="o", color=colours[key], label=f"{short_name(key, study.keys)} instead of {usual[key]}")
-                for key in study.keys]
+                for key in varied]
     return Looks(marker, lambda row: "".join(row.settings[key] for key in differing[row.variant]), handles)
 
 
 def grid_looks(study):
     """The key with most values gives the colour, the next the marker, a third whether it is filled."""
-    values = {key: list(dict.fromkeys(row.settings[key] for row in study.rows)) for key in study.keys}
+    values = {key: list(dict.fromkeys(row.settings[key] for row in candidates(study.rows))) for key in study.keys}
     shown = sorted(study.keys, key=lambda key: -len(values[key]))[:3]
 
     def marker(row):

@@ -85,7 +85,7 @@ def _row(entry, keys, state, directory, name, quantity, judged, hub_run):
     axes = {axis["name"]: axis for axis in directory.manifest["axes"]}
     case = directory.cases / entry.name
     summary = read_summary(case) or {}
-    scene = Run(case / "run").scene if state == DONE else None
+    scene = Run(case / "run").scene if (case / "run" / "scene.toml").is_file() else None
     settings = {key: label_of(value_at(scene, canonical(scene, axes[key]["keys"][0]), "default")) if scene else entry.labels[key] for key in keys}
     reference, scale = judged.reference, judged.scale
     share = 1.0 if math.isnan(scale) else 1 / scale if scale > 0 else math.nan
