@@ -172,7 +172,7 @@ def _result(cell, code, said, run):
 
 def _judged(cell, outcome, reason, figures):
     expected = outcome in cell.allowed and re.search(cell.allowed[outcome], reason) is not None
-    return Result(outcome, expected, " ".join(reason.split()), figures)
+    return Result(outcome, expected, " ".join(re.sub(r"\S*/scene\.toml", "scene.toml", reason).split()), figures)
 
 
 def _figures(summary, series):
