@@ -49,7 +49,8 @@ def drop_fields(measures):
     return fields.figure_of("Section 3.2: displacement at the end of the drop (Fig. 10 a to c)", of_snapshots(shown), common_scale=False)
 
 
-ROLLS = (("rolling_sand", "sand"), ("rolling_mixed", "sand and rocks"), ("rolling_rocks", "irregular rocks"), ("rolling_spheres", "spheres"))
+ROLLS = (("rolling_sand", "sand"), ("rolling_mixed_coarse", "sand and rocks (coarse)"), ("rolling_rocks_coarse", "irregular rocks (coarse)"),
+         ("rolling_spheres", "spheres"))
 
 
 def roll(measures):
@@ -85,8 +86,7 @@ def slip_slices(name):
     return draw
 
 
-SPIRITS = (("spirit", "as in the paper, full size"), ("spirit_coarse", "rocks of 20 mm, all of 56 s"),
-           ("spirit_mer_coarse", "Spirit's wheel, rocks of 20 mm"))
+SPIRITS = (("spirit_coarse", "the paper's wheel, coarse"), ("spirit_mer_coarse", "Spirit's wheel, coarse"))
 
 
 def spirit(measures):
@@ -115,8 +115,7 @@ def spirit_fields(name):
     return lambda measures: at_times(measures, name, f"Section 4: displacement (Fig. 21), {name}", (0, 14, 28, 42, 56))
 
 
-RIPPLES = (("curiosity_rock", "rock, full size"), ("curiosity_core", "core of sand, full size"), ("curiosity_rock_coarse", "rock, coarse"),
-           ("curiosity_core_coarse", "core of sand, coarse"))
+RIPPLES = (("curiosity_rock_coarse", "rock, coarse"), ("curiosity_core_coarse", "core of sand, coarse"))
 
 
 def curiosity(measures):
@@ -147,8 +146,7 @@ FIGURES = {
     "wheel_drop": {"wheel_drop": drop, "wheel_drop_fields": drop_fields, "wheel_drop_substeps": substep_figure},
     "rolling": {"rolling": roll, "rolling_fields": roll_fields},
     "slip": {"slip": slip, "slip_sand_slices": slip_slices("slip_sand"), "slip_mixed_slices": slip_slices("slip_mixed")},
-    "spirit": {"spirit": spirit, "spirit_sinkage": spirit_slip, "spirit_fields": spirit_fields("spirit"),
-               "spirit_coarse_fields": spirit_fields("spirit_coarse")},
+    "spirit": {"spirit": spirit, "spirit_sinkage": spirit_slip, "spirit_coarse_fields": spirit_fields("spirit_coarse")},
     "curiosity": {"curiosity": curiosity, "curiosity_rock_coarse_fields": curiosity_fields("curiosity_rock_coarse"),
                   "curiosity_core_coarse_fields": curiosity_fields("curiosity_core_coarse")},
 }

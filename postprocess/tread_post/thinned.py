@@ -14,6 +14,8 @@ from tread_post.run import RunError
 # Columns that are means over the time since the row before: rows that are put together have their mean.
 MEANS = ("force", "torque", "drawbar_pull", "power")
 POINT_FIELDS = ("displacement", "plastic_rate", "plastic_shear")
+# Readable by HDF5 1.10, and smaller than what 1.8 reads.
+LIBRARIES = ("v108", "v110")
 # Cells of the view from above, across the domain.
 COLUMNS = 100
 
@@ -24,7 +26,7 @@ def thin(run, folder, rows, start=0.0, snapshots=()):
     for name in ("scene.toml", "summary.json"):
         if (run.path / name).is_file():
             shutil.copyfile(run.path / name, folder / name)
-    with h5py.File(run.path / "timeseries.h5", "r", locking=False) as source, h5py.File(folder / "timeseries.h5", "w", libver="latest") as target:
+    with h5py.File(run.path / "timeseries.h5", "r", locking=False) as source, h5py.File(folder / "timeseries.h5", "w", libver=LIBRARIES) as target:
         target.attrs.update(source.attrs)
         source.visititems(lambda name, item: _thin_table(name, item, target, rows, start) if isinstance(item, h5py.Group) else None)
     if snapshots:
@@ -103,7 +105,7 @@ def _write_points(path, run, points, middle):
     spacing = point_spacing(run.scene, points)
     near = np.abs(points.position[:, 1] - middle) <= 0.75 * spacing
     rows = _seen(run, points.position, near, max(2 * spacing, run.scene["domain"]["size"][1] / COLUMNS))
-    with h5py.File(path, "w", libver="latest") as file:
+    with h5py.File(path, "w", libver=LIBRARIES) as file:
         file.attrs["time"] = points.time
         _write(file, "VTKHDF/Points", points.position[rows], "m")
         for name in POINT_FIELDS:
@@ -116,7 +118,7 @@ def _write_bodies(path, run, bodies, middle, before):
     near = np.abs(bodies.position[:, 1] - middle) <= radius
     near[: len(run.scene.get("body", []))] = True
     rows = _seen(run, bodies.position, near, max(3 * np.median(radius), run.scene["domain"]["size"][1] / COLUMNS))
-    with h5py.File(path, "w", libver="latest") as file:
+    with h5py.File(path, "w", libver=LIBRARIES) as file:
         file.attrs["time"] = bodies.time
         file.attrs["displacement_since"] = before.time
         for name, unit in (("position", "m"), ("orientation", "1"), ("scale", "1"), ("shape", "1")):
