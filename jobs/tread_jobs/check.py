@@ -20,6 +20,7 @@ class Plan:
     disk: float  # bytes, at most
     memory: float  # bytes on the backend
     scene: str  # hash of the resolved scene: equal for equal runs; "" where the program does not say
+    substeps: float  # of a step, once rocks lie on each other
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,9 @@ def seconds_of(plan, resources, site):
     """What a case takes by the model, at most."""
     speed = site.gpu_speed if resources.gpus else site.core_speed
     units = resources.gpus if resources.gpus else resources.ranks * resources.threads
-    return plan.steps * (speed.step + (speed.point * plan.points + speed.body * plan.bodies) / units)
+    further = plan.substeps - 1
+    shared = speed.point * plan.points + (speed.body + speed.body_substep * further) * plan.bodies
+    return plan.steps * (speed.step + speed.substep * further + shared / units)
 
 
 def _plan(text, program):
@@ -90,10 +93,12 @@ def _plan(text, program):
     disk = re.search(r"disk at most ([\d.e+]+) ([kMGT]?B)", text)
     steps = re.search(r"at most ([\d.e+-]+) s simulated: ([\d.e+-]+) steps", text)
     memory = re.search(r"memory about ([\d.e+]+) ([kMGT]?B)", text)
+    substeps = re.search(r"steps of [\d.e+-]+ s and ([\d.e+-]+) substeps", text)
     scene = re.search(r"^scene ([0-9a-f]{16})$", text, re.MULTILINE)
     if not (counts and disk and steps and memory):
         raise MachineError(f"{program}: check says nothing of points, steps, memory and disk; is it tread?")
-    return Plan(int(counts[1]), int(counts[2]), float(steps[1]), float(steps[2]), _bytes(disk), _bytes(memory), scene[1] if scene else "")
+    return Plan(int(counts[1]), int(counts[2]), float(steps[1]), float(steps[2]), _bytes(disk), _bytes(memory), scene[1] if scene else "",
+                float(substeps[1]) if substeps else 1.0)
 
 
 def _bytes(found):

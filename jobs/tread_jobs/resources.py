@@ -32,16 +32,20 @@ class Resources:
 
 @dataclass(frozen=True)
 class Speed:
-    """Seconds that a step takes: step + point * points + body * bodies, on one GPU, or on one CPU core with `cores` shared out."""
+    """Seconds that a step takes: step + point * points + body * bodies, and for each substep but the first substep +
+    body_substep * bodies; on one GPU, or on one CPU core with `cores` shared out."""
 
     step: float
     point: float
     body: float
+    substep: float = 0.0
+    body_substep: float = 0.0
 
 
-# docs/performance.md: slip_sand and slip_mixed on an H200, whole steps with automatic substeps; one core with Mohr-Coulomb.
-GPU_SPEED = Speed(2.0e-4, 3.4e-10, 5.0e-8)
-CORE_SPEED = Speed(2.0e-5, 4.5e-7, 1.0e-5)
+# docs/performance.md: slip_sand and slip_mixed on an H200, substeps of 3,000 and 53,000 rocks there (25 to 32 and 200 us); one core
+# with Mohr-Coulomb, and with rocks ("What a stage costs").
+GPU_SPEED = Speed(2.0e-4, 3.4e-10, 5.0e-8, 1.5e-5, 3.5e-9)
+CORE_SPEED = Speed(2.0e-5, 4.5e-7, 1.0e-5, 0.0, 1.1e-6)
 
 
 @dataclass(frozen=True)

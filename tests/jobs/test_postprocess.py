@@ -108,6 +108,17 @@ class PostprocessTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreater(colours_of(output), 24, "a picture of something")
 
+    def test_stability_map(self):
+        table = self.run_path.parent / "stability.csv"
+        table.write_text("name,map,x,y,x_label,y_label,backend,outcome,expected,reason\n"
+                         'a,speeds,"[0.0, 0.0, -1.0]",0.1,speed,cells,cpu,stable,yes,\n'
+                         'b,speeds,"[0.0, 0.0, -9.0]",0.1,speed,cells,cpu,stopped,yes,too deep\n'
+                         'c,speeds,"[0.0, 0.0, -1.0]",0.2,speed,cells,cpu,told,no,\nd,,,,,,cpu,wrong,no,\n', encoding="utf-8")
+        output = table.with_suffix(".png")
+        done = self.command("stability_map.py", table, "--output", output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(colours_of(output), 24, "a picture of something")
+
     def test_render(self):
         self.picture("render.py")
         self.picture("render.py", "--snapshot", "0")
@@ -139,6 +150,7 @@ class PostprocessTest(unittest.TestCase):
             ("sdf_convergence.py", (self.run_path / "timeseries.h5",), "no report of tread sdf"),
             ("work_precision.py", (self.run_path / "scene.toml",), "no table of a study"),
             ("point_motions.py", (self.run_path / "scene.toml",), "no table of bench_point_motions"),
+            ("stability_map.py", (self.run_path / "scene.toml",), "no table of run_matrix.py"),
             ("head_on.py", (self.run_path / "absent",), "no scene.toml"),
         ):
             done = self.command(name, *options)

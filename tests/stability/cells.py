@@ -67,7 +67,8 @@ def _cell(name, one, values, table, x=None, y=None):
     allowed = dict(one.get("must", {"stable": ""}))
     for rule in one.get("may", []):
         if x in rule.get("x", [x]) and y in rule.get("y", [y]):
-            allowed |= {outcome: says for outcome, says in rule.items() if outcome in ("told", "stopped", "refused")}
+            for outcome in {"told", "stopped", "refused"} & set(rule):
+                allowed[outcome] = f"{allowed[outcome]}|{rule[outcome]}" if outcome in allowed else rule[outcome]
     bounds = table["bounds"] | one.get("bounds", {})
     of_map = (one["name"], x, y, one["x"]["label"], one["y"]["label"]) if "x" in one else ()
     return Cell(name, one["scene"], one.get("set", {}) | values, one.get("unset", []), bounds, allowed, *of_map)
@@ -171,7 +172,7 @@ def _result(cell, code, said, run):
 
 def _judged(cell, outcome, reason, figures):
     expected = outcome in cell.allowed and re.search(cell.allowed[outcome], reason) is not None
-    return Result(outcome, expected, " ".join(reason.split()), figures)
+    return Result(outcome, expected, " ".join(re.sub(r"\S*/scene\.toml", "scene.toml", reason).split()), figures)
 
 
 def _figures(summary, series):
