@@ -17,7 +17,8 @@ def lines_of(folders):
         for label in dict.fromkeys(labels):
             rows = labels == label
             cells = [_cell(factor * table[name][rows]) for name, factor, _ in QUANTITIES]
-            lines.append(f"| {table.title.split(',')[0]}: {axis.name} {label} | " + " | ".join(cells) + f" | {np.isfinite(table['torque'][rows]).sum()} |")
+            known = np.isfinite(table["torque"][rows]).sum()
+            lines.append(f"| {table.title.split(',')[0]}: {axis.name} {label} | " + " | ".join(cells) + f" | {known} |")
     return lines
 
 
