@@ -58,6 +58,22 @@ std::vector<T> gather_all(const Communicator& communicator, const std::vector<T>
     return all;
 }
 
+/// As what it was on the rank that it befell.
+[[noreturn]] void rethrow(ExitCode code, const std::string& message)
+{
+    switch (code)
+    {
+    case ExitCode::bad_input:
+        throw InputError(message);
+    case ExitCode::numerical:
+        throw NumericalError(message);
+    case ExitCode::environment:
+        throw EnvironmentError(message);
+    default:
+        throw Error(code, message);
+    }
+}
+
 } // namespace
 
 Communicator::Communicator(MPI_Comm original)
@@ -248,7 +264,7 @@ void on_root(const Communicator& communicator, const std::function<void()>& work
         }
     }
     code = communicator.maximum(code);
-    if (code != 0) { throw Error(static_cast<ExitCode>(code), communicator.broadcast(message)); }
+    if (code != 0) { rethrow(static_cast<ExitCode>(code), communicator.broadcast(message)); }
 }
 
 void on_every_rank(const Communicator& communicator, const std::function<void()>& work)
@@ -268,8 +284,7 @@ void on_every_rank(const Communicator& communicator, const std::function<void()>
     const auto first = std::find_if(codes.begin(), codes.end(), [](std::int64_t code) { return code != 0; });
     if (first == codes.end()) { return; }
     message = communicator.broadcast(message, static_cast<int>(first - codes.begin()));
-    if (*first == static_cast<std::int64_t>(ExitCode::numerical)) { throw NumericalError(message); }
-    throw Error(static_cast<ExitCode>(*first), message);
+    rethrow(static_cast<ExitCode>(*first), message);
 }
 
 void require_launcher_agrees(int mpi_size)

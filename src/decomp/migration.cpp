@@ -7,20 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "decomp/point_columns.hpp"
+
 namespace tread::decomp
 {
 namespace
 {
-
-/// All planes of all fields.
-template<class Exec, class Real>
-Columns all_fields(mpm::Points<Exec, Real>& points)
-{
-    Columns columns;
-    points.for_each_field([&](auto& field, int components)
-                          { columns.add(planes(field.data(), points.stride, components)); });
-    return columns;
-}
 
 /// Of all ranks, exactly: whole numbers, which wrap.
 struct Checksum
@@ -104,10 +96,10 @@ std::int64_t Migration<Exec, Real>::run(mpm::Points<Exec, Real>& points, const m
     for (std::size_t i = 0; i < row.size(); ++i) { rows_to[static_cast<std::size_t>(owner[i])].push_back(row[i]); }
     note_departed(points, owner);
     exchange_.plan(rows_to);
-    exchange_.begin(all_fields(points));
+    exchange_.begin(point_columns(points));
     mpm::remove_leaving(exec, points, leaving_, scratch);
     points.reserve(points.count + exchange_.received());
-    exchange_.finish(all_fields(points), points.count);
+    exchange_.finish(point_columns(points), points.count);
     points.count += exchange_.received();
     if (checked) { require_equal(before, checksum(communicator, points)); }
     return moved;

@@ -81,10 +81,14 @@ std::optional<std::string> damage_of_schema(const std::string& path)
 
 } // namespace
 
-CheckpointWriter::CheckpointWriter(const Communicator& communicator, std::string path)
+CheckpointWriter::CheckpointWriter(const Communicator& communicator, std::string path, std::int64_t expected)
     : communicator_(communicator)
     , path_(std::move(path))
 {
+    if (communicator.size() > 1)
+    {
+        on_root(communicator, [&] { require_space(path_, expected); });
+    }
     file_.emplace(h5::File::create(temporary(path_), communicator, static_cast<hsize_t>(head_bytes)));
     h5::write_attribute(*file_, "/", "schema", std::string("tread-checkpoint"));
     h5::write_attribute(*file_, "/", "schema_version", std::vector<std::int64_t>(schema.begin(), schema.end()));

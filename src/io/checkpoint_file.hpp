@@ -18,7 +18,9 @@ namespace tread::io
 class CheckpointWriter
 {
 public:
-    CheckpointWriter(const Communicator& communicator, std::string path);
+    /// Several ranks ask for room for `expected` bytes first: MPI's collective calls never end where the disk of one
+    /// rank is full.
+    CheckpointWriter(const Communicator& communicator, std::string path, std::int64_t expected = 0);
     ~CheckpointWriter();
     CheckpointWriter(const CheckpointWriter&)            = delete;
     CheckpointWriter& operator=(const CheckpointWriter&) = delete;

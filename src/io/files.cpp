@@ -1,5 +1,6 @@
 #include "io/files.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -9,6 +10,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include "base/errors.hpp"
@@ -73,6 +75,25 @@ void flush_to_disk(const std::string& path)
     if (file >= 0) { close(file); }
     errno = reason;
     if (!flushed) { fail(path); }
+}
+
+void require_space(const std::string& path, std::int64_t bytes)
+{
+    const std::string probe = path + ".room.tmp";
+    const int         file  = open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (file < 0) { fail(path); }
+    int            reason = fallocate(file, 0, 0, std::max<std::int64_t>(bytes, 1)) == 0 ? 0 : errno;
+    struct statvfs disk   = {};
+    if (reason == EOPNOTSUPP && fstatvfs(file, &disk) == 0)
+    {
+        reason = static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) < static_cast<double>(bytes)
+                     ? ENOSPC
+                     : 0;
+    }
+    close(file);
+    std::remove(probe.c_str());
+    errno = reason;
+    if (reason != 0) { fail(path); }
 }
 
 std::string read_file(const std::string& path)

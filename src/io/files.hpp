@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace tread::io
@@ -17,6 +18,10 @@ void overwrite_start(const std::string& path, const std::string& text);
 
 /// Returns when a file's bytes, or the names in a directory, are on the disk. EnvironmentError.
 void flush_to_disk(const std::string& path);
+
+/// EnvironmentError unless a new file of so many bytes has room where `path` is: they are taken, and given back. Where
+/// the file system cannot take them at once, what it says is free counts.
+void require_space(const std::string& path, std::int64_t bytes);
 
 /// All bytes of a file. EnvironmentError.
 std::string read_file(const std::string& path);

@@ -124,6 +124,7 @@ void SnapshotWriter::write(double time, const PointFields& points, const BodyFie
     if (communicator_->maximum(static_cast<std::int64_t>(points.position.size())) > 0)
     {
         const std::string path = directory_ + "/" + points_name(number);
+        require_space_of(path, points);
         whole_or_not(path, [&] { write_points(*communicator_, temporary(path), time, points, provenance_); });
         on_root(*communicator_, [&] { write_series(); });
     }
@@ -133,6 +134,21 @@ void SnapshotWriter::write(double time, const PointFields& points, const BodyFie
         whole_or_not(path, [&]
                      { on_root(*communicator_, [&] { write_bodies(temporary(path), time, bodies, provenance_); }); });
     }
+}
+
+/// Of several ranks: their collective calls never end where the disk of one is full.
+void SnapshotWriter::require_space_of(const std::string& path, const PointFields& points) const
+{
+    if (communicator_->size() == 1) { return; }
+    constexpr std::int64_t of_cell = 8 + 8 + 1 + 4, of_file = 100000;
+    const auto             bytes_of = [](const auto& values)
+    { return static_cast<std::int64_t>(values.size() * sizeof(values[0])); };
+    const std::int64_t own = bytes_of(points.position) + bytes_of(points.displacement) + bytes_of(points.velocity) +
+                             bytes_of(points.stress) + bytes_of(points.plastic_shear) + bytes_of(points.plastic_rate) +
+                             bytes_of(points.material) + bytes_of(points.id) +
+                             of_cell * static_cast<std::int64_t>(points.position.size() / 3);
+    const std::int64_t all = communicator_->sum(own) + of_file;
+    on_root(*communicator_, [&] { require_space(path, all); });
 }
 
 /// `work` writes the file under its temporary name.

@@ -68,6 +68,7 @@ public:
 
 private:
     void write_series() const;
+    void require_space_of(const std::string& path, const PointFields& points) const;
     void whole_or_not(const std::string& path, const std::function<void()>& work) const;
 
     const Communicator* communicator_;

@@ -140,6 +140,7 @@ std::string to_json(const Summary& summary)
     json["rocks"]             = rocks_of(summary.bed);
     json["rock_share"]        = summary.bed.rock_share;
     json["phases"]            = phases_of(summary);
+    json["asleep"]            = summary.asleep ? Json(*summary.asleep) : Json();
     json["stages"]            = stages_of(summary);
     json["errors"]            = {{"mass", summary.errors.mass},
                                  {"momentum", summary.errors.momentum},

@@ -109,6 +109,7 @@ struct Summary
     std::int64_t             peak_device_bytes = 0;
     std::int64_t             peak_host_bytes   = 0;
     std::vector<StageReport> stages;
+    std::optional<double>    asleep; ///< mean share of the points that slept; null where none may
     ErrorReport              errors;
     double                   points_across = 0; ///< the contact patch of a named body on sand; 0 = none
     std::vector<Figure>      figures;           ///< with points_across, `resolution`

@@ -298,6 +298,27 @@ Keys<Balance> balance_keys()
         "is predicted to save more than it costs.")};
 }
 
+Keys<Sleep> sleep_keys()
+{
+    const auto given = [](const Sleep& sleep) { return sleep.distance.has_value(); };
+    return {
+        optional("distance", "m", &Sleep::distance, number_or("", above(0)),
+                 "Sand falls asleep, page by page, only further than this from the bounding sphere of every body, and "
+                 "wakes when one comes nearer. One rank only.",
+                 "no sand sleeps"),
+        optional("speed", "m/s", &Sleep::speed, number(above(0)),
+                 "A page is at rest while no point in it is faster. One that is not keeps two pages all around awake.")
+            .when("distance given", given),
+        optional("rest", "s", &Sleep::rest, number(above(0)),
+                 "Simulated time for which a page must have been at rest before it falls asleep, and between looks.")
+            .when("distance given", given),
+        optional("load", "", &Sleep::load, number(above(0)),
+                 "A sleeping page wakes when the pressure that the sand beside it holds it with changes by this share "
+                 "of the bed's weight over the area of the domain's floor.")
+            .when("distance given", given),
+    };
+}
+
 Keys<Reference> reference_keys()
 {
     return {

@@ -30,6 +30,7 @@ Keys<Body>        body_keys();
 Keys<Phase>       phase_keys();
 Keys<Output>      output_keys();
 Keys<Balance>     balance_keys();
+Keys<Sleep>       sleep_keys();
 Keys<Reference>   reference_keys();
 
 Keys<CheckpointOptions> checkpoint_keys();
@@ -64,6 +65,9 @@ void for_each_table(Visit&& visit)
           &Scene::checkpoint, checkpoint_keys());
     visit("balance", "How the sand falls to the ranks of a run on several: docs/ranks.md.", &Scene::balance,
           balance_keys());
+    visit("sleep",
+          "Sand that lies still far from what moves is left out of the steps, if `distance` is given: docs/sleep.md.",
+          &Scene::sleep, sleep_keys());
     visit("reference", "The right answer, as far as it is known, for `tread study`: docs/study.md. Changes no run.",
           &Scene::reference, reference_keys());
 }

@@ -433,6 +433,17 @@ struct Balance
     bool operator==(const Balance&) const = default;
 };
 
+/// Sand that lies still, far from what moves, is left out of the steps.
+struct Sleep
+{
+    std::optional<double> distance;     ///< m from every body; nothing = no sand sleeps
+    double                speed = 0.01; ///< m/s that what sleeps was never over
+    double                rest  = 0.05; ///< s for which it was not
+    double                load  = 0.2;  ///< change of the pressure on it that wakes it, over the bed's mean on its base
+
+    bool operator==(const Sleep&) const = default;
+};
+
 /// A closed form whose answer follows from the scene: docs/study.md says from what.
 enum class ReferenceForm
 {
@@ -471,6 +482,7 @@ struct Scene
     Output                output;
     CheckpointOptions     checkpoint;
     Balance               balance;
+    Sleep                 sleep;
     Reference             reference;
     std::string           directory; ///< of the scene file; mesh paths are relative to it
 

@@ -3,7 +3,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -107,13 +109,15 @@ std::optional<std::string> Driver<Exec, Real>::carry_on()
     return {};
 }
 
-/// Roughly, of a checkpoint.
+/// Roughly, of a checkpoint: with the time series, on rank 0.
 template<class Exec, class Real>
 std::int64_t Driver<Exec, Real>::state_bytes() const
 {
-    constexpr std::int64_t of_point = 160, of_body = 2000;
-    return of_point * communicator_.sum(simulation_.points()) +
-           of_body * static_cast<std::int64_t>(world_.bodies.size());
+    constexpr std::int64_t of_point = 31 * sizeof(Real) + 46, of_body = 2500, of_file = 1000000;
+    std::error_code        none;
+    const auto             series = std::filesystem::file_size(directory_.time_series(), none);
+    return of_file + of_point * communicator_.sum(simulation_.points()) +
+           of_body * static_cast<std::int64_t>(world_.bodies.size()) + (none ? 0 : static_cast<std::int64_t>(series));
 }
 
 template<class Exec, class Real>
@@ -320,6 +324,7 @@ void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<Stage>& 
     summary.phases   = ended_;
     summary.figures  = figures(simulation_.extremes(), summary.errors, simulation_.limits(), world_, plan_);
     summary.restarts = restarts_;
+    summary.asleep   = simulation_.mean_asleep();
 
     summary.checkpoints   = checkpoints_;
     summary.points_across = points_across(simulation_.extremes(), world_);

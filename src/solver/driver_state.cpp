@@ -53,7 +53,7 @@ void Driver<Exec, Real>::write_checkpoint()
     const auto            write = [&]
     {
         if (snapshots_) { snapshots_->finish(); }
-        io::CheckpointWriter writer(communicator_, path);
+        io::CheckpointWriter writer(communicator_, path, state_bytes());
         writer.number("step", steps_);
         io::write_provenance(writer.file(), options_.provenance, communicator_.broadcast(io::utc_now()));
         const Fidelity fidelity = simulation_.saves_exactly() ? Fidelity::exact : Fidelity::physical;

@@ -19,7 +19,8 @@ struct Item
     std::int64_t count; ///< that the scene has
 };
 
-/// Of one item: bytes, and nanoseconds of one core a step, for bodies a substep (docs/performance.md, "What a stage costs").
+/// Of one item: bytes, and nanoseconds of one core a step, for bodies a substep (docs/performance.md, "What a stage
+/// costs").
 struct Price
 {
     std::string name; ///< of the stage

@@ -20,6 +20,7 @@ Plan make_plan(const scene::Scene& scene, const World& world)
     plan.damping      = std::any_of(scene.phases.begin(), scene.phases.end(), damped);
     plan.rocks        = static_cast<std::int64_t>(world.bodies.size()) > world.bodies.named;
     plan.snapshots    = scene.output.snapshots_every > 0;
+    plan.sleep        = plan.sand && scene.sleep.distance.has_value();
     return plan;
 }
 
@@ -33,6 +34,7 @@ std::vector<Stage> stages(const scene::Scene&, const Plan& plan, int ranks)
     const bool  alone     = plan.body_contact && !plan.coupling;
     return {
         needs(stage::order, plan.sand, "terrain", no_sand),
+        needs(stage::sleep, plan.sleep, "sleep.distance", plan.sand ? "no sleep.distance" : no_sand),
         needs(stage::pairs, plan.body_contact, "bodies that may meet each other or a wall", no_bodies),
         needs(stage::candidates, plan.coupling, "sand and bodies", plan.sand ? no_bodies : no_sand),
         needs(stage::sand_contact, plan.coupling, "sand and bodies", plan.sand ? no_bodies : no_sand),

@@ -30,6 +30,7 @@ struct Plan
     bool damping;      ///< local damping in some phase
     bool rocks;
     bool snapshots;
+    bool sleep; ///< of sand that lies still
 };
 
 Plan make_plan(const scene::Scene& scene, const World& world);
@@ -41,6 +42,7 @@ std::vector<Stage> stages(const scene::Scene& scene, const Plan& plan, int ranks
 namespace stage
 {
 inline constexpr const char* order        = "order points";
+inline constexpr const char* sleep        = "sleep";
 inline constexpr const char* pairs        = "find body pairs";
 inline constexpr const char* candidates   = "find sand-body candidates";
 inline constexpr const char* sand_contact = "sand-body contact";

@@ -43,31 +43,37 @@ PointCopy<Exec, Real>::PointCopy(const Exec& exec)
 template<class Exec, class Real>
 template<class T>
 void PointCopy<Exec, Real>::fetch(const Exec& exec, Array<Host, T>& to, const Array<Exec, T>& from, int components,
-                                  std::int64_t stride)
+                                  const Part& part)
 {
     if (from.size() == 0) { return; }
     to.resize(components * count_);
     for (int c = 0; c < components; ++c)
     {
-        start_copy_to_host(exec, to.data() + c * count_, from.data() + c * stride,
-                           static_cast<std::size_t>(count_) * sizeof(T));
+        start_copy_to_host(exec, to.data() + c * count_ + part.first, from.data() + c * part.stride,
+                           static_cast<std::size_t>(part.count) * sizeof(T));
     }
 }
 
 template<class Exec, class Real>
-void PointCopy<Exec, Real>::take(const Exec& exec, const mpm::Points<Exec, Real>& points)
+void PointCopy<Exec, Real>::take(const Exec& exec, const std::vector<const mpm::Points<Exec, Real>*>& parts)
 {
-    count_            = points.count;
-    const auto stride = points.stride;
-    fetch(exec, position_, points.position, 3, stride);
-    fetch(exec, start_, points.start, 3, stride);
-    fetch(exec, velocity_, points.velocity, 3, stride);
-    fetch(exec, stress_, points.stress, 6, stride);
-    fetch(exec, volume_ratio_, points.volume_ratio, 1, stride);
-    fetch(exec, plastic_shear_, points.plastic_shear, 1, stride);
-    fetch(exec, plastic_rate_, points.plastic_rate, 1, stride);
-    fetch(exec, id_, points.id, 1, stride);
-    fetch(exec, material_, points.material, 1, stride);
+    count_ = 0;
+    for (const auto* points : parts) { count_ += points->count; }
+    std::int64_t first = 0;
+    for (const auto* points : parts)
+    {
+        const Part part{first, points->count, points->stride};
+        fetch(exec, position_, points->position, 3, part);
+        fetch(exec, start_, points->start, 3, part);
+        fetch(exec, velocity_, points->velocity, 3, part);
+        fetch(exec, stress_, points->stress, 6, part);
+        fetch(exec, volume_ratio_, points->volume_ratio, 1, part);
+        fetch(exec, plastic_shear_, points->plastic_shear, 1, part);
+        fetch(exec, plastic_rate_, points->plastic_rate, 1, part);
+        fetch(exec, id_, points->id, 1, part);
+        fetch(exec, material_, points->material, 1, part);
+        first += points->count;
+    }
     synchronize(exec);
 }
 

@@ -16,16 +16,25 @@ class PointCopy
 public:
     explicit PointCopy(const Exec& exec);
 
-    /// Of this rank's points, in memory order; waits for it. Displacement and Cauchy stress are made of it in rows().
-    void take(const Exec& exec, const mpm::Points<Exec, Real>& points);
+    /// Of this rank's points, one part after the other, in memory order; waits for it. Displacement and Cauchy stress
+    /// are made of it in rows().
+    void take(const Exec& exec, const std::vector<const mpm::Points<Exec, Real>*>& parts);
 
     io::PointFields rows() const;
 
 private:
     using Host = decltype(host_side(std::declval<Exec>()));
 
+    /// Where a part of the points stands in the planes here, and in its own.
+    struct Part
+    {
+        std::int64_t first;
+        std::int64_t count;
+        std::int64_t stride;
+    };
+
     template<class T>
-    void fetch(const Exec& exec, Array<Host, T>& to, const Array<Exec, T>& from, int components, std::int64_t stride);
+    void fetch(const Exec& exec, Array<Host, T>& to, const Array<Exec, T>& from, int components, const Part& part);
 
     Counters                   host_; ///< on a GPU: what is here is none of the device's memory
     std::int64_t               count_ = 0;

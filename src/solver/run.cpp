@@ -120,6 +120,7 @@ void require_ranks_can(const Communicator& communicator, const scene::Scene& sce
     {
         decomp::require_single_rank(communicator, "scenes with volume_strain = \"cell-average\" run");
     }
+    if (scene.sleep.distance) { decomp::require_single_rank(communicator, "scenes with sleep.distance run"); }
 }
 
 template<class Exec, class Real>

@@ -113,6 +113,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     materials_.assign(law_parameters<Real>(scene));
     stirred_in_.fill_zero();
     if (decomposition != nullptr) { ranks_.emplace(*decomposition); }
+    if (scene.sleep.distance) { sleep_.emplace(exec, scene, world, fields); }
     const bool only_own = decomposition == nullptr || !world.points.id.empty();
     if (only_own) { upload(world.points, fields); }
     else { upload(own_points(world, *decomposition), fields); }
@@ -167,6 +168,22 @@ void Sand<Exec, Real>::order()
 }
 
 template<class Exec, class Real>
+void Sand<Exec, Real>::look_who_sleeps(const std::vector<BodyReach>& bodies, double damping)
+{
+    if (sleep_->look(points_, pages_, geometry_, bodies, materials_.data(), order_scratch_, damping == 0))
+    {
+        order_in_memory();
+    }
+}
+
+template<class Exec, class Real>
+std::optional<double> Sand<Exec, Real>::mean_asleep() const
+{
+    if (!sleep_) { return {}; }
+    return count() > 0 ? sleep_->mean_count() / static_cast<double>(count()) : 0;
+}
+
+template<class Exec, class Real>
 void Sand<Exec, Real>::follow_owners()
 {
     listed_ = false;
@@ -194,6 +211,7 @@ void Sand<Exec, Real>::list_anew()
 template<class Exec, class Real>
 void Sand<Exec, Real>::order_in_memory()
 {
+    if (sleep_) { sleep_->leave_pages(); }
     std::int64_t left = 0;
     if (ranks_)
     {
@@ -205,6 +223,7 @@ void Sand<Exec, Real>::order_in_memory()
     relists_ = 0;
     ++orders_;
     make_room();
+    if (sleep_) { sleep_->enter_pages(pages_, pages(), order_scratch_.sort); }
 }
 
 /// For what steps write of the points and pages that there are.
@@ -270,6 +289,7 @@ void Sand<Exec, Real>::update_grid(double dt, double damping)
     mpm::update_grid(exec_, pages(), wall_pages_.view(), shared, tiles_.data(), step, motion_.data(),
                      grid_rows_.data());
     mpm::update_walls(exec_, pages(), wall_pages_.view(), step, motion_.data(), grid_rows_.data());
+    if (sleep_) { sleep_->hold(pages(), tiles_.data(), step, motion_.data(), grid_rows_.data()); }
 }
 
 template<class Exec, class Real>
@@ -283,6 +303,7 @@ void Sand<Exec, Real>::gather(double dt)
     const mpm::GatherStep<Real> step{static_cast<Real>(dt), materials_.data(),
                                      static_cast<Real>(pic_share(pic_rate_, dt)), cell_divergence_.data()};
     mpm::gather(exec_, points_.view(), pages(), motion_.data(), step, moves(), point_rows_.data(), peak_rows_.data());
+    if (sleep_) { sleep_->pass(dt); }
     listed_ = false;
     ++steps_;
 }
@@ -305,6 +326,12 @@ SandReport Sand<Exec, Real>::report()
     report.largest_speed = std::sqrt(report.peaks[mpm::peak_speed_squared]);
     report.steps         = std::exchange(steps_, 0);
     stir_                = report.stir();
+    if (sleep_)
+    {
+        report.last_points[mpm::point_strain] += sleep_->census().strain;
+        const Vec3<double> stopped = sleep_->take_impulse();
+        for (int c = 0; c < 3; ++c) { report.grid[mpm::grid_wall_impulse + c] += stopped[c]; }
+    }
     return report;
 }
 
@@ -321,6 +348,7 @@ void Sand<Exec, Real>::ask_report()
     sum_rows(exec_, point_rows_.data(), point_pages, point_width, points, sums_scratch_);
     largest_of_rows(exec_, peak_rows_.data(), point_pages, mpm::point_peaks, peaks);
     told_.fetch(reinterpret_cast<const ReportTotals*>(grid));
+    if (sleep_) { sleep_->note(peak_rows_.data()); }
     clear_tallies();
     asked_ = true;
 }
@@ -336,21 +364,31 @@ SandCensus Sand<Exec, Real>::census()
     double total[mpm::census_count];
     copy_to_host(exec_, total, totals_.data(), sizeof(total));
     if (ranks_) { decomp::combine(ranks_->communicator(), total, mpm::census_count, 0); }
-    mass_ = total[mpm::census_mass];
-    for (std::size_t c = 0; c < left_.size(); ++c) { total[c] += left_[c]; }
-    return {total[mpm::census_mass], total[mpm::census_kinetic], total[mpm::census_strain],
-            Vec3<double>(total + mpm::census_momentum), Vec3<double>(total + mpm::census_moment)};
+    SandCensus census = census_of(total);
+    if (sleep_) { census = census + sleep_->census(); }
+    mass_ = census.mass;
+    return census + census_of(left_.data());
+}
+
+template<class Exec, class Real>
+std::vector<const mpm::Points<Exec, Real>*> Sand<Exec, Real>::all_points() const
+{
+    if (!sleep_) { return {&points_}; }
+    return {&points_, &sleep_->points()};
 }
 
 template<class Exec, class Real>
 std::vector<Vec3<double>> Sand<Exec, Real>::positions() const
 {
-    const std::vector<double> planes = points_.position.to_host();
-    const auto                stride = static_cast<std::size_t>(points_.stride);
     std::vector<Vec3<double>> out;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(points_.count); ++i)
+    for (const mpm::Points<Exec, Real>* points : all_points())
     {
-        out.emplace_back(planes[i], planes[stride + i], planes[2 * stride + i]);
+        const std::vector<double> planes = points->position.to_host();
+        const auto                stride = static_cast<std::size_t>(points->stride);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(points->count); ++i)
+        {
+            out.emplace_back(planes[i], planes[stride + i], planes[2 * stride + i]);
+        }
     }
     return out;
 }

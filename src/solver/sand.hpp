@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "backend/fetched.hpp"
@@ -9,7 +10,6 @@
 #include "decomp/balance.hpp"
 #include "kernels/mpm/cell_divergence.hpp"
 #include "kernels/mpm/cell_stress.hpp"
-#include "kernels/mpm/census.hpp"
 #include "kernels/mpm/gather.hpp"
 #include "kernels/mpm/grid.hpp"
 #include "kernels/mpm/order.hpp"
@@ -19,22 +19,13 @@
 #include "solver/point_copy.hpp"
 #include "solver/sand_ranks.hpp"
 #include "solver/sand_report.hpp"
+#include "solver/sand_sleep.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
 {
 
 class StateFile;
-
-/// What the sand holds.
-struct SandCensus
-{
-    double       mass     = 0;                    ///< kg
-    double       kinetic  = 0;                    ///< J
-    double       strain   = 0;                    ///< J
-    Vec3<double> momentum = Vec3<double>::Zero(); ///< kg m/s
-    Vec3<double> moment   = Vec3<double>::Zero(); ///< kg m, mass times position
-};
 
 /// The sand of a scene on one backend: points, pages, grid and the four calls of an MPM step. With a decomposition a
 /// rank holds the points of the pages that it owns, every call is collective, and reports are of all ranks.
@@ -47,7 +38,9 @@ public:
          decomp::Decomposition<Exec>* decomposition = nullptr);
 
     /// Of this rank.
-    std::int64_t             count() const { return points_.count; }
+    std::int64_t count() const { return points_.count + (sleep_ ? sleep_->points().count : 0); }
+
+    /// Those that do not sleep, and their pages.
     mpm::PointsView<Real>    view() { return points_.view(); }
     mpm::Points<Exec, Real>& points() { return points_; }
     mpm::PagesView           pages() const;
@@ -57,6 +50,14 @@ public:
     /// moves them in memory to where the list has them, without waiting. Sorts them and makes the pages anew, and
     /// waits, when the report says that one comes near pages that are not listed.
     void order();
+
+    /// After order(), where sand may sleep: whether to look which of it does before a step with this damping, as
+    /// nothing is faster than `speed` (m/s); and the look. With damping none sleeps.
+    bool sleep_is_due(double speed, double damping) const { return sleep_ && sleep_->is_due(speed, damping); }
+    void look_who_sleeps(const std::vector<BodyReach>& bodies, double damping);
+
+    /// Mean share of the points that slept so far; nothing where none may.
+    std::optional<double> mean_asleep() const;
 
     /// After pages got other owners, with no step since the last report: the next order() sorts points anew, and so
     /// brings them there.
@@ -93,22 +94,25 @@ public:
     /// Of the present state; waits for it. What has left the domain counts as it was when it left.
     SandCensus census();
 
-    /// kg, of what is in the domain, at the last census or since more has left it.
-    double mass() const { return mass_; }
+    /// kg, of what is in the domain and does not sleep, at the last census or since more has left or fallen asleep.
+    double mass() const { return mass_ - (sleep_ ? sleep_->census().mass : 0); }
 
     /// m, in memory order, of this rank.
     std::vector<Vec3<double>> positions() const;
 
     /// Takes what a snapshot shows, of this rank.
-    void copy_to(PointCopy<Exec, Real>& copy) const { copy.take(exec_, points_); }
+    void copy_to(PointCopy<Exec, Real>& copy) const { copy.take(exec_, all_points()); }
 
     /// Into a checkpoint, or out of it into sand of the same scene, which was built as `built`. Due right after a
     /// report; changes nothing that comes after it. Collective.
     void transfer(StateFile& file, const HostPoints& built);
 
 private:
-    void           transfer_points(StateFile& file);
-    void           restore_lasting(const HostPoints& built);
+    void transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder);
+    /// Those of the steps, then those that sleep.
+    std::vector<const mpm::Points<Exec, Real>*> all_points() const;
+
+    void           restore_lasting(mpm::Points<Exec, Real>& points, const HostPoints& built);
     void           resume_lists();
     void           make_room();
     void           upload(const HostPoints& host, mpm::PointFields fields);
@@ -132,6 +136,7 @@ private:
     Array<Exec, std::int64_t>                  stirred_in_;
     mpm::WallPages<Exec, Real>                 wall_pages_;
     std::optional<SandRanks<Exec, Real>>       ranks_; ///< only on several ranks
+    std::optional<SandSleep<Exec, Real>>       sleep_; ///< only if the scene has sleep.distance
     Array<Exec, Real>                          tiles_;
     Array<Exec, Real>                          motion_;
     Array<Exec, double>                        grid_rows_;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "kernels/mpm/census.hpp"
 #include "kernels/mpm/gather.hpp"
 #include "kernels/mpm/grid.hpp"
 
@@ -12,6 +13,33 @@ namespace tread::solver
 /// A report as the backend tells it: tallies of the grid, tallies of the points, peaks of the points.
 inline constexpr int sums_told = mpm::tally_width(mpm::grid_sums) + mpm::tally_width(mpm::point_sums);
 using ReportTotals             = std::array<double, sums_told + mpm::point_peaks>;
+
+/// What the sand holds.
+struct SandCensus
+{
+    double       mass     = 0;                    ///< kg
+    double       kinetic  = 0;                    ///< J
+    double       strain   = 0;                    ///< J
+    Vec3<double> momentum = Vec3<double>::Zero(); ///< kg m/s
+    Vec3<double> moment   = Vec3<double>::Zero(); ///< kg m, mass times position
+};
+
+inline SandCensus operator+(const SandCensus& a, const SandCensus& b)
+{
+    return {a.mass + b.mass, a.kinetic + b.kinetic, a.strain + b.strain, a.momentum + b.momentum, a.moment + b.moment};
+}
+
+inline SandCensus operator-(const SandCensus& a, const SandCensus& b)
+{
+    return {a.mass - b.mass, a.kinetic - b.kinetic, a.strain - b.strain, a.momentum - b.momentum, a.moment - b.moment};
+}
+
+/// From totals by mpm::PointCensus.
+inline SandCensus census_of(const double* total)
+{
+    return {total[mpm::census_mass], total[mpm::census_kinetic], total[mpm::census_strain],
+            Vec3<double>(total + mpm::census_momentum), Vec3<double>(total + mpm::census_moment)};
+}
 
 /// What the steps since the last report did to the sand.
 struct SandReport

@@ -25,18 +25,24 @@ template<class Exec, class Real>
 void Sand<Exec, Real>::transfer(StateFile& file, const HostPoints& built)
 {
     if (!file.loads()) { order(); }
-    transfer_points(file);
-    if (file.loads()) { restore_lasting(built); }
+    transfer_points(file, points_, "points");
+    if (file.loads()) { restore_lasting(points_, built); }
     file.numbers("sand/steps", step_, relists_, orders_, mass_);
     file.doubles("sand/left", left_);
     if (file.exact())
     {
         pages_.for_each_field([&](const char* name, auto& array) { file.own(fmt::format("pages/{}", name), array); });
         if (ranks_) { ranks_->transfer(file); }
+        if (file.loads()) { resume_lists(); }
+        if (sleep_)
+        {
+            transfer_points(file, sleep_->points(), "asleep");
+            if (file.loads()) { restore_lasting(sleep_->points(), built); }
+            sleep_->transfer(file, pages_, pages(), order_scratch_.sort);
+        }
     }
     if (!file.loads()) { return; }
-    if (file.exact()) { resume_lists(); }
-    else
+    if (!file.exact())
     {
         order_in_memory();
         migrated_ = 0; // what belongs to the points did not wait for them elsewhere
@@ -46,31 +52,31 @@ void Sand<Exec, Real>::transfer(StateFile& file, const HostPoints& built)
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::transfer_points(StateFile& file)
+void Sand<Exec, Real>::transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder)
 {
-    StateFile::Share rows{0, points_.count};
+    StateFile::Share rows{0, points.count};
     if (file.loads())
     {
-        rows = file.share("points/id_0");
-        points_.reserve(rows.count);
-        points_.count = rows.count;
+        rows = file.share(fmt::format("{}/id_0", folder));
+        points.reserve(rows.count);
+        points.count = rows.count;
     }
-    points_.for_each_named_field(
+    points.for_each_named_field(
         [&](const char* name, auto& field, int components)
         {
             for (int c = 0; c < components && !lasts(name); ++c)
             {
-                file.plane(exec_, fmt::format("points/{}_{}", name, c), field.data() + c * points_.stride, rows);
+                file.plane(exec_, fmt::format("{}/{}_{}", folder, name, c), field.data() + c * points.stride, rows);
             }
         });
 }
 
 /// By the ids, which are places in what was built.
 template<class Exec, class Real>
-void Sand<Exec, Real>::restore_lasting(const HostPoints& built)
+void Sand<Exec, Real>::restore_lasting(mpm::Points<Exec, Real>& points, const HostPoints& built)
 {
-    const std::vector<std::uint32_t> id      = points_.id.to_host();
-    const auto                       count   = static_cast<std::size_t>(points_.count);
+    const std::vector<std::uint32_t> id      = points.id.to_host();
+    const auto                       count   = static_cast<std::size_t>(points.count);
     const auto                       restore = [&](auto& field, int component, const auto& value)
     {
         std::vector<std::decay_t<decltype(*field.data())>> plane(count);
@@ -78,15 +84,15 @@ void Sand<Exec, Real>::restore_lasting(const HostPoints& built)
         {
             plane[i] = static_cast<std::decay_t<decltype(*field.data())>>(value(id[i]));
         }
-        copy_from_host(exec_, field.data() + component * points_.stride, plane.data(), count * sizeof(plane[0]));
+        copy_from_host(exec_, field.data() + component * points.stride, plane.data(), count * sizeof(plane[0]));
     };
     for (int c = 0; c < 3; ++c)
     {
-        restore(points_.start, c, [&](std::uint32_t i) { return built.position[i][c]; });
+        restore(points.start, c, [&](std::uint32_t i) { return built.position[i][c]; });
     }
-    restore(points_.mass, 0, [&](std::uint32_t i) { return built.mass[i]; });
-    restore(points_.volume, 0, [&](std::uint32_t i) { return built.volume[i]; });
-    restore(points_.material, 0, [&](std::uint32_t i) { return built.material[i]; });
+    restore(points.mass, 0, [&](std::uint32_t i) { return built.mass[i]; });
+    restore(points.volume, 0, [&](std::uint32_t i) { return built.volume[i]; });
+    restore(points.material, 0, [&](std::uint32_t i) { return built.material[i]; });
 }
 
 template<class Exec, class Real>

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "solver/body_reaches.hpp"
 #include "solver/pace_limits.hpp"
 #include "solver/surface.hpp"
 
@@ -93,6 +94,10 @@ TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& cl
     {
         clock.run(exec_, stage::order, [&] { arrange(); });
     }
+    if (sand_ && unmeasured_ == 0 && sand_->sleep_is_due(pace_.largest_speed, damping_))
+    {
+        clock.run(exec_, stage::sleep, [&] { look_who_sleeps(); });
+    }
     if (unmeasured_ == 0) { find_contacts(step, clock); }
     if (plan_.body_contact) { step.substeps = substeps_of(scene_.time, step.dt, limits_, pace_); }
     if (coupling_)
@@ -146,6 +151,14 @@ void Simulation<Exec, Real>::deal_out_pages()
     if (sand_) { sand_->add_loads(loads); }
     if (rigid_) { rigid_->add_loads(loads); }
     if (balance_->deal_out(loads, steps_) && sand_) { sand_->follow_owners(); }
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::look_who_sleeps()
+{
+    std::vector<BodyReach> bodies;
+    if (rigid_) { bodies = body_reaches(exec_, rigid_->view(), world_); }
+    sand_->look_who_sleeps(bodies, damping_);
 }
 
 /// A body that a command makes faster than anything was has lists for this step alone, which is as short as that wants.

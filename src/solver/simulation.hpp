@@ -52,6 +52,9 @@ public:
     /// The scene must have sand.
     Sand<Exec, Real>& sand() { return *sand_; }
 
+    /// Mean share of the points that slept so far; nothing where none may.
+    std::optional<double> mean_asleep() const { return sand_ ? sand_->mean_asleep() : std::nullopt; }
+
     /// Of this rank.
     std::int64_t points() const { return sand_ ? sand_->count() : 0; }
 
@@ -101,6 +104,7 @@ public:
 private:
     void transfer_balance(StateFile& file);
     void arrange();
+    void look_who_sleeps();
     void deal_out_pages();
     void heed_commands(TimeStep& step);
     void find_contacts(const TimeStep& step, StageClock& clock);

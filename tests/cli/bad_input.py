@@ -76,6 +76,10 @@ class BadScene(CommandTest):
         text = SCENE.replace('"mohr-coulomb"', '"drucker-prager"', 1)
         self.refuse(text, ["drucker_prager_fit: missing", "plane-strain"])
 
+    def test_sleep(self):
+        self.refuse(SCENE + "[sleep]\ndistance = 0.0\n", ["sleep", "distance", "> 0"])
+        self.refuse(SCENE + "[sleep]\nspeed = 0.1\n", ["sleep", "speed", "distance given"])
+
     def test_unknown_volume_strain(self):
         self.refuse(SCENE + '[numerics]\nvolume_strain = "nodes"\n', ["volume_strain", "cell-average"])
 

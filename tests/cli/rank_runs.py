@@ -79,6 +79,12 @@ class Ranks(CommandTest):
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertEqual(result.stderr.count("tread: error"), 1, result.stderr)
 
+    def test_sleep_is_refused(self):
+        scene = self.write("scene.toml", SCENE + "[sleep]\ndistance = 0.1\n")
+        result = self.tread("run", scene, "--output", self.output, launcher=(*MPIRUN, "-n", "2"))
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertIn("2 MPI ranks, but scenes with sleep.distance run on one rank only", result.stderr)
+
     def test_an_error_of_one_rank_ends_the_job(self):
         scene = self.write("scene.toml", SCENE)
         run = (TREAD, "run", scene, "--output", self.output, "--backend", "cpu")

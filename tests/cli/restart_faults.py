@@ -13,7 +13,7 @@ import numpy
 
 from checkpoint_file import edited
 from command import SCENE
-from restart_test import EVERY_FEW_STEPS, MIXED, RestartTest, lasting
+from restart_test import EVERY_FEW_STEPS, MIXED, MPIRUN, RestartTest, lasting
 
 
 class Faults(RestartTest):
@@ -133,6 +133,10 @@ class Faults(RestartTest):
     def test_a_disk_that_snapshots_fill(self):
         self.check_full_disk(lasting(SCENE, 0.2), 3000, "--set=checkpoint.every_steps=20", "--set=checkpoint.keep=1",
                              "--set=output.snapshots_every=0.005")
+
+    def test_a_disk_that_is_full_for_several_ranks(self):
+        self.check_full_disk(lasting(SCENE, 0.05), 3000, "--set=checkpoint.every_steps=8", "--set=checkpoint.keep=100",
+                             "--set=output.snapshots_every=0.01", launcher=(*MPIRUN, "-n", "2"))
 
     def test_a_killed_run_loses_nothing_older_than_its_last_checkpoint(self):
         self.check_killed_runs(lasting(MIXED, 0.1), 8, seed=7)

@@ -19,7 +19,7 @@ class TaskScript(CampaignTest):
                               'mkdir -p "$4"; touch "$4/ready"\nwhile true; do sleep 0.05; done\n')
         self.script("scontrol", f'#!/bin/sh\necho "$@" >> "{self.directory}/scontrol.txt"\n')
         self.file.write_text(CAMPAIGN + "cases_a_task = 2\nrestarts = 2\n", encoding="utf-8")
-        self.campaign("expand", program=program)
+        self.campaign("expand", "--checks", 1, program=program)
         script = self.campaign("submit", "--dry-run", program=program).stdout.partition("0001\n")[2]
         (self.directory / "tasks.txt").write_text("0000 0001\n0002 0003\n")
         (self.directory / "task").write_text(script)
@@ -70,7 +70,7 @@ class TwoTasks(CampaignTest):
 
     def test_one_run_directory(self):
         self.file.write_text(CAMPAIGN.replace('"phase.drive.duration"      = 0.05', '"phase.drive.duration"      = 100.0'), encoding="utf-8")
-        self.campaign("expand")
+        self.campaign("expand", "--checks", 1)
         (self.directory / "tasks.txt").write_text("0000\n")
         (self.directory / "task").write_text(self.campaign("submit", "--dry-run").stdout.partition("0001\n")[2])
         case = self.output / "cases" / "0000"

@@ -121,6 +121,9 @@ public:
         return bytes;
     }
 
+    /// Points that sleep.
+    std::int64_t asleep() { return simulation_.sand().count() - simulation_.sand().view().count; }
+
     io::PointFields points() const { return simulation_.point_fields(); }
     io::BodyFields  bodies() { return simulation_.body_fields(); }
 
@@ -143,13 +146,21 @@ private:
     double                           time_ = 0;
 };
 
+/// Points that slept in a run.
+struct Sleepers
+{
+    std::int64_t saved;
+    std::int64_t at_end;
+};
+
 template<class Exec>
 class Restart : public test::BackendTest<Exec>
 {
 protected:
     static constexpr int before = 150, after = 150; ///< steps; lists of points, pairs and candidates change in both
 
-    void expect_same_bits(const std::string& text)
+    /// Gives how many points slept.
+    Sleepers expect_same_bits(const std::string& text)
     {
         const test::TemporaryDirectory directory;
         const std::string              path = directory.path("state.h5");
@@ -161,13 +172,15 @@ protected:
         Run<Exec> stopped(this->exec(), text);
         stopped.step(before);
         stopped.save(path);
-        Run<Exec> resumed(this->exec(), text);
+        const std::int64_t asleep = stopped.asleep();
+        Run<Exec>          resumed(this->exec(), text);
         resumed.load(path, solver::Fidelity::exact);
         stopped.step(after);
         resumed.step(after);
         const auto expected = whole.state();
         EXPECT_EQ(stopped.state(), expected) << "to save changed what came after it";
         EXPECT_EQ(resumed.state(), expected) << "what went on from the file differs";
+        return {asleep, resumed.asleep()};
     }
 };
 TYPED_TEST_SUITE(Restart, test::Backends, test::BackendNames);
@@ -182,6 +195,17 @@ TYPED_TEST(Restart, OfRocksGivesTheSameBits)
 TYPED_TEST(Restart, OfSandRocksAndAWheelGivesTheSameBits)
 {
     this->expect_same_bits(test::sand_text + test::rocks_text + roller_text);
+}
+
+/// Far from the roller: what slept was saved asleep, and other sand falls asleep or wakes after that.
+TYPED_TEST(Restart, OfSleepingSandGivesTheSameBits)
+{
+    std::string text =
+        test::sand_text + roller_text + "[sleep]\ndistance = 0.05\nspeed = 0.01\nrest = 2e-3\nload = 0.5\n";
+    for (const std::string box : {"[0.4, 0.4, 0.6]", "[0.4, 0.4, 0.2]"}) { text.replace(text.find(box), 4, "[1.6"); }
+    const Sleepers asleep = this->expect_same_bits(text);
+    EXPECT_GT(asleep.saved, 0);
+    EXPECT_NE(asleep.at_end, asleep.saved);
 }
 
 /// Moves all points and bodies of a saved state by up to `distance` (m) along each axis.

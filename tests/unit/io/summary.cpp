@@ -68,6 +68,7 @@ TEST(Summary, json_holds_every_field)
                             "rocks",
                             "rock_share",
                             "phases",
+                            "asleep",
                             "stages",
                             "errors",
                             "resolution"})
@@ -95,6 +96,9 @@ TEST(Summary, json_holds_every_field)
     EXPECT_EQ(json["rocks"][0]["count"], 5);
     EXPECT_EQ(json["rocks"][0]["largest_diameter"], 0.04);
     EXPECT_TRUE(json["errors"]["energy"].is_null());
+    EXPECT_TRUE(json["asleep"].is_null());
+    summary.asleep = 0.75;
+    EXPECT_EQ(nlohmann::json::parse(to_json(summary))["asleep"], 0.75);
 }
 
 TEST(Summary, unwritable_place_is_an_environment_error)

@@ -189,7 +189,8 @@ public:
 
     contact::Summary summary()
     {
-        return contact.candidates.body.size() == 0 ? contact::Summary::zero() : read(exec_, summarise(exec_, contact, 1));
+        return contact.candidates.body.size() == 0 ? contact::Summary::zero()
+                                                   : read(exec_, summarise(exec_, contact, 1));
     }
 
     /// Of bodies of 1 kg that meet sand alone.

@@ -300,6 +300,14 @@ TEST(LeftOut, ElasticSandWithFlip) { expect_uses(elastic_flip(), sand); }
 
 TEST(LeftOut, SandAlone) { expect_uses(test::sand_text, soil); }
 
+/// Nothing sleeps without a distance; with one, this is what looks and holds.
+TEST(LeftOut, SandThatMaySleep)
+{
+    const Part sleep = {{"largest speeds of pages", "marks of held pages"},
+                        {"keep largest speeds", "mark held pages", "write held pages"}};
+    expect_uses(test::sand_text + "\n[sleep]\ndistance = 0.2\n", soil + sleep);
+}
+
 TEST(LeftOut, RocksAlone)
 {
     expect_uses(without_terrain(test::sand_text) + above, bodies + pairs + pairs_without_sand);

@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "harness.hpp"
+
+// Sand that sleeps, beside the same that does not.
+namespace
+{
+
+using namespace tread;
+
+constexpr double spacing = 0.05; ///< m
+constexpr double length  = 3.2;  ///< m
+
+/// A trench of sand, 3.2 x 0.4 x 0.2 m, as geostatic stress has it.
+const std::string trench_text = R"(
+title = "trench"
+[domain]
+size    = [3.2, 0.4, 0.8]
+gravity = [0.0, 0.0, -9.81]
+[grid]
+spacing = 0.05
+[numerics]
+precision = "double"
+[[material]]
+name               = "sand"
+model              = "mohr-coulomb"
+density            = 1600.0
+young              = 1.0e6
+poisson            = 0.3
+friction_angle_deg = 30.0
+[[terrain]]
+material = "sand"
+region   = { box = [[0.0, 0.0, 0.0], [3.2, 0.4, 0.2]] }
+)";
+
+const std::string sleep_text = R"(
+[sleep]
+distance = 0.4
+)";
+
+/// A roller that falls 6 cm and then drives.
+const std::string roller_text = R"(
+[[material]]
+name    = "steel"
+model   = "elastic"
+density = 7800.0
+young   = 1.0e9
+poisson = 0.3
+[[shape]]
+name      = "roller"
+generate  = { kind = "wheel", radius = 0.1, width = 0.2, wall_thickness = 0.04, grousers = 6 }
+sdf_cells = 48
+[[body]]
+name     = "roller"
+shape    = "roller"
+material = "steel"
+mass     = 10.0
+position = [0.4, 0.2, 0.36]
+lock     = ["roll", "yaw"]
+[[phase]]
+name     = "drop"
+duration = 0.25
+[[phase]]
+name     = "drive"
+duration = 0.35
+drive    = { body = "roller", angular_velocity = 10.0, ramp = 0.1, slip = 0.2 }
+)";
+
+/// A column, 0.4 m high, that stands on the trench's left end and collapses over it.
+const std::string column_text = R"(
+[[terrain]]
+material = "sand"
+region   = { box = [[0.0, 0.0, 0.2], [0.3, 0.4, 0.6]] }
+[[phase]]
+name     = "collapse"
+duration = 0.5
+)";
+
+/// How a scene went.
+struct Outcome
+{
+    std::vector<double> row; ///< what is compared
+    double              steps    = 0;
+    double              sleeper  = 0; ///< mean share of the points that slept
+    double              most     = 0; ///< largest
+    double              energy   = 0; ///< unaccounted, over the largest exchange
+    double              momentum = 0;
+    double              mass     = 0;
+};
+
+template<class Exec>
+class Sleep : public test::BackendTest<Exec>
+{
+protected:
+    /// `watch(experiment)` after every step.
+    template<class Watch>
+    Outcome run(const std::string& text, Watch watch)
+    {
+        test::Experiment<Exec> experiment(this->exec(), text);
+        auto&                  simulation = experiment.simulation();
+        Outcome                outcome;
+        const auto             look = [&](double)
+        {
+            outcome.steps += 1;
+            const double asleep = static_cast<double>(simulation.sand().count() - simulation.sand().view().count) /
+                                  static_cast<double>(simulation.sand().count());
+            outcome.sleeper += asleep;
+            outcome.most = std::max(outcome.most, asleep);
+            watch(experiment);
+        };
+        experiment.run(look);
+        outcome.sleeper /= outcome.steps;
+        const solver::Census now = simulation.census();
+        simulation.ledger().energy(now);
+        simulation.ledger().balance(now);
+        outcome.energy   = std::abs(simulation.ledger().errors().energy);
+        outcome.momentum = simulation.ledger().errors().momentum;
+        outcome.mass     = simulation.ledger().errors().mass;
+        return outcome;
+    }
+
+    Outcome run(const std::string& text)
+    {
+        return run(text, [](auto&) {});
+    }
+
+    /// Along x from the first body, m.
+    static std::vector<double> offsets_of_sleepers(test::Experiment<Exec>& experiment)
+    {
+        auto&               sand = experiment.simulation().sand();
+        const double        at   = experiment.simulation().named_bodies().front().position[0];
+        const auto          x    = sand.positions(); // those that sleep come last
+        std::vector<double> offsets;
+        for (auto i = static_cast<std::size_t>(sand.view().count); i < x.size(); ++i)
+        {
+            offsets.push_back(std::abs(x[i][0] - at));
+        }
+        return offsets;
+    }
+
+    /// The books close as they do without sleep.
+    static void expect_balanced(const std::string& what, const Outcome& outcome, const Outcome& awake)
+    {
+        test::report(what + ": energy unaccounted", outcome.energy, awake.energy, 1e-3,
+                     "what falls asleep gives its motion up, and that is booked; without sleep as said");
+        test::report(what + ": momentum error", outcome.momentum, awake.momentum, 1e-6,
+                     "what holds the sleeping sand is booked as a wall's impulse; fp64");
+        EXPECT_LT(outcome.energy, std::max(1e-3, 2 * awake.energy));
+        EXPECT_LT(outcome.momentum, std::max(1e-6, 2 * awake.momentum));
+        EXPECT_LT(outcome.mass, 1e-12);
+    }
+};
+TYPED_TEST_SUITE(Sleep, test::Backends, test::BackendNames);
+
+/// Nothing but sand at rest: all of it falls asleep at the first look, and nothing is left to compute.
+TYPED_TEST(Sleep, ABedAtRestSleepsAltogether)
+{
+    const std::string text    = trench_text + "[[phase]]\nname = \"rest\"\nduration = 0.3\n";
+    const Outcome     outcome = this->run(text + sleep_text), awake = this->run(text);
+    std::cout << "asleep at most " << outcome.most << ", on the mean " << outcome.sleeper << "\n";
+    EXPECT_EQ(outcome.most, 1);
+    EXPECT_EQ(awake.most, 0);
+    this->expect_balanced("bed at rest", outcome, awake);
+}
+
+/// The roller drives 0.2 m, in a trench of which it stirs a fifth. What sleeps is always as far from it as it has to
+/// be, and wakes as it comes.
+TYPED_TEST(Sleep, ARollerFarAwayFeelsNothing)
+{
+    constexpr double    reach = 0.1 + 0.4; // radius and distance
+    std::vector<double> heights, awake_heights;
+    double              nearest = length;
+    std::int64_t        before = 0, woken = 0;
+    const auto height_of  = [](auto& experiment) { return experiment.simulation().named_bodies().front().position[2]; };
+    const Outcome outcome = this->run(trench_text + roller_text + sleep_text,
+                                      [&](auto& experiment)
+                                      {
+                                          heights.push_back(height_of(experiment));
+                                          if (heights.size() % 20 != 0) { return; }
+                                          auto&              sand   = experiment.simulation().sand();
+                                          const std::int64_t asleep = sand.count() - sand.view().count;
+                                          woken += std::max<std::int64_t>(before - asleep, 0);
+                                          before = asleep;
+                                          for (const double off : this->offsets_of_sleepers(experiment))
+                                          {
+                                              nearest = std::min(nearest, off);
+                                          }
+                                      });
+    const Outcome awake =
+        this->run(trench_text + roller_text, [&](auto& experiment) { awake_heights.push_back(height_of(experiment)); });
+    const auto mean = [](const std::vector<double>& all)
+    {
+        return std::accumulate(all.begin() + static_cast<long>(all.size() / 2), all.end(), 0.0) /
+               static_cast<double>(all.size() - all.size() / 2);
+    };
+    const double sinkage = 0.3 - mean(awake_heights), other = 0.3 - mean(heights);
+    std::cout << "asleep at most " << outcome.most << ", on the mean " << outcome.sleeper << "\n";
+    constexpr double tolerance = 0.02;
+    test::report("mean sinkage (m)", other, sinkage, tolerance * sinkage,
+                 "a drive of 0.2 m in coarse sand differs as much by chance; docs/sleep.md has means over metres");
+    test::report("nearest sleeping point, along x (m)", nearest, reach, 0.05,
+                 "at least the roller's radius and 0.4 m, less 0.8 m/s times a look's 0.05 s");
+    EXPECT_GT(outcome.most, 0.5);
+    EXPECT_NEAR(other, sinkage, tolerance * sinkage);
+    EXPECT_GT(nearest, reach - 0.05);
+    EXPECT_GT(woken, 0);
+    this->expect_balanced("roller", outcome, awake);
+}
+
+/// A column collapses over a bed that sleeps: it wakes what it comes to, and lies in the end as without.
+TYPED_TEST(Sleep, ACollapseBesideSleepingPagesGoesItsWay)
+{
+    const auto profile = [](auto& experiment)
+    {
+        std::vector<double> top(static_cast<std::size_t>(length / (2 * spacing)), 0.0);
+        for (const Vec3<double>& x : experiment.simulation().sand().positions())
+        {
+            const auto column = static_cast<std::size_t>(std::clamp(x[0], 0.0, length - 1e-6) / (2 * spacing));
+            top[column]       = std::max(top[column], x[2]);
+        }
+        return top;
+    };
+    std::vector<double> tops, awake_tops;
+    const Outcome outcome = this->run(trench_text + column_text + sleep_text, [&](auto& e) { tops = profile(e); });
+    const Outcome awake   = this->run(trench_text + column_text, [&](auto& e) { awake_tops = profile(e); });
+    std::cout << "asleep at most " << outcome.most << ", on the mean " << outcome.sleeper << "\n";
+    double furthest = 0;
+    for (std::size_t i = 0; i < tops.size(); ++i) { furthest = std::max(furthest, std::abs(tops[i] - awake_tops[i])); }
+    test::report("largest difference of the profile (m)", furthest, 0, 0.5 * spacing,
+                 "half a cell; single grains on a slope that has stopped lie where chance has put them");
+    EXPECT_GT(outcome.most, 0.3);
+    EXPECT_LT(furthest, 0.5 * spacing);
+    this->expect_balanced("collapse", outcome, awake);
+}
+
+/// Damping is for settling: nothing sleeps in such a phase, and what slept wakes.
+TYPED_TEST(Sleep, NotInADampedPhase)
+{
+    test::Experiment<TypeParam> experiment(this->exec(),
+                                           trench_text + sleep_text +
+                                               "[[phase]]\nname = \"rest\"\nduration = 0.15\n"
+                                               "[[phase]]\nname = \"settle\"\nduration = 0.02\ndamping = 0.3\n");
+    auto&                       sand = experiment.simulation().sand();
+    std::int64_t                most = 0, last = 0;
+    experiment.run(
+        [&](double)
+        {
+            last = sand.count() - sand.view().count;
+            most = std::max(most, last);
+        });
+    EXPECT_EQ(most, sand.count());
+    EXPECT_EQ(last, 0);
+}
+
+} // namespace
