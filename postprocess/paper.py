@@ -13,6 +13,7 @@ from pathlib import Path
 
 from tread_paper.cases import FIGURES
 from tread_paper.measures import Absent, Measures
+from tread_paper.sensitivity import lines_of
 from tread_paper.table import put_into, rows_of, table_of
 from tread_post import RunError
 from tread_post.style import write
@@ -22,7 +23,7 @@ DOCS = Path(__file__).resolve().parents[1] / "docs"
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("case", choices=[*FIGURES, "cost", "all"], help="cost has a table alone")
+    parser.add_argument("case", choices=[*FIGURES, "cost", "sensitivity", "all"], help="cost and sensitivity have tables alone")
     parser.add_argument("--runs", type=Path, default=DOCS / "paper" / "runs", metavar="DIR", help="default: docs/paper/runs")
     parser.add_argument("--output", type=Path, default=DOCS / "paper", metavar="DIR", help="of pictures, where CASE.toml are; default: docs/paper")
     parser.add_argument("--document", type=Path, default=DOCS / "paper.md", metavar="FILE.md", help="whose tables are filled; default: docs/paper.md")
@@ -43,10 +44,20 @@ def fill_case(case, measures, folder, document):
     document.write_text(text, encoding="utf-8")
 
 
+def fill_sensitivity(folder, document):
+    """From campaigns collected in sensitivity and sensitivity_sand, as far as they are there."""
+    there = [path for path in (folder / "sensitivity", folder / "sensitivity_sand") if (path / "campaign.h5").is_file()]
+    if there:
+        document.write_text(put_into(document.read_text(encoding="utf-8"), "sensitivity", lines_of(there)), encoding="utf-8")
+
+
 def main():
     options = arguments()
     measures = Measures(options.runs)
-    for case in [*FIGURES, "cost"] if options.case == "all" else [options.case]:
+    for case in [*FIGURES, "cost", "sensitivity"] if options.case == "all" else [options.case]:
+        if case == "sensitivity":
+            fill_sensitivity(options.output, options.document)
+            continue
         draw_case(case, measures, options.output)
         fill_case(case, measures, options.output, options.document)
 

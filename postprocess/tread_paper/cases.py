@@ -107,6 +107,7 @@ def at_times(measures, name, title, times):
     there = run.points_times
     if not there:
         raise Absent(f"{name} has no snapshots here")
+    there = {number: time for number, time in there.items() if time > start - 0.2}
     numbers = sorted({min(there, key=lambda number: abs(there[number] - start - time)) for time in times})
     return fields.figure_of(title, [(f"t = {there[number] - start:.1f} s", run, number) for number in numbers])
 

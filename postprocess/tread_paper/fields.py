@@ -10,8 +10,8 @@ from tread_post.sections import outline_of
 from tread_post.style import figure_grid
 
 PERCENTILE = 99.5
-# Of the terrain's height, up to which sections are shown.
-ABOVE = 1.8
+# Over the terrain, up to which sections are shown, m.
+ABOVE = 0.25
 # Of the view from above, across the domain, at most.
 CELLS = 80
 
@@ -21,7 +21,7 @@ def figure_of(title, shown, common_scale=True):
     terrains = [_terrain(run, number) for _, run, number in shown]
     largest = [max(np.percentile(moved, PERCENTILE), 1e-4) for _, moved, _ in terrains]
     size = shown[0][1].scene["domain"]["size"]
-    high = min(size[2], ABOVE * max(place[:, 2].max() for place, _, _ in terrains))
+    high = min(size[2], ABOVE + max(np.percentile(place[:, 2], PERCENTILE) for place, _, _ in terrains))
     figure, axes = figure_grid(len(shown), 2, 15.0, 7.5 * max(high, size[1]) / size[0] * 0.85 + 1.1)
     for row, ((label, run, number), terrain, scale) in enumerate(zip(shown, terrains, largest)):
         norm = Normalize(0, 1e3 * (max(largest) if common_scale else scale))

@@ -13,7 +13,7 @@ PERSEVERANCE_VOLUME = 0.0058
 
 UNITS = {
     "way": "m", "rise": "m", "speed": "m/s", "vertical_speed": "m/s", "pull": "N", "lift": "N", "torque": "N m", "sinkage": "m", "slip": "1",
-    "lift_share": "1", "torque_share": "1", "speed_share": "1",
+    "indentation": "m", "lift_share": "1", "torque_share": "1", "speed_share": "1",
 }
 
 
@@ -77,6 +77,12 @@ class History:
         on_sand = [contact for contact in ours if any("sand" in name for name in contact["between"])]
         return (on_sand or ours)[0]["friction"]
 
+    def _indentation(self):
+        """How far it has come, m, since it was first pressed with a twentieth of its weight: known to what it falls in a row's time."""
+        pressed = self.wheel["force"][:, 2] > 0.05 * self.weight
+        height = self.wheel["position"][:, 2]
+        return height[np.argmax(pressed)] - height if pressed.any() else np.full(len(height), np.nan)
+
     def series(self, quantity):
         """[n] of a quantity of UNITS."""
         wheel = self.wheel
@@ -89,6 +95,7 @@ class History:
             "lift": lambda: wheel["force"][:, 2],
             "torque": lambda: -wheel["torque"][:, 1],  # what drives the wheel, against the ground's
             "sinkage": lambda: wheel["sinkage"],
+            "indentation": self._indentation,
             "slip": lambda: wheel["slip"],
             "lift_share": lambda: wheel["force"][:, 2] / self.weight,
             "torque_share": lambda: -wheel["torque"][:, 1] / (self.friction() * self.weight * self.radius),

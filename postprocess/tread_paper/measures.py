@@ -5,7 +5,8 @@
     RUN when QUANTITY over|under VALUE              first time of the last phase, s
     RUN quiet QUANTITY SHARE                        time from which on it stays within this share of its last value, s
     RUN summary NAME                                of summary.json, or substeps_a_step, mean_dt, memory_mb, simulated, driven
-    RUN impact NAME                                 of head_on.py: force (N), contact (s), body_speed, points_speed, recovered, ringing (J), total, kinetic, elastic, both_elastic
+    RUN impact NAME                                 of head_on.py: force (N), contact (s), body_speed, points_speed (m/s), recovered,
+                                                    ringing (J), and the largest errors total, kinetic, elastic, both_elastic
 """
 
 import numpy as np
