@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """What sleeping sand changes: torque and sinkage of a drive, and its time, beside the same drive with all sand awake.
 
-Runs of one scene: the first without sleep, others without sleep but for a start that was shifted by next to nothing (what
-chance does to the drive), others with sleep. Means are over the rows of the last drive from SECONDS after its ramp on.
-Errors are relative to the mean of the first run and its repeats.
+Runs of one scene: the first without sleep, others without sleep from a start that was shifted by next to nothing (what
+chance does to the drive), others with sleep. Means are over the rows of the last drive from SECONDS after its ramp on,
+as far as all runs have come. Errors are relative to the mean of the first run and its repeats; speed is simulated time
+over wall time, that of the first run being 1.
 
 Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
 """
@@ -33,21 +34,21 @@ def arguments():
     return parser.parse_args()
 
 
-def means(drive, begin):
-    rows = drive.time >= drive.start + begin
+def means(drive, begin, until):
+    rows = (drive.time >= drive.start + begin) & (drive.time <= until)
     if not rows.any():
         raise RunError(f"no row {begin:g} s after the ramp")
     return {name: float(drive.series[name][rows].mean()) for name in QUANTITIES}
 
 
-def row_of(path, kind, begin):
+def row_of(path, kind, begin, until):
     run = Run(path)
     summary = run.summary
     if summary is None:
         raise RunError(f"{path}: not ended")
     row = {"run": path.name, "kind": kind, "distance": run.scene.get("sleep", {}).get("distance", "")}
-    row |= means(last_drive(run), begin)
-    row |= {name: summary[name] for name in ("points", "steps", "wall_s", "asleep")}
+    row |= means(last_drive(run), begin, until)
+    row |= {name: summary[name] for name in ("points", "steps", "time", "wall_s", "asleep")}
     row["energy_error"], row["momentum_error"] = summary["errors"]["energy"], summary["errors"]["momentum"]
     return row
 
@@ -56,13 +57,13 @@ def compare(rows):
     """Adds speed and errors to the rows; the first is the one to compare with."""
     awake = [row for row in rows if row["kind"] != "asleep"]
     for row in rows:
-        row["speed"] = rows[0]["wall_s"] / row["wall_s"]
+        row["speed"] = row["time"] / row["wall_s"] * rows[0]["wall_s"] / rows[0]["time"]
         for name in QUANTITIES:
             mean = np.mean([other[name] for other in awake])
             row[f"{name}_error"] = row[name] / mean - 1
 
 
-def figure_of(options, rows):
+def figure_of(options):
     figure, axes = figure_grid(len(QUANTITIES), 1, 11.0, 2.8, sharex=True)
     runs = [(options.awake, GREY, "all awake")]
     runs += [(path, GREY, None) for path in options.repeats]
@@ -87,9 +88,9 @@ def say(rows):
 
 def main():
     options = arguments()
-    rows = [row_of(options.awake, "awake", options.begin)]
-    rows += [row_of(path, "repeat", options.begin) for path in options.repeats]
-    rows += [row_of(path, "asleep", options.begin) for path in options.asleep]
+    runs = [(options.awake, "awake"), *((path, "repeat") for path in options.repeats), *((path, "asleep") for path in options.asleep)]
+    until = min(last_drive(Run(path)).time[-1] for path, _ in runs)
+    rows = [row_of(path, kind, options.begin, until) for path, kind in runs]
     compare(rows)
     say(rows)
     if options.table:
@@ -98,7 +99,7 @@ def main():
             writer.writeheader()
             writer.writerows(rows)
     if options.output:
-        write(figure_of(options, rows), options.output)
+        write(figure_of(options), options.output)
 
 
 if __name__ == "__main__":
