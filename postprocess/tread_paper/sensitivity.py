@@ -18,7 +18,7 @@ def lines_of(folders):
             rows = labels == label
             cells = [_cell(factor * table[name][rows]) for name, factor, _ in QUANTITIES]
             known = np.isfinite(table["torque"][rows]).sum()
-            lines.append(f"| {table.title.split(',')[0]}: {axis.name} {label} | " + " | ".join(cells) + f" | {known} |")
+            lines.append(f"| {folder.name}: {axis.name} {label} | " + " | ".join(cells) + f" | {known} |")
     return lines
 
 

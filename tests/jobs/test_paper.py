@@ -203,14 +203,14 @@ class PaperTest(unittest.TestCase):
 
     def test_sensitivity_is_mean_and_half_the_difference(self):
         class Table(dict):
-            title, axes = "Section 3.4, against inputs", [types.SimpleNamespace(name="input")]
+            axes = [types.SimpleNamespace(name="input")]
 
         columns = {"labels/input": np.array(["a", "a", "b"]), "torque": np.array([50.0, 52.0, np.nan]), "drawbar_pull": np.array([-4.0, -6.0, 1.0]),
                    "sinkage": np.array([0.07, 0.08, 0.05])}
         with unittest.mock.patch.object(sensitivity, "CampaignTable", lambda _: Table(columns)):
-            lines = sensitivity.lines_of(["anywhere"])
-        self.assertEqual(lines[2], "| Section 3.4: input a | 51.0 ± 1.0 | -5.0 ± 1.0 | 75.0 ± 5.0 | 2 |")
-        self.assertEqual(lines[3], "| Section 3.4: input b | - | 1.0 | 50.0 | 0 |")
+            lines = sensitivity.lines_of([Path("any")])
+        self.assertEqual(lines[2], "| any: input a | 51.0 ± 1.0 | -5.0 ± 1.0 | 75.0 ± 5.0 | 2 |")
+        self.assertEqual(lines[3], "| any: input b | - | 1.0 | 50.0 | 0 |")
 
     def test_a_wheel_that_rolls_over_the_ripple(self):
         history = history_of(Run(self.runs / "curiosity_rock_coarse"))
