@@ -65,9 +65,9 @@ def compare(rows):
 
 def figure_of(options):
     figure, axes = figure_grid(len(QUANTITIES), 1, 11.0, 2.8, sharex=True)
-    runs = [(options.awake, GREY, "all awake")]
+    runs = [(options.awake, GREY, "all sand awake")]
     runs += [(path, GREY, None) for path in options.repeats]
-    runs += [(path, COLOURS[i % len(COLOURS)], f"asleep beyond {Run(path).scene['sleep']['distance']:g} m") for i, path in enumerate(options.asleep)]
+    runs += [(path, COLOURS[i % len(COLOURS)], path.name) for i, path in enumerate(options.asleep)]
     for axis, (name, unit) in zip(axes[:, 0], QUANTITIES.items()):
         for path, colour, label in runs:
             drive = last_drive(Run(path))
