@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 fs::path this_program()
 {
     std::error_code error;
-    const fs::path  path = fs::read_symlink("/proc/self/exe", error);
+    fs::path        path = fs::read_symlink("/proc/self/exe", error);
     if (error) { throw EnvironmentError(fmt::format("/proc/self/exe: {}", error.message())); }
     return path;
 }
@@ -54,6 +54,7 @@ void become_script(const std::string& name, const std::vector<std::string>& argu
                                    "--tread", program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words) { pointers.push_back(word.data()); }
     pointers.push_back(nullptr);
     execvp(pointers.front(), pointers.data());

@@ -36,9 +36,9 @@ class DirectoryLock::Held
 {
 public:
     explicit Held(const std::string& directory)
-        : file_(open((directory + "/.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644))
+        : file_(open((directory + "/" + lock_file).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644))
     {
-        if (file_ < 0) { throw EnvironmentError(fmt::format("{}/.lock: {}", directory, std::strerror(errno))); }
+        if (file_ < 0) { throw EnvironmentError(fmt::format("{}/{}: {}", directory, lock_file, std::strerror(errno))); }
         if (flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         {
             const std::string holder = holder_of(file_);

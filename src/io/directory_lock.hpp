@@ -8,6 +8,8 @@
 namespace tread::io
 {
 
+inline constexpr const char* lock_file = ".lock";
+
 /// Keeps other runs out of a directory while it or a copy lives; the kernel takes the lock back when the process ends,
 /// however that happens. Held by rank 0 through the file `.lock`, which says whose it is and stays.
 class DirectoryLock

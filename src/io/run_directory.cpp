@@ -30,6 +30,18 @@ bool holds_run(const fs::path& directory)
     return fs::exists(directory / scene_file, none) || fs::exists(directory / summary_file, none);
 }
 
+/// Of a directory that no run has used: what one would replace; empty if there is nothing.
+std::string in_the_way(const fs::path& directory)
+{
+    std::error_code none;
+    if (fs::exists(directory / lock_file, none)) { return {}; }
+    for (const char* name : run_files)
+    {
+        if (fs::exists(directory / name, none)) { return name; }
+    }
+    return {};
+}
+
 // The first directory that create_directories would make: what to remove if the run cannot start after all.
 fs::path first_missing(fs::path directory)
 {
@@ -76,6 +88,12 @@ RunDirectory RunDirectory::create(const Communicator& communicator, const std::s
                 "{}: holds a run already; --overwrite replaces it, --restart auto goes on with it, --output "
                 "names another place",
                 directory.string()));
+        }
+        if (const std::string name = in_the_way(directory); existing == Existing::refuse && !name.empty())
+        {
+            throw InputError(fmt::format("{}: holds '{}', which a run would replace; --overwrite does, --output names "
+                                         "another place",
+                                         directory.string(), name));
         }
         missing = first_missing(directory);
         fs::create_directories(directory);

@@ -72,6 +72,27 @@ TEST(RunDirectory, directory_of_others_is_no_run)
     EXPECT_EQ(code_of_create(directory.path("run"), Existing::refuse, message), ExitCode::finished);
 }
 
+TEST(RunDirectory, files_of_others_are_not_replaced)
+{
+    const test::TemporaryDirectory directory;
+    std::string                    message;
+    fs::create_directories(directory.path("run/snapshots"));
+    EXPECT_EQ(code_of_create(directory.path("run"), Existing::refuse, message), ExitCode::bad_input);
+    EXPECT_NE(message.find("'snapshots'"), std::string::npos) << message;
+    EXPECT_TRUE(fs::exists(directory.path("run/snapshots")));
+}
+
+TEST(RunDirectory, a_run_killed_while_it_was_prepared_is_no_ones)
+{
+    const test::TemporaryDirectory directory;
+    std::string                    message;
+    ASSERT_EQ(code_of_create(directory.path("run"), Existing::refuse, message), ExitCode::finished);
+    fs::remove(directory.path("run/scene.toml"));
+    std::ofstream(directory.path("run/log.txt")) << "old";
+    EXPECT_EQ(code_of_create(directory.path("run"), Existing::refuse, message), ExitCode::finished);
+    EXPECT_FALSE(fs::exists(directory.path("run/log.txt")));
+}
+
 TEST(RunDirectory, unusable_place_is_an_environment_error_and_leaves_nothing)
 {
     const test::TemporaryDirectory directory;
