@@ -76,7 +76,7 @@ std::optional<std::string> Driver<Exec, Real>::run()
 {
     try
     {
-        const std::optional<std::string> interruption = carry_on();
+        std::optional<std::string> interruption = carry_on();
         finish_files();
         return interruption;
     }

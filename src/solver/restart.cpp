@@ -88,7 +88,7 @@ bool as_rank_0_has_it(const Communicator& communicator, bool value)
 /// or older than it is, and go when it should stay.
 std::optional<std::string> damage_of(const Communicator& communicator, const std::string& path)
 {
-    if (const auto damage = io::damage_of(communicator, path)) { return damage; }
+    if (auto damage = io::damage_of(communicator, path)) { return damage; }
     std::string found;
     on_root(communicator,
             [&]
