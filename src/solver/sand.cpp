@@ -170,7 +170,7 @@ void Sand<Exec, Real>::order()
 template<class Exec, class Real>
 void Sand<Exec, Real>::look_who_sleeps(const std::vector<BodyReach>& bodies, double damping)
 {
-    if (sleep_->look(points_, pages_, geometry_, bodies, materials_.data(), order_scratch_, damping == 0))
+    if (sleep_->look(points_, pages_, geometry_, bodies, materials_.data(), order_scratch_, damping))
     {
         order_in_memory();
     }

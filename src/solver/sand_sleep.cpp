@@ -81,13 +81,13 @@ template<class Exec, class Real>
 bool SandSleep<Exec, Real>::look(mpm::Points<Exec, Real>& points, const mpm::Pages<Exec>& pages,
                                  const mpm::GridGeometry& geometry, const std::vector<BodyReach>& bodies,
                                  const mpm::MaterialParameters<Real>* materials, mpm::OrderScratch<Exec, Real>& scratch,
-                                 bool sleeps)
+                                 double damping)
 {
     watch_.collect(held_);
     const RestState state{watch_.awake(pages, rule_.speed), asleep_, watch_.pressed(load_limit_), bodies};
     watch_.begin_window();
     std::vector<std::uint64_t> chosen;
-    if (sleeps) { chosen = choose_asleep(rule_, state); }
+    if (damping == 0) { chosen = choose_asleep(rule_, state); }
     if (chosen == asleep_) { return false; }
 
     SandCensus woken, fallen;

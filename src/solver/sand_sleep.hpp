@@ -39,10 +39,10 @@ public:
     bool is_due(double speed, double damping) const;
 
     /// Looks. Points, listed in `pages`, fall asleep and others wake: says if any did, and then all have to be ordered
-    /// anew. `sleeps`: may any? Materials: by PointsView::material.
+    /// anew. With damping none may. Materials: by PointsView::material.
     bool look(mpm::Points<Exec, Real>& points, const mpm::Pages<Exec>& pages, const mpm::GridGeometry& geometry,
               const std::vector<BodyReach>& bodies, const mpm::MaterialParameters<Real>* materials,
-              mpm::OrderScratch<Exec, Real>& scratch, bool sleeps);
+              mpm::OrderScratch<Exec, Real>& scratch, double damping);
 
     /// Before pages are made anew, and after.
     void leave_pages() { watch_.collect(held_); }

@@ -1,31 +1,14 @@
 #include <omp.h>
 
 #include "harness.hpp"
+#include "thrown_roller.hpp"
 
 namespace
 {
 
 using namespace tread;
 
-const std::string mixed_text = test::sand_text + test::rocks_text + R"(
-[[material]]
-name    = "steel"
-model   = "elastic"
-density = 7800.0
-young   = 1.0e9
-poisson = 0.3
-[[shape]]
-name      = "roller"
-generate  = { kind = "wheel", radius = 0.1, width = 0.15, wall_thickness = 0.04, grousers = 6 }
-sdf_cells = 48
-[[body]]
-name     = "roller"
-shape    = "roller"
-material = "steel"
-mass     = 6.0
-velocity = [0.2, 0.0, -1.0]
-position = [0.2, 0.2, 0.32]
-)";
+const std::string mixed_text = test::sand_text + test::rocks_text + test::thrown_roller_text;
 
 /// Positions of points and bodies after the scene's 0.05 s.
 template<class Exec>

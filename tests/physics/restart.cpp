@@ -8,32 +8,13 @@
 #include "mpi_session.hpp"
 #include "solver/state_file.hpp"
 #include "temporary_directory.hpp"
+#include "thrown_roller.hpp"
 
 // A run that is stopped and goes on from a checkpoint, against one that is not.
 namespace
 {
 
 using namespace tread;
-
-const std::string roller_text = R"(
-[[material]]
-name    = "steel"
-model   = "elastic"
-density = 7800.0
-young   = 1.0e9
-poisson = 0.3
-[[shape]]
-name      = "roller"
-generate  = { kind = "wheel", radius = 0.1, width = 0.15, wall_thickness = 0.04, grousers = 6 }
-sdf_cells = 48
-[[body]]
-name     = "roller"
-shape    = "roller"
-material = "steel"
-mass     = 6.0
-velocity = [0.2, 0.0, -1.0]
-position = [0.2, 0.2, 0.32]
-)";
 
 const std::string rocks_alone = R"(
 [domain]
@@ -189,19 +170,19 @@ TYPED_TEST(Restart, OfSandGivesTheSameBits) { this->expect_same_bits(test::sand_
 
 TYPED_TEST(Restart, OfRocksGivesTheSameBits)
 {
-    this->expect_same_bits(rocks_alone + test::rocks_text + "placement = \"rain\"\n" + roller_text);
+    this->expect_same_bits(rocks_alone + test::rocks_text + "placement = \"rain\"\n" + test::thrown_roller_text);
 }
 
 TYPED_TEST(Restart, OfSandRocksAndAWheelGivesTheSameBits)
 {
-    this->expect_same_bits(test::sand_text + test::rocks_text + roller_text);
+    this->expect_same_bits(test::sand_text + test::rocks_text + test::thrown_roller_text);
 }
 
 /// Far from the roller: what slept was saved asleep, and other sand falls asleep or wakes after that.
 TYPED_TEST(Restart, OfSleepingSandGivesTheSameBits)
 {
-    std::string text =
-        test::sand_text + roller_text + "[sleep]\ndistance = 0.05\nspeed = 0.01\nrest = 2e-3\nload = 0.5\n";
+    std::string text = test::sand_text + test::thrown_roller_text +
+                       "[sleep]\ndistance = 0.05\nspeed = 0.01\nrest = 2e-3\nload = 0.5\n";
     for (const std::string box : {"[0.4, 0.4, 0.6]", "[0.4, 0.4, 0.2]"}) { text.replace(text.find(box), 4, "[1.6"); }
     const Sleepers asleep = this->expect_same_bits(text);
     EXPECT_GT(asleep.saved, 0);

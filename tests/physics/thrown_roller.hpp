@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+namespace tread::test
+{
+
+/// To be appended to a scene of 0.4 x 0.4 m: a roller with grousers of 6 kg, thrown onto what is there.
+inline const std::string thrown_roller_text = R"(
+[[material]]
+name    = "steel"
+model   = "elastic"
+density = 7800.0
+young   = 1.0e9
+poisson = 0.3
+[[shape]]
+name      = "roller"
+generate  = { kind = "wheel", radius = 0.1, width = 0.15, wall_thickness = 0.04, grousers = 6 }
+sdf_cells = 48
+[[body]]
+name     = "roller"
+shape    = "roller"
+material = "steel"
+mass     = 6.0
+velocity = [0.2, 0.0, -1.0]
+position = [0.2, 0.2, 0.32]
+)";
+
+} // namespace tread::test
