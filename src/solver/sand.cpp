@@ -277,12 +277,6 @@ void Sand<Exec, Real>::scatter()
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::share()
-{
-    ranks_->halo().finish();
-}
-
-template<class Exec, class Real>
 void Sand<Exec, Real>::update_grid(double dt, double damping)
 {
     const mpm::GridStep<Real> step{static_cast<Real>(dt), gravity_, static_cast<Real>(damping), mass_floor_, walls_};

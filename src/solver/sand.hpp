@@ -76,7 +76,7 @@ public:
     void scatter();
 
     /// Between 4 and 5, on several ranks: waits for what the others bring, and adds it.
-    void share();
+    void share() { ranks_->halo().finish(); }
 
     /// 5. Grid momentum, with local damping (0 = none).
     void update_grid(double dt, double damping);
