@@ -45,9 +45,16 @@ std::vector<Leg> announced(const Communicator& communicator, const std::vector<L
 
 template<class Exec>
 Exchange<Exec>::Exchange(Transport<Exec>& transport, const char* name)
+    : Exchange(transport, transport.exec(), name)
+{
+}
+
+template<class Exec>
+Exchange<Exec>::Exchange(Transport<Exec>& transport, const Exec& exec, const char* name)
     : transport_(&transport)
-    , mail_(transport, name)
-    , rows_(transport.exec(), name)
+    , exec_(exec)
+    , mail_(transport, exec, name)
+    , rows_(exec, name)
 {
 }
 
@@ -84,7 +91,7 @@ void Exchange<Exec>::begin(const Columns& columns)
     write_parcels(from_, row_bytes, in_);
     auto* going = reinterpret_cast<std::uint32_t*>(mail_.outgoing(sent() * row_bytes));
     arriving_   = reinterpret_cast<const std::uint32_t*>(mail_.incoming(received_ * row_bytes));
-    pack_rows(transport_->exec(), columns, rows_.data(), sent(), going);
+    pack_rows(exec_, columns, rows_.data(), sent(), going);
     mail_.depart(out_, in_);
 }
 
@@ -101,10 +108,17 @@ void Exchange<Exec>::finish(const Columns& columns, const Array<Exec, std::int32
 }
 
 template<class Exec>
+const std::byte* Exchange<Exec>::arrive()
+{
+    mail_.arrive();
+    return reinterpret_cast<const std::byte*>(arriving_);
+}
+
+template<class Exec>
 void Exchange<Exec>::finish(const Columns& columns, const std::int32_t* index, std::int64_t first)
 {
     mail_.arrive();
-    unpack_rows(transport_->exec(), arriving_, received_, columns, index, first);
+    unpack_rows(exec_, arriving_, received_, columns, index, first);
 }
 
 template class Exchange<Cpu>;

@@ -27,6 +27,9 @@ public:
     /// Collective. `name` is the buffers' for the counters.
     Exchange(Transport<Exec>& transport, const char* name);
 
+    /// The same on another lane of the transport's device: `exec` has the arrays, packs and unpacks.
+    Exchange(Transport<Exec>& transport, const Exec& exec, const char* name);
+
     /// Collective. rows_to[r]: the rows for rank r, in the order in which they are to arrive; none for the own rank.
     void plan(const std::vector<std::vector<std::int32_t>>& rows_to);
 
@@ -51,10 +54,14 @@ public:
     /// What arrives k-th becomes row rows[k]; no row twice.
     void finish(const Columns& columns, const Array<Exec, std::int32_t>& rows);
 
+    /// Instead of finish(), where the columns are one array of rows: these rows as they have arrived, until begin().
+    const std::byte* arrive();
+
 private:
     void finish(const Columns& columns, const std::int32_t* index, std::int64_t first);
 
     Transport<Exec>*          transport_;
+    Exec                      exec_;
     Mail<Exec>                mail_;
     Array<Exec, std::int32_t> rows_;
     std::vector<Leg>          to_;

@@ -45,8 +45,11 @@ std::vector<std::int32_t> picked(const std::vector<std::int32_t>& places, const 
 template<class Exec, class Real>
 GridHalo<Exec, Real>::GridHalo(Decomposition<Exec>& decomposition)
     : decomposition_(decomposition)
+    , lane_(decomposition.transport.exec())
     , shared_(decomposition.transport.exec())
-    , exchange_(decomposition.transport, "grid halo messages")
+    , border_(decomposition.transport.exec(), "border pages")
+    , interior_(decomposition.transport.exec(), "interior pages")
+    , exchange_(decomposition.transport, lane_.exec(), "grid halo messages")
 {
 }
 
@@ -66,35 +69,56 @@ void GridHalo<Exec, Real>::plan(mpm::Pages<Exec>& pages, const mpm::GridWalls& w
         listed = std::move(all);
     }
 
-    const std::vector<std::int32_t> places = places_in(listed, halo.shared);
+    const std::vector<std::int32_t> places  = places_in(listed, halo.shared);
+    const std::vector<std::int32_t> numbers = numbers_of(places, listed.size());
+    list_border(pages, numbers);
     shared_.page.assign(places);
-    shared_.number_of.assign(numbers_of(places, listed.size()));
+    shared_.number_of.assign(numbers);
     shared_.first_part.assign(halo.first_part);
     shared_.part.assign(halo.part);
     shared_.booked_elsewhere.assign(picked(places, halo.booked_elsewhere));
 
     std::vector<std::int32_t> rows;
     std::vector<Leg>          to, from;
-    std::int64_t              arrivals = 0;
     for (std::size_t rank = 0; rank < halo.send.size(); ++rank)
     {
         const auto& send = halo.send[rank];
         rows.insert(rows.end(), send.begin(), send.end());
         if (!send.empty()) { to.push_back({static_cast<int>(rank), static_cast<std::int64_t>(send.size())}); }
         if (halo.arrivals[rank] > 0) { from.push_back({static_cast<int>(rank), halo.arrivals[rank]}); }
-        arrivals += halo.arrivals[rank];
     }
     exchange_.plan(rows, std::move(to), std::move(from));
     const std::int64_t count = shared_.page.size();
     shared_.own.resize(count * mpm::node_page_values);
     shared_.total.resize(count * mpm::node_page_values);
-    shared_.arrived.resize(arrivals * mpm::node_page_values);
+}
+
+/// All pages that there is a tile for: one that is empty now may be reached by points before pages are made anew.
+template<class Exec, class Real>
+void GridHalo<Exec, Real>::list_border(const mpm::Pages<Exec>& pages, const std::vector<std::int32_t>& shared_number)
+{
+    const std::vector<std::int32_t> reached = pages.node_page_of.to_host();
+    std::vector<std::int32_t>       border, interior;
+    for (std::size_t first = 0; first < reached.size(); first += mpm::octants)
+    {
+        bool shared = false;
+        for (std::size_t i = first; i < first + mpm::octants; ++i)
+        {
+            shared = shared || shared_number[static_cast<std::size_t>(reached[i])] >= 0;
+        }
+        (shared ? border : interior).push_back(static_cast<std::int32_t>(first / mpm::octants));
+    }
+    border_.assign(border);
+    interior_.assign(interior);
 }
 
 template<class Exec, class Real>
-void GridHalo<Exec, Real>::begin(const mpm::PagesView& pages, const Real* tiles)
+void GridHalo<Exec, Real>::begin(const mpm::PointsView<Real>& points, const mpm::PagesView& pages, Real* tiles)
 {
-    mpm::sum_own_parts(decomposition_.transport.exec(), pages, tiles, shared_);
+    const Exec& exec = lane_.exec();
+    lane_.fork();
+    mpm::scatter(exec, points, pages, {border_.size(), border_.data()}, tiles);
+    mpm::sum_own_parts(exec, pages, tiles, shared_);
     Columns columns;
     columns.add(rows(shared_.own.data(), mpm::node_page_values));
     exchange_.begin(columns);
@@ -103,10 +127,9 @@ void GridHalo<Exec, Real>::begin(const mpm::PagesView& pages, const Real* tiles)
 template<class Exec, class Real>
 void GridHalo<Exec, Real>::finish()
 {
-    Columns columns;
-    columns.add(rows(shared_.arrived.data(), mpm::node_page_values));
-    exchange_.finish(columns, 0);
-    mpm::add_parts(decomposition_.transport.exec(), shared_);
+    const auto* arrived = reinterpret_cast<const Real*>(exchange_.arrive());
+    mpm::add_parts(lane_.exec(), arrived, shared_);
+    lane_.join();
 }
 
 template<class Exec, class Real>

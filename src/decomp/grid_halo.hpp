@@ -1,16 +1,19 @@
 #pragma once
 
+#include "backend/second_lane.hpp"
 #include "decomp/decomposition.hpp"
 #include "decomp/exchange.hpp"
 #include "decomp/halo_plan.hpp"
 #include "kernels/mpm/order.hpp"
+#include "kernels/mpm/scatter.hpp"
 #include "kernels/mpm/shared_pages.hpp"
 #include "kernels/mpm/walls.hpp"
 
 namespace tread::decomp
 {
 
-/// The node pages that this rank shares with others, and what all of them bring to their nodes. Collective.
+/// The node pages that this rank shares with others, and what all of them bring to their nodes. Point pages that reach
+/// such nodes ("border pages") are scattered first, and what they bring travels while the others are. Collective.
 template<class Exec, class Real>
 class GridHalo
 {
@@ -20,10 +23,13 @@ public:
     /// After the point pages have changed: finds what is shared, and lists what walls hold together with it as well.
     void plan(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls);
 
-    /// After P2G, any time before finish(): sends what the own tiles bring.
-    void begin(const mpm::PagesView& pages, const Real* tiles);
+    /// P2G of the border pages, on a lane of its own; sends what they bring.
+    void begin(const mpm::PointsView<Real>& points, const mpm::PagesView& pages, Real* tiles);
 
-    /// Adds up; view() is right from now on.
+    /// The other pages, whose P2G needs no begin() nor finish() to be over.
+    mpm::PageList interior() const { return {interior_.size(), interior_.data()}; }
+
+    /// Adds up; view() and the border pages' tiles are right from now on.
     void finish();
 
     mpm::SharedPagesView<Real> view() const { return shared_.view(); }
@@ -34,8 +40,13 @@ public:
     std::int64_t pages() const { return shared_.page.size(); }
 
 private:
+    void list_border(const mpm::Pages<Exec>& pages, const std::vector<std::int32_t>& shared_number);
+
     Decomposition<Exec>&         decomposition_;
+    SecondLane<Exec>             lane_;
     mpm::SharedPages<Exec, Real> shared_;
+    Array<Exec, std::int32_t>    border_;   ///< point pages
+    Array<Exec, std::int32_t>    interior_; ///< the others
     Exchange<Exec>               exchange_;
 };
 

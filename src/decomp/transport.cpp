@@ -65,6 +65,12 @@ Choice choose(const Gpu&, const Communicator& communicator, TransportChoice choi
 }
 #endif
 
+/// Whether what is launched has run when the launch returns.
+bool runs_at_once(const Cpu&) { return true; }
+#ifdef TREAD_WITH_CUDA
+bool runs_at_once(const Gpu&) { return false; }
+#endif
+
 /// Calls f(first byte, bytes) for pieces that MPI can count; they arrive in the order in which they are sent.
 template<class F>
 void for_each_piece(const Parcel& parcel, F f)
@@ -76,13 +82,13 @@ void for_each_piece(const Parcel& parcel, F f)
 }
 
 /// Only GPUs have it.
-void exchange_by_nccl(Transport<Cpu>&, const Parcels&, const std::byte*, const Parcels&, std::byte*) {}
+void exchange_by_nccl(Transport<Cpu>&, const Cpu&, const Parcels&, const std::byte*, const Parcels&, std::byte*) {}
 
 #ifdef TREAD_WITH_CUDA
-void exchange_by_nccl(Transport<Gpu>& transport, const Parcels& out, const std::byte* from, const Parcels& in,
-                      std::byte* to)
+void exchange_by_nccl(Transport<Gpu>& transport, const Gpu& gpu, const Parcels& out, const std::byte* from,
+                      const Parcels& in, std::byte* to)
 {
-    transport.nccl().exchange(transport.exec(), out, from, in, to);
+    transport.nccl().exchange(gpu, out, from, in, to);
 }
 #endif
 
@@ -107,10 +113,11 @@ int Transport<Exec>::open_channel()
 }
 
 template<class Exec>
-Mail<Exec>::Mail(Transport<Exec>& transport, const char* name)
+Mail<Exec>::Mail(Transport<Exec>& transport, const Exec& exec, const char* name)
     : transport_(&transport)
-    , outgoing_(transport.exec(), name, transport.carrier())
-    , incoming_(transport.exec(), name, transport.carrier())
+    , exec_(exec)
+    , outgoing_(exec, name, transport.carrier())
+    , incoming_(exec, name, transport.carrier())
     , channel_(transport.open_channel())
 {
 }
@@ -124,13 +131,23 @@ void Mail<Exec>::depart(const Parcels& out, const Parcels& in)
     if (out.empty() && in.empty()) { return; }
     if (transport_->carrier() == Carrier::nccl)
     {
-        exchange_by_nccl(*transport_, out, outgoing_.data(), in, incoming_.data());
+        exchange_by_nccl(*transport_, exec_, out, outgoing_.data(), in, incoming_.data());
         return;
     }
+    leaving_ = out;
+    coming_  = in;
+    if (runs_at_once(exec_)) { post(); }
+}
+
+template<class Exec>
+void Mail<Exec>::post()
+{
     // What is to go must be written, and what came last must have been read.
-    synchronize(transport_->exec());
-    for (const Parcel& parcel : in) { post_receive(parcel); }
-    for (const Parcel& parcel : out) { post_send(parcel); }
+    synchronize(exec_);
+    for (const Parcel& parcel : coming_) { post_receive(parcel); }
+    for (const Parcel& parcel : leaving_) { post_send(parcel); }
+    coming_.clear();
+    leaving_.clear();
 }
 
 template<class Exec>
@@ -161,6 +178,7 @@ void Mail<Exec>::post_send(const Parcel& parcel)
 template<class Exec>
 void Mail<Exec>::arrive()
 {
+    if (!leaving_.empty() || !coming_.empty()) { post(); }
     if (requests_.empty()) { return; }
     states_.resize(requests_.size());
     check_mpi(MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), states_.data()), "messages");

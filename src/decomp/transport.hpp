@@ -61,7 +61,8 @@ template<class Exec>
 class Mail
 {
 public:
-    Mail(Transport<Exec>& transport, const char* name);
+    /// `exec`: where the kernels run that write and read the messages, and NCCL.
+    Mail(Transport<Exec>& transport, const Exec& exec, const char* name);
 
     /// Memory for what goes out, and for what comes in, which kernels of the backend write and read. `bytes` at least;
     /// nothing may be under way.
@@ -71,7 +72,8 @@ public:
     /// From now on ranks that have messages for each other depart equally often, however often they did before.
     void count_anew() { turn_ = 0; }
 
-    /// Starts sending what kernels that were launched before have written to the outgoing buffer.
+    /// Starts sending what kernels that were launched before have written to the outgoing buffer; from a GPU through
+    /// MPI, which would have to wait for them here, in arrive().
     void depart(const Parcels& out, const Parcels& in);
 
     /// When it returns, kernels may read the incoming buffer and write the outgoing one. EnvironmentError when MPI
@@ -79,14 +81,18 @@ public:
     void arrive();
 
 private:
+    void post();
     void post_receive(const Parcel& parcel);
     void post_send(const Parcel& parcel);
 
     Transport<Exec>*         transport_;
+    Exec                     exec_;
     MessageBuffer<Exec>      outgoing_;
     MessageBuffer<Exec>      incoming_;
     std::vector<MPI_Request> requests_;
     std::vector<MPI_Status>  states_;
+    Parcels                  leaving_;  ///< not yet posted
+    Parcels                  coming_;   ///< the same
     Parcels                  expected_; ///< of the first requests
     int                      channel_;
     int                      turn_ = 0;

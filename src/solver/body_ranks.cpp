@@ -55,6 +55,8 @@ BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const Wor
     , lattice_(page_lattice_of(world))
     , exec_(decomposition.transport.exec())
     , sand_reach_(sand_reach)
+    , position_(exec_, "body positions on the host")
+    , travel_(exec_, "body travel on the host")
     , states_(decomposition.transport, "states of bodies")
     , arriving_(exec_, "bodies arriving")
     , shared_body_(exec_, "shared bodies")
@@ -84,6 +86,8 @@ void BodyRanks<Exec>::look_at_pages()
     territory_.emplace(lattice_, decomposition_.owners.keys(), decomposition_.owners.ranks());
     pages_known_ = decomposition_.owners.changes();
     inside_.assign(role_.size(), decomp::Surroundings{});
+    around_.resize(role_.size());
+    far_.resize(role_.size());
 }
 
 template<class Exec>
@@ -133,8 +137,7 @@ void BodyRanks<Exec>::deal(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
     }
     const std::vector<Holding> held = tell(decided, arriving);
     send_states(bodies, pairs, leaving, arriving);
-    hand_over_records(pairs, decided);
-    take_roles(bodies, decided, held);
+    if (take_roles(bodies, decided, held)) { hand_over_records(pairs, decided); }
     plan_sharing(held);
 }
 
@@ -150,43 +153,55 @@ std::int32_t BodyRanks<Exec>::next_owner(std::size_t body, const Vec3<double>& p
 /// Whether all around the page of one of this rank's bodies is this rank's. Most bodies are where they were when last
 /// asked for, and there it was.
 template<class Exec>
-bool BodyRanks<Exec>::is_inside(std::size_t body, const decomp::Surroundings& around)
+bool BodyRanks<Exec>::is_inside(std::size_t body)
 {
+    const decomp::Surroundings& around = around_[body];
     if (inside_[body] == around) { return true; }
     if (!territory_->is_within(around, communicator_.rank())) { return false; }
     inside_[body] = around;
     return true;
 }
 
+/// `met`, `met_by_small`: m, how far what a large body and any other may meet reaches.
+template<class Exec>
+void BodyRanks<Exec>::look_around(double met, double met_by_small)
+{
+    const double slack = owner_slack * lattice_.spacing;
+    for (std::size_t b = 0; b < role_.size(); ++b)
+    {
+        if (role_[b] != dem::role_owner) { continue; }
+        far_[b]    = reach_of(b) + std::max((is_large_[b] != 0 ? met : met_by_small) + slack, sand_reach_);
+        around_[b] = territory_->surroundings(position_.data()[b], far_[b]);
+    }
+}
+
 /// Of the bodies that this rank has owned until now; those that it goes on to hold alone are left out.
 template<class Exec>
 auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs) -> std::vector<Holding>
 {
-    const std::vector<Vec3<double>> position = bodies.position.to_host();
-    const std::vector<double>       travel   = pairs.travel.to_host();
-    const std::vector<std::int32_t> is_large = pairs.is_large.to_host();
+    position_.fetch(bodies.position);
+    travel_.fetch(pairs.travel);
+    if (is_large_.empty()) { is_large_ = pairs.is_large.to_host(); }
+    synchronize(exec_);
 
-    double widest = 0, widest_small = 0; // m, that anything which is met reaches
+    double widest[2] = {}; // m, that anything which is met reaches; that anything small does
     for (std::size_t b = 0; b < role_.size(); ++b)
     {
         if (role_[b] != dem::role_owner) { continue; }
-        const double reach = bounding_radius_[b] + travel[b];
-        widest             = std::max(widest, reach);
-        if (is_large[b] == 0) { widest_small = std::max(widest_small, reach); }
+        widest[0] = std::max(widest[0], reach_of(b));
+        if (is_large_[b] == 0) { widest[1] = std::max(widest[1], reach_of(b)); }
     }
-    widest       = largest(widest);
-    widest_small = largest(widest_small);
+    decomp::combine(communicator_, widest, 0, 2);
+    look_around(widest[0], widest[1]);
 
     std::vector<Holding> decided;
     for (std::size_t b = 0; b < role_.size(); ++b)
     {
-        if (role_[b] != dem::role_owner) { continue; }
-        const double met   = (is_large[b] != 0 ? widest : widest_small) + owner_slack * lattice_.spacing;
-        const double reach = bounding_radius_[b] + travel[b] + std::max(met, sand_reach_);
-        if (is_inside(b, territory_->surroundings(position[b], reach))) { continue; }
-        std::vector<std::int32_t> holders = territory_->owners_near(position[b], reach);
+        if (role_[b] != dem::role_owner || is_inside(b)) { continue; }
+        const Vec3<double>&       place   = position_.data()[b];
+        std::vector<std::int32_t> holders = territory_->owners_near(place, far_[b]);
         if (holders.size() == 1 && holders.front() == communicator_.rank()) { continue; }
-        decided.push_back({static_cast<std::int32_t>(b), next_owner(b, position[b]), std::move(holders)});
+        decided.push_back({static_cast<std::int32_t>(b), next_owner(b, place), std::move(holders)});
     }
     return decided;
 }
@@ -235,8 +250,9 @@ void BodyRanks<Exec>::send_states(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& p
     states_.finish(columns, arriving_);
 }
 
+/// Whether any body of any rank has got another owner.
 template<class Exec>
-void BodyRanks<Exec>::take_roles(dem::Bodies<Exec>& bodies, const std::vector<Holding>& decided,
+bool BodyRanks<Exec>::take_roles(dem::Bodies<Exec>& bodies, const std::vector<Holding>& decided,
                                  const std::vector<Holding>& held)
 {
     for (std::int32_t& role : role_) { role = role == dem::role_owner ? role : dem::role_none; }
@@ -247,18 +263,22 @@ void BodyRanks<Exec>::take_roles(dem::Bodies<Exec>& bodies, const std::vector<Ho
         role_[static_cast<std::size_t>(body.body)] = own ? dem::role_owner : dem::role_guest;
     }
     bodies.role.assign(role_);
-    std::int64_t owned = 0, sum_of_owned = 0;
+    double owned = 0, sum_of_owned = 0, leaving = 0; // whole numbers, exact
     for (std::size_t b = 0; b < role_.size(); ++b)
     {
         if (role_[b] != dem::role_owner) { continue; }
         ++owned;
-        sum_of_owned += static_cast<std::int64_t>(b);
+        sum_of_owned += static_cast<double>(b);
     }
-    const auto count = static_cast<std::int64_t>(role_.size());
-    if (communicator_.sum(owned) != count || communicator_.sum(sum_of_owned) != count * (count - 1) / 2)
+    for (const Holding& body : decided) { leaving += body.owner == communicator_.rank() ? 0 : 1; }
+    double sums[] = {owned, sum_of_owned, leaving};
+    decomp::combine(communicator_, sums, 3, 0);
+    const auto count = static_cast<double>(role_.size());
+    if (sums[0] != count || sums[1] != count * (count - 1) / 2)
     {
         throw NumericalError("a body was lost on its way from rank to rank");
     }
+    return sums[2] > 0;
 }
 
 /// Both sides of a leg list the bodies that they share in the same order.

@@ -64,15 +64,13 @@ void BodyRanks<Exec>::hand_over_records(dem::Pairs<Exec>& pairs, const std::vect
     {
         if (body.owner != communicator_.rank()) { moved[body.body] = static_cast<std::size_t>(body.owner); }
     }
-    if (all(moved.empty())) { return; }
     const bool have_places = !all(pairs.patches.last_place.size() == 0);
 
-    const std::vector<std::int32_t>         is_large = pairs.is_large.to_host();
     std::vector<ContactRecord>              kept;
     std::vector<std::vector<ContactRecord>> leaving(rank_count());
     for (const ContactRecord& record : last_records(pairs))
     {
-        const auto to = moved.find(decider(is_large, record.key));
+        const auto to = moved.find(decider(is_large_, record.key));
         (to == moved.end() ? kept : leaving[to->second]).push_back(record);
     }
     const auto by_key = [](const ContactRecord& a, const ContactRecord& b) { return a.key < b.key; };

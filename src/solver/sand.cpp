@@ -271,14 +271,9 @@ void Sand<Exec, Real>::scatter()
         mpm::share_pressure(exec_, points, pages(), shared);
         points.stress = shared;
     }
-    mpm::scatter(exec_, points, pages(), tiles_.data());
-}
-
-template<class Exec, class Real>
-void Sand<Exec, Real>::share()
-{
-    ranks_->halo().begin(pages(), tiles_.data());
-    ranks_->halo().finish();
+    if (ranks_) { ranks_->halo().begin(points, pages(), tiles_.data()); }
+    const mpm::PageList list = ranks_ ? ranks_->halo().interior() : mpm::all_point_pages(pages());
+    mpm::scatter(exec_, points, pages(), list, tiles_.data());
 }
 
 template<class Exec, class Real>

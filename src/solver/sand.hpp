@@ -72,11 +72,11 @@ public:
     std::int64_t                                   migrated() const { return migrated_; }
     const std::vector<std::vector<std::uint32_t>>& departed() const { return ranks_->migration().departed(); }
 
-    /// 4. P2G.
+    /// 4. P2G. On several ranks it begins with what they bring to the nodes that they share.
     void scatter();
 
-    /// Between 4 and 5, on several ranks: what all of them bring to the nodes that they share.
-    void share();
+    /// Between 4 and 5, on several ranks: waits for what the others bring, and adds it.
+    void share() { ranks_->halo().finish(); }
 
     /// 5. Grid momentum, with local damping (0 = none).
     void update_grid(double dt, double damping);

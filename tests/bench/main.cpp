@@ -6,6 +6,7 @@
 
 #include "base/communicator.hpp"
 #include "dem.hpp"
+#include "messages.hpp"
 #include "mpm.hpp"
 #include "scene.hpp"
 
@@ -93,6 +94,12 @@ int main(int argc, char** argv)
     scene_command->add_option("--steps", scene.steps, "Timed steps, three times");
     add_transport(*scene_command, scene.transport);
     add_backend(*scene_command, scene.backend);
+    bench::MessagesCase messages;
+    CLI::App*           messages_command =
+        app.add_subcommand("messages", "What ranks tell each other of a wheel that they share");
+    messages_command->add_option("--rounds", messages.rounds, "Timed rounds, three times");
+    add_transport(*messages_command, messages.transport);
+    add_backend(*messages_command, messages.backend);
     app.require_subcommand(1);
     CLI11_PARSE(app, argc, argv);
     mpm.points = static_cast<std::int64_t>(points);
@@ -108,6 +115,11 @@ int main(int argc, char** argv)
         {
             const MpiSession session;
             bench::run_scene(session.world(), scene);
+        }
+        else if (messages_command->parsed())
+        {
+            const MpiSession session;
+            bench::run_messages(session.world(), messages);
         }
         else { bench::run_mpm(mpm); }
     }

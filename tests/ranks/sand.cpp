@@ -16,15 +16,19 @@ using namespace tread;
 
 constexpr int steps = 200;
 
-/// A column that falls over across pages of 0.08 m; all kinds of walls.
-std::string column_text()
+/// What a scene has of its own.
+struct SandScene
 {
-    return R"(
-title = "column collapse"
+    std::string title, domain, young, box;
+    std::string cohesion = "0.0";
+};
+
+std::string text_of(const SandScene& scene)
+{
+    return fmt::format(R"(
+title = "{}"
 [domain]
-size    = [0.48, 0.14, 0.28]
-gravity = [0.0, 0.0, -9.81]
-walls   = { x = "slip", y = "frictional", bottom = "fixed", top = "slip", friction = 0.3 }
+{}
 [grid]
 spacing = 0.02
 [numerics]
@@ -33,46 +37,40 @@ precision = "double"
 name = "sand"
 model = "mohr-coulomb"
 density = 1600.0
-young = 1.0e6
+young = {}
 poisson = 0.3
 friction_angle_deg = 31.0
+cohesion = {}
 [[terrain]]
 material = "sand"
-region = { box = [[0.0, 0.0, 0.0], [0.16, 0.14, 0.24]] }
+region = {{ box = {} }}
 [[phase]]
-name = "collapse"
+name = "{}"
 duration = 1.0
-)";
+)",
+                       scene.title, scene.domain, scene.young, scene.cohesion, scene.box, scene.title);
+}
+
+/// A column that falls over across pages of 0.08 m; all kinds of walls.
+std::string column_text()
+{
+    return text_of({"collapse", R"(
+size    = [0.48, 0.14, 0.28]
+gravity = [0.0, 0.0, -9.81]
+walls   = { x = "slip", y = "frictional", bottom = "fixed", top = "slip", friction = 0.3 }
+)",
+                    "1.0e6", "[[0.0, 0.0, 0.0], [0.16, 0.14, 0.24]]"});
 }
 
 /// A block that flies along x through page after page.
 std::string flight_text()
 {
-    return R"(
-title = "block that flies"
-[domain]
+    return text_of({"flight", R"(
 size    = [1.2, 0.16, 0.16]
 gravity = [30.0, 0.0, 0.0]
 walls   = { x = "slip", y = "slip", bottom = "slip", top = "slip" }
-[grid]
-spacing = 0.02
-[numerics]
-precision = "double"
-[[material]]
-name = "sand"
-model = "mohr-coulomb"
-density = 1600.0
-young = 3.0e5
-poisson = 0.3
-friction_angle_deg = 31.0
-cohesion = 100.0
-[[terrain]]
-material = "sand"
-region = { box = [[0.02, 0.04, 0.04], [0.14, 0.12, 0.12]] }
-[[phase]]
-name = "flight"
-duration = 1.0
-)";
+)",
+                    "3.0e5", "[[0.02, 0.04, 0.04], [0.14, 0.12, 0.12]]", "100.0"});
 }
 
 /// Where a test says who owns what, it stays so.

@@ -125,19 +125,22 @@ void scatter_page(const PointsView<Real>& points, const PagesView& pages, std::i
 } // namespace
 
 template<class Real>
-void scatter(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, Real* tiles)
+void scatter(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list, Real* tiles)
 {
     const auto launch = [&](auto affine)
     {
-        for_each_heavy(cpu, "scatter", pages.point_pages,
-                       [=](std::int64_t page)
-                       { scatter_page(points, pages, page, tiles + page * node_channels * tile_nodes, affine); });
+        const auto scatter_one = [=](std::int64_t i)
+        {
+            const std::int64_t page = list.at(i);
+            scatter_page(points, pages, page, tiles + page * node_channels * tile_nodes, affine);
+        };
+        for_each_heavy(cpu, "scatter", list.count, scatter_one);
     };
     if (points.affine.data != nullptr) { launch(WithAffine{}); }
     else { launch(WithoutAffine{}); }
 }
 
-template void scatter(const Cpu&, const PointsView<float>&, const PagesView&, float*);
-template void scatter(const Cpu&, const PointsView<double>&, const PagesView&, double*);
+template void scatter(const Cpu&, const PointsView<float>&, const PagesView&, const PageList&, float*);
+template void scatter(const Cpu&, const PointsView<double>&, const PagesView&, const PageList&, double*);
 
 } // namespace tread::mpm

@@ -14,20 +14,20 @@ constexpr std::int64_t full_page = 128;
 } // namespace
 
 template<class Real>
-void scatter(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, Real* tiles)
+void scatter(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list, Real* tiles)
 {
     const auto launch = [&](auto load)
     {
         using Brings = decltype(load);
         if (points.count < full_page * pages.point_pages)
         {
-            for_each_block<warp_size>(gpu, "scatter", pages.point_pages,
-                                      ScatterSparsePage<Real, Brings>{points, pages, tiles});
+            for_each_block<warp_size>(gpu, "scatter", list.count,
+                                      ScatterSparsePage<Real, Brings>{points, pages, list, tiles});
         }
         else
         {
-            for_each_block<scatter_threads, 8>(gpu, "scatter", pages.point_pages,
-                                               ScatterPage<Real, Brings>{points, pages, tiles});
+            for_each_block<scatter_threads, 8>(gpu, "scatter", list.count,
+                                               ScatterPage<Real, Brings>{points, pages, list, tiles});
         }
     };
     const auto with_force = [&](auto force)
@@ -39,7 +39,7 @@ void scatter(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pa
     else { with_force(std::false_type{}); }
 }
 
-template void scatter(const Gpu&, const PointsView<float>&, const PagesView&, float*);
-template void scatter(const Gpu&, const PointsView<double>&, const PagesView&, double*);
+template void scatter(const Gpu&, const PointsView<float>&, const PagesView&, const PageList&, float*);
+template void scatter(const Gpu&, const PointsView<double>&, const PagesView&, const PageList&, double*);
 
 } // namespace tread::mpm

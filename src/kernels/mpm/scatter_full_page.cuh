@@ -158,10 +158,12 @@ struct ScatterPage
 
     PointsView<Real> points;
     PagesView        pages;
+    PageList         list;
     Real*            tiles;
 
-    __device__ void operator()(std::int64_t page) const
+    __device__ void operator()(std::int64_t block) const
     {
+        const std::int64_t page = list.at(block);
         if (pages.first_point[page] == pages.first_point[page + 1]) { return; }
         __shared__ Tile tile[scatter_warps];
         __shared__ Quad<Real> staged[scatter_warps][points_a_batch][quads];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/mpm/page_list.hpp"
 #include "kernels/mpm/scatter_kern.hpp"
 
 namespace tread::mpm

@@ -22,10 +22,12 @@ struct ScatterSparsePage
 
     PointsView<Real> points;
     PagesView        pages;
+    PageList         list;
     Real*            tiles;
 
-    __device__ void operator()(std::int64_t page) const
+    __device__ void operator()(std::int64_t block) const
     {
+        const std::int64_t page = list.at(block);
         if (pages.first_point[page] == pages.first_point[page + 1]) { return; }
         __shared__ Tile tile;
         __shared__ std::int32_t listed[page_cells];

@@ -11,9 +11,9 @@ void sum_own_parts(const Cpu& cpu, const PagesView& pages, const Real* tiles, Sh
 }
 
 template<class Real>
-void add_parts(const Cpu& cpu, SharedPages<Cpu, Real>& shared)
+void add_parts(const Cpu& cpu, const Real* arrived, SharedPages<Cpu, Real>& shared)
 {
-    add_all_parts(cpu, shared);
+    add_all_parts(cpu, arrived, shared);
 }
 
 template<class Real>
@@ -24,8 +24,8 @@ void clear_booked_elsewhere(const Cpu& cpu, const SharedPages<Cpu, Real>& shared
 
 template void sum_own_parts(const Cpu&, const PagesView&, const float*, SharedPages<Cpu, float>&);
 template void sum_own_parts(const Cpu&, const PagesView&, const double*, SharedPages<Cpu, double>&);
-template void add_parts(const Cpu&, SharedPages<Cpu, float>&);
-template void add_parts(const Cpu&, SharedPages<Cpu, double>&);
+template void add_parts(const Cpu&, const float*, SharedPages<Cpu, float>&);
+template void add_parts(const Cpu&, const double*, SharedPages<Cpu, double>&);
 template void clear_booked_elsewhere(const Cpu&, const SharedPages<Cpu, float>&, int, double*);
 template void clear_booked_elsewhere(const Cpu&, const SharedPages<Cpu, double>&, int, double*);
 

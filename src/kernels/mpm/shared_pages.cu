@@ -11,9 +11,9 @@ void sum_own_parts(const Gpu& gpu, const PagesView& pages, const Real* tiles, Sh
 }
 
 template<class Real>
-void add_parts(const Gpu& gpu, SharedPages<Gpu, Real>& shared)
+void add_parts(const Gpu& gpu, const Real* arrived, SharedPages<Gpu, Real>& shared)
 {
-    add_all_parts(gpu, shared);
+    add_all_parts(gpu, arrived, shared);
 }
 
 template<class Real>
@@ -24,8 +24,8 @@ void clear_booked_elsewhere(const Gpu& gpu, const SharedPages<Gpu, Real>& shared
 
 template void sum_own_parts(const Gpu&, const PagesView&, const float*, SharedPages<Gpu, float>&);
 template void sum_own_parts(const Gpu&, const PagesView&, const double*, SharedPages<Gpu, double>&);
-template void add_parts(const Gpu&, SharedPages<Gpu, float>&);
-template void add_parts(const Gpu&, SharedPages<Gpu, double>&);
+template void add_parts(const Gpu&, const float*, SharedPages<Gpu, float>&);
+template void add_parts(const Gpu&, const double*, SharedPages<Gpu, double>&);
 template void clear_booked_elsewhere(const Gpu&, const SharedPages<Gpu, float>&, int, double*);
 template void clear_booked_elsewhere(const Gpu&, const SharedPages<Gpu, double>&, int, double*);
 

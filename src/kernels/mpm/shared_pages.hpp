@@ -31,7 +31,6 @@ struct SharedPages
         : page(exec, "shared pages")
         , number_of(exec, "shared pages of node pages")
         , own(exec, "own parts of shared pages")
-        , arrived(exec, "other parts of shared pages")
         , total(exec, "totals of shared pages")
         , first_part(exec, "shared page first part")
         , part(exec, "shared page parts")
@@ -44,10 +43,9 @@ struct SharedPages
     Array<Exec, std::int32_t> page;       ///< [shared pages], node page, ascending
     Array<Exec, std::int32_t> number_of;  ///< [node pages]
     Array<Exec, Real>         own;        ///< [shared pages][node_page_values], what the tiles here bring
-    Array<Exec, Real>         arrived;    ///< [parts of others][node_page_values]
     Array<Exec, Real>         total;      ///< [shared pages][node_page_values]
     Array<Exec, std::int32_t> first_part; ///< [shared pages + 1]
-    Array<Exec, std::int32_t> part;       ///< of a page, in the order of adding: a number in `arrived`, or -1 = own
+    Array<Exec, std::int32_t> part; ///< of a page, in the order of adding: the number of an arrived one, or -1 = own
     Array<Exec, std::int32_t> booked_elsewhere; ///< node pages whose tallies another process keeps
 };
 
@@ -57,11 +55,11 @@ void sum_own_parts(const Cpu&, const PagesView& pages, const Real* tiles, Shared
 template<class Real>
 void sum_own_parts(const Gpu&, const PagesView& pages, const Real* tiles, SharedPages<Gpu, Real>& shared);
 
-/// Writes SharedPages::total: the parts of every page in their order.
+/// Writes SharedPages::total: the parts of every page in their order. `arrived`: [parts of others][node_page_values].
 template<class Real>
-void add_parts(const Cpu&, SharedPages<Cpu, Real>& shared);
+void add_parts(const Cpu&, const Real* arrived, SharedPages<Cpu, Real>& shared);
 template<class Real>
-void add_parts(const Gpu&, SharedPages<Gpu, Real>& shared);
+void add_parts(const Gpu&, const Real* arrived, SharedPages<Gpu, Real>& shared);
 
 /// Clears the tallies (`width` numbers a node page) of pages that are booked elsewhere.
 template<class Real>

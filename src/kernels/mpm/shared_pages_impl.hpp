@@ -72,11 +72,11 @@ void sum_all_own_parts(const Exec& exec, const PagesView& pages, const Real* til
 }
 
 template<class Exec, class Real>
-void add_all_parts(const Exec& exec, SharedPages<Exec, Real>& shared)
+void add_all_parts(const Exec& exec, const Real* arrived, SharedPages<Exec, Real>& shared)
 {
-    for_each(exec, "add parts of shared pages", shared.page.size() * node_page_values,
-             AddParts<Real>{shared.own.data(), shared.arrived.data(), shared.first_part.data(), shared.part.data(),
-                            shared.total.data()});
+    for_each(
+        exec, "add parts of shared pages", shared.page.size() * node_page_values,
+        AddParts<Real>{shared.own.data(), arrived, shared.first_part.data(), shared.part.data(), shared.total.data()});
 }
 
 template<class Exec, class Real>

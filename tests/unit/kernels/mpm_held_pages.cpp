@@ -118,7 +118,7 @@ TYPED_TEST(HeldPagesTest, StopTheNodesAndBookIt)
     EXPECT_EQ(held.page.size(), 12); // two pages side by side and the upper neighbours of both
 
     const GridStep<double> step{dt, {0.3, 0, -9.81}, 0, 1e-20, {}};
-    scatter(exec, points.view(), view, tiles.data());
+    scatter(exec, points.view(), view, all_point_pages(view), tiles.data());
     update_grid(exec, view, WallPagesView<double>{}, SharedPagesView<double>{}, tiles.data(), step, motion.data(),
                 tallies.data());
     const auto free = motion.to_host();

@@ -271,7 +271,8 @@ TYPED_TEST(PagesTest, ScatterKeepsMassMomentumAndForceFree)
     const std::int64_t       page_count = pages.point_page_key.size();
     Array<TypeParam, double> tiles(this->exec(), "tiles", page_count * node_channels * tile_nodes);
     tiles.fill_zero(); // those of pages without points are not written
-    scatter(this->exec(), points.view(), pages.view(this->spacing, 0.5), tiles.data());
+    const PagesView view = pages.view(this->spacing, 0.5);
+    scatter(this->exec(), points.view(), view, all_point_pages(view), tiles.data());
     const auto values                = tiles.to_host();
     double     totals[node_channels] = {};
     const auto for_each_value        = [&](auto visit)
