@@ -20,9 +20,6 @@ constexpr std::int32_t alone = -1; ///< place of a body that no two ranks move
 /// that its contacts remember. What it may meet is known to its rank from as much further off.
 constexpr double owner_slack = 0.25;
 
-/// So many bodies are shared out among threads: half a millisecond of work.
-constexpr std::size_t worth_threads = 16384;
-
 /// A body's words in a letter: body, owner, number of holders, holders.
 void write_words(std::vector<std::int32_t>& words, std::int32_t body, std::int32_t owner,
                  const std::vector<std::int32_t>& holders)
@@ -170,7 +167,6 @@ template<class Exec>
 void BodyRanks<Exec>::look_around(double met, double met_by_small)
 {
     const double slack = owner_slack * lattice_.spacing;
-#pragma omp parallel for schedule(static) if (role_.size() >= worth_threads)
     for (std::size_t b = 0; b < role_.size(); ++b)
     {
         if (role_[b] != dem::role_owner) { continue; }
