@@ -5,18 +5,16 @@ Needs Debian's python3-matplotlib.
 """
 
 import argparse
-import csv
 import sys
 from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
 
 from tread_post import RunError
+from tread_post.rows import read_rows
+from tread_post.style import figure_grid, finish, write
 
 # Okabe and Ito's colours, which the colour-blind can tell apart.
 COLOURS = {"exact spheres": "#000000", "spheres of nodes": "#0072B2", "irregular rocks": "#009E73", "cubes": "#D55E00"}
@@ -42,18 +40,6 @@ def arguments():
     return parser.parse_args()
 
 
-def read(path):
-    types = Row.__annotations__
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = [Row(**{name: of_type(row[name]) for name, of_type in types.items()}) for row in csv.DictReader(file)]
-    except (OSError, KeyError, TypeError, ValueError) as error:
-        raise RunError(f"{path}: no table of bench_contact_step ({error!r})") from error
-    if not rows:
-        raise RunError(f"{path}: no rows")
-    return rows
-
-
 def plot_lines(axis, rows, value):
     lines = defaultdict(list)
     for row in rows:
@@ -72,8 +58,7 @@ def plot_references(axis, rows):
 
 
 def figure_of(rows):
-    plt.rcParams.update({"font.size": 11, "axes.spines.top": False, "axes.spines.right": False})
-    figure, (steps, shares) = plt.subplots(1, 2, figsize=(14, 5), constrained_layout=True)
+    figure, ((steps, shares),) = figure_grid(1, 2, 14.0, 5.0)
     plot_lines(steps, rows, lambda row: row.stable_s)
     plot_references(steps, rows)
     steps.set(xscale="log", yscale="log", xlabel="Young's modulus  [Pa]", title="largest stable substep  [s]")
@@ -83,11 +68,10 @@ def figure_of(rows):
         shares.annotate(text, (1, share), xycoords=("axes fraction", "data"), xytext=(0, 3), textcoords="offset points", ha="right", fontsize=9)
     shares.set(xscale="log", ylim=(0, 2.2), xlabel="Young's modulus  [Pa]", title=r"the same over $\sqrt{m / \Sigma K}$ of live contacts")
     for axis in (steps, shares):
-        axis.grid(color="#cccccc", linewidth=0.6)
-        axis.set_axisbelow(True)
-    handles = [plt.Line2D([], [], color=colour, label=kind) for kind, colour in COLOURS.items()]
+        finish(axis)
+    handles = [Line2D([], [], color=colour, label=kind) for kind, colour in COLOURS.items()]
     handles += [
-        plt.Line2D([], [], marker=marker, linestyle=style, color="#777777", label=f"$d_0$ = {knee:g} R*") for knee, (marker, style) in STYLES.items()
+        Line2D([], [], marker=marker, linestyle=style, color="#777777", label=f"$d_0$ = {knee:g} R*") for knee, (marker, style) in STYLES.items()
     ]
     shares.legend(handles=handles, fontsize=9, edgecolor="none", loc="upper left", bbox_to_anchor=(1.02, 1))
     return figure
@@ -95,8 +79,7 @@ def figure_of(rows):
 
 def main():
     options = arguments()
-    figure_of(read(options.steps)).savefig(options.output, dpi=110)
-    print(options.output)
+    write(figure_of(read_rows(options.steps, Row, "bench_contact_step")), options.output)
 
 
 if __name__ == "__main__":

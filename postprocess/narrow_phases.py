@@ -5,7 +5,6 @@ Needs Debian's python3-numpy and python3-matplotlib.
 """
 
 import argparse
-import csv
 import sys
 from collections import defaultdict
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ import numpy as np
 from matplotlib.ticker import LogLocator
 
 from tread_post import RunError
+from tread_post.rows import read_rows
 from tread_post.style import figure_grid, finish, legend_below, write
 
 # Okabe and Ito's colours, which the colour-blind can tell apart.
@@ -61,18 +61,6 @@ def arguments():
     parser.add_argument("--output", type=Path, default=Path("narrow_phases.png"), metavar="FILE.png",
                         help="default: narrow_phases.png")
     return parser.parse_args()
-
-
-def read(path, kind, program):
-    types = kind.__annotations__
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = [kind(**{name: of_type(row[name]) for name, of_type in types.items()}) for row in csv.DictReader(file)]
-    except (OSError, KeyError, TypeError, ValueError) as error:
-        raise RunError(f"{path}: no table of {program} ({error!r})") from error
-    if not rows:
-        raise RunError(f"{path}: no rows")
-    return rows
 
 
 def heights_off(rows):
@@ -139,8 +127,8 @@ def figure_of(panels):
 
 def main():
     options = arguments()
-    impacts = read(options.impacts, Impact, "bench_narrow_phases")
-    piles = read(options.piles, Pile, "narrow_phase_piles.py") if options.piles else []
+    impacts = read_rows(options.impacts, Impact, "bench_narrow_phases")
+    piles = read_rows(options.piles, Pile, "narrow_phase_piles.py") if options.piles else []
     write(figure_of(panels_of(impacts, piles)), options.output)
 
 

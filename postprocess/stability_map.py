@@ -6,20 +6,17 @@ Needs Debian's python3-matplotlib.
 
 import argparse
 import ast
-import csv
 import math
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
 from tread_post import RunError
+from tread_post.rows import read_rows
+from tread_post.style import figure_grid, write
 
 # Okabe and Ito's colours, which the colour-blind can tell apart; letters for those who see none.
 OUTCOMES = {"stable": ("#009E73", ""), "told": ("#56B4E9", "t"), "stopped": ("#E69F00", "s"), "refused": ("#999999", "r"),
@@ -48,13 +45,9 @@ def arguments():
 
 
 def read(path):
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            cells = [Cell(**{name: row[name] for name in Cell.__annotations__}) for row in csv.DictReader(file)]
-    except (OSError, KeyError, TypeError) as error:
-        raise RunError(f"{path}: no table of run_matrix.py ({error!r})") from error
-    if not cells or any(cell.outcome not in OUTCOMES for cell in cells):
-        raise RunError(f"{path}: no cells, or outcomes that are none of {', '.join(OUTCOMES)}")
+    cells = read_rows(path, Cell, "run_matrix.py")
+    if any(cell.outcome not in OUTCOMES for cell in cells):
+        raise RunError(f"{path}: outcomes that are none of {', '.join(OUTCOMES)}")
     return cells
 
 
@@ -81,6 +74,10 @@ def draw(axis, name, cells):
     axis.imshow(codes, cmap=colours, vmin=-0.5, vmax=len(outcomes) - 0.5, origin="lower", aspect="auto")
     axis.set_xticks(range(len(across)), [label(x) for x in across], fontsize=7, rotation=30)
     axis.set_yticks(range(len(up)), [label(y) for y in up], fontsize=7)
+    axis.set_xticks([column + 0.5 for column in range(len(across) - 1)], minor=True)
+    axis.set_yticks([row + 0.5 for row in range(len(up) - 1)], minor=True)
+    axis.grid(which="minor", color="white", linewidth=1.5)
+    axis.tick_params(which="minor", length=0)
     axis.set_xlabel(cells[0].x_label, fontsize=8)
     axis.set_ylabel(cells[0].y_label, fontsize=8)
     axis.set_title(name, fontsize=9)
@@ -94,7 +91,7 @@ def main():
         if cell.map:
             maps.setdefault(cell.map, []).append(cell)
     rows = math.ceil(len(maps) / COLUMNS)
-    figure, axes = plt.subplots(rows, COLUMNS, figsize=(4 * COLUMNS, 2.8 * rows), constrained_layout=True, squeeze=False)
+    figure, axes = figure_grid(rows, COLUMNS, 4.0 * COLUMNS, 2.8)
     for axis in axes.flat[len(maps):]:
         axis.axis("off")
     for axis, (name, of_map) in zip(axes.flat, maps.items()):
@@ -103,12 +100,11 @@ def main():
     handles = [Patch(color=OUTCOMES[outcome][0], label=f"{outcome} ({count})") for outcome, count in counts.items()]
     figure.legend(handles=handles, loc="upper right", ncols=len(handles))
     figure.suptitle(f"{len(cells)} cells and cases, backend {cells[0].backend}\n", x=0.02, ha="left")
-    figure.savefig(options.output, dpi=120)
-    return 0
+    write(figure, options.output)
 
 
 if __name__ == "__main__":
     try:
-        sys.exit(main())
+        main()
     except RunError as error:
         sys.exit(f"stability_map: {error}")

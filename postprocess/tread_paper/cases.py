@@ -49,8 +49,8 @@ def drop_fields(measures):
     return fields.figure_of("Section 3.2: displacement at the end of the drop (Fig. 10 a to c)", of_snapshots(shown), common_scale=False)
 
 
-ROLLS = (("rolling_sand", "sand"), ("rolling_mixed_coarse", "sand and rocks (coarse)"), ("rolling_rocks_coarse", "irregular rocks (coarse)"),
-         ("rolling_spheres", "spheres"))
+ROLLS = (("rolling_sand", "sand"), ("rolling_sand_coarse", "sand, coarse"), ("rolling_mixed_coarse", "sand and rocks, coarse"),
+         ("rolling_rocks_coarse", "irregular rocks, coarse"), ("rolling_spheres_coarse", "spheres, coarse"))
 
 
 def roll(measures):
@@ -86,7 +86,7 @@ def slip_slices(name):
     return draw
 
 
-SPIRITS = (("spirit_coarse", "the paper's wheel, coarse"), ("spirit_mer_coarse", "Spirit's wheel, coarse"))
+SPIRITS = (("spirit", "the paper's wheel"), ("spirit_coarse", "the paper's wheel, coarse"), ("spirit_mer_coarse", "Spirit's wheel, coarse"))
 
 
 def spirit(measures):
@@ -147,7 +147,8 @@ FIGURES = {
     "wheel_drop": {"wheel_drop": drop, "wheel_drop_fields": drop_fields, "wheel_drop_substeps": substep_figure},
     "rolling": {"rolling": roll, "rolling_fields": roll_fields},
     "slip": {"slip": slip, "slip_sand_slices": slip_slices("slip_sand"), "slip_mixed_slices": slip_slices("slip_mixed")},
-    "spirit": {"spirit": spirit, "spirit_sinkage": spirit_slip, "spirit_coarse_fields": spirit_fields("spirit_coarse")},
+    "spirit": {"spirit": spirit, "spirit_sinkage": spirit_slip, "spirit_fields": spirit_fields("spirit"),
+               "spirit_coarse_fields": spirit_fields("spirit_coarse")},
     "curiosity": {"curiosity": curiosity, "curiosity_rock_coarse_fields": curiosity_fields("curiosity_rock_coarse"),
                   "curiosity_core_coarse_fields": curiosity_fields("curiosity_core_coarse")},
 }

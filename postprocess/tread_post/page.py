@@ -2,7 +2,6 @@
 
 import base64
 import html
-import io
 
 STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 1280px; margin: 2em auto; padding: 0 1em; color: #222; background: #fff; }
@@ -39,12 +38,9 @@ def preformatted(text):
 
 def figure(picture, caption):
     """A matplotlib figure, inlined."""
-    import matplotlib.pyplot as plt
+    from tread_post.style import png_of
 
-    data = io.BytesIO()
-    picture.savefig(data, format="png", dpi=100, bbox_inches="tight", pad_inches=0.15)
-    plt.close(picture)
-    source = base64.b64encode(data.getvalue()).decode()
+    source = base64.b64encode(png_of(picture, 100)).decode()
     return f"<figure><img alt=\"{escape(caption)}\" src=\"data:image/png;base64,{source}\"><figcaption>{escape(caption)}</figcaption></figure>"
 
 

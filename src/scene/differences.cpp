@@ -86,6 +86,7 @@ bool may_change(const Difference& difference, std::size_t phase)
     if (table == "output") { return key == "every" || key == "snapshots_every"; }
     if (table == "checkpoint" || table == "balance" || table == "reference") { return true; }
     const bool given_both = !difference.was.empty() && !difference.is.empty();
+    if (table == "sleep") { return given_both && phase != no_phase_to_come; }
     return table == "phase" && difference.index >= phase && given_both && (key == "duration" || key == "max_duration");
 }
 

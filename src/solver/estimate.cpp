@@ -29,8 +29,8 @@ std::int64_t bytes_of_real(const scene::Scene& scene)
     return scene.numerics.precision == scene::Precision::single_ ? 4 : 8;
 }
 
-/// Of a point's fields (kernels/mpm/points.hpp), its place in the lists, and its share of the ordering's scratch.
-std::int64_t bytes_per_point(const scene::Scene& scene, const Plan& plan)
+/// Of a point's fields (kernels/mpm/points.hpp).
+std::int64_t field_bytes(const scene::Scene& scene, const Plan& plan)
 {
     const std::int64_t real   = bytes_of_real(scene);
     std::int64_t       fields = 2 * 3 * 8 + (3 + 6 + 3) * real + 4 + 1;
@@ -38,8 +38,23 @@ std::int64_t bytes_per_point(const scene::Scene& scene, const Plan& plan)
     if (plan.plasticity) { fields += 3 * real; }
     if (plan.coupling) { fields += 9 * real; }
     if (scene.numerics.volume_strain == scene::VolumeStrain::cell_average) { fields += 6 * real; }
+    return fields;
+}
+
+/// Fields, a point's place in the lists, and its share of the ordering's scratch.
+std::int64_t bytes_per_point(const scene::Scene& scene, const Plan& plan)
+{
     constexpr std::int64_t lists = 4 + 1 + 2, keys = 8 + 4, sort = 16;
-    return fields + lists + keys + sort;
+    return field_bytes(scene, plan) + lists + keys + sort;
+}
+
+/// What a point more takes when all fall asleep at one look (solver/sand_sleep.cpp): a place among those that sleep, of
+/// which there is an eighth to spare, the row that brings it there, and the list of those that go.
+std::int64_t sleep_bytes_per_point(const scene::Scene& scene, const Plan& plan)
+{
+    constexpr std::int64_t list   = 4 + 4 + 8 + 4;
+    const std::int64_t     fields = field_bytes(scene, plan);
+    return plan.sleep ? fields + fields / 8 + fields + list : 0;
 }
 
 struct PageCounts
@@ -246,7 +261,8 @@ Estimate estimate(const scene::Scene& scene, const World& world, const Plan& pla
     wants.memory_bytes = bodies * bytes_per_body(plan) + template_bytes(world) + (plan.rays ? ray_bytes(world) : 0);
     if (plan.sand)
     {
-        const std::int64_t sand = points * bytes_per_point(scene, plan) + page_bytes(scene, pages);
+        const std::int64_t of_point = bytes_per_point(scene, plan) + sleep_bytes_per_point(scene, plan);
+        const std::int64_t sand     = points * of_point + page_bytes(scene, pages);
         wants.memory_bytes += sand;
         wants.bytes_a_point = static_cast<double>(sand) / static_cast<double>(points);
     }

@@ -19,7 +19,7 @@ struct Item
     std::int64_t count; ///< that the scene has
 };
 
-/// Of one item: bytes, and nanoseconds of one core a step, for bodies a substep (docs/performance.md, "What a stage
+/// Of one item: bytes, and nanoseconds of one core each time, for bodies a substep (docs/performance.md, "What a stage
 /// costs").
 struct Price
 {
@@ -27,6 +27,7 @@ struct Price
     Item        item;
     double      bytes;
     double      nanoseconds;
+    const char* time = "step";
 };
 
 std::vector<Price> prices(const scene::Scene& scene, const World& world)
@@ -37,6 +38,7 @@ std::vector<Price> prices(const scene::Scene& scene, const World& world)
     const Item   near   = {"point near a body", 0};
     const Item   moving = {"point and body", point.count + body.count};
     return {{stage::order, point, 35, 20},
+            {stage::sleep, point, 133 + 51 * real, 4, "look"},
             {stage::pairs, body, 700, 100},
             {stage::candidates, point, 9 * real, 1},
             {stage::sand_contact, near, 300, 100},
@@ -46,7 +48,8 @@ std::vector<Price> prices(const scene::Scene& scene, const World& world)
             {stage::grid, point, 4 * real, 24},
             {stage::gather, point, 48 + 12 * real, 143},
             {stage::plasticity, point, 3 * real, 150},
-            {stage::damping, moving, 0, 1}};
+            {stage::damping, moving, 0, 1},
+            {stage::snapshots, point, 210 + 12 * real, 40, "snapshot"}};
 }
 
 } // namespace
@@ -60,8 +63,8 @@ std::string price_text(const Stage& stage, const scene::Scene& scene, const Worl
         fmt::format("; by model {:.0f} bytes and {:.0f} ns a {}", found->bytes, found->nanoseconds, found->item.name);
     if (found->item.count == 0) { return text; }
     const auto count = static_cast<double>(found->item.count);
-    return text + fmt::format(": {}, {:.3g} ms a step", bytes_text(static_cast<std::int64_t>(count * found->bytes)),
-                              1e-6 * count * found->nanoseconds);
+    return text + fmt::format(": {}, {:.3g} ms a {}", bytes_text(static_cast<std::int64_t>(count * found->bytes)),
+                              1e-6 * count * found->nanoseconds, found->time);
 }
 
 } // namespace tread::solver

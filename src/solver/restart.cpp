@@ -24,8 +24,6 @@ namespace fs = std::filesystem;
 namespace
 {
 
-constexpr std::size_t no_phase_to_come = static_cast<std::size_t>(-1);
-
 /// `source`: whose scene `stored` is.
 void require_same_scene(const std::string& stored, const scene::Scene& scene, std::size_t phase,
                         const std::string& source)
@@ -36,9 +34,11 @@ void require_same_scene(const std::string& stored, const scene::Scene& scene, st
         if (!scene::may_change(difference, phase)) { changed.push_back("  " + scene::describe(difference)); }
     }
     if (changed.empty()) { return; }
-    throw InputError(fmt::format("{} is of another scene (title, [output] every and snapshots_every, [checkpoint], "
-                                 "[balance] and how long phases last that have not ended may change):\n{}",
-                                 source, fmt::join(changed, "\n")));
+    throw InputError(
+        fmt::format("{} is of another scene (title, [output] every and snapshots_every, [checkpoint], "
+                    "[balance], [sleep] where it was given, and how long phases last that have not ended may "
+                    "change):\n{}",
+                    source, fmt::join(changed, "\n")));
 }
 
 void require_same_scene(const std::string& path, const scene::Scene& scene)
@@ -129,7 +129,7 @@ RestartPlan plan_from_directory(const Communicator& communicator, const scene::S
             {
                 plan.finished = is_finished(directory);
                 if (!plan.finished) { return; }
-                require_same_scene(io::read_file(directory.scene()), scene, no_phase_to_come, directory.path());
+                require_same_scene(io::read_file(directory.scene()), scene, scene::no_phase_to_come, directory.path());
             });
     plan.finished = as_rank_0_has_it(communicator, plan.finished);
     if (plan.finished) { return plan; }

@@ -69,6 +69,15 @@ class Restart(RestartTest):
         self.run_scene(later, self.output, "--restart", "auto", "--set=checkpoint.keep=3")
         self.assertEqual(self.summary()["status"], "finished")
 
+    def test_sand_that_stayed_awake_may_go_on_asleep(self):
+        text = lasting(SCENE, 0.06) + "[sleep]\ndistance = 0.1\nrest = 1000.0\n"
+        self.run_scene(text, self.output, "--set=checkpoint.every_time=0.03")
+        self.assertEqual(self.summary()["asleep"], 0.0)
+        other = self.directory / "other"
+        self.run_scene(text.replace("1000.0", "0.001"), other, "--restart", self.checkpoints()[0])
+        self.assertGreater(self.summary(other)["asleep"], 0.1)
+        self.run_scene(text.partition("[sleep]")[0], self.directory / "third", "--restart", self.checkpoints()[0], code=2)
+
     def test_other_numbers_of_ranks_agree_as_far_as_chaos_lets_them(self):
         text = lasting(MIXED, 0.06)
         for first, second in ((1, 3), (3, 2)):

@@ -2,6 +2,7 @@
 """What a run leaves behind, read the way users read it: h5py, VTK, JSON; and that its scene runs again."""
 
 import json
+import re
 import unittest
 
 import h5py
@@ -39,6 +40,22 @@ class RunOutput(CommandTest):
         self.assertIs(phase["settled"], False)
         self.assertAlmostEqual(phase["time"], 0.002)
         self.assertRegex((output / "log.txt").read_text(), "(?i)warning.*phase 'rest' ends: NOT settled after .* unbalanced")
+
+    def test_without_output_check_and_log_say_what_is_left_out(self):
+        scene = self.write("bare.toml", SCENE.replace("0.005", "1e9").replace("snapshots_every = 0.01", ""))
+        checked = self.tread("check", scene).stdout
+        output = self.directory / "bare"
+        result = self.tread("run", scene, "--output", output, "--backend", "cpu", "--quiet")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        off = dict(re.findall(r"^  off (.*?)  +(.*)$", checked, re.MULTILINE))
+        self.assertRegex(off["snapshots"], r"output.snapshots_every = 0; by model 258 bytes and 40 ns a point: .* ms a snapshot")
+        self.assertEqual(dict(re.findall("^left out: (.*?) - (.*; by model .*)$", (output / "log.txt").read_text(), re.MULTILINE)),
+                         {name: why for name, why in off.items() if "by model" in why})
+        stages = json.loads((output / "summary.json").read_text())["stages"]
+        self.assertEqual({stage["name"] for stage in stages if not stage["on"]}, off.keys())
+        self.assertFalse((output / "snapshots").exists())
+        with h5py.File(output / "timeseries.h5", "r") as file:
+            self.assertEqual(len(file["energy/time"]), 2)
 
     def check_summary(self):
         summary = json.loads((self.output / "summary.json").read_text())

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Thinned runs, and the paper's numbers and figures beside ours, from made-up runs. Needs what postprocess/ needs."""
 
+import io
 import shutil
 import subprocess
 import sys
@@ -13,6 +14,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "postprocess"))
@@ -26,6 +28,7 @@ from tread_paper.measures import Absent, Measures  # noqa: E402
 from tread_paper.rolling import centres, rolled_over  # noqa: E402
 from tread_paper.table import put_into, rows_of, table_of  # noqa: E402
 from tread_post import Run, RunError  # noqa: E402
+from tread_post.style import LEVELS, packed_png  # noqa: E402
 from tread_post.thinned import put_together, thin  # noqa: E402
 
 # The made-up wheel turns at 0.7 rad/s on 0.2 m with slip 0.3, which is 0.098 m/s, for 1.9 s of a ramp of 0.2 s.
@@ -223,6 +226,22 @@ class PaperTest(unittest.TestCase):
     def test_smoothing_keeps_a_line(self):
         time = np.linspace(0, 1, 101)
         np.testing.assert_allclose(smoothed(time, 3 * time, 0.095)[10:-10], 3 * time[10:-10], atol=1e-12)
+
+
+class PackedPictures(unittest.TestCase):
+    def packed(self, pixels):
+        drawn = io.BytesIO()
+        Image.fromarray(pixels).save(drawn, format="png")
+        small = packed_png(drawn.getvalue())
+        self.assertLessEqual(len(small), len(drawn.getvalue()))
+        return np.asarray(Image.open(io.BytesIO(small)).convert("RGB")).astype(int)
+
+    def test_few_colours_and_many_stay_near(self):
+        across, down = np.meshgrid(np.arange(256), np.arange(256))
+        few = np.stack((across // 64 * 80, down // 64 * 80, 0 * across), axis=2).astype(np.uint8)
+        np.testing.assert_array_equal(self.packed(few), few)
+        many = np.stack((across, down, (across + down) // 2), axis=2).astype(np.uint8)
+        self.assertLessEqual(np.abs(self.packed(many) - many).max(), LEVELS)
 
 
 if __name__ == "__main__":

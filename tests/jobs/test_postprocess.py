@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The pictures of postprocess/, from a made-up run. Needs what postprocess/ needs."""
 
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -118,6 +119,32 @@ class PostprocessTest(unittest.TestCase):
         done = self.command("stability_map.py", table, "--output", output)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreater(colours_of(output), 24, "a picture of something")
+
+    def asleep_from(self, name, distance, begins, factor):
+        """The drive again, from `begins` on with `factor` times the torque."""
+        path = self.run_path.parent / name
+        path.mkdir()
+        (path / "scene.toml").write_text(SCENE + f"[sleep]\ndistance = {distance}\n", encoding="utf-8")
+        shutil.copy(self.run_path / "timeseries.h5", path)
+        with h5py.File(path / "timeseries.h5", "r+") as file:
+            wheel = file["wheel/front wheel"]
+            torque = wheel["torque"][:]
+            torque[wheel["time"][:] > begins] *= factor
+            wheel["torque"][...] = torque
+        return path
+
+    def test_sleep_pairs(self):
+        awake = self.asleep_from("awake", 20.0, 9.0, 1.0)
+        branches = [self.asleep_from(f"branch{i}", 0.35, begins, factor) for i, (begins, factor) in enumerate(((1.5, 1.01), (2.1, 1.03)))]
+        branches.append(self.asleep_from("moved", 20.0, 1.5, 1.1))
+        output, table = awake.with_suffix(".png"), awake.with_suffix(".csv")
+        done = self.command("sleep_pairs.py", awake, *branches, "--output", output, "--table", table)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("torque: +2.000 % +- 1.000 %, 2 branches asleep", done.stdout)
+        self.assertIn("sinkage: +0.000 % +- 0.000 %", done.stdout)
+        rows = table.read_text(encoding="utf-8").splitlines()
+        self.assertAlmostEqual(float(rows[2].split(",")[2]), 2.1, delta=0.021)
+        self.assertGreater(colours_of(output), 40, "a picture of something")
 
     def test_render(self):
         self.picture("render.py")

@@ -84,7 +84,8 @@ struct LoneBody
         for (std::int64_t substep = 0; substep < substeps; ++substep)
         {
             dem::ContactWrench* of_blocks = parts + substep % 2 * gridDim.x;
-            sum_of_block(answer(own, in_block.bodies, substep + 1 == substeps), of_blocks + blockIdx.x);
+            Response*           kept      = substep + 1 == substeps ? respond.contacts.response + own.c : nullptr;
+            sum_of_block(answer(own, in_block.bodies, kept), of_blocks + blockIdx.x);
             grid.sync();
             if (threadIdx.x < warp_size) { move_body(of_blocks, in_block); }
             __syncthreads();
@@ -168,15 +169,15 @@ private:
 
     __device__ const dem::TemplateView& shape() const { return respond.law.templates[respond.bodies.shape[0]]; }
 
-    /// What a thread's contact does to the body; its point moves on.
-    __device__ dem::ContactWrench answer(Own& own, const dem::BodiesView& body, bool is_last) const
+    /// What a thread's contact does to the body; its point moves on. `kept`, unless null, is where the response stays.
+    __device__ dem::ContactWrench answer(Own& own, const dem::BodiesView& body, Response* kept) const
     {
         if (!own.there) { return dem::ContactWrench::zero(); }
         const Vec3<double> x = own.point.position;
         const Response     response =
             response_of(body, 0, shape(), own.pair, x, own.point.velocity, own.tangential, respond.dt);
         own.dissipated += response.dissipated;
-        if (is_last) { respond.contacts.response[own.c] = response; }
+        if (kept != nullptr) { *kept = response; }
         own.point.move(response.force, motion, respond.dt);
         const Vec3<double> force = -response.force;
         return {force, (x - body.position[0]).cross(force), response.stiffness};

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "backend/repeat.cuh"
+#include "kernels/dem/block_lanes.cuh"
 #include "kernels/dem/contact_nodes.hpp"
 #include "kernels/dem/warp_lanes.cuh"
 
-// Which lanes take which item. What is much longer than the rest has a warp, beside the others, which would wait for
-// it.
+// Which lanes take which item. What is much longer than the rest has a warp or a block, beside the others, which would
+// wait for it.
 namespace tread::dem
 {
 
@@ -64,11 +65,12 @@ struct OfSmallBodies
     }
 };
 
-/// f(b, lanes) for every body: a large one may have thousands of pairs.
+/// f(b, lanes) for every body: a large one, a wheel in a bed of rocks, may have thousands of pairs.
 template<int threads, int lanes, class F>
 auto body_part(std::int64_t bodies, Pairs<Gpu>& pairs, const F& f)
 {
-    return beside(group_part<threads, warp_size>(pairs.large.size(), OfListed<F>{f, pairs.large.data()}),
+    const ItemOfBlock<threads, OfListed<F>> of_large{{f, pairs.large.data()}};
+    return beside(Part{pairs.large.size(), of_large},
                   group_part<threads, lanes>(bodies, OfSmallBodies<F>{f, pairs.is_large.data()}));
 }
 

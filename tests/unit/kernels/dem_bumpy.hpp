@@ -88,4 +88,20 @@ private:
     double                    bounding_radius_ = 0;
 };
 
+inline constexpr std::int32_t heap_count = 8;
+
+/// Bumpy bodies of 0.1 m that overlap each other and the ground, spinning.
+inline std::vector<Solid> bumpy_heap(const BumpyBody& bumpy)
+{
+    std::vector<Solid> solids;
+    for (int i = 0; i < heap_count; ++i)
+    {
+        Solid solid    = bumpy.solid(0.1, 2000);
+        solid.position = {0.19 * (i % 2), 0.19 * (i / 2 % 2), 0.098 + 0.19 * (i / 4)};
+        solid.spin     = {0.1 * i, 1.0, -0.2 * i};
+        solids.push_back(solid);
+    }
+    return solids;
+}
+
 } // namespace tread::test

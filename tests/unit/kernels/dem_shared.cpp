@@ -16,22 +16,8 @@ class SharedBodies : public DemTest<Exec>
 };
 TYPED_TEST_SUITE(SharedBodies, Backends, BackendNames);
 
-constexpr std::int32_t count = 8;
+constexpr std::int32_t count = heap_count;
 constexpr double       dt    = 1e-5;
-
-/// Eight bumpy bodies of 0.1 m that overlap each other and the ground, spinning.
-std::vector<Solid> heap(const BumpyBody& bumpy)
-{
-    std::vector<Solid> solids;
-    for (int i = 0; i < count; ++i)
-    {
-        Solid solid    = bumpy.solid(0.1, 2000);
-        solid.position = {0.19 * (i % 2), 0.19 * (i / 2 % 2), 0.098 + 0.19 * (i / 4)};
-        solid.spin     = {0.1 * i, 1.0, -0.2 * i};
-        solids.push_back(solid);
-    }
-    return solids;
-}
 
 SolidNumbers stone()
 {
@@ -49,7 +35,7 @@ class Half
 {
 public:
     Half(const Exec& exec, const BumpyBody& bumpy, std::int32_t rank)
-        : scene(exec, {bumpy.shape(162)}, heap(bumpy), stone())
+        : scene(exec, {bumpy.shape(162)}, bumpy_heap(bumpy), stone())
         , exec_(exec)
         , rank_(rank)
         , body_(exec, "test shared bodies")
@@ -129,7 +115,7 @@ TYPED_TEST(SharedBodies, MoveAsThoseOfOneRank)
     using Whole = typename TestFixture::Scene;
     using Rank  = Half<TypeParam, Whole>;
     const BumpyBody bumpy(32);
-    Whole           whole(this->exec(), {bumpy.shape(162)}, heap(bumpy), stone());
+    Whole           whole(this->exec(), {bumpy.shape(162)}, bumpy_heap(bumpy), stone());
     Rank            even(this->exec(), bumpy, 0), odd(this->exec(), bumpy, 1);
     whole.find(25 * dt);
     even.scene.find(25 * dt);
@@ -176,7 +162,7 @@ TYPED_TEST(SharedBodies, ExpectTheContactsOfAllRanks)
     using Whole = typename TestFixture::Scene;
     using Rank  = Half<TypeParam, Whole>;
     const BumpyBody bumpy(32);
-    Whole           whole(this->exec(), {bumpy.shape(162)}, heap(bumpy), stone());
+    Whole           whole(this->exec(), {bumpy.shape(162)}, bumpy_heap(bumpy), stone());
     Rank            even(this->exec(), bumpy, 0), odd(this->exec(), bumpy, 1);
     whole.find(dt);
     even.scene.find(dt);

@@ -16,20 +16,6 @@ class Substeps : public DemTest<Exec>
 };
 TYPED_TEST_SUITE(Substeps, Backends, BackendNames);
 
-/// Eight bumpy bodies of 0.1 m that overlap each other and the ground, spinning.
-std::vector<Solid> heap(const BumpyBody& bumpy)
-{
-    std::vector<Solid> solids;
-    for (int i = 0; i < 8; ++i)
-    {
-        Solid solid    = bumpy.solid(0.1, 2000);
-        solid.position = {0.19 * (i % 2), 0.19 * (i / 2 % 2), 0.098 + 0.19 * (i / 4)};
-        solid.spin     = {0.1 * i, 1.0, -0.2 * i};
-        solids.push_back(solid);
-    }
-    return solids;
-}
-
 TYPED_TEST(Substeps, AreTheSameInOneCall)
 {
     constexpr double dt    = 1e-5;
@@ -40,8 +26,8 @@ TYPED_TEST(Substeps, AreTheSameInOneCall)
     numbers.zeta     = 0.2;
     numbers.gravity  = {0, 0, -9.8};
     numbers.planes   = {{{0, 0, 1}, 0.0, false}};
-    typename TestFixture::Scene one(this->exec(), {bumpy.shape(162)}, heap(bumpy), numbers);
-    typename TestFixture::Scene other(this->exec(), {bumpy.shape(162)}, heap(bumpy), numbers);
+    typename TestFixture::Scene one(this->exec(), {bumpy.shape(162)}, bumpy_heap(bumpy), numbers);
+    typename TestFixture::Scene other(this->exec(), {bumpy.shape(162)}, bumpy_heap(bumpy), numbers);
     one.run(dt, count, count);
     other.find(dt * count);
     run_substeps(this->exec(), other.step(dt), count);

@@ -35,6 +35,15 @@ TEST(Differences, AreNamedByTableIndexAndKey)
 
 TEST(Differences, TheRightAnswerMay) { EXPECT_TRUE(may_change({"reference", 0, "form", "\"none\"", "\"weight\""}, 0)); }
 
+/// But not whether any sand may, which is another state, and not of a run that has ended.
+TEST(Differences, WhenSandSleepsMay)
+{
+    const Difference sooner{"sleep", 0, "distance", "20.0", "0.35"};
+    EXPECT_TRUE(may_change(sooner, 0));
+    EXPECT_FALSE(may_change(sooner, no_phase_to_come));
+    EXPECT_FALSE(may_change({"sleep", 0, "distance", "", "0.35"}, 0));
+}
+
 TEST(Differences, ThePastMayNotChange)
 {
     EXPECT_EQ(lines(1, false), std::vector<std::string>{"title: \"b\", was \"a\""});

@@ -1,0 +1,18 @@
+"""Tables as rows of one kind."""
+
+import csv
+
+from tread_post.run import RunError
+
+
+def read_rows(path, kind, program):
+    """The rows of a CSV that `program` wrote, as objects of a dataclass whose fields are columns. RunError if it is none of these, or empty."""
+    types = kind.__annotations__
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = [kind(**{name: of_type(row[name]) for name, of_type in types.items()}) for row in csv.DictReader(file)]
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise RunError(f"{path}: no table of {program} ({error!r})") from error
+    if not rows:
+        raise RunError(f"{path}: no rows")
+    return rows
