@@ -12,7 +12,6 @@ Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
 """
 
 import argparse
-import csv
 import sys
 from pathlib import Path
 
@@ -20,6 +19,7 @@ import numpy as np
 
 from tread_post import Run, RunError
 from tread_post.answers import last_drive
+from tread_post.rows import write_rows
 from tread_post.style import COLOURS, GREY, figure_grid, finish, legend_below, write
 
 QUANTITIES = ("torque", "sinkage")
@@ -104,10 +104,7 @@ def main():
 
     say(rows, sleeps)
     if options.table:
-        with open(options.table, "w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, list(rows[0]))
-            writer.writeheader()
-            writer.writerows(rows)
+        write_rows(options.table, rows)
     if options.output:
         write(figure_of(awake, options.branches, rows, sleeps), options.output)
 

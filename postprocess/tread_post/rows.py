@@ -16,3 +16,11 @@ def read_rows(path, kind, program):
     if not rows:
         raise RunError(f"{path}: no rows")
     return rows
+
+
+def write_rows(path, rows):
+    """A CSV of dictionaries that have the same keys."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)

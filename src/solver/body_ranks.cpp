@@ -86,8 +86,6 @@ void BodyRanks<Exec>::look_at_pages()
     territory_.emplace(lattice_, decomposition_.owners.keys(), decomposition_.owners.ranks());
     pages_known_ = decomposition_.owners.changes();
     inside_.assign(role_.size(), decomp::Surroundings{});
-    around_.resize(role_.size());
-    far_.resize(role_.size());
 }
 
 template<class Exec>
@@ -153,26 +151,12 @@ std::int32_t BodyRanks<Exec>::next_owner(std::size_t body, const Vec3<double>& p
 /// Whether all around the page of one of this rank's bodies is this rank's. Most bodies are where they were when last
 /// asked for, and there it was.
 template<class Exec>
-bool BodyRanks<Exec>::is_inside(std::size_t body)
+bool BodyRanks<Exec>::is_inside(std::size_t body, const decomp::Surroundings& around)
 {
-    const decomp::Surroundings& around = around_[body];
     if (inside_[body] == around) { return true; }
     if (!territory_->is_within(around, communicator_.rank())) { return false; }
     inside_[body] = around;
     return true;
-}
-
-/// `met`, `met_by_small`: m, how far what a large body and any other may meet reaches.
-template<class Exec>
-void BodyRanks<Exec>::look_around(double met, double met_by_small)
-{
-    const double slack = owner_slack * lattice_.spacing;
-    for (std::size_t b = 0; b < role_.size(); ++b)
-    {
-        if (role_[b] != dem::role_owner) { continue; }
-        far_[b]    = reach_of(b) + std::max((is_large_[b] != 0 ? met : met_by_small) + slack, sand_reach_);
-        around_[b] = territory_->surroundings(position_.data()[b], far_[b]);
-    }
 }
 
 /// Of the bodies that this rank has owned until now; those that it goes on to hold alone are left out.
@@ -184,22 +168,24 @@ auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<E
     if (is_large_.empty()) { is_large_ = pairs.is_large.to_host(); }
     synchronize(exec_);
 
-    double widest[2] = {}; // m, that anything which is met reaches; that anything small does
+    double met[2] = {}; // m, how far anything that is met reaches; how far anything small does
     for (std::size_t b = 0; b < role_.size(); ++b)
     {
         if (role_[b] != dem::role_owner) { continue; }
-        widest[0] = std::max(widest[0], reach_of(b));
-        if (is_large_[b] == 0) { widest[1] = std::max(widest[1], reach_of(b)); }
+        met[0] = std::max(met[0], reach_of(b));
+        if (is_large_[b] == 0) { met[1] = std::max(met[1], reach_of(b)); }
     }
-    decomp::combine(communicator_, widest, 0, 2);
-    look_around(widest[0], widest[1]);
+    decomp::combine(communicator_, met, 0, 2);
 
+    const double         slack = owner_slack * lattice_.spacing;
     std::vector<Holding> decided;
     for (std::size_t b = 0; b < role_.size(); ++b)
     {
-        if (role_[b] != dem::role_owner || is_inside(b)) { continue; }
-        const Vec3<double>&       place   = position_.data()[b];
-        std::vector<std::int32_t> holders = territory_->owners_near(place, far_[b]);
+        if (role_[b] != dem::role_owner) { continue; }
+        const Vec3<double>& place = position_.data()[b];
+        const double        reach = reach_of(b) + std::max(met[is_large_[b] != 0 ? 0 : 1] + slack, sand_reach_);
+        if (is_inside(b, territory_->surroundings(place, reach))) { continue; }
+        std::vector<std::int32_t> holders = territory_->owners_near(place, reach);
         if (holders.size() == 1 && holders.front() == communicator_.rank()) { continue; }
         decided.push_back({static_cast<std::int32_t>(b), next_owner(b, place), std::move(holders)});
     }

@@ -87,9 +87,8 @@ private:
 
     void                 look_at_pages();
     std::vector<Holding> decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs);
-    void                 look_around(double met, double met_by_small);
     double               reach_of(std::size_t body) const { return bounding_radius_[body] + travel_.data()[body]; }
-    bool                 is_inside(std::size_t body);
+    bool                 is_inside(std::size_t body, const decomp::Surroundings& around);
     std::int32_t         next_owner(std::size_t body, const Vec3<double>& place);
     std::vector<Holding> tell(const std::vector<Holding>& decided, Lists& arriving) const;
     void send_states(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs, const Lists& leaving, const Lists& arriving);
@@ -126,8 +125,6 @@ private:
     std::vector<double>               bounding_radius_; ///< m, by body
     std::vector<std::int32_t>         role_;            ///< by body
     std::vector<decomp::Surroundings> inside_;          ///< by body: where it was last seen inside this rank's pages
-    std::vector<decomp::Surroundings> around_;          ///< by body of this rank: where it is
-    std::vector<double>               far_;             ///< m, by body of this rank: what it must be known within
     std::vector<std::int32_t>         is_large_;        ///< by body, of Pairs; empty before the first deal()
     FetchedArray<Exec, Vec3<double>>  position_;        ///< m
     FetchedArray<Exec, double>        travel_;          ///< m
