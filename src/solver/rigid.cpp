@@ -22,6 +22,15 @@ namespace
 
 constexpr double hit_twice = 4; ///< times as fast may a light body be that is hit by one that was hit itself
 
+/// A body that a surface at speed v begins to push with stiffness K goes v (t - sin(w t) / w) in a time t, w = sqrt(K /
+/// m); off its centre a ball yields 7/2 times as easily. Until sqrt(m / K) that is less than so many v t.
+constexpr double hit_soon = 0.5;
+
+constexpr std::int64_t batches_ahead = 2; ///< of substeps, that a look is for: the first is asked for before it answers
+
+/// Of what a list must have left at the start of a step that is looked at within: the step itself, at its first speeds.
+constexpr double watched_share = 0.5;
+
 /// Spacings: how far from the pages of its rank sand may be met. Points may be a page beyond before they change their
 /// rank, and have a radius.
 constexpr double sand_reach = mpm::page_edge + 2;
@@ -61,6 +70,8 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     , told_(exec, "body sums told")
     , told_stray_(exec, "body travel told")
     , told_overlap_(exec, "body overlap told")
+    , told_look_(exec, "body travel ahead told")
+    , look_done_(exec)
     , strays_(exec)
     , released_(static_cast<std::size_t>(named_), false)
     , commanded_(static_cast<std::size_t>(named_))
@@ -215,8 +226,9 @@ void Rigid<Exec>::find_pairs(double dt)
 template<class Exec>
 bool Rigid<Exec>::list_holds(double dt)
 {
-    const bool known = listed_ && !(ranks_ && ranks_->pages_have_changed());
-    if (!known || of_all(largest_stray_ahead(dt)) > 1) { return false; }
+    const bool   known = listed_ && !(ranks_ && ranks_->pages_have_changed());
+    const double ahead = watched_ ? watched_share * dt : dt;
+    if (!known || of_all(read(exec_, largest_stray_ahead(ahead))) > 1) { return false; }
     if (!pairs_.patches.wanted) { return true; }
     if (of_all(dem::patch_rows_suffice(exec_, pairs_, bodies_.view(), law_) ? 0 : 1) > 0) { return false; }
     dem::regroup_patches(exec_, pairs_, bodies_.view(), law_);
@@ -224,10 +236,9 @@ bool Rigid<Exec>::list_holds(double dt)
 }
 
 template<class Exec>
-double Rigid<Exec>::largest_stray_ahead(double ahead)
+const double* Rigid<Exec>::largest_stray_ahead(double ahead)
 {
-    return read(exec_,
-                dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), ahead));
+    return dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), ahead);
 }
 
 template<class Exec>
@@ -241,7 +252,7 @@ void Rigid<Exec>::list_pairs_anew(double dt)
     }
     dem::want_travel(exec_, pairs_, bodies_.view(), law_, dt, shared());
     if (ranks_) { ranks_->sum_wanted_travel(pairs_); }
-    dem::grant_travel(exec_, pairs_, bodies_.view(), law_, dt);
+    dem::grant_travel(exec_, pairs_, bodies_.view(), law_, dt, substep_ > 0 ? dt / substep_ : 1);
     if (ranks_)
     {
         ranks_->deal(bodies_, pairs_);
@@ -253,12 +264,18 @@ void Rigid<Exec>::list_pairs_anew(double dt)
 }
 
 template<class Exec>
-std::int64_t Rigid<Exec>::unwatched_substeps(double dt, std::int64_t substeps, double speed)
+std::int64_t Rigid<Exec>::unwatched_substeps(const TimeStep& step, double speed, double contact_time)
 {
-    const double way     = dt * (hit_twice * speed + gravity_.norm() * dt * static_cast<double>(substeps));
-    const double reserve = dem::rest_reserve * smallest_radius_;
-    watched_             = way * static_cast<double>(substeps) > reserve;
-    return watched_ ? std::max<std::int64_t>(1, static_cast<std::int64_t>(reserve / way)) : substeps;
+    looking_            = false;
+    const auto   number = static_cast<double>(step.substeps);
+    const double dt = step.dt / number, reserve = dem::rest_reserve * smallest_radius_,
+                 fall   = gravity_.norm() * step.dt;
+    const double unseen = reserve / (dt * (hit_twice * speed + fall)); // substeps
+    watched_            = number > unseen;
+    if (!watched_) { return step.substeps; }
+    const double soon  = std::min(contact_time / dt, reserve / (dt * (hit_soon * speed + fall)));
+    const double batch = std::max(unseen, soon) / static_cast<double>(batches_ahead);
+    return static_cast<std::int64_t>(std::clamp(batch, 1.0, number));
 }
 
 template<class Exec>
@@ -272,9 +289,34 @@ std::int64_t Rigid<Exec>::unwatched_steps(double dt, double speed) const
 }
 
 template<class Exec>
-void Rigid<Exec>::find_pairs_if_strayed(double ahead, double left, double time)
+void Rigid<Exec>::find_pairs_if_strayed(const TimeStep& step, std::int64_t batch, std::int64_t done, double time)
 {
-    if (of_all(largest_stray_ahead(ahead)) <= 1) { return; }
+    const double dt = step.dt / static_cast<double>(step.substeps);
+    if (has_strayed()) { find_pairs_within(step, time + dt * static_cast<double>(done)); }
+    else { look_ahead(dt * static_cast<double>(std::min(batches_ahead * batch, step.substeps - done))); }
+}
+
+template<class Exec>
+void Rigid<Exec>::look_ahead(double ahead)
+{
+    told_look_.fetch(largest_stray_ahead(ahead));
+    look_done_.mark();
+    looking_ = true;
+}
+
+/// False also where nobody looked: a list that was found since then holds for two batches.
+template<class Exec>
+bool Rigid<Exec>::has_strayed()
+{
+    if (!std::exchange(looking_, false)) { return false; }
+    look_done_.wait();
+    return of_all(told_look_.get()) > 1;
+}
+
+/// For as long as a whole step, so that the list may serve the next.
+template<class Exec>
+void Rigid<Exec>::find_pairs_within(const TimeStep& step, double time)
+{
     together(
         [&]
         {
@@ -282,7 +324,7 @@ void Rigid<Exec>::find_pairs_if_strayed(double ahead, double left, double time)
             const double overlap = read(exec_, dem::largest_overlap(exec_, pairs_, bodies_.view(), law_));
             overlap_ = std::max(overlap_, guard(time, overlap)); // the search forgets the peaks of the pairs
         });
-    find_pairs(left);
+    find_pairs(step.dt);
 }
 
 template<class Exec>

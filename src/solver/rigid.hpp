@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "backend/fetched.hpp"
+#include "backend/moment.hpp"
 #include "io/snapshot.hpp"
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/impulses.hpp"
@@ -20,6 +21,7 @@
 #include "solver/phases.hpp"
 #include "solver/plan.hpp"
 #include "solver/recorder.hpp"
+#include "solver/time_step.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
@@ -67,14 +69,15 @@ public:
     /// Shows the contacts what somebody else has changed in view() since. find_pairs and command do.
     void stage() { dem::stage_bodies(exec_, pairs_, bodies_.view()); }
 
-    /// Before `substeps` substeps of dt (s): after how many of them a body may have gone further than find_pairs
-    /// allowed for, when the fastest of anything goes at `speed` (m/s) now: a light body that is hit leaves at up to
-    /// twice that, and one that is hit by such a one again at four times.
-    std::int64_t unwatched_substeps(double dt, std::int64_t substeps, double speed);
+    /// Before the substeps of a step, when the fastest of anything goes at `speed` (m/s) and the shortest sqrt(m / sum
+    /// K) of a body is `contact_time` (s; 0 = no contact): the batch, of how many substeps may be asked for together.
+    /// Fewer than all: find_pairs_if_strayed is due in between.
+    std::int64_t unwatched_substeps(const TimeStep& step, double speed, double contact_time);
 
-    /// Finds the pairs anew in the middle of a step, for what is left of it (s), if a body might go too far in the next
-    /// `ahead` (s); `time` (s) is for messages.
-    void find_pairs_if_strayed(double ahead, double left, double time);
+    /// Between two batches, when so many substeps are done of a step that began at `time` (s): finds the pairs anew if
+    /// the look from before the last batch says that a body may go too far in the next; if not, asks for another look,
+    /// for the next two. So the backend has a batch to work on while an answer travels.
+    void find_pairs_if_strayed(const TimeStep& step, std::int64_t batch, std::int64_t done, double time);
 
     /// After how many steps of dt (s) the list of pairs should be looked at again: one, unless find_pairs allowed for
     /// more of them without a watch.
@@ -134,13 +137,16 @@ private:
 
     dem::NamedImpulses named_impulses() { return {impulses_.data(), named_}; }
 
-    void   upload(const World& world);
-    void   restore_contacts();
-    void   list_pairs_anew(double dt);
-    bool   list_holds(double dt);
-    double largest_stray_ahead(double ahead);
-    void   check(RigidReport& report, double sum_of_speeds, double time);
-    void   add_up(RigidReport& report) const;
+    void          upload(const World& world);
+    void          restore_contacts();
+    void          list_pairs_anew(double dt);
+    bool          list_holds(double dt);
+    const double* largest_stray_ahead(double ahead);
+    void          look_ahead(double ahead);
+    bool          has_strayed();
+    void          find_pairs_within(const TimeStep& step, double time);
+    void          check(RigidReport& report, double sum_of_speeds, double time);
+    void          add_up(RigidReport& report) const;
 
     dem::SharedView shared() { return ranks_ ? ranks_->shared() : dem::SharedView{}; }
     double          of_all(double value) const { return ranks_ ? ranks_->largest(value) : value; }
@@ -187,11 +193,15 @@ private:
     Fetched<Exec, ReportSums>                     told_;
     Fetched<Exec, double>                         told_stray_;
     Fetched<Exec, double>                         told_overlap_;
+    Fetched<Exec, double>                         told_look_;
+    Moment<Exec>                                  look_done_;
     dem::Strays<Exec>                             strays_;
     double                                        smallest_radius_ = 0;     ///< m, of the bounding spheres
     bool                                          listed_          = false; ///< pairs were found
     std::int64_t                                  deals_           = 0;
+    double                                        span_            = 0; ///< s, that pairs were last found for
     bool                                          watched_ = false;     ///< of the present step: not only at its end
+    bool                                          looking_ = false;     ///< a look was asked for, and nobody heeded it
     double                                        commanded_speed_ = 0; ///< m/s, the largest that commands gave
     double                                        overlap_ = 0; ///< largest over radius, before the list was found anew
     dem::BodyLaw                                  law_{};

@@ -197,21 +197,16 @@ void Simulation<Exec, Real>::find_contacts(const TimeStep& step, StageClock& clo
 template<class Exec, class Real>
 void Simulation<Exec, Real>::substeps(const TimeStep& step, double time, StageClock& clock)
 {
-    const double dt        = step.dt / static_cast<double>(step.substeps);
-    const auto   number    = step.substeps;
-    const auto   unwatched = plan_.body_contact ? rigid_->unwatched_substeps(dt, number, pace_.largest_speed) : number;
-    for (std::int64_t done = 0; done < number; done += unwatched)
+    const double dt    = step.dt / static_cast<double>(step.substeps);
+    const auto   batch = plan_.body_contact
+                             ? rigid_->unwatched_substeps(step, pace_.largest_speed, pace_.shortest_contact)
+                             : step.substeps;
+    for (std::int64_t done = 0; done < step.substeps; done += batch)
     {
-        const std::int64_t next = std::min(number - done, unwatched);
+        const std::int64_t next = std::min(step.substeps - done, batch);
         if (done > 0)
         {
-            clock.run(exec_, stage::pairs,
-                      [&]
-                      {
-                          rigid_->find_pairs_if_strayed(dt * static_cast<double>(next),
-                                                        dt * static_cast<double>(number - done),
-                                                        time + dt * static_cast<double>(done));
-                      });
+            clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs_if_strayed(step, batch, done, time); });
         }
         if (plan_.body_contact && !coupling_)
         {

@@ -159,7 +159,7 @@ TYPED_TEST(Guards, BodyBeyondItsSearchStopsTheRunByName)
     solver::Rigid<TypeParam> rigid(exec, scene, world, make_plan(scene, world));
     rigid.command(std::vector<solver::BodyCommand>(2));
     rigid.find_pairs(1e-3);
-    ASSERT_EQ(rigid.unwatched_substeps(1e-4, 10, 0), 10) << "nothing moves: nobody watches";
+    ASSERT_EQ(rigid.unwatched_substeps({1e-3, 10, ""}, 0, 0), 10) << "nothing moves: nobody watches";
     const Vec3<double> thrown(0, 5, 0); // 5 mm in the step; 1 % of 50 mm are allowed
     copy_from_host(exec, rigid.view().velocity + 1, &thrown, sizeof(thrown));
     rigid.stage();

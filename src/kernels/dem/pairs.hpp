@@ -172,9 +172,11 @@ void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 
 /// Every pair of bodies, and of body and wall, that may touch within the next dt (s, of the MPM step), and of each the
 /// nodes that may come inside the other side (contact_nodes.hpp): none is missed while no point of a body moves further
-/// than pairs.travel. Patches of pairs that stay in the list are kept.
+/// than pairs.travel. Patches of pairs that stay in the list are kept. `substeps`: of such a step, for how long the
+/// list should last.
 template<class Exec>
-void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                double substeps = 1);
 
 /// find_pairs in parts, between which several ranks agree. First: what the present list remembers becomes that of the
 /// last list, and pairs.reach the speeds of bodies.
@@ -185,15 +187,16 @@ void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 template<class Exec>
 void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared);
 
-/// Second: pairs.travel = what owned bodies would have beyond their own motion (in bounding radii), and pairs.measure
-/// its sum, which is to become that of all ranks.
+/// Second: pairs.travel = what owned bodies would have beyond their own motion for a step more (in bounding radii), and
+/// pairs.measure its sum, which is to become that of all ranks.
 template<class Exec>
 void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                  const SharedView& shared);
 
 /// Third: pairs.travel of owned bodies. Guests have theirs from their owner.
 template<class Exec>
-void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                  double substeps);
 
 /// Last: the list, of the pairs that this rank answers.
 template<class Exec>

@@ -83,30 +83,30 @@ struct WriteCell
 struct CountPairs
 {
     PairSearch    search;
-    std::int32_t* found; ///< [bodies + 1]
+    std::int32_t* found; ///< [bodies * parts + 1]
 
-    TREAD_HD void operator()(std::int64_t b) const
+    TREAD_HD void operator()(std::int64_t i) const
     {
         std::int32_t own = 0;
-        if (b < search.bodies.count)
+        if (i < search.bodies.count * PairSearch::parts)
         {
-            search(b, [&](std::uint64_t) { ++own; });
+            search(i / PairSearch::parts, i % PairSearch::parts, [&](std::uint64_t) { ++own; });
         }
-        found[b] = own;
+        found[i] = own;
     }
 };
 
 struct WritePairs
 {
     PairSearch          search;
-    const std::int32_t* found; ///< [bodies + 1], after the scan
+    const std::int32_t* found; ///< [bodies * parts + 1], after the scan
     std::uint64_t*      key;
 
-    TREAD_HD void operator()(std::int64_t b) const
+    TREAD_HD void operator()(std::int64_t i) const
     {
-        std::int32_t place = found[b];
-        if (place == found[b + 1]) { return; }
-        search(b, [&](std::uint64_t pair) { key[place++] = pair; });
+        std::int32_t place = found[i];
+        if (place == found[i + 1]) { return; }
+        search(i / PairSearch::parts, i % PairSearch::parts, [&](std::uint64_t pair) { key[place++] = pair; });
     }
 };
 
@@ -251,7 +251,7 @@ void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 template<class Exec>
 void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double cell_size)
 {
-    const PairSearch search{bodies,
+    const PairSearch   search{bodies,
                             law,
                             pairs.travel.data(),
                             cell_size,
@@ -260,10 +260,11 @@ void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, cons
                             pairs.large.data(),
                             pairs.large.size(),
                             pairs.is_large.data()};
-    pairs.found.resize(bodies.count + 1);
-    for_each(exec, "count pairs", bodies.count + 1, CountPairs{search, pairs.found.data()});
+    const std::int64_t items = bodies.count * PairSearch::parts;
+    pairs.found.resize(items + 1);
+    for_each(exec, "count pairs", items + 1, CountPairs{search, pairs.found.data()});
     pairs.key.resize(exclusive_scan(exec, pairs.found, pairs.sort));
-    for_each(exec, "write pairs", bodies.count, WritePairs{search, pairs.found.data(), pairs.key.data()});
+    for_each(exec, "write pairs", items, WritePairs{search, pairs.found.data(), pairs.key.data()});
     give_back(pairs.reach, pairs.cell_key, pairs.cell_body, pairs.found);
 }
 
@@ -388,11 +389,12 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 }
 
 template<class Exec>
-void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                double substeps)
 {
     begin_list(exec, pairs, bodies, law);
     want_travel(exec, pairs, bodies, law, dt, {});
-    grant_travel(exec, pairs, bodies, law, dt);
+    grant_travel(exec, pairs, bodies, law, dt, substeps);
     list_pairs(exec, pairs, bodies, law);
 }
 

@@ -31,23 +31,29 @@ TREAD_HD double bounding_radius(const BodiesView& bodies, const TemplateView* te
 struct Travel
 {
     double least; ///< what it will in the steps ahead, and the skin
-    double more;  ///< for a list that lasts
+    double more;  ///< what it may in each step that a list lasts beyond the first
 };
+
+/// More than this nobody gets: cells of the search grid are as wide as the widest reach.
+inline constexpr double most_more = 0.2;
 
 /// Of a body with this speed among others with speeds up to `near` (m/s): it may soon be as fast.
 TREAD_HD Travel travel_of(double radius, double speed, double near, double dt)
 {
-    constexpr double more_steps = 60, most_more = 0.2;
-    const double     a_step = radius > 0 ? dt / radius : 0.0;
-    return {steps_ahead * a_step * speed + search_skin, std::fmin(more_steps * a_step * near, most_more)};
+    const double a_step = radius > 0 ? dt / radius : 0.0;
+    return {steps_ahead * a_step * speed + search_skin, std::fmin(a_step * near, most_more)};
 }
 
-/// Of `more`, what a body gets when all of them together want `sum`: lists last long where few bodies move, and where
-/// all do they stay short.
-TREAD_HD double share_of_more(double sum, std::int64_t bodies)
+/// Steps that a list should last beyond the first, where a step has so many substeps and bodies go `mean` (bounding
+/// radii) in one. With every radius that all go further a substep looks up more nodes, whose time is 1 / `worth` of a
+/// search's (53,000 rocks on an H200); so a step costs substeps mean steps / worth + 1 / (1 + steps) searches, which is
+/// least here. Nodes also take memory: no more than for `mean_more`.
+TREAD_HD double steps_to_last(double mean, double substeps)
 {
-    constexpr double mean_more = 0.01;
-    return sum > 0 ? std::fmin(mean_more * static_cast<double>(bodies) / sum, 1.0) : 1.0;
+    constexpr double worth = 1.5, most_steps = 60, mean_more = 0.01;
+    if (!(mean > 0)) { return most_steps; }
+    const double cheapest = std::sqrt(worth / (substeps * mean)) - 1;
+    return std::fmin(std::fmax(cheapest, 0.0), std::fmin(mean_more / mean, most_steps));
 }
 
 /// A body as the search sees it.
@@ -123,7 +129,7 @@ TREAD_HD std::int64_t decider_of(const std::int32_t* is_large, std::int64_t a, s
     return is_large[b] > is_large[a] ? a : b;
 }
 
-/// Finds the pairs of one body, each pair with one of its two bodies only.
+/// Finds the pairs of one body, each pair with one of its two bodies only. In parts, so that few bodies fill a device.
 struct PairSearch
 {
     BodiesView           bodies;
@@ -150,31 +156,39 @@ struct PairSearch
                ((is_sphere(a) && is_sphere(b)) || surfaces_near(bodies, law.templates, travel, a, b));
     }
 
+    /// Parts of a body's search: rows of cells around its own, and what is in none.
+    static constexpr std::int64_t cell_rows = 9, parts = cell_rows + 1;
+
     template<class Visit>
-    TREAD_HD void in_cells(std::int64_t a, Visit visit) const
+    TREAD_HD void operator()(std::int64_t a, std::int64_t part, Visit visit) const
     {
-        const Vec3<double>& x  = bodies.position[a];
-        const std::int64_t  cx = cell_coordinate(x[0], cell_size), cy = cell_coordinate(x[1], cell_size),
-                           cz      = cell_coordinate(x[2], cell_size);
-        const std::int64_t gridded = bodies.count - large_count;
-        for (int row = 0; row < 9; ++row)
+        if (!bodies.is_here(a)) { return; }
+        if (part == cell_rows) { beside_cells(a, visit); }
+        else if (is_large[a] == 0) { in_row(a, part, visit); }
+    }
+
+private:
+    template<class Visit>
+    TREAD_HD void in_row(std::int64_t a, std::int64_t row, Visit visit) const
+    {
+        const Vec3<double>& position = bodies.position[a];
+        const std::int64_t  x        = cell_coordinate(position[0], cell_size),
+                           y         = cell_coordinate(position[1], cell_size) + row % 3 - 1,
+                           z         = cell_coordinate(position[2], cell_size) + row / 3 - 1;
+        const std::int64_t  gridded  = bodies.count - large_count;
+        const std::uint64_t last     = cell_key_of(x + 1, y, z);
+        for (std::int64_t i = lower_bound(cell_key, gridded, cell_key_of(x - 1, y, z));
+             i < gridded && cell_key[i] <= last; ++i)
         {
-            const std::int64_t  y = cy + row % 3 - 1, z = cz + row / 3 - 1;
-            const std::uint64_t last = cell_key_of(cx + 1, y, z);
-            for (std::int64_t i = lower_bound(cell_key, gridded, cell_key_of(cx - 1, y, z));
-                 i < gridded && cell_key[i] <= last; ++i)
-            {
-                const std::int64_t b = cell_body[i];
-                if (b > a && answered_here(a, b) && near(a, b)) { visit(pair_key(a, b)); }
-            }
+            const std::int64_t b = cell_body[i];
+            if (b > a && answered_here(a, b) && near(a, b)) { visit(pair_key(a, b)); }
         }
     }
 
+    /// Large bodies, and walls.
     template<class Visit>
-    TREAD_HD void operator()(std::int64_t a, Visit visit) const
+    TREAD_HD void beside_cells(std::int64_t a, Visit visit) const
     {
-        if (!bodies.is_here(a)) { return; }
-        if (is_large[a] == 0) { in_cells(a, visit); }
         for (std::int64_t l = 0; l < large_count; ++l)
         {
             const std::int64_t b = large[l];

@@ -103,6 +103,7 @@ struct WriteReach
     const TemplateView* templates;
     const std::int32_t* is_large;
     double              dt;
+    double              substeps;
     const double*       sum;    ///< of `more`
     double*             travel; ///< in: `more`
     double*             reach;  ///< in: speed
@@ -111,7 +112,8 @@ struct WriteReach
     {
         const double radius = bounding_radius(bodies, templates, b);
         const double least  = travel_of(radius, reach[b], reach[b], dt).least;
-        travel[b]           = radius * (least + share_of_more(*sum, bodies.count) * travel[b]);
+        const double steps  = steps_to_last(*sum / static_cast<double>(bodies.count), substeps);
+        travel[b]           = radius * (least + std::fmin(steps * travel[b], most_more));
         reach[b]            = is_large[b] != 0 ? 0.0 : radius + travel[b];
     }
 };
@@ -183,10 +185,11 @@ void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
 }
 
 template<class Exec>
-void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                  double substeps)
 {
     for_each(exec, "body reach", bodies.count,
-             pair_steps::WriteReach{bodies, law.templates, pairs.is_large.data(), dt, pairs.measure.data(),
+             pair_steps::WriteReach{bodies, law.templates, pairs.is_large.data(), dt, substeps, pairs.measure.data(),
                                     pairs.travel.data(), pairs.reach.data()});
 }
 

@@ -42,41 +42,42 @@ std::vector<Solid> crowd(int count)
 double way_of(const Solid& solid) { return step * (solid.velocity.norm() + solid.spin.norm() * solid.scale); }
 
 /// In radii, what a sphere wants for its list to last.
-double wanted(const Solid& solid) { return std::min(60 * way_of(solid) / solid.scale, 0.2); }
+double step_of(const Solid& solid) { return std::min(way_of(solid) / solid.scale, 0.2); }
 
-/// Of what they want, what all get.
-double share_of(const std::vector<Solid>& solids)
+/// Steps that the list of a step of one substep lasts beyond the first.
+double steps_of(const std::vector<Solid>& solids)
 {
     double sum = 0;
-    for (const Solid& solid : solids) { sum += wanted(solid); }
-    return std::min(0.01 * static_cast<double>(solids.size()) / sum, 1.0);
+    for (const Solid& solid : solids) { sum += step_of(solid); }
+    const double mean = sum / static_cast<double>(solids.size());
+    return std::min({std::max(std::sqrt(1.5 / mean) - 1, 0.0), 0.01 / mean, 60.0});
 }
 
 /// What find_pairs promises for exact spheres, whose bounding sphere is their surface (dem::travel_of).
-double grown(const Solid& solid, double share)
+double grown(const Solid& solid, double steps)
 {
-    return solid.scale + 2.1 * way_of(solid) + (0.003 + share * wanted(solid)) * solid.scale;
+    return solid.scale + 2.1 * way_of(solid) + (0.003 + std::min(steps * step_of(solid), 0.2)) * solid.scale;
 }
 
 std::vector<std::uint64_t> brute_force(const std::vector<Solid>& solids, const std::vector<dem::Plane>& planes)
 {
     std::vector<std::uint64_t> keys;
     const auto                 count = static_cast<std::int64_t>(solids.size());
-    const double               share = share_of(solids);
+    const double               steps = steps_of(solids);
     for (std::int64_t a = 0; a < count; ++a)
     {
         const Solid& first = solids[static_cast<std::size_t>(a)];
         for (std::int64_t b = a + 1; b < count; ++b)
         {
             const Solid& second = solids[static_cast<std::size_t>(b)];
-            if ((first.position - second.position).norm() <= grown(first, share) + grown(second, share))
+            if ((first.position - second.position).norm() <= grown(first, steps) + grown(second, steps))
             {
                 keys.push_back(dem::pair_key(a, b));
             }
         }
         for (std::size_t p = 0; p < planes.size(); ++p)
         {
-            if (planes[p].normal.dot(first.position) - planes[p].offset <= grown(first, share))
+            if (planes[p].normal.dot(first.position) - planes[p].offset <= grown(first, steps))
             {
                 keys.push_back(dem::pair_key(a, count + static_cast<std::int64_t>(p)));
             }
@@ -97,6 +98,25 @@ TYPED_TEST(BodyPairs, AllowForLessWhereAllBodiesMove)
     typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, solids, {});
     scene.find(step);
     const double way = step * velocity.norm(), all = 2.1 * way + 0.003 * 0.01 + 0.01 * 0.01;
+    double       worst = 0;
+    for (const double travel : scene.pairs.travel.to_host()) { worst = std::max(worst, std::abs(travel / all - 1)); }
+    std::printf("lists allow for %.3e m, differing by %.1e; tolerance 1e-12 (order of a sum)\n", all, worst);
+    EXPECT_LT(worst, 1e-12);
+}
+
+/// As long as makes a step of 1000 substeps and their share of a search cheapest: sqrt(1.5 / (N way / R)) - 1.
+TYPED_TEST(BodyPairs, LastFewerStepsWhereSubstepsAreMany)
+{
+    constexpr double   radius = 0.01, way = 1e-4 * radius;
+    std::vector<Solid> solids;
+    for (int i = 0; i < 50; ++i)
+    {
+        solids.push_back(solid_sphere(radius, 1000, {1.0 * i, 0, 0}));
+        solids.back().velocity = {way / step, 0, 0};
+    }
+    typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, solids, {});
+    scene.find(step, 1000);
+    const double all   = (2.1 + std::sqrt(1.5 / (1000 * 1e-4)) - 1) * way + 0.003 * radius;
     double       worst = 0;
     for (const double travel : scene.pairs.travel.to_host()) { worst = std::max(worst, std::abs(travel / all - 1)); }
     std::printf("lists allow for %.3e m, differing by %.1e; tolerance 1e-12 (order of a sum)\n", all, worst);

@@ -127,7 +127,7 @@ public:
         return {pairs, bodies.view(), law(), totals.data(), {nullptr, 0}, {numbers.gravity, alpha, dt, outside}};
     }
 
-    void find(double dt) { find_pairs(exec_, pairs, bodies.view(), law(), dt); }
+    void find(double dt, double substeps = 1) { find_pairs(exec_, pairs, bodies.view(), law(), dt, substeps); }
 
     /// The bodies' forces as they stand: a move of no duration.
     void contact(double dt)
