@@ -209,9 +209,10 @@ Keys<Rocks> rocks_keys()
         rocks_height_key().when(drawn, are_drawn),
         rocks_floor_key().when(drawn, are_drawn),
         optional(
-            "placement", "", &Rocks::placement, word<Placement>({"replace", "rain", "grid"}),
-            "Rocks never overlap. \"replace\": at random, in place of the points there; \"rain\": at random, where "
-            "there is no sand, to fall from; \"grid\": on a lattice, where there is no sand."),
+            "placement", "", &Rocks::placement, word<Placement>({"replace", "rain", "grid", "points"}),
+            "Rocks never overlap. \"replace\": at random, in place of the points there; \"points\": each where a "
+            "point of sand stands, drawn at random, in place of it and of those that it touches; \"rain\": at random, "
+            "where there is no sand, to fall from; \"grid\": on a lattice, where there is no sand."),
         optional("seed", "", &Rocks::seed, integer<std::uint64_t>(0),
                  "Of the random sizes, forms, places and orientations.")
             .when(drawn, are_drawn),

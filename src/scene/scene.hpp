@@ -84,7 +84,8 @@ enum class Placement
 {
     replace,
     rain,
-    grid
+    grid,
+    points
 };
 enum class StopRule
 {

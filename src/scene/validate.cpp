@@ -125,9 +125,11 @@ void require_terrain_to_replace(const Scene& scene, Checker& checker)
 {
     for (std::size_t i = 0; i < scene.rocks.size(); ++i)
     {
-        if (scene.rocks[i].from.empty() && scene.rocks[i].placement == Placement::replace)
+        const Placement placement = scene.rocks[i].placement;
+        if (scene.rocks[i].from.empty() && (placement == Placement::replace || placement == Placement::points))
         {
-            checker.report({"rocks", i}, "placement", "\"replace\" needs a [[terrain]] to replace",
+            const char* named = placement == Placement::points ? "points" : "replace";
+            checker.report({"rocks", i}, "placement", fmt::format("\"{}\" needs a [[terrain]] to replace", named),
                            "\"rain\" | \"grid\"");
         }
     }

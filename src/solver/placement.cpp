@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <utility>
 
 #include "base/random.hpp"
 #include "solver/body_grid.hpp"
@@ -249,6 +251,19 @@ std::size_t place_on_sites(Placer& placer, const std::vector<Vec3<double>>& site
     return rocks.size();
 }
 
+/// Points of sand in the space, in a random order (Fisher and Yates).
+std::vector<Vec3<double>> points_in(const Space& space, const World& world, Random& random)
+{
+    std::vector<Vec3<double>> sites;
+    std::copy_if(world.points.position.begin(), world.points.position.end(), std::back_inserter(sites),
+                 [&](const Vec3<double>& x) { return contains(space, x); });
+    for (std::size_t left = sites.size(); left > 1; --left)
+    {
+        std::swap(sites[left - 1], sites[static_cast<std::size_t>(random.uniform() * static_cast<double>(left))]);
+    }
+    return sites;
+}
+
 double largest_bounding_diameter(const scene::Scene& scene, std::size_t table, const std::vector<RockDraw>& rocks,
                                  const World& world)
 {
@@ -290,6 +305,15 @@ std::size_t place_at_random(const scene::Scene& scene, std::size_t table, const 
         placer.keep();
     }
     return rocks.size();
+}
+
+std::size_t place_at_points(const scene::Scene& scene, std::size_t table, const Space& space,
+                            const std::vector<RockDraw>& rocks, World& world)
+{
+    Random     random = random_places(scene.rocks[table]);
+    const auto sites  = points_in(space, world, random);
+    Placer     placer(scene, table, space, world);
+    return place_on_sites(placer, sites, rocks, random);
 }
 
 std::size_t place_on_lattice(const scene::Scene& scene, std::size_t table, const Space& space,

@@ -14,6 +14,27 @@ namespace tread::solver
 namespace
 {
 
+bool takes_sand(scene::Placement placement)
+{
+    return placement == scene::Placement::replace || placement == scene::Placement::points;
+}
+
+std::size_t place(const scene::Scene& scene, std::size_t table, const Space& space, const std::vector<RockDraw>& rocks,
+                  World& world)
+{
+    switch (scene.rocks[table].placement)
+    {
+    case scene::Placement::grid:
+        return place_on_lattice(scene, table, space, rocks, world);
+    case scene::Placement::points:
+        return place_at_points(scene, table, space, rocks, world);
+    case scene::Placement::replace:
+    case scene::Placement::rain:
+        break;
+    }
+    return place_at_random(scene, table, space, rocks, world);
+}
+
 /// Throws when a table's rocks do not fit: says how many did, and how full that is.
 [[noreturn]] void refuse(const scene::Scene& scene, std::size_t table, const std::vector<RockDraw>& drawn,
                          std::size_t placed)
@@ -39,7 +60,7 @@ void make_room(const scene::Scene& scene, std::size_t table, std::size_t first, 
     std::transform(covering.begin(), covering.end(), kept.begin(),
                    [](std::int32_t body) { return static_cast<std::uint8_t>(body < 0 ? 1 : 0); });
     const std::int64_t removed = keep_points(world.points, kept);
-    if (removed > 0 && rocks.placement != scene::Placement::replace)
+    if (removed > 0 && !takes_sand(rocks.placement))
     {
         throw InputError(fmt::format("[[rocks]] {} of shape '{}': {} points of sand stand where rocks are placed; use "
                                      "placement = \"replace\" or another region",
@@ -60,10 +81,7 @@ std::vector<scene::Shape> rocks_family(const scene::Scene& scene, std::size_t ta
 
 void place_rocks(const scene::Scene& scene, std::size_t table, const std::vector<RockDraw>& rocks, World& world)
 {
-    const Space       space  = rocks_space(scene, table);
-    const std::size_t placed = scene.rocks[table].placement == scene::Placement::grid
-                                   ? place_on_lattice(scene, table, space, rocks, world)
-                                   : place_at_random(scene, table, space, rocks, world);
+    const std::size_t placed = place(scene, table, rocks_space(scene, table), rocks, world);
     if (placed < rocks.size()) { refuse(scene, table, rocks, placed); }
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -132,6 +133,24 @@ TEST(Rocks, LatticesAreNarrowedUntilAllRocksFit)
     EXPECT_LT(fits(0.2) * fits(0.2) * fits(0.1), 900);
     EXPECT_GE(nearest_node(world), 0.01 * 0.006 * (1 - 1e-9));
     expect_inside(world, rocks_space(scene, 0));
+}
+
+/// Points 25 mm apart, with a contact radius of 15.5 mm: a rock of 10 mm that stands on one reaches no other.
+TEST(Rocks, TakeThePlacesOfPoints)
+{
+    std::string text = test::sand_text + test::rocks_text;
+    text.replace(text.find("count    = 8\ndiameter = 0.06"), 28,
+                 "count = 100\ndiameter = 0.01\nplacement = \"points\"");
+    const World                      sand  = build_world(load_text(test::sand_text));
+    const World                      world = build_world(load_text(text));
+    const std::vector<Vec3<double>>& sites = sand.points.position;
+    ASSERT_EQ(world.bodies.size(), 100u);
+    EXPECT_EQ(sites.size() - world.points.size(), 100u) << "a point a rock";
+    for (const Vec3<double>& x : world.bodies.position)
+    {
+        EXPECT_EQ(std::count(sites.begin(), sites.end(), x), 1);
+        EXPECT_EQ(std::count(world.points.position.begin(), world.points.position.end(), x), 0);
+    }
 }
 
 TEST(Rocks, AJamSaysHowFullTheRegionIs)
