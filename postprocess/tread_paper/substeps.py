@@ -11,8 +11,9 @@ def substep_figure(measures):
     figure, axes = figure_grid(1, 2, 13.0, 4.8)
     drawn = 0
     for (name, label), colour, marker in zip(READINGS, COLOURS, MARKERS):
-        peaks = _asked(measures, name, "max lift_share")
-        rests = _asked(measures, name, "quiet_mean")
+        # Of a run that stopped before the wheel touched, as that of one substep does at this step, there is no force.
+        peaks = {number: peak for number, peak in _asked(measures, name, "max lift_share").items() if peak > 0}
+        rests = {number: rest for number, rest in _asked(measures, name, "quiet_mean").items() if number in peaks}
         if not peaks:
             continue
         drawn += 1
@@ -21,7 +22,7 @@ def substep_figure(measures):
         axes[0, 1].plot(list(rests), list(rests.values()), color=colour, marker=marker, label=label)
     if not drawn:
         raise Absent("no run of wheel_drop_substeps")
-    axes[0, 0].set(xscale="log", xlabel="substeps a step", ylabel="largest force over that of one substep", ylim=(0, None))
+    axes[0, 0].set(xscale="log", xlabel="substeps a step", ylabel="largest force over that of the fewest substeps", ylim=(0, None))
     axes[0, 1].set(xscale="log", xlabel="substeps a step", ylabel="force at the end over the weight", ylim=(0, None))
     axes[0, 0].legend(edgecolor="none")
     for axis in axes.flat:
