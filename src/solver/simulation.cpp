@@ -356,7 +356,7 @@ io::BodyFields Simulation<Exec, Real>::body_fields()
 template<class Exec, class Real>
 double Simulation<Exec, Real>::surface_height()
 {
-    if (!sand_) { return 0; }
+    if (!sand_) { return plan_.rocks ? height_of_rocks(world_, body_fields(), named_bodies()) : 0; }
     SurfaceColumns columns = surface_columns(sand_->positions(), scene_.grid.spacing);
     if (decomposition_ != nullptr) { columns = gathered(columns, decomposition_->communicator); }
     return middle_height(columns, named_bodies(), scene_.grid.spacing) + 0.5 * world_.point_spacing;

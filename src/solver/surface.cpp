@@ -62,4 +62,20 @@ double middle_height(const SurfaceColumns& columns, const std::vector<BodyRow>& 
     return heights[heights.size() / 2];
 }
 
+double height_of_rocks(const World& world, const io::BodyFields& fields, const std::vector<BodyRow>& bodies)
+{
+    std::vector<Vec3<double>> tops;
+    double                    mean_radius = 0;
+    const auto                rocks       = fields.scale.size() - static_cast<std::size_t>(world.bodies.named);
+    for (auto b = static_cast<std::size_t>(world.bodies.named); b < fields.scale.size(); ++b)
+    {
+        const auto&  form   = world.templates[static_cast<std::size_t>(fields.shape[b])];
+        const double radius = fields.scale[b] * form.equivalent_radius;
+        tops.emplace_back(Vec3<double>(fields.position.data() + 3 * b) + radius * Vec3<double>::UnitZ());
+        mean_radius += radius / static_cast<double>(rocks);
+    }
+    const double width = 4 * mean_radius;
+    return middle_height(surface_columns(tops, width), bodies, width);
+}
+
 } // namespace tread::solver

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "io/snapshot.hpp"
 #include "solver/recorder.hpp"
+#include "solver/world.hpp"
 
 // How high the terrain stands.
 namespace tread::solver
@@ -21,5 +23,9 @@ SurfaceColumns gathered(const SurfaceColumns& columns, const Communicator& commu
 
 /// m, the median of the columns away from the bodies.
 double middle_height(const SurfaceColumns& columns, const std::vector<BodyRow>& bodies, double spacing);
+
+/// m, the same of a bed of rocks, of which there is at least one: in columns of two mean diameters, each as high as the
+/// sphere of equal volume of its highest rock. `fields`: of all bodies.
+double height_of_rocks(const World& world, const io::BodyFields& fields, const std::vector<BodyRow>& bodies);
 
 } // namespace tread::solver

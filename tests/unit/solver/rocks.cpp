@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iostream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -9,6 +10,7 @@
 #include "scene_text.hpp"
 #include "solver/bed.hpp"
 #include "solver/rocks.hpp"
+#include "solver/simulation.hpp"
 
 namespace
 {
@@ -151,6 +153,24 @@ TEST(Rocks, TakeThePlacesOfPoints)
         EXPECT_EQ(std::count(sites.begin(), sites.end(), x), 1);
         EXPECT_EQ(std::count(world.points.position.begin(), world.points.position.end(), x), 0);
     }
+}
+
+/// Sinkage of a scene without sand counts from there. Two full layers on a lattice as wide as the bounding spheres.
+TEST(Rocks, TheirBedIsAsHighAsItsUppermostLayer)
+{
+    const auto scene_of = [](long count)
+    {
+        std::string text = rocks_scene(fmt::format("count = {}\ndiameter = 0.012\nplacement = \"grid\"\n", count));
+        return load_text(text.erase(text.find("placement = \"rain\"\n"), 19));
+    };
+    const World             alone = build_world(scene_of(1));
+    const double            width = 2 * alone.bodies.scale[0] * alone.templates[0].bounding_radius;
+    const auto              side  = static_cast<long>(std::floor(0.2 / width));
+    const auto              scene = scene_of(2 * side * side);
+    const World             world = build_world(scene);
+    Counters                counters;
+    Simulation<Cpu, double> simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
+    EXPECT_NEAR(simulation.surface_height(), 1.5 * width + 0.006, 1e-12) << "of rounding";
 }
 
 TEST(Rocks, AJamSaysHowFullTheRegionIs)
