@@ -87,6 +87,13 @@ enum class Placement
     grid,
     points
 };
+
+/// Whether rocks so placed stand where points of sand stood before.
+constexpr bool takes_sand(Placement placement)
+{
+    return placement == Placement::replace || placement == Placement::points;
+}
+
 enum class StopRule
 {
     duration,

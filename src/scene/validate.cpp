@@ -126,7 +126,7 @@ void require_terrain_to_replace(const Scene& scene, Checker& checker)
     for (std::size_t i = 0; i < scene.rocks.size(); ++i)
     {
         const Placement placement = scene.rocks[i].placement;
-        if (scene.rocks[i].from.empty() && (placement == Placement::replace || placement == Placement::points))
+        if (scene.rocks[i].from.empty() && takes_sand(placement))
         {
             const char* named = placement == Placement::points ? "points" : "replace";
             checker.report({"rocks", i}, "placement", fmt::format("\"{}\" needs a [[terrain]] to replace", named),

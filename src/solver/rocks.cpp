@@ -14,11 +14,6 @@ namespace tread::solver
 namespace
 {
 
-bool takes_sand(scene::Placement placement)
-{
-    return placement == scene::Placement::replace || placement == scene::Placement::points;
-}
-
 std::size_t place(const scene::Scene& scene, std::size_t table, const Space& space, const std::vector<RockDraw>& rocks,
                   World& world)
 {

@@ -167,6 +167,15 @@ std::string case_name(const ::testing::TestParamInfo<BadCase>& info) { return in
 INSTANTIATE_TEST_SUITE_P(Key, BadInput, ::testing::ValuesIn(key_cases), case_name);
 INSTANTIATE_TEST_SUITE_P(Cross, BadInput, ::testing::ValuesIn(cross_cases), case_name);
 
+TEST(BadInput, places_of_points_without_terrain)
+{
+    const std::string terrain =
+        "[[terrain]]\nmaterial = \"sand\"\nregion = { box = [[0, 0, 0], [1, 1, 0.2]] }\npoints_per_cell = 8\n";
+    const auto bare = replaced(good_scene, terrain, "");
+    EXPECT_THAT(refusal(replaced(bare, "placement = \"replace\"", "placement = \"points\"")),
+                HasSubstr("bad.toml:38: [rocks[0]] placement: \"points\" needs a [[terrain]] to replace"));
+}
+
 TEST(BadFile, missing)
 {
     try
