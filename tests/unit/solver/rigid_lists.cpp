@@ -1,0 +1,130 @@
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "backend.hpp"
+#include "scene_text.hpp"
+#include "solver/rigid.hpp"
+
+// How long a list of pairs lasts, counted in searches.
+namespace
+{
+
+using namespace tread;
+
+constexpr double radius = 0.05, step = 1e-3; // m, s
+
+/// Two balls, out of each other's reach.
+const std::string balls = R"(
+title = "two balls"
+[domain]
+size    = [4.0, 1.0, 1.0]
+gravity = [0.0, 0.0, 0.0]
+walls   = { x = "open", y = "open", bottom = "open", top = "open" }
+[time]
+dt       = 1.0e-3
+substeps = 10
+[[material]]
+name    = "steel"
+model   = "elastic"
+density = 7800.0
+young   = 1.0e10
+poisson = 0.3
+[[contact]]
+between     = ["steel", "steel"]
+restitution = 1.0
+[[shape]]
+name      = "ball"
+generate  = { kind = "sphere", nodes = 162 }
+sdf_cells = 24
+[[body]]
+name     = "still"
+shape    = "ball"
+material = "steel"
+diameter = 0.1
+density  = 7800.0
+position = [1.0, 0.5, 0.5]
+[[body]]
+name     = "thrown"
+shape    = "ball"
+material = "steel"
+diameter = 0.1
+density  = 7800.0
+position = [2.0, 0.5, 0.5]
+[[phase]]
+name     = "go"
+duration = 0.01
+)";
+
+template<class Exec>
+class RigidLists : public test::BackendTest<Exec>
+{
+protected:
+    void SetUp() override
+    {
+        test::BackendTest<Exec>::SetUp();
+        if (this->IsSkipped()) { return; }
+        rigid_.emplace(this->exec(), scene_, world_, solver::make_plan(scene_, world_));
+        rigid_->command(std::vector<solver::BodyCommand>(2));
+    }
+
+    void throw_ball(double speed)
+    {
+        const Vec3<double> velocity(0, speed, 0);
+        copy_from_host(this->exec(), rigid_->view().velocity + 1, &velocity, sizeof(velocity));
+        rigid_->stage();
+    }
+
+    void run(std::int64_t substeps) { rigid_->run(step / 10, 0, substeps); }
+
+    std::int64_t searches() const
+    {
+        const auto found = this->counters.launches().find("body reach");
+        return found == this->counters.launches().end() ? 0 : found->second;
+    }
+
+    scene::Scene                       scene_ = test::load_text(balls);
+    solver::World                      world_ = solver::build_world(scene_);
+    std::optional<solver::Rigid<Exec>> rigid_;
+};
+TYPED_TEST_SUITE(RigidLists, test::Backends, test::BackendNames);
+
+/// The ball goes 1 mm in two substeps, and lists of bodies at rest allow it 0.15: the look that says so is asked for
+/// after the first, and answered after the second.
+TYPED_TEST(RigidLists, LookIsHeededABatchLater)
+{
+    auto& rigid = *this->rigid_;
+    rigid.find_pairs(step);
+    ASSERT_EQ(this->searches(), 1);
+    this->throw_ball(5);
+    const solver::TimeStep ten{step, 10, ""};
+    ASSERT_EQ(rigid.unwatched_substeps(ten, 5, 0), 1);
+    this->run(1);
+    rigid.find_pairs_if_strayed(ten, 1, 1, 0);
+    EXPECT_EQ(this->searches(), 1) << "nobody has looked before";
+    this->run(1);
+    rigid.find_pairs_if_strayed(ten, 1, 2, 0);
+    EXPECT_EQ(this->searches(), 2);
+}
+
+/// A list has two steps' motion. Where a step is looked at within, half a step's must be left when it begins: a list
+/// serves a second step, and not a third.
+TYPED_TEST(RigidLists, ListServesTwoSteps)
+{
+    auto&            rigid = *this->rigid_;
+    constexpr double speed = 0.2 * radius / step; // m/s
+    this->throw_ball(speed);
+    rigid.find_pairs(step);
+    ASSERT_EQ(this->searches(), 1);
+    ASSERT_LT(rigid.unwatched_substeps({step, 10, ""}, speed, 0), 10) << "looked at within";
+    this->run(10);
+    rigid.find_pairs(step);
+    EXPECT_EQ(this->searches(), 1);
+    this->run(10);
+    rigid.find_pairs(step);
+    EXPECT_EQ(this->searches(), 2);
+}
+
+} // namespace
