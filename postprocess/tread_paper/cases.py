@@ -49,14 +49,15 @@ def drop_fields(measures):
     return fields.figure_of("Section 3.2: displacement at the end of the drop (Fig. 10 a to c)", of_snapshots(shown), common_scale=False)
 
 
-ROLLS = (("rolling_sand", "sand"), ("rolling_sand_coarse", "sand, coarse"), ("rolling_mixed_coarse", "sand and rocks, coarse"),
-         ("rolling_rocks_coarse", "irregular rocks, coarse"), ("rolling_spheres_coarse", "spheres, coarse"))
+ROLLS = (("rolling_sand", "sand"), ("rolling_mixed", "sand and rocks"), ("rolling_sand_coarse", "sand, coarse"),
+         ("rolling_mixed_coarse", "sand and rocks, coarse"), ("rolling_rocks_coarse", "irregular rocks, coarse"),
+         ("rolling_spheres_coarse", "spheres, coarse"))
 
 
 def roll(measures):
     panels = (Panel("speed", "speed", 0.2, lines=((0.13, "omega R"), (0.0975, "a quarter less"))),
               Panel("torque", "torque", 0.2, lines=((80.0, "paper, sand"), (170.0, "paper, rocks"))),
-              Panel("sinkage", "sinkage"), Panel("way", "way"))
+              Panel("rise", "height, from the start of the drive"), Panel("way", "way"))
     return figure_of("Section 3.3: rolling at 0.5 rad/s (Fig. 14)", histories(measures, ROLLS), panels)
 
 
@@ -116,7 +117,8 @@ def spirit_fields(name):
     return lambda measures: at_times(measures, name, f"Section 4: displacement (Fig. 21), {name}", (0, 14, 28, 42, 56))
 
 
-RIPPLES = (("curiosity_rock_coarse", "rock, coarse"), ("curiosity_core_coarse", "core of sand, coarse"))
+RIPPLES = (("curiosity_rock", "rock"), ("curiosity_core", "core of sand"), ("curiosity_rock_coarse", "rock, coarse"),
+           ("curiosity_core_coarse", "core of sand, coarse"))
 
 
 def curiosity(measures):
@@ -126,8 +128,9 @@ def curiosity(measures):
               Panel("torque", "torque", 0.5, lines=((75.0, "paper: 75"), (100.0, "100"), (200.0, "200")), marks=marks))
     found = histories(measures, RIPPLES)
     figure = figure_of("Section 5: Curiosity (Fig. 26); the paper's times 7, 15, 23 and 42 s are marked; dashed: rolling without slip", found, panels)
+    longest = max((history for _, history in found), key=lambda history: history.time[-1])
     for quantity, axis in zip(("speed", "vertical_speed"), figure.axes):
-        time, values = rolled_over(found[0][1], quantity)
+        time, values = rolled_over(longest, quantity)
         axis.plot(time, 1e3 * values if axis.get_ylabel().endswith("[mm/s]") else values, color="#444444", linestyle="--", linewidth=1.1)
     return figure
 
@@ -149,6 +152,5 @@ FIGURES = {
     "slip": {"slip": slip, "slip_sand_slices": slip_slices("slip_sand"), "slip_mixed_slices": slip_slices("slip_mixed")},
     "spirit": {"spirit": spirit, "spirit_sinkage": spirit_slip, "spirit_fields": spirit_fields("spirit"),
                "spirit_coarse_fields": spirit_fields("spirit_coarse")},
-    "curiosity": {"curiosity": curiosity, "curiosity_rock_coarse_fields": curiosity_fields("curiosity_rock_coarse"),
-                  "curiosity_core_coarse_fields": curiosity_fields("curiosity_core_coarse")},
+    "curiosity": {"curiosity": curiosity, **{f"{name}_fields": curiosity_fields(name) for name, _ in RIPPLES}},
 }

@@ -84,10 +84,14 @@ def _thin_snapshots(run, folder, snapshots):
 
 
 def _bodies_at_last_phase(run):
-    """Of the snapshot that is nearest to the start of the last phase: what displacements of rocks count from. None without bodies."""
+    """Of the snapshot that is nearest to the start of the last phase: what displacements of rocks count from. None without bodies, and where none is
+    as near as snapshots are apart: a run that went on elsewhere, from a checkpoint, has none from before it."""
     begun = run.phases[-1].start if run.phases else 0.0
     there = [bodies for bodies in map(run.bodies, run.snapshots) if bodies is not None]
-    return min(there, key=lambda bodies: abs(bodies.time - begun), default=None)
+    nearest = min(there, key=lambda bodies: abs(bodies.time - begun), default=None)
+    if nearest is None or abs(nearest.time - begun) > run.scene.get("output", {}).get("snapshots_every", np.inf):
+        return None
+    return nearest
 
 
 def _seen(run, position, near, column):
@@ -120,10 +124,11 @@ def _write_bodies(path, run, bodies, middle, before):
     rows = _seen(run, bodies.position, near, max(3 * np.median(radius), run.scene["domain"]["size"][1] / COLUMNS))
     with h5py.File(path, "w", libver=LIBRARIES) as file:
         file.attrs["time"] = bodies.time
-        file.attrs["displacement_since"] = before.time
         for name, unit in (("position", "m"), ("orientation", "1"), ("scale", "1"), ("shape", "1")):
             _write(file, name, getattr(bodies, name)[rows], unit)
-        _write(file, "displacement", (bodies.position - before.position)[rows], "m")
+        if before is not None:
+            file.attrs["displacement_since"] = before.time
+            _write(file, "displacement", (bodies.position - before.position)[rows], "m")
 
 
 def _write(file, name, values, unit):

@@ -108,6 +108,18 @@ class PaperTest(unittest.TestCase):
         near = lambda points: np.sum(np.abs(points.position[:, 1] - 0.25) < 0.007)  # noqa: E731
         self.assertEqual(near(small.points(7)), near(run.points(7)))
 
+    def test_rocks_of_a_run_that_went_on_elsewhere_have_no_displacement(self):
+        folder = self.runs.parent / "went_on"
+        shutil.copytree(self.runs / "slip_sand", folder / "run")
+        for early in sorted((folder / "run" / "snapshots").glob("bodies_*.h5"))[:-1]:
+            early.unlink()
+        scene = (folder / "run" / "scene.toml").read_text(encoding="utf-8")
+        for every, known in ((0.3, False), (3.0, True)):
+            (folder / "run" / "scene.toml").write_text(f"{scene}\n[output]\nsnapshots_every = {every}\n", encoding="utf-8")
+            thin(Run(folder / "run"), folder / f"thinned_{every}", 40, STARTS[2], [7])
+            with h5py.File(folder / f"thinned_{every}" / "snapshots" / "bodies_0007.h5") as file:
+                self.assertEqual("displacement" in file, known)
+
     def test_the_command_thins(self):
         folder = self.runs.parent / "by_command"
         done = self.command("thin.py", self.runs / "slip_sand", folder, "--phase", "drive", "--times", "2.1", "--rows", "20")
@@ -198,7 +210,7 @@ class PaperTest(unittest.TestCase):
         done = self.command("paper.py", "all", "--runs", self.runs, "--output", folder, "--document", document)
         self.assertEqual(done.returncode, 0, done.stderr)
         drawn = {name for figures in FIGURES.values() for name in figures}
-        absent = {"curiosity_core_coarse_fields"}  # no such run was made up
+        absent = {"curiosity_core_coarse_fields", "curiosity_core_fields", "curiosity_rock_fields"}  # no such runs were made up
         for name in drawn - absent:
             self.assertGreater(colours_of(folder / f"{name}.png"), 16, name)
         self.assertIn("| 3.4 sand, own step | 4159 s at 127/s, 2600 MB | 1.0 s for 3.00 s simulated, 3 s/s; 3 steps/s, N 2.0; 1 MB; energy 1e-06 |",
