@@ -16,12 +16,11 @@ std::string clock_text(double seconds)
 
 std::string progress_line(const Progress& progress)
 {
-    const bool   under_way = progress.wall_s > 0 && progress.time > 0;
-    const double rate      = under_way ? static_cast<double>(progress.steps) / progress.wall_s : 0;
-    const double left      = under_way ? (progress.end_time - progress.time) * progress.wall_s / progress.time : 0;
+    const bool   under_way = progress.time_per_s > 0;
+    const double left      = under_way ? (progress.end_time - progress.time) / progress.time_per_s : 0;
     return fmt::format("{}  t {:.4g} / {:.4g} s  {} steps  {:.4g} steps/s  ETA {}  dt {:.2e} s ({})", progress.phase,
-                       progress.time, progress.end_time, progress.steps, rate, under_way ? clock_text(left) : "?",
-                       progress.dt, progress.limit);
+                       progress.time, progress.end_time, progress.steps, progress.steps_per_s,
+                       under_way ? clock_text(left) : "?", progress.dt, progress.limit);
 }
 
 std::string timing_table(const std::vector<StageReport>& stages, double wall_s)
@@ -41,7 +40,8 @@ std::string timing_table(const std::vector<StageReport>& stages, double wall_s)
                             share(stage.seconds));
         rest -= stage.seconds;
     }
-    text += fmt::format("{:<28} {:>10} {:>11.3f} {:>6.1f}%\n", "everything else", "", rest, share(rest));
+    text += fmt::format("{:<28} {:>10} {:>11.3f} {:>6.1f}%\n", rest < 0 ? "overlap of stages" : "everything else", "",
+                        rest, share(rest));
     for (const StageReport& stage : stages)
     {
         if (!stage.on) { text += fmt::format("left out: {} - {}\n", stage.name, stage.why); }

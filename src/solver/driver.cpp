@@ -55,7 +55,7 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , options_(options)
     , phases_(scene)
     , wall_start_(wall_clock())
-    , last_said_(wall_start_)
+    , said_{wall_start_, 0, 0}
 {
     if (communicator.size() > 1)
     {
@@ -304,11 +304,13 @@ double Driver<Exec, Real>::end_time() const
 template<class Exec, class Real>
 void Driver<Exec, Real>::say_progress()
 {
-    const double now = wall_clock();
-    if (now - last_said_ < progress_every) { return; }
-    last_said_ = now;
-    log_.info(
-        io::progress_line({phases_.phase().name, time_, end_time(), steps_, now - wall_start_, step_.dt, step_.limit}));
+    const Said   now    = standing();
+    const double passed = now.wall - said_.wall;
+    if (passed < progress_every) { return; }
+    const auto steps = static_cast<double>(now.steps - said_.steps);
+    log_.info(io::progress_line({phases_.phase().name, time_, end_time(), steps_, steps / passed,
+                                 (now.time - said_.time) / passed, step_.dt, step_.limit}));
+    said_ = now;
 }
 
 template<class Exec, class Real>

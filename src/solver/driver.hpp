@@ -50,6 +50,14 @@ public:
     void report(io::Summary& summary, const std::vector<Stage>& stages) const;
 
 private:
+    /// Where a run stood when it last said so.
+    struct Said
+    {
+        double       wall; ///< wall_clock()
+        std::int64_t steps;
+        double       time; ///< s simulated
+    };
+
     std::optional<std::string> carry_on();
 
     void start();
@@ -72,6 +80,7 @@ private:
     void   finish_files();
     void   write_snapshot();
     void   write_bed();
+    Said   standing() const { return {wall_clock(), steps_, time_}; }
     void   say_progress();
     void   warn_once(const TimeStep& step);
     double end_time() const;
@@ -102,7 +111,7 @@ private:
     double                               surface_       = 0; ///< m, at the start of the phase
     double                               wall_start_;
     double                               wall_before_ = 0; ///< s, of the runs that this one goes on from
-    double                               last_said_;
+    Said                                 said_;
     io::CheckpointReport                 checkpoints_;
     std::int64_t                         restarts_ = 0;
     std::optional<CheckpointClock>       interruptions_;

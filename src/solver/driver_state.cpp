@@ -96,6 +96,7 @@ void Driver<Exec, Real>::resume()
     log_.info(fmt::format("goes on from {} at {:.6g} s, step {}, in phase '{}'{}", options_.checkpoint, time_, steps_,
                           phases_.phase().name,
                           exact ? "" : fmt::format(" (written by {} rank(s): the same to rounding)", ranks)));
+    said_ = standing();
     if (time_ >= phases_.latest_end() - 5e-10) { pass_on(); } // the scene has made it shorter since
 }
 

@@ -14,7 +14,8 @@ void StageClock::transfer(StateFile& file)
     for (const auto& [name, row] : rows_)
     {
         names += name + "\n";
-        values.insert(values.end(), {static_cast<double>(row.calls), static_cast<double>(row.timed), row.seconds});
+        const auto calls = static_cast<double>(row.all_calls());
+        values.insert(values.end(), {calls, calls, row.all_seconds()});
     }
     file.text("stages", names);
     file.common("stages", values);
@@ -23,7 +24,8 @@ void StageClock::transfer(StateFile& file)
     auto               value = values.begin();
     for (std::string name; std::getline(lines, name) && value != values.end(); value += 3)
     {
-        rows_[name] = {static_cast<std::int64_t>(value[0]), static_cast<std::int64_t>(value[1]), value[2]};
+        rows_[name]        = {};
+        rows_[name].before = {static_cast<std::int64_t>(value[0]), static_cast<std::int64_t>(value[1]), value[2]};
     }
 }
 
@@ -39,10 +41,8 @@ std::vector<io::StageReport> StageClock::reports(const std::vector<Stage>& stage
             if (!stage.on) { reports.push_back(report); } // the others are timed within another stage
             continue;
         }
-        const Row& row = at->second;
-        report.calls   = row.calls;
-        report.seconds =
-            row.timed > 0 ? row.seconds * static_cast<double>(row.calls) / static_cast<double>(row.timed) : 0;
+        report.calls   = at->second.all_calls();
+        report.seconds = at->second.all_seconds();
         reports.push_back(report);
     }
     return reports;

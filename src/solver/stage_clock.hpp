@@ -16,7 +16,8 @@ namespace tread::solver
 class StateFile;
 
 /// Wall time by stage. On a GPU a stage's end is waited for in one step of seventeen only, so that timing does not open
-/// gaps between launches; its seconds are scaled from the calls that were timed.
+/// gaps between launches; its seconds are scaled from the calls that were timed, in each part of a run that goes on
+/// from a checkpoint by themselves: parts may run on other machines.
 class StageClock
 {
 public:
@@ -59,11 +60,24 @@ public:
     std::vector<io::StageReport> reports(const std::vector<Stage>& stages) const;
 
 private:
-    struct Row
+    struct Part
     {
         std::int64_t calls   = 0;
         std::int64_t timed   = 0;
-        double       seconds = 0;
+        double       seconds = 0; ///< of those that were timed
+
+        double scaled() const
+        {
+            return timed > 0 ? seconds * static_cast<double>(calls) / static_cast<double>(timed) : 0;
+        }
+    };
+
+    struct Row : Part
+    {
+        Part before; ///< of the runs that this one goes on from
+
+        std::int64_t all_calls() const { return before.calls + calls; }
+        double       all_seconds() const { return before.scaled() + scaled(); }
     };
 
     static constexpr std::int64_t gpu_sample = 17; ///< steps; no multiple of those between two reports

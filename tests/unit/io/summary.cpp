@@ -108,8 +108,9 @@ TEST(Summary, unwritable_place_is_an_environment_error)
 
 TEST(Progress, line)
 {
-    EXPECT_EQ(progress_line({"drive", 1.2, 3.6, 24000, 30, 5e-5, "elastic wave"}),
+    EXPECT_EQ(progress_line({"drive", 1.2, 3.6, 24000, 800, 0.04, 5e-5, "elastic wave"}),
               "drive  t 1.2 / 3.6 s  24000 steps  800 steps/s  ETA 0:01:00  dt 5.00e-05 s (elastic wave)");
+    EXPECT_NE(progress_line({"drive", 1.2, 3.6, 24000, 0, 0, 5e-5, "elastic wave"}).find("ETA ?"), std::string::npos);
     EXPECT_EQ(clock_text(3725), "1:02:05");
 }
 
@@ -120,6 +121,9 @@ TEST(Progress, table_is_sorted_and_says_what_was_left_out)
                                                "p2g                                 100       2.000   20.0%\n"
                                                "everything else                               3.000   30.0%\n"
                                                "left out: body-body - no rocks\n");
+    EXPECT_NE(timing_table(some_stages(), 5).find("overlap of stages                            -2.000  -40.0%\n"),
+              std::string::npos)
+        << timing_table(some_stages(), 5);
 }
 
 } // namespace
