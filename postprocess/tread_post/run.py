@@ -1,7 +1,9 @@
 """A run directory: scene, summary, time series and snapshots. Lengths in metres, SI throughout."""
 
 import json
+import time
 import tomllib
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,10 +12,15 @@ import numpy as np
 
 
 SCHEMA_VERSION = (1, 0)
+PATIENCE = 2.0  # s; a run takes milliseconds from one state of its time series to the next
 
 
 class RunError(Exception):
     """A file of the run is missing or does not hold what it should; the message names it."""
+
+
+class UnreadableError(RunError):
+    """HDF5 cannot read the file: it is damaged, or a run is writing it just now."""
 
 
 @dataclass(frozen=True)
@@ -95,8 +102,7 @@ class Run:
     @property
     def wheels(self):
         """Names of the bodies with a history, in the scene's order as far as it names them."""
-        with _open(self.path / "timeseries.h5") as file:
-            names = list(file["wheel"]) if "wheel" in file else []
+        names = self._of_series(lambda file: list(file["wheel"]) if "wheel" in file else [])
         order = [body.get("name") for body in self.scene.get("body", [])]
         return sorted(names, key=lambda name: order.index(name) if name in order else len(order))
 
@@ -120,14 +126,9 @@ class Run:
     def phases(self):
         """Phases that began, by time."""
         names = [phase.get("name", "") for phase in self.scene.get("phase", [])]
-        with _open(self.path / "timeseries.h5") as file:
-            if "phases" not in file:
-                return []
-            indices, starts = file["phases/index"][:], file["phases/start"][:]
-        return [
-            Phase(names[int(index)] if int(index) < len(names) else f"phase {int(index)}", float(start))
-            for index, start in zip(indices, starts)
-        ]
+        begun = self._of_series(lambda file: [(int(index), float(start)) for index, start in zip(file["phases/index"][:], file["phases/start"][:])]
+                                if "phases" in file else [])
+        return [Phase(names[index] if index < len(names) else f"phase {index}", start) for index, start in begun]
 
     @property
     def snapshots(self):
@@ -179,31 +180,47 @@ class Run:
             ]
 
     def _table(self, group):
-        with _open(self.path / "timeseries.h5") as file:
-            if group not in file:
-                raise RunError(f"{file.filename}: no table {group}")
-            table = file[group]
-            # A run that goes on may have written a row to some columns only.
-            rows = min((column.shape[0] for column in table.values()), default=0)
-            return Series(
-                {name: column[:rows] for name, column in table.items()},
-                {name: _unit(column) for name, column in table.items()},
-            )
+        return self._of_series(lambda file: _table(file, group))
+
+    def _of_series(self, read):
+        """What `read` gives of the time series, once that can be read: a run may be writing it."""
+        path = self.path / "timeseries.h5"
+        give_up = time.monotonic() + PATIENCE
+        while True:
+            try:
+                with _open(path) as file:
+                    return read(file)
+            except UnreadableError:
+                if time.monotonic() > give_up:
+                    raise
+            time.sleep(0.05)
 
 
+def _table(file, group):
+    if group not in file:
+        raise RunError(f"{file.filename}: no table {group}")
+    table = file[group]
+    # A run that goes on may have written a row to some columns only.
+    rows = min((column.shape[0] for column in table.values()), default=0)
+    return Series(
+        {name: column[:rows] for name, column in table.items()},
+        {name: _unit(column) for name, column in table.items()},
+    )
+
+
+@contextmanager
 def _open(path):
     if not path.is_file():
         raise RunError(f"{path}: no such file")
     try:
         # Without a lock: the run may be writing.
-        file = h5py.File(path, "r", locking=False)
-    except OSError as error:
-        raise RunError(f"{path}: {error}") from error
-    version = tuple(int(number) for number in file.attrs.get("schema_version", SCHEMA_VERSION))
-    if version[0] != SCHEMA_VERSION[0]:
-        file.close()
-        raise RunError(f"{path}: schema version {'.'.join(map(str, version))}; read here is {SCHEMA_VERSION[0]}.x")
-    return file
+        with h5py.File(path, "r", locking=False) as file:
+            version = tuple(int(number) for number in file.attrs.get("schema_version", SCHEMA_VERSION))
+            if version[0] != SCHEMA_VERSION[0]:
+                raise RunError(f"{path}: schema version {'.'.join(map(str, version))}; read here is {SCHEMA_VERSION[0]}.x")
+            yield file
+    except (OSError, RuntimeError) as error:
+        raise UnreadableError(f"{path}: {error}") from error
 
 
 def _text(value):

@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import tomllib
 import unittest
 from pathlib import Path
@@ -196,6 +197,17 @@ class PostprocessTest(unittest.TestCase):
                 file.attrs["schema_version"] = [2, 0]
             with self.assertRaisesRegex(RunError, "timeseries.h5: schema version 2.0; read here is 1.x"):
                 Run(path).wheels
+
+    def test_a_file_that_is_being_written_is_read_once_it_is(self):
+        whole = (self.run_path / "timeseries.h5").read_bytes()
+        with tempfile.TemporaryDirectory() as directory:
+            path = Path(directory)
+            (path / "scene.toml").write_text(SCENE, encoding="utf-8")
+            (path / "timeseries.h5").write_bytes(whole[: len(whole) // 2])
+            writer = threading.Timer(0.5, (path / "timeseries.h5").write_bytes, (whole,))
+            writer.start()
+            self.addCleanup(writer.join)
+            self.assertEqual(len(Run(path).wheel("front wheel")["time"]), 151)
 
 
 if __name__ == "__main__":
