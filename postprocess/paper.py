@@ -11,7 +11,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from tread_paper.cases import FIGURES
+from tread_paper.cases import FIGURES, TABLES_ALONE
 from tread_paper.measures import Absent, Measures
 from tread_paper.sensitivity import lines_of
 from tread_paper.table import put_into, rows_of, table_of
@@ -23,7 +23,7 @@ DOCS = Path(__file__).resolve().parents[1] / "docs"
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("case", choices=[*FIGURES, "cost", "sensitivity", "all"], help="cost and sensitivity have tables alone")
+    parser.add_argument("case", choices=[*FIGURES, *TABLES_ALONE, "all"], help="the last before all have tables alone")
     parser.add_argument("--runs", type=Path, default=DOCS / "paper" / "runs", metavar="DIR", help="default: docs/paper/runs")
     parser.add_argument("--output", type=Path, default=DOCS / "paper", metavar="DIR", help="of pictures, where CASE.toml are; default: docs/paper")
     parser.add_argument("--document", type=Path, default=DOCS / "paper.md", metavar="FILE.md", help="whose tables are filled; default: docs/paper.md")
@@ -54,7 +54,7 @@ def fill_sensitivity(folder, document):
 def main():
     options = arguments()
     measures = Measures(options.runs)
-    for case in [*FIGURES, "cost", "sensitivity"] if options.case == "all" else [options.case]:
+    for case in [*FIGURES, *TABLES_ALONE] if options.case == "all" else [options.case]:
         if case == "sensitivity":
             fill_sensitivity(options.output, options.document)
             continue

@@ -145,6 +145,8 @@ def of_snapshots(shown):
     return shown
 
 
+TABLES_ALONE = ("method", "cost", "sensitivity")  # of no case
+
 FIGURES = {
     "head_on": {"head_on": impact},
     "wheel_drop": {"wheel_drop": drop, "wheel_drop_fields": drop_fields, "wheel_drop_substeps": substep_figure},
