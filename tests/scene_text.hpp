@@ -85,4 +85,26 @@ position = [0.2, 0.2, 0.33]
 lock     = ["x", "y", "roll", "pitch", "yaw"]
 )";
 
+/// Without weight, walls or time: steel for balls. To be appended: [time], bodies of shape "ball", and phases.
+inline const std::string steel_text = R"(
+title = "steel balls"
+[domain]
+size    = [4.0, 1.0, 1.0]
+gravity = [0.0, 0.0, 0.0]
+walls   = { x = "open", y = "open", bottom = "open", top = "open" }
+[[material]]
+name    = "steel"
+model   = "elastic"
+density = 7800.0
+young   = 1.0e10
+poisson = 0.3
+[[contact]]
+between     = ["steel", "steel"]
+restitution = 1.0
+[[shape]]
+name      = "ball"
+generate  = { kind = "sphere", nodes = 162 }
+sdf_cells = 24
+)";
+
 } // namespace tread::test

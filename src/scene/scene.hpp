@@ -7,98 +7,14 @@
 #include <variant>
 #include <vector>
 
+#include "scene/words.hpp"
+
 // What the user asked for, as plain data in SI units (angles in degrees where the name says so).
 // Defaults, units, ranges and meanings stand in keys.cpp, the one table that parses, validates and documents.
 namespace tread::scene
 {
 
 using Vector3 = std::array<double, 3>;
-
-enum class WallKind
-{
-    slip,
-    fixed,
-    frictional,
-    open
-};
-enum class Precision
-{
-    single_,
-    double_
-};
-enum class Transfer
-{
-    flip,
-    apic,
-    aflip
-};
-enum class ShapeFunctions
-{
-    quadratic,
-    linear
-};
-enum class PointMotion
-{
-    supported,
-    ballistic,
-    frozen
-};
-enum class HertzFactor
-{
-    standard,
-    paper_eq7
-};
-/// What the volumetric strain rate of a point's law is.
-enum class VolumeStrain
-{
-    point,       ///< the velocity's divergence there
-    cell_average ///< its mean over the points of the cell
-};
-enum class PointRadius
-{
-    sphere,
-    semi_domain
-};
-enum class MaterialModel
-{
-    elastic,
-    mohr_coulomb,
-    drucker_prager,
-    rigid
-};
-
-/// The models that flow: with friction angle, dilation angle and cohesion.
-constexpr bool is_granular(MaterialModel model)
-{
-    return model == MaterialModel::mohr_coulomb || model == MaterialModel::drucker_prager;
-}
-
-/// The stress states in which Drucker and Prager's cone is as strong as Mohr and Coulomb's hexagon.
-enum class ConeFit
-{
-    compression,
-    extension,
-    plane_strain
-};
-enum class Placement
-{
-    replace,
-    rain,
-    grid,
-    points
-};
-
-/// Whether rocks so placed stand where points of sand stood before.
-constexpr bool takes_sand(Placement placement)
-{
-    return placement == Placement::replace || placement == Placement::points;
-}
-
-enum class StopRule
-{
-    duration,
-    equilibrium
-};
 
 struct Walls
 {
@@ -136,13 +52,6 @@ struct TimeOptions
         0.2; ///< of sqrt(m / sum K), what automatic substeps take: prototypes 1.7 (measured limit: 1.1)
 
     bool operator==(const TimeOptions&) const = default;
-};
-
-/// How bodies tell how deep their surface nodes are in each other.
-enum class NarrowPhase
-{
-    sdf, ///< by the other one's distance field
-    rays ///< by a ray from each node to the other one's triangles
 };
 
 struct Numerics
@@ -208,13 +117,6 @@ struct SphereGenerator
     int nodes = 642;
 
     bool operator==(const SphereGenerator&) const = default;
-};
-
-enum class GrouserShape
-{
-    straight,
-    chevron,
-    curved
 };
 
 /// A rigid wheel: drum with grousers, open or with flanges, web and hub; axle along the mesh's y. Lengths in metres.
@@ -450,18 +352,6 @@ struct Sleep
     double                load  = 0.2;  ///< change of the pressure on it that wakes it, over the bed's mean on its base
 
     bool operator==(const Sleep&) const = default;
-};
-
-/// A closed form whose answer follows from the scene: docs/study.md says from what.
-enum class ReferenceForm
-{
-    none,
-    hertz_impact,
-    fixed_free_bar,
-    geostatic,
-    weight,
-    rolling_ball,
-    run_out
 };
 
 /// What is known of the right answer. `tread study` compares runs with it; no run reads it.

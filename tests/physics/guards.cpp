@@ -37,34 +37,16 @@ velocity = {}
 
 std::string text(double duration, double dt, int substeps, const std::string& bodies)
 {
-    return fmt::format(R"(
-title = "guards"
-[domain]
-size    = [4.0, 1.0, 1.0]
-gravity = [0.0, 0.0, 0.0]
-walls   = {{ x = "open", y = "open", bottom = "open", top = "open" }}
+    return test::steel_text + fmt::format(R"(
 [time]
 dt       = {}
 substeps = {}
-[[material]]
-name    = "steel"
-model   = "elastic"
-density = 7800.0
-young   = 1.0e10
-poisson = 0.3
-[[contact]]
-between     = ["steel", "steel"]
-restitution = 1.0
-[[shape]]
-name      = "ball"
-generate  = {{ kind = "sphere", nodes = 162 }}
-sdf_cells = 24
 {}
 [[phase]]
 name     = "go"
 duration = {}
 )",
-                       dt, substeps, bodies, duration);
+                                          dt, substeps, bodies, duration);
 }
 
 /// A heavy ball hits a light one at rest, which leaves at twice its speed and meets a third within the same long step.

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "backend/reduce.hpp"
 #include "kernels/dem/contact_nodes.hpp"
-#include "kernels/dem/pairs_kern.hpp"
+#include "kernels/dem/pair_search_impl.hpp"
 #include "kernels/dem/travel_impl.hpp"
 
 // The steps of find_pairs, the same on both backends; pairs.cpp and pairs.cu bring in for_each and instantiate.
@@ -13,27 +12,6 @@ namespace tread::dem
 {
 namespace pair_steps
 {
-
-/// What only the search needs and what only the substeps need are never there at the same time: each gives its memory
-/// back when the other begins, and takes no more than it wants.
-template<class... Arrays>
-void give_back(Arrays&... arrays)
-{
-    (arrays.fit(0), ...);
-}
-
-template<class Exec>
-void give_back(SortScratch<Exec>& scratch)
-{
-    give_back(scratch.bytes, scratch.keys, scratch.values);
-}
-
-template<class Exec>
-void give_back(Answers<Exec>& answers)
-{
-    give_back(answers.force, answers.torque, answers.stiffness, answers.energy, answers.friction, answers.restitution,
-              answers.place, answers.second_force, answers.second_torque, answers.second_stiffness);
-}
 
 struct MeasureBody
 {
@@ -59,55 +37,6 @@ struct Stage
     ContactBody* body;
 
     TREAD_HD void operator()(std::int64_t b) const { body[b] = contact_body(bodies, b); }
-};
-
-struct WriteCell
-{
-    BodiesView          bodies;
-    const std::int32_t* is_large;
-    double              cell_size;
-    std::uint64_t*      key;
-    std::int32_t*       body;
-
-    TREAD_HD void operator()(std::int64_t b) const
-    {
-        const Vec3<double>& x       = bodies.position[b];
-        const bool          gridded = is_large[b] == 0 && bodies.is_here(b);
-        key[b]                      = !gridded ? no_cell
-                                               : cell_key_of(cell_coordinate(x[0], cell_size), cell_coordinate(x[1], cell_size),
-                                                             cell_coordinate(x[2], cell_size));
-        body[b]                     = static_cast<std::int32_t>(b);
-    }
-};
-
-struct CountPairs
-{
-    PairSearch    search;
-    std::int32_t* found; ///< [bodies * parts + 1]
-
-    TREAD_HD void operator()(std::int64_t i) const
-    {
-        std::int32_t own = 0;
-        if (i < search.bodies.count * PairSearch::parts)
-        {
-            search(i / PairSearch::parts, i % PairSearch::parts, [&](std::uint64_t) { ++own; });
-        }
-        found[i] = own;
-    }
-};
-
-struct WritePairs
-{
-    PairSearch          search;
-    const std::int32_t* found; ///< [bodies * parts + 1], after the scan
-    std::uint64_t*      key;
-
-    TREAD_HD void operator()(std::int64_t i) const
-    {
-        std::int32_t place = found[i];
-        if (place == found[i + 1]) { return; }
-        search(i / PairSearch::parts, i % PairSearch::parts, [&](std::uint64_t pair) { key[place++] = pair; });
-    }
 };
 
 struct MarkPairs
@@ -215,21 +144,6 @@ struct WritePairsOfNodes
     }
 };
 
-/// Bodies in the cells of a grid as wide as the widest pair; returns the width.
-template<class Exec>
-double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
-{
-    largest_of_rows(exec, pairs.reach.data(), bodies.count, 1, pairs.measure.data());
-    const double cell_size = std::max(2.0 * read(exec, pairs.measure.data()), 1e-12);
-
-    pairs.cell_key.resize(bodies.count);
-    pairs.cell_body.resize(bodies.count);
-    for_each(exec, "body cells", bodies.count,
-             WriteCell{bodies, pairs.is_large.data(), cell_size, pairs.cell_key.data(), pairs.cell_body.data()});
-    sort_by_key(exec, pairs.cell_key, pairs.cell_body, pairs.sort);
-    return cell_size;
-}
-
 /// All that follows from the keys alone.
 template<class Exec>
 void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
@@ -246,26 +160,6 @@ void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
     pairs.second.resize(bodies.count + 1);
     for_each(exec, "pairs of bodies", bodies.count + 1,
              WriteRuns{count, pairs.key.data(), pairs.second_key.data(), pairs.first.data(), pairs.second.data()});
-}
-
-template<class Exec>
-void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double cell_size)
-{
-    const PairSearch   search{bodies,
-                            law,
-                            pairs.travel.data(),
-                            cell_size,
-                            pairs.cell_key.data(),
-                            pairs.cell_body.data(),
-                            pairs.large.data(),
-                            pairs.large.size(),
-                            pairs.is_large.data()};
-    const std::int64_t items = bodies.count * PairSearch::parts;
-    pairs.found.resize(items + 1);
-    for_each(exec, "count pairs", items + 1, CountPairs{search, pairs.found.data()});
-    pairs.key.resize(exclusive_scan(exec, pairs.found, pairs.sort));
-    for_each(exec, "write pairs", items, WritePairs{search, pairs.found.data(), pairs.key.data()});
-    give_back(pairs.reach, pairs.cell_key, pairs.cell_body, pairs.found);
 }
 
 /// Leaves out the pairs that no node can join, and orders the rest: bounding spheres meet far more often than surfaces.

@@ -17,28 +17,10 @@ using namespace tread;
 constexpr double radius = 0.05, step = 1e-3; // m, s
 
 /// Two balls, out of each other's reach.
-const std::string balls = R"(
-title = "two balls"
-[domain]
-size    = [4.0, 1.0, 1.0]
-gravity = [0.0, 0.0, 0.0]
-walls   = { x = "open", y = "open", bottom = "open", top = "open" }
+const std::string balls = test::steel_text + R"(
 [time]
 dt       = 1.0e-3
 substeps = 10
-[[material]]
-name    = "steel"
-model   = "elastic"
-density = 7800.0
-young   = 1.0e10
-poisson = 0.3
-[[contact]]
-between     = ["steel", "steel"]
-restitution = 1.0
-[[shape]]
-name      = "ball"
-generate  = { kind = "sphere", nodes = 162 }
-sdf_cells = 24
 [[body]]
 name     = "still"
 shape    = "ball"
