@@ -39,6 +39,7 @@ class Cell:
     y: object = None
     x_label: str = ""
     y_label: str = ""
+    steps: float = 1.0  # of those that are asked for
 
 
 @dataclass
@@ -71,7 +72,7 @@ def _cell(name, one, values, table, x=None, y=None):
                 allowed[outcome] = f"{allowed[outcome]}|{rule[outcome]}" if outcome in allowed else rule[outcome]
     bounds = table["bounds"] | one.get("bounds", {})
     of_map = (one["name"], x, y, one["x"]["label"], one["y"]["label"]) if "x" in one else ()
-    return Cell(name, one["scene"], one.get("set", {}) | values, one.get("unset", []), bounds, allowed, *of_map)
+    return Cell(name, one["scene"], one.get("set", {}) | values, one.get("unset", []), bounds, allowed, *of_map, steps=one.get("steps", 1.0))
 
 
 def _label(value):

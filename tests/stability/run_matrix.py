@@ -58,13 +58,13 @@ def main():
     results, lock = {}, threading.Lock()
 
     def run(cell):
-        results[cell.name] = run_cell(program, cell, options.steps, options.wall, steps_of_first=LATER_STEPS.get(cell.scene, 1.0))
+        results[cell.name] = run_cell(program, cell, cell.steps * options.steps, options.wall, steps_of_first=LATER_STEPS.get(cell.scene, 1.0))
         with lock:
             say(len(results), len(cells), cell, results[cell.name])
             write(options.output, options.backend, [(one, results[one.name]) for one in cells if one.name in results])
 
     with ThreadPoolExecutor(options.jobs) as pool:
-        list(pool.map(run, reversed(cells)))  # among the last is one that takes as long as sixty others
+        list(pool.map(run, reversed(cells)))  # among the last is one that takes as long as thirty others
     pairs = [(cell, results[cell.name]) for cell in cells]
     counts = {outcome: sum(result.outcome == outcome for _, result in pairs) for outcome in ("stable", "told", "stopped", "refused", "wrong")}
     unexpected = sum(not result.expected for _, result in pairs)
