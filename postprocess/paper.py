@@ -23,7 +23,7 @@ DOCS = Path(__file__).resolve().parents[1] / "docs"
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("case", choices=[*FIGURES, *TABLES_ALONE, "all"], help="the last before all have tables alone")
+    parser.add_argument("case", choices=[*FIGURES, *TABLES_ALONE, "all"], help=f"{', '.join(TABLES_ALONE)} have tables alone")
     parser.add_argument("--runs", type=Path, default=DOCS / "paper" / "runs", metavar="DIR", help="default: docs/paper/runs")
     parser.add_argument("--output", type=Path, default=DOCS / "paper", metavar="DIR", help="of pictures, where CASE.toml are; default: docs/paper")
     parser.add_argument("--document", type=Path, default=DOCS / "paper.md", metavar="FILE.md", help="whose tables are filled; default: docs/paper.md")

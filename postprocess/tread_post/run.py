@@ -126,9 +126,7 @@ class Run:
     def phases(self):
         """Phases that began, by time."""
         names = [phase.get("name", "") for phase in self.scene.get("phase", [])]
-        begun = self._of_series(lambda file: [(int(index), float(start)) for index, start in zip(file["phases/index"][:], file["phases/start"][:])]
-                                if "phases" in file else [])
-        return [Phase(names[index] if index < len(names) else f"phase {index}", start) for index, start in begun]
+        return [Phase(names[index] if index < len(names) else f"phase {index}", start) for index, start in self._of_series(_begun_phases)]
 
     @property
     def snapshots(self):
@@ -180,7 +178,7 @@ class Run:
             ]
 
     def _table(self, group):
-        return self._of_series(lambda file: _table(file, group))
+        return self._of_series(lambda file: _table_of(file, group))
 
     def _of_series(self, read):
         """What `read` gives of the time series, once that can be read: a run may be writing it."""
@@ -196,7 +194,14 @@ class Run:
             time.sleep(0.05)
 
 
-def _table(file, group):
+def _begun_phases(file):
+    """[(index, time)]"""
+    if "phases" not in file:
+        return []
+    return [(int(index), float(start)) for index, start in zip(file["phases/index"][:], file["phases/start"][:])]
+
+
+def _table_of(file, group):
     if group not in file:
         raise RunError(f"{file.filename}: no table {group}")
     table = file[group]
