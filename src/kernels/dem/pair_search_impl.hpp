@@ -10,27 +10,6 @@
 namespace tread::dem::pair_steps
 {
 
-/// What only the search needs and what only the substeps need are never there at the same time: each gives its memory
-/// back when the other begins, and takes no more than it wants.
-template<class... Arrays>
-void give_back(Arrays&... arrays)
-{
-    (arrays.fit(0), ...);
-}
-
-template<class Exec>
-void give_back(SortScratch<Exec>& scratch)
-{
-    give_back(scratch.bytes, scratch.keys, scratch.values);
-}
-
-template<class Exec>
-void give_back(Answers<Exec>& answers)
-{
-    give_back(answers.force, answers.torque, answers.stiffness, answers.energy, answers.friction, answers.restitution,
-              answers.place, answers.second_force, answers.second_torque, answers.second_stiffness);
-}
-
 struct WriteCell
 {
     BodiesView          bodies;
@@ -112,7 +91,6 @@ void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, cons
     for_each(exec, "count pairs", items + 1, CountPairs{search, pairs.found.data()});
     pairs.key.resize(exclusive_scan(exec, pairs.found, pairs.sort));
     for_each(exec, "write pairs", items, WritePairs{search, pairs.found.data(), pairs.key.data()});
-    give_back(pairs.reach, pairs.cell_key, pairs.cell_body, pairs.found);
 }
 
 } // namespace tread::dem::pair_steps

@@ -13,6 +13,27 @@ namespace tread::dem
 namespace pair_steps
 {
 
+/// What only the search needs and what only the substeps need are never there at the same time: each gives its memory
+/// back when the other begins, and takes no more than it wants.
+template<class... Arrays>
+void give_back(Arrays&... arrays)
+{
+    (arrays.fit(0), ...);
+}
+
+template<class Exec>
+void give_back(SortScratch<Exec>& scratch)
+{
+    give_back(scratch.bytes, scratch.keys, scratch.values);
+}
+
+template<class Exec>
+void give_back(Answers<Exec>& answers)
+{
+    give_back(answers.force, answers.torque, answers.stiffness, answers.energy, answers.friction, answers.restitution,
+              answers.place, answers.second_force, answers.second_torque, answers.second_stiffness);
+}
+
 struct MeasureBody
 {
     BodiesView          bodies;
@@ -273,6 +294,7 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     give_back(pairs.by_second);
     const double cell_size = fill_cells(exec, pairs, bodies);
     search(exec, pairs, bodies, law, cell_size);
+    give_back(pairs.reach, pairs.cell_key, pairs.cell_body, pairs.found);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
     if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }
