@@ -1,6 +1,10 @@
-"""How far the terrain has moved: along a plane through the wheel, and seen from above. From snapshots, whole ones or thinned."""
+"""How far the terrain has moved: along a plane through the wheel, and seen from above. From snapshots, whole ones or thinned.
+
+Rocks of which a snapshot does not say how far they have come are grey.
+"""
 
 import h5py
+import matplotlib
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.colors import Normalize
@@ -14,25 +18,27 @@ PERCENTILE = 99.5
 ABOVE = 0.25
 # Of the view from above, across the domain, at most.
 CELLS = 80
+# In place of how far something has moved, m: below every scale.
+UNKNOWN = -1.0
+NOT_KNOWN = "#c8c8c8"
+SHADES = matplotlib.colormaps["YlGnBu"].with_extremes(under=NOT_KNOWN)
 
 
 def figure_of(title, shown, common_scale=True):
     """A row for each (label, run, snapshot number): section, view from above."""
     terrains = [_terrain(run, number) for _, run, number in shown]
-    largest = [max(np.percentile(moved, PERCENTILE), 1e-4) for _, moved, _ in terrains]
+    largest = [_largest(moved[moved != UNKNOWN]) for _, moved, _ in terrains]
+    outlines = [_outline(run, number) for _, run, number in shown]
     size = shown[0][1].scene["domain"]["size"]
-    high = min(size[2], ABOVE + max(np.percentile(place[:, 2], PERCENTILE) for place, _, _ in terrains))
+    tops = [ABOVE + np.percentile(place[:, 2], PERCENTILE) for place, _, _ in terrains] + [1.02 * cut[..., 2].max() for cut in outlines if len(cut)]
+    high = min(size[2], max(tops))
     figure, axes = figure_grid(len(shown), 2, 15.0, 7.5 * max(high, size[1]) / size[0] * 0.85 + 1.1)
-    for row, ((label, run, number), terrain, scale) in enumerate(zip(shown, terrains, largest)):
+    for row, ((label, run, number), terrain, cut, scale) in enumerate(zip(shown, terrains, outlines, largest)):
         norm = Normalize(0, 1e3 * (max(largest) if common_scale else scale))
         section, above = axes[row]
         dots = _dots(section, terrain, norm, (0, 2), _near(run, number, terrain))
         _draw_from_above(above, terrain, norm, size)
-        bodies = run.bodies(number)
-        if bodies is not None:
-            middle = float(bodies.position[0, 1])
-            cut = outline_of(_first(bodies, len(run.scene.get("body", []))), run.shapes, 1, middle)
-            section.add_collection(LineCollection(cut[:, :, (0, 2)], colors="#222222", linewidths=0.9))
+        section.add_collection(LineCollection(cut[:, :, (0, 2)], colors="#222222", linewidths=0.9))
         section.set(xlim=(0, size[0]), ylim=(0, high), aspect="equal", ylabel="z  [m]", title=label)
         above.set(xlim=(0, size[0]), ylim=(0, size[1]), aspect="equal", ylabel="y  [m]", title="from above")
         figure.colorbar(dots, ax=axes[row, :], label="displacement  [mm]", shrink=0.8, extend="max")
@@ -46,36 +52,39 @@ def last_snapshot(run):
     return run.snapshots[-1]
 
 
+def _largest(moved):
+    return max(np.percentile(moved, PERCENTILE), 1e-4) if len(moved) else 1e-4
+
+
 def _terrain(run, number):
-    """Places [n, 3] (m), how far each has moved (m), and their sizes (m), of points and rocks."""
+    """Places [n, 3] (m), how far each has moved (m, or UNKNOWN), and their sizes (m), of points and rocks."""
     places, moved, sizes = [], [], []
     points, bodies = run.points(number), run.bodies(number)
     if points is not None:
         places.append(points.position)
         moved.append(np.linalg.norm(points.fields["displacement"], axis=1))
         sizes.append(np.full(len(points.position), 1.2 * point_spacing(run.scene, points)))
-    rocks = _rocks(run, number, bodies)
-    if rocks is not None:
-        for parts, part in zip((places, moved, sizes), rocks):
-            parts.append(part)
+    named = len(run.scene.get("body", []))
+    if bodies is not None:
+        places.append(bodies.position[named:])
+        moved.append(_way_of_bodies(run, number, len(bodies.position))[named:])
+        sizes.append(bodies.scale[named:])
     return np.concatenate(places), np.concatenate(moved), np.concatenate(sizes)
 
 
-def _rocks(run, number, bodies):
-    """Of a thinned snapshot, which says how far rocks have come; None where there are none, or the snapshot does not say."""
-    named = len(run.scene.get("body", []))
-    path = run.path / "snapshots" / f"bodies_{number:04}.h5"
-    if bodies is None or len(bodies.position) <= named:
-        return None
-    with h5py.File(path, "r", locking=False) as file:
-        if "displacement" not in file:
-            return None
-        moved = np.linalg.norm(file["displacement"][named:], axis=1)
-    return bodies.position[named:], moved, bodies.scale[named:]
+def _way_of_bodies(run, number, count):
+    """Of a thinned snapshot that says how far bodies have come; UNKNOWN of any other."""
+    with h5py.File(run.path / "snapshots" / f"bodies_{number:04}.h5", "r", locking=False) as file:
+        return np.linalg.norm(file["displacement"], axis=1) if "displacement" in file else np.full(count, UNKNOWN)
 
 
-def _first(bodies, count):
-    return type(bodies)(bodies.time, *(part[:count] for part in (bodies.position, bodies.orientation, bodies.scale, bodies.shape)))
+def _outline(run, number):
+    """Of the named bodies in the plane of the section, lines [n, 2, 3] (m)."""
+    bodies, named = run.bodies(number), len(run.scene.get("body", []))
+    if bodies is None:
+        return np.empty((0, 2, 3))
+    first = type(bodies)(bodies.time, *(part[:named] for part in (bodies.position, bodies.orientation, bodies.scale, bodies.shape)))
+    return outline_of(first, run.shapes, 1, float(bodies.position[0, 1]))
 
 
 def _near(run, number, terrain):
@@ -93,13 +102,13 @@ def _draw_from_above(axis, terrain, norm, size):
     order = np.argsort(place[:, 2])
     at = np.clip((place[order, :2] / cell).astype(int), 0, np.array(counts) - 1)
     seen[at[:, 0], at[:, 1]] = 1e3 * moved[order]  # the highest comes last
-    axis.pcolormesh(cell * np.arange(counts[0] + 1), cell * np.arange(counts[1] + 1), seen.T, norm=norm, cmap="YlGnBu")
+    axis.pcolormesh(cell * np.arange(counts[0] + 1), cell * np.arange(counts[1] + 1), seen.T, norm=norm, cmap=SHADES)
 
 
 def _dots(axis, terrain, norm, plane, rows):
     place, moved, size = (part[rows] for part in terrain)
     dots = EllipseCollection(size, size, np.zeros(len(rows)), units="xy", offsets=place[:, plane], transOffset=axis.transData, norm=norm,
-                             cmap="YlGnBu", linewidths=0)
+                             cmap=SHADES, linewidths=0)
     dots.set_array(1e3 * moved)
     axis.add_collection(dots)
     return dots

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from matplotlib.colors import to_rgba
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -21,7 +22,7 @@ sys.path.insert(0, str(ROOT / "postprocess"))
 
 import head_on  # noqa: E402
 from made_up_run import SCENE, STARTS, colours_of, make_run, write_columns  # noqa: E402
-from tread_paper import sensitivity  # noqa: E402
+from tread_paper import fields, sensitivity  # noqa: E402
 from tread_paper.cases import FIGURES, TABLES_ALONE  # noqa: E402
 from tread_paper.history import history_of, smoothed  # noqa: E402
 from tread_paper.measures import Absent, Measures  # noqa: E402
@@ -62,6 +63,12 @@ def make_impact(path):
                                                     "strain": (law.elastic, "J"), "contact": (zero, "J")})
         write_columns(file.create_group("balance"), {"time": (time, "s"), "momentum": (vector(mass * law.body_velocity +
                                                                                              points_mass * law.points_velocity), "kg m/s")})
+
+
+def grey_in(figure):
+    """Whether something is drawn in the colour of what is not known."""
+    drawn = [part for axis in figure.axes for part in axis.collections if part.get_array() is not None]
+    return any((part.to_rgba(part.get_array().ravel()) == to_rgba(fields.NOT_KNOWN)).all(axis=1).any() for part in drawn)
 
 
 class PaperTest(unittest.TestCase):
@@ -119,6 +126,7 @@ class PaperTest(unittest.TestCase):
             thin(Run(folder / "run"), folder / f"thinned_{every}", 40, STARTS[2], [7])
             with h5py.File(folder / f"thinned_{every}" / "snapshots" / "bodies_0007.h5") as file:
                 self.assertEqual("displacement" in file, known)
+            self.assertEqual(grey_in(fields.figure_of("any", [("any", Run(folder / f"thinned_{every}"), 7)])), not known)
 
     def test_the_command_thins(self):
         folder = self.runs.parent / "by_command"
