@@ -25,7 +25,7 @@ TEST(HullDepth, OfAPitIsItsDepth)
 }
 
 /// What solver/device_templates.cpp tells apart: wheels with grousers, and rocks that are nearly their hulls.
-TEST(HullDepth, TellsWheelsFromRocks)
+TEST(FullSizeHullDepth, TellsWheelsFromRocks)
 {
     for (const std::string& name : shape::builtin_shape_names())
     {

@@ -96,7 +96,7 @@ TEST(Template, NodesOfASphereFollowTheSpacingThatIsAskedFor)
     }
 }
 
-TEST(Template, BuiltinWheelsKeepTheirVolumeInTheSdf)
+TEST(FullSizeTemplate, BuiltinWheelsKeepTheirVolumeInTheSdf)
 {
     for (const std::string& name : builtin_shape_names())
     {

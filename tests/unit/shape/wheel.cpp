@@ -310,7 +310,7 @@ TEST(Wheel, TakesNoTwistFromGrousersThatItDoesNotHave)
     EXPECT_EQ(wheel_mesh(g, "drum").vertices, even.vertices);
 }
 
-TEST(Wheel, NodesShareTheAreaEvenlyAndStandOnTheGrousersTips)
+TEST(FullSizeWheel, NodesShareTheAreaEvenlyAndStandOnTheGrousersTips)
 {
     for (const std::string& name : builtin_shape_names())
     {
