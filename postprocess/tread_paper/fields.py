@@ -11,7 +11,7 @@ from matplotlib.colors import Normalize
 
 from tread_post.geometry import point_spacing
 from tread_post.sections import outline_of
-from tread_post.style import figure_grid
+from tread_post.style import GREY, figure_grid
 
 PERCENTILE = 99.5
 # Over the terrain, up to which sections are shown, m.
@@ -20,8 +20,7 @@ ABOVE = 0.25
 CELLS = 80
 # In place of how far something has moved, m: below every scale.
 UNKNOWN = -1.0
-NOT_KNOWN = "#c8c8c8"
-SHADES = matplotlib.colormaps["YlGnBu"].with_extremes(under=NOT_KNOWN)
+SHADES = matplotlib.colormaps["YlGnBu"].with_extremes(under=GREY)
 
 
 def figure_of(title, shown, common_scale=True):
@@ -30,7 +29,7 @@ def figure_of(title, shown, common_scale=True):
     largest = [_largest(moved[moved != UNKNOWN]) for _, moved, _ in terrains]
     outlines = [_outline(run, number) for _, run, number in shown]
     size = shown[0][1].scene["domain"]["size"]
-    tops = [ABOVE + np.percentile(place[:, 2], PERCENTILE) for place, _, _ in terrains] + [1.02 * cut[..., 2].max() for cut in outlines if len(cut)]
+    tops = [ABOVE + np.percentile(place[:, 2], PERCENTILE) for place, _, _ in terrains] + [cut[..., 2].max() for cut in outlines if len(cut)]
     high = min(size[2], max(tops))
     figure, axes = figure_grid(len(shown), 2, 15.0, 7.5 * max(high, size[1]) / size[0] * 0.85 + 1.1)
     for row, ((label, run, number), terrain, cut, scale) in enumerate(zip(shown, terrains, outlines, largest)):

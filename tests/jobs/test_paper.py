@@ -29,7 +29,7 @@ from tread_paper.measures import Absent, Measures  # noqa: E402
 from tread_paper.rolling import centres, rolled_over  # noqa: E402
 from tread_paper.table import put_into, rows_of, table_of  # noqa: E402
 from tread_post import Run, RunError  # noqa: E402
-from tread_post.style import LEVELS, packed_png  # noqa: E402
+from tread_post.style import GREY, LEVELS, packed_png  # noqa: E402
 from tread_post.thinned import put_together, thin  # noqa: E402
 
 # The made-up wheel turns at 0.7 rad/s on 0.2 m with slip 0.3, which is 0.098 m/s, for 1.9 s of a ramp of 0.2 s.
@@ -68,7 +68,7 @@ def make_impact(path):
 def grey_in(figure):
     """Whether something is drawn in the colour of what is not known."""
     drawn = [part for axis in figure.axes for part in axis.collections if part.get_array() is not None]
-    return any((part.to_rgba(part.get_array().ravel()) == to_rgba(fields.NOT_KNOWN)).all(axis=1).any() for part in drawn)
+    return any((part.to_rgba(part.get_array().ravel()) == to_rgba(GREY)).all(axis=1).any() for part in drawn)
 
 
 class PaperTest(unittest.TestCase):
