@@ -4,6 +4,8 @@
 #include <array>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "scene/problems.hpp"
 
 namespace tread::scene
@@ -341,7 +343,7 @@ Value<std::optional<Box>> box_given()
 
 Value<std::vector<Box>> boxes()
 {
-    return {std::string("array of boxes ") + accepted_box,
+    return {fmt::format("array of boxes {}", accepted_box),
             [](const Node& node) { return read_each(read_list(node), read_box); },
             [](const std::vector<Box>& value) { return write_array(value, write_box); }};
 }
