@@ -134,6 +134,19 @@ void complete_reference(Scene& scene, const Node& document, Problems& problems)
     complete_path(scene, scene.reference.file, *file, "reference", "file", "CSV", problems);
 }
 
+void note_lines(Scene& scene, const Node& document)
+{
+    for (const char* table : {"shape", "terrain", "rocks", "body"})
+    {
+        const Node* list  = find(document, table);
+        const auto* items = list != nullptr ? std::get_if<NodeArray>(&list->value) : nullptr;
+        for (std::size_t i = 0; items != nullptr && i < items->size(); ++i)
+        {
+            scene.lines.of[table_label(document, table, i)] = (*items)[i].where.text;
+        }
+    }
+}
+
 template<class T>
 void complete_places(Scene& scene, std::vector<T>& items, const Node& document, const std::string& table,
                      Problems& problems)
@@ -168,6 +181,7 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
     validate(scene, document, problems);
     throw_if_any(problems);
     complete_contacts(scene);
+    note_lines(scene, document);
     return scene;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -363,6 +364,15 @@ struct Reference
     bool operator==(const Reference&) const = default;
 };
 
+/// Where tables of lists were written ("sand.toml:41"), by their names in messages ("rocks[0]", "body.wheel"): for
+/// errors that only the world of a scene shows. No part of what the scene says, so that any two are equal.
+struct Lines
+{
+    std::map<std::string, std::string> of;
+
+    bool operator==(const Lines& /*other*/) const { return true; }
+};
+
 struct Scene
 {
     std::string           title;
@@ -383,6 +393,7 @@ struct Scene
     Sleep                 sleep;
     Reference             reference;
     std::string           directory; ///< of the scene file; mesh paths are relative to it
+    Lines                 lines;
 
     bool operator==(const Scene&) const = default;
 };

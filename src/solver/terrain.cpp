@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "scene/lines.hpp"
 #include "solver/region.hpp"
 
 namespace tread::solver
@@ -147,7 +148,10 @@ void set_velocities(const scene::Scene& scene, HostPoints& points)
 HostPoints make_terrain(const scene::Scene& scene)
 {
     HostPoints points;
-    for (std::size_t table = 0; table < scene.terrain.size(); ++table) { add_table(scene, table, points); }
+    for (std::size_t table = 0; table < scene.terrain.size(); ++table)
+    {
+        scene::with_line_of(scene, fmt::format("terrain[{}]", table), [&] { add_table(scene, table, points); });
+    }
     set_velocities(scene, points);
     return points;
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "scene/lines.hpp"
 #include "solver/body_grid.hpp"
 #include "solver/cover.hpp"
 #include "solver/geostatic.hpp"
@@ -87,18 +88,20 @@ scene::Shape body_shape(const scene::Scene& scene, const scene::Body& body)
     return shape::members(shape::find_shape(scene, body.shape)).front();
 }
 
+std::vector<RockDraw> draw_table(const scene::Scene& scene, std::size_t table, const SavedBeds& beds)
+{
+    if (!scene.rocks[table].from.empty()) { return beds.draws(table); }
+    const auto members = rocks_family(scene, table).size();
+    return draw_rocks(scene.rocks[table], volume(rocks_space(scene, table)), members);
+}
+
 std::vector<std::vector<RockDraw>> draw_all_rocks(const scene::Scene& scene, const SavedBeds& beds)
 {
     std::vector<std::vector<RockDraw>> draws;
     for (std::size_t table = 0; table < scene.rocks.size(); ++table)
     {
-        if (!scene.rocks[table].from.empty())
-        {
-            draws.push_back(beds.draws(table));
-            continue;
-        }
-        const auto members = rocks_family(scene, table).size();
-        draws.push_back(draw_rocks(scene.rocks[table], volume(rocks_space(scene, table)), members));
+        draws.push_back(scene::with_line_of(scene, fmt::format("rocks[{}]", table),
+                                            [&] { return draw_table(scene, table, beds); }));
     }
     return draws;
 }
@@ -160,23 +163,38 @@ double contact_reach(const scene::Scene& scene, double smallest, double equivale
     return largest / std::min(1.0, 0.5 * smallest / equivalent_radius);
 }
 
+shape::ShapeTemplate make_template(const scene::Scene& scene, const Wanted& wanted)
+{
+    const auto& size  = scene.domain.size;
+    const auto  reach = [&](double equivalent_radius)
+    { return contact_reach(scene, wanted.smallest, equivalent_radius); };
+    auto         form   = shape::make_template(wanted.shape, scene.directory, reach);
+    const double extent = form.box.extent().maxCoeff();
+    if (std::isinf(wanted.smallest) && extent > 100 * *std::max_element(size.begin(), size.end()))
+    {
+        throw InputError(fmt::format("[[shape]] '{}': its extent of {:.4g} m is over 100 times the domain; a mesh in "
+                                     "millimetres? then give unit = \"mm\" or unit = 0.001",
+                                     wanted.shape.name, extent));
+    }
+    return form;
+}
+
+/// "shape.clast", of its member "clast-0" too.
+std::string shape_table(const scene::Scene& scene, const std::string& name)
+{
+    const auto found = std::find_if(scene.shapes.begin(), scene.shapes.end(),
+                                    [&](const scene::Shape& shape)
+                                    { return name == shape.name || name.starts_with(shape.name + "-"); });
+    return "shape." + (found == scene.shapes.end() ? name : found->name);
+}
+
 std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene, const std::vector<Wanted>& wanted)
 {
     std::vector<shape::ShapeTemplate> templates;
-    const auto&                       size = scene.domain.size;
     for (const Wanted& one : wanted)
     {
-        const auto reach = [&](double equivalent_radius)
-        { return contact_reach(scene, one.smallest, equivalent_radius); };
-        templates.push_back(shape::make_template(one.shape, scene.directory, reach));
-        const double extent = templates.back().box.extent().maxCoeff();
-        if (std::isinf(one.smallest) && extent > 100 * *std::max_element(size.begin(), size.end()))
-        {
-            throw InputError(
-                fmt::format("[[shape]] '{}': its extent of {:.4g} m is over 100 times the domain; a mesh in "
-                            "millimetres? then give unit = \"mm\" or unit = 0.001",
-                            one.shape.name, extent));
-        }
+        templates.push_back(
+            scene::with_line_of(scene, shape_table(scene, one.shape.name), [&] { return make_template(scene, one); }));
     }
     return templates;
 }
@@ -204,6 +222,8 @@ shape::Bounds world_bounds(const scene::Body& body, const shape::ShapeTemplate& 
     const Vec3<double> at(body.position.data());
     return {scale * form.box.low + at, scale * form.box.high + at};
 }
+
+std::string body_table(const scene::Body& body) { return "body." + body.name; }
 
 void require_clear_of_walls(const scene::Body& body, const shape::ShapeTemplate& form, const World& world)
 {
@@ -252,6 +272,7 @@ void require_clear_of_sand(const scene::Scene& scene, const World& world)
         if (inside[b] > 0)
         {
             throw InputError(
+                scene::line_of(scene, body_table(scene.bodies[b])) +
                 fmt::format("[[body]] '{}': {} points of sand stand inside it or within their radius of it; "
                             "raise position[2] or lower the terrain",
                             scene.bodies[b].name, inside[b]));
@@ -280,6 +301,7 @@ void require_clear_of_each_other(const scene::Scene& scene, const World& world)
                 continue;
             }
             throw InputError(
+                scene::line_of(scene, body_table(scene.bodies[b])) +
                 fmt::format("[[body]] '{}': its position puts it into '{}', by more than {} of the smaller "
                             "one's radius",
                             scene.bodies[b].name, scene.bodies[a].name, deepest_at_start));
@@ -287,16 +309,23 @@ void require_clear_of_each_other(const scene::Scene& scene, const World& world)
     }
 }
 
+void add_table(const scene::Scene& scene, std::size_t table, const std::vector<RockDraw>& drawn, SavedBeds& beds,
+               World& world)
+{
+    const std::size_t first = world.bodies.size();
+    if (scene.rocks[table].from.empty()) { place_rocks(scene, table, drawn, world); }
+    else { beds.place(table, world); }
+    world.bodies.rocks_end.push_back(world.bodies.size());
+    make_room(scene, table, first, world);
+}
+
 void add_rocks(const scene::Scene& scene, const std::vector<std::vector<RockDraw>>& draws, SavedBeds& beds,
                World& world)
 {
     for (std::size_t table = 0; table < scene.rocks.size(); ++table)
     {
-        const std::size_t first = world.bodies.size();
-        if (scene.rocks[table].from.empty()) { place_rocks(scene, table, draws[table], world); }
-        else { beds.place(table, world); }
-        world.bodies.rocks_end.push_back(world.bodies.size());
-        make_room(scene, table, first, world);
+        scene::with_line_of(scene, fmt::format("rocks[{}]", table),
+                            [&] { add_table(scene, table, draws[table], beds, world); });
     }
     beds.finish(world);
 }
@@ -332,7 +361,10 @@ World build_world(const scene::Scene& scene)
     world.templates     = make_templates(scene, wanted_shapes(scene, draws));
     world.points        = make_terrain(scene);
     world.point_spacing = terrain_spacing(scene);
-    for (const scene::Body& body : scene.bodies) { add_body(scene, body, world); }
+    for (const scene::Body& body : scene.bodies)
+    {
+        scene::with_line_of(scene, body_table(body), [&] { add_body(scene, body, world); });
+    }
     require_clear_of_each_other(scene, world);
     require_clear_of_sand(scene, world);
     add_rocks(scene, draws, beds, world);
