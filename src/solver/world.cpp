@@ -280,13 +280,25 @@ void require_clear_of_sand(const scene::Scene& scene, const World& world)
     }
 }
 
-/// Coincident surfaces are no node inside the other: centres tell them.
+/// Whether no surface node of `one` is `margin` (m) or more off the surface of `other`.
+bool clings(const World& world, std::size_t one, std::size_t other, double margin)
+{
+    const HostBodies& bodies = world.bodies;
+    const auto&       nodes  = world.templates[static_cast<std::size_t>(bodies.shape[one])].nodes.positions;
+    return std::all_of(nodes.begin(), nodes.end(),
+                       [&](const Vec3<double>& node)
+                       {
+                           const Vec3<double> turned = bodies.orientation[one] * (bodies.scale[one] * node);
+                           return std::abs(distance(world, other, bodies.position[one] + turned)) < margin;
+                       });
+}
+
+/// Coincident surfaces are no node inside the other. That they are on each other tells them.
 bool overlap(const World& world, std::size_t one, std::size_t other)
 {
-    const HostBodies& bodies  = world.bodies;
-    const double      deepest = deepest_at_start * std::min(bodies.radius[one], bodies.radius[other]);
-    return !apart(world, one, other, -deepest) || distance(world, one, bodies.position[other]) < -deepest ||
-           distance(world, other, bodies.position[one]) < -deepest;
+    const double deepest = deepest_at_start * std::min(world.bodies.radius[one], world.bodies.radius[other]);
+    return !apart(world, one, other, -deepest) ||
+           (clings(world, one, other, deepest) && clings(world, other, one, deepest));
 }
 
 void require_clear_of_each_other(const scene::Scene& scene, const World& world)
