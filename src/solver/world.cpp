@@ -182,10 +182,10 @@ shape::ShapeTemplate make_template(const scene::Scene& scene, const Wanted& want
 /// "shape.clast", of its member "clast-0" too.
 std::string shape_table(const scene::Scene& scene, const std::string& name)
 {
-    const auto found = std::find_if(scene.shapes.begin(), scene.shapes.end(),
-                                    [&](const scene::Shape& shape)
-                                    { return name == shape.name || name.starts_with(shape.name + "-"); });
-    return "shape." + (found == scene.shapes.end() ? name : found->name);
+    const bool own    = std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                                    [&](const scene::Shape& shape) { return shape.name == name; });
+    const auto family = own ? name : name.substr(0, name.rfind('-'));
+    return "shape." + family;
 }
 
 std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene, const std::vector<Wanted>& wanted)
@@ -293,7 +293,7 @@ bool clings(const World& world, std::size_t one, std::size_t other, double margi
                        });
 }
 
-/// Coincident surfaces are no node inside the other. That they are on each other tells them.
+/// Of coincident bodies no node is inside the other: all are on its surface.
 bool overlap(const World& world, std::size_t one, std::size_t other)
 {
     const double deepest = deepest_at_start * std::min(world.bodies.radius[one], world.bodies.radius[other]);
