@@ -191,6 +191,7 @@ std::string shape_table(const scene::Scene& scene, const std::string& name)
 std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene, const std::vector<Wanted>& wanted)
 {
     std::vector<shape::ShapeTemplate> templates;
+    templates.reserve(wanted.size());
     for (const Wanted& one : wanted)
     {
         templates.push_back(
