@@ -7,7 +7,7 @@ namespace
 
 Keys<Walls> wall_keys()
 {
-    const auto wall = word<WallKind>({"slip", "fixed", "frictional", "open"});
+    const auto wall = word<WallKind>({"slip", "fixed", "frictional", "open", "rough"});
     return {
         optional("x", "", &Walls::x, wall, "Both walls normal to x."),
         optional("y", "", &Walls::y, wall, "Both walls normal to y."),
@@ -31,6 +31,30 @@ Keys<Drive> drive_keys()
     };
 }
 
+Keys<Lower> lower_keys()
+{
+    return {
+        required("body", "", &Lower::body, name(), "The body that is lowered: the name of a [[body]]."),
+        required("speed", "m/s", &Lower::speed, number(above(0)),
+                 "Speed along gravity; the body neither turns nor moves otherwise."),
+        optional("share", "", &Lower::share, number(above_up_to(0, 1)),
+                 "Share of the body's weight that contacts carry when the phase ends."),
+    };
+}
+
+Keys<WeightShare> weight_keys()
+{
+    return {
+        required("body", "", &WeightShare::body, name(), "The body: the name of a [[body]]."),
+        required("from", "", &WeightShare::from, number(between(0, 10)), "Share of its weight that acts at first."),
+        optional("to", "", &WeightShare::to, number(between(0, 10)), "Share of its weight that acts after the ramp."),
+        optional("ramp", "s", &WeightShare::ramp, number(at_least(0)),
+                 "Time over which the share goes linearly from `from` to `to`."),
+    };
+}
+
+bool may_end_early(const Phase& phase) { return phase.until != StopRule::duration; }
+
 bool flows(const Material& material) { return is_granular(material.model); }
 
 bool is_drucker_prager(const Material& material) { return material.model == MaterialModel::drucker_prager; }
@@ -49,9 +73,10 @@ Keys<Domain> domain_keys()
         required("gravity", "m/s2", &Domain::gravity, vector3(any_number()), "Acceleration of gravity."),
         table_key<Domain>(
             Presence::optional, "walls", "[domain] walls", &Domain::walls, wall_keys(),
-            "What the domain's faces do to sand: \"slip\" stops the normal velocity, \"fixed\" all of it, "
-            "\"frictional\" is \"slip\" with Coulomb's friction, \"open\" lets it leave. Rocks and bodies meet every "
-            "wall that is not open; their friction with it is that of [[contact]], none with a slip one.",
+            "What the domain's faces do to sand: \"slip\" stops the normal velocity towards the wall, \"fixed\" all "
+            "velocity, so that sand cannot come off it, \"rough\" all velocity of sand that does not come off, "
+            "\"frictional\" is \"slip\" with Coulomb's friction, \"open\" lets sand leave. Rocks and bodies meet "
+            "every wall that is not open; their friction with it is that of [[contact]], none with a slip one.",
             "see below"),
     };
 }
@@ -166,20 +191,29 @@ Keys<Contact> contact_keys()
 
 Keys<Terrain> terrain_keys()
 {
-    const auto on_the_grid = [](const Terrain& terrain) { return !terrain.spacing; };
+    const auto        on_the_grid = [](const Terrain& terrain) { return !terrain.spacing && terrain.from.empty(); };
+    const std::string made        = "`from` left out";
+    const auto        is_made     = [](const Terrain& terrain) { return terrain.from.empty(); };
     return {
         required("material", "", &Terrain::material, name(), "The name of a [[material]] that is not rigid."),
-        terrain_region_key(),
-        terrain_height_key(),
-        terrain_floor_key(),
+        optional("from", "", &Terrain::from, path(),
+                 "A bed that another run saved (`[output] bed_after`): the points of this material in it, where they "
+                 "lay, at rest, with their stress. A relative path starts at the scene file. The material and the "
+                 "grid's spacing must be those of the bed.",
+                 "points are made on a lattice"),
+        terrain_region_key().when(made, is_made),
+        terrain_height_key().when(made, is_made),
+        terrain_floor_key().when(made, is_made),
         optional("points_per_cell", "", &Terrain::points_per_cell, integer_of({1, 8, 27, 64}),
                  "Points in a grid cell: 1, 2, 3 or 4 each way.")
-            .when("spacing left out", on_the_grid),
+            .when("`from` and `spacing` left out", on_the_grid),
         optional("spacing", "m", &Terrain::spacing, number_or("", above(0)),
                  "Distance of the points instead of `points_per_cell`: a lattice that begins half a spacing inside the "
                  "region's low corner.",
-                 "by `points_per_cell`"),
-        optional("velocity", "m/s", &Terrain::velocity, vector3(any_number()), "Of the points at the start."),
+                 "by `points_per_cell`")
+            .when(made, is_made),
+        optional("velocity", "m/s", &Terrain::velocity, vector3(any_number()), "Of the points at the start.")
+            .when(made, is_made),
     };
 }
 
@@ -210,9 +244,14 @@ Keys<Rocks> rocks_keys()
         rocks_floor_key().when(drawn, are_drawn),
         optional(
             "placement", "", &Rocks::placement, word<Placement>({"replace", "rain", "grid", "points"}),
-            "Rocks never overlap. \"replace\": at random, in place of the points there; \"points\": each where a "
-            "point of sand stands, drawn at random, in place of it and of those that it touches; \"rain\": at random, "
+            "Rocks never overlap. \"replace\": at random, in place of as much sand as the rocks have volume there; "
+            "\"points\": the same, each where a point of sand stands, drawn at random; \"rain\": at random, "
             "where there is no sand, to fall from; \"grid\": on a lattice, where there is no sand."),
+        optional("allow_voids", "", &Rocks::allow_voids, boolean(),
+                 "Whether over 5 % of the layer that these rocks stand in may be void, as where rocks are as small as "
+                 "the points of sand around them.")
+            .when("placement = \"replace\" or \"points\"",
+                  [](const Rocks& rocks) { return takes_sand(rocks.placement); }),
         optional("seed", "", &Rocks::seed, integer<std::uint64_t>(0),
                  "Of the random sizes, forms, places and orientations.")
             .when(drawn, are_drawn),
@@ -233,7 +272,9 @@ Keys<Body> body_keys()
         optional("density", "kg/m3", &Body::density, number_or("", above(0)), "Of the shape's solid volume.", one_of),
         optional("mass", "kg", &Body::mass, number_or("", above(0)), "Spread evenly over the shape's volume.", one_of),
         optional("load", "N", &Body::load, number_or("", above(0)), "Weight under the scene's gravity.", one_of),
-        required("position", "m", &Body::position, vector3(any_number()), "Of the centre of mass; inside the domain."),
+        body_position_key(),
+        optional("gap", "m", &Body::gap, number(at_least(0)), "Left between the body and what lies under it.")
+            .when("position = [x, y, \"on surface\"]", [](const Body& body) { return body.on_surface; }),
         optional("velocity", "m/s", &Body::velocity, vector3(any_number()), "When the body is first released."),
         optional("rolling_radius", "m", &Body::rolling_radius, number_or("auto", above(0)),
                  "Radius r of the slip ratio 1 - v_x/(omega r). \"auto\": over the grousers."),
@@ -249,14 +290,23 @@ Keys<Phase> phase_keys()
         optional("hold", "", &Phase::hold, names(), "Bodies that do not move in this phase: names of [[body]]."),
         optional("damping", "", &Phase::damping, number(from_below(0, 1)),
                  "Local (Cundall) damping of sand and rocks; for settling only."),
-        optional("until", "", &Phase::until, word<StopRule>({"duration", "equilibrium"}), "What ends the phase."),
+        optional("until", "", &Phase::until, word<StopRule>({"duration", "equilibrium", "lowered"}),
+                 "What ends the phase: its time, rest of sand and rocks, or that the ground carries what is lowered."),
         required("duration", "s", &Phase::duration, number(above(0)), "Simulated time of the phase.")
             .when("until = \"duration\"", [](const Phase& phase) { return phase.until == StopRule::duration; }),
         required("max_duration", "s", &Phase::max_duration, number(above(0)),
-                 "Simulated time after which the phase ends without equilibrium, with a warning.")
-            .when("until = \"equilibrium\"", [](const Phase& phase) { return phase.until == StopRule::equilibrium; }),
+                 "Simulated time after which the phase ends all the same, with a warning.")
+            .when("until = \"equilibrium\" or \"lowered\"", may_end_early),
         table_key<Phase>(Presence::optional, "drive", "[[phase]] drive", &Phase::drive, drive_keys(),
                          "Prescribed spin, and by `slip` prescribed speed, of one wheel.", "no body is driven"),
+        table_key<Phase>(Presence::required, "lower", "[[phase]] lower", &Phase::lower, lower_keys(),
+                         "A body that goes down at a given speed until the ground carries it; the other way to put a "
+                         "wheel on sand is to drop it, which makes it sink twice as deep.",
+                         "required")
+            .when("until = \"lowered\"", [](const Phase& phase) { return phase.until == StopRule::lowered; }),
+        table_key<Phase>(Presence::optional, "weight", "[[phase]] weight", &Phase::weight, weight_keys(),
+                         "The share of one body's weight that acts, as if a counterweight held the rest.",
+                         "all of it acts"),
     };
 }
 
@@ -268,8 +318,8 @@ Keys<Output> output_keys()
                  "Simulated time between snapshots; 0 writes none."),
         optional(
             "bed_after", "", &Output::bed_after, name(),
-            "The phase at whose end the rocks are saved as bed.h5 in the run's directory, for `[[rocks]] from` of "
-            "other scenes. Only without [[terrain]]; named bodies are not saved. What still moves is saved at rest "
+            "The phase at whose end rocks and sand are saved as bed.h5 in the run's directory, for `[[rocks]] from` "
+            "and `[[terrain]] from` of other scenes. Named bodies are not saved. What still moves is saved at rest "
             "where "
             "it is: forces in equilibrium to 1 % are no rest yet, so end the phase by `duration`, long enough for "
             "kinetic_bodies in timeseries.h5 to have fallen by many decades (under damping it falls at a steady rate).",

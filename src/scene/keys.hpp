@@ -44,6 +44,9 @@ Key<Rocks>   rocks_height_key();
 Key<Rocks>   rocks_floor_key();
 Key<Rocks>   rocks_diameter_key();
 
+/// Position of a [[body]]: given, or on what lies under it (body_keys.cpp).
+Key<Body> body_position_key();
+
 /// Calls visit(name, meaning, member pointer, keys) for each table of a scene, in the order in which they are written.
 /// A member that is a vector is an array of tables.
 template<class Visit>

@@ -115,13 +115,15 @@ void complete_height(const Scene& scene, std::optional<Height>& height, const No
     if (!raster->extent) { raster->extent = PlanExtent{{{0, 0}, {scene.domain.size[0], scene.domain.size[1]}}}; }
 }
 
-void complete_beds(Scene& scene, const Node& document, Problems& problems)
+template<class T>
+void complete_beds(const Scene& scene, std::vector<T>& items, const Node& document, const std::string& table,
+                   Problems& problems)
 {
-    for (std::size_t i = 0; i < scene.rocks.size(); ++i)
+    for (std::size_t i = 0; i < items.size(); ++i)
     {
-        const Node* from = find(std::get<NodeArray>(find(document, "rocks")->value)[i], "from");
-        if (from == nullptr || scene.rocks[i].from.empty()) { continue; }
-        complete_path(scene, scene.rocks[i].from, *from, table_label(document, "rocks", i), "from", "bed.h5 of a run",
+        const Node* from = find(std::get<NodeArray>(find(document, table)->value)[i], "from");
+        if (from == nullptr || items[i].from.empty()) { continue; }
+        complete_path(scene, items[i].from, *from, table_label(document, table, i), "from", "bed.h5 of a run",
                       problems);
     }
 }
@@ -174,7 +176,8 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
     complete_materials(scene);
     complete_wall_friction(scene, document);
     complete_meshes(scene, document, problems);
-    complete_beds(scene, document, problems);
+    complete_beds(scene, scene.terrain, document, "terrain", problems);
+    complete_beds(scene, scene.rocks, document, "rocks", problems);
     complete_reference(scene, document, problems);
     complete_places(scene, scene.terrain, document, "terrain", problems);
     complete_places(scene, scene.rocks, document, "rocks", problems);

@@ -76,11 +76,14 @@ void check_phases(const Scene& scene, Checker& checker)
     {
         const auto& phase = scene.phases[i];
         for (const auto& held : phase.hold) { checker.require_known({"phase", i}, "hold", held, bodies, "[[body]]"); }
-        const auto label = checker.label({"phase", i}) + ".drive";
-        if (phase.drive && !mentions(checker.problems, label, "body"))
+        const auto require_body = [&](const auto& table, const char* key)
         {
-            checker.require_known({"phase", i}, "drive", phase.drive->body, bodies, "[[body]]");
-        }
+            if (!table || mentions(checker.problems, checker.label({"phase", i}) + "." + key, "body")) { return; }
+            checker.require_known({"phase", i}, key, table->body, bodies, "[[body]]");
+        };
+        require_body(phase.drive, "drive");
+        require_body(phase.lower, "lower");
+        require_body(phase.weight, "weight");
     }
 }
 

@@ -216,6 +216,7 @@ using Height = std::variant<Formula, RasterFile>;
 struct Terrain
 {
     std::string           material;
+    std::string           from; ///< absolute path of a saved bed; empty = points on a lattice
     Region                region;
     std::optional<Height> height;              ///< upper surface
     std::optional<Height> floor;               ///< lower surface
@@ -269,8 +270,9 @@ struct Rocks
     Region                      region;
     std::optional<Height>       height; ///< surfaces between which the rocks lie
     std::optional<Height>       floor;
-    Placement                   placement = Placement::replace;
-    std::uint64_t               seed      = 1;
+    Placement                   placement   = Placement::replace;
+    bool                        allow_voids = false; ///< in the sand around rocks that take its place
+    std::uint64_t               seed        = 1;
 
     bool operator==(const Rocks&) const = default;
 };
@@ -280,14 +282,16 @@ struct Body
     std::string              name;
     std::string              shape; ///< a [[shape]], or a built-in wheel
     std::string              material;
-    std::optional<double>    diameter;       ///< m, of the sphere of equal volume; default: the shape's own size
-    std::optional<double>    density;        ///< kg/m3; exactly one of density, mass, load
-    std::optional<double>    mass;           ///< kg
-    std::optional<double>    load;           ///< N under the scene's gravity
-    Vector3                  position{};     ///< m, of the centre of mass
-    Vector3                  velocity{};     ///< m/s, when first released
-    std::optional<double>    rolling_radius; ///< m; default: over the grousers
-    std::vector<std::string> lock;           ///< world degrees of freedom held fixed: x y z roll pitch yaw
+    std::optional<double>    diameter;           ///< m, of the sphere of equal volume; default: the shape's own size
+    std::optional<double>    density;            ///< kg/m3; exactly one of density, mass, load
+    std::optional<double>    mass;               ///< kg
+    std::optional<double>    load;               ///< N under the scene's gravity
+    Vector3                  position{};         ///< m, of the centre of mass; its z is 0 if the body stands on_surface
+    bool                     on_surface = false; ///< z follows from what lies under the body
+    double                   gap        = 0;     ///< m, between what lies there and the body's lowest point
+    Vector3                  velocity{};         ///< m/s, when first released
+    std::optional<double>    rolling_radius;     ///< m; default: over the grousers
+    std::vector<std::string> lock;               ///< world degrees of freedom held fixed: x y z roll pitch yaw
 
     bool operator==(const Body&) const = default;
 };
@@ -302,15 +306,38 @@ struct Drive
     bool operator==(const Drive&) const = default;
 };
 
+/// A body goes down at a given speed until the ground carries a share of its weight.
+struct Lower
+{
+    std::string body;
+    double      speed = 0; ///< m/s, downwards: along gravity
+    double      share = 1; ///< of its weight, carried by contacts at the end
+
+    bool operator==(const Lower&) const = default;
+};
+
+/// The share of a body's weight that acts in a phase; the rest is held by something that moves with it.
+struct WeightShare
+{
+    std::string body;
+    double      from = 1; ///< at phase start
+    double      to   = 1; ///< after the ramp
+    double      ramp = 0; ///< s, linear
+
+    bool operator==(const WeightShare&) const = default;
+};
+
 struct Phase
 {
-    std::string              name;
-    std::vector<std::string> hold;
-    double                   damping      = 0; ///< local (Cundall) damping of sand and rocks
-    StopRule                 until        = StopRule::duration;
-    double                   duration     = 0; ///< s
-    double                   max_duration = 0; ///< s, for until = "equilibrium"
-    std::optional<Drive>     drive;
+    std::string                name;
+    std::vector<std::string>   hold;
+    double                     damping      = 0; ///< local (Cundall) damping of sand and rocks
+    StopRule                   until        = StopRule::duration;
+    double                     duration     = 0; ///< s
+    double                     max_duration = 0; ///< s, for until = "equilibrium" and "lowered"
+    std::optional<Drive>       drive;
+    std::optional<Lower>       lower;  ///< of until = "lowered"
+    std::optional<WeightShare> weight; ///< nothing: all of every body's weight acts
 
     bool operator==(const Phase&) const = default;
 };
@@ -320,7 +347,7 @@ struct Output
     double every           = 0.02; ///< s, time series
     double snapshots_every = 0;    ///< s; 0 = none
 
-    std::string bed_after; ///< phase at whose end the rocks are saved; empty = none
+    std::string bed_after; ///< phase at whose end rocks and sand are saved; empty = none
 
     bool operator==(const Output&) const = default;
 };

@@ -121,6 +121,36 @@ void validate_drive(const Phase& phase, const TableAt& at, Checker& checker)
     }
 }
 
+void validate_lowering(const Scene& scene, const Phase& phase, const TableAt& at, Checker& checker)
+{
+    const std::string& body = phase.lower->body;
+    if (std::find(phase.hold.begin(), phase.hold.end(), body) != phase.hold.end())
+    {
+        checker.report(at, "lower", fmt::format("\"{}\" is both held and lowered", body),
+                       "a body that `hold` does not name");
+    }
+    if (phase.drive && phase.drive->body == body)
+    {
+        checker.report(at, "lower", fmt::format("\"{}\" is both driven and lowered", body),
+                       "a body that is not driven");
+    }
+    if (scene.domain.gravity == Vector3{} && checker.sound({"domain"}, {"gravity"}))
+    {
+        checker.report(at, "lower", "a body is lowered along gravity, and [domain] gravity is zero", "gravity");
+    }
+}
+
+void require_ground(const Scene& scene, Checker& checker)
+{
+    if (!scene.terrain.empty() || !scene.rocks.empty()) { return; }
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    {
+        if (!scene.bodies[i].on_surface) { continue; }
+        checker.report({"body", i}, "position", "\"on surface\" needs a [[terrain]] or [[rocks]] to stand on",
+                       "[x, y, z]");
+    }
+}
+
 void require_terrain_to_replace(const Scene& scene, Checker& checker)
 {
     for (std::size_t i = 0; i < scene.rocks.size(); ++i)
@@ -230,6 +260,7 @@ void validate_phases(const Scene& scene, Checker& checker)
     for (std::size_t i = 0; i < scene.phases.size(); ++i)
     {
         if (scene.phases[i].drive) { validate_drive(scene.phases[i], {"phase", i}, checker); }
+        if (scene.phases[i].lower) { validate_lowering(scene, scene.phases[i], {"phase", i}, checker); }
     }
 }
 
@@ -249,15 +280,11 @@ void validate_contents(const Scene& scene, Checker& checker)
     }
     if (absent("terrain")) { require_terrain_to_replace(scene, checker); }
     else { validate_spacing(scene, checker); }
+    require_ground(scene, checker);
     if (scene.output.bed_after.empty()) { return; }
-    if (!absent("terrain"))
+    if (absent("rocks") && absent("terrain"))
     {
-        checker.report({"output"}, "bed_after", "a bed is of rocks alone, and there is [[terrain]]",
-                       "a scene without [[terrain]]");
-    }
-    if (absent("rocks"))
-    {
-        checker.report({"output"}, "bed_after", "there are no rocks to save", "a scene with [[rocks]]");
+        checker.report({"output"}, "bed_after", "there is no bed to save", "a scene with [[terrain]] or [[rocks]]");
     }
 }
 

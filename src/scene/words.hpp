@@ -9,7 +9,8 @@ enum class WallKind
     slip,
     fixed,
     frictional,
-    open
+    open,
+    rough
 };
 enum class Precision
 {
@@ -87,7 +88,8 @@ constexpr bool takes_sand(Placement placement)
 enum class StopRule
 {
     duration,
-    equilibrium
+    equilibrium,
+    lowered
 };
 /// How bodies tell how deep their surface nodes are in each other.
 enum class NarrowPhase

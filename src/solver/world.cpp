@@ -35,6 +35,8 @@ mpm::WallRule wall_rule(scene::WallKind kind)
         return mpm::WallRule::slip;
     case scene::WallKind::fixed:
         return mpm::WallRule::fixed;
+    case scene::WallKind::rough:
+        return mpm::WallRule::rough;
     case scene::WallKind::frictional:
         return mpm::WallRule::frictional;
     case scene::WallKind::open:

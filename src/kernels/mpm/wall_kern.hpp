@@ -169,14 +169,14 @@ TREAD_HD double rub(WallGroup<Real>& group, int axis, Real friction, Real normal
 template<class Real>
 TREAD_HD double hold(const GridWalls& walls, int axis, int end, WallGroup<Real>& group)
 {
-    const WallRule rule = walls.rule[axis][end];
-    if (rule == WallRule::fixed)
+    const WallRule rule    = walls.rule[axis][end];
+    const Real     inwards = end == 0 ? Real(1) : Real(-1);
+    if (rule != WallRule::fixed && inwards * group.velocity[1][axis] >= 0) { return 0; }
+    if (rule == WallRule::fixed || rule == WallRule::rough)
     {
         for (int c = 0; c < 3; ++c) { hold_component(group, c, Real(1)); }
         return 0;
     }
-    const Real inwards = end == 0 ? Real(1) : Real(-1);
-    if (inwards * group.velocity[1][axis] >= 0) { return 0; }
     const Real normal = inwards * hold_component(group, axis, Real(1));
     return rule == WallRule::frictional ? rub(group, axis, static_cast<Real>(walls.friction), normal) : 0;
 }

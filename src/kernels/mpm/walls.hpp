@@ -11,9 +11,10 @@ namespace tread::mpm
 enum class WallRule : std::int32_t
 {
     open,
-    slip,      ///< no velocity into the wall; sand may leave it
-    fixed,     ///< no velocity
-    frictional ///< as slip, and Coulomb's friction along the wall
+    slip,       ///< no velocity into the wall; sand may leave it
+    fixed,      ///< no velocity: sand cannot come off it
+    frictional, ///< as slip, and Coulomb's friction along the wall
+    rough       ///< no velocity of sand that does not come off
 };
 
 /// [axis][0 = low side, 1 = high side].

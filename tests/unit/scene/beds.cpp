@@ -120,7 +120,7 @@ const std::vector<BadBed> bad_beds{
     {"cut_empty", terrain_box, "region = { except = [[[0, 0, 0], [1, 0, 1]]] }",
      "34: [terrain[0].region] except: element 0: the box is empty"},
     {"spacing_and_cells", "points_per_cell = 8", "points_per_cell = 8\nspacing = 0.01",
-     "35: [terrain[0]] points_per_cell: may stand only with spacing left out"},
+     "35: [terrain[0]] points_per_cell: may stand only with `from` and `spacing` left out"},
     {"spacing_zero", "points_per_cell = 8", "spacing = 0", "35: [terrain[0]] spacing: 0 is out of range"},
     {"count_and_fraction", "count = 5", "count = 5\nsolid_fraction = 0.2",
      "39: [rocks[0]] count: both count and solid_fraction; accepted: exactly one of count, solid_fraction"},
