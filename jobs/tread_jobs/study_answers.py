@@ -97,7 +97,7 @@ def _row(entry, keys, state, directory, name, quantity, judged, hub_run):
         *(float(summary.get(number, math.nan)) for number in ("points", "bodies", "steps", "substeps", "wall_s")),
         float(summary.get("peak_device_bytes") or summary.get("peak_host_bytes", math.nan)), name, quantity.unit,
         math.nan if is_curve else measured, reference.value, reference.uncertainty * share, judged.scatter * share,
-        judged.errors.get(entry.name, math.nan), reference.text)
+        judged.errors.get(entry.name, math.nan), reference.text, judged.noise.get(entry.name, math.nan))
 
 
 def _comments(manifest, options, run):
