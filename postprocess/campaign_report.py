@@ -24,8 +24,8 @@ from tread_post.verdict import ESTIMATED_ERRORS, headline, text_of
 MOST_SLICES = 2  # runs whose sections are shown
 # Columns of the table of answers, as far as slip is no axis. What follows from the axes is in campaign.csv.
 SHOWN = ("slip", "drawbar_pull", "torque", "sinkage", "power_number")
-OF_CURVES = ("Against slip. Markers: the runs' verdicts; a ring where the drive is not steady. Bars: standard deviation over the steady part. Bands: Wong and Reece's formulas with the strength of the scene's sand "
-             "and the stiffness, exponent and shear length of published soils; dashed: those soils.")
+OF_CURVES = ("Against slip. Markers: the runs' verdicts; a ring where the drive is not steady. Bars: standard deviation over the steady "
+             "part. Bands: Wong and Reece's formulas with the strength of the scene's sand and the stiffness, exponent and shear length of published soils; dashed: those soils.")
 OF_DRIVES = ("The drives against time, from the end of their ramps. Markers: from where the means are taken, by the runs' verdicts; a ring where "
              "the drive is not steady from there on.")
 PROVENANCE = ("version", "commit", "backend", "devices", "ranks", "start", "end", "scene_hash")

@@ -78,7 +78,7 @@ def figure_of(traces):
         if trace.name:
             axis.plot(trace.slip if trace.are_means else [], trace.sinkage if trace.are_means else [], color=colour,
                       linestyle=DASHES[number % len(DASHES)], linewidth=1.4, label=trace.name)
-        plot_verdicts(axis, trace.slip, trace.sinkage, trace.verdicts, colour, size=7.0 if trace.are_means else 3.0,
+        plot_verdicts(axis, trace.slip, trace.sinkage, trace.verdicts, colour, size=7.0 if trace.are_means else 4.0,
                       alpha=1.0 if trace.are_means else 0.5)
     for (name, (slip, sinkage)), marker in zip(PUBLISHED.items(), ("*", "^")):
         # Their largest slip is 0.6, where the sinkage is not yet the largest that a wheel reaches.

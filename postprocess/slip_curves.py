@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Drawbar pull, torque, sinkage and power number of a campaign's wheels against slip: mean and spread over the steady part of each drive.
 
-Markers: the runs' verdicts (docs/verdict.md); a ring where a drive had not become steady, or goes on. Bands: Wong and Reece's formulas with the strength of the scene's sand and the stiffness of published
-soils. Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
+Markers: the runs' verdicts (docs/verdict.md); a ring where a drive had not become steady, or goes on. Bands: Wong and Reece's formulas
+with the strength of the scene's sand and the stiffness of published soils. Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
 """
 
 import argparse

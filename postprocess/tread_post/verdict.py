@@ -80,7 +80,7 @@ def plot_verdicts(axis, places, values, verdicts, colour, not_steady=None, size=
     for verdict, (marker, filled) in LOOKS.items():
         chosen = verdicts == verdict
         axis.plot(places[chosen], values[chosen], marker, color=colour, markerfacecolor=colour if filled else "white", markersize=size,
-                  markeredgewidth=1.8 if marker in "x+" else 1.2, linestyle="none", alpha=alpha, zorder=3)
+                  markeredgewidth=(0.26 if marker in "x+" else 0.17) * size, linestyle="none", alpha=alpha, zorder=3)
     if not_steady is not None:
         ring = np.atleast_1d(not_steady) & (verdicts != FAILED)
         axis.plot(places[ring], values[ring], "o", color="#999999", markerfacecolor="none", markersize=RING, linestyle="none", zorder=2)
