@@ -92,7 +92,8 @@ def _draw(axis, table, line, quantity, radius, colour):
     axis.plot(times, means, color=colour, linewidth=1.5, label=line.label)
     start, is_steady = table["steady_from"][line.row], table["steady"][line.row] > 0
     is_done = table["state"][line.row] == "done"
-    plot_verdicts(axis, start, np.interp(start, times, means), table.verdicts[line.row], colour, not (is_steady and is_done), size=6.0)
+    # Dark, as a cross in the colour of its line is lost on it.
+    plot_verdicts(axis, start, np.interp(start, times, means), table.verdicts[line.row], "#333333", not (is_steady and is_done), size=6.0)
 
 
 def _colours(count, by_slip):
