@@ -17,16 +17,17 @@ import slices
 import slip_curves
 from tread_post import RunError
 from tread_post.campaign import CampaignTable
-from tread_post.page import figure, page, paragraph, preformatted, section, table
+from tread_post.page import figure, headline_paragraph, page, paragraph, preformatted, section, table
 from tread_post.style import readable, with_unit
+from tread_post.verdict import ESTIMATED_ERRORS, headline, text_of
 
 MOST_SLICES = 2  # runs whose sections are shown
 # Columns of the table of answers, as far as slip is no axis. What follows from the axes is in campaign.csv.
 SHOWN = ("slip", "drawbar_pull", "torque", "sinkage", "power_number")
-OF_CURVES = ("Against slip. Bars: standard deviation over the steady part. Bands: Wong and Reece's formulas with the strength of the scene's sand "
-             "and the stiffness, exponent and shear length of published soils; dashed: those soils.")
-OF_DRIVES = ("The drives against time, from the end of their ramps. Dots: from where the means are taken; filled where the drive is steady "
-             "from there on.")
+OF_CURVES = ("Against slip. Markers: the runs' verdicts; a ring where the drive is not steady. Bars: standard deviation over the steady "
+             "part. Bands: Wong and Reece's formulas with the strength of the scene's sand and the stiffness, exponent and shear length of published soils; dashed: those soils.")
+OF_DRIVES = ("The drives against time, from the end of their ramps. Markers: from where the means are taken, by the runs' verdicts; a ring where "
+             "the drive is not steady from there on.")
 PROVENANCE = ("version", "commit", "backend", "devices", "ranks", "start", "end", "scene_hash")
 
 
@@ -35,6 +36,14 @@ def arguments():
     parser.add_argument("campaign", type=Path, metavar="DIR", help="of a campaign, after `jobs/campaign.py collect`")
     parser.add_argument("--output", type=Path, metavar="FILE.html", help="default: DIR/report.html")
     return parser.parse_args()
+
+
+def verdict_of(campaign):
+    """The first line of the page."""
+    lines = [headline_paragraph(headline(campaign.verdicts))]
+    if "verdict" not in campaign.columns:
+        lines.append(paragraph("This table is older than verdicts: `jobs/campaign.py collect` adds them."))
+    return "\n".join(lines)
 
 
 def summary_of(campaign):
@@ -59,21 +68,24 @@ def axes_of(campaign):
 
 
 def answers_of_all(campaign):
-    """Every case: axes, means with spreads, and whether they are of a steady state."""
+    """Every case: verdict, axes, means with spreads, and whether they are of a steady state."""
     labels = campaign.label_columns
     quantities = [name for name in SHOWN if name in campaign.columns and not (name == "slip" and campaign.slip_axes)]
-    head = ["case", *(key.partition("/")[2] for key in labels), "state", "steady"]
+    head = ["case", *(key.partition("/")[2] for key in labels), "state", "verdict", "worst figure", "steady"]
     head += [with_unit(name.replace("_", " "), readable(campaign[name], campaign.units[name])[1]) for name in quantities]
-    head += [f"{name} error" for name in ("momentum", "energy") if f"{name}_error" in campaign.columns]
+    errors = [name for name in (*ESTIMATED_ERRORS, "momentum_error", "energy_error", "warnings") if name in campaign.columns]
+    head += [f"{name.replace('_', ' ')}{' (estimated)' if name in ESTIMATED_ERRORS else ''}" for name in errors]
     rows = []
     for row in range(len(campaign)):
-        cells = [f"{int(campaign['number'][row]):04}", *(campaign[key][row] for key in labels), campaign["state"][row], steadiness(campaign, row)]
+        cells = [f"{int(campaign['number'][row]):04}", *(campaign[key][row] for key in labels), campaign["state"][row], text_of(campaign.verdicts[row]),
+                 campaign.columns.get("worst_figure", {row: ""})[row], steadiness(campaign, row)]
         cells += [mean_and_spread(campaign, name, row) for name in quantities]
-        cells += [short(campaign[f"{name}_error"][row]) for name in ("momentum", "energy") if f"{name}_error" in campaign.columns]
+        cells += [campaign[name][row] if name in (*ESTIMATED_ERRORS, "warnings") else short(campaign[name][row]) for name in errors]
         rows.append(cells)
-    marked = {row for row in range(len(campaign)) if campaign["state"][row] != "done"}
-    note = paragraph("Means and standard deviations over the steady part of the last drive. Where no steady part was found: over its last half.")
-    return section("Answers", note, table(head, rows, marked))
+    kinds = [campaign.verdicts[row] if campaign["state"][row] == "done" else "not-done" for row in range(len(campaign))]
+    note = paragraph("Means and standard deviations over the steady part of the last drive. Where no steady part was found: over its last half. "
+                     "Verdict: how well the run was resolved, by its worst figure (docs/verdict.md).")
+    return section("Answers", note, table(head, rows, kinds))
 
 
 def short(number):
@@ -127,6 +139,16 @@ def rows_with_snapshots(campaign):
     return rows
 
 
+def warnings_of(campaign):
+    """What `check` and the runs warned of, each sentence once with the cases that it was said of."""
+    cases = {}
+    for row, text in enumerate(campaign.columns.get("warning_text", ())):
+        for line in filter(None, text.split("\n")):
+            cases.setdefault(line, []).append(f"{int(campaign['number'][row]):04}")
+    parts = [paragraph(f"{line} ({', '.join(numbers)})") for line, numbers in cases.items()]
+    return section("Warnings", *(parts or [paragraph("None.")]))
+
+
 def failures_of(campaign):
     parts = []
     for row in np.flatnonzero(campaign["state"] != "done"):
@@ -145,8 +167,8 @@ def provenance_of(campaign):
 
 
 def report_of(campaign):
-    return page(campaign.title, [summary_of(campaign), axes_of(campaign), figures_of(campaign), answers_of_all(campaign), failures_of(campaign),
-                                 provenance_of(campaign)])
+    return page(campaign.title, [verdict_of(campaign), summary_of(campaign), answers_of_all(campaign), warnings_of(campaign), figures_of(campaign),
+                                 axes_of(campaign), failures_of(campaign), provenance_of(campaign)])
 
 
 def main():

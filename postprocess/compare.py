@@ -13,6 +13,7 @@ import numpy as np
 from tread_post import Run, RunError
 from tread_post.answers import QUANTITIES, answers_of
 from tread_post.style import COLOURS, figure_grid, finish, legend_below, readable, with_unit, write
+from tread_post.verdict import resolution_of, text_of
 
 # Title, column of /wheel, component.
 PANELS = (("way", "position", 0), ("sinkage", "sinkage", None), ("drawbar pull", "drawbar_pull", None), ("lift", "force", 2),
@@ -73,6 +74,14 @@ def print_means(runs):
         print(f"{word}: {'steady' if answers['steady'] else 'not steady: last half of the drive, from'} {answers['steady_from']:.3g} s")
 
 
+def print_verdicts(runs):
+    for word, run in zip(("first", "second"), runs):
+        found = resolution_of(run.summary)
+        print(f"{word}: {text_of(found.verdict)}{': ' if found.worst_figure else ''}{found.worst_figure}")
+        for warning in found.warnings:
+            print(f"{word}: warning: {warning}")
+
+
 def figure_of(runs, wheel):
     figure, axes = figure_grid(3, 2, 14.0, 3.6, sharex=True)
     series = [run.wheel(wheel) for run in runs]
@@ -84,7 +93,8 @@ def figure_of(runs, wheel):
             values = [np.where(np.abs(value) <= 1.1, value, np.nan) for value in values]
         factor, unit = readable(np.concatenate(values), series[0].units[column])
         for table, value, colour, dashes, run in zip(series, values, COLOURS, ("-", "--"), runs):
-            axis.plot(table["time"], factor * value, color=colour, linestyle=dashes, linewidth=1.6, label=f"{run.path}: {run.title}")
+            axis.plot(table["time"], factor * value, color=colour, linestyle=dashes, linewidth=1.6, 
+                      label=f"{run.path}: {run.title} ({text_of(resolution_of(run.summary).verdict)})")
         axis.set_ylabel(with_unit(label, unit))
         finish(axis)
     for axis in axes[-1]:
@@ -105,6 +115,7 @@ def main():
         time = first_difference([run.wheel(name) for run in runs])
         print(f"{name}: " + ("all rows agree to the bit" if time is None else f"rows differ from {time:.6g} s on"))
     print_means(runs)
+    print_verdicts(runs)
     write(figure_of(runs, common[0]), options.output)
 
 

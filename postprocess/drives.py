@@ -2,7 +2,7 @@
 """Drawbar pull, torque and sinkage of a campaign's drives against time: what is steady in them, and what the means of slip_curves.py stand for.
 
 A row of panels for each combination of the axes that are not slip, a line for each slip; without a slip axis a line for each case. Dots: from where
-the means are taken, hollow where the drive had not become steady. Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
+the means are taken, by the runs' verdicts (docs/verdict.md), with a ring where a drive had not become steady. Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
 """
 
 import argparse
@@ -17,7 +17,8 @@ import slip_curves
 from tread_post import RunError
 from tread_post.answers import last_drive
 from tread_post.campaign import CampaignTable
-from tread_post.style import COLOURS, figure_grid, finish, readable, with_unit, write
+from tread_post.style import COLOURS, figure_grid, finish, legend_below, readable, with_unit, write
+from tread_post.verdict import FAILED, headline, plot_verdicts, verdict_handles
 
 PANELS = (("drawbar_pull", "drawbar pull / weight"), ("torque", "torque / (weight x radius)"), ("sinkage", "sinkage"))
 # Of the means that are drawn, s.
@@ -52,7 +53,8 @@ def groups_of(table):
     groups = []
     for curve in slip_curves.curves_of(table) if table.slip_axes else [_all_cases(table)]:
         labels = [f"slip {table['slip'][row]:.2g}" if table.slip_axes else _label(table, row) for row in curve.rows]
-        lines = [Line(label, row, drive) for label, row in zip(labels, curve.rows) if (drive := _drive(table, row))]
+        rows = [(label, row) for label, row in zip(labels, curve.rows) if table.verdicts[row] != FAILED]
+        lines = [Line(label, row, drive) for label, row in rows if (drive := _drive(table, row))]
         if lines:
             groups.append(Group(curve.name, lines, curve.wheel.radius if curve.wheel else np.nan))
     return groups
@@ -74,7 +76,8 @@ def figure_of(table):
         row[-1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     for axis in axes[-1]:
         axis.set_xlabel("time  [s]")
-    figure.suptitle(table.title, fontsize=15)
+    legend_below(figure, verdict_handles(table.verdicts), 3)
+    figure.suptitle(f"{table.title}\n{headline(table.verdicts)}", fontsize=15)
     return figure
 
 
@@ -88,7 +91,9 @@ def _draw(axis, table, line, quantity, radius, colour):
     times, means = (np.array([column[part].mean() for part in parts]) for column in (time, factor * values))
     axis.plot(times, means, color=colour, linewidth=1.5, label=line.label)
     start, is_steady = table["steady_from"][line.row], table["steady"][line.row] > 0
-    axis.plot(start, np.interp(start, times, means), "o", color=colour, markerfacecolor=colour if is_steady else "white", markersize=6, zorder=3)
+    is_done = table["state"][line.row] == "done"
+    # Dark, as a cross in the colour of its line is lost on it.
+    plot_verdicts(axis, start, np.interp(start, times, means), table.verdicts[line.row], "#333333", not (is_steady and is_done), size=6.0)
 
 
 def _colours(count, by_slip):

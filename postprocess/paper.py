@@ -11,6 +11,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from tread_paper import verdicts
 from tread_paper.cases import FIGURES, TABLES_ALONE
 from tread_paper.measures import Absent, Measures
 from tread_paper.sensitivity import lines_of
@@ -57,6 +58,10 @@ def main():
     for case in [*FIGURES, *TABLES_ALONE] if options.case == "all" else [options.case]:
         if case == "sensitivity":
             fill_sensitivity(options.output, options.document)
+            continue
+        if case == "verdicts":
+            document = options.document.read_text(encoding="utf-8")
+            options.document.write_text(put_into(document, case, verdicts.lines_of(options.runs)), encoding="utf-8")
             continue
         draw_case(case, measures, options.output)
         fill_case(case, measures, options.output, options.document)

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Drawbar pull, torque, sinkage and power number of a campaign's wheels against slip: mean and spread over the steady part of each drive.
 
-Hollow where a drive had not become steady, or goes on. Bands: Wong and Reece's formulas with the strength of the scene's sand and the stiffness of published
-soils. Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
+Markers: the runs' verdicts (docs/verdict.md); a ring where a drive had not become steady, or goes on. Bands: Wong and Reece's formulas
+with the strength of the scene's sand and the stiffness of published soils. Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
 """
 
 import argparse
@@ -14,7 +14,8 @@ import numpy as np
 
 from tread_post import RunError
 from tread_post.campaign import CampaignTable
-from tread_post.style import COLOURS, GREY, MARKERS, figure_grid, finish, legend_below, readable, with_unit, write
+from tread_post.style import COLOURS, DASHES, GREY, figure_grid, finish, legend_below, readable, with_unit, write
+from tread_post.verdict import FAILED, headline, plot_verdicts, verdict_handles
 from tread_post.wong_reece import PUBLISHED, predict, soils_like, wheel_of
 
 PANELS = (
@@ -43,19 +44,28 @@ def arguments():
 
 
 def curves_of(table):
-    """One Curve for each combination of the axes that are not slip, of the cases that have answers."""
+    """One Curve for each combination of the axes that are not slip, of the cases that have answers and did not fail."""
     if "torque" not in table.columns:
         raise RunError(f"{table.path}: no case has driven a wheel to speed")
     others = [key for key in table.label_columns if key.partition("/")[2] not in (*table.slip_axes, "repeat")]
     groups = {}
-    for row in np.flatnonzero(np.isfinite(table["torque"])):
-        groups.setdefault(", ".join(table[key][row] for key in others), []).append(row)
+    for row in np.flatnonzero(np.isfinite(table["torque"]) & (table.verdicts != FAILED)):
+        groups.setdefault(", ".join(_setting(table, key, row) for key in others), []).append(row)
     curves = []
     for name, rows in groups.items():
         rows = np.array(sorted(rows, key=lambda row: table["slip"][row]))
         scene = table.scene(rows[0])
         curves.append(Curve(name or table.title, rows, wheel_of(scene, float(np.mean(table["weight"][rows]))), scene))
     return curves
+
+
+def _setting(table, key, row):
+    """The label of a case on an axis; a bare number is given its axis and unit."""
+    name = key.partition("/")[2]
+    if f"axes/{name}" not in table.columns:
+        return table[key][row]
+    unit = table.units[f"axes/{name}"]
+    return f"{name} {table[key][row]}{'' if unit == '1' else ' ' + unit}"
 
 
 def values_of(table, curve, quantity):
@@ -76,10 +86,9 @@ def plot_curve(axis, table, curve, quantity, style, factor):
     slip, steady = table["slip"][curve.rows], (table["steady"][curve.rows] > 0) & (table["state"][curve.rows] == "done")
     if quantity == "power_number":
         mean = np.where(np.abs(mean) <= MOST_POWER, mean, np.nan)
-    colour, marker = style
-    axis.errorbar(slip, factor * mean, factor * spread, color=colour, linewidth=1.4, capsize=3, elinewidth=0.9, zorder=2)
-    for chosen, face in ((steady, colour), (~steady, "white")):
-        axis.plot(slip[chosen], factor * mean[chosen], marker, color=colour, markerfacecolor=face, markersize=7, zorder=3)
+    colour, dashes = style
+    axis.errorbar(slip, factor * mean, factor * spread, color=colour, linestyle=dashes, linewidth=1.4, capsize=3, elinewidth=0.9, zorder=2)
+    plot_verdicts(axis, slip, factor * mean, table.verdicts[curve.rows], colour, ~steady)
 
 
 def predictions(wheel, soils, slips):
@@ -121,22 +130,22 @@ def figure_of(table):
         factor, unit = readable(values, values_of(table, curves[0], quantity)[2])
         scales[quantity] = factor
         for number, curve in enumerate(curves):
-            plot_curve(axis, table, curve, quantity, (COLOURS[number % 7], MARKERS[number % 7]), factor)
+            plot_curve(axis, table, curve, quantity, (COLOURS[number % 7], DASHES[number % 4]), factor)
         axis.set(xlabel="slip", ylabel=with_unit(label, unit))
         finish(axis)
     wheels = different_wheels(curves)
     if wheels and soils_like(curves[0].scene, 1.0):
         plot_predictions((axes[2, 0], axes[0, 1], axes[1, 1]), wheels, curves[0].scene, scales["sinkage"])
-    legend_below(figure, legend_of(axes[2, 0], curves, bool(wheels)), 2)
-    figure.suptitle(table.title, fontsize=15)
+    legend_below(figure, legend_of(table, axes[2, 0], curves, bool(wheels)), 2)
+    figure.suptitle(f"{table.title}\n{headline(table.verdicts)}", fontsize=15)
     return figure
 
 
-def legend_of(axis, curves, with_soils):
+def legend_of(table, axis, curves, with_soils):
     import matplotlib.pyplot as plt
 
-    handles = [plt.Line2D([], [], color=COLOURS[i % 7], marker=MARKERS[i % 7], label=curve.name) for i, curve in enumerate(curves)]
-    handles.append(plt.Line2D([], [], color=GREY, marker="o", linestyle="", markerfacecolor="white", label="not steady, or not done"))
+    handles = [plt.Line2D([], [], color=COLOURS[i % 7], linestyle=DASHES[i % 4], label=curve.name) for i, curve in enumerate(curves)]
+    handles += verdict_handles(table.verdicts)
     if with_soils:
         handles += axis.get_legend_handles_labels()[0]
         handles.append(plt.Line2D([], [], color=GREY, linestyle="--", label=f"Wong-Reece: {', '.join(soil.name for soil in PUBLISHED)}"))

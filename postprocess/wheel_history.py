@@ -12,6 +12,7 @@ import numpy as np
 
 from tread_post import Run, RunError
 from tread_post.style import COLOURS, figure_grid, finish, readable, with_unit, write
+from tread_post.verdict import resolution_of, text_of
 
 # x, y, z, and one for scalars.
 COMPONENT_COLOURS = (COLOURS[1], COLOURS[2], COLOURS[0])
@@ -94,7 +95,7 @@ def figure_of(run, name):
     axes[0, 0].set_xlim(time[0], max(time[-1], time[0] + 1e-9))
     for axis in axes[-1]:
         axis.set_xlabel("time  [s]")
-    figure.suptitle(f"{run.title}\n{name}", fontsize=15)
+    figure.suptitle(f"{run.title}\n{name} ({text_of(resolution_of(run.summary).verdict)})", fontsize=15)
     return figure
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Error against run time, points and memory, from the table of a study (`tread study`, docs/study.md): a plot with the Pareto front marked, the front as
-a table, and the cheapest setting within a tolerance in a sentence.
+a table, the cheapest setting within a tolerance in a sentence, and the order of convergence with the extrapolated value.
 
 Needs Debian's python3-numpy and python3-matplotlib.
 """
@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Callable
 
 from tread_post.fronts import cheapest_within, pareto_front, times_cheaper
+from tread_post.orders import order_sentences
 from tread_post.run import RunError
 from tread_post.study_table import read_study, short_name
 from tread_post.style import COLOURS, GREY, MARKERS, figure_grid, finish, legend_below, plt, write
@@ -203,6 +204,10 @@ def main():
     together = sentence_of_all(study, options.within, cost)
     if together:
         print(together)
+    orders = order_sentences(study)
+    if orders:
+        print("\norder of convergence, and the value extrapolated to zero:")
+        print("\n".join(orders))
     print()
     write(figure_of(study, options.within, cost), options.output or options.table.with_suffix(".png"))
 

@@ -16,6 +16,7 @@ try:
     from tread_post.answers import answers_of
     from tread_post.campaign import write_campaign_table
     from tread_post.run import Run, RunError
+    from tread_post.verdict import FAILED, resolution_of
 except ImportError as missing:
     raise MachineError(f"collect needs h5py and numpy ({missing}): on Debian /usr/bin/python3 with python3-h5py") from missing
 
@@ -35,6 +36,9 @@ def collect_campaign(directory, states, dry_run):
             "state": ([states[entry.name].state for entry in entries], "1"),
             "reason": ([states[entry.name].reason for entry in entries], "1"),
             "tail": ([states[entry.name].tail for entry in entries], "1"),
+            "verdict": ([_verdict(row, states[entry.name].state) for row, entry in zip(rows, entries)], "1"),
+            "worst_figure": ([row["resolution"].worst_figure for row in rows], "1"),
+            "warning_text": (["\n".join(row["resolution"].warnings) for row in rows], "1"),
         },
         "labels": {name: ([entry.labels[name] for entry in entries], "1") for name in entries[0].labels},
         "axes": {name: column for name in entries[0].labels if (column := _numbers(entries, manifest, name))},
@@ -67,8 +71,17 @@ def _row(case):
     numbers = {name: (summary[name], unit) for name, unit in NUMBERS.items() if isinstance(summary.get(name), (int, float))}
     errors = summary.get("errors") or {}
     numbers |= {f"{name}_error": (errors[name], unit) for name, unit in ERRORS.items() if isinstance(errors.get(name), (int, float))}
+    resolution = resolution_of(summary)
+    numbers |= {name: (value, "1") for name, value in resolution.errors.items()}
+    if summary:
+        numbers["warnings"] = (len(resolution.warnings), "1")
     texts = {name: _text(summary[name]) for name in PROVENANCE if summary.get(name) is not None}
-    return {"answers": answers, "summary": numbers, "provenance": texts}
+    return {"answers": answers, "summary": numbers, "provenance": texts, "resolution": resolution}
+
+
+def _verdict(row, state):
+    """A case that was killed has failed, too, although its summary, if any, is one of before."""
+    return FAILED if state == FAILED else row["resolution"].verdict
 
 
 def _columns(rows):
@@ -90,10 +103,10 @@ def _text(value):
 
 
 def _csv_text(groups):
-    """As campaign.h5, with units in the header; tails of logs are left to it. Axes are numbers where they can be, and else labels."""
+    """As campaign.h5, with units in the header; tails of logs and words of warnings are left to it. Axes are numbers where they can be, and else labels."""
     axes = {f"axis_{name}": groups["axes"].get(name, column) for name, column in groups["labels"].items()}
     parts = (groups["case"], axes, groups["answers"], groups["summary"], groups["provenance"])
-    columns = [(name, *column) for part in parts for name, column in part.items() if name != "tail"]
+    columns = [(name, *column) for part in parts for name, column in part.items() if name not in ("tail", "warning_text")]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([name if unit == "1" else f"{name} [{unit}]" for name, _, unit in columns])

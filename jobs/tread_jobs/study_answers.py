@@ -17,6 +17,7 @@ try:
     from tread_post.references import Variant, from_file, hub_of, judge, known_value
     from tread_post.run import Run, RunError
     from tread_post.study_table import Row, write_study
+    from tread_post.verdict import resolution_of
 except ImportError as missing:
     raise MachineError(f"a study needs h5py, numpy and matplotlib ({missing}): Debian's python3-h5py and python3-matplotlib, with /usr/bin/python3; "
                        "TREAD_PYTHON names another interpreter") from missing
@@ -93,11 +94,11 @@ def _row(entry, keys, state, directory, name, quantity, judged, hub_run):
     is_curve = reference.curve is not None
     return Row(
         entry.name, settings, entry.labels[PERTURBATION] if _is_perturbed(entry, axes) else "", state,
-        (summary.get("resolution") or {}).get("verdict", ""),
+        resolution_of(summary).verdict,
         *(float(summary.get(number, math.nan)) for number in ("points", "bodies", "steps", "substeps", "wall_s")),
         float(summary.get("peak_device_bytes") or summary.get("peak_host_bytes", math.nan)), name, quantity.unit,
         math.nan if is_curve else measured, reference.value, reference.uncertainty * share, judged.scatter * share,
-        judged.errors.get(entry.name, math.nan), reference.text)
+        judged.errors.get(entry.name, math.nan), reference.text, judged.noise.get(entry.name, math.nan))
 
 
 def _comments(manifest, options, run):

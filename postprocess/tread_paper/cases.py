@@ -11,6 +11,7 @@ from tread_paper.history import history_of
 from tread_paper.measures import Absent
 from tread_paper.rolling import rolled_over
 from tread_paper.substeps import substep_figure
+from tread_post.verdict import resolution_of, text_of
 
 
 def histories(measures, named):
@@ -18,7 +19,8 @@ def histories(measures, named):
     found = []
     for name, label in named:
         try:
-            found.append((label, history_of(measures.run(name))))
+            run = measures.run(name)
+            found.append((f"{label} ({text_of(resolution_of(run.summary).verdict)})", history_of(run)))
         except Absent:
             continue
     if not found:
@@ -145,7 +147,7 @@ def of_snapshots(shown):
     return shown
 
 
-TABLES_ALONE = ("method", "cost", "sensitivity")  # of no case
+TABLES_ALONE = ("method", "cost", "sensitivity", "verdicts")  # of no case
 
 FIGURES = {
     "head_on": {"head_on": impact},

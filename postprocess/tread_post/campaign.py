@@ -9,9 +9,10 @@ import h5py
 import numpy as np
 
 from tread_post.run import Run, RunError
+from tread_post.verdict import FAILED, UNKNOWN
 
 SCHEMA = "tread-campaign"
-VERSION = (1, 0)
+VERSION = (1, 1)
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,12 @@ class CampaignTable:
 
     def __getitem__(self, name):
         return self.columns[name]
+
+    @property
+    def verdicts(self):
+        """Of each case on its own resolution, [n]. UNKNOWN of all in tables that were collected before there were verdicts."""
+        told = self.columns.get("verdict", np.full(len(self), UNKNOWN))
+        return np.where(self["state"] == "failed", FAILED, told).astype(object)
 
     @property
     def slip_axes(self):

@@ -9,7 +9,8 @@ h1 { font-size: 1.7em; } h2 { font-size: 1.25em; margin-top: 2em; border-bottom:
 table { border-collapse: collapse; font-size: 0.85em; } .wide { overflow-x: auto; }
 th, td { padding: 0.25em 0.55em; border-bottom: 1px solid #e2e2e2; text-align: right; white-space: nowrap; }
 th { background: #f3f3f3; position: sticky; top: 0; } td.text, th.text { text-align: left; }
-tr.not-done td { background: #fdf0e2; } pre { background: #f6f6f6; padding: 0.8em; overflow-x: auto; font-size: 0.8em; }
+tr.not-done td, tr.failed td { background: #fdf0e2; } tr.under-resolved td { background: #fbe3e0; } tr.marginal td { background: #fff8dc; }
+p.headline { font-weight: bold; font-size: 1.15em; } pre { background: #f6f6f6; padding: 0.8em; overflow-x: auto; font-size: 0.8em; }
 img { max-width: 100%; } figcaption { color: #555; font-size: 0.9em; }
 """
 
@@ -32,6 +33,10 @@ def paragraph(text):
     return f"<p>{escape(text)}</p>"
 
 
+def headline_paragraph(text):
+    return f"<p class=\"headline\">{escape(text)}</p>"
+
+
 def preformatted(text):
     return f"<pre>{escape(text)}</pre>"
 
@@ -44,8 +49,8 @@ def figure(picture, caption):
     return f"<figure><img alt=\"{escape(caption)}\" src=\"data:image/png;base64,{source}\"><figcaption>{escape(caption)}</figcaption></figure>"
 
 
-def table(head, rows, marked=()):
-    """Cells are texts, to the left, or numbers; rows whose number is in `marked` stand out."""
+def table(head, rows, kinds=()):
+    """Cells are texts, to the left, or numbers. `kinds`: class of each row, by which it stands out; empty of those that do not."""
     def cell(tag, value):
         is_text = isinstance(value, str)
         shown = value if is_text else "" if value != value else f"{value:.4g}"
@@ -53,6 +58,6 @@ def table(head, rows, marked=()):
 
     lines = ["<tr>" + "".join(cell("th", name) for name in head) + "</tr>"]
     for number, row in enumerate(rows):
-        kind = ' class="not-done"' if number in marked else ""
+        kind = f' class="{kinds[number]}"' if kinds and kinds[number] else ""
         lines.append(f"<tr{kind}>" + "".join(cell("td", value) for value in row) + "</tr>")
     return "<div class=\"wide\"><table>\n" + "\n".join(lines) + "\n</table></div>"

@@ -8,6 +8,7 @@ import numpy as np
 from tread_post.answers import last_drive
 from tread_post.geometry import point_spacing
 from tread_post.run import RunError
+from tread_post.steady import INDEPENDENT, error_of_mean
 
 # Of the last phase of a scene that drives no wheel, over which means are taken: its end.
 LAST_PART = 0.1
@@ -23,6 +24,7 @@ class Quantity:
     right: float | None = None  # where it is the same for all scenes
     reads_points: bool = False  # of the last snapshot
     of_history: Callable | None = None  # of values [n] over the window: what a file of times and values is summed up by
+    noise: Callable | None = None  # of a Run: standard error of a mean
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,19 @@ def _mean(name):
     return lambda run: float(np.mean(getattr(window_of(run), name)))
 
 
+def _noise(name):
+    """Standard error of the mean over the window. A drift is no noise, as every variant has it: it is taken out before."""
+    def measure(run):
+        window = window_of(run)
+        values = getattr(window, name)
+        if len(values) < 2 * INDEPENDENT:
+            return 0.0
+        slope, height = np.polyfit(window.time - window.time[0], values, 1)
+        return error_of_mean(values - slope * (window.time - window.time[0]) - height)
+
+    return measure
+
+
 def _largest(name, component=None):
     def measure(run):
         column = run.wheel(body_name(run.scene))[name]
@@ -102,11 +117,12 @@ def _load(run):
 
 
 QUANTITIES = {
-    "force": Quantity("N", _mean("force"), "vertical force of the ground on the wheel, mean", of_history=np.mean),
+    "force": Quantity("N", _mean("force"), "vertical force of the ground on the wheel, mean", of_history=np.mean, noise=_noise("force")),
     "force_peak": Quantity("N", _largest("force", 2), "the largest vertical force of a row of the time series"),
-    "torque": Quantity("N m", _mean("torque"), "torque that drives the wheel, mean", of_history=np.mean),
-    "drawbar_pull": Quantity("N", _mean("drawbar_pull"), "mean; its errors are shares of the vertical force", _load, of_history=np.mean),
-    "sinkage": Quantity("m", _mean("sinkage"), "mean", of_history=np.mean),
+    "torque": Quantity("N m", _mean("torque"), "torque that drives the wheel, mean", of_history=np.mean, noise=_noise("torque")),
+    "drawbar_pull": Quantity("N", _mean("drawbar_pull"), "mean; its errors are shares of the vertical force", _load, of_history=np.mean,
+                             noise=_noise("drawbar_pull")),
+    "sinkage": Quantity("m", _mean("sinkage"), "mean", of_history=np.mean, noise=_noise("sinkage")),
     "sinkage_peak": Quantity("m", _largest("sinkage"), "the deepest"),
     "energy": Quantity("1", unaccounted_energy, "unaccounted, over the largest that changed hands; right is 0", lambda run: 1.0, right=0.0),
     "profile": Quantity("m", profile, "height of the sand along the track at the end; its error is the rms difference over the range",

@@ -50,6 +50,7 @@ class Judged:
     reference: Reference
     scale: float  # NaN of a curve
     scatter: float  # standard deviation of perturbed repeats; NaN without
+    noise: dict  # standard error by variant, of means over time; 0 of others
 
 
 def size_of(key, value):
@@ -61,6 +62,7 @@ def size_of(key, value):
 def judge(variants, quantity, known, design):
     """`known`: Reference of a right answer, or None, for the limit of the variants. `design`: "grid" or "star"."""
     measured = {variant.name: quantity.measure(variant.run) for variant in variants}
+    noises = {variant.name: quantity.noise(variant.run) if quantity.noise else 0.0 for variant in variants}
     hub = hub_of([variant for variant in variants if not variant.is_perturbed], design)
     own = [measured[variant.name] for variant in variants if variant.is_own or variant.is_perturbed]
     if np.ndim(measured[hub.name]):
@@ -71,12 +73,12 @@ def judge(variants, quantity, known, design):
         scale = math.nan
     else:
         scatter = float(np.std(own, ddof=1)) if len(own) > 1 else math.nan
-        reference = known or _limit(hub, variants, measured, scatter, design)
+        reference = known or _limit(hub, variants, measured, (scatter, noises), design)
         scale = quantity.scale(hub.run) if quantity.scale else abs(reference.value)
         errors = {name: abs(value - reference.value) / scale if scale > 0 else math.nan for name, value in measured.items()}
     if reference.hub:
         errors[reference.hub] = math.nan
-    return Judged(measured, errors, reference, scale, scatter)
+    return Judged(measured, errors, reference, scale, scatter, noises)
 
 
 def known_value(value, share, text):
@@ -129,15 +131,17 @@ def _arm(hub, variants, key):
             and all(variant.settings[other] == hub.settings[other] for other in hub.settings if other != key)]
 
 
-def _limit(hub, variants, measured, scatter, design):
-    """The errors of several keys add up: what each key converges to, less the hub's value, is a correction."""
+def _limit(hub, variants, measured, spreads, design):
+    """The errors of several keys add up: what each key converges to, less the hub's value, is a correction. `spreads`: (scatter of repeats, noise by
+    variant)."""
+    scatter, noises = spreads
     noise = 0.0 if math.isnan(scatter) else scatter
     own = [variant.name for variant in variants if variant.is_own or variant.is_perturbed]
     is_mean = design == "star" and len(own) > 1
     middle = float(np.mean([measured[name] for name in own])) if is_mean else measured[hub.name]
     value, squares, texts, orders = middle, (noise**2 / len(own) if is_mean else noise**2), [], []
     for key in hub.settings:
-        limit = _limit_along(key, hub, variants, {**measured, hub.name: middle}, noise)
+        limit = _limit_along(key, hub, variants, {**measured, hub.name: middle}, (noise, noises))
         if limit is None:
             continue
         # What does not converge corrects nothing, but may be as far off as it is.
@@ -153,14 +157,15 @@ def _limit(hub, variants, measured, scatter, design):
                      order=orders[0] if len(orders) == 1 else None)
 
 
-def _limit_along(key, hub, variants, measured, noise):
+def _limit_along(key, hub, variants, measured, spreads):
+    scatter, noises = spreads
     arm = _arm(hub, variants, key)
     best = BEST_WORDS.get(key.rpartition(".")[2])
     if best is not None:
         found = [variant for variant in arm if variant.settings[key] == best]
         return Limit(measured[found[0].name], 0.0, None, best, is_limit=True) if found and len(arm) > 1 else None
-    sized = {size_of(key, variant.settings[key]): measured[variant.name] for variant in arm if size_of(key, variant.settings[key]) is not None}
-    return limit_of(list(sized), list(sized.values()), noise) if len(sized) > 1 else None
+    sized = {size: variant.name for variant in arm if (size := size_of(key, variant.settings[key])) is not None}
+    return limit_of(list(sized), [measured[name] for name in sized.values()], scatter, [noises[name] for name in sized.values()]) if len(sized) > 1 else None
 
 
 def _limit_of_curves(hub, variants, measured):

@@ -44,10 +44,11 @@ def steady_part(time, values):
 
 def _over(time, values, first, is_steady):
     part = values[first:]
-    return Steady(float(time[first]), float(part.mean()), float(part.std()), _error_of_mean(part), is_steady)
+    return Steady(float(time[first]), float(part.mean()), float(part.std()), error_of_mean(part), is_steady)
 
 
-def _error_of_mean(values):
+def error_of_mean(values):
+    """Standard error, from the means of INDEPENDENT parts."""
     parts = np.array([part.mean() for part in np.array_split(values, INDEPENDENT)])
     return float(parts.std(ddof=1) / np.sqrt(INDEPENDENT))
 

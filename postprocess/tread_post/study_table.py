@@ -9,9 +9,9 @@ from tread_post.run import RunError
 
 # Between the settings and these stands nothing; what is before them is a setting.
 TEXTS = ("repeat", "state", "verdict", "quantity", "unit", "reference")
-NUMBERS = ("points", "bodies", "steps", "substeps", "wall_s", "memory_bytes", "measured", "right", "uncertainty", "scatter", "error")
-COLUMNS = ("repeat", "state", "verdict", "points", "bodies", "steps", "substeps", "wall_s", "memory_bytes", "quantity", "unit", "measured", "right",
-           "uncertainty", "scatter", "error", "reference")
+NUMBERS = ("points", "bodies", "steps", "substeps", "wall_s", "memory_bytes", "measured", "noise", "right", "uncertainty", "scatter", "error")
+COLUMNS = ("repeat", "state", "verdict", "points", "bodies", "steps", "substeps", "wall_s", "memory_bytes", "quantity", "unit", "measured", "noise",
+           "right", "uncertainty", "scatter", "error", "reference")
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,7 @@ class Row:
     scatter: float  # of perturbed repeats, share
     error: float  # share
     reference: str
+    noise: float = math.nan  # standard error of a mean over time; 0 of others, NaN in tables that are older than this column
 
     @property
     def is_candidate(self):
@@ -84,7 +85,7 @@ def read_study(path):
         reader = csv.DictReader(line for line in lines if not line.startswith("#"))
         keys = [name for name in reader.fieldnames or () if name != "variant" and name not in COLUMNS]
         rows = [Row(cells["variant"], {key: cells[key] for key in keys}, **{name: cells[name] for name in TEXTS},
-                    **{name: float(cells[name] or math.nan) for name in NUMBERS}) for cells in reader]
+                    **{name: float((cells.get(name, "") if name == "noise" else cells[name]) or math.nan) for name in NUMBERS}) for cells in reader]
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise RunError(f"{path}: no table of a study ({error!r})") from error
     if not rows:

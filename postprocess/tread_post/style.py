@@ -1,4 +1,4 @@
-"""What all figures share: letters, colours, grids, units, and the legend of what is steady."""
+"""What all figures share: letters, colours, grids and units."""
 
 import io
 
@@ -12,6 +12,7 @@ from PIL import Image
 # Okabe and Ito's colours, which the colour-blind can tell apart; with markers, so that prints in grey do, too.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#333333")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+DASHES = ("-", "--", "-.", ":")
 GRID, GREY = "#cccccc", "#999999"
 LEVELS = 8  # of 255, by which a colour of a picture may be off
 

@@ -41,6 +41,8 @@ drive = { body = "front wheel", angular_velocity = 0.7, ramp = 0.2, slip = 0.3 }
 """
 RADIUS, SURFACE = 0.2, 0.15
 STARTS = (0.0, 0.4, 0.9)
+RESOLUTION = {"verdict": "under-resolved", "figures": {"contact_cells": {
+    "value": 2.0, "resolved": 20.0, "marginal": 6.0, "verdict": "under-resolved"}}}
 
 
 def write_columns(group, columns):
@@ -170,7 +172,7 @@ def write_bodies(path, time):
 def make_run(path):
     (path / "snapshots").mkdir(parents=True)
     (path / "scene.toml").write_text(SCENE, encoding="utf-8")
-    (path / "summary.json").write_text(json.dumps({"status": "finished"}), encoding="utf-8")
+    (path / "summary.json").write_text(json.dumps({"status": "finished", "resolution": RESOLUTION}), encoding="utf-8")
     with h5py.File(path / "timeseries.h5", "w") as file:
         write_columns(file.create_group("wheel/front wheel"), wheel_history(151))
         write_columns(file.create_group("energy"), energy_history(151))

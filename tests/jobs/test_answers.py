@@ -12,10 +12,12 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from matplotlib.image import imread
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "postprocess"))
 
+import campaign_report  # noqa: E402
 import compare  # noqa: E402
 import slices  # noqa: E402
 import slip_curves  # noqa: E402
@@ -25,6 +27,7 @@ from tread_post.answers import answers_of, last_drive  # noqa: E402
 from tread_post.campaign import CampaignTable, write_campaign_table  # noqa: E402
 from tread_post.sections import outline_of  # noqa: E402
 from tread_post.steady import steady_part  # noqa: E402
+from tread_post.verdict import headline, plot_verdicts, resolution_of, verdict_handles  # noqa: E402
 from tread_post.wong_reece import PUBLISHED, Wheel, predict  # noqa: E402
 
 
@@ -59,6 +62,51 @@ class SteadyTest(unittest.TestCase):
     def test_too_little_says_nothing(self):
         self.assertIsNone(steady_part(self.time[:10], self.noise[:10]))
         self.assertIsNone(steady_part(self.time, np.full(1000, np.nan)))
+
+
+class VerdictTest(unittest.TestCase):
+    """What is read from a summary.json, and what is said and drawn of it."""
+
+    figures = {"mass_error": {"value": 0.0, "resolved": 1e-6, "marginal": 1e-3, "verdict": "resolved"},
+               "transfer_loss": {"value": 0.5, "resolved": 0.02, "marginal": 0.1, "verdict": "under-resolved"},
+               "contact_cells": {"value": 2.0, "resolved": 20.0, "marginal": 6.0, "verdict": "under-resolved"},
+               "pull_error": {"value": 0.18, "resolved": 0.05, "marginal": 0.2, "verdict": "marginal"}}
+
+    def test_of_a_summary(self):
+        found = resolution_of({"status": "finished", "resolution": {"verdict": "under-resolved", "figures": self.figures}, "warnings": ["gravity points up"]})
+        self.assertEqual((found.verdict, found.errors, found.warnings), ("under-resolved", {"pull_error": 0.18}, ("gravity points up",)))
+        # 0.5 is 25 times its bound, 2 cells a tenth of theirs.
+        self.assertEqual(found.worst_figure, "transfer_loss 0.5 (resolved to 0.02, marginal to 0.1)")
+        fewer = {name: figure for name, figure in self.figures.items() if name != "transfer_loss"}
+        self.assertEqual(resolution_of({"resolution": {"verdict": "under-resolved", "figures": fewer}}).worst_figure,
+                         "contact_cells 2 (resolved from 20, marginal from 6)")
+
+    def test_a_failed_run_is_never_resolved(self):
+        for verdict in ("resolved", "marginal", "under-resolved"):
+            self.assertEqual(resolution_of({"status": "failed", "resolution": {"verdict": verdict, "figures": {}}}).verdict, "failed")
+
+    def test_without_figures(self):
+        for summary in (None, {}, {"status": "finished"}, {"status": "finished", "resolution": None, "warnings": None}):
+            self.assertEqual((resolution_of(summary).verdict, resolution_of(summary).worst_figure, resolution_of(summary).warnings), ("", "", ()))
+        # JSON writes null for what is not a number.
+        broken = {"energy_error": {"value": None, "resolved": 0.01, "marginal": 0.05, "verdict": "under-resolved"}}
+        self.assertIn("energy_error no number", resolution_of({"resolution": {"verdict": "under-resolved", "figures": broken}}).worst_figure)
+
+    def test_headlines(self):
+        self.assertEqual(headline(["under-resolved", "marginal", "under-resolved", "marginal"]), "2 of 4 cases are under-resolved, 2 are marginal; none resolved.")
+        self.assertEqual(headline(["resolved", "failed", ""]), "1 of 3 cases failed, 1 has no verdict; 1 resolved.")
+        self.assertEqual(headline(["resolved"] * 3), "All 3 cases are resolved.")
+
+    def test_markers(self):
+        from tread_post.style import figure_grid
+
+        axis = figure_grid(1, 1)[1][0, 0]
+        plot_verdicts(axis, [1, 2, 3, 4], [1, 2, 3, 4], np.array(["resolved", "marginal", "under-resolved", "failed"], object), "#0072B2",
+                      np.array([False, True, False, True]))
+        drawn = [(line.get_marker(), line.get_markerfacecolor(), line.get_xdata().tolist()) for line in axis.get_lines() if len(line.get_xdata())]
+        self.assertEqual(drawn, [("o", "#0072B2", [1]), ("o", "white", [2]), ("x", "#0072B2", [3]), ("o", "none", [2])])
+        labels = [handle.get_label() for handle in verdict_handles(["resolved", "under-resolved", "failed"])]
+        self.assertEqual(labels, ["resolved: 1", "marginal: 0", "under-resolved: 1", "failed, not drawn: 1", "ring: not steady, or not done"])
 
 
 class WongReeceTest(unittest.TestCase):
@@ -129,12 +177,24 @@ class RunTest(unittest.TestCase):
 
     def test_pictures(self):
         for name, options in (("energy.py", (self.path,)), ("slices.py", (self.path,)), ("slices.py", (self.path, "--plane", "z", "--at", "0.145")),
-                              ("sinkage_slip.py", (self.path,)), ("compare.py", (self.path, self.path))):
+                              ("compare.py", (self.path, self.path))):
             output = self.path.parent / f"{name}.png"
             done = self.command(name, *options, "--output", output)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(done.stdout.splitlines()[-1], str(output))
             self.assertGreater(colours_of(output), 20, name)
+
+    def test_picture_of_sinkage_and_slip(self):
+        """All rows of the run have one slip and one sinkage: a blue dot and a blue line of the legend, in a picture that is grey otherwise."""
+        output = self.path.parent / "sinkage_slip.png"
+        done = self.command("sinkage_slip.py", self.path, "--output", output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        picture = imread(output)[:, :, :3]
+        blue = picture[:, :, 2] - picture[:, :, 0] > 0.3
+        columns, rows = np.flatnonzero(blue.any(axis=0)), np.flatnonzero(blue.any(axis=1))
+        self.assertGreater(blue.sum(), 50)
+        self.assertGreater(np.diff(rows).max(), 100)  # the dot, far above the legend's line
+        self.assertLess(columns.max(), 0.6 * picture.shape[1])
 
     def test_film(self):
         from PIL import Image
@@ -205,9 +265,14 @@ class CampaignPagesTest(unittest.TestCase):
             "cost": json.dumps({"gpu_hours": 0.0, "core_hours": 1.5})}, {
             "case": {"number": (list(range(count)), "1"), "state": (["failed" if bad else "done" for bad in failed], "1"),
                      "reason": (["exit 3: <script>alert(1)</script>" if bad else "1 s" for bad in failed], "1"),
-                     "tail": (["a & b" if bad else "" for bad in failed], "1")},
+                     "tail": (["a & b" if bad else "" for bad in failed], "1"),
+                     # Of case 5, as if collected from a summary of before it failed.
+                     "verdict": (["resolved", "marginal", "under-resolved", "", "resolved", "resolved", "under-resolved", "marginal"], "1"),
+                     "worst_figure": (["", "", "contact_cells 2 (resolved from 20, marginal from 6)"] + [""] * 5, "1"),
+                     "warning_text": (["", "gravity <up>"] + [""] * 5 + ["gravity <up>"], "1")},
             "labels": {"terrain": (["sand"] * 4 + ["rocks"] * 4, "1"), "slip": ([f"{slip:g}" for slip in slips], "1")},
-            "axes": {"slip": (slips, "1")}, "answers": answers, "summary": {"wall_s": ([10.0] * count, "s")},
+            "axes": {"slip": (slips, "1")}, "answers": answers,
+            "summary": {"wall_s": ([10.0] * count, "s"), "warnings": ([0.0, 1.0] + [0.0] * 5 + [1.0], "1"), "pull_error": ([0.18] * count, "1")},
             "provenance": {"version": (["0.1.0"] * count, "1")}})
 
     def test_curves(self):
@@ -232,6 +297,33 @@ class CampaignPagesTest(unittest.TestCase):
         self.assertEqual(re.findall(r"(?:src|href)=\"(?!data:)", page), [])
         self.assertIn("15.0 ± 2.5", page)  # mm
         self.assertIn("6 of 7 drives became steady", page)
+        self.check_verdicts(page)
+
+    def check_verdicts(self, page):
+        # The first thing under the title; the first table; rows of their own kind; warnings once, with their cases.
+        self.assertIn('</h1>\n<p class="headline">2 of 8 cases are under-resolved, 2 are marginal, 1 failed, 1 has no verdict; 2 resolved.</p>', page)
+        first = page[page.index("<table>"):page.index("</table>")]
+        rows = first.split("<tr")[2:]
+        self.assertEqual([next(word for word in ("under-resolved", "marginal", "resolved", "failed", "no verdict") if f">{word}</td>" in row.replace(
+            ">failed</td>", "", 1)) for row in rows],
+            ["resolved", "marginal", "under-resolved", "no verdict", "resolved", "failed", "under-resolved", "marginal"])
+        self.assertIn("contact_cells 2 (resolved from 20, marginal from 6)", first)
+        self.assertIn("pull error (estimated)", first)
+        self.assertEqual(len(re.findall(r'<tr class="under-resolved">', first)), 2)
+        self.assertIn("<p>gravity &lt;up&gt; (0001, 0007)</p>", page)
+
+    def test_a_table_of_before_verdicts(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(self.path / "cases", Path(folder) / "cases")
+            shutil.copy(self.path / "campaign.h5", folder)
+            with h5py.File(Path(folder) / "campaign.h5", "a") as file:
+                for name in ("verdict", "worst_figure", "warning_text"):
+                    del file[f"case/{name}"]
+            table = CampaignTable(folder)
+            self.assertEqual(table.verdicts.tolist(), [""] * 5 + ["failed"] + [""] * 2)
+            page = campaign_report.report_of(table)
+            self.assertIn("This table is older than verdicts", page)
+            self.assertIn("1 of 8 cases failed, 7 have no verdict; none resolved.", page)
 
     def test_tables_of_other_schemas(self):
         for version, words in (((2, 0), "read here is"), (None, "schema None")):

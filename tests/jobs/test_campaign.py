@@ -3,6 +3,7 @@
 
 import csv
 import fcntl
+import json
 import os
 import re
 import shutil
@@ -203,6 +204,10 @@ class Local(CampaignTest):
         for row in rows:
             self.assertAlmostEqual(float(row["slip"]), float(row["axis_slip"]), 5)  # what was asked for is what was measured
             self.assertEqual(row["state"], "done")
+            summary = json.loads((self.output / "cases" / f"{int(row['number']):04}" / "run" / "summary.json").read_text(encoding="utf-8"))
+            self.assertEqual(row["verdict"], summary["resolution"]["verdict"])
+            self.assertEqual(row["worst_figure"] == "", row["verdict"] == "resolved")
+            self.assertEqual(int(row["warnings"]), len(summary.get("warnings", [])))
         with h5py.File(self.output / "campaign.h5") as file:
             self.assertEqual(file["answers/torque"].attrs["units"], "N m")
             self.assertEqual(file["axes/slip"][:].tolist(), [0.1, 0.1, 0.5, 0.5])
@@ -219,7 +224,16 @@ class Local(CampaignTest):
         self.assertRegex(done.stdout, r"0001  failed .*\(exit 3\)\n +\| no luck")
         self.assertRegex(done.stdout, r"0002  failed .*\(killed by SIGKILL\)")
         self.assertIn("2 done, 2 failed", done.stdout)
+        # A summary that a killed run left of before says nothing for it.
+        (self.output / "cases/0002/run").mkdir(exist_ok=True)
+        (self.output / "cases/0002/run/summary.json").write_text(json.dumps(
+            {"status": "stopped", "exit_code": 0, "resolution": {"verdict": "resolved", "figures": {}}}), encoding="utf-8")
         self.campaign("collect")  # a table at any time
+        with open(self.output / "campaign.csv", newline="", encoding="utf-8") as file:
+            verdicts = [row["verdict"] for row in csv.DictReader(file)]
+        self.assertEqual(verdicts[1:3], ["failed", "failed"])
+        (self.output / "cases/0002/run/summary.json").unlink()
+        (self.output / "cases/0002/run").rmdir()
         (self.directory / "broken").unlink()
         self.assertRegex(self.campaign("retry", program=program).stdout, r"2 cases in 2 tasks(.|\n)*4 done")
         self.assertEqual((self.output / "submissions/0002/tasks.txt").read_text(), "0001\n0002\n")

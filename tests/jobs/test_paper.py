@@ -22,7 +22,7 @@ sys.path.insert(0, str(ROOT / "postprocess"))
 
 import head_on  # noqa: E402
 from made_up_run import SCENE, STARTS, colours_of, make_run, write_columns  # noqa: E402
-from tread_paper import fields, sensitivity  # noqa: E402
+from tread_paper import fields, sensitivity, verdicts  # noqa: E402
 from tread_paper.cases import FIGURES, TABLES_ALONE  # noqa: E402
 from tread_paper.history import history_of, smoothed  # noqa: E402
 from tread_paper.measures import Absent, Measures  # noqa: E402
@@ -172,14 +172,44 @@ class PaperTest(unittest.TestCase):
             {"what": "order", "paper": "<", "measure": ["slip_sand mean slip 1 2", "absent last way", "slip_sand mean lift 1 2"],
              "format": "{:.1f}, {:.1f}, {:.0f}", "order": "<"},
             {"what": "none", "paper": "1", "measure": "absent last way", "within": [0, 1]},
-            {"what": "said", "paper": "1", "ours": "2", "verdict": "impossible"},
+            {"what": "said", "paper": "1", "ours": "2", "remark": "impossible"},
+            {"what": "seen", "paper": "a track", "ours": "a figure", "by_eye": "a track"},
+            {"what": "near", "paper": "0.1", "measure": "slip_sand mean speed 1 2", "expected": 0.1, "tolerance": 0.03, "remark": "by chance"},
+            {"what": "not near", "paper": "0.1", "measure": ["slip_sand mean speed 1 2", "slip_sand mean slip 1 2"], "expected": [0.1, 0.4], "tolerance": 0.03},
+            {"what": "the first is", "paper": "0.1", "measure": ["slip_sand mean speed 1 2", "slip_sand mean slip 1 2"], "expected": 0.1, "tolerance": 0.03, "first": 1},
+            {"what": "equal", "paper": "", "measure": ["slip_sand mean slip 1 1.5", "slip_sand mean slip 1.5 2"], "order": "=", "tolerance": 0.01},
+            {"what": "fast", "paper": "", "measure": "slip_sand mean speed 1 2", "target": 0.09, "remark": "late"},
+            {"what": "bare", "paper": "", "measure": "slip_sand mean speed 1 2"},
         ]
         lines = table_of(rows, self.measures)[2:]
-        self.assertEqual(lines[0], "| in | 1 | 0.098 | agrees |")
-        self.assertEqual(lines[1], "| out | 1 | 98 mm/s | differs because |")
-        self.assertTrue(lines[2].startswith("| order | < | 0.3, -, 63") and lines[2].endswith("| agrees |"), lines[2])
+        self.assertEqual(lines[0], "| in | 1 | 0.098 | agrees [0.09 to 0.1] |")
+        self.assertEqual(lines[1], "| out | 1 | 98 mm/s | differs [0.09 to 0.1]; because |")
+        self.assertTrue(lines[2].startswith("| order | < | 0.3, -, 63") and lines[2].endswith("| agrees [rising] |"), lines[2])
         self.assertEqual(lines[3], "| none | 1 | not measured: absent was not run | open |")
-        self.assertEqual(lines[4], "| said | 1 | 2 | impossible |")
+        self.assertEqual([line.rpartition("| ")[0].rpartition(" | ")[2] if line.endswith("| |") else line.split(" | ")[3].removesuffix(" |") for line in lines[4:-1]],
+                         ["not judged: impossible", "read off by eye: a track", "agrees [0.1 within 3 %]; by chance", "differs [0.1, 0.4 within 3 %]",
+                          "agrees [0.1 within 3 %]", "agrees [equal to 1 %]", "missed [at most 0.09]; late"])
+        self.assertEqual(lines[-1], "| bare |  | 0.098 |  |")
+
+    def test_no_verdict_is_typed(self):
+        path = self.runs.parent / "typed.toml"
+        for bad, words in (('ours = "c"\nremark = "agrees well"\n', "only a computed verdict may"), ('ours = "c"\nverdict = "agrees"\n', "unknown: verdict"),
+                           ('ours = "c"\nremark = "the two differ"\n', "only a computed verdict may"), ('ours = "c"\nwithin = [0, 1]\n', "nothing is"),
+                           ('measure = "a b c"\nwithin = [0, 1]\norder = "<"\n', "at most one"), ('measure = "a b c"\nexpected = 1.0\n', "tolerance belongs")):
+            path.write_text(f'[[row]]\nwhat = "a"\npaper = "b"\n{bad}', encoding="utf-8")
+            with self.assertRaisesRegex(RunError, words):
+                rows_of(path)
+
+    def test_verdicts_of_stored_runs(self):
+        folder = self.runs.parent / "stored"
+        for name, text in (("a", '{"status": "finished", "resolution": {"verdict": "marginal", "figures": {"contact_cells": '
+                                 '{"value": 8.0, "resolved": 20.0, "marginal": 6.0, "verdict": "marginal"}}}}'),
+                           ("b", '{"status": "failed", "resolution": {"verdict": "resolved", "figures": {}}}'), ("c", '{"status": "finished"}')):
+            (folder / name).mkdir(parents=True)
+            (folder / name / "summary.json").write_text(text, encoding="utf-8")
+        self.assertEqual(verdicts.lines_of(folder), [
+            "**1 of 3 stored runs is marginal, 1 failed, 1 has no verdict; none resolved.**", "", "| run | verdict | worst figure |", "|---|---|---|",
+            "| a | marginal | contact_cells 8 (resolved from 20, marginal from 6) |", "| b | failed |  |", "| c | no verdict |  |"])
 
     def test_tables_take_their_place(self):
         self.assertEqual(put_into("a\n<!-- x -->\nold\n<!-- end of x -->\nb\n", "x", ["new"]), "a\n<!-- x -->\nnew\n<!-- end of x -->\nb\n")
@@ -191,7 +221,7 @@ class PaperTest(unittest.TestCase):
         impacts = {f"head_on_{name}" for name in ("1", "8", "27", "27_paper_dt", "1_paper_dt")}
         runs = self.runs.parent / "any"
         runs.mkdir(exist_ok=True)
-        for case in {*FIGURES, *TABLES_ALONE} - {"sensitivity"}:
+        for case in {*FIGURES, *TABLES_ALONE} - {"sensitivity", "verdicts"}:
             rows = rows_of(DOCS / "paper" / f"{case}.toml")
             self.assertGreater(len(rows), 4)
             put_into(text, case, [])
@@ -202,7 +232,7 @@ class PaperTest(unittest.TestCase):
                         (runs / name).symlink_to(self.runs / ("head_on_27" if name in impacts else "slip_sand"))
             self.assertEqual(len(table_of([row for row in rows if "summary" not in str(row.get("measure"))], Measures(runs))[0]), len(
                 "| | paper | here | verdict |"))
-        for bad in ('[[row]]\nwhat = "a"\npaper = "b"\nours = "c"\n', '[[row]]\nwhat = "a"\npaper = "b"\nours = "c"\nverdict = "d"\nhue = 1\n'):
+        for bad in ('[[row]]\nwhat = "a"\npaper = "b"\n', '[[row]]\nwhat = "a"\npaper = "b"\nours = "c"\nhue = 1\n'):
             (self.runs.parent / "bad.toml").write_text(bad, encoding="utf-8")
             with self.assertRaises(RunError):
                 rows_of(self.runs.parent / "bad.toml")
