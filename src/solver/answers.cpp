@@ -104,15 +104,11 @@ struct Series
     std::vector<double> values;
 };
 
+/// The first are pull and load.
 std::vector<Series> driven_series(const History& history, const std::vector<std::size_t>& rows, double direction)
 {
-    std::vector<double> pull = pick(history.force, rows, direction, 3, 0), load = pick(history.force, rows, 1, 3, 2);
-    const double        mean_load = moments(load).mean;
-    std::vector<double> share     = pull;
-    for (double& value : share) { value /= mean_load; }
-    return {{"pull", "N", true, std::move(pull)},
-            {"pull_over_load", "1", false, std::move(share)},
-            {"load", "N", false, std::move(load)},
+    return {{"pull", "N", true, pick(history.force, rows, direction, 3, 0)},
+            {"load", "N", false, pick(history.force, rows, 1, 3, 2)},
             {"torque", "N m", true, pick(history.torque, rows, -direction, 3, 1)},
             {"sinkage", "m", true, pick(history.sinkage, rows)},
             {"slip", "1", false, pick(history.slip, rows)},
@@ -163,6 +159,15 @@ io::PhaseAnswers answers_of(const std::vector<double>& time, const std::vector<S
     return answers;
 }
 
+/// Behind the pull, its share of the mean load.
+void add_share(std::vector<io::Answer>& quantities)
+{
+    const io::Answer pull = quantities[0];
+    const double     load = quantities[1].mean;
+    quantities.insert(quantities.begin() + 1, {"pull_over_load", "1", pull.mean / load, pull.spread / load,
+                                               pull.standard_error / load, std::nullopt});
+}
+
 std::string text_of(const io::Answer& answer)
 {
     std::string text = fmt::format("{} {:.4g}", answer.name, answer.mean);
@@ -203,8 +208,9 @@ std::vector<io::BodyAnswers> make_answers(const scene::Scene& scene, const std::
             const double direction = driven && phase.drive->angular_velocity < 0 ? -1 : 1;
             auto         one       = answers_of(pick(history.time, rows),
                                   driven ? driven_series(history, rows, direction) : standing_series(history, rows));
-            one.phase              = phase.name;
-            one.ended              = span.phase < ended;
+            if (driven) { add_share(one.quantities); }
+            one.phase = phase.name;
+            one.ended = span.phase < ended;
             answers.phases.push_back(std::move(one));
         }
         all.push_back(std::move(answers));

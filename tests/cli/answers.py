@@ -109,7 +109,7 @@ class Answers(CommandTest):
             self.assertAlmostEqual(wheel["sinkage"][0], -0.005, delta=1e-6)
 
     def test_a_run_that_stops_within_a_phase_says_so(self):
-        phases = self.summary_of(driven().replace("duration = 0.3", "duration = 300"), "--walltime-limit", "00:00:08", code=75)["answers"]["roller"]
+        phases = self.summary_of(driven(0.01).replace("duration = 0.3", "duration = 300"), "--walltime-limit", "00:00:08", code=75)["answers"]["roller"]
         self.assertEqual([phase["ended"] for phase in phases], [False])
         self.assertIn("(the phase did not end)", (self.output / "log.txt").read_text())
 
