@@ -36,8 +36,9 @@ def last_drive(run):
     start = begun[driven[-1]].start + drive.get("ramp", 0.0)
     wheel = run.wheel(drive["body"])
     after = begun[driven[-1] + 1].start if driven[-1] + 1 < len(begun) else np.inf
-    # A row at the time of the one before it is a mean over nothing.
-    rows = (wheel["time"] >= start) & (wheel["time"] <= after) & (np.diff(wheel["time"], prepend=-np.inf) > 1e-9)
+    # A row is the mean since the one before it: all of that time must be the drive's. At the time of the one before it, it is a mean over nothing.
+    before = np.concatenate(([-np.inf], wheel["time"][:-1]))
+    rows = (before >= start - 1e-9) & (wheel["time"] <= after + 1e-9) & (wheel["time"] - before > 1e-9)
     if not rows.any():
         raise RunError(f"{run.path}: '{drive['body']}' is not up to speed yet")
     return Drive(drive["body"], start, wheel["time"][rows], _series(wheel, rows, np.sign(drive["angular_velocity"])))

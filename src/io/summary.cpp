@@ -87,6 +87,33 @@ Json rocks_of(const BedReport& bed)
     return tables;
 }
 
+Json answers_of(const PhaseAnswers& phase)
+{
+    Json answers = {{"phase", phase.phase}, {"from", phase.from},     {"to", phase.to},
+                    {"rows", phase.rows},   {"steady", phase.steady}, {"ended", phase.ended}};
+    for (const Answer& answer : phase.quantities)
+    {
+        answers[answer.name] = {{"mean", answer.mean},
+                                {"spread", answer.spread},
+                                {"standard_error", answer.standard_error},
+                                {"estimated_error", answer.estimated_error ? Json(*answer.estimated_error) : Json()},
+                                {"unit", answer.unit}};
+    }
+    return answers;
+}
+
+Json answers_of(const Summary& summary)
+{
+    Json bodies = Json::object();
+    for (const BodyAnswers& body : summary.answers)
+    {
+        Json phases = Json::array();
+        for (const PhaseAnswers& phase : body.phases) { phases.push_back(answers_of(phase)); }
+        bodies[body.body] = phases;
+    }
+    return bodies;
+}
+
 /// A run that failed is under-resolved whatever its figures say: they are those of its better part.
 Json resolution_of(const Summary& summary)
 {
@@ -148,6 +175,7 @@ std::string to_json(const Summary& summary)
                                  {"transfer", summary.errors.transfer},
                                  {"coupling", summary.errors.coupling}};
     json["resolution"]        = resolution_of(summary);
+    json["answers"]           = answers_of(summary);
     return json.dump(2) + "\n";
 }
 

@@ -88,6 +88,35 @@ struct CheckpointReport
     double       seconds = 0;
 };
 
+/// A quantity of a body over the rows of a phase.
+struct Answer
+{
+    std::string           name;
+    std::string           unit;
+    double                mean;
+    double                spread;          ///< standard deviation of the rows
+    double                standard_error;  ///< of the mean, by the means of eight parts; NaN of fewer than 8 rows
+    std::optional<double> estimated_error; ///< of the computation; null: unknown
+};
+
+/// What a named body did in a phase, over its steady part.
+struct PhaseAnswers
+{
+    std::string         phase;
+    double              from   = 0; ///< s
+    double              to     = 0; ///< s, time of the last row
+    std::int64_t        rows   = 0;
+    bool                steady = false; ///< if not, means are over the last half
+    bool                ended  = true;  ///< false where the run stopped within the phase
+    std::vector<Answer> quantities;
+};
+
+struct BodyAnswers
+{
+    std::string               body;
+    std::vector<PhaseAnswers> phases;
+};
+
 /// What a run did; summary.json holds these fields by these names, with schema, version, commit
 /// and `end`, the time of writing.
 struct Summary
@@ -118,6 +147,7 @@ struct Summary
     std::int64_t             restarts = 0; ///< how often it was stopped and went on
     std::string              start;        ///< UTC, of the first of these runs
     BedReport                bed;          ///< in summary.json: terrain, rocks, rock_share
+    std::vector<BodyAnswers> answers;
 };
 
 /// The text of summary.json. steps_per_s and sim_per_wall follow from the fields; numbers that are not finite are null.

@@ -54,6 +54,7 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , simulation_(simulation)
     , options_(options)
     , phases_(scene)
+    , surface_(scene, world)
     , wall_start_(wall_clock())
     , said_{wall_start_, 0, 0}
 {
@@ -153,8 +154,11 @@ template<class Exec, class Real>
 void Driver<Exec, Real>::begin_phase()
 {
     log_.info(fmt::format("phase '{}' begins at {:.6g} s", phases_.phase().name, time_));
-    surface_ = simulation_.surface_height();
-    on_root(communicator_, [&] { recorder_->begin_phase(phases_.index(), time_, surface_); });
+    const std::vector<BodyRow> bodies = simulation_.named_bodies();
+    surface_.press(bodies);
+    surface_.renew(simulation_.surface_heights(surface_.lattice()));
+    surface_.press(bodies);
+    on_root(communicator_, [&] { recorder_->begin_phase(phases_.index(), time_); });
     warned_ = false;
 }
 
@@ -248,9 +252,11 @@ void Driver<Exec, Real>::write_row()
         const Census     now     = simulation_.census();
         const EnergyRow  energy  = simulation_.ledger().energy(now);
         const BalanceRow balance = simulation_.ledger().balance(now);
-        const auto       bodies  = simulation_.named_bodies();
+        auto             bodies  = simulation_.named_bodies();
         const auto*      ranks   = simulation_.balance();
-        const auto       on_file = [&]
+        surface_.press(bodies);
+        for (std::size_t b = 0; b < bodies.size(); ++b) { bodies[b].surface = surface_.under(b, bodies[b]); }
+        const auto on_file = [&]
         {
             if (ranks != nullptr) { recorder_->write_ranks(time_, *ranks); }
             recorder_->write(time_, bodies, energy, balance);

@@ -10,6 +10,7 @@
 #include "solver/checkpoint_clock.hpp"
 #include "solver/simulation.hpp"
 #include "solver/snapshots.hpp"
+#include "solver/surface.hpp"
 
 namespace tread::solver
 {
@@ -99,6 +100,7 @@ private:
     std::optional<Watchdog>              watchdog_;  ///< on several ranks
     StageClock                           clock_;
     std::vector<io::PhaseReport>         ended_;
+    SurfaceMap                           surface_; ///< that sinkage counts from
     TimeStep                             step_;
     double                               time_          = 0;
     std::int64_t                         steps_         = 0;
@@ -108,7 +110,6 @@ private:
     std::int64_t                         last_row_      = -1; ///< step of the last row that was written
     std::int64_t                         last_snapshot_ = -1; ///< the same of snapshots
     bool                                 warned_        = false;
-    double                               surface_       = 0; ///< m, at the start of the phase
     double                               wall_start_;
     double                               wall_before_ = 0; ///< s, of the runs that this one goes on from
     Said                                 said_;

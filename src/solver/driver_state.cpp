@@ -108,7 +108,8 @@ void Driver<Exec, Real>::transfer(StateFile& file)
     phases_.transfer(file);
     clock_.transfer(file);
     double wall = wall_before_ + wall_clock() - wall_start_;
-    file.numbers("run/steps", time_, steps_, substeps_, step_.dt, step_.substeps, warned_, surface_, wall, restarts_);
+    file.numbers("run/steps", time_, steps_, substeps_, step_.dt, step_.substeps, warned_, wall, restarts_);
+    surface_.transfer(file);
     file.numbers("run/checkpoints", checkpoints_.written, checkpoints_.bytes, checkpoints_.seconds);
     file.text("limit", step_.limit);
     if (file.loads()) { wall_before_ = wall; }
@@ -157,7 +158,6 @@ void Driver<Exec, Real>::transfer_files(StateFile& file)
         io::write_atomically(directory_.time_series(), std::string(bytes.begin(), bytes.end()));
         recorder_.emplace(directory_, scene_, world_, communicator_.size(), options_.provenance,
                           io::SeriesFile::continued);
-        recorder_->measure_from(surface_);
     };
     on_root(communicator_, restore);
 }

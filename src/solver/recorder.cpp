@@ -57,9 +57,8 @@ Recorder::Recorder(const io::RunDirectory& directory, const scene::Scene& scene,
                       {{"time", 1, "s"}, {"imbalance", 1, "1"}, {"repartitions", 1, "1"}, {"points_moved", 1, "1"}});
 }
 
-void Recorder::begin_phase(std::size_t index, double time, double surface)
+void Recorder::begin_phase(std::size_t index, double time)
 {
-    surface_ = surface;
     series_.append("/phases", {static_cast<double>(index), time});
 }
 
@@ -84,7 +83,7 @@ void Recorder::write(double time, const std::vector<BodyRow>& bodies, const Ener
         append(row, body.angular_velocity);
         append(row, body.force);
         append(row, body.torque);
-        for (const double value : {surface_ - body.lowest, slip, body.force[0], -body.torque.dot(body.axle) * spin})
+        for (const double value : {body.surface - body.lowest, slip, body.force[0], -body.torque.dot(body.axle) * spin})
         {
             row.push_back(value);
         }

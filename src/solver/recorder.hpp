@@ -21,7 +21,8 @@ struct BodyRow
     Vec3<double> force;            ///< N
     Vec3<double> torque;           ///< N m, about the centre of mass
     Vec3<double> axle;             ///< unit, world
-    double       lowest;           ///< m, height of the lowest point of the rim
+    double       lowest;           ///< m, height of the lowest point
+    double       surface = 0;      ///< m, height of the terrain under it before bodies came (SurfaceMap)
 };
 
 /// timeseries.h5 of a run: /wheel/<name>, /energy, /balance, /phases, and on several ranks /ranks.
@@ -31,14 +32,10 @@ public:
     Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world, int ranks,
              const io::Provenance& provenance, io::SeriesFile file = io::SeriesFile::anew);
 
-    /// The height that sinkage is measured from, m, in the present phase.
-    void measure_from(double surface) { surface_ = surface; }
-
     /// All rows are in the file; until then they wait in memory.
     void flush() { series_.flush(); }
 
-    /// A phase begins; `surface` = height that sinkage is measured from, m.
-    void begin_phase(std::size_t index, double time, double surface);
+    void begin_phase(std::size_t index, double time);
 
     /// A row of /ranks, of a run on several ranks.
     void write_ranks(double time, const decomp::BalanceRow& balance);
@@ -49,7 +46,6 @@ private:
     const scene::Scene& scene_;
     std::vector<double> rolling_radii_;
     io::TimeSeries      series_;
-    double              surface_ = 0;
 };
 
 } // namespace tread::solver

@@ -25,6 +25,21 @@ std::vector<double> rows(const std::vector<T>& vectors)
     return out;
 }
 
+/// m at scale 1, from the centre down to the lowest point; of a wheel to that of the cylinder over its grousers, which
+/// does not rise and fall with each of them.
+double depth_below_centre(const shape::ShapeTemplate& form, const Quat& orientation)
+{
+    const Vec3<double> down = orientation.conjugate() * -Vec3<double>::UnitZ(); // in the body's frame
+    if (form.is_wheel)
+    {
+        return form.wheel.radius * std::hypot(down[0], down[2]) + 0.5 * form.wheel.width * std::abs(down[1]);
+    }
+    if (form.sphere_radius > 0) { return form.sphere_radius; }
+    double deepest = 0;
+    for (const Vec3<double>& vertex : form.mesh.vertices) { deepest = std::max(deepest, down.dot(vertex)); }
+    return deepest;
+}
+
 } // namespace
 
 template<class Exec>
@@ -134,7 +149,7 @@ std::vector<BodyRow> Rigid<Exec>::named_bodies()
         const auto&        form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[b])];
         const double       over = mean_time_ > 0 ? 1 / mean_time_ : 0;
         const Vec3<double> axle = orientation[b] * Vec3<double>::UnitY();
-        const double       drop = world_.bodies.scale[b] * (form.is_wheel ? form.wheel.radius : form.bounding_radius);
+        const double       drop = world_.bodies.scale[b] * depth_below_centre(form, orientation[b]);
         bodies.push_back({position[b], velocity[b], spin[b], over * impulses[b].linear, over * impulses[b].angular,
                           axle, position[b][2] - drop});
     }

@@ -17,6 +17,7 @@
 #include "io/checkpoint_file.hpp"
 #include "io/progress.hpp"
 #include "scene/resolved.hpp"
+#include "solver/answers.hpp"
 #include "solver/bed.hpp"
 #include "solver/driver.hpp"
 #include "solver/estimate.hpp"
@@ -262,6 +263,9 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
                          job.summary.errors.momentum, job.summary.errors.energy));
     log.info("resolution: " + io::verdict_line(job.summary.figures));
     if (code != ExitCode::finished) { log.info(job.summary.reason); }
+    on_root(communicator,
+            [&] { job.summary.answers = make_answers(scene, job.directory.time_series(), job.summary.phases.size()); });
+    for (const std::string& line : answer_lines(job.summary.answers)) { log.info(line); }
     on_root(communicator, [&] { io::write_summary(job.directory.summary(), job.summary); });
     return code;
 }

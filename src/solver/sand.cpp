@@ -365,29 +365,6 @@ SandCensus Sand<Exec, Real>::census()
     return census + census_of(left_.data());
 }
 
-template<class Exec, class Real>
-std::vector<const mpm::Points<Exec, Real>*> Sand<Exec, Real>::all_points() const
-{
-    if (!sleep_) { return {&points_}; }
-    return {&points_, &sleep_->points()};
-}
-
-template<class Exec, class Real>
-std::vector<Vec3<double>> Sand<Exec, Real>::positions() const
-{
-    std::vector<Vec3<double>> out;
-    for (const mpm::Points<Exec, Real>* points : all_points())
-    {
-        const std::vector<double> planes = points->position.to_host();
-        const auto                stride = static_cast<std::size_t>(points->stride);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(points->count); ++i)
-        {
-            out.emplace_back(planes[i], planes[stride + i], planes[2 * stride + i]);
-        }
-    }
-    return out;
-}
-
 template class Sand<Cpu, float>;
 template class Sand<Cpu, double>;
 #ifdef TREAD_WITH_CUDA

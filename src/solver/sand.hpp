@@ -20,6 +20,7 @@
 #include "solver/sand_ranks.hpp"
 #include "solver/sand_report.hpp"
 #include "solver/sand_sleep.hpp"
+#include "solver/terrain_bins.hpp"
 #include "solver/world.hpp"
 
 namespace tread::solver
@@ -99,6 +100,9 @@ public:
 
     /// m, in memory order, of this rank.
     std::vector<Vec3<double>> positions() const;
+
+    /// This rank's points, those that sleep among them, as cubes of their present volume.
+    void add_to(TerrainBins& bins) const;
 
     /// Takes what a snapshot shows, of this rank.
     void copy_to(PointCopy<Exec, Real>& copy) const { copy.take(exec_, all_points()); }

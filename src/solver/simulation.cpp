@@ -10,7 +10,7 @@
 #include "base/errors.hpp"
 #include "solver/body_reaches.hpp"
 #include "solver/pace_limits.hpp"
-#include "solver/surface.hpp"
+#include "solver/terrain_bins.hpp"
 
 namespace tread::solver
 {
@@ -354,12 +354,20 @@ io::BodyFields Simulation<Exec, Real>::body_fields()
 }
 
 template<class Exec, class Real>
-double Simulation<Exec, Real>::surface_height()
+std::vector<double> Simulation<Exec, Real>::surface_heights(const ColumnLattice& lattice)
 {
-    if (!sand_) { return plan_.rocks ? height_of_rocks(world_, body_fields(), named_bodies()) : 0; }
-    SurfaceColumns columns = surface_columns(sand_->positions(), scene_.grid.spacing);
-    if (decomposition_ != nullptr) { columns = gathered(columns, decomposition_->communicator); }
-    return middle_height(columns, named_bodies(), scene_.grid.spacing) + 0.5 * world_.point_spacing;
+    TerrainBins bins(lattice);
+    if (sand_) { sand_->add_to(bins); }
+    if (decomposition_ != nullptr) { bins.add_ranks(decomposition_->communicator); }
+    if (plan_.rocks)
+    {
+        const std::vector<double> place = body_fields().position;
+        for (auto b = static_cast<std::size_t>(world_.bodies.named); b < world_.bodies.size(); ++b)
+        {
+            bins.add_sphere(Vec3<double>(place.data() + 3 * b), world_.bodies.radius[b]);
+        }
+    }
+    return bins.surface();
 }
 
 template class Simulation<Cpu, float>;

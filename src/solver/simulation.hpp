@@ -86,9 +86,8 @@ public:
     /// Of bodies with bodies and walls.
     std::vector<ContactRecord> contacts();
 
-    /// Height of the terrain's surface away from the named bodies, m: the median over columns of cells of their highest
-    /// point and half a point's size; without sand that of the rocks (height_of_rocks), without either 0.
-    double surface_height();
+    /// m, of sand and rocks (TerrainBins::surface).
+    std::vector<double> surface_heights(const ColumnLattice& lattice);
 
     /// Into a checkpoint, or out of it into a simulation of the same scene, on as many ranks if it is to be exact; when
     /// measured(). Saving changes nothing that comes after it.

@@ -1,31 +1,62 @@
 #pragma once
 
-#include <map>
-#include <utility>
 #include <vector>
 
-#include "base/communicator.hpp"
-#include "io/snapshot.hpp"
 #include "solver/recorder.hpp"
-#include "solver/world.hpp"
+#include "solver/terrain_bins.hpp"
 
-// How high the terrain stands.
 namespace tread::solver
 {
 
-/// Of each column of cells the height of its highest point, m.
-using SurfaceColumns = std::map<std::pair<long, long>, double>;
+class StateFile;
 
-SurfaceColumns surface_columns(const std::vector<Vec3<double>>& positions, double spacing);
+/// The plan of a named body where it may press on terrain.
+struct Footprint
+{
+    double length; ///< m, across the axle: a wheel's radius (its chord where it sinks in by an eighth of that)
+    double width;  ///< m, along the axle: a wheel's width; else as long
+    double reach;  ///< m, bounding radius
+};
 
-/// Collective: of all ranks' columns.
-SurfaceColumns gathered(const SurfaceColumns& columns, const Communicator& communicator);
+/// Of each named body.
+std::vector<Footprint> footprints(const World& world);
 
-/// m, the median of the columns away from the bodies.
-double middle_height(const SurfaceColumns& columns, const std::vector<BodyRow>& bodies, double spacing);
+/// Height of the terrain's surface over the plan, as it was before bodies came: what sinkage counts from. z is the axis
+/// along which terrain is stacked, whatever way gravity points. The same on all ranks.
+class SurfaceMap
+{
+public:
+    SurfaceMap(const scene::Scene& scene, const World& world);
 
-/// m, the same of a bed of rocks, of which there is at least one: in columns of two mean diameters, each as high as the
-/// sphere of equal volume of its highest rock. `fields`: of all bodies.
-double height_of_rocks(const World& world, const io::BodyFields& fields, const std::vector<BodyRow>& bodies);
+    const ColumnLattice& lattice() const { return lattice_; }
+
+    /// Takes present heights (TerrainBins::surface) where no body has pressed so far.
+    void renew(const std::vector<double>& heights);
+
+    /// Columns within a body's reach and above its lowest point keep their height from now on.
+    void press(const std::vector<BodyRow>& bodies);
+
+    /// m, mean over the footprint of named body `body`: the heights of columns, interpolated; where there is no terrain
+    /// under it, of the nearest column that has some; without any 0, the floor of the domain.
+    double under(std::size_t body, const BodyRow& row) const;
+
+    /// Into a checkpoint, or out of it.
+    void transfer(StateFile& file);
+
+private:
+    std::pair<std::int64_t, std::int64_t> columns_within(std::size_t axis, double place, double reach) const;
+
+    double middle(std::size_t axis, std::int64_t column) const
+    {
+        return (static_cast<double>(column) + 0.5) * lattice_.width[axis];
+    }
+    double at(double x, double y) const;
+    double nearest(double x, double y) const;
+
+    ColumnLattice             lattice_;
+    std::vector<Footprint>    footprints_;
+    std::vector<double>       height_; ///< m, x fastest; NaN = no terrain
+    std::vector<std::uint8_t> pressed_;
+};
 
 } // namespace tread::solver

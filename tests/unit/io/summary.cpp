@@ -19,6 +19,30 @@ std::vector<StageReport> some_stages()
     return {{"p2g", true, "", 100, 2.0}, {"g2p", true, "", 100, 5.0}, {"body-body", false, "no rocks", 0, 0}};
 }
 
+TEST(Summary, answers_have_units_and_nulls_for_what_is_not_known)
+{
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    Summary      summary;
+    summary.answers = {
+        {"wheel",
+         {{"drive", 1.5, 3, 40, true, false, {{"pull", "N", 154, 9, 3, 18.0}, {"slip", "1", 0.3, 0, none, {}}}}}},
+        {"rock", {}}};
+    const auto answers = nlohmann::json::parse(to_json(summary))["answers"];
+    EXPECT_TRUE(answers["rock"].empty());
+    const auto drive = answers["wheel"][0];
+    EXPECT_EQ(drive["phase"], "drive");
+    EXPECT_EQ(drive["from"], 1.5);
+    EXPECT_EQ(drive["to"], 3);
+    EXPECT_EQ(drive["rows"], 40);
+    EXPECT_EQ(drive["steady"], true);
+    EXPECT_EQ(drive["ended"], false);
+    const nlohmann::json pull = {
+        {"mean", 154.0}, {"spread", 9.0}, {"standard_error", 3.0}, {"estimated_error", 18.0}, {"unit", "N"}};
+    EXPECT_EQ(drive["pull"], pull);
+    EXPECT_TRUE(drive["slip"]["standard_error"].is_null());
+    EXPECT_TRUE(drive["slip"]["estimated_error"].is_null());
+}
+
 TEST(Summary, json_holds_every_field)
 {
     Summary summary;

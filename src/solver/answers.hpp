@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/summary.hpp"
+#include "scene/scene.hpp"
+
+// What a run tells of its named bodies, from its time series.
+namespace tread::solver
+{
+
+/// Of each named body, in the scene's order: every phase that drives it or lowers it and has begun, and where there is
+/// none, the last phase that does not hold it. `path`: of timeseries.h5. `ended`: how many phases have ended.
+std::vector<io::BodyAnswers> make_answers(const scene::Scene& scene, const std::string& path, std::size_t ended);
+
+/// A line for each phase: "answers: wheel, drive: pull 154 +- 3 N (0.15 of the load), ..., steady over 1.5 to 3 s".
+std::vector<std::string> answer_lines(const std::vector<io::BodyAnswers>& answers);
+
+} // namespace tread::solver

@@ -1,0 +1,64 @@
+#include <algorithm>
+
+#include "solver/sand.hpp"
+
+// Where the sand is, for the host.
+namespace tread::solver
+{
+
+template<class Exec, class Real>
+std::vector<const mpm::Points<Exec, Real>*> Sand<Exec, Real>::all_points() const
+{
+    if (!sleep_) { return {&points_}; }
+    return {&points_, &sleep_->points()};
+}
+
+template<class Exec, class Real>
+std::vector<Vec3<double>> Sand<Exec, Real>::positions() const
+{
+    std::vector<Vec3<double>> out;
+    for (const mpm::Points<Exec, Real>* points : all_points())
+    {
+        const std::vector<double> planes = points->position.to_host();
+        const auto                stride = static_cast<std::size_t>(points->stride);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(points->count); ++i)
+        {
+            out.emplace_back(planes[i], planes[stride + i], planes[2 * stride + i]);
+        }
+    }
+    return out;
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::add_to(TerrainBins& bins) const
+{
+    constexpr double loosest = 1.5; // of the initial volume: what is looser floats, and is no larger for that
+    for (const mpm::Points<Exec, Real>* points : all_points())
+    {
+        const std::vector<double> planes = points->position.to_host();
+        const std::vector<Real>   volume = points->volume.to_host(), ratio = points->volume_ratio.to_host();
+        const auto                stride = static_cast<std::size_t>(points->stride);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(points->count); ++i)
+        {
+            bins.add_cube({planes[i], planes[stride + i], planes[2 * stride + i]},
+                          static_cast<double>(volume[i]) * std::min(static_cast<double>(ratio[i]), loosest));
+        }
+    }
+}
+
+template std::vector<const mpm::Points<Cpu, float>*>  Sand<Cpu, float>::all_points() const;
+template std::vector<Vec3<double>>                    Sand<Cpu, float>::positions() const;
+template void                                         Sand<Cpu, float>::add_to(TerrainBins&) const;
+template std::vector<const mpm::Points<Cpu, double>*> Sand<Cpu, double>::all_points() const;
+template std::vector<Vec3<double>>                    Sand<Cpu, double>::positions() const;
+template void                                         Sand<Cpu, double>::add_to(TerrainBins&) const;
+#ifdef TREAD_WITH_CUDA
+template std::vector<const mpm::Points<Gpu, float>*>  Sand<Gpu, float>::all_points() const;
+template std::vector<Vec3<double>>                    Sand<Gpu, float>::positions() const;
+template void                                         Sand<Gpu, float>::add_to(TerrainBins&) const;
+template std::vector<const mpm::Points<Gpu, double>*> Sand<Gpu, double>::all_points() const;
+template std::vector<Vec3<double>>                    Sand<Gpu, double>::positions() const;
+template void                                         Sand<Gpu, double>::add_to(TerrainBins&) const;
+#endif
+
+} // namespace tread::solver
