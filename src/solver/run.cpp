@@ -22,6 +22,7 @@
 #include "solver/estimate.hpp"
 #include "solver/left_out.hpp"
 #include "solver/page_loads.hpp"
+#include "solver/plausibility.hpp"
 #include "solver/rank_devices.hpp"
 #ifdef TREAD_WITH_CUDA
 #include "backend/device.hpp"
@@ -94,6 +95,7 @@ struct Job
     const scene::Scene& scene;
     const World&        world;
     Plan                plan;
+    Estimate            wants;
     const RunOptions&   options;
     std::vector<Stage>  stages;
     io::RunDirectory    directory;
@@ -162,7 +164,7 @@ ExitCode run_precision(const Exec& exec, Job& job)
 ExitCode run_backend(Backend backend, Job& job)
 {
     Counters           counters;
-    const std::int64_t wanted = estimate(job.scene, job.world, job.plan).memory_bytes / job.communicator.size();
+    const std::int64_t wanted = job.wants.memory_bytes / job.communicator.size();
     counters.expect(wanted);
     ExitCode code = ExitCode::finished;
     if (backend == Backend::cpu)
@@ -201,6 +203,11 @@ void say_start(Job& job, Backend backend, int threads)
                          job.scene.numerics.precision == scene::Precision::single_ ? "single" : "double"));
     job.summary.bed = describe_bed(job.scene, job.world);
     say_plan(log, job.scene, job.world, job.stages);
+    for (const Warning& warning : plausibility(job.scene, job.world, job.wants))
+    {
+        job.summary.warnings.push_back(text_of(warning));
+        log.warning(job.summary.warnings.back());
+    }
     for (const std::string& line : bed_lines(job.summary.bed)) { log.info(line); }
 }
 
@@ -237,6 +244,7 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
             scene,
             world,
             plan,
+            estimate(scene, world, plan),
             options,
             stages(scene, plan, communicator.size()),
             io::RunDirectory::create(communicator, options.output, restart.existing, scene::resolved_toml(scene),
@@ -260,7 +268,11 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
     log.info(fmt::format("\n{}", io::timing_table(job.summary.stages, job.summary.wall_s)));
     log.info(fmt::format("errors: mass {:.3g}, momentum {:.3g}, energy {:.3g}", job.summary.errors.mass,
                          job.summary.errors.momentum, job.summary.errors.energy));
-    log.info("resolution: " + io::verdict_line(job.summary.figures));
+    log.info("resolution: " + io::verdict_line(job.summary));
+    if (job.summary.grid_error)
+    {
+        log.info("grid error: " + io::grid_error_line(*job.summary.grid_error, std::nullopt));
+    }
     if (code != ExitCode::finished) { log.info(job.summary.reason); }
     on_root(communicator, [&] { io::write_summary(job.directory.summary(), job.summary); });
     return code;
