@@ -28,9 +28,9 @@ BearingFactors bearing_factors(double friction_angle_deg)
 {
     const double phi = friction_angle_deg * pi / 180;
     const double tan = std::tan(phi);
-    if (tan < 1e-6) { return {2 + pi, 0}; }
+    if (tan < 1e-6) { return {2 + pi, 1, 0}; }
     const double surcharge = std::exp(pi * tan) * std::pow(std::tan(pi / 4 + phi / 2), 2); // N_q
-    return {(surcharge - 1) / tan, 1.5 * (surcharge - 1) * tan};
+    return {(surcharge - 1) / tan, surcharge, 1.5 * (surcharge - 1) * tan};
 }
 
 Patch bearing_patch(const scene::Material& soil, double gravity, const RoundBody& body)
@@ -38,9 +38,10 @@ Patch bearing_patch(const scene::Material& soil, double gravity, const RoundBody
     const BearingFactors factors  = bearing_factors(soil.friction_angle_deg);
     const auto           capacity = [&](const Patch& patch)
     {
-        const double breadth = std::min(patch.length, patch.width);
-        const double pressure =
-            soil.cohesion * factors.cohesion + 0.5 * soil.density * gravity * breadth * factors.weight;
+        const double breadth  = std::min(patch.length, patch.width);
+        const double weight   = soil.density * gravity;
+        const double pressure = soil.cohesion * factors.cohesion + weight * patch.sinkage * factors.surcharge +
+                                0.5 * weight * breadth * factors.weight;
         return pressure * patch.length * patch.width;
     };
     double low = 0, high = body.radius;

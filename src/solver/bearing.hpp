@@ -6,11 +6,12 @@
 namespace tread::solver
 {
 
-/// Bearing capacity factors of Terzaghi's formula q = c N_c + gamma b/2 N_gamma.
+/// Bearing capacity factors of Terzaghi's formula q = c N_c + gamma z N_q + gamma b/2 N_gamma.
 struct BearingFactors
 {
-    double cohesion; ///< N_c: Prandtl; 2 + pi without friction
-    double weight;   ///< N_gamma: Hansen's 1.5 (N_q - 1) tan(phi)
+    double cohesion;  ///< N_c: Prandtl; 2 + pi without friction
+    double surcharge; ///< N_q: Reissner
+    double weight;    ///< N_gamma: Hansen's 1.5 (N_q - 1) tan(phi)
 };
 
 BearingFactors bearing_factors(double friction_angle_deg);
@@ -35,7 +36,7 @@ struct Patch
 };
 
 /// Patch on granular soil: the load equals the bearing capacity times the area of the chord of the sinkage, with the
-/// shorter side of the patch as the footing's width. The soil beside is not counted as surcharge.
+/// shorter side of the patch as the footing's width and the sinkage as its depth.
 Patch bearing_patch(const scene::Material& soil, double gravity, const RoundBody& body);
 
 /// Patch on elastic ground: Hertz, of a rigid ball or of a rigid cylinder.

@@ -35,7 +35,14 @@ void each_in_strip(const Footing& footing, const World& world, const Act& act)
     }
 }
 
-std::optional<Ground> ground_under(const Footing& footing, const World& world)
+/// Whether a bed that ends at y does so at a wall of the domain.
+bool ends_at_wall(const scene::Scene& scene, double y)
+{
+    const double from_wall = std::min(y, scene.domain.size[1] - y);
+    return scene.domain.walls.y != scene::WallKind::open && from_wall < scene.grid.spacing;
+}
+
+std::optional<Ground> ground_under(const scene::Scene& scene, const Footing& footing, const World& world)
 {
     const double y    = world.bodies.position[footing.body][1];
     const double half = std::max(0.5 * footing.width, 0.5 * world.point_spacing);
@@ -63,8 +70,9 @@ std::optional<Ground> ground_under(const Footing& footing, const World& world)
                       high = std::max(high, x[1]);
                   });
     const double around = 0.5 * world.point_spacing;
+    const bool   below  = y - low < high - y; // the nearer edge is that at low y
     const double beside = std::min(y - low, high - y) + around - 0.5 * footing.width;
-    return Ground{material, top + around, top - bottom + 2 * around, beside};
+    return Ground{material, top + around, top - bottom + 2 * around, beside, ends_at_wall(scene, below ? low : high)};
 }
 
 /// Distance from the body's round face to the nearest of sand and rocks below its centre, m.
@@ -108,7 +116,7 @@ Footing footing_of(const scene::Scene& scene, const World& world, std::size_t b)
     footing.load   = world.bodies.mass[b] * gravity;
     footing.radius = scale * (form.is_wheel ? form.wheel.radius : 0.5 * extent[2]);
     footing.width  = scale * extent[1];
-    footing.ground = ground_under(footing, world);
+    footing.ground = ground_under(scene, footing, world);
     footing.gap    = gap_of(footing, world);
     footing.patch  = patch_of(footing, scene, form);
     return footing;

@@ -16,6 +16,7 @@ struct Ground
     double top;      ///< m, of the highest point under the body
     double depth;    ///< m, from there to the lowest point
     double beside;   ///< m of bed beside the body's nearer side; negative where the body reaches beyond it
+    bool   walled;   ///< the bed ends there at a wall of the domain, not at a free edge
 };
 
 /// A named body and what it is to stand on.

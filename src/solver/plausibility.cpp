@@ -198,11 +198,17 @@ std::string text_of(const Warning& warning)
     return warning.where.empty() ? warning.text : warning.where + ": " + warning.text;
 }
 
-std::vector<Warning> implausible_values(const scene::Scene& scene)
+std::vector<Warning> implausible_ground(const scene::Scene& scene)
 {
     Warnings warnings(scene);
     check_gravity(scene, warnings);
     check_materials(scene, warnings);
+    return warnings.take();
+}
+
+std::vector<Warning> implausible_commands(const scene::Scene& scene)
+{
+    Warnings warnings(scene);
     check_contacts(scene, warnings);
     check_phases(scene, warnings);
     return warnings.take();
@@ -233,11 +239,11 @@ std::vector<Warning> implausible_cost(const scene::Scene& scene, const World& wo
 
 std::vector<Warning> plausibility(const scene::Scene& scene, const World& world, const Estimate& wants)
 {
-    std::vector<Warning> all = implausible_values(scene);
-    for (auto&& more : {implausible_bodies(scene, world), implausible_cost(scene, world, wants)})
-    {
-        all.insert(all.end(), more.begin(), more.end());
-    }
+    std::vector<Warning> all = implausible_ground(scene);
+    const auto add = [&](const std::vector<Warning>& more) { all.insert(all.end(), more.begin(), more.end()); };
+    if (all.empty()) { add(implausible_bodies(scene, world)); }
+    add(implausible_commands(scene));
+    add(implausible_cost(scene, world, wants));
     return all;
 }
 

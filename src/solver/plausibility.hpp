@@ -20,8 +20,11 @@ struct Warning
 /// "sand.toml:41: [[material]] 'sand': density = 1.6 kg/m3 ...".
 std::string text_of(const Warning& warning);
 
-/// Warnings of values alone: gravity, materials, contacts, phases.
-std::vector<Warning> implausible_values(const scene::Scene& scene);
+/// Warnings of gravity and materials.
+std::vector<Warning> implausible_ground(const scene::Scene& scene);
+
+/// Warnings of contacts and phases.
+std::vector<Warning> implausible_commands(const scene::Scene& scene);
 
 /// Warnings of bodies and what they stand on: place, weight, size, speed.
 std::vector<Warning> implausible_bodies(const scene::Scene& scene, const World& world);
@@ -29,7 +32,7 @@ std::vector<Warning> implausible_bodies(const scene::Scene& scene, const World& 
 /// Warnings of the step and of what the run costs.
 std::vector<Warning> implausible_cost(const scene::Scene& scene, const World& world, const Estimate& wants);
 
-/// All of them.
+/// All of them. Where gravity or a material looks wrong, what would follow for bodies is left out.
 std::vector<Warning> plausibility(const scene::Scene& scene, const World& world, const Estimate& wants);
 
 } // namespace tread::solver

@@ -57,19 +57,27 @@ void check_place(const Placed& placed, Warnings& warnings)
                                            placed.name(), at[0], at[1], plan_text(placed.world.points)));
 }
 
-/// What sinks pushes the sand beside it up along a plane that rises at 45 degrees less half the friction angle. A side
-/// wall or a free edge within that wedge changes what the sand bears. A wheel that fills its bed from wall to wall is a
-/// plane-strain experiment and meant.
-void check_beside(const Placed& placed, Warnings& warnings)
+/// Bed that has to lie beside a body, m. At a free edge half its width. Beside a wall a quarter of it, or less where
+/// the body sinks little: what sinks pushes the sand beside it up along a plane that rises at 45 degrees less half the
+/// friction angle, and a wall beyond that wedge changes nothing.
+double wanted_beside(const Placed& placed)
 {
     const Footing& footing = placed.footing;
-    if (!footing.ground || !footing.patch || footing.width <= 0) { return; }
-    const double beside = footing.ground->beside, spacing = placed.scene.grid.spacing;
+    if (!footing.ground->walled) { return 0.5 * footing.width; }
     const auto&  soil  = placed.scene.materials[static_cast<std::size_t>(footing.ground->material)];
     const double angle = std::numbers::pi / 4 + 0.5 * soil.friction_angle_deg * std::numbers::pi / 180;
     const double wedge = footing.patch->sinkage * std::tan(angle);
+    return std::min(0.25 * footing.width, std::max(wedge, placed.scene.grid.spacing));
+}
+
+/// A wheel that fills its bed from wall to wall is a plane-strain experiment and meant.
+void check_beside(const Placed& placed, Warnings& warnings)
+{
+    const Footing& footing = placed.footing;
+    if (!footing.ground || !footing.patch) { return; }
+    const double beside = footing.ground->beside, spacing = placed.scene.grid.spacing;
     const bool   fills = std::abs(beside) < spacing && placed.scene.domain.size[1] < footing.width + 3 * spacing;
-    if (fills || beside >= std::min(0.5 * footing.width, std::max(wedge, spacing))) { return; }
+    if (fills || beside >= wanted_beside(placed)) { return; }
     warnings.add(placed.table,
                  fmt::format("{}: {:.4g} m of bed lie beside its side ({:.4g} m wide), {:.4g} m would keep walls and "
                              "edges away: a wider bed, or position[1] in its middle",
@@ -180,7 +188,7 @@ void check_spin(const Placed& placed, Warnings& warnings)
 void check_cells(const Placed& placed, Warnings& warnings)
 {
     const auto& patch = placed.footing.patch;
-    if (!placed.footing.driven || !patch) { return; }
+    if (!placed.footing.driven || !patch || !patch->carried) { return; }
     const double cells = patch->side() / placed.scene.grid.spacing;
     if (cells >= 1) { return; }
     warnings.add(placed.table,
