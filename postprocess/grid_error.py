@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Convergence of a driven wheel over the grid's spacing: the rows of `measured_convergence` in src/solver/grid_error.hpp.
 
-Takes runs of one scene at three spacings or more. Fits answer = limit + slope / cells^order, cells being the run's own contact_cells, by least
-squares for the orders 1 and 2, and takes the order that fits better. Needs Debian's python3-h5py and python3-numpy.
+Takes runs of one scene at three spacings or more. Fits answer = limit + slope / cells^order by least squares, cells being the run's own contact_cells;
+the orders are those of the table (ORDERS), and the scatter about the fits of both orders is printed. Needs Debian's python3-h5py and python3-numpy.
 
     postprocess/grid_error.py --name "smooth drum on sand" runs/drum_20mm runs/drum_12mm runs/drum_7mm
 """
@@ -18,7 +18,7 @@ from tread_post import Run, RunError
 from tread_post.quantities import QUANTITIES, window_of
 
 FEWEST = 3  # spacings, of two unknowns
-ORDERS = (1, 2)
+ORDERS = {"pull": 1, "torque": 2, "sinkage": 1}  # fitted to the measured ladders of docs/verdict.md
 COHESIVE = 5.0  # degrees, the friction angle under which a soil counts as cohesive
 
 
@@ -37,15 +37,12 @@ class Law:
         return abs(self.slope) / abs(self.scale)
 
 
-def fit(cells, values, scale=None):
-    """The Law of the better order; `scale`: what errors are shares of, None for the limit itself."""
-    def law(order):
-        powers = np.stack([np.ones(len(cells)), np.asarray(cells, float) ** -order], axis=1)
-        (limit, slope), *_ = np.linalg.lstsq(powers, np.asarray(values, float), rcond=None)
-        scatter = float(np.sqrt(np.mean((powers @ (limit, slope) - values) ** 2)))
-        return Law(float(limit), float(slope), order, scatter, float(limit) if scale is None else scale)
-
-    return min((law(order) for order in ORDERS), key=lambda one: one.scatter)
+def fit(cells, values, order, scale=None):
+    """The Law of that order; `scale`: what errors are shares of, None for the limit itself."""
+    powers = np.stack([np.ones(len(cells)), np.asarray(cells, float) ** -order], axis=1)
+    (limit, slope), *_ = np.linalg.lstsq(powers, np.asarray(values, float), rcond=None)
+    scatter = float(np.sqrt(np.mean((powers @ (limit, slope) - values) ** 2)))
+    return Law(float(limit), float(slope), order, scatter, float(limit) if scale is None else scale)
 
 
 def contact_cells(run):
@@ -56,7 +53,7 @@ def contact_cells(run):
 
 
 def laws_of(runs):
-    """Laws of pull, torque and sinkage, and the table that they were fitted to: a row (spacing, cells, pull, torque, sinkage) a run."""
+    """Laws of pull, torque and sinkage by order, and the table that they were fitted to: a row (spacing, cells, pull, torque, sinkage) a run."""
     if len(runs) < FEWEST:
         raise RunError(f"{len(runs)} runs: a fit takes {FEWEST} spacings or more")
     rows = sorted((run.scene["grid"]["spacing"], contact_cells(run), *(QUANTITIES[name].measure(run) for name in ("drawbar_pull", "torque", "sinkage")))
@@ -65,7 +62,8 @@ def laws_of(runs):
     if len(set(spacing)) < FEWEST:
         raise RunError(f"{len(set(spacing))} different spacings: a fit takes {FEWEST} or more")
     load = float(np.mean([np.mean(np.abs(window_of(run).force)) for run in runs]))
-    return {"pull": fit(cells, pull, load), "torque": fit(cells, torque), "sinkage": fit(cells, sinkage)}, rows
+    answers = {"pull": (pull, load), "torque": (torque, None), "sinkage": (sinkage, None)}
+    return {name: {order: fit(cells, values, order, scale) for order in (1, 2)} for name, (values, scale) in answers.items()}, rows
 
 
 def soil_kind(scene):
@@ -76,7 +74,7 @@ def soil_kind(scene):
 
 def row_of(name, scene, laws):
     """As it stands in measured_convergence."""
-    numbers = ", ".join(f"{{{laws[key].factor:.2g}, {laws[key].order}}}" for key in ("pull", "torque", "sinkage"))
+    numbers = ", ".join(f"{{{laws[key][order].factor:.2g}, {order}}}" for key, order in ORDERS.items())
     return f'{{"{name}", SoilKind::{soil_kind(scene)}, {{{numbers}}}}},'
 
 
@@ -93,7 +91,7 @@ def main():
     print("spacing m   cells   pull N   torque N m   sinkage m")
     for row in rows:
         print("{:9.4g} {:7.3g} {:8.4g} {:12.4g} {:11.4g}".format(*row))
-    for key, law in laws.items():
+    for key, law in ((key, law) for key, orders in laws.items() for law in orders.values()):
         print(f"{key}: limit {law.limit:.4g}, order {law.order}, error {law.factor:.3g} / cells^{law.order}, rms about the fit {law.scatter:.2g}")
     print(row_of(options.name or runs[0].scene["title"], runs[0].scene, laws))
 
