@@ -35,18 +35,23 @@ Verdict verdict_of(const std::vector<Figure>& figures)
     return worst;
 }
 
-std::string verdict_line(const std::vector<Figure>& figures)
+std::string coarse_figures(const std::vector<Figure>& figures)
 {
-    std::string line = name_of(verdict_of(figures));
+    std::string text;
     for (const Figure& figure : figures)
     {
         if (figure.verdict() == Verdict::resolved) { continue; }
-        line += fmt::format("{} {} {:.3g} (resolved {} {:.3g}, marginal {} {:.3g})",
-                            line.find(':') == std::string::npos ? ":" : ";", figure.name, figure.value,
-                            figure.resolved > figure.marginal ? "from" : "to", figure.resolved,
-                            figure.resolved > figure.marginal ? "from" : "to", figure.marginal);
+        const char* side = figure.resolved > figure.marginal ? "from" : "to";
+        text += fmt::format("{}{} {:.3g} (resolved {} {:.3g}, marginal {} {:.3g})", text.empty() ? "" : "; ",
+                            figure.name, figure.value, side, figure.resolved, side, figure.marginal);
     }
-    return line;
+    return text;
+}
+
+std::string verdict_line(const std::vector<Figure>& figures)
+{
+    const std::string coarse = coarse_figures(figures);
+    return name_of(verdict_of(figures)) + (coarse.empty() ? "" : ": " + coarse);
 }
 
 } // namespace tread::io

@@ -31,7 +31,10 @@ struct Figure
 /// The worst of them; resolved if there are none.
 Verdict verdict_of(const std::vector<Figure>& figures);
 
-/// For the log: the verdict, and each figure that is not resolved with its bounds.
+/// Each figure that is not resolved with its bounds, separated by semicolons; empty if all are resolved.
+std::string coarse_figures(const std::vector<Figure>& figures);
+
+/// For the log: the verdict of the figures, and each figure that is not resolved.
 std::string verdict_line(const std::vector<Figure>& figures);
 
 } // namespace tread::io

@@ -114,7 +114,6 @@ Json answers_of(const Summary& summary)
     return bodies;
 }
 
-/// A run that failed is under-resolved whatever its figures say: they are those of its better part.
 Json resolution_of(const Summary& summary)
 {
     Json figures = Json::object();
@@ -125,12 +124,30 @@ Json resolution_of(const Summary& summary)
                                 {"marginal", figure.marginal},
                                 {"verdict", name_of(figure.verdict())}};
     }
-    const bool    failed  = summary.status == RunStatus::failed;
-    const Verdict verdict = failed ? Verdict::under_resolved : verdict_of(summary.figures);
-    return {{"verdict", name_of(verdict)}, {"points_across", summary.points_across}, {"figures", figures}};
+    return {{"verdict", name_of(verdict_of(summary))}, {"points_across", summary.points_across}, {"figures", figures}};
+}
+
+Json grid_error_of(const Summary& summary)
+{
+    if (!summary.grid_error) { return {}; }
+    const GridError& error = *summary.grid_error;
+    return {{"load", error.load}, {"pull", error.pull}, {"torque", error.torque}, {"sinkage", error.sinkage}};
 }
 
 } // namespace
+
+Verdict verdict_of(const Summary& summary)
+{
+    return summary.status == RunStatus::failed ? Verdict::under_resolved : verdict_of(summary.figures);
+}
+
+std::string verdict_line(const Summary& summary)
+{
+    if (summary.status != RunStatus::failed) { return verdict_line(summary.figures); }
+    const std::string line   = std::string(name_of(verdict_of(summary))) + ": the run failed";
+    const std::string coarse = coarse_figures(summary.figures);
+    return coarse.empty() ? line : line + "; " + coarse;
+}
 
 std::string to_json(const Summary& summary)
 {
@@ -176,6 +193,8 @@ std::string to_json(const Summary& summary)
                                  {"coupling", summary.errors.coupling}};
     json["resolution"]        = resolution_of(summary);
     json["answers"]           = answers_of(summary);
+    json["grid_error"]        = grid_error_of(summary);
+    json["warnings"]          = summary.warnings;
     return json.dump(2) + "\n";
 }
 

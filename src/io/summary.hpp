@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/exit_code.hpp"
+#include "io/grid_error.hpp"
 #include "io/resolution.hpp"
 
 namespace tread::io
@@ -142,6 +143,8 @@ struct Summary
     ErrorReport              errors;
     double                   points_across = 0; ///< the contact patch of a named body on sand; 0 = none
     std::vector<Figure>      figures;           ///< with points_across, `resolution`
+    std::optional<GridError> grid_error;        ///< of a driven wheel's answers; null without one on granular sand
+    std::vector<std::string> warnings;          ///< what looks wrong in the scene, a sentence each
     std::vector<PhaseReport> phases;
     CheckpointReport         checkpoints;  ///< with those of the runs that this one went on from
     std::int64_t             restarts = 0; ///< how often it was stopped and went on
@@ -149,6 +152,13 @@ struct Summary
     BedReport                bed;          ///< in summary.json: terrain, rocks, rock_share
     std::vector<BodyAnswers> answers;
 };
+
+/// The verdict on a run, for its log and its summary alike: a run that failed is under-resolved whatever its figures
+/// say, because they are those of the part before the failure.
+Verdict verdict_of(const Summary& summary);
+
+/// The verdict for the log, and why: the failure, and each figure that is not resolved.
+std::string verdict_line(const Summary& summary);
 
 /// The text of summary.json. steps_per_s and sim_per_wall follow from the fields; numbers that are not finite are null.
 std::string to_json(const Summary& summary);

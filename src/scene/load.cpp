@@ -138,7 +138,11 @@ void complete_reference(Scene& scene, const Node& document, Problems& problems)
 
 void note_lines(Scene& scene, const Node& document)
 {
-    for (const char* table : {"shape", "terrain", "rocks", "body"})
+    for (const char* table : {"domain", "grid", "time", "output"})
+    {
+        if (const Node* one = find(document, table)) { scene.lines.of[table] = one->where.text; }
+    }
+    for (const char* table : {"material", "contact", "shape", "terrain", "rocks", "body", "phase"})
     {
         const Node* list  = find(document, table);
         const auto* items = list != nullptr ? std::get_if<NodeArray>(&list->value) : nullptr;

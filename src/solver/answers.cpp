@@ -188,6 +188,40 @@ std::string line_of(const std::string& body, const io::PhaseAnswers& phase)
     return phase.ended ? line : line + " (the phase did not end)";
 }
 
+/// The answers of the last wheel that the scene drives; null without one.
+template<class Answers>
+auto* last_driven(const scene::Scene& scene, Answers& answers)
+{
+    decltype(&answers.front()) found = nullptr;
+    for (const scene::Phase& phase : scene.phases)
+    {
+        for (auto& body : answers)
+        {
+            if (drives(phase, body.body)) { found = &body; }
+        }
+    }
+    return found;
+}
+
+/// Only what a driven phase answers begins with a pull.
+bool is_drive(const io::PhaseAnswers& phase) { return phase.quantities.front().name == std::string("pull"); }
+
+double mean_of(const io::PhaseAnswers& phase, const std::string& name)
+{
+    const auto found = std::find_if(phase.quantities.begin(), phase.quantities.end(),
+                                    [&](const io::Answer& answer) { return answer.name == name; });
+    return found->mean;
+}
+
+std::optional<double> error_of(const io::Answer& answer, const io::GridError& error)
+{
+    if (answer.name == "pull") { return error.pull * error.load; }
+    if (answer.name == "pull_over_load") { return error.pull; }
+    if (answer.name == "torque") { return error.torque * std::abs(answer.mean); }
+    if (answer.name == "sinkage") { return error.sinkage * std::abs(answer.mean); }
+    return std::nullopt;
+}
+
 } // namespace
 
 std::vector<io::BodyAnswers> make_answers(const scene::Scene& scene, const std::string& path, std::size_t ended)
@@ -216,6 +250,25 @@ std::vector<io::BodyAnswers> make_answers(const scene::Scene& scene, const std::
         all.push_back(std::move(answers));
     }
     return all;
+}
+
+void add_grid_error(const scene::Scene& scene, const io::GridError& error, std::vector<io::BodyAnswers>& answers)
+{
+    auto* wheel = last_driven(scene, answers);
+    if (wheel == nullptr) { return; }
+    for (io::PhaseAnswers& phase : wheel->phases)
+    {
+        if (!is_drive(phase)) { continue; }
+        for (io::Answer& answer : phase.quantities) { answer.estimated_error = error_of(answer, error); }
+    }
+}
+
+std::optional<io::DriveMeans> last_drive(const scene::Scene& scene, const std::vector<io::BodyAnswers>& answers)
+{
+    const auto* wheel = last_driven(scene, answers);
+    if (wheel == nullptr || wheel->phases.empty() || !is_drive(wheel->phases.back())) { return std::nullopt; }
+    const io::PhaseAnswers& drive = wheel->phases.back();
+    return io::DriveMeans{mean_of(drive, "pull"), mean_of(drive, "torque"), mean_of(drive, "sinkage")};
 }
 
 std::vector<std::string> answer_lines(const std::vector<io::BodyAnswers>& answers)

@@ -1,17 +1,34 @@
+#include <cmath>
+#include <numbers>
+
 #include <fmt/format.h>
 
 #include "base/bytes_text.hpp"
 #include "scene/resolved.hpp"
 #include "solver/bed.hpp"
 #include "solver/estimate.hpp"
+#include "solver/footing.hpp"
 #include "solver/left_out.hpp"
 #include "solver/page_loads.hpp"
+#include "solver/plausibility.hpp"
+#include "solver/prediction.hpp"
 #include "solver/run.hpp"
+#include "solver/wall_time.hpp"
 
 namespace tread::solver
 {
 namespace
 {
+
+std::string warning_lines(const scene::Scene& scene, const World& world, const Estimate& wants)
+{
+    std::string text;
+    for (const Warning& warning : plausibility(scene, world, wants))
+    {
+        text += fmt::format("warning: {}\n", text_of(warning));
+    }
+    return text;
+}
 
 std::string shape_lines(const World& world)
 {
@@ -41,23 +58,17 @@ std::string resting_text(const Plan& plan, const Estimate& wants)
                        wants.substeps);
 }
 
-} // namespace
-
-std::string check(const Communicator& communicator, const scene::Scene& scene, int ranks)
+/// Points, time, memory and disk: what a run costs.
+std::string cost_lines(const scene::Scene& scene, const World& world, const Plan& plan, const Estimate& wants)
 {
-    const World    world = build_world(scene);
-    const Plan     plan  = make_plan(scene, world);
-    const Estimate wants = estimate(scene, world, plan);
-    std::string    text  = fmt::format("{}\nscene {}\n\nstages of a step:\n", scene.title, scene::scene_hash(scene));
-    for (const Stage& stage : stages(scene, plan, ranks))
-    {
-        text += fmt::format("  {:<4}{:<28}{}{}\n", stage.on ? "on" : "off", stage.name, stage.why,
-                            stage.on ? "" : price_text(stage, scene, world));
-    }
-    text += fmt::format("\n{} points, {} bodies ({} rocks)\n", world.points.size(), world.bodies.size(),
-                        static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named);
-    for (const std::string& line : bed_lines(describe_bed(scene, world))) { text += "  " + line + "\n"; }
-    if (plan.bodies) { text += "shapes at scale 1:\n" + shape_lines(world); }
+    const int   cores = cores_here();
+    std::string text  = fmt::format("{} points, {} bodies ({} rocks)\n", world.points.size(), world.bodies.size(),
+                                    static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named);
+    text += fmt::format("wall time about {} on {} of this machine's cores, {} on one GPU (H200), by model\n",
+                        duration_text(wall_time(wants, world, core_cost, cores)), cores,
+                        duration_text(wall_time(wants, world, gpu_cost, 1)));
+    text += fmt::format("dt {:.4g} s at the start (limit: {}), at most {:.4g} s simulated: {:.3g} steps{}\n", wants.dt,
+                        wants.limit, wants.time, wants.steps, resting_text(plan, wants));
     text += fmt::format("memory about {} on the backend, disk at most {}\n", bytes_text(wants.memory_bytes),
                         bytes_text(wants.disk.all()));
     text += fmt::format("  of it snapshots {}, time series {}, checkpoints {} ({} kept, one on its way)\n",
@@ -67,10 +78,48 @@ std::string check(const Communicator& communicator, const scene::Scene& scene, i
     {
         text += fmt::format("host memory about {} while a snapshot is written\n", bytes_text(wants.snapshot_bytes));
     }
-    text += fmt::format("dt {:.4g} s at the start (limit: {}), at most {:.4g} s simulated: {:.3g} steps{}\n", wants.dt,
-                        wants.limit, wants.time, wants.steps, resting_text(plan, wants));
+    return text;
+}
+
+/// Gravity and the slope that its direction stands for.
+std::string gravity_line(const scene::Scene& scene)
+{
+    const auto&  g     = scene.domain.gravity;
+    const double along = std::hypot(g[0], g[1]);
+    std::string  text  = fmt::format("gravity {:.4g} m/s2", std::hypot(along, g[2]));
+    if (along == 0) { return text + "\n"; }
+    const double angle = std::atan2(along, -g[2]) * 180 / std::numbers::pi;
+    return text + fmt::format(", a slope of {:.3g} degrees that rises along [{:.3g}, {:.3g}]\n", angle, -g[0] / along,
+                              -g[1] / along);
+}
+
+std::string stage_lines(const scene::Scene& scene, const World& world, const Plan& plan, int ranks)
+{
+    std::string text = "stages of a step:\n";
+    for (const Stage& stage : stages(scene, plan, ranks))
+    {
+        text += fmt::format("  {:<4}{:<28}{}{}\n", stage.on ? "on" : "off", stage.name, stage.why,
+                            stage.on ? "" : price_text(stage, scene, world));
+    }
+    return text;
+}
+
+} // namespace
+
+std::string check(const Communicator& communicator, const scene::Scene& scene, int ranks)
+{
+    const World    world = build_world(scene);
+    const Plan     plan  = make_plan(scene, world);
+    const Estimate wants = estimate(scene, world, plan);
+    std::string    text  = warning_lines(scene, world, wants);
+    text += fmt::format("{}\nscene {}\n\n", scene.title, scene::scene_hash(scene));
+    text += cost_lines(scene, world, plan, wants) + gravity_line(scene);
+    for (const Footing& footing : footings(scene, world)) { text += footing_lines(scene, world, plan, footing); }
+    for (const std::string& line : bed_lines(describe_bed(scene, world))) { text += line + "\n"; }
     if (plan.sand) { text += fmt::format("sand {:.0f} bytes a point, pages included\n", wants.bytes_a_point); }
-    return text + (ranks == 1 ? std::string("partition: one rank\n") : partition_lines(communicator, world, ranks));
+    if (plan.bodies) { text += "shapes at scale 1:\n" + shape_lines(world); }
+    text += ranks == 1 ? std::string("partition: one rank\n") : partition_lines(communicator, world, ranks);
+    return text + "\n" + stage_lines(scene, world, plan, ranks);
 }
 
 } // namespace tread::solver

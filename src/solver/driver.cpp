@@ -330,12 +330,15 @@ void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<Stage>& 
     summary.stages   = clock_.reports(stages);
     summary.errors   = simulation_.ledger().errors();
     summary.phases   = ended_;
-    summary.figures  = figures(simulation_.extremes(), summary.errors, simulation_.limits(), world_, plan_);
     summary.restarts = restarts_;
     summary.asleep   = simulation_.mean_asleep();
 
     summary.checkpoints   = checkpoints_;
     summary.points_across = points_across(simulation_.extremes(), world_);
+
+    const std::optional<DrivenWheel> wheel = driven_wheel(scene_, world_, plan_);
+    summary.figures = figures(simulation_.extremes(), summary.errors, simulation_.limits(), world_, plan_, wheel);
+    if (plan_.coupling) { summary.grid_error = grid_error(wheel, contact_cells(simulation_.extremes(), world_)); }
 }
 
 template class Driver<Cpu, float>;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <unordered_set>
 
@@ -16,6 +17,7 @@
 #include "kernels/mpm/pages.hpp"
 #include "kernels/mpm/wall_kern.hpp"
 #include "solver/pace_limits.hpp"
+#include "solver/sand_guard.hpp"
 
 namespace tread::solver
 {
@@ -223,6 +225,13 @@ double longest_time(const scene::Scene& scene)
     return time;
 }
 
+/// The first step of a run that chooses its own.
+TimeStep automatic_step(scene::TimeOptions options, const PaceLimits& limits)
+{
+    options.dt.reset();
+    return choose_step(options, limits, {}, 0);
+}
+
 DiskUse disk_use(const scene::Scene& scene, const World& world, const Plan& plan, const PageCounts& pages)
 {
     constexpr std::int64_t of_file = 30000, snapshot_of_body = 116, checkpoint_of_body = 2500;
@@ -272,6 +281,9 @@ Estimate estimate(const scene::Scene& scene, const World& world, const Plan& pla
     const TimeStep   first  = choose_step(scene.time, limits, {}, 0);
     wants.dt                = first.dt;
     wants.limit             = first.limit;
+    wants.automatic         = automatic_step(scene.time, limits).dt;
+    wants.hopeless          = limits.wave_speed > 0 ? SandGuard::hopeless_courant * limits.spacing / limits.wave_speed
+                                                    : std::numeric_limits<double>::infinity();
     Pace resting;
     resting.shortest_contact = resting_contact(scene, world);
     const TimeStep later     = choose_step(scene.time, limits, resting, 0);

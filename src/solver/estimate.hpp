@@ -27,6 +27,8 @@ struct Estimate
     double       time;       ///< s simulated, at most
     double       dt;         ///< s, at the start
     std::string  limit;      ///< what sets dt
+    double       automatic;  ///< s, the step that "auto" begins with
+    double       hopeless;   ///< s, longer steps stop a run at once; infinite without sand
     double       resting_dt; ///< s, once rocks lie on each other; dt without rocks
     double       substeps;   ///< of each such step
     double       steps;      ///< of these, at most

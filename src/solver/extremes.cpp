@@ -32,11 +32,10 @@ void add_contact_with_sand(std::vector<io::Figure>& figures, const Extremes& ext
     figures.push_back({"coupling_error", std::abs(errors.coupling), 0.01, 0.05});
     figures.push_back({"margin_sand_contact", std::sqrt(margin(point_contact_bound, extremes.spring)), 0.7, 0.5});
     figures.push_back({"point_overlap", extremes.point_overlap, 1, 2});
-    const double points = points_across(extremes, world);
-    if (points == 0) { return; }
-    const double cells = points * world.point_spacing / world.geometry.spacing;
-    if (plan.plasticity) { figures.push_back({"contact_cells", cells, 20, 6}); }
-    else { figures.push_back({"contact_cells", cells, 4, 2}); }
+    const double cells = contact_cells(extremes, world);
+    if (cells == 0) { return; }
+    const CellBounds bounds = cell_bounds(plan);
+    figures.push_back({"contact_cells", cells, bounds.resolved, bounds.marginal});
 }
 
 void add_bodies(std::vector<io::Figure>& figures, const Extremes& extremes, const World& world)
@@ -79,14 +78,26 @@ double points_across(const Extremes& extremes, const World& world)
     return std::sqrt(extremes.touching / extremes.touched / static_cast<double>(world.bodies.named));
 }
 
+double contact_cells(const Extremes& extremes, const World& world)
+{
+    return points_across(extremes, world) * world.point_spacing / world.geometry.spacing;
+}
+
+CellBounds cell_bounds(const Plan& plan) { return plan.plasticity ? CellBounds{20, 6} : CellBounds{4, 2}; }
+
 std::vector<io::Figure> figures(const Extremes& extremes, const io::ErrorReport& errors, const PaceLimits& limits,
-                                const World& world, const Plan& plan)
+                                const World& world, const Plan& plan, const std::optional<DrivenWheel>& wheel)
 {
     std::vector<io::Figure> figures;
     add_books(figures, errors);
     if (plan.sand) { add_sand(figures, extremes, errors, limits); }
     if (plan.coupling) { add_contact_with_sand(figures, extremes, errors, world, plan); }
     if (plan.bodies) { add_bodies(figures, extremes, world); }
+    if (!plan.coupling) { return figures; }
+    if (const auto error = grid_error(wheel, contact_cells(extremes, world)))
+    {
+        for (const io::Figure& figure : grid_error_figures(*error)) { figures.push_back(figure); }
+    }
     return figures;
 }
 

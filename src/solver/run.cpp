@@ -23,6 +23,7 @@
 #include "solver/estimate.hpp"
 #include "solver/left_out.hpp"
 #include "solver/page_loads.hpp"
+#include "solver/plausibility.hpp"
 #include "solver/rank_devices.hpp"
 #ifdef TREAD_WITH_CUDA
 #include "backend/device.hpp"
@@ -95,6 +96,7 @@ struct Job
     const scene::Scene& scene;
     const World&        world;
     Plan                plan;
+    Estimate            wants;
     const RunOptions&   options;
     std::vector<Stage>  stages;
     io::RunDirectory    directory;
@@ -163,7 +165,7 @@ ExitCode run_precision(const Exec& exec, Job& job)
 ExitCode run_backend(Backend backend, Job& job)
 {
     Counters           counters;
-    const std::int64_t wanted = estimate(job.scene, job.world, job.plan).memory_bytes / job.communicator.size();
+    const std::int64_t wanted = job.wants.memory_bytes / job.communicator.size();
     counters.expect(wanted);
     ExitCode code = ExitCode::finished;
     if (backend == Backend::cpu)
@@ -202,7 +204,25 @@ void say_start(Job& job, Backend backend, int threads)
                          job.scene.numerics.precision == scene::Precision::single_ ? "single" : "double"));
     job.summary.bed = describe_bed(job.scene, job.world);
     say_plan(log, job.scene, job.world, job.stages);
+    for (const Warning& warning : plausibility(job.scene, job.world, job.wants))
+    {
+        job.summary.warnings.push_back(text_of(warning));
+        log.warning(job.summary.warnings.back());
+    }
     for (const std::string& line : bed_lines(job.summary.bed)) { log.info(line); }
+}
+
+/// The last lines of a log. On rank 0, which has the time series.
+void say_answers(Job& job)
+{
+    io::Summary& summary = job.summary;
+    summary.answers      = make_answers(job.scene, job.directory.time_series(), summary.phases.size());
+    if (summary.grid_error)
+    {
+        add_grid_error(job.scene, *summary.grid_error, summary.answers);
+        job.log.info("grid error: " + io::grid_error_line(*summary.grid_error, last_drive(job.scene, summary.answers)));
+    }
+    for (const std::string& line : answer_lines(summary.answers)) { job.log.info(line); }
 }
 
 /// UTC; a run that goes on began when the first part of it did.
@@ -238,6 +258,7 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
             scene,
             world,
             plan,
+            estimate(scene, world, plan),
             options,
             stages(scene, plan, communicator.size()),
             io::RunDirectory::create(communicator, options.output, restart.existing, scene::resolved_toml(scene),
@@ -261,11 +282,9 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
     log.info(fmt::format("\n{}", io::timing_table(job.summary.stages, job.summary.wall_s)));
     log.info(fmt::format("errors: mass {:.3g}, momentum {:.3g}, energy {:.3g}", job.summary.errors.mass,
                          job.summary.errors.momentum, job.summary.errors.energy));
-    log.info("resolution: " + io::verdict_line(job.summary.figures));
+    log.info("resolution: " + io::verdict_line(job.summary));
     if (code != ExitCode::finished) { log.info(job.summary.reason); }
-    on_root(communicator,
-            [&] { job.summary.answers = make_answers(scene, job.directory.time_series(), job.summary.phases.size()); });
-    for (const std::string& line : answer_lines(job.summary.answers)) { log.info(line); }
+    on_root(communicator, [&] { say_answers(job); });
     on_root(communicator, [&] { io::write_summary(job.directory.summary(), job.summary); });
     return code;
 }

@@ -49,8 +49,8 @@ struct RunOptions
 /// EnvironmentError for what is found before the first step.
 ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& scene, const RunOptions& options);
 
-/// What `tread check` prints: the plan of stages with reasons, counts, memory, disk and the limits of the step, and
-/// how the scene falls to so many ranks.
+/// What `tread check` prints: warnings, cost, slope, what each named body stands on and how well the grid resolves it,
+/// the bed, shapes, how the scene falls to so many ranks, and the stages of a step with reasons.
 std::string check(const Communicator& communicator, const scene::Scene& scene, int ranks);
 
 } // namespace tread::solver

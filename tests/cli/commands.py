@@ -52,6 +52,15 @@ class Commands(CommandTest):
         self.assertIn("points", result.stdout)
         self.assertEqual(self.files(), ["scene.toml"])
 
+    def test_check_puts_first_what_a_user_asks(self):
+        page = self.tread("check", self.write("scene.toml", SCENE.replace("[0.0, 0.0, -9.81]", "[-1.0, 0.0, -9.81]") + BODY)).stdout
+        parts = ["a small block of sand", "points, 1 bodies", "wall time about 0:00:0", "dt ", "memory about", "a slope of 5.82 degrees that rises along [1, 0]",
+                 "roller: weight 9.861 N, ", "cells and", "resolution of the contact: under-resolved; marginal from grid.spacing = ", "terrain 0 of sand", "shapes at scale 1",
+                 "partition: one rank", "stages of a step:"]
+        places = [page.find(part) for part in parts]
+        self.assertNotIn(-1, places, page)
+        self.assertEqual(places, sorted(places), page)
+
     def test_check_shows_how_a_scene_falls_to_ranks(self):
         scene = self.write("scene.toml", SCENE + BODY)
         self.assertIn("partition: one rank", self.tread("check", scene).stdout)

@@ -95,7 +95,9 @@ TEST(Summary, json_holds_every_field)
                             "asleep",
                             "stages",
                             "errors",
-                            "resolution"})
+                            "resolution",
+                            "grid_error",
+                            "warnings"})
     {
         EXPECT_TRUE(json.contains(key)) << key;
     }
@@ -123,6 +125,19 @@ TEST(Summary, json_holds_every_field)
     EXPECT_TRUE(json["asleep"].is_null());
     summary.asleep = 0.75;
     EXPECT_EQ(nlohmann::json::parse(to_json(summary))["asleep"], 0.75);
+}
+
+TEST(Summary, log_and_file_agree_on_the_verdict_of_a_failed_run)
+{
+    Summary summary;
+    EXPECT_EQ(verdict_line(summary), "resolved");
+    summary.status = RunStatus::failed;
+    EXPECT_EQ(verdict_line(summary), "under-resolved: the run failed");
+    EXPECT_EQ(nlohmann::json::parse(to_json(summary))["resolution"]["verdict"], "under-resolved");
+    summary.figures = {{"cells", 7, 20, 6}};
+    EXPECT_EQ(verdict_line(summary), "under-resolved: the run failed; cells 7 (resolved from 20, marginal from 6)");
+    summary.status = RunStatus::stopped;
+    EXPECT_EQ(verdict_line(summary), "marginal: cells 7 (resolved from 20, marginal from 6)");
 }
 
 TEST(Summary, unwritable_place_is_an_environment_error)

@@ -26,7 +26,7 @@ struct Rolled
 
     std::optional<io::Figure> figure(const std::string& name, const io::ErrorReport& errors = {}) const
     {
-        for (const io::Figure& one : figures(extremes, errors, limits, world, plan))
+        for (const io::Figure& one : figures(extremes, errors, limits, world, plan, driven_wheel(scene, world, plan)))
         {
             if (one.name == name) { return one; }
         }
