@@ -89,8 +89,8 @@ std::string gravity_line(const scene::Scene& scene)
     std::string  text  = fmt::format("gravity {:.4g} m/s2", std::hypot(along, g[2]));
     if (along == 0) { return text + "\n"; }
     const double angle = std::atan2(along, -g[2]) * 180 / std::numbers::pi;
-    return text + fmt::format(", a slope of {:.3g} degrees that rises along [{:.3g}, {:.3g}]\n", angle, -g[0] / along,
-                              -g[1] / along);
+    return text + fmt::format(", a slope of {:.3g} degrees that rises along [{:.3g}, {:.3g}]\n", angle,
+                              (0 - g[0]) / along, (0 - g[1]) / along);
 }
 
 std::string stage_lines(const scene::Scene& scene, const World& world, const Plan& plan, int ranks)
