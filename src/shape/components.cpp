@@ -1,8 +1,10 @@
 #include "shape/components.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "base/random.hpp"
 #include "shape/half_edges.hpp"
 #include "shape/triangle.hpp"
 
@@ -100,20 +102,31 @@ std::vector<double> signed_volumes(const TriangleMesh& mesh, const Components& c
     return volumes;
 }
 
-std::vector<std::vector<std::size_t>> sample_triangles(const Components& components, std::size_t most)
+std::vector<std::vector<std::size_t>> sample_triangles(const TriangleMesh& mesh, const Components& components,
+                                                       std::size_t most)
 {
-    std::vector<std::size_t> sizes(components.count, 0), seen(components.count, 0);
-    for (const std::size_t of : components.of) { ++sizes[of]; }
-    std::vector<std::vector<std::size_t>> samples(components.count);
-    for (std::size_t t = 0; t < components.of.size(); ++t)
+    struct Entry
     {
-        const std::size_t of = components.of[t];
-        // Every sizes/most-th triangle, counted without fractions.
-        if (seen[of] * most / sizes[of] >= samples[of].size() && samples[of].size() < most)
-        {
-            samples[of].push_back(t);
-        }
-        ++seen[of];
+        double      key;
+        std::size_t triangle;
+    };
+    // Exponential variates over the areas: the smallest are a sample without replacement, weighted by area (Efraimidis
+    // & Spirakis 2006, Inf. Process. Lett. 97:181).
+    Random                          random(1);
+    std::vector<std::vector<Entry>> entries(components.count);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+        entries[components.of[t]].push_back({-std::log1p(-random.uniform()) / area_vector(mesh, t).norm(), t});
+    }
+    std::vector<std::vector<std::size_t>> samples(components.count);
+    for (std::size_t p = 0; p < components.count; ++p)
+    {
+        std::vector<Entry>& own   = entries[p];
+        const std::size_t   count = std::min(most, own.size());
+        std::partial_sort(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(count), own.end(),
+                          [](const Entry& one, const Entry& other)
+                          { return one.key != other.key ? one.key < other.key : one.triangle < other.triangle; });
+        for (std::size_t i = 0; i < count; ++i) { samples[p].push_back(own[i].triangle); }
     }
     return samples;
 }

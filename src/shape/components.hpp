@@ -25,7 +25,13 @@ Components find_components(const TriangleMesh& mesh);
 /// way round.
 std::vector<double> signed_volumes(const TriangleMesh& mesh, const Components& components);
 
-/// Up to `most` triangles of each component, spread over it.
-std::vector<std::vector<std::size_t>> sample_triangles(const Components& components, std::size_t most);
+/// All triangles of each component, or `most` of them, drawn at random by their areas from a fixed seed: every n-th
+/// would see the same side of each tooth of a wheel.
+std::vector<std::vector<std::size_t>> sample_triangles(const TriangleMesh& mesh, const Components& components,
+                                                       std::size_t most);
+
+/// For each component those that hold all of it, whichever way they face. Two that hold each other are the same solid,
+/// of which the larger, then the first, is the holder. Components whose surfaces cross do not hold each other.
+std::vector<std::vector<std::size_t>> find_holders(const TriangleMesh& mesh, const Components& components);
 
 } // namespace tread::shape

@@ -42,9 +42,9 @@ struct Repaired
 /// An even number of triangles at one place is a wall between parts that touch, and goes altogether, where its rim
 /// meets surface on both sides; elsewhere one of them stays.
 ///
-/// In the end parts that lie in no other part face outwards. A part within others keeps the sense that it has in the
-/// file relative to them (facing inwards = cavity), if no triangle had to be wound anew and all outer parts agreed;
-/// else parity decides: within one part it is a cavity, within two it is solid.
+/// In the end parts that lie in no other part (find_holders) face outwards. A part within others keeps the sense that
+/// it has in the file relative to them (facing inwards = cavity), if no triangle had to be wound anew and all outer
+/// parts agreed; else parity decides: within one part it is a cavity, within two it is solid.
 ///
 /// The result need not be closed: find_defects says what is left.
 Repaired repair_mesh(const TriangleMesh& mesh);

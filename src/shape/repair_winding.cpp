@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -8,7 +7,6 @@
 #include "shape/components.hpp"
 #include "shape/repair_steps.hpp"
 #include "shape/triangle.hpp"
-#include "shape/winding_number.hpp"
 
 namespace tread::shape
 {
@@ -28,26 +26,11 @@ void turn_parts(TriangleMesh& mesh, const Components& parts, const std::vector<s
     }
 }
 
-/// In how many others each part lies, all of it; `mesh` has every part facing outwards. In the middle of a triangle the
-/// number is that of the others and 1/2 for the part itself.
+/// In how many others each part lies, all of it.
 std::vector<int> depths(const TriangleMesh& mesh, const Components& parts)
 {
-    constexpr std::size_t samples = 8;
-    if (parts.count == 1) { return {0}; }
-
-    const double      step    = 1e-6 * bounds(mesh).extent().maxCoeff();
-    const WindingTree winding = build_winding_tree(mesh);
-    const auto        chosen  = sample_triangles(parts, samples);
-    std::vector<int>  depth(parts.count, 0);
-    for (std::size_t p = 0; p < parts.count; ++p)
-    {
-        double least = static_cast<double>(parts.count);
-        for (const std::size_t t : chosen[p])
-        {
-            least = std::min(least, winding_number_on(winding, corners(mesh, t), step) - 0.5);
-        }
-        depth[p] = std::max(0, static_cast<int>(std::lround(least)));
-    }
+    std::vector<int> depth;
+    for (const auto& holders : find_holders(mesh, parts)) { depth.push_back(static_cast<int>(holders.size())); }
     return depth;
 }
 

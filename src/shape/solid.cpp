@@ -11,6 +11,7 @@
 #include "base/errors.hpp"
 #include "shape/boundary.hpp"
 #include "shape/components.hpp"
+#include "shape/part_volumes.hpp"
 #include "shape/repair.hpp"
 #include "shape/sampled_mass.hpp"
 #include "shape/triangle_crossing.hpp"
@@ -61,11 +62,30 @@ std::optional<std::size_t> find_crossing(const TriangleMesh& mesh, const Triangl
     return first < mesh.triangles.size() ? std::optional(first) : std::nullopt;
 }
 
-/// Without crossings all of a part has the same number of others round it: a few samples tell. In the middle of a
-/// triangle the winding number is 1/2 if the part bounds the solid, 1 more inside another part.
+/// Counts the parts that face inwards where no part that faces outwards holds them, and finds the first of the parts
+/// that others hold though both are solid.
+void judge_nesting(const TriangleMesh& mesh, const Components& parts, Meeting& meeting)
+{
+    const auto                holders = find_holders(mesh, parts);
+    const std::vector<double> volumes = signed_volumes(mesh, parts);
+    std::vector<std::size_t>  first(parts.count, mesh.triangles.size());
+    for (std::size_t t = mesh.triangles.size(); t-- > 0;) { first[parts.of[t]] = t; }
+    for (std::size_t p = 0; p < parts.count; ++p)
+    {
+        int around = 0; // winding number outside the part, next to it
+        for (const std::size_t holder : holders[p]) { around += volumes[holder] < 0 ? -1 : 1; }
+        const Eigen::Vector3d place = middle_of(corners(mesh, first[p]));
+        if (volumes[p] > 0 && around > 0 && !meeting.place) { meeting.place = place; }
+        if (volumes[p] >= 0 || around > 0) { continue; }
+        if (meeting.inside_out++ == 0) { meeting.turned_place = place; }
+    }
+}
+
+/// In the middle of a triangle the winding number is 1/2 if the part bounds the solid; another part that touches it
+/// there or holds it adds to that.
 Meeting find_meeting(const TriangleMesh& mesh)
 {
-    constexpr std::size_t samples = 8;
+    constexpr std::size_t samples = 256;
 
     const Components  parts   = find_components(mesh);
     const WindingTree winding = build_winding_tree(mesh);
@@ -76,16 +96,14 @@ Meeting find_meeting(const TriangleMesh& mesh)
     {
         meeting.place = middle_of(corners(mesh, *crossed));
     }
-    for (const auto& of_part : sample_triangles(parts, samples))
+    judge_nesting(mesh, parts, meeting);
+    for (const auto& of_part : sample_triangles(mesh, parts, samples))
     {
-        bool inside_out = false;
         for (const std::size_t t : of_part)
         {
+            if (meeting.place) { return meeting; }
             const double beyond = winding_number_on(winding, corners(mesh, t), step) - 0.5;
-            if (beyond > 0.25 && !meeting.place) { meeting.place = middle_of(corners(mesh, t)); }
-            if (beyond > -0.25 || inside_out) { continue; }
-            inside_out = true;
-            if (meeting.inside_out++ == 0) { meeting.turned_place = middle_of(corners(mesh, t)); }
+            if (std::abs(beyond) > 0.25) { meeting.place = middle_of(corners(mesh, t)); }
         }
     }
     return meeting;
@@ -112,6 +130,7 @@ void sign_by_winding(Solid& solid, const std::string& origin)
                                         "to about 0.1 %; {} triangles bound it",
                                         solid.surface.triangles.size()));
     if (!(solid.unit.volume > 0)) { throw InputError(fmt::format("{}: the mesh encloses no volume", origin)); }
+    require_volume_of_parts(solid.parts, solid.unit.volume, origin);
 }
 
 void take_closed(Solid& solid, Repair repair, const std::string& origin)

@@ -30,7 +30,8 @@ struct Solid
 /// Takes a user's mesh. A closed one whose parts do not meet is taken as it is, with pseudonormals and exact mass
 /// properties. A closed one whose parts overlap, touch, or lie in each other as solids is the union of its parts, told
 /// by winding number. One with defects is refused without repair: InputError names `origin`, the defects, and the key
-/// that would have helped. With repair, what is still not closed is told by winding number, too.
+/// that would have helped. With repair, what is still not closed is told by winding number, too. What is told by
+/// winding number is refused if it has not the volume of its parts (require_volume_of_parts).
 Solid make_solid(const TriangleMesh& mesh, Repair repair, const std::string& origin);
 
 MeshDistance prepare_distance(const Solid& solid);

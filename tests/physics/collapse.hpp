@@ -22,8 +22,10 @@ struct CollapseSetup
 /// Over the column's width.
 struct Deposit
 {
-    double run_out; ///< how far beyond the column's foot 99 % of the mass end: the last grains lie alone
-    double height;  ///< of the sand at the wall
+    double run_out;    ///< how far beyond the column's foot 99 % of the mass end: the last grains lie alone
+    double front;      ///< how far beyond it 99.9 % end
+    double last_point; ///< how far beyond it the last point lies
+    double height;     ///< of the sand at the wall
 };
 
 constexpr double column_width = 0.1; ///< m
@@ -75,9 +77,9 @@ Deposit collapse(const Exec& exec, const CollapseSetup& setup)
         x.push_back(place[0]);
         if (place[0] < spacing) { top = std::max(top, place[2] + 0.25 * spacing); }
     }
-    const auto front = x.begin() + static_cast<std::ptrdiff_t>(99 * x.size() / 100);
-    std::nth_element(x.begin(), front, x.end());
-    return {*front / column_width - 1, top / column_width};
+    std::sort(x.begin(), x.end());
+    return {x[99 * x.size() / 100] / column_width - 1, x[999 * x.size() / 1000] / column_width - 1,
+            x.back() / column_width - 1, top / column_width};
 }
 
 /// Run-out by Lube et al. (2005), J. Fluid Mech. 541, and Lajeunesse et al. (2005), Phys. Fluids 17: both say 1.2 a for

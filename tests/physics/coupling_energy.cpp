@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "books.hpp"
+#include "order.hpp"
 
 // The books of sand and bodies together (design section 7).
 namespace
@@ -88,13 +89,13 @@ TYPED_TEST(CouplingEnergy, CouplingFallsWithTheTimeStep)
         drop.run();
         return drop.simulation().ledger().energy(drop.simulation().census()).coupling;
     };
-    const double coarse = coupling("1.0e-3"), middle = coupling("5.0e-4"), fine = coupling("2.5e-4");
-    const auto   why =
-        fmt::format("first order in dt, a quarter to spare; {:.3g}, {:.3g}, {:.3g} J of 4.3 J", coarse, middle, fine);
-    test::report("coupling at 1 ms over that at 0.5 ms", coarse / middle, 2, 0.5, why);
-    test::report("coupling at 0.5 ms over that at 0.25 ms", middle / fine, 2, 0.5, why);
-    EXPECT_NEAR(coarse / middle, 2, 0.5);
-    EXPECT_NEAR(middle / fine, 2, 0.5);
+    const auto fit =
+        test::expect_order("coupling in dt, J of 4.3 J", {2.5e-4, 1.25e-4, 6.25e-5},
+                           {coupling("2.5e-4"), coupling("1.25e-4"), coupling("6.25e-5")},
+                           {0.85, 1.05, "first order; a term of -9.4e4 dt^2 J beside 252 dt J takes 0.11"});
+    test::report("coupling at no time step in J", fit.limit, 0, 4.3e-3,
+                 "0.1 % of 4.3 J: what the term of dt^2 leaves is 0.0016");
+    EXPECT_NEAR(fit.limit, 0, 4.3e-3);
 }
 
 } // namespace

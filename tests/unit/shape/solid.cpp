@@ -202,6 +202,39 @@ TEST(Solid, LargeHolesAreSignedByWindingNumber)
     EXPECT_LT(solid.unit.volume, whole);
 }
 
+/// Six spheres that share most of what they hold, some three times.
+TEST(Solid, PartsThatShareMostOfTheirVolumeAreTaken)
+{
+    TriangleMesh rock;
+    for (int i = 0; i < 6; ++i)
+    {
+        TriangleMesh sphere = icosphere(162, "sphere");
+        for (Vector3d& vertex : sphere.vertices) { vertex += 0.2 * test::sphere_point(i, 6); }
+        rock = test::together(rock, sphere);
+    }
+    const double one   = mass_properties(icosphere(162, "sphere")).volume;
+    const Solid  solid = make_solid(rock, Repair::tried, "rock");
+    EXPECT_GT(solid.unit.volume, one);
+    EXPECT_LT(solid.unit.volume, 2 * one);
+}
+
+/// A bar whose far half is turned round its axis, so that the half faces inwards: 0.6 m of it hold +, 0.4 m hold -.
+TEST(Solid, RefusesAVolumeThatIsNotThatOfItsParts)
+{
+    TriangleMesh bar = test::box_mesh({0, -0.5, -0.5}, {1, 0.5, 0.5});
+    for (Vector3d& vertex : bar.vertices)
+    {
+        if (vertex.x() > 0.5) { vertex.y() *= -0.8; }
+    }
+    for (const Repair repair : {Repair::none, Repair::tried})
+    {
+        EXPECT_THAT(test::input_error([&] { make_solid(bar, repair, "bar"); }),
+                    AllOf(HasSubstr("bar: the solid would have 0."),
+                          HasSubstr("by their own volumes: 1 solid parts hold"), HasSubstr("0 cavities"),
+                          HasSubstr("20 %")));
+    }
+}
+
 TEST(Solid, RefusesWhatEnclosesNothing)
 {
     const TriangleMesh sheet{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0.1}}, {{0, 1, 4}, {1, 2, 4}}};
