@@ -126,8 +126,8 @@ TEST(MidStep, StraightStepsAreSeenAsTheyStrain)
         const auto   turned   = strain_increment(Mat3<double>(turn + to_mid_step(turn, 1.0)), 1.0);
         const auto   drawn    = strain_increment(Mat3<double>(stretch + to_mid_step(stretch, 1.0)), 1.0);
         const double swelling = 0.5 * std::log1p(a * a);
-        std::printf("[ measured ] strain of a turn by %.3f: %.8e, expected %.8e, tolerance a^4/3 (two terms)\n", a,
-                    turned[0], swelling, a * a * a * a / 3);
+        std::printf("[ measured ] strain of a turn by %.3f: %.8e, expected %.8e, tolerance %.1e = a^4/3 (two terms)\n",
+                    a, turned[0], swelling, a * a * a * a / 3);
         EXPECT_NEAR(turned[0], swelling, a * a * a * a / 3);
         EXPECT_NEAR(turned[1], swelling, a * a * a * a / 3);
         EXPECT_NEAR(drawn[2], std::log1p(a), a * a * a / 3);
