@@ -293,7 +293,8 @@ void Sand<Exec, Real>::gather(double dt)
     ++step_;
     if (cell_means_)
     {
-        mpm::average_divergence(exec_, points_.view(), pages(), motion_.data(), cell_divergence_.data());
+        mpm::average_divergence(exec_, points_.view(), pages(), motion_.data(), static_cast<Real>(dt),
+                                cell_divergence_.data());
     }
     const mpm::GatherStep<Real> step{static_cast<Real>(dt), materials_.data(),
                                      static_cast<Real>(pic_share(pic_rate_, dt)), cell_divergence_.data()};

@@ -187,6 +187,103 @@ TYPED_TEST(WallsOfSand, BlockLeavesTheFloor)
     }
 }
 
+/// Cohesionless sand 0.2 m high on one wall, one cell thick and as long as its box; gravity points away from that wall
+/// if `away` > 0 and onto it otherwise.
+std::string heap_text(const std::string& walls, const Vec3<double>& pull, double duration)
+{
+    return fmt::format(R"(
+title = "sand on one wall"
+[domain]
+size    = [0.6, 0.05, 0.6]
+gravity = [{}, 0.0, {}]
+walls   = {{ y = "slip", {} }}
+[grid]
+spacing = 0.05
+[numerics]
+precision = "double"
+[[material]]
+name = "sand"
+model = "mohr-coulomb"
+density = 1600.0
+young = 1.0e6
+poisson = 0.3
+friction_angle_deg = 35.0
+[[terrain]]
+material = "sand"
+region = {{ box = [[0.0, 0.0, 0.0], [0.2, 0.05, 0.2]] }}
+[[phase]]
+name = "go"
+duration = {}
+)",
+                       pull[0], pull[2], walls, duration);
+}
+
+/// Momentum along `pull` over what free fall would give.
+template<class Exec>
+double share_of_free_fall(const Exec& exec, const std::string& walls, const Vec3<double>& pull)
+{
+    constexpr double       duration = 0.05;
+    test::Experiment<Exec> fall(exec, heap_text(walls, pull, duration));
+    fall.simulation().sand().points().stress.fill_zero();
+    fall.run();
+    return motion(fall).velocity.dot(pull) / (pull.squaredNorm() * fall.time());
+}
+
+/// Cohesionless sand that is pulled off a rough wall, upwards or sideways, goes without a force. A fixed one holds back
+/// what is beside it.
+TYPED_TEST(WallsOfSand, SandLeavesARoughWallAndNotAFixedOne)
+{
+    struct Case
+    {
+        const char*  what;
+        const char*  walls;
+        Vec3<double> pull;
+    };
+    for (const Case& c : {Case{"up from the floor", "x = \"open\", top = \"open\", bottom = ", {0, 0, gravity}},
+                          Case{"sideways", "bottom = \"open\", top = \"open\", x = ", {gravity, 0, 0}}})
+    {
+        const double rough = share_of_free_fall(this->exec(), std::string(c.walls) + "\"rough\"", c.pull);
+        const double fixed = share_of_free_fall(this->exec(), std::string(c.walls) + "\"fixed\"", c.pull);
+        test::report(fmt::format("share of free fall, rough wall, {}", c.what), rough, 1, 1e-12, "no force: rounding");
+        test::report(fmt::format("share of free fall, fixed wall, {}", c.what), fixed, 1 - 0.125, 0.125,
+                     "half of the four cells' lowest or more stays");
+        EXPECT_NEAR(rough, 1, 1e-12);
+        EXPECT_LT(fixed, 0.95);
+    }
+}
+
+/// Under load a rough floor is a fixed one: a bed keeps the stress of its weight, and a block does not slide where
+/// Coulomb's friction of 0.3 would let it.
+TYPED_TEST(WallsOfSand, RoughFloorHoldsWhatPressesOnIt)
+{
+    const auto stress = [&](const std::string& floor)
+    {
+        const std::string           walls = "x = \"slip\", top = \"open\", bottom = \"" + floor + "\"";
+        test::Experiment<TypeParam> bed(this->exec(), heap_text(walls, {0, 0, -gravity}, 0.2));
+        bed.run();
+        return bed.simulation().sand().points().stress.to_host();
+    };
+    const auto rough = stress("rough"), fixed = stress("fixed");
+    double     off = 0, largest = 0;
+    for (std::size_t i = 0; i < rough.size(); ++i)
+    {
+        off     = std::max(off, std::abs(rough[i] - fixed[i]));
+        largest = std::max(largest, std::abs(fixed[i]));
+    }
+    test::report("stress on a rough floor beside a fixed one, over the largest", off / largest, 0, 1e-9,
+                 "both hold all the time: the same sums");
+    EXPECT_LT(off, 1e-9 * largest);
+    EXPECT_GT(largest, 0.5 * 1600 * gravity * 0.2);
+
+    test::Experiment<TypeParam> block(this->exec(), block_text(20, "bottom = \"rough\"", 0.5));
+    const Motion                start = motion(block);
+    block.run();
+    const double moved = motion(block).position[0] - start.position[0], most = 2 * top_shear(20);
+    test::report("displacement of a block at 20 degrees on a rough floor in m", moved, 0.5 * most, 0.5 * most,
+                 "shear under its own weight, swinging, and bending; with a friction of 0.3 it would be 74 mm");
+    EXPECT_NEAR(moved, 0.5 * most, 0.5 * most);
+}
+
 /// A bed of 0.2 m x 0.2 m against three walls that meet in a corner; `up` turns the world upside down.
 std::string corner_text(int cells, bool up)
 {

@@ -15,6 +15,7 @@ struct AveragePage
     PointsView<Real> points;
     PagesView        pages;
     const Real*      motion;
+    Real             dt;
     Real*            cell_divergence;
 
     __device__ void operator()(std::int64_t page) const
@@ -26,7 +27,7 @@ struct AveragePage
         }
         __syncthreads();
         const std::int64_t cell = page * page_cells + threadIdx.x;
-        cell_divergence[cell]   = mean_divergence(points, pages, cell, tile);
+        cell_divergence[cell]   = mean_divergence(points, pages, cell, tile, dt);
     }
 };
 
@@ -34,13 +35,14 @@ struct AveragePage
 
 template<class Real>
 void average_divergence(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-                        Real* cell_divergence)
+                        Real dt, Real* cell_divergence)
 {
     for_each_block<page_cells>(gpu, "cell divergence", pages.point_pages,
-                               AveragePage<Real>{points, pages, motion, cell_divergence});
+                               AveragePage<Real>{points, pages, motion, dt, cell_divergence});
 }
 
-template void average_divergence(const Gpu&, const PointsView<float>&, const PagesView&, const float*, float*);
-template void average_divergence(const Gpu&, const PointsView<double>&, const PagesView&, const double*, double*);
+template void average_divergence(const Gpu&, const PointsView<float>&, const PagesView&, const float*, float, float*);
+template void average_divergence(const Gpu&, const PointsView<double>&, const PagesView&, const double*, double,
+                                 double*);
 
 } // namespace tread::mpm

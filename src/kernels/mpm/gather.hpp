@@ -28,7 +28,7 @@ enum PointSum : int
     point_strain,        ///< J, elastic, after the step
     point_plastic_work,  ///< J, of the step
     point_contact_work,  ///< J, of the step's contact forces on the sand
-    point_stress_power,  ///< W, of the stress after the step on its rate of strain
+    point_stress_power,  ///< W, of the stress after the step on its rate of strain, at the positions after it
     point_contact_power, ///< W, of the step's contact forces on the velocity after P2G
     point_sums
 };

@@ -1,5 +1,8 @@
+#include <cmath>
+#include <cstdio>
 #include <numbers>
 
+#include "kernels/mpm/mid_step_kern.hpp"
 #include "law_support.hpp"
 
 // Objectivity, Hooke's law and its energy.
@@ -108,6 +111,29 @@ TEST(ElasticLaw, PlasticStateComesBackAsItWent)
     EXPECT_EQ(update.state.plastic_rate, state.plastic_rate);
     EXPECT_EQ(update.state.volume_gap, state.volume_gap);
     EXPECT_EQ(update.plastic_work, 0);
+}
+
+/// Straight steps that turn by atan(a) stretch by sqrt(1 + a^2) across the axis, those along a line by 1 + a: what the
+/// gradient of the middle of the step says, that of the start does not.
+TEST(MidStep, StraightStepsAreSeenAsTheyStrain)
+{
+    for (const double a : {1e-3, 1e-2, 0.1})
+    {
+        Mat3<double> turn = Mat3<double>::Zero(), stretch = Mat3<double>::Zero();
+        turn(0, 1)            = -a;
+        turn(1, 0)            = a;
+        stretch(2, 2)         = a;
+        const auto   turned   = strain_increment(Mat3<double>(turn + to_mid_step(turn, 1.0)), 1.0);
+        const auto   drawn    = strain_increment(Mat3<double>(stretch + to_mid_step(stretch, 1.0)), 1.0);
+        const double swelling = 0.5 * std::log1p(a * a);
+        std::printf("[ measured ] strain of a turn by %.3f: %.8e, expected %.8e, tolerance %.1e = a^4/3 (two terms)\n",
+                    a, turned[0], swelling, a * a * a * a / 3);
+        EXPECT_NEAR(turned[0], swelling, a * a * a * a / 3);
+        EXPECT_NEAR(turned[1], swelling, a * a * a * a / 3);
+        EXPECT_NEAR(drawn[2], std::log1p(a), a * a * a / 3);
+        const Mat3<double> both = turn + 0.3 * stretch + 0.2 * turn * stretch.transpose();
+        EXPECT_NEAR(divergence_to_mid_step(both, 0.7), to_mid_step(both, 0.7).trace(), 1e-15 * a);
+    }
 }
 
 } // namespace
