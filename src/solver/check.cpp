@@ -3,6 +3,7 @@
 #include "base/bytes_text.hpp"
 #include "scene/resolved.hpp"
 #include "solver/bed.hpp"
+#include "solver/drive_room.hpp"
 #include "solver/estimate.hpp"
 #include "solver/left_out.hpp"
 #include "solver/page_loads.hpp"
@@ -34,6 +35,19 @@ std::string shape_lines(const World& world)
     return text;
 }
 
+/// Heights that the scene leaves to the bed.
+std::string body_lines(const scene::Scene& scene, const World& world)
+{
+    std::string text;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    {
+        if (!scene.bodies[b].on_surface) { continue; }
+        text += fmt::format("'{}' stands on the surface: its centre is at z = {:.4g} m\n", scene.bodies[b].name,
+                            world.bodies.position[b][2]);
+    }
+    return text;
+}
+
 std::string resting_text(const Plan& plan, const Estimate& wants)
 {
     if (!plan.rocks) { return " at that dt"; }
@@ -58,6 +72,11 @@ std::string check(const Communicator& communicator, const scene::Scene& scene, i
                         static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named);
     for (const std::string& line : bed_lines(describe_bed(scene, world))) { text += "  " + line + "\n"; }
     if (plan.bodies) { text += "shapes at scale 1:\n" + shape_lines(world); }
+    text += body_lines(scene, world);
+    for (const std::string& warning : drive_warnings(scene, world, drive_rooms(scene, world)))
+    {
+        text += "warning: " + warning + "\n";
+    }
     text += fmt::format("memory about {} on the backend, disk at most {}\n", bytes_text(wants.memory_bytes),
                         bytes_text(wants.disk.all()));
     text += fmt::format("  of it snapshots {}, time series {}, checkpoints {} ({} kept, one on its way)\n",

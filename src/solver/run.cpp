@@ -18,6 +18,7 @@
 #include "io/progress.hpp"
 #include "scene/resolved.hpp"
 #include "solver/bed.hpp"
+#include "solver/drive_room.hpp"
 #include "solver/driver.hpp"
 #include "solver/estimate.hpp"
 #include "solver/left_out.hpp"
@@ -202,6 +203,10 @@ void say_start(Job& job, Backend backend, int threads)
     job.summary.bed = describe_bed(job.scene, job.world);
     say_plan(log, job.scene, job.world, job.stages);
     for (const std::string& line : bed_lines(job.summary.bed)) { log.info(line); }
+    for (const std::string& warning : drive_warnings(job.scene, job.world, drive_rooms(job.scene, job.world)))
+    {
+        log.warning(warning);
+    }
 }
 
 /// UTC; a run that goes on began when the first part of it did.

@@ -27,7 +27,7 @@ struct HeadOn
 template<class Exec, class Real>
 HeadOn collide(const Exec& exec, const std::string& scene, std::vector<std::string> overrides)
 {
-    overrides.push_back("output.snapshots_every=0");
+    overrides.emplace_back("output.snapshots_every=0");
     Experiment<Exec, Real> run(exec, scene::load_scene(scene, overrides));
     auto&                  simulation = run.simulation();
     const double           body_mass = run.world().bodies.mass.at(0), point_mass = simulation.census().sand.mass;
