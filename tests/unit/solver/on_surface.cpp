@@ -68,7 +68,7 @@ TEST(OnSurface, StandsAboveRocksThatAreYetToFallAndDoesNotMoveThem)
     EXPECT_EQ(nearest, 0) << "it stands higher than it has to";
 
     std::string elsewhere = text;
-    elsewhere.replace(elsewhere.find("[0.2, 0.2, \"on surface\"]\ngap = 0.000000"), 40, "[0.2, 0.2, 0.5]");
+    elsewhere.replace(elsewhere.find("[0.2, 0.2, \"on surface\"]\ngap = 0.000000"), 39, "[0.2, 0.2, 0.5]");
     const World other = build_world(test::load_text(elsewhere));
     for (std::size_t rock = 1; rock < world.bodies.size(); ++rock)
     {
