@@ -194,7 +194,7 @@ TYPED_TEST(Restart, OfABodyThatIsLoweredGivesTheSameBits)
     text.replace(text.find("duration = 0.05"), 15,
                  "until = \"lowered\"\nmax_duration = 1.0\n"
                  "lower = { body = \"roller\", speed = 0.03, share = 0.5 }");
-    text.replace(text.find("\"x\", \"y\", \"roll\", \"pitch\", \"yaw\""), 33, "\"y\"");
+    text.replace(text.find("\"x\", \"y\", \"roll\", \"pitch\", \"yaw\""), 32, "\"y\"");
     this->expect_same_bits(text + R"(
 [[phase]]
 name     = "load"
