@@ -32,6 +32,9 @@ def last_drive(run):
     driven = [index for index, phase in enumerate(begun) if "drive" in phases.get(phase.name, {})]
     if not driven:
         raise RunError(f"{run.path}: no phase has driven a wheel")
+    # A drive that would have gone on where the bed had ended took no time.
+    lasting = [index for index in driven if index + 1 == len(begun) or begun[index + 1].start > begun[index].start]
+    driven = _without_empty_end(run, begun, lasting) or driven
     drive = phases[begun[driven[-1]].name]["drive"]
     start = begun[driven[-1]].start + drive.get("ramp", 0.0)
     wheel = run.wheel(drive["body"])
@@ -42,6 +45,11 @@ def last_drive(run):
     if not rows.any():
         raise RunError(f"{run.path}: '{drive['body']}' is not up to speed yet")
     return Drive(drive["body"], start, wheel["time"][rows], _series(wheel, rows, np.sign(drive["angular_velocity"])))
+
+
+def _without_empty_end(run, begun, driven):
+    ended = run.summary is not None and len(driven) > 1 and begun[driven[-1]].start >= run.energy["time"][-1]
+    return driven[:-1] if ended else driven
 
 
 def _series(wheel, rows, direction):

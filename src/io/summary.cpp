@@ -52,6 +52,7 @@ Json phases_of(const Summary& summary)
         phases.push_back({{"name", phase.name},
                           {"start", phase.start},
                           {"time", phase.time},
+                          {"end", phase.end},
                           {"settled", phase.settled ? Json(*phase.settled) : Json()},
                           {"unbalanced", phase.unbalanced},
                           {"packing_fraction", phase.packing_fraction ? Json(*phase.packing_fraction) : Json()}});

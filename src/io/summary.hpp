@@ -45,6 +45,7 @@ struct PhaseReport
     std::string           name;
     double                start = 0;        ///< s
     double                time  = 0;        ///< s that it took
+    std::string           end;              ///< what ended it: "duration", "settled", "not settled", "lowered" ...
     std::optional<bool>   settled;          ///< whether it ended in equilibrium; null if it was not to
     double                unbalanced = 0;   ///< force that is out of balance over the weight, at its end
     std::optional<double> packing_fraction; ///< of the bed of rocks that it settled; null if it settled none

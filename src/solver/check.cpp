@@ -6,6 +6,7 @@
 #include "base/bytes_text.hpp"
 #include "scene/resolved.hpp"
 #include "solver/bed.hpp"
+#include "solver/drive_room.hpp"
 #include "solver/estimate.hpp"
 #include "solver/footing.hpp"
 #include "solver/left_out.hpp"
@@ -47,6 +48,19 @@ std::string shape_lines(const World& world)
         {
             text += fmt::format("  {}: warning: {}\n", form.name, warning);
         }
+    }
+    return text;
+}
+
+/// Heights that the scene leaves to the bed.
+std::string body_lines(const scene::Scene& scene, const World& world)
+{
+    std::string text;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    {
+        if (!scene.bodies[b].on_surface) { continue; }
+        text += fmt::format("'{}' stands on the surface: its centre is at z = {:.4g} m\n", scene.bodies[b].name,
+                            world.bodies.position[b][2]);
     }
     return text;
 }
@@ -115,6 +129,8 @@ std::string check(const Communicator& communicator, const scene::Scene& scene, i
     text += fmt::format("{}\nscene {}\n\n", scene.title, scene::scene_hash(scene));
     text += cost_lines(scene, world, plan, wants) + gravity_line(scene);
     for (const Footing& footing : footings(scene, world)) { text += footing_lines(scene, world, plan, footing); }
+    text += body_lines(scene, world);
+    for (const std::string& note : drive_notes(scene, world, drive_rooms(scene, world))) { text += note + "\n"; }
     for (const std::string& line : bed_lines(describe_bed(scene, world))) { text += line + "\n"; }
     if (plan.sand) { text += fmt::format("sand {:.0f} bytes a point, pages included\n", wants.bytes_a_point); }
     if (plan.bodies) { text += "shapes at scale 1:\n" + shape_lines(world); }

@@ -53,7 +53,8 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , directory_(directory)
     , simulation_(simulation)
     , options_(options)
-    , phases_(scene)
+    , phases_(scene, rolling_radii(scene, world))
+    , rooms_(drive_rooms(scene, world))
     , surface_(scene, world)
     , wall_start_(wall_clock())
     , said_{wall_start_, 0, 0}
@@ -138,16 +139,65 @@ Interruption Driver<Exec, Real>::look_outside()
     return simulation_.measured() ? interruptions_->look(communicator_, time_, steps_) : Interruption{};
 }
 
-/// To the next phase, if this one is over.
+/// To the next phase, if this one is over, and past those that would go on where this one had to end.
 template<class Exec, class Real>
 void Driver<Exec, Real>::pass_on()
 {
-    if (!phases_.over(time_, simulation_.unbalanced())) { return; }
-    end_phase();
-    std::vector<double> spins;
-    for (const BodyRow& body : simulation_.named_bodies()) { spins.push_back(body.angular_velocity.dot(body.axle)); }
-    phases_.advance(time_, std::move(spins));
-    if (!phases_.finished()) { begin_phase(); }
+    require_on_terrain();
+    bool over = phase_is_over();
+    while (over)
+    {
+        end_phase();
+        std::vector<double> spins;
+        for (const BodyRow& body : simulation_.named_bodies())
+        {
+            spins.push_back(body.angular_velocity.dot(body.axle));
+        }
+        phases_.advance(time_, std::move(spins));
+        if (phases_.finished()) { return; }
+        begin_phase();
+        over = is_at_end_of_bed();
+    }
+}
+
+template<class Exec, class Real>
+bool Driver<Exec, Real>::phase_is_over()
+{
+    if (const auto body = phases_.lowered(); body && simulation_.measured())
+    {
+        phases_.weigh(time_, simulation_.carried(*body));
+    }
+    return is_at_end_of_bed() || phases_.over(time_, simulation_.unbalanced());
+}
+
+template<class Exec, class Real>
+bool Driver<Exec, Real>::is_at_end_of_bed()
+{
+    const auto& drive = phases_.phase().drive;
+    if (!drive || !simulation_.measured()) { return false; }
+    for (const DriveRoom& room : rooms_)
+    {
+        if (scene_.bodies[room.body].name != drive->body) { continue; }
+        const WayEnd* end = reached_end(room, *drive, simulation_.place(room.body)[0]);
+        if (end != nullptr) { phases_.end_of_bed(time_, simulation_.unbalanced(), end->what); }
+        return end != nullptr;
+    }
+    return false;
+}
+
+/// Of bodies that are driven in the scene; NumericalError where one rolled off: what comes then is no answer.
+template<class Exec, class Real>
+void Driver<Exec, Real>::require_on_terrain()
+{
+    if (!simulation_.measured()) { return; }
+    for (const DriveRoom& room : rooms_)
+    {
+        const Vec3<double> axle = simulation_.place(room.body);
+        if (!has_left(room, axle)) { continue; }
+        throw NumericalError(fmt::format("t = {:.6g} s: '{}' has left the terrain: its axle is at [{:.4g}, {:.4g}, "
+                                         "{:.4g}] m; a longer bed, closed walls, or a shorter drive",
+                                         time_, scene_.bodies[room.body].name, axle[0], axle[1], axle[2]));
+    }
 }
 
 template<class Exec, class Real>
@@ -167,11 +217,12 @@ void Driver<Exec, Real>::end_phase()
 {
     const PhaseEnd&   end  = phases_.ending();
     const std::string line = fmt::format("phase '{}' ends: {}", phases_.phase().name, describe(end));
-    if (end.kind == EndKind::unsettled) { log_.warning(line); }
+    if (deserves_warning(end.kind)) { log_.warning(line); }
     else { log_.info(line); }
     std::optional<bool> settled;
-    if (end.kind != EndKind::duration) { settled = end.kind == EndKind::settled; }
-    io::PhaseReport report{phases_.phase().name, phases_.start(), end.after, settled, end.unbalanced, std::nullopt};
+    if (phases_.phase().until == scene::StopRule::equilibrium) { settled = end.kind == EndKind::settled; }
+    io::PhaseReport report{phases_.phase().name, phases_.start(), end.after, name_of(end.kind), settled,
+                           end.unbalanced,       std::nullopt};
     const bool      saves = phases_.phase().name == scene_.output.bed_after;
     if (plan_.rocks && !plan_.sand && (settled || saves))
     {

@@ -8,6 +8,7 @@
 #include "io/run_directory.hpp"
 #include "io/summary.hpp"
 #include "solver/checkpoint_clock.hpp"
+#include "solver/drive_room.hpp"
 #include "solver/simulation.hpp"
 #include "solver/snapshots.hpp"
 #include "solver/surface.hpp"
@@ -74,6 +75,9 @@ private:
     void   begin_phase();
     void   end_phase();
     void   pass_on();
+    bool   phase_is_over();
+    bool   is_at_end_of_bed();
+    void   require_on_terrain();
     void   advance();
     void   write_due();
     void   write_row();
@@ -95,6 +99,7 @@ private:
     Simulation<Exec, Real>&              simulation_;
     DriverOptions                        options_;
     PhaseClock                           phases_;
+    std::vector<DriveRoom>               rooms_;     ///< of the driven bodies
     std::optional<Recorder>              recorder_;  ///< on rank 0
     std::optional<Snapshots<Exec, Real>> snapshots_; ///< only if the scene wants snapshots
     std::optional<Watchdog>              watchdog_;  ///< on several ranks

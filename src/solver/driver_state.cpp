@@ -22,19 +22,21 @@ namespace
 /// io::PhaseReport as doubles; its name is the scene's.
 struct PhaseRow
 {
-    double start, time, settled, unbalanced, packing_fraction; ///< settled: below 0 = it was not to
+    double start, time, end, settled, unbalanced, packing_fraction; ///< settled: below 0 = it was not to
 };
 
 PhaseRow row_of(const io::PhaseReport& report)
 {
     const double settled = !report.settled ? -1.0 : *report.settled ? 1.0 : 0.0;
-    return {report.start, report.time, settled, report.unbalanced,
-            report.packing_fraction.value_or(std::numeric_limits<double>::quiet_NaN())};
+    return {
+        report.start, report.time,       static_cast<double>(end_kind(report.end)),
+        settled,      report.unbalanced, report.packing_fraction.value_or(std::numeric_limits<double>::quiet_NaN())};
 }
 
 io::PhaseReport report_of(const std::string& name, const PhaseRow& row)
 {
-    io::PhaseReport report{name, row.start, row.time, std::nullopt, row.unbalanced, std::nullopt};
+    const char*     end = name_of(static_cast<EndKind>(row.end));
+    io::PhaseReport report{name, row.start, row.time, end, std::nullopt, row.unbalanced, std::nullopt};
     if (row.settled >= 0) { report.settled = row.settled > 0; }
     if (!std::isnan(row.packing_fraction)) { report.packing_fraction = row.packing_fraction; }
     return report;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/drive_room.hpp"
 #include "solver/wall_time.hpp"
 #include "solver/warnings.hpp"
 
@@ -243,6 +244,10 @@ std::vector<Warning> plausibility(const scene::Scene& scene, const World& world,
     const auto add = [&](const std::vector<Warning>& more) { all.insert(all.end(), more.begin(), more.end()); };
     if (all.empty()) { add(implausible_bodies(scene, world)); }
     add(implausible_commands(scene));
+    for (std::string& text : drive_warnings(scene, world, drive_rooms(scene, world)))
+    {
+        all.push_back({{}, std::move(text)});
+    }
     add(implausible_cost(scene, world, wants));
     return all;
 }

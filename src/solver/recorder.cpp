@@ -40,14 +40,10 @@ std::string group(const scene::Body& body) { return "/wheel/" + body.name; }
 Recorder::Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world, int ranks,
                    const io::Provenance& provenance, io::SeriesFile file)
     : scene_(scene)
+    , rolling_radii_(rolling_radii(scene, world))
     , series_(directory.time_series(), provenance, file)
 {
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    {
-        const auto& form = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
-        rolling_radii_.push_back(rolling_radius(scene.bodies[b], form, world.bodies.scale[b]));
-        series_.add_table(group(scene.bodies[b]), wheel_columns());
-    }
+    for (const scene::Body& body : scene.bodies) { series_.add_table(group(body), wheel_columns()); }
     series_.add_table("/energy", energy_columns());
     series_.add_table("/balance",
                       {{"time", 1, "s"}, {"mass", 1, "kg"}, {"momentum", 3, "kg m/s"}, {"impulse_error", 1, "1"}});

@@ -75,6 +75,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     , strays_(exec)
     , released_(static_cast<std::size_t>(named_), false)
     , commanded_(static_cast<std::size_t>(named_))
+    , kept_impulses_(static_cast<std::size_t>(named_), Vec3<double>::Zero())
 {
     const std::size_t sides = world.bodies.size() + world.planes.size();
     if (sides > static_cast<std::size_t>(dem::most_bodies))
@@ -102,6 +103,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
     bounding_radii_.assign(radii);
     smallest_radius_ = *std::min_element(radii.begin(), radii.end());
     impulses_.resize(named_);
+    impulses_.fill_zero();
     if (contacts_) { dem::classify_bodies(exec_, pairs_, bodies_.view(), templates_.views()); }
     bodies_.force.fill_zero();
     bodies_.torque.fill_zero();
@@ -145,6 +147,7 @@ void Rigid<Exec>::upload(const World& world)
     bodies_.shape.assign(host.shape);
     bodies_.material.assign(host.material);
     bodies_.locked.assign(locked);
+    bodies_.weight.assign(std::vector<double>(static_cast<std::size_t>(named_), 1.0));
     bodies_.damped.assign(damped);
     const auto count = static_cast<std::int64_t>(n);
     bodies_.force.resize(count);
@@ -157,58 +160,6 @@ std::string Rigid<Exec>::name(std::int64_t body) const
 {
     return body < named_ ? "'" + scene_.bodies[static_cast<std::size_t>(body)].name + "'"
                          : fmt::format("rock {}", body - named_);
-}
-
-template<class Exec>
-void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
-{
-    bool changed = false;
-    for (std::size_t b = 0; b < commands.size(); ++b)
-    {
-        const BodyCommand& command = commands[b];
-        if (commanded_[b] == command) { continue; } // what is locked has kept its velocity
-        commanded_[b]                       = command;
-        Vec3<double>        velocity        = read(exec_, bodies_.velocity.data() + b);
-        Vec3<double>        spin            = read(exec_, bodies_.angular_velocity.data() + b);
-        const std::uint32_t locked          = read(exec_, bodies_.locked.data() + b);
-        const Vec3<double>  velocity_before = velocity, spin_before = spin;
-        const Mat3<double>  rotation = read(exec_, bodies_.orientation.data() + b).toRotationMatrix();
-        const bool          held     = command.locked == dem::lock_all;
-        if (held) { velocity.setZero(); }
-        else if (!released_[b])
-        {
-            velocity     = world_.bodies.velocity[b];
-            released_[b] = true;
-        }
-        for (int c = 0; c < 3; ++c)
-        {
-            if ((command.locked & (static_cast<unsigned>(dem::lock_x) << c)) != 0) { velocity[c] = 0; }
-            if ((command.locked & (static_cast<unsigned>(dem::lock_roll) << c)) != 0) { spin[c] = 0; }
-        }
-        const auto& form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[b])];
-        if (command.spin) { spin = *command.spin * (rotation * Vec3<double>::UnitY()); }
-        if (command.forward)
-        {
-            velocity[0] = *command.forward * rolling_radius(scene_.bodies[b], form, world_.bodies.scale[b]);
-        }
-        if (velocity == velocity_before && spin == spin_before && locked == command.locked) { continue; }
-
-        const Mat3<double> inertia = rotation * full(read(exec_, bodies_.inertia.data() + b)) * rotation.transpose();
-        const double       mass    = world_.bodies.mass[b];
-        if (!ranks_ || ranks_->owns(static_cast<std::int64_t>(b)))
-        {
-            command_impulse_ += mass * (velocity - velocity_before);
-            command_work_ += 0.5 * mass * (velocity.squaredNorm() - velocity_before.squaredNorm()) +
-                             0.5 * (spin.dot(inertia * spin) - spin_before.dot(inertia * spin_before));
-        }
-        commanded_speed_ =
-            std::max(commanded_speed_, velocity.norm() + spin.norm() * world_.bodies.scale[b] * form.bounding_radius);
-        copy_from_host(exec_, bodies_.velocity.data() + b, &velocity, sizeof(velocity));
-        copy_from_host(exec_, bodies_.angular_velocity.data() + b, &spin, sizeof(spin));
-        copy_from_host(exec_, bodies_.locked.data() + b, &command.locked, sizeof(command.locked));
-        changed = true;
-    }
-    if (changed && listed_) { stage(); }
 }
 
 template<class Exec>
@@ -269,7 +220,7 @@ std::int64_t Rigid<Exec>::unwatched_substeps(const TimeStep& step, double speed,
     looking_            = false;
     const auto   number = static_cast<double>(step.substeps);
     const double dt = step.dt / number, reserve = dem::rest_reserve * smallest_radius_,
-                 fall   = gravity_.norm() * step.dt;
+                 fall   = heaviest_ * gravity_.norm() * step.dt;
     const double unseen = reserve / (dt * (hit_twice * speed + fall)); // substeps
     watched_            = number > unseen;
     if (!watched_) { return step.substeps; }
@@ -283,8 +234,9 @@ std::int64_t Rigid<Exec>::unwatched_steps(double dt, double speed) const
 {
     if (!contacts_) { return std::numeric_limits<std::int64_t>::max(); }
     // Speed and fall of n steps: n dt (4 v + g n dt) <= reserve.
-    const double fall = gravity_.norm(), reserve = dem::rest_reserve * smallest_radius_, start = hit_twice * speed;
-    const double span = 2 * reserve / (start + std::sqrt(start * start + 4 * fall * reserve));
+    const double fall = heaviest_ * gravity_.norm(), reserve = dem::rest_reserve * smallest_radius_,
+                 start = hit_twice * speed;
+    const double span  = 2 * reserve / (start + std::sqrt(start * start + 4 * fall * reserve));
     return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(span / dt, 1e9)));
 }
 

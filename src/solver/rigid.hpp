@@ -60,7 +60,7 @@ public:
     std::string name(std::int64_t body) const;
 
     /// Sets what the named bodies are held or driven to. A body that is freed for the first time starts with its
-    /// scene's velocity.
+    /// scene's velocity, one that was lowered at rest.
     void command(const std::vector<BodyCommand>& commands);
 
     /// 2. Pairs of bodies, and of bodies and walls, that may touch in the step: found anew if the list may not hold.
@@ -125,6 +125,12 @@ public:
     void                 begin_mean();
     io::BodyFields       fields();
 
+    /// m, centre of a named body.
+    Vec3<double> place(std::size_t body) const;
+
+    /// s, the integral over time since the run began of the share of a named body's weight that its contacts carried.
+    double carried(std::size_t body) const;
+
     /// Into a checkpoint, or out of it into bodies of the same scene; due between two steps, and changes nothing that
     /// comes after it. Contact energies are known again after the next substep.
     void transfer(StateFile& file);
@@ -136,6 +142,11 @@ private:
     void transfer_lists(StateFile& file);
 
     dem::NamedImpulses named_impulses() { return {impulses_.data(), named_}; }
+
+    Vec3<double> commanded_velocity(std::size_t body, const std::optional<BodyCommand>& before, Vec3<double> velocity);
+    bool         set_motion(std::size_t body, const std::optional<BodyCommand>& before);
+
+    std::vector<dem::ContactImpulse> summed_impulses() const;
 
     void          upload(const World& world);
     void          restore_contacts();
@@ -205,9 +216,11 @@ private:
     double                                        commanded_speed_ = 0; ///< m/s, the largest that commands gave
     double                                        overlap_ = 0; ///< largest over radius, before the list was found anew
     dem::BodyLaw                                  law_{};
-    std::vector<bool>                             released_;            ///< named bodies that were free once
-    std::vector<std::optional<BodyCommand>>       commanded_;           ///< of the named bodies, the last
-    double                                        mean_time_       = 0; ///< s, since begin_mean()
+    std::vector<bool>                             released_;      ///< named bodies that were free once
+    std::vector<std::optional<BodyCommand>>       commanded_;     ///< of the named bodies, the last
+    double                                        heaviest_  = 1; ///< largest share of a weight that acts
+    double                                        mean_time_ = 0; ///< s, since begin_mean()
+    std::vector<Vec3<double>>                     kept_impulses_; ///< N s, of the named bodies, until begin_mean()
     double                                        substep_         = 0; ///< s, the last
     double                                        command_work_    = 0; ///< J, of commands since the last report
     Vec3<double>                                  command_impulse_ = Vec3<double>::Zero();

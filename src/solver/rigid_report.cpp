@@ -138,12 +138,8 @@ std::vector<BodyRow> Rigid<Exec>::named_bodies()
     std::vector<BodyRow>            bodies;
     const std::vector<Quat>         orientation = bodies_.orientation.to_host();
     const std::vector<Vec3<double>> position = bodies_.position.to_host(), velocity = bodies_.velocity.to_host(),
-                                    spin      = bodies_.angular_velocity.to_host();
-    std::vector<dem::ContactImpulse> impulses = impulses_.to_host();
-    if (ranks_)
-    {
-        for (dem::ContactImpulse& impulse : impulses) { ranks_->sum(impulse); }
-    }
+                                    spin            = bodies_.angular_velocity.to_host();
+    const std::vector<dem::ContactImpulse> impulses = summed_impulses();
     for (std::size_t b = 0; b < static_cast<std::size_t>(named_); ++b)
     {
         const auto&        form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[b])];
@@ -156,9 +152,39 @@ std::vector<BodyRow> Rigid<Exec>::named_bodies()
     return bodies;
 }
 
+/// Of all ranks, since begin_mean().
+template<class Exec>
+std::vector<dem::ContactImpulse> Rigid<Exec>::summed_impulses() const
+{
+    std::vector<dem::ContactImpulse> impulses = impulses_.to_host();
+    if (ranks_)
+    {
+        for (dem::ContactImpulse& impulse : impulses) { ranks_->sum(impulse); }
+    }
+    return impulses;
+}
+
+template<class Exec>
+Vec3<double> Rigid<Exec>::place(std::size_t body) const
+{
+    const bool   here = !ranks_ || ranks_->owns(static_cast<std::int64_t>(body));
+    Vec3<double> at   = here ? read(exec_, bodies_.position.data() + body) : Vec3<double>(Vec3<double>::Zero());
+    if (ranks_) { ranks_->sum(at); }
+    return at;
+}
+
+template<class Exec>
+double Rigid<Exec>::carried(std::size_t body) const
+{
+    const Vec3<double> impulse = kept_impulses_[body] + summed_impulses()[body].linear;
+    return -impulse.dot(gravity_) / (world_.bodies.mass[body] * gravity_.squaredNorm());
+}
+
 template<class Exec>
 void Rigid<Exec>::begin_mean()
 {
+    const std::vector<dem::ContactImpulse> impulses = summed_impulses();
+    for (std::size_t b = 0; b < impulses.size(); ++b) { kept_impulses_[b] += impulses[b].linear; }
     impulses_.fill_zero();
     mean_time_ = 0;
 }
@@ -184,6 +210,8 @@ template RigidReport          Rigid<Cpu>::report(double);
 template void                 Rigid<Cpu>::ask_report();
 template RigidCensus          Rigid<Cpu>::census();
 template std::vector<BodyRow> Rigid<Cpu>::named_bodies();
+template Vec3<double>         Rigid<Cpu>::place(std::size_t) const;
+template double               Rigid<Cpu>::carried(std::size_t) const;
 template void                 Rigid<Cpu>::begin_mean();
 template io::BodyFields       Rigid<Cpu>::fields();
 #ifdef TREAD_WITH_CUDA
@@ -191,6 +219,8 @@ template RigidReport          Rigid<Gpu>::report(double);
 template void                 Rigid<Gpu>::ask_report();
 template RigidCensus          Rigid<Gpu>::census();
 template std::vector<BodyRow> Rigid<Gpu>::named_bodies();
+template Vec3<double>         Rigid<Gpu>::place(std::size_t) const;
+template double               Rigid<Gpu>::carried(std::size_t) const;
 template void                 Rigid<Gpu>::begin_mean();
 template io::BodyFields       Rigid<Gpu>::fields();
 #endif

@@ -15,26 +15,32 @@ namespace
 /// What was asked of a named body last, as doubles.
 struct CommandRow
 {
-    double given, locked, has_spin, spin, has_forward, forward;
+    double given, locked, has_spin, spin, has_forward, forward, has_lowering, lowering[3], weight;
 };
 
 CommandRow row_of(const std::optional<BodyCommand>& command)
 {
     if (!command) { return {}; }
+    const auto lowering = command->lowering.value_or(std::array<double, 3>{});
     return {1.0,
             static_cast<double>(command->locked),
             command->spin ? 1.0 : 0.0,
             command->spin.value_or(0),
             command->forward ? 1.0 : 0.0,
-            command->forward.value_or(0)};
+            command->forward.value_or(0),
+            command->lowering ? 1.0 : 0.0,
+            {lowering[0], lowering[1], lowering[2]},
+            command->weight};
 }
 
 std::optional<BodyCommand> command_of(const CommandRow& row)
 {
     if (row.given == 0) { return {}; }
     BodyCommand command{static_cast<std::uint32_t>(row.locked), {}, {}};
+    command.weight = row.weight;
     if (row.has_spin != 0) { command.spin = row.spin; }
     if (row.has_forward != 0) { command.forward = row.forward; }
+    if (row.has_lowering != 0) { command.lowering = {row.lowering[0], row.lowering[1], row.lowering[2]}; }
     return command;
 }
 
@@ -78,6 +84,7 @@ void Rigid<Exec>::transfer_means(StateFile& file)
 {
     std::vector<dem::ContactImpulse> impulses = impulses_.to_host();
     file.own_or_all("bodies/impulse", impulses);
+    file.common("bodies/kept_impulse", kept_impulses_);
     if (!file.loads()) { return; }
     const auto                       named = static_cast<std::size_t>(named_);
     std::vector<dem::ContactImpulse> sums(named, {Vec3<double>::Zero(), Vec3<double>::Zero()});

@@ -19,6 +19,7 @@
 #include "scene/resolved.hpp"
 #include "solver/answers.hpp"
 #include "solver/bed.hpp"
+#include "solver/drive_room.hpp"
 #include "solver/driver.hpp"
 #include "solver/estimate.hpp"
 #include "solver/left_out.hpp"
@@ -210,6 +211,10 @@ void say_start(Job& job, Backend backend, int threads)
         log.warning(job.summary.warnings.back());
     }
     for (const std::string& line : bed_lines(job.summary.bed)) { log.info(line); }
+    for (const std::string& note : drive_notes(job.scene, job.world, drive_rooms(job.scene, job.world)))
+    {
+        log.info(note);
+    }
 }
 
 /// The last lines of a log. On rank 0, which has the time series.

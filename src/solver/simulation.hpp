@@ -78,6 +78,13 @@ public:
     std::vector<BodyRow> named_bodies();
     void                 begin_mean();
 
+    /// m, centre of a named body.
+    Vec3<double> place(std::size_t body) const { return rigid_->place(body); }
+
+    /// s, the integral over time since the run began of the share of a named body's weight that its contacts carried;
+    /// when measured().
+    double carried(std::size_t body) const { return rigid_->carried(body); }
+
     /// What a snapshot shows. Points are this rank's.
     void            copy_points(PointCopy<Exec, Real>& copy) const;
     io::PointFields point_fields() const;

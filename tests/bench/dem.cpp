@@ -29,7 +29,7 @@ public:
         : exec_(exec)
         , scene_(scene)
         , rigid_(exec, scene, world, solver::make_plan(scene, world))
-        , phases_(scene)
+        , phases_(scene, solver::rolling_radii(scene, world))
         , substeps_(substeps)
     {
         command();

@@ -28,7 +28,7 @@ public:
         , scene_(scene)
         , plan_(solver::make_plan(scene, world))
         , simulation_(exec, scene, world, plan_, decomposition)
-        , phases_(scene)
+        , phases_(scene, solver::rolling_radii(scene, world))
     {
     }
 

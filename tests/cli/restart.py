@@ -8,7 +8,7 @@ import unittest
 
 import h5py
 
-from command import SCENE
+from command import BODY, SCENE
 from restart_test import BACKEND, BODIES, EVERY_FEW_STEPS, MIXED, MPIRUN, RestartTest, lasting
 
 
@@ -21,6 +21,12 @@ class Restart(RestartTest):
 
     def test_sand_and_a_body_restarted_give_the_same_bits(self):
         self.check_uninterrupted_is_stopped_and_restarted(lasting(MIXED, 0.1))
+
+    def test_a_lowering_restarted_gives_the_same_bits(self):
+        lowered = 'until = "lowered"\nmax_duration = 0.5\nlower = { body = "roller", speed = 0.02 }\n'
+        text = (SCENE + BODY.replace("0.3]", '"on surface"]\ngap = 0.002')).replace("duration = 0.02\n", lowered, 1)
+        self.check_uninterrupted_is_stopped_and_restarted(text)
+        self.assertEqual(self.summary()["phases"][0]["end"], "lowered")
 
     def test_usr1_writes_a_checkpoint_and_goes_on(self):
         job = self.begin(lasting(SCENE, 1000.0), "--set=checkpoint.every_wall=0")

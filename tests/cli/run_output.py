@@ -41,6 +41,34 @@ class RunOutput(CommandTest):
         self.assertAlmostEqual(phase["time"], 0.002)
         self.assertRegex((output / "log.txt").read_text(), "(?i)warning.*phase 'rest' ends: NOT settled after .* unbalanced")
 
+    def test_a_drive_that_gets_to_the_wall_ends_there(self):
+        drive = '\n[[phase]]\nname = "{}"\nduration = 0.5\ndrive = {{ body = "roller", angular_velocity = 10.0, slip = 0.0 }}\n'
+        text = SCENE.replace("size    = [0.4,", "size    = [0.5,").replace("[0.4, 0.4, 0.1]", "[0.5, 0.4, 0.1]")
+        text += BODY.replace("position = [0.2, 0.2, 0.3]", 'position = [0.2, 0.2, "on surface"]') + drive.format("drive") + drive.format("on")
+        scene, output = self.write("wall.toml", text), self.directory / "wall"
+        warned = r"phase 'drive': 'roller' has 0.13\d* m to go before the wall at x = 0.5 m, .*; a duration of 0.2\d* s fits"
+        self.assertRegex(self.tread("check", scene).stdout, "warning: " + warned)
+        result = self.tread("run", scene, "--output", output, "--backend", "cpu")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        log = (output / "log.txt").read_text()
+        self.assertRegex(log, "(?i)warning.*" + warned)
+        self.assertRegex(log, "(?i)warning.*phase 'drive' ends: 'roller' reached the end of the bed after 0.2")
+        phases = json.loads((output / "summary.json").read_text())["phases"]
+        self.assertEqual([phase["end"] for phase in phases], ["duration", "end of the bed", "end of the bed"])
+        self.assertEqual(phases[2]["time"], 0)
+        with h5py.File(output / "timeseries.h5", "r") as file:
+            wheel = file["wheel/roller"]
+            self.assertLess(wheel["position"][-1, 0], 0.5 - 1.05 * 0.06)
+            self.assertLess(abs(wheel["drawbar_pull"][:]).max(), 1e3)
+
+    def test_a_body_that_rolls_off_an_open_bed_stops_the_run(self):
+        text = SCENE.replace("gravity =", 'walls = { x = "open" }\ngravity =').replace("[0.0, 0.0, -9.81]", "[4.0, 0.0, -9.0]")
+        text += BODY + '\n[[phase]]\nname = "drive"\nduration = 0.01\ndrive = { body = "roller", angular_velocity = 1.0 }\n'
+        text += '\n[[phase]]\nname = "coast"\nduration = 2.0\n'
+        result = self.tread("run", self.write("edge.toml", text), "--output", self.directory / "edge", "--backend", "cpu")
+        self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
+        self.assertRegex(result.stderr + result.stdout, "'roller' has left the terrain")
+
     def test_without_output_check_and_log_say_what_is_left_out(self):
         scene = self.write("bare.toml", SCENE.replace("0.005", "1e9").replace("snapshots_every = 0.01", ""))
         checked = self.tread("check", scene).stdout

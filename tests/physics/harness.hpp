@@ -36,7 +36,7 @@ public:
         : scene_(std::move(scene))
         , world_(std::move(world))
         , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_), decomposition)
-        , phases_(scene_)
+        , phases_(scene_, solver::rolling_radii(scene_, world_))
     {
     }
 
@@ -59,6 +59,10 @@ public:
         {
             advance();
             look(time_);
+            if (const auto body = phases_.lowered(); body && simulation_.measured())
+            {
+                phases_.weigh(time_, simulation_.carried(*body));
+            }
             if (!phases_.over(time_, simulation_.unbalanced())) { continue; }
             phases_.advance(time_, std::vector<double>(scene_.bodies.size(), 0.0));
         }

@@ -37,7 +37,7 @@ public:
         : scene_(test::load_text(text))
         , world_(solver::build_world(scene_))
         , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_))
-        , phases_(scene_)
+        , phases_(scene_, solver::rolling_radii(scene_, world_))
     {
     }
 
@@ -58,8 +58,11 @@ public:
             simulation_.command(commands, phases_.phase().damping);
             simulation_.step(step_, time_, clock_);
             time_ += step_.dt;
+            pass_on();
         }
     }
+
+    std::size_t phase() const { return phases_.index(); }
 
     void save(const std::string& path)
     {
@@ -98,7 +101,7 @@ public:
         add(bodies.angular_velocity);
         const solver::EnergyRow energy = simulation_.ledger().energy(simulation_.census());
         add(std::vector<double>{energy.total, energy.friction, energy.transfer, energy.coupling, energy.contact, time_,
-                                step_.dt});
+                                step_.dt, phases_.start()});
         return bytes;
     }
 
@@ -109,6 +112,17 @@ public:
     io::BodyFields  bodies() { return simulation_.body_fields(); }
 
 private:
+    /// To the next phase, if there is one; the last goes on for ever.
+    void pass_on()
+    {
+        if (const auto body = phases_.lowered(); body && simulation_.measured())
+        {
+            phases_.weigh(time_, simulation_.carried(*body));
+        }
+        if (phases_.index() + 1 == scene_.phases.size() || !phases_.over(time_, simulation_.unbalanced())) { return; }
+        phases_.advance(time_, std::vector<double>(scene_.bodies.size(), 0.0));
+    }
+
     void transfer(solver::StateFile& file)
     {
         simulation_.transfer(file);
@@ -153,6 +167,7 @@ protected:
         Run<Exec> stopped(this->exec(), text);
         stopped.step(before);
         stopped.save(path);
+        phase_saved_              = stopped.phase();
         const std::int64_t asleep = stopped.asleep();
         Run<Exec>          resumed(this->exec(), text);
         resumed.load(path, solver::Fidelity::exact);
@@ -161,12 +176,34 @@ protected:
         const auto expected = whole.state();
         EXPECT_EQ(stopped.state(), expected) << "to save changed what came after it";
         EXPECT_EQ(resumed.state(), expected) << "what went on from the file differs";
+        phase_at_end_ = resumed.phase();
         return {asleep, resumed.asleep()};
     }
+
+    std::size_t phase_saved_ = 0, phase_at_end_ = 0;
 };
 TYPED_TEST_SUITE(Restart, test::Backends, test::BackendNames);
 
 TYPED_TEST(Restart, OfSandGivesTheSameBits) { this->expect_same_bits(test::sand_text); }
+
+/// Saved while it goes down, released at half its weight after that, with a weight that grows.
+TYPED_TEST(Restart, OfABodyThatIsLoweredGivesTheSameBits)
+{
+    std::string text = test::roller_text;
+    text.replace(text.find("position = [0.2, 0.2, 0.33]"), 27, "position = [0.2, 0.2, \"on surface\"]\ngap = 0.004");
+    text.replace(text.find("duration = 0.05"), 15,
+                 "until = \"lowered\"\nmax_duration = 1.0\n"
+                 "lower = { body = \"roller\", speed = 0.03, share = 0.5 }");
+    text.replace(text.find("\"x\", \"y\", \"roll\", \"pitch\", \"yaw\""), 32, "\"y\"");
+    this->expect_same_bits(text + R"(
+[[phase]]
+name     = "load"
+duration = 1.0
+weight   = { body = "roller", from = 0.5, to = 1.0, ramp = 0.5 }
+)");
+    EXPECT_EQ(this->phase_saved_, 0u);
+    EXPECT_EQ(this->phase_at_end_, 1u);
+}
 
 TYPED_TEST(Restart, OfRocksGivesTheSameBits)
 {

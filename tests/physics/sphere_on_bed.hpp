@@ -172,7 +172,7 @@ Watched watch_sphere(
                 if (bed.speed > 0)
                 {
                     commands[0].locked |= dem::lock_x;
-                    commands[0].forward = bed.speed / bed.radius;
+                    commands[0].forward = bed.speed;
                 }
                 if (bed.spin > 0) { commands[0].spin = bed.spin; }
             }

@@ -32,7 +32,7 @@ public:
             decomp::TransportChoice transport = decomp::TransportChoice::automatic)
         : scene_(load_text(text))
         , world_(solver::build_world(scene_))
-        , phases_(scene_)
+        , phases_(scene_, solver::rolling_radii(scene_, world_))
     {
         if (ranks == Ranks::all) { decompose(exec, owner_of, transport); }
         simulation_ = std::make_unique<solver::Simulation<Exec, Real>>(

@@ -20,6 +20,8 @@ enum LockedFreedom : std::uint32_t
     lock_pitch = 16, ///< about y
     lock_yaw   = 32, ///< about z
     lock_all   = 63,
+
+    hangs = 64, ///< no freedom is locked by it: BodiesView::weight says how much of the body's weight acts
 };
 
 /// What a rank has to do with a body, where several compute a scene. All of them number bodies alike and have memory
@@ -53,8 +55,16 @@ struct BodiesView
 
     const std::int32_t* role = nullptr; ///< BodyRole; null: this rank owns all
 
+    const double* weight = nullptr; ///< share of the weight that acts on a named body with `hangs`
+
     TREAD_HD bool is_owned(std::int64_t b) const { return role == nullptr || role[b] == role_owner; }
     TREAD_HD bool is_here(std::int64_t b) const { return role == nullptr || role[b] != role_none; }
+
+    /// Of the weight, of any body. Bodies without `hangs` cost no look at memory.
+    TREAD_HD double acting_weight(std::int64_t b, std::uint32_t flags) const
+    {
+        return (flags & hangs) != 0 ? weight[b] : 1.0;
+    }
 };
 
 /// Owner of what BodiesView shows.
@@ -77,6 +87,7 @@ struct Bodies
         , torque(exec, "body torque")
         , stiffness(exec, "body stiffness")
         , role(exec, "body roles")
+        , weight(exec, "shares of weight")
     {
     }
 
@@ -85,7 +96,7 @@ struct Bodies
         return {position.size(), position.data(), orientation.data(), velocity.data(), angular_velocity.data(),
                 mass.data(),     inertia.data(),  scale.data(),       shape.data(),    material.data(),
                 locked.data(),   damped.data(),   force.data(),       torque.data(),   stiffness.data(),
-                role.data()};
+                role.data(),     weight.data()};
     }
 
     /// Calls f(name, array) for every array but the roles, which are a rank's own affair.
@@ -106,6 +117,7 @@ struct Bodies
         f("force", force);
         f("torque", torque);
         f("stiffness", stiffness);
+        f("weight", weight);
     }
 
     Array<Exec, Vec3<double>>  position;
@@ -122,7 +134,8 @@ struct Bodies
     Array<Exec, Vec3<double>>  force;
     Array<Exec, Vec3<double>>  torque;
     Array<Exec, double>        stiffness;
-    Array<Exec, std::int32_t>  role; ///< empty on one rank
+    Array<Exec, std::int32_t>  role;   ///< empty on one rank
+    Array<Exec, double>        weight; ///< of the named bodies
 };
 
 } // namespace tread::dem

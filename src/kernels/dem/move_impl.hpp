@@ -192,7 +192,10 @@ struct Move
         const ContactWrench contact = acting.outside + acting.pairs;
         book(b, share, contact);
         BodyTotal        unbooked;
-        const MeanMotion mean = integrate_body(body, contact, gravity, damping(bodies, b), dt, *book_of(b, unbooked));
+        const double     weight = bodies.acting_weight(b, body.locked);
+        const MeanMotion mean =
+            integrate_body(body, contact, weight * gravity, damping(bodies, b), dt, *book_of(b, unbooked));
+        if (weight != 1) { book_hanging((weight - 1) * body.mass * gravity, mean, *book_of(b, unbooked)); }
         if constexpr (Outside::acts) { book_outside(acting.outside, mean, *book_of(b, unbooked)); }
         store_motion(bodies, b, body);
         if (pairs.body != nullptr) { show(body, shown, pairs.body + b); }
@@ -237,6 +240,13 @@ private:
     {
         const double power = wrench.force.dot(mean.velocity) + wrench.torque.dot(mean.angular_velocity);
         if (power != 0) { total.sand_work += dt * power; }
+    }
+
+    /// What holds a part of the weight does work on the body, as what holds a locked freedom does.
+    TREAD_HD void book_hanging(const Vec3<double>& force, const MeanMotion& mean, BodyTotal& total) const
+    {
+        total.holding_impulse += dt * force;
+        total.holding_work += dt * force.dot(mean.velocity);
     }
 
     /// To the contacts of the next substep.

@@ -15,11 +15,11 @@ struct BodyTotal
 {
     Vec3<double> wall_impulse;    ///< from planes
     Vec3<double> damping_impulse; ///< from the local damping
-    Vec3<double> holding_impulse; ///< from what keeps locked freedoms at their velocity
+    Vec3<double> holding_impulse; ///< from what keeps locked freedoms at their velocity or holds a share of the weight
     double       friction;        ///< lost to tangential and torsional friction, of the pairs whose first body this is
     double       restitution;     ///< lost to normal damping, likewise
     double       damping;         ///< lost to the local damping
-    double       holding_work;    ///< done on the body by what keeps its locked freedoms
+    double       holding_work;    ///< done on the body by the same
     double       sand_work;       ///< done on the body by sand
 };
 

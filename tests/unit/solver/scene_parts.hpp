@@ -192,7 +192,7 @@ inline const Part bodies = {{"bodies by cell",
                              "write pairs"}};
 
 /// Of [[body]] tables: the recorder's.
-inline const Part named_bodies = {{"contact impulses"}, {}};
+inline const Part named_bodies = {{"contact impulses", "shares of weight"}, {}};
 
 /// Wheels: they may touch another body in several places.
 inline const Part concave_bodies = {{"patches of pairs"}, {"group pair nodes", "pairs of several patches"}};

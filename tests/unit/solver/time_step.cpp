@@ -106,14 +106,14 @@ TEST(Phases, DriveRampsTheSpinAndLocksWhatItPrescribes)
     text.replace(text.find("lock     ="), 45, "lock     = [\"y\"]\n");
     text.replace(text.find("name     = \"rest\""), 17, "name     = \"rest\"\nhold = [\"roller\"]");
     const scene::Scene scene = test::load_text(text);
-    PhaseClock         clock(scene);
+    PhaseClock         clock(scene, {0.1});
     EXPECT_EQ(clock.command(0, 0).locked, dem::lock_all);
     EXPECT_FALSE(clock.over(0.04, 0));
     EXPECT_TRUE(clock.over(0.05, 0));
     clock.advance(0.05, {0.0});
     const BodyCommand half = clock.command(0, 0.05 + 0.25);
     EXPECT_DOUBLE_EQ(half.spin.value(), 1.0);
-    EXPECT_DOUBLE_EQ(half.forward.value(), 0.75);
+    EXPECT_DOUBLE_EQ(half.forward.value(), 0.075);
     EXPECT_EQ(half.locked, std::uint32_t(dem::lock_x | dem::lock_y | dem::lock_roll | dem::lock_pitch | dem::lock_yaw));
     EXPECT_DOUBLE_EQ(clock.command(0, 5.0).spin.value(), 2.0);
 }
@@ -124,7 +124,7 @@ TEST(Phases, EquilibriumMustLast)
     const auto         at   = text.find("duration = 0.05");
     const scene::Scene scene =
         test::load_text(std::string(text).replace(at, 15, "until = \"equilibrium\"\nmax_duration = 1.0"));
-    PhaseClock clock(scene);
+    PhaseClock clock(scene, {});
     EXPECT_FALSE(clock.over(0.10, 0.001));
     EXPECT_FALSE(clock.over(0.12, 0.5)); // a break: the wait starts again
     EXPECT_FALSE(clock.over(0.14, 0.001));
