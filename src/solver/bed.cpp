@@ -59,6 +59,10 @@ io::BedReport describe_bed(const scene::Scene& scene, const World& world)
     {
         bed.rocks.push_back(describe_rocks(scene, table, world.bodies));
     }
+    for (const LayerShares& layer : world.layers)
+    {
+        bed.layers.push_back({static_cast<std::int64_t>(layer.table), layer.sand, layer.rock, layer.empty()});
+    }
     double rocks = 0, points = 0;
     for (const auto& table : bed.rocks) { rocks += table.volume; }
     for (const auto& table : bed.terrain) { points += table.volume; }
@@ -81,6 +85,11 @@ std::vector<std::string> bed_lines(const io::BedReport& bed)
                                     "{:.4g} to {:.4g} m, mean {:.4g} m",
                                     i, table.shape, table.count, table.mass, table.solid_fraction,
                                     table.smallest_diameter, table.largest_diameter, table.mean_diameter));
+    }
+    for (const auto& layer : bed.layers)
+    {
+        lines.push_back(fmt::format("layer of rocks {}: {:.1f} % sand, {:.1f} % rock, {:.1f} % void", layer.table,
+                                    100 * layer.sand, 100 * layer.rock, 100 * layer.empty));
     }
     if (bed.rock_share > 0 && !bed.terrain.empty())
     {

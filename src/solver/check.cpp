@@ -4,6 +4,7 @@
 #include "scene/resolved.hpp"
 #include "solver/bed.hpp"
 #include "solver/estimate.hpp"
+#include "solver/layers.hpp"
 #include "solver/left_out.hpp"
 #include "solver/page_loads.hpp"
 #include "solver/run.hpp"
@@ -57,6 +58,7 @@ std::string check(const Communicator& communicator, const scene::Scene& scene, i
     text += fmt::format("\n{} points, {} bodies ({} rocks)\n", world.points.size(), world.bodies.size(),
                         static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named);
     for (const std::string& line : bed_lines(describe_bed(scene, world))) { text += "  " + line + "\n"; }
+    for (const std::string& line : layer_advice(scene, world)) { text += "  " + line + "\n"; }
     if (plan.bodies) { text += "shapes at scale 1:\n" + shape_lines(world); }
     text += fmt::format("memory about {} on the backend, disk at most {}\n", bytes_text(wants.memory_bytes),
                         bytes_text(wants.disk.all()));

@@ -14,6 +14,8 @@
 #include "solver/cover.hpp"
 #include "solver/geostatic.hpp"
 #include "solver/grading.hpp"
+#include "solver/layers.hpp"
+#include "solver/make_room.hpp"
 #include "solver/materials.hpp"
 #include "solver/region.hpp"
 #include "solver/rocks.hpp"
@@ -327,11 +329,9 @@ void require_clear_of_each_other(const scene::Scene& scene, const World& world)
 void add_table(const scene::Scene& scene, std::size_t table, const std::vector<RockDraw>& drawn, SavedBeds& beds,
                World& world)
 {
-    const std::size_t first = world.bodies.size();
     if (scene.rocks[table].from.empty()) { place_rocks(scene, table, drawn, world); }
     else { beds.place(table, world); }
     world.bodies.rocks_end.push_back(world.bodies.size());
-    make_room(scene, table, first, world);
 }
 
 void add_rocks(const scene::Scene& scene, const std::vector<std::vector<RockDraw>>& draws, SavedBeds& beds,
@@ -343,6 +343,8 @@ void add_rocks(const scene::Scene& scene, const std::vector<std::vector<RockDraw
                             [&] { add_table(scene, table, draws[table], beds, world); });
     }
     beds.finish(world);
+    make_room(scene, world);
+    require_no_voids(scene, world);
 }
 
 } // namespace

@@ -66,6 +66,7 @@ TEST(Summary, json_holds_every_field)
                             "peak_host_bytes",
                             "terrain",
                             "rocks",
+                            "layers",
                             "rock_share",
                             "phases",
                             "asleep",
