@@ -1,6 +1,7 @@
 #include "solver/bed.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -49,6 +50,9 @@ io::RocksReport describe_rocks(const scene::Scene& scene, std::size_t table, con
     return report;
 }
 
+/// A percentage that rounds to 0.0 has no sign.
+double without_sign_of_zero(double percent) { return std::abs(percent) < 0.05 ? 0 : percent; }
+
 } // namespace
 
 io::BedReport describe_bed(const scene::Scene& scene, const World& world)
@@ -89,7 +93,7 @@ std::vector<std::string> bed_lines(const io::BedReport& bed)
     for (const auto& layer : bed.layers)
     {
         lines.push_back(fmt::format("layer of rocks {}: {:.1f} % sand, {:.1f} % rock, {:.1f} % void", layer.table,
-                                    100 * layer.sand, 100 * layer.rock, 100 * layer.empty));
+                                    100 * layer.sand, 100 * layer.rock, without_sign_of_zero(100 * layer.empty)));
     }
     if (bed.rock_share > 0 && !bed.terrain.empty())
     {

@@ -197,7 +197,7 @@ void make_room(const scene::Scene& scene, World& world)
         Layer layer = find_layer(scene, table, world, in_sand);
         if (layer.sand > 0) { layers.push_back(std::move(layer)); }
     }
-    if (touches.empty()) { return; }
+    if (layers.empty() && touches.empty()) { return; }
     auto kept = keep_all_but_rock_volume(world, touches, in_sand);
     push_off({world, grid, reach, sand, world.geometry.spacing}, touches, kept, world.points);
     for (const Layer& layer : layers) { world.layers.push_back(shares_of(layer, world.points, kept)); }
