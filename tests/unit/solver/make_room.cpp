@@ -52,19 +52,20 @@ std::int64_t touching(const scene::Scene& scene, const World& world)
     return std::count_if(covering.begin(), covering.end(), [](std::int32_t body) { return body >= 0; });
 }
 
-/// A rock takes out its own volume: the last point is whole, so that half of one is the error.
-void expect_room(const std::string& text)
+/// A rock takes out its own volume: the last point is whole, so that half of one is the error, and what finds no place.
+void expect_room(const std::string& text, int without_place)
 {
     const auto   scene = load_text(text);
     const World  world = build_world(scene);
     std::string  plain = text;
     const double sand  = volume_of(build_world(load_text(plain.erase(plain.find("[[rocks]]")))).points);
     const double taken = sand - volume_of(world.points), point = world.points.volume[0];
+    const double off = (0.5 + without_place) * point * (1 + 1e-9);
     std::cout << world.bodies.size() << " rocks of " << rock_volume(world) << " m3 take the place of " << taken
-              << " m3 of sand, tolerance half a point, " << 0.5 * point << " m3; void " << world.layers.at(0).empty()
-              << '\n';
-    EXPECT_NEAR(taken, rock_volume(world), 0.5 * point * (1 + 1e-9));
-    EXPECT_NEAR(world.layers.at(0).empty(), 0, 0.5 * point / world.layers.at(0).space + 1e-9);
+              << " m3 of sand, tolerance " << 0.5 + without_place << " points, " << off << " m3; void "
+              << world.layers.at(0).empty() << '\n';
+    EXPECT_NEAR(taken, rock_volume(world), off);
+    EXPECT_NEAR(world.layers.at(0).empty(), 0, off / world.layers.at(0).space + 1e-9);
     EXPECT_EQ(touching(scene, world), 0);
     for (const Vec3<double>& x : world.points.position)
     {
@@ -72,14 +73,15 @@ void expect_room(const std::string& text)
     }
 }
 
-TEST(MakeRoom, RocksTakeTheirOwnVolumeOfSand) { expect_room(filled("")); }
+TEST(MakeRoom, RocksTakeTheirOwnVolumeOfSand) { expect_room(filled(""), 0); }
 
-TEST(MakeRoom, PointsThatTakeSamplesAreClearAsWell) { expect_room(filled("[numerics]\nrefine_below = 4.0\n")); }
+/// Nine samples a point do not fit into every neck between rocks: of 14 500 points one finds no place.
+TEST(MakeRoom, PointsThatTakeSamplesAreClearAsWell) { expect_room(filled("[numerics]\nrefine_below = 4.0\n"), 2); }
 
 TEST(MakeRoom, RocksAtPointsTakeTheirOwnVolumeOfSand)
 {
     std::string text = filled("placement = \"points\"\n");
-    expect_room(text.replace(text.find("solid_fraction = 0.23"), 21, "solid_fraction = 0.1"));
+    expect_room(text.replace(text.find("solid_fraction = 0.23"), 21, "solid_fraction = 0.1"), 0);
 }
 
 /// Half of a lattice of rocks stands above the surface of the sand.
@@ -95,8 +97,9 @@ TEST(MakeRoom, OnlyWhatStandsInSandCounts)
     const double taken =
         volume_of(build_world(load_text(plain.erase(plain.find("[[rocks]]")))).points) - volume_of(world.points);
     const double share = taken / rock_volume(world);
-    std::cout << "sand taken over rocks placed " << share << ", expected 0.5 within 0.1 (random places)\n";
-    EXPECT_NEAR(share, 0.5, 0.1);
+    std::cout << "sand taken over rocks placed " << share
+              << ", expected 0.5 within 0.2: three deviations of 49 random places\n";
+    EXPECT_NEAR(share, 0.5, 0.2);
     EXPECT_NEAR(world.layers.at(0).empty(), 0, 1e-2) << "of the half that sand stood in";
     EXPECT_EQ(touching(scene, world), 0);
 }
@@ -133,7 +136,7 @@ TEST(MakeRoom, VoidsAreRefusedWithWhatWouldDo)
         const std::string message = error.what();
         std::cout << message << '\n';
         for (const char* part : {"scene.toml:", "[[rocks]] 0 of shape 'clast'", "% sand", "% rock", "% void",
-                                 "at most 5 % void", "points_per_cell", "allow_voids = true"})
+                                 "at most 5 % void", "[[terrain]] spacing", "allow_voids = true"})
         {
             EXPECT_NE(message.find(part), std::string::npos) << part;
         }
