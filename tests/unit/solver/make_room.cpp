@@ -92,7 +92,6 @@ TEST(MakeRoom, OnlyWhatStandsInSandCounts)
     text.replace(text.find("solid_fraction = 0.23"), 21, "solid_fraction = 0.1");
     const auto   scene = load_text(text);
     const World  world = build_world(scene);
-    const auto   sites = test::sand_text;
     std::string  plain = text;
     const double taken =
         volume_of(build_world(load_text(plain.erase(plain.find("[[rocks]]")))).points) - volume_of(world.points);
