@@ -115,6 +115,16 @@ Json answers_of(const Summary& summary)
     return bodies;
 }
 
+Json layers_of(const BedReport& bed)
+{
+    Json layers = Json::array();
+    for (const LayerReport& layer : bed.layers)
+    {
+        layers.push_back({{"rocks", layer.table}, {"sand", layer.sand}, {"rock", layer.rock}, {"void", layer.empty}});
+    }
+    return layers;
+}
+
 Json resolution_of(const Summary& summary)
 {
     Json figures = Json::object();
@@ -183,6 +193,7 @@ std::string to_json(const Summary& summary)
                                  {"seconds", summary.checkpoints.seconds}};
     json["terrain"]           = terrain_of(summary.bed);
     json["rocks"]             = rocks_of(summary.bed);
+    json["layers"]            = layers_of(summary.bed);
     json["rock_share"]        = summary.bed.rock_share;
     json["phases"]            = phases_of(summary);
     json["asleep"]            = summary.asleep ? Json(*summary.asleep) : Json();

@@ -73,11 +73,21 @@ struct RocksReport
     double       largest_diameter  = 0;
 };
 
+/// Shares of the volume of a [[rocks]] table's region between floor and height, as far as sand stood there before.
+struct LayerReport
+{
+    std::int64_t table = 0; ///< of [[rocks]]
+    double       sand  = 0;
+    double       rock  = 0; ///< of all tables
+    double       empty = 0; ///< what is left: `void` in summary.json
+};
+
 /// The bed at the start.
 struct BedReport
 {
     std::vector<TerrainReport> terrain;
     std::vector<RocksReport>   rocks;
+    std::vector<LayerReport>   layers;         ///< where rocks took the place of sand
     double                     rock_share = 0; ///< volume of rocks over that of rocks and points
 };
 
@@ -150,7 +160,7 @@ struct Summary
     CheckpointReport         checkpoints;  ///< with those of the runs that this one went on from
     std::int64_t             restarts = 0; ///< how often it was stopped and went on
     std::string              start;        ///< UTC, of the first of these runs
-    BedReport                bed;          ///< in summary.json: terrain, rocks, rock_share
+    BedReport                bed;          ///< in summary.json: terrain, rocks, layers, rock_share
     std::vector<BodyAnswers> answers;
 };
 

@@ -1,6 +1,7 @@
 #include "solver/bed.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -49,6 +50,9 @@ io::RocksReport describe_rocks(const scene::Scene& scene, std::size_t table, con
     return report;
 }
 
+/// A percentage that rounds to 0.0 has no sign.
+double without_sign_of_zero(double percent) { return std::abs(percent) < 0.05 ? 0 : percent; }
+
 } // namespace
 
 io::BedReport describe_bed(const scene::Scene& scene, const World& world)
@@ -58,6 +62,10 @@ io::BedReport describe_bed(const scene::Scene& scene, const World& world)
     for (std::size_t table = 0; table < scene.rocks.size(); ++table)
     {
         bed.rocks.push_back(describe_rocks(scene, table, world.bodies));
+    }
+    for (const LayerShares& layer : world.layers)
+    {
+        bed.layers.push_back({static_cast<std::int64_t>(layer.table), layer.sand, layer.rock, layer.empty()});
     }
     double rocks = 0, points = 0;
     for (const auto& table : bed.rocks) { rocks += table.volume; }
@@ -81,6 +89,11 @@ std::vector<std::string> bed_lines(const io::BedReport& bed)
                                     "{:.4g} to {:.4g} m, mean {:.4g} m",
                                     i, table.shape, table.count, table.mass, table.solid_fraction,
                                     table.smallest_diameter, table.largest_diameter, table.mean_diameter));
+    }
+    for (const auto& layer : bed.layers)
+    {
+        lines.push_back(fmt::format("layer of rocks {}: {:.1f} % sand, {:.1f} % rock, {:.1f} % void", layer.table,
+                                    100 * layer.sand, 100 * layer.rock, without_sign_of_zero(100 * layer.empty)));
     }
     if (bed.rock_share > 0 && !bed.terrain.empty())
     {

@@ -9,6 +9,7 @@
 #include "solver/drive_room.hpp"
 #include "solver/estimate.hpp"
 #include "solver/footing.hpp"
+#include "solver/layers.hpp"
 #include "solver/left_out.hpp"
 #include "solver/page_loads.hpp"
 #include "solver/plausibility.hpp"
@@ -132,6 +133,7 @@ std::string check(const Communicator& communicator, const scene::Scene& scene, i
     text += body_lines(scene, world);
     for (const std::string& note : drive_notes(scene, world, drive_rooms(scene, world))) { text += note + "\n"; }
     for (const std::string& line : bed_lines(describe_bed(scene, world))) { text += line + "\n"; }
+    for (const std::string& line : layer_advice(scene, world)) { text += line + "\n"; }
     if (plan.sand) { text += fmt::format("sand {:.0f} bytes a point, pages included\n", wants.bytes_a_point); }
     if (plan.bodies) { text += "shapes at scale 1:\n" + shape_lines(world); }
     text += ranks == 1 ? std::string("partition: one rank\n") : partition_lines(communicator, world, ranks);

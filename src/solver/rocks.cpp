@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
-#include "solver/cover.hpp"
 #include "solver/placement.hpp"
 
 namespace tread::solver
@@ -46,22 +45,6 @@ std::size_t place(const scene::Scene& scene, std::size_t table, const Space& spa
 }
 
 } // namespace
-
-void make_room(const scene::Scene& scene, std::size_t table, std::size_t first, World& world)
-{
-    const scene::Rocks&       rocks    = scene.rocks[table];
-    const auto                covering = covering_bodies(scene, world, first, world.bodies.size());
-    std::vector<std::uint8_t> kept(covering.size());
-    std::transform(covering.begin(), covering.end(), kept.begin(),
-                   [](std::int32_t body) { return static_cast<std::uint8_t>(body < 0 ? 1 : 0); });
-    const std::int64_t removed = keep_points(world.points, kept);
-    if (removed > 0 && !takes_sand(rocks.placement))
-    {
-        throw InputError(fmt::format("[[rocks]] {} of shape '{}': {} points of sand stand where rocks are placed; use "
-                                     "placement = \"replace\" or another region",
-                                     table, rocks.shape, removed));
-    }
-}
 
 Space rocks_space(const scene::Scene& scene, std::size_t table)
 {

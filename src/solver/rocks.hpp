@@ -19,8 +19,4 @@ std::vector<scene::Shape> rocks_family(const scene::Scene& scene, std::size_t ta
 /// placed, if not all find room.
 void place_rocks(const scene::Scene& scene, std::size_t table, const std::vector<RockDraw>& rocks, World& world);
 
-/// Makes room in the sand for a table's rocks, the bodies from `first` on: with placement "replace" the points with
-/// phi < r_p are removed; otherwise sand in the way is an InputError.
-void make_room(const scene::Scene& scene, std::size_t table, std::size_t first, World& world);
-
 } // namespace tread::solver

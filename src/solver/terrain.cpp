@@ -116,7 +116,11 @@ void add_table(const scene::Scene& scene, std::size_t table, HostPoints& points)
 {
     const scene::Terrain& terrain = scene.terrain[table];
     const auto            owner   = fmt::format("[[terrain]] {}", table);
-    const Space           space   = make_space(terrain.region, terrain.height, terrain.floor, owner);
+    if (!terrain.from.empty())
+    {
+        throw InputError(owner + " from: sand of a saved bed cannot be loaded yet; accepted: `from` left out");
+    }
+    const Space space = make_space(terrain.region, terrain.height, terrain.floor, owner);
     remove_inside(points, space);
     const double spacing  = lattice_spacing(scene, terrain);
     const double volume   = spacing * spacing * spacing;

@@ -12,6 +12,8 @@
 #include "scene/lines.hpp"
 #include "solver/geostatic.hpp"
 #include "solver/grading.hpp"
+#include "solver/layers.hpp"
+#include "solver/make_room.hpp"
 #include "solver/materials.hpp"
 #include "solver/named_bodies.hpp"
 #include "solver/region.hpp"
@@ -196,11 +198,9 @@ std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene, cons
 void add_table(const scene::Scene& scene, std::size_t table, const std::vector<RockDraw>& drawn, SavedBeds& beds,
                World& world)
 {
-    const std::size_t first = world.bodies.size();
     if (scene.rocks[table].from.empty()) { place_rocks(scene, table, drawn, world); }
     else { beds.place(table, world); }
     world.bodies.rocks_end.push_back(world.bodies.size());
-    make_room(scene, table, first, world);
 }
 
 void add_rocks(const scene::Scene& scene, const std::vector<std::vector<RockDraw>>& draws, SavedBeds& beds,
@@ -212,6 +212,8 @@ void add_rocks(const scene::Scene& scene, const std::vector<std::vector<RockDraw
                             [&] { add_table(scene, table, draws[table], beds, world); });
     }
     beds.finish(world);
+    make_room(scene, world);
+    require_no_voids(scene, world);
 }
 
 } // namespace

@@ -63,6 +63,20 @@ struct ContactRecord
     Vec3<double>  place   = Vec3<double>::Zero(); ///< m, from the centre of the first body in its frame
 };
 
+/// What a [[rocks]] table's region holds at the start between floor and height, as far as sand stood there: shares of
+/// the volume of that sand.
+struct LayerShares
+{
+    std::size_t table; ///< of Scene::rocks
+    double      sand;
+    double      rock;
+    double      space;        ///< m3, of the sand that stood there
+    double      rock_radius;  ///< m, mean of the table's rocks: of the sphere of equal volume
+    double      point_radius; ///< m, largest contact radius of the points there
+
+    double empty() const { return 1 - sand - rock; }
+};
+
 struct World
 {
     mpm::GridGeometry                 geometry;
@@ -71,6 +85,7 @@ struct World
     std::vector<shape::ShapeTemplate> templates;
     HostPoints                        points;
     HostBodies                        bodies;
+    std::vector<LayerShares>          layers;        ///< of the [[rocks]] tables that take the place of sand
     std::vector<ContactRecord>        contacts;      ///< that the bodies start with, by ascending key
     double                            point_spacing; ///< m, smallest distance of neighbouring points; 0 without sand
 };

@@ -11,9 +11,11 @@ CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
 PAPER = CONFIGS / "paper"
 FURTHER = ["*.toml", "studies/*.toml", "campaigns/scenes/*.toml", "paper/coarse/*.toml"]
 
-# Points without rocks among them, where the paper's own count or the lattice says exactly; rocks by the scene.
+# Points: the paper's own count or the lattice's, less the volume of the rocks that stand in the sand; rocks by the scene.
 POINTS = {"head_on_1": 33552, "head_on_8": 268096, "head_on_27": 904960, "wheel_drop_sand": 1150000,
-          "rolling_sand": 101250, "slip_sand": 864000, "spirit": 707520, "spirit_mer": 707520}
+          "rolling_sand": 101250, "slip_sand": 864000, "spirit": 707520, "spirit_mer": 707520,
+          "wheel_drop_mixed": 1150000 - 4189, "wheel_drop_substeps": 1150000 - 4189, "rolling_mixed": 101250 - 1104,
+          "slip_mixed": 864000 - 15200, "curiosity_rock": 589824 - 6291}
 ROCKS = {"wheel_drop_rock": 300000, "wheel_drop_rock_filled": 300000, "wheel_drop_mixed": 8000,
          "wheel_drop_substeps": 8000, "rolling_spheres": 300000, "rolling_rocks": 300000, "rolling_mixed": 16874,
          "slip_mixed": 3000, "spirit": 53380, "spirit_mer": 53380}

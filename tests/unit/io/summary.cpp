@@ -59,7 +59,8 @@ TEST(Summary, json_holds_every_field)
 
     summary.phases = {{"settle", 0, 0.2, true, 1e-3, 0.6}, {"drive", 0.2, 0.3, std::nullopt, 0.1, std::nullopt}};
 
-    summary.bed = {{{"sand", 8, 0.5, 800}}, {{"clast", 5, 0.1, 270, 0.2, 0.01, 0.02, 0.04}}, 1.0 / 6};
+    summary.bed = {
+        {{"sand", 8, 0.5, 800}}, {{"clast", 5, 0.1, 270, 0.2, 0.01, 0.02, 0.04}}, {{0, 0.75, 0.15, 0.1}}, 1.0 / 6};
 
     const auto json = nlohmann::json::parse(to_json(summary));
     for (const char* key : {"schema",
@@ -90,6 +91,7 @@ TEST(Summary, json_holds_every_field)
                             "peak_host_bytes",
                             "terrain",
                             "rocks",
+                            "layers",
                             "rock_share",
                             "phases",
                             "asleep",
@@ -101,6 +103,7 @@ TEST(Summary, json_holds_every_field)
     {
         EXPECT_TRUE(json.contains(key)) << key;
     }
+    EXPECT_EQ(json["layers"][0], (nlohmann::json{{"rocks", 0}, {"sand", 0.75}, {"rock", 0.15}, {"void", 0.1}}));
     EXPECT_EQ(json["status"], "failed");
     EXPECT_TRUE(json["checkpoint"].is_null());
     EXPECT_EQ(json["exit_code"], 3);
