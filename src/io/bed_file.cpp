@@ -57,6 +57,49 @@ std::vector<BedKind> read_kinds(const h5::File& file)
     return kinds;
 }
 
+void write_points(const h5::File& file, const BedPoints& points)
+{
+    h5::create_group(file, "/points");
+    h5::write_attribute(file, "/points", "grid_spacing", points.grid_spacing);
+    h5::create_group(file, "/materials");
+    for (std::size_t m = 0; m < points.materials.size(); ++m)
+    {
+        const std::string group = fmt::format("/materials/{}", m);
+        h5::create_group(file, group);
+        h5::write_attribute(file, group, "name", points.materials[m].name);
+        h5::write_attribute(file, group, "density", points.materials[m].density);
+        h5::write_attribute(file, group, "young", points.materials[m].young);
+        h5::write_attribute(file, group, "poisson", points.materials[m].poisson);
+    }
+    write_with_unit(file, "/points/material", points.material, 1, "1");
+    write_with_unit(file, "/points/position", points.position, 3, "m");
+    write_with_unit(file, "/points/volume", points.volume, 1, "m3");
+    write_with_unit(file, "/points/mass", points.mass, 1, "kg");
+    write_with_unit(file, "/points/stress", points.stress, 6, "Pa");
+    write_with_unit(file, "/points/plastic_shear", points.plastic_shear, 1, "1");
+}
+
+BedPoints read_points(const h5::File& file)
+{
+    BedPoints points;
+    if (!h5::holds(file, "/points")) { return points; }
+    points.grid_spacing = h5::read_number_attribute(file, "/points", "grid_spacing");
+    for (std::int64_t m = 0; m < h5::count_members(file, "/materials"); ++m)
+    {
+        const std::string group  = fmt::format("/materials/{}", m);
+        const auto        number = [&](const char* name) { return h5::read_number_attribute(file, group, name); };
+        points.materials.push_back(
+            {h5::read_text_attribute(file, group, "name"), number("density"), number("young"), number("poisson")});
+    }
+    points.material      = h5::read<std::int32_t>(file, "/points/material", 1);
+    points.position      = h5::read<double>(file, "/points/position", 3);
+    points.volume        = h5::read<double>(file, "/points/volume", 1);
+    points.mass          = h5::read<double>(file, "/points/mass", 1);
+    points.stress        = h5::read<double>(file, "/points/stress", 6);
+    points.plastic_shear = h5::read<double>(file, "/points/plastic_shear", 1);
+    return points;
+}
+
 [[noreturn]] void refuse(const std::string& path, const char* what)
 {
     throw EnvironmentError(fmt::format("{}: the bed is damaged: {}", path, what));
@@ -67,6 +110,22 @@ void require_rows(const std::string& path, std::size_t rows, const std::vector<s
     if (std::any_of(sizes.begin(), sizes.end(), [&](std::size_t size) { return size != rows; }))
     {
         refuse(path, "its columns have not the same length");
+    }
+}
+
+void require_points_in_range(const std::string& path, const BedPoints& points)
+{
+    const auto finite   = [](double value) { return std::isfinite(value); };
+    const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
+    const auto known    = [&](std::int32_t material)
+    { return material >= 0 && static_cast<std::size_t>(material) < points.materials.size(); };
+    const auto all = [](const auto& values, const auto& holds)
+    { return std::all_of(values.begin(), values.end(), holds); };
+    if (!all(points.material, known)) { refuse(path, "a point is of no material"); }
+    if (!all(points.position, finite) || !all(points.stress, finite) || !all(points.plastic_shear, finite) ||
+        !all(points.volume, positive) || !all(points.mass, positive))
+    {
+        refuse(path, "a point has no finite place, size or stress");
     }
 }
 
@@ -133,6 +192,7 @@ void write_bed(const std::string& path, const BedFile& bed, const Provenance& pr
     write_with_unit(file, "/contacts/place", bed.contacts.place, 3, "m");
     write_with_unit(file, "/contacts/rolling", bed.contacts.rolling, 3, "N m");
     write_with_unit(file, "/contacts/rolling_stiffness", bed.contacts.rolling_stiffness, 1, "N m/rad");
+    if (!bed.points.volume.empty()) { write_points(file, bed.points); }
     file.close();
     rename_file(temporary, path);
 }
@@ -165,6 +225,11 @@ BedFile read_bed(const std::string& path)
                   contacts.torsion.size(), contacts.twist_stiffness.size(), contacts.place.size() / 3,
                   contacts.rolling.size() / 3, contacts.rolling_stiffness.size()});
     require_in_range(path, bed);
+    bed.points = read_points(file);
+    require_rows(path, bed.points.volume.size(),
+                 {bed.points.material.size(), bed.points.position.size() / 3, bed.points.mass.size(),
+                  bed.points.stress.size() / 6, bed.points.plastic_shear.size()});
+    require_points_in_range(path, bed.points);
     return bed;
 }
 

@@ -40,6 +40,29 @@ struct BedContacts
     std::vector<double> rolling_stiffness; ///< [n] N m/rad
 };
 
+/// A material of the scene that made the bed.
+struct BedMaterial
+{
+    std::string name;
+    double      density; ///< kg/m3
+    double      young;   ///< Pa
+    double      poisson;
+};
+
+/// Points of sand as they were left. Loaded, their present volume is the one that strain is measured from, which leaves
+/// volume times stress, and so all forces, as they were.
+struct BedPoints
+{
+    double                    grid_spacing = 0; ///< m
+    std::vector<BedMaterial>  materials;
+    std::vector<std::int32_t> material;      ///< [n] of materials
+    std::vector<double>       position;      ///< [n][3] m
+    std::vector<double>       volume;        ///< [n] m3, present
+    std::vector<double>       mass;          ///< [n] kg
+    std::vector<double>       stress;        ///< [n][6] Pa, Cauchy, tension positive: xx, yy, zz, yz, xz, xy
+    std::vector<double>       plastic_shear; ///< [n] equivalent plastic shear strain
+};
+
 struct BedFile
 {
     std::vector<BedKind>      kinds;
@@ -49,6 +72,7 @@ struct BedFile
     std::vector<double>       scale;       ///< [n] of the template
     std::vector<double>       diameter;    ///< [n] m, of the sphere of equal volume
     BedContacts               contacts;
+    BedPoints                 points; ///< none where the bed has no sand
 
     std::size_t size() const { return kind.size(); }
 };

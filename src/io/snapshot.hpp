@@ -24,6 +24,7 @@ struct PointFields
     std::vector<float>         plastic_rate;  ///< [n] 1/s
     std::vector<std::int32_t>  material;      ///< [n]
     std::vector<std::uint32_t> id;            ///< [n] unique, for ever
+    std::vector<float>         volume_ratio;  ///< [n] present over initial volume; not in snapshots
 };
 
 /// Rigid bodies, row-major host arrays of n bodies.

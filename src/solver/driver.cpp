@@ -13,6 +13,7 @@
 #include "io/progress.hpp"
 #include "solver/packing.hpp"
 #include "solver/saved_bed.hpp"
+#include "solver/saved_sand.hpp"
 
 namespace tread::solver
 {
@@ -238,10 +239,11 @@ void Driver<Exec, Real>::end_phase()
 template<class Exec, class Real>
 void Driver<Exec, Real>::write_bed()
 {
-    const io::BedFile bed = make_bed(scene_, world_, simulation_.body_fields(), simulation_.contacts());
+    io::BedFile bed = make_bed(scene_, world_, simulation_.body_fields(), simulation_.contacts());
+    if (plan_.sand) { bed.points = saved_points(communicator_, scene_, world_, simulation_.point_fields()); }
     on_root(communicator_, [&] { io::write_bed(directory_.bed(), bed, options_.provenance); });
-    log_.info(fmt::format("bed of {} rocks with {} contacts: {}", bed.size(), bed.contacts.stiffness.size(),
-                          directory_.bed()));
+    log_.info(fmt::format("bed of {} rocks with {} contacts and {} points of sand: {}", bed.size(),
+                          bed.contacts.stiffness.size(), bed.points.volume.size(), directory_.bed()));
 }
 
 template<class Exec, class Real>

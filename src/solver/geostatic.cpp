@@ -70,6 +70,12 @@ bool rests(const HostPoints& points, std::size_t i)
     return points.velocity.empty() || points.velocity[i] == Vec3<double>::Zero();
 }
 
+/// Points of a saved bed bring their stress.
+bool has_stress(const scene::Scene& scene, const HostPoints& points, std::size_t i)
+{
+    return !scene.terrain[static_cast<std::size_t>(points.terrain[i])].from.empty();
+}
+
 std::vector<Weight> sorted_weights(const scene::Scene& scene, const HostBodies& bodies, const HostPoints& points)
 {
     // Two columns of margin: a rock at a wall may reach a rounding beyond it.
@@ -113,7 +119,8 @@ void set_geostatic_stress(const scene::Scene& scene, const HostBodies& bodies, H
         for (std::size_t at = first; at < end; ++at)
         {
             if (weights[at].point == Weight::no_point) { continue; }
-            const auto   point      = static_cast<std::size_t>(weights[at].point);
+            const auto point = static_cast<std::size_t>(weights[at].point);
+            if (has_stress(scene, points, point)) { continue; }
             const double horizontal = horizontal_stress(scene.materials[points.material[point]], vertical);
             points.stress[point]    = Sym3<double>(-horizontal, -horizontal, -vertical, 0, 0, 0);
         }

@@ -96,6 +96,7 @@ io::PointFields PointCopy<Exec, Real>::rows() const
     fields.plastic_rate  = rows_of<float>(plastic_rate_, count_, 1);
     fields.material      = rows_of<std::int32_t>(material_, count_, 1);
     fields.id            = rows_of<std::uint32_t>(id_, count_, 1);
+    fields.volume_ratio  = ratio;
     return fields;
 }
 

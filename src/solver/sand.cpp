@@ -134,6 +134,7 @@ void Sand<Exec, Real>::upload(const HostPoints& host, mpm::PointFields fields)
     points_.material.assign(host.material);
     if (!host.velocity.empty()) { points_.velocity.assign(planes<Real, 3>(host.velocity)); }
     if (!host.velocity.empty() && fields.coupled) { points_.grid_velocity.assign(planes<Real, 3>(host.velocity)); }
+    if (!host.plastic_shear.empty() && fields.plastic) { points_.plastic_shear.assign(cast<Real>(host.plastic_shear)); }
     points_.id.assign(numbers(host));
 }
 

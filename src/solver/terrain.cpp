@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "scene/lines.hpp"
 #include "solver/region.hpp"
+#include "solver/saved_sand.hpp"
 
 namespace tread::solver
 {
@@ -63,6 +64,7 @@ void append(HostPoints& points, const Vec3<double>& x, const PointKind& kind)
     points.stress.push_back(Sym3<double>::Zero());
     points.material.push_back(kind.material);
     points.terrain.push_back(kind.table);
+    if (!points.plastic_shear.empty()) { points.plastic_shear.push_back(0); }
 }
 
 void remove_inside(HostPoints& points, const Space& space)
@@ -115,11 +117,12 @@ void fill(const Space& space, const std::array<Sites, 3>& axes, const PointKind&
 void add_table(const scene::Scene& scene, std::size_t table, HostPoints& points)
 {
     const scene::Terrain& terrain = scene.terrain[table];
-    const auto            owner   = fmt::format("[[terrain]] {}", table);
     if (!terrain.from.empty())
     {
-        throw InputError(owner + " from: sand of a saved bed cannot be loaded yet; accepted: `from` left out");
+        append_saved_points(scene, table, points);
+        return;
     }
+    const auto  owner = fmt::format("[[terrain]] {}", table);
     const Space space = make_space(terrain.region, terrain.height, terrain.floor, owner);
     remove_inside(points, space);
     const double spacing  = lattice_spacing(scene, terrain);
@@ -165,15 +168,19 @@ double lattice_spacing(const scene::Scene& scene, const scene::Terrain& terrain)
     return terrain.spacing.value_or(scene.grid.spacing / std::round(std::cbrt(terrain.points_per_cell)));
 }
 
-double terrain_spacing(const scene::Scene& scene)
+double terrain_spacing(const scene::Scene& scene, const HostPoints& points)
 {
-    double smallest = 0;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+        if (scene.terrain[static_cast<std::size_t>(points.terrain[i])].from.empty()) { continue; }
+        smallest = std::min(smallest, std::cbrt(points.volume[i]));
+    }
     for (const scene::Terrain& terrain : scene.terrain)
     {
-        const double spacing = lattice_spacing(scene, terrain);
-        smallest             = smallest == 0 ? spacing : std::min(smallest, spacing);
+        if (terrain.from.empty()) { smallest = std::min(smallest, lattice_spacing(scene, terrain)); }
     }
-    return smallest;
+    return std::isinf(smallest) ? 0 : smallest;
 }
 
 std::int64_t keep_points(HostPoints& points, const std::vector<std::uint8_t>& kept)
@@ -195,6 +202,7 @@ std::int64_t keep_points(HostPoints& points, const std::vector<std::uint8_t>& ke
     compact(points.material);
     compact(points.terrain);
     compact(points.velocity);
+    compact(points.plastic_shear);
     compact(points.id);
     compact(points.position);
     return static_cast<std::int64_t>(before - points.size());

@@ -14,7 +14,7 @@ HostPoints make_terrain(const scene::Scene& scene);
 /// Distance of neighbouring points of a table, m.
 double lattice_spacing(const scene::Scene& scene, const scene::Terrain& terrain);
 
-/// The smallest of all terrain tables, m; 0 without one.
-double terrain_spacing(const scene::Scene& scene);
+/// The smallest of all terrain tables, m; 0 without one. Points of a saved bed count by their volume.
+double terrain_spacing(const scene::Scene& scene, const HostPoints& points);
 
 } // namespace tread::solver

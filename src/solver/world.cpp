@@ -147,22 +147,19 @@ std::vector<Wanted> wanted_shapes(const scene::Scene& scene, const std::vector<s
 
 /// The largest radius of a point beside the smallest instance of a shape, m at the shape's scale 1: sand is in contact
 /// from that distance on.
-double contact_reach(const scene::Scene& scene, double smallest, double equivalent_radius)
+double contact_reach(const scene::Scene& scene, const HostPoints& points, double smallest, double equivalent_radius)
 {
-    double largest = 0;
-    for (const scene::Terrain& terrain : scene.terrain)
-    {
-        const double volume = std::pow(lattice_spacing(scene, terrain), 3);
-        largest = std::max(largest, contact::point_radius(volume, radius_rule(scene.numerics.point_radius)));
-    }
+    if (points.size() == 0) { return 0; }
+    const double volume  = *std::max_element(points.volume.begin(), points.volume.end());
+    const double largest = contact::point_radius(volume, radius_rule(scene.numerics.point_radius));
     return largest / std::min(1.0, 0.5 * smallest / equivalent_radius);
 }
 
-shape::ShapeTemplate make_template(const scene::Scene& scene, const Wanted& wanted)
+shape::ShapeTemplate make_template(const scene::Scene& scene, const HostPoints& points, const Wanted& wanted)
 {
     const auto& size  = scene.domain.size;
     const auto  reach = [&](double equivalent_radius)
-    { return contact_reach(scene, wanted.smallest, equivalent_radius); };
+    { return contact_reach(scene, points, wanted.smallest, equivalent_radius); };
     auto         form   = shape::make_template(wanted.shape, scene.directory, reach);
     const double extent = form.box.extent().maxCoeff();
     if (std::isinf(wanted.smallest) && extent > 100 * *std::max_element(size.begin(), size.end()))
@@ -183,14 +180,15 @@ std::string shape_table(const scene::Scene& scene, const std::string& name)
     return "shape." + family;
 }
 
-std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene, const std::vector<Wanted>& wanted)
+std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene, const HostPoints& points,
+                                                 const std::vector<Wanted>& wanted)
 {
     std::vector<shape::ShapeTemplate> templates;
     templates.reserve(wanted.size());
     for (const Wanted& one : wanted)
     {
-        templates.push_back(
-            scene::with_line_of(scene, shape_table(scene, one.shape.name), [&] { return make_template(scene, one); }));
+        templates.push_back(scene::with_line_of(scene, shape_table(scene, one.shape.name),
+                                                [&] { return make_template(scene, points, one); }));
     }
     return templates;
 }
@@ -244,9 +242,9 @@ World build_world(const scene::Scene& scene)
     world.planes     = body_planes(scene);
     SavedBeds  beds(scene);
     const auto draws    = draw_all_rocks(scene, beds);
-    world.templates     = make_templates(scene, wanted_shapes(scene, draws));
     world.points        = make_terrain(scene);
-    world.point_spacing = terrain_spacing(scene);
+    world.point_spacing = terrain_spacing(scene, world.points);
+    world.templates     = make_templates(scene, world.points, wanted_shapes(scene, draws));
     add_named_bodies(scene, world);
     add_rocks(scene, draws, beds, world);
     find_heights(scene, world);

@@ -27,6 +27,8 @@ struct HostPoints
     std::vector<std::int32_t> terrain;  ///< index of the [[terrain]] table that made it
     std::vector<Vec3<double>> velocity; ///< m/s; empty if all points are at rest
 
+    std::vector<double> plastic_shear; ///< that points of a saved bed start with; empty without such points
+
     /// Of points that are one rank's own alone, their numbers in the scene. Empty: all of the scene, as they stand.
     std::vector<std::uint32_t> id;
 
