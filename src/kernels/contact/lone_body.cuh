@@ -179,8 +179,7 @@ private:
         own.dissipated += response.dissipated;
         if (kept != nullptr) { *kept = response; }
         own.point.move(response.force, motion, respond.dt);
-        const Vec3<double> force = -response.force;
-        return {force, (x - body.position[0]).cross(force), response.stiffness};
+        return wrench_on_body(response, x - body.position[0]);
     }
 
     __device__ static void sum_of_block(const dem::ContactWrench& wrench, dem::ContactWrench* sum)

@@ -6,7 +6,10 @@
 #include "backend/vector.hpp"
 #include "kernels/dem/spring_kern.hpp"
 
-// The contact law of one sand point against one rigid body; everything acts at the point's position x_p.
+// The contact law of one sand point against one rigid body. The point feels the force at its position x_p; friction
+// acts on the body at its surface, x_p - phi n, and slips past the surface's velocity there: a wheel rolls on its own
+// radius, whatever the points' size. The normal force acts along the line between the two places and has no couple;
+// that of friction, which is phi n x F_t, the body gets and the sand does not.
 namespace tread::contact
 {
 
@@ -56,13 +59,21 @@ struct Approach
 {
     double       distance; ///< m, phi(x_p), negative inside the body
     Vec3<double> gradient; ///< grad phi in the world frame, not normalised
-    Vec3<double> velocity; ///< m/s, of the point relative to the body's material at x_p
+    Vec3<double> velocity; ///< m/s, of the point relative to the body's material at its surface, x_p - phi n
 };
+
+/// From the body's surface to the point, m: phi n.
+TREAD_HD Vec3<double> stand_off(double distance, const Vec3<double>& gradient)
+{
+    const double length = gradient.norm();
+    return length > 0 ? Vec3<double>((distance / length) * gradient) : Vec3<double>(0.0, 0.0, 0.0);
+}
 
 /// What the law says of one contact in one substep; all zero, gradient included, while the pair is apart.
 struct Response
 {
     Vec3<double> force;           ///< N, on the point; the body gets exactly its opposite
+    Vec3<double> couple;          ///< N m, on the body beside its force at x_p: friction acts at its surface
     double       overlap;         ///< m, d = r_p - phi
     double       stiffness;       ///< N/m, k_n = dF/dd
     double       gradient_length; ///< of the SDF; 1 on a smooth face, small on a medial axis
@@ -70,7 +81,7 @@ struct Response
     double       dissipated;      ///< J, lost to friction in this substep, never negative
 };
 
-TREAD_HD Response no_response() { return {Vec3<double>::Zero(), 0.0, 0.0, 0.0, 0.0, 0.0}; }
+TREAD_HD Response no_response() { return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0.0, 0.0, 0.0, 0.0, 0.0}; }
 
 /// Mindlin's tangential force, incremental (the paper's Eq. 9a): dF_t = -k_t v_t dt, k_t = 8 G* sqrt(R* d). Rescaled by
 /// k_t,new/k_t,old on unloading, else a closed cycle makes energy (verification A9); capped at mu |F_n|. Returns the
@@ -114,6 +125,7 @@ TREAD_HD Response point_body_response(const PairConstants& pair, const Approach&
 
     Response response;
     response.force           = normal_force * approach.gradient;
+    response.couple          = Vec3<double>::Zero();
     response.overlap         = overlap;
     response.stiffness       = stiffness;
     response.gradient_length = approach.gradient.norm();
@@ -125,6 +137,7 @@ TREAD_HD Response point_body_response(const PairConstants& pair, const Approach&
                                                 approach.velocity, 8.0 * pair.effective_shear * patch_radius,
                                                 pair.friction * normal_force * response.gradient_length, dt);
         response.force += tangential.force;
+        response.couple = stand_off(approach.distance, approach.gradient).cross(tangential.force);
         response.energy += dem::spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
     }
     return response;

@@ -91,8 +91,9 @@ TREAD_HD Response response_of(const dem::BodiesView& bodies, std::int32_t b, con
                               const PairConstants& pair, const Vec3<double>& x, const Vec3<double>& v,
                               Tangential& tangential, double dt)
 {
-    const auto     field = dem::sample_body_sdf(shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], x);
-    const Approach approach{field.distance, field.gradient, v - velocity_at(bodies, b, x)};
+    const auto field = dem::sample_body_sdf(shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], x);
+    const Vec3<double> surface = x - stand_off(field.distance, field.gradient);
+    const Approach     approach{field.distance, field.gradient, v - velocity_at(bodies, b, surface)};
     return point_body_response(pair, approach, tangential, dt);
 }
 
@@ -149,11 +150,18 @@ struct RespondSampled
         const double bound =
             dem::search_bound(shape, bodies.scale[b], pair.point_radius, 2.0 * patch_reach * pair.point_radius);
         contacts.response[c] =
-            sampled_response(pair, x - bodies.position[b], respond.points.velocity[t] - velocity_at(bodies, b, x), sdf,
-                             bound, contacts.tangential + first, respond.dt);
+            sampled_response(pair, x - bodies.position[b], respond.points.velocity[t] - velocity_at(bodies, b, x),
+                             bodies.angular_velocity[b], sdf, bound, contacts.tangential + first, respond.dt);
         contacts.dissipated[c] += contacts.response[c].dissipated;
     }
 };
+
+/// What the response at `arm` from the body's centre (m) does to the body.
+TREAD_HD dem::ContactWrench wrench_on_body(const Response& response, const Vec3<double>& arm)
+{
+    const Vec3<double> force = -response.force;
+    return {force, arm.cross(force) + response.couple, response.stiffness};
+}
 
 struct WrenchOf
 {
@@ -163,10 +171,9 @@ struct WrenchOf
 
     TREAD_HD dem::ContactWrench operator()(std::int64_t c) const
     {
-        const Vec3<double> force = -contacts.response[c].force;
         const Vec3<double> arm =
             point_position[contacts.candidates.touched[c]] - body_position[contacts.candidates.body[c]];
-        return {force, arm.cross(force), contacts.response[c].stiffness};
+        return wrench_on_body(contacts.response[c], arm);
     }
 };
 

@@ -8,8 +8,9 @@
 // Nine samples for a point on a body of a comparable size (the paper's section 2.4): 3x3 on a patch through the point's
 // centre, across the line to the body's centre. Each has the point's law and its own history, and counts for a ninth.
 // On an edge, a groove or a tip smaller than the point the force comes and goes gradually, as the patch does. The patch
-// follows the point around the body, not the body's turns. All forces act at the point's centre, as that of a single
-// sample does, and no couple is left over (see turning_force).
+// follows the point around the body, not the body's turns. All forces act at the point's centre, and friction on the
+// body a sample's distance from it, as of a single sample; of the normal forces no couple is left over (see
+// turning_force).
 //
 // The patch is round, with the area of the face of a cube of the point's volume; the 3x3 squares are drawn onto it so
 // that eight stand in a ring, which hardly feels how it is turned, where the mean of the squared distances is the
@@ -55,6 +56,7 @@ TREAD_HD void add_sample(Response& sum, const Response& sample)
 {
     constexpr double share = 1.0 / patch_samples;
     sum.force += share * sample.force;
+    sum.couple += share * sample.couple;
     sum.stiffness += share * sample.stiffness;
     sum.energy += share * sample.energy;
     sum.dissipated += share * sample.dissipated;
@@ -71,12 +73,13 @@ TREAD_HD Vec3<double> turning_force(const Vec3<double>& couple, const Vec3<doubl
     return couple.cross(line) / arm;
 }
 
-/// Response of a point at `arm` from the body's centre (m), moving at `velocity` past the body's material there.
-/// sdf(offset) samples the body at an offset from the point; no sample is in contact where the centre is further than
-/// `bound` (m). `tangential` is the samples' history.
+/// Response of a point at `arm` from the body's centre (m), moving at `velocity` past the body's material there; the
+/// body turns at `spin` (rad/s). sdf(offset) samples the body at an offset from the point; no sample is in contact
+/// where the centre is further than `bound` (m). `tangential` is the samples' history.
 template<class Sdf>
 TREAD_HD Response sampled_response(const PairConstants& pair, const Vec3<double>& arm, const Vec3<double>& velocity,
-                                   const Sdf& sdf, double bound, Tangential* tangential, double dt)
+                                   const Vec3<double>& spin, const Sdf& sdf, double bound, Tangential* tangential,
+                                   double dt)
 {
     const double         length = arm.norm();
     const Vec3<double>   line   = length > 0 ? Vec3<double>(arm / length) : Vec3<double>(0.0, 0.0, 1.0);
@@ -91,7 +94,8 @@ TREAD_HD Response sampled_response(const PairConstants& pair, const Vec3<double>
         const Vec3<double>   offset = patch_offset(axes, s, pair.point_radius);
         const bool           known  = far || s == patch_samples / 2;
         const dem::SdfSample at     = known ? centre : sdf(offset);
-        const Response       one = point_body_response(pair, {at.distance, at.gradient, velocity}, tangential[s], dt);
+        const Vec3<double>   past   = velocity + spin.cross(stand_off(at.distance, at.gradient));
+        const Response       one    = point_body_response(pair, {at.distance, at.gradient, past}, tangential[s], dt);
         couple += 1.0 / patch_samples * offset.cross(one.force - tangential[s].force);
         add_sample(sum, one);
     }

@@ -262,7 +262,8 @@ contact::Response nine(const Exact& body, const Vec3<double>& x)
     std::array<contact::Tangential, 9> none;
     none.fill(contact::no_tangential());
     const auto sdf = [&](const Vec3<double>& offset) { return body.sdf(x + offset); };
-    return contact::sampled_response(frictionless(body), x, Vec3<double>::Zero(), sdf, 1.0, none.data(), 1e-5);
+    return contact::sampled_response(frictionless(body), x, Vec3<double>::Zero(), Vec3<double>::Zero(), sdf, 1.0,
+                                     none.data(), 1e-5);
 }
 
 using Offsets = std::vector<Vec3<double>>;

@@ -1,5 +1,6 @@
 #include "contact_places.hpp"
 
+#include <array>
 #include <cstdio>
 #include <map>
 #include <random>
@@ -70,7 +71,7 @@ TYPED_TEST(ContactStep, WrenchIsTheSumOverContacts)
     {
         const Vec3<double> arm = at[static_cast<std::size_t>(touched[c])] - ball().position;
         force -= all[c].force;
-        torque -= arm.cross(all[c].force);
+        torque += all[c].couple - arm.cross(all[c].force);
         stiffness += all[c].stiffness;
         scale += all[c].force.norm();
     }
@@ -78,6 +79,37 @@ TYPED_TEST(ContactStep, WrenchIsTheSumOverContacts)
     EXPECT_LE((scene.bodies.force.to_host()[0] - force).norm(), 1e-13 * scale);
     EXPECT_LE((scene.bodies.torque.to_host()[0] - torque).norm(), 1e-13 * scale);
     EXPECT_NEAR(scene.bodies.stiffness.to_host()[0], stiffness, 1e-12 * stiffness);
+}
+
+/// Friction acts at the surface of a body: a point that goes with the surface of a ball that spins does not slip,
+/// however far its centre stands off, and what friction there is has the ball's own radius for an arm.
+TYPED_TEST(ContactStep, FrictionActsAtTheSurface)
+{
+    const double       ball_radius = 0.05, away = 0.9 * radius, rate = 10, dt = 1e-6; // no slip yet
+    const Vec3<double> out(1, 0, 0), along(0, 1, 0);
+    BodyState          spinning = ball();
+    spinning.velocity           = Vec3<double>::Zero();
+    spinning.angular_velocity   = Vec3<double>(0, 0, rate);
+    const auto friction         = [&](double speed)
+    {
+        const PointState            point{spinning.position + (ball_radius + away) * out, speed * along};
+        typename TestFixture::Scene scene(this->exec(), {sphere_shape(ball_radius, 40)}, {spinning}, {point});
+        scene.begin();
+        scene.substep(dt);
+        return std::array<double, 2>{scene.contact.response.to_host()[0].force.dot(along),
+                                     scene.bodies.torque.to_host()[0][2]};
+    };
+    const double with_surface = friction(rate * ball_radius)[0], with_centre = friction(rate * (ball_radius + away))[0];
+    std::printf("[ measured ] friction on a point that goes with the surface: %.4f of that on one that goes with the "
+                "body's velocity at its centre, expected 0, tolerance 0.05: the field's normals\n",
+                with_surface / with_centre);
+    EXPECT_LT(with_centre, 0);
+    EXPECT_LE(std::abs(with_surface), 0.05 * std::abs(with_centre));
+    const auto   held = friction(0);
+    const double arm  = -held[1] / held[0];
+    std::printf("[ measured ] arm of friction over the ball's radius: %.5f, expected 1, tolerance 2e-3: the field\n",
+                arm / ball_radius);
+    EXPECT_NEAR(arm, ball_radius, 2e-3 * ball_radius);
 }
 
 TYPED_TEST(ContactStep, ForceOnAFlatFaceIsHertz)
