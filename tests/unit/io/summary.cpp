@@ -57,7 +57,8 @@ TEST(Summary, json_holds_every_field)
     summary.errors    = {1e-9, 2e-3, std::numeric_limits<double>::quiet_NaN()};
     summary.figures   = {{"contact_cells", 7, 20, 6}};
 
-    summary.phases = {{"settle", 0, 0.2, true, 1e-3, 0.6}, {"drive", 0.2, 0.3, std::nullopt, 0.1, std::nullopt}};
+    summary.phases = {{"settle", 0, 0.2, "settled", true, 1e-3, 0.6},
+                      {"drive", 0.2, 0.3, "duration", std::nullopt, 0.1, std::nullopt}};
 
     summary.bed = {
         {{"sand", 8, 0.5, 800}}, {{"clast", 5, 0.1, 270, 0.2, 0.01, 0.02, 0.04}}, {{0, 0.75, 0.15, 0.1}}, 1.0 / 6};
