@@ -65,7 +65,7 @@ class BadScene(RefusedScene):
         self.refuse_walls('bottom = "frictional", friction = -0.1', ["friction", ">= 0"])
 
     def test_unknown_wall(self):
-        self.refuse_walls('bottom = "rough"', ["bottom", "frictional"])
+        self.refuse_walls('bottom = "sticky"', ["bottom", "frictional"])
 
     def test_incompressible(self):
         self.refuse_value("poisson            = 0.3", "poisson            = 0.5", ["poisson", "0.5"])
@@ -217,8 +217,9 @@ region    = { box = [[0.0, 0.0, 0.2], [0.4, 0.4, 0.4]] }
     def test_unknown_phase(self):
         self.refuse(self.saving(self.NO_SAND + self.BALLS, "reset"), ["bed_after", "reset", "rest"])
 
-    def test_bed_with_sand(self):
-        self.refuse(self.saving(SCENE + self.BALLS, "rest"), ["bed_after", "terrain"])
+    def test_missing_bed_of_sand(self):
+        sand = SCENE[: SCENE.index("region")] + 'from = "bed.h5"' + SCENE[SCENE.index("\n", SCENE.index("region")) :]
+        self.refuse(sand, ["terrain[0]", "from", "bed.h5"])
 
     def test_bed_without_rocks(self):
         self.refuse(self.saving(self.NO_SAND + BODY, "rest"), ["bed_after", "rocks"])
