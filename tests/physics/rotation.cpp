@@ -19,7 +19,7 @@ class Rotation : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(Rotation, test::Backends, test::BackendNames);
 
-constexpr double middle = 0.5; ///< m, of the axis along y that everything turns about
+constexpr double middle = 0.8; ///< m, of the axis along y that everything turns about
 
 /// An elastic body without weight, one cell thick; `shape`: lines of its terrain. `numerics`: lines of that table.
 std::string turning_text(const std::string& shape, const std::string& numerics, double dt, double duration)
@@ -27,7 +27,7 @@ std::string turning_text(const std::string& shape, const std::string& numerics, 
     return fmt::format(R"(
 title = "turning body"
 [domain]
-size    = [1.0, 0.05, 1.0]
+size    = [1.6, 0.05, 1.6]
 gravity = [0.0, 0.0, 0.0]
 walls   = {{ x = "open", y = "slip", bottom = "open", top = "open" }}
 [grid]
@@ -53,10 +53,11 @@ duration = {}
                        dt, numerics, shape, duration);
 }
 
-const std::string square = "region = { box = [[0.4, 0.0, 0.4], [0.6, 0.05, 0.6]] }"; // of 16 cells
-const std::string disc   = "region = { box = [[0.3, 0.0, 0.3], [0.7, 0.05, 0.7]] }\n"
-                           "height = \"0.5 + sqrt(max(0.04 - (x - 0.5)^2, 0))\"\n"
-                           "floor  = \"0.5 - sqrt(max(0.04 - (x - 0.5)^2, 0))\"";
+const std::string square = "region = { box = [[0.4, 0.0, 0.4], [1.2, 0.05, 1.2]] }"; // of 16 x 16 cells
+const std::string little = "region = { box = [[0.7, 0.0, 0.7], [0.9, 0.05, 0.9]] }"; // of 4 x 4 cells
+const std::string disc   = "region = { box = [[0.6, 0.0, 0.6], [1.0, 0.05, 1.0]] }\n"
+                           "height = \"0.8 + sqrt(max(0.04 - (x - 0.8)^2, 0))\"\n"
+                           "floor  = \"0.8 - sqrt(max(0.04 - (x - 0.8)^2, 0))\"";
 
 /// Sets the body turning at `rate` (1/s), without stress, and begins its books.
 template<class Exec>
@@ -93,20 +94,19 @@ double inertia(test::Experiment<Exec>& run)
 }
 
 /// At 1/s: with the strain of the start of the step the area grows by rate^2 dt a second, 9.3e-3 in 19 s, and the
-/// kinetic energy falls as much. APIC keeps the angular momentum, so that nothing else takes energy once the start has
-/// died away; what AFLIP's filter takes at the rim is printed.
+/// kinetic energy falls as much. The first second is left out: the start without stress dies away. The little square
+/// takes APIC, since AFLIP's filter takes 1.5e-2 at the rim of so few cells.
 TYPED_TEST(Rotation, SquareKeepsItsEnergyAndItsBooksClose)
 {
     struct Case
     {
-        const char* numerics;
-        double      tolerance;
+        const std::string& shape;
+        const char*        numerics;
     };
     for (const Case& c :
-         {Case{"transfer = \"apic\"", 1e-3}, Case{"transfer = \"apic\"\nvolume_strain = \"cell-average\"", 1e-3},
-          Case{"transfer = \"aflip\"\npic_rate = 0.0", HUGE_VAL}})
+         {Case{square, "transfer = \"aflip\""}, Case{little, "transfer = \"apic\"\nvolume_strain = \"cell-average\""}})
     {
-        test::Experiment<TypeParam> run(this->exec(), turning_text(square, c.numerics, 0x1p-11, 20));
+        test::Experiment<TypeParam> run(this->exec(), turning_text(c.shape, c.numerics, 0x1p-11, 20));
         set_turning(run, 1);
         double start = 0;
         run.run(
@@ -117,10 +117,10 @@ TYPED_TEST(Rotation, SquareKeepsItsEnergyAndItsBooksClose)
         const solver::Census now = run.simulation().census();
         run.simulation().ledger().energy(now);
         const double lost = 1 - now.sand.kinetic / start, unaccounted = run.simulation().ledger().errors().energy;
-        test::report(fmt::format("kinetic energy lost from 1 to 20 s, {}", c.numerics), lost, 0, c.tolerance,
+        test::report(fmt::format("kinetic energy lost from 1 to 20 s, {}", c.numerics), lost, 0, 1e-3,
                      "a tenth of what the swelling of straight steps costs");
         test::report("unaccounted over the largest energy", unaccounted, 0, test::closes, "design 7");
-        EXPECT_LE(std::abs(lost), c.tolerance);
+        EXPECT_LE(std::abs(lost), 1e-3);
         EXPECT_NEAR(unaccounted, 0, test::closes);
     }
 }
