@@ -192,6 +192,16 @@ void check_amount(const scene::Scene& scene, const Estimate& wants, Warnings& wa
     }
 }
 
+std::vector<Warning> drives_too_long(const scene::Scene& scene, const World& world)
+{
+    std::vector<Warning> found;
+    for (std::string& text : drive_warnings(scene, world, drive_rooms(scene, world)))
+    {
+        found.push_back({{}, std::move(text)});
+    }
+    return found;
+}
+
 } // namespace
 
 std::string text_of(const Warning& warning)
@@ -244,10 +254,7 @@ std::vector<Warning> plausibility(const scene::Scene& scene, const World& world,
     const auto add = [&](const std::vector<Warning>& more) { all.insert(all.end(), more.begin(), more.end()); };
     if (all.empty()) { add(implausible_bodies(scene, world)); }
     add(implausible_commands(scene));
-    for (std::string& text : drive_warnings(scene, world, drive_rooms(scene, world)))
-    {
-        all.push_back({{}, std::move(text)});
-    }
+    if (all.empty()) { add(drives_too_long(scene, world)); }
     add(implausible_cost(scene, world, wants));
     return all;
 }

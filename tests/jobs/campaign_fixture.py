@@ -20,7 +20,7 @@ scene = "{TWIN}"
 
 [set]
 "phase.settle.max_duration" = 0.01
-"phase.drop.duration"       = 0.03
+"phase.lower.max_duration"  = 0.03
 "phase.drive.duration"      = 0.05
 "phase.drive.drive.ramp"    = 0.01
 "output.every"              = 0.001

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "books.hpp"
-#include "order.hpp"
 
 // Rocks as small as the points of the bed under them, by nine samples a point and by one.
 namespace
@@ -128,12 +127,16 @@ TYPED_TEST(Pebbles, BooksOfAThrownRockClose)
             EXPECT_GT(ledger.energy(census).friction, 0.1 * thrown_energy) << "it never slid";
             return error;
         };
-        const auto label = fmt::format("refine_below = {}: unaccounted over the largest energy", refine_below);
-        const auto fit   = test::expect_order(label + " in dt", {2.0e-4, 1.0e-4, 0.5e-4},
-                                              {unaccounted(2.0e-4), unaccounted(1.0e-4), unaccounted(0.5e-4)},
-                                              {0.85, 1.15, "first order in dt; 0.92 and 1.03 were found"});
-        test::report(label + " that the step does not explain", fit.limit, 0, test::closes, "design 7");
-        EXPECT_LT(std::abs(fit.limit), test::closes);
+        // The rock meets single points, and which ones changes with the step: orders from neighbouring steps scatter
+        // between 0.75 and 1.3, so that one is taken over a factor of eight, and the limit from both its ends.
+        const double coarse = unaccounted(2.0e-4), fine = unaccounted(0.25e-4);
+        const double order = std::log2(coarse / fine) / 3, limit = (8 * fine - coarse) / 7;
+        const auto   label = fmt::format("refine_below = {}: unaccounted over the largest energy", refine_below);
+        test::report(fmt::format("{}, {:.4g} and {:.4g}: order in dt", label, coarse, fine), order, 1, 0.15,
+                     "first order in dt, with the scatter of a halving over three of them");
+        EXPECT_NEAR(order, 1, 0.15);
+        test::report(label + " that the step does not explain", limit, 0, test::closes, "design 7");
+        EXPECT_LT(std::abs(limit), test::closes);
     }
 }
 
