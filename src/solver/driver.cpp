@@ -11,9 +11,6 @@
 
 #include "io/checkpoints.hpp"
 #include "io/progress.hpp"
-#include "solver/packing.hpp"
-#include "solver/saved_bed.hpp"
-#include "solver/saved_sand.hpp"
 
 namespace tread::solver
 {
@@ -138,112 +135,6 @@ template<class Exec, class Real>
 Interruption Driver<Exec, Real>::look_outside()
 {
     return simulation_.measured() ? interruptions_->look(communicator_, time_, steps_) : Interruption{};
-}
-
-/// To the next phase, if this one is over, and past those that would go on where this one had to end.
-template<class Exec, class Real>
-void Driver<Exec, Real>::pass_on()
-{
-    require_on_terrain();
-    bool over = phase_is_over();
-    while (over)
-    {
-        end_phase();
-        std::vector<double> spins;
-        for (const BodyRow& body : simulation_.named_bodies())
-        {
-            spins.push_back(body.angular_velocity.dot(body.axle));
-        }
-        phases_.advance(time_, std::move(spins));
-        if (phases_.finished()) { return; }
-        begin_phase();
-        over = is_at_end_of_bed();
-    }
-}
-
-template<class Exec, class Real>
-bool Driver<Exec, Real>::phase_is_over()
-{
-    if (const auto body = phases_.lowered(); body && simulation_.measured())
-    {
-        phases_.weigh(time_, simulation_.carried(*body));
-    }
-    return is_at_end_of_bed() || phases_.over(time_, simulation_.unbalanced());
-}
-
-template<class Exec, class Real>
-bool Driver<Exec, Real>::is_at_end_of_bed()
-{
-    const auto& drive = phases_.phase().drive;
-    if (!drive || !simulation_.measured()) { return false; }
-    for (const DriveRoom& room : rooms_)
-    {
-        if (scene_.bodies[room.body].name != drive->body) { continue; }
-        const WayEnd* end = reached_end(room, *drive, simulation_.place(room.body)[0]);
-        if (end != nullptr) { phases_.end_of_bed(time_, simulation_.unbalanced(), end->what); }
-        return end != nullptr;
-    }
-    return false;
-}
-
-/// Of bodies that are driven in the scene; NumericalError where one rolled off: what comes then is no answer.
-template<class Exec, class Real>
-void Driver<Exec, Real>::require_on_terrain()
-{
-    if (!simulation_.measured()) { return; }
-    for (const DriveRoom& room : rooms_)
-    {
-        const Vec3<double> axle = simulation_.place(room.body);
-        if (!has_left(room, axle)) { continue; }
-        throw NumericalError(fmt::format("t = {:.6g} s: '{}' has left the terrain: its axle is at [{:.4g}, {:.4g}, "
-                                         "{:.4g}] m; a longer bed, closed walls, or a shorter drive",
-                                         time_, scene_.bodies[room.body].name, axle[0], axle[1], axle[2]));
-    }
-}
-
-template<class Exec, class Real>
-void Driver<Exec, Real>::begin_phase()
-{
-    log_.info(fmt::format("phase '{}' begins at {:.6g} s", phases_.phase().name, time_));
-    const std::vector<BodyRow> bodies = simulation_.named_bodies();
-    surface_.press(bodies);
-    surface_.renew(simulation_.surface_heights(surface_.lattice()));
-    surface_.press(bodies);
-    on_root(communicator_, [&] { recorder_->begin_phase(phases_.index(), time_); });
-    warned_ = false;
-}
-
-template<class Exec, class Real>
-void Driver<Exec, Real>::end_phase()
-{
-    const PhaseEnd&   end  = phases_.ending();
-    const std::string line = fmt::format("phase '{}' ends: {}", phases_.phase().name, describe(end));
-    if (deserves_warning(end.kind)) { log_.warning(line); }
-    else { log_.info(line); }
-    std::optional<bool> settled;
-    if (phases_.phase().until == scene::StopRule::equilibrium) { settled = end.kind == EndKind::settled; }
-    io::PhaseReport report{phases_.phase().name, phases_.start(), end.after, name_of(end.kind), settled,
-                           end.unbalanced,       std::nullopt};
-    const bool      saves = phases_.phase().name == scene_.output.bed_after;
-    if (plan_.rocks && !plan_.sand && (settled || saves))
-    {
-        report.packing_fraction = packing_fraction(world_, simulation_.body_fields());
-        log_.info(fmt::format("packing fraction of the rocks {:.4f}", *report.packing_fraction));
-    }
-    ended_.push_back(report);
-    if (!saves) { return; }
-    if (snapshots_) { snapshots_->finish(); }
-    write_bed();
-}
-
-template<class Exec, class Real>
-void Driver<Exec, Real>::write_bed()
-{
-    io::BedFile bed = make_bed(scene_, world_, simulation_.body_fields(), simulation_.contacts());
-    if (plan_.sand) { bed.points = saved_points(communicator_, scene_, world_, simulation_.point_fields()); }
-    on_root(communicator_, [&] { io::write_bed(directory_.bed(), bed, options_.provenance); });
-    log_.info(fmt::format("bed of {} rocks with {} contacts and {} points of sand: {}", bed.size(),
-                          bed.contacts.stiffness.size(), bed.points.volume.size(), directory_.bed()));
 }
 
 template<class Exec, class Real>

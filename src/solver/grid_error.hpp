@@ -46,13 +46,13 @@ struct MeasuredConvergence
 };
 
 /// Convergence of driven drums of radius 0.245 m and width 0.2 m under 1000 N at slip 0.4 with a friction of 0.8
-/// between wheel and soil, at spacings of 20, 12.5, (10,) 7.5 and 5 mm (clay: without 5): least-squares fits of
-/// answer = limit + slope / cells^order. The patch is a square of 158 mm, as measured of the smooth drum on sand at
-/// 20 mm. Answers and scenes stand in docs/verdict.md; `postprocess/grid_error.py` prints these rows from runs.
+/// between wheel and soil, at spacings of 20, 12.5, (10,) 7.5 and 5 mm (grousers and clay: without 5): least-squares
+/// fits of answer = limit + slope / cells^order. Answers and scenes stand in docs/verdict.md;
+/// `postprocess/grid_error.py` prints these rows from runs.
 inline constexpr std::array<MeasuredConvergence, 3> measured_convergence = {{
-    {"smooth drum on sand", SoilKind::frictional, {{2.0, 1}, {9.1, 2}, {2.7, 1}}},
-    {"drum with 24 grousers on sand", SoilKind::frictional, {{1.7, 1}, {11, 2}, {1.9, 1}}},
-    {"smooth drum on clay", SoilKind::cohesive, {{1.7, 1}, {22, 2}, {1.1, 1}}},
+    {"smooth drum on sand", SoilKind::frictional, {{2.0, 1}, {7.6, 2}, {2.9, 1}}},
+    {"drum with 24 grousers on sand", SoilKind::frictional, {{1.3, 1}, {7.1, 2}, {2.0, 1}}},
+    {"smooth drum on clay", SoilKind::cohesive, {{1.8, 1}, {26, 2}, {0.94, 1}}},
 }};
 
 /// Slope of the pull over the spacing at a friction between wheel and soil, over that at 0.8.

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/words.hpp"
+
+// What the user asked for of a span of simulated time, as plain data: scene.hpp says how to read it.
+namespace tread::scene
+{
+
+struct Drive
+{
+    std::string           body;
+    double                angular_velocity = 0; ///< rad/s about the axle; positive drives towards +x
+    double                ramp             = 0; ///< s, linear from the value at phase start
+    std::optional<double> slip;                 ///< 1 - v_x/(omega r); nothing leaves v_x free
+
+    bool operator==(const Drive&) const = default;
+};
+
+/// A body goes down at a given speed until the ground carries a share of its weight.
+struct Lower
+{
+    std::string body;
+    double      speed = 0; ///< m/s, downwards: along gravity
+    double      share = 1; ///< of its weight, carried by contacts at the end
+
+    bool operator==(const Lower&) const = default;
+};
+
+/// The share of a body's weight that acts in a phase; the rest is held by something that moves with it.
+struct WeightShare
+{
+    std::string body;
+    double      from = 1; ///< at phase start
+    double      to   = 1; ///< after the ramp
+    double      ramp = 0; ///< s, linear
+
+    bool operator==(const WeightShare&) const = default;
+};
+
+struct Phase
+{
+    std::string                name;
+    std::vector<std::string>   hold;
+    double                     damping      = 0; ///< local (Cundall) damping of sand and rocks
+    StopRule                   until        = StopRule::duration;
+    double                     duration     = 0; ///< s
+    double                     max_duration = 0; ///< s, for until = "equilibrium" and "lowered"
+    std::optional<Drive>       drive;
+    std::optional<Lower>       lower;  ///< of until = "lowered"
+    std::optional<WeightShare> weight; ///< nothing: all of every body's weight acts
+
+    bool operator==(const Phase&) const = default;
+};
+
+} // namespace tread::scene
