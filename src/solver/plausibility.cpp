@@ -254,7 +254,7 @@ std::vector<Warning> plausibility(const scene::Scene& scene, const World& world,
     const auto add = [&](const std::vector<Warning>& more) { all.insert(all.end(), more.begin(), more.end()); };
     if (all.empty()) { add(implausible_bodies(scene, world)); }
     add(implausible_commands(scene));
-    if (all.empty()) { add(drives_too_long(scene, world)); }
+    add(drives_too_long(scene, world));
     add(implausible_cost(scene, world, wants));
     return all;
 }
