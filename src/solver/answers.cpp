@@ -91,6 +91,7 @@ std::vector<double> pick(const std::vector<double>& values, const std::vector<st
                          std::size_t width = 1, std::size_t component = 0)
 {
     std::vector<double> picked;
+    picked.reserve(rows.size());
     for (const std::size_t row : rows) { picked.push_back(factor * values[width * row + component]); }
     return picked;
 }

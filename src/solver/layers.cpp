@@ -25,8 +25,8 @@ std::vector<Vec3<double>> samples_of(const shape::ShapeTemplate& form)
     std::vector<Vec3<double>> samples;
     for (int at = 0; at < each_way * each_way * each_way; ++at)
     {
-        const Vec3<double> place(at % each_way + 0.5, at / each_way % each_way + 0.5, at / (each_way * each_way) + 0.5);
-        const Vec3<double> x = form.box.low + step.cwiseProduct(place);
+        const int          i = at % each_way, j = at / each_way % each_way, k = at / (each_way * each_way);
+        const Vec3<double> x = form.box.low + step.cwiseProduct(Vec3<double>(i + 0.5, j + 0.5, k + 0.5));
         if (shape::sample(form.sdf, x) < 0) { samples.push_back(x); }
     }
     if (samples.empty()) { samples.push_back(Vec3<double>::Zero()); }

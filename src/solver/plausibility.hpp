@@ -32,8 +32,8 @@ std::vector<Warning> implausible_bodies(const scene::Scene& scene, const World& 
 /// Warnings of the step and of what the run costs.
 std::vector<Warning> implausible_cost(const scene::Scene& scene, const World& world, const Estimate& wants);
 
-/// All of them, and drives too long for their bed. Where gravity or a material looks wrong, what would follow for bodies
-/// is left out.
+/// All of them, and drives too long for their bed. Where gravity or a material looks wrong, what would follow for
+/// bodies is left out.
 std::vector<Warning> plausibility(const scene::Scene& scene, const World& world, const Estimate& wants);
 
 } // namespace tread::solver

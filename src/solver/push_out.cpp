@@ -74,7 +74,7 @@ public:
 
     std::optional<Vec3<double>> run()
     {
-        if (const auto place = descend(origin_)) { return place; }
+        if (auto place = descend(origin_)) { return place; }
         for (int start = 1; start <= starts; ++start)
         {
             const double       way    = near_.farthest * double(start) / starts;
@@ -83,7 +83,7 @@ public:
             const Vec3<double> x =
                 origin_ + way * Vec3<double>(across * std::cos(turn), across * std::sin(turn), height);
             if (!allowed(x)) { continue; }
-            if (const auto place = descend(x)) { return place; }
+            if (auto place = descend(x)) { return place; }
         }
         return {};
     }

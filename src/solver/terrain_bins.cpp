@@ -240,12 +240,14 @@ std::vector<double> TerrainBins::surface() const
     const auto slope_bins =
         static_cast<std::int64_t>(std::ceil(std::max(lattice_.width[0], lattice_.width[1]) / lattice_.bin - 1e-9));
     std::vector<std::optional<Top>> tops;
+    tops.reserve(columns_.size());
     for (const Column& column : columns_)
     {
         tops.push_back(top_of(Fractions(column.first, column.volume, area() * lattice_.bin), slope_bins));
     }
     const double        typical = median_packing(tops);
     std::vector<double> heights;
+    heights.reserve(tops.size());
     for (const auto& top : tops)
     {
         heights.push_back(top ? lattice_.bin * surface_of(*top, top->packing.value_or(typical)) : none);
