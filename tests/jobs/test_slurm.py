@@ -2,6 +2,7 @@
 """Jobs on a real SLURM: an array runs, one task is cancelled in flight, retry completes it, collect has all rows; a scene by itself stops, is
 requeued and goes on."""
 
+import csv
 import json
 import os
 import pathlib
@@ -38,10 +39,10 @@ class SlurmTest(CampaignTest):
         slurm_session.wait_for_empty_queue(240)
         self.assertIn("3 done", self.campaign("status").stdout)
         self.campaign("collect")
-        rows = (self.output / "campaign.csv").read_text(encoding="utf-8").splitlines()
-        self.assertEqual([row.split(",")[1] for row in rows], ["state", "done", "done", "done"])
-        column = rows[0].split(",").index("axis_drive")
-        self.assertEqual([row.split(",")[column] for row in rows[1:]], ["short", "slipping", "long"])
+        with (self.output / "campaign.csv").open(encoding="utf-8", newline="") as table:
+            rows = list(csv.DictReader(table))
+        self.assertEqual([row["state"] for row in rows], ["done", "done", "done"])
+        self.assertEqual([row["axis_drive"] for row in rows], ["short", "slipping", "long"])
 
     def test_one_scene_as_one_job(self):
         self.file.write_text(THREE, encoding="utf-8")
