@@ -59,7 +59,7 @@ bool holds(const scene::Phase& phase, const std::string& body)
     return std::find(phase.hold.begin(), phase.hold.end(), body) != phase.hold.end();
 }
 
-/// Those in which the body has something to tell.
+/// Selects the phases that a body's answers are made of.
 std::vector<Span> spans_of(const std::string& body, const scene::Scene& scene, const std::vector<Span>& spans)
 {
     std::vector<Span>   found;

@@ -11,8 +11,9 @@
 namespace tread::solver
 {
 
-/// Of each named body, in the scene's order: every phase that drives it or lowers it and has begun, and where there is
-/// none, the last phase that does not hold it. `path`: of timeseries.h5. `ended`: how many phases have ended.
+/// Computes the answers of each named body, in the scene's order: for every phase that drives or lowers it and has
+/// begun, and where there is none, the last phase that does not hold it. `path`: of timeseries.h5. `ended`: how many
+/// phases have ended.
 std::vector<io::BodyAnswers> make_answers(const scene::Scene& scene, const std::string& path, std::size_t ended);
 
 /// Sets the errors that the grid's spacing leaves in the answers of the last driven wheel, in all phases that drive it.

@@ -36,7 +36,7 @@ struct DriveRoom
     std::optional<Ground> ground;
 };
 
-/// Of all bodies that a phase drives.
+/// Computes the room of every body that a phase drives.
 std::vector<DriveRoom> drive_rooms(const scene::Scene& scene, const World& world);
 
 /// The end of the way that a drive is at when its axle is at x (m), or null.

@@ -56,7 +56,8 @@ bool Driver<Exec, Real>::is_at_end_of_bed()
     return false;
 }
 
-/// Of bodies that are driven in the scene; NumericalError where one rolled off: what comes then is no answer.
+/// Checks every body that the scene drives. NumericalError where one has rolled off the terrain: its answers would mean
+/// nothing.
 template<class Exec, class Real>
 void Driver<Exec, Real>::require_on_terrain()
 {

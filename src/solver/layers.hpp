@@ -25,12 +25,12 @@ struct Layer
     std::vector<std::uint8_t> holds;        ///< of each point: 1 = it stands there
 };
 
-/// Of each body the share of its volume that stands in sand, by some 250 samples; named bodies have none.
+/// Estimates for each body the share of its volume that stands in sand, by some 250 samples; 0 for named bodies.
 std::vector<double> shares_in_sand(const World& world, const SandMap& sand);
 
 Layer find_layer(const scene::Scene& scene, std::size_t table, const World& world, const std::vector<double>& in_sand);
 
-/// Of the layer when the points with kept[i] = 0 are gone. A point counts to where it stood at first.
+/// Computes a layer's fractions once the points with kept[i] = 0 are removed. A point counts where it stood at first.
 LayerShares shares_of(const Layer& layer, const HostPoints& points, const std::vector<std::uint8_t>& kept);
 
 /// InputError for the first layer with more void than it may have, with what would do.

@@ -30,7 +30,7 @@ struct Touch
     }
 };
 
-/// Of each body the [[rocks]] table, -1 of named ones.
+/// Index of each body's [[rocks]] table; -1 for named bodies.
 std::vector<std::int32_t> tables_of(const HostBodies& bodies)
 {
     std::vector<std::int32_t> table(static_cast<std::size_t>(bodies.named), -1);

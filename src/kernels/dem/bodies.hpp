@@ -60,7 +60,7 @@ struct BodiesView
     TREAD_HD bool is_owned(std::int64_t b) const { return role == nullptr || role[b] == role_owner; }
     TREAD_HD bool is_here(std::int64_t b) const { return role == nullptr || role[b] != role_none; }
 
-    /// Of the weight, of any body. Bodies without `hangs` cost no look at memory.
+    /// Share of a body's weight that acts. Only bodies with `hangs` read memory for it.
     TREAD_HD double acting_weight(std::int64_t b, std::uint32_t flags) const
     {
         return (flags & hangs) != 0 ? weight[b] : 1.0;
