@@ -51,7 +51,7 @@ struct TimeOptions
     std::optional<double>       dt;       ///< s; nothing means "auto"
     std::optional<std::int64_t> substeps; ///< contact substeps a step; nothing means "auto"
     double                      contact_share =
-        0.2; ///< of sqrt(m / sum K), what automatic substeps take: prototypes 1.7 (measured limit: 1.1)
+        0.2; ///< of sqrt(m / sum K), what automatic substeps take: docs/theory.md#time-step (measured limit: 1.1)
 
     bool operator==(const TimeOptions&) const = default;
 };

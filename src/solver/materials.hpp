@@ -39,7 +39,7 @@ contact::PointMotion point_motion(scene::PointMotion motion);
 double               hertz_factor(scene::HertzFactor factor);
 
 /// Damping ratio zeta of the stiffness-proportional law that gives restitution e when attraction is cut off:
-/// e = exp[-(zeta/W)(pi - atan2(2 zeta W, 1 - 2 zeta^2))], W = sqrt(1 - zeta^2) (prototypes 1).
+/// e = exp[-(zeta/W)(pi - atan2(2 zeta W, 1 - 2 zeta^2))], W = sqrt(1 - zeta^2) (docs/theory.md#restitution).
 double damping_ratio(double restitution);
 
 } // namespace tread::solver

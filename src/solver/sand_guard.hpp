@@ -26,7 +26,7 @@ public:
     /// NumericalError when energy has grown without a source. Once a report.
     void watch(const SandReport& sand, const TimeStep& step, double time);
 
-    /// c_p dt/h from which on sand was destroyed whatever its points a cell (verification catalogue E: 0.82 at 1 a
+    /// c_p dt/h from which on sand was destroyed whatever its points a cell (docs/theory.md#time-step: 0.82 at 1 a
     /// cell, 0.98 at 8). Where a scene is loose enough to live with more, its energy tells nothing.
     static constexpr double hopeless_courant = 1;
 

@@ -17,7 +17,8 @@ namespace tread::solver
 namespace
 {
 
-constexpr double longest_substep = 0.8; ///< of sqrt(m / sum K): beyond it a contact gains energy (prototypes 1.7)
+constexpr double longest_substep =
+    0.8; ///< of sqrt(m / sum K): beyond it a contact gains energy (docs/theory.md#time-step)
 constexpr double unseen_travel   = 0.5; ///< of a spacing: what sand may move before it is measured again
 constexpr int    most_unmeasured = 8;   ///< steps
 constexpr double least_gradient  = 0.5; ///< |grad phi| in contact under which a point is past the medial axis

@@ -62,7 +62,7 @@ public:
     void command(const std::vector<BodyCommand>& commands, double damping);
 
     /// One MPM step of `step.dt`, or a shorter one where a command has made a body too fast for it, with its contact
-    /// substeps (design: one step). NumericalError, with what, where and
+    /// substeps (docs/theory.md#coupling). NumericalError, with what, where and
     /// which limit, when the state cannot be trusted any more; `time` is for that message. What moves little is
     /// measured every few steps only, which pace() and unbalanced() then follow; lists of contacts and N are those of
     /// the first of these.

@@ -12,7 +12,7 @@ namespace tread::solver
 namespace
 {
 
-constexpr double contact_warning    = 0.4; ///< of sqrt(m / sum K), prototypes 1.7
+constexpr double contact_warning    = 0.4; ///< of sqrt(m / sum K), docs/theory.md#time-step
 constexpr double point_contact_warn = 2.0;
 constexpr double unseen_fall        = dem::rest_reserve; ///< of a body's radius: what its pairs have left
 constexpr double overlap_warning    = 0.1;               ///< of a radius: the head-on case itself reaches 0.11

@@ -36,7 +36,7 @@ struct TimeStep
     std::string  limit; ///< which bound the step is at
 };
 
-inline constexpr double point_contact_bound = 0.5; ///< of k dt^2 / m_p, prototypes 2
+inline constexpr double point_contact_bound = 0.5; ///< of k dt^2 / m_p, docs/theory.md#time-step
 inline constexpr double travel_bound        = 0.3; ///< of the spacing, or of the smallest body
 
 /// The step that the limits of the design allow: c_p dt/h <= courant, v dt <= 0.3 h, k dt^2/m_p <= 0.5 at the stiffest

@@ -84,8 +84,8 @@ struct Response
 TREAD_HD Response no_response() { return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0.0, 0.0, 0.0, 0.0, 0.0}; }
 
 /// Mindlin's tangential force, incremental (the paper's Eq. 9a): dF_t = -k_t v_t dt, k_t = 8 G* sqrt(R* d). Rescaled by
-/// k_t,new/k_t,old on unloading, else a closed cycle makes energy (verification A9); capped at mu |F_n|. Returns the
-/// energy lost, never negative: by the change of stiffness, and by slip = cap times slipped distance.
+/// k_t,new/k_t,old on unloading, else a closed cycle makes energy (docs/theory.md#friction); capped at mu |F_n|.
+/// Returns the energy lost, never negative: by the change of stiffness, and by slip = cap times slipped distance.
 TREAD_HD double update_tangential(Tangential& tangential, const Vec3<double>& normal, const Vec3<double>& velocity,
                                   double stiffness, double cap, double dt)
 {

@@ -75,8 +75,8 @@ struct RelativeMotion
 };
 
 /// Force of one node inside: w (p(d) + damping) grad phi, never attraction. Proportional to the node's own stiffness,
-/// the damping gives the same restitution on flat faces as on spheres (prototypes 1.5); d' = -grad phi . v exactly.
-/// relaxation = 2 zeta sqrt(m*/K), s.
+/// the damping gives the same restitution on flat faces as on spheres (docs/theory.md#restitution); d' = -grad phi . v
+/// exactly. relaxation = 2 zeta sqrt(m*/K), s.
 TREAD_HD void add_node(const PairLaw& law, const NodeInField& node, const RelativeMotion& motion, double relaxation,
                        PatchSums& sums)
 {

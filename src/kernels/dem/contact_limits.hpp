@@ -26,7 +26,7 @@ void expect_shared_contacts(const Gpu&, Pairs<Gpu>& pairs, const SharedView& sha
 
 /// The least sqrt(m/K) (s) over the bodies that can move, K = the larger of the body's live stiffness and of what
 /// expect_contacts found; 0 without any contact, live or expected. A substep of 0.2 times that keeps energy
-/// (prototypes 1.7).
+/// (docs/theory.md#time-step).
 double smallest_contact_time(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies);
 double smallest_contact_time(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies);
 

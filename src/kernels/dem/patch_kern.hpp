@@ -5,7 +5,7 @@
 #include "kernels/dem/spring_kern.hpp"
 #include "kernels/dem/traction_kern.hpp"
 
-// What a pair of bodies remembers and how friction follows from it: prototypes 1, one record a patch.
+// What a pair of bodies remembers and how friction follows from it: docs/theory.md#friction, one record a patch.
 namespace tread::dem
 {
 
@@ -59,9 +59,9 @@ TREAD_HD Vec3<double> turn_about(const Vec3<double>& force, const Vec3<double>& 
 TREAD_HD double cap_factor(double value, double cap) { return value > cap ? cap / value : 1.0; }
 
 /// Advances the record by dt (s): springs turned with the patch and loaded by its motion, shrunk when their stiffness
-/// falls (else a closed cycle makes energy, verification A9), capped by Coulomb; the damping acts inside the caps and
-/// is not stored. The torsion shrinks with its own stiffness. Its cap is that of a Hertz patch of radius a in full
-/// slip, 3 pi/16 mu F a = 0.94 mu F r with r^2 = 0.4 a^2 = 0.4 R* d.
+/// falls (else a closed cycle makes energy, docs/theory.md#friction), capped by Coulomb; the damping acts inside the
+/// caps and is not stored. The torsion shrinks with its own stiffness. Its cap is that of a Hertz patch of radius a in
+/// full slip, 3 pi/16 mu F a = 0.94 mu F r with r^2 = 0.4 a^2 = 0.4 R* d.
 TREAD_HD Friction update_patch(const PairLaw& law, const PatchState& state, Patch& patch, double dt)
 {
     constexpr double pi                = 3.14159265358979323846;

@@ -7,7 +7,8 @@
 #include "kernels/dem/templates.hpp"
 
 // Signed distance of a body: the trilinear interpolant of its template's grid, and the exact gradient of that same
-// interpolant. One potential then gives both the depth and the direction of a contact force (verification B).
+// interpolant. One potential then gives both the depth and the direction of a contact force
+// (docs/theory.md#distance-fields).
 namespace tread::dem
 {
 

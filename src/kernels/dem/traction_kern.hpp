@@ -5,8 +5,8 @@
 #include "backend/vector.hpp"
 #include "kernels/dem/templates.hpp"
 
-// Constants of a pair and the traction p(d) between two rigid surfaces: dem.md 1.4, law A. With d(r) = delta - r^2/(2
-// R*) its integral is Hertz's force 4/3 E* sqrt(R*) delta^1.5 (the paper's Eq. 14).
+// Constants of a pair and the traction p(d) between two rigid surfaces: docs/theory.md#traction. With d(r) = delta -
+// r^2/(2 R*) its integral is Hertz's force 4/3 E* sqrt(R*) delta^1.5 (the paper's Eq. 14).
 namespace tread::dem
 {
 
