@@ -19,7 +19,7 @@ class Problem:
     body: str
     x: float  # m, of the body's centre
     load: float = 0.0  # N a metre of width; 0: the body is pushed at a given speed
-    counts: tuple = (12, 20, 33, 50)
+    counts: tuple = (12, 20, 28, 36)  # drums narrower than R/20, from 40 on, are refused by tread
 
     @property
     def scene(self):
