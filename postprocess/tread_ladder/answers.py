@@ -10,6 +10,7 @@ from tread_post import Run
 from tread_post.answers import last_drive
 from tread_post.convergence import limit_of
 from tread_post.quantities import QUANTITIES
+from tread_post.steady import error_of_mean
 
 LAST_PART = 0.25  # of a push, over which its load is taken
 PRANDTL = 2 + math.pi
@@ -62,16 +63,25 @@ def _cohesion(run):
     return run.scene["material"][0]["cohesion"]
 
 
+@dataclass(frozen=True)
+class Push:
+    """The last quarter of a push at constant speed, N a metre of width."""
+
+    sinkage: np.ndarray  # [n], m
+    force: float
+    noise: float  # standard error of the force, a linear rise taken out
+
+
 def _end_of_push(run, body):
-    """Series, the rows of its last quarter, and the mean vertical force, N a metre of width."""
     series = run.wheel(body)
     rows = series["time"] >= (1 - LAST_PART) * series["time"][-1]
-    return series, rows, float(series["force"][rows, 2].mean()) / _width(run)
+    time, force = series["time"][rows], series["force"][rows, 2] / _width(run)
+    return Push(series["sinkage"][rows], float(force.mean()), error_of_mean(force - np.polyval(np.polyfit(time, force, 1), time)))
 
 
 def _plate(problem, run):
-    _, _, force = _end_of_push(run, problem.body)
-    return {"load_over_c": Answer(force / (0.5 * problem.length * _cohesion(run)), 0.0, "1", PRANDTL, "exact")}
+    push, scale = _end_of_push(run, problem.body), 0.5 * problem.length * _cohesion(run)
+    return {"load_over_c": Answer(push.force / scale, push.noise / scale, "1", PRANDTL, "exact")}
 
 
 def cylinder_load(radius, cohesion, depth):
@@ -82,9 +92,9 @@ def cylinder_load(radius, cohesion, depth):
 
 
 def _cylinder(problem, run):
-    series, rows, force = _end_of_push(run, problem.body)
-    least = np.mean([cylinder_load(problem.length, _cohesion(run), depth) for depth in series["sinkage"][rows]])
-    return {"load_over_level_soil": Answer(force / float(least), 0.0, "1", 1.0, "at least")}
+    push = _end_of_push(run, problem.body)
+    least = float(np.mean([cylinder_load(problem.length, _cohesion(run), depth) for depth in push.sinkage]))
+    return {"load_over_level_soil": Answer(push.force / least, push.noise / least, "1", 1.0, "at least")}
 
 
 def _drum(problem, run):
@@ -96,7 +106,8 @@ def _drum(problem, run):
 
     force = mean("force", "N/m", width, problem.load, "exact")
     if problem.name == "drum_elastic":
-        return {"speed_over_rim_speed": Answer(_rolled(problem, run), 0.0, "1", 1.0, "exact"),
+        # The surface of the layer strains where it carries the drum; the drum's does not.
+        return {"speed_over_rim_speed": Answer(_rolled(problem, run), 0.0, "1", 1.0, "approximate"),
                 "torque": mean("torque", "N", width, 0.0, "exact"), "force": force}
     # Without friction the torque is nothing. For pull and sinkage no form is known to hold: soil that keeps its volume leaves no rut in plane strain, so
     # that an inclined strip under a level surface, which leaves one, is no reference.
@@ -116,7 +127,7 @@ _READERS = {"plate": _plate, "cylinder": _cylinder, "drum": _drum}
 
 
 def error_of(row):
-    """Of the reference, or where that is 0 or unknown of nothing: NaN."""
+    """Relative error; NaN where the reference is 0 or unknown."""
     return row.value / row.reference - 1 if row.reference else math.nan
 
 
