@@ -22,10 +22,11 @@ namespace tread::solver
 namespace
 {
 
-std::string warning_lines(const scene::Scene& scene, const World& world, const Estimate& wants)
+std::string warning_lines(const scene::Scene& scene, const World& world, const Estimate& wants,
+                          const std::vector<DriveRoom>& rooms)
 {
     std::string text;
-    for (const Warning& warning : plausibility(scene, world, wants))
+    for (const Warning& warning : plausibility(scene, world, wants, rooms))
     {
         text += fmt::format("warning: {}\n", text_of(warning));
     }
@@ -126,12 +127,13 @@ std::string check(const Communicator& communicator, const scene::Scene& scene, i
     const World    world = build_world(scene);
     const Plan     plan  = make_plan(scene, world);
     const Estimate wants = estimate(scene, world, plan);
-    std::string    text  = warning_lines(scene, world, wants);
+    const auto     rooms = drive_rooms(scene, world);
+    std::string    text  = warning_lines(scene, world, wants, rooms);
     text += fmt::format("{}\nscene {}\n\n", scene.title, scene::scene_hash(scene));
     text += cost_lines(scene, world, plan, wants) + gravity_line(scene);
     for (const Footing& footing : footings(scene, world)) { text += footing_lines(scene, world, plan, footing); }
     text += body_lines(scene, world);
-    for (const std::string& note : drive_notes(scene, world, drive_rooms(scene, world))) { text += note + "\n"; }
+    for (const std::string& note : drive_notes(scene, world, rooms)) { text += note + "\n"; }
     for (const std::string& line : bed_lines(describe_bed(scene, world))) { text += line + "\n"; }
     for (const std::string& line : layer_advice(scene, world)) { text += line + "\n"; }
     if (plan.sand) { text += fmt::format("sand {:.0f} bytes a point, pages included\n", wants.bytes_a_point); }

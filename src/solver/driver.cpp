@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,7 +43,7 @@ std::vector<io::NamedMesh> meshes(const World& world)
 template<class Exec, class Real>
 Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const scene::Scene& scene, const World& world,
                            const io::RunDirectory& directory, const Plan& plan, Simulation<Exec, Real>& simulation,
-                           const DriverOptions& options)
+                           std::vector<DriveRoom> rooms, const DriverOptions& options)
     : communicator_(communicator)
     , log_(log)
     , scene_(scene)
@@ -52,7 +53,7 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , simulation_(simulation)
     , options_(options)
     , phases_(scene, rolling_radii(scene, world))
-    , rooms_(drive_rooms(scene, world))
+    , rooms_(std::move(rooms))
     , surface_(scene, world)
     , wall_start_(wall_clock())
     , said_{wall_start_, 0, 0}

@@ -40,9 +40,10 @@ template<class Exec, class Real>
 class Driver
 {
 public:
+    /// `rooms`: of drive_rooms.
     Driver(const Communicator& communicator, Log& log, const scene::Scene& scene, const World& world,
            const io::RunDirectory& directory, const Plan& plan, Simulation<Exec, Real>& simulation,
-           const DriverOptions& options);
+           std::vector<DriveRoom> rooms, const DriverOptions& options);
 
     /// All phases: nothing comes back. Or, when a signal or the wall-time limit ended it after a checkpoint, why.
     /// NumericalError when the run has to stop; what happened until then is in report().

@@ -192,13 +192,10 @@ void check_amount(const scene::Scene& scene, const Estimate& wants, Warnings& wa
     }
 }
 
-std::vector<Warning> drives_too_long(const scene::Scene& scene, const World& world)
+std::vector<Warning> drives_too_long(const scene::Scene& scene, const World& world, const std::vector<DriveRoom>& rooms)
 {
     std::vector<Warning> found;
-    for (std::string& text : drive_warnings(scene, world, drive_rooms(scene, world)))
-    {
-        found.push_back({{}, std::move(text)});
-    }
+    for (std::string& text : drive_warnings(scene, world, rooms)) { found.push_back({{}, std::move(text)}); }
     return found;
 }
 
@@ -248,13 +245,14 @@ std::vector<Warning> implausible_cost(const scene::Scene& scene, const World& wo
     return warnings.take();
 }
 
-std::vector<Warning> plausibility(const scene::Scene& scene, const World& world, const Estimate& wants)
+std::vector<Warning> plausibility(const scene::Scene& scene, const World& world, const Estimate& wants,
+                                  const std::vector<DriveRoom>& rooms)
 {
     std::vector<Warning> all = implausible_ground(scene);
     const auto add = [&](const std::vector<Warning>& more) { all.insert(all.end(), more.begin(), more.end()); };
     if (all.empty()) { add(implausible_bodies(scene, world)); }
     add(implausible_commands(scene));
-    add(drives_too_long(scene, world));
+    add(drives_too_long(scene, world, rooms));
     add(implausible_cost(scene, world, wants));
     return all;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/drive_room.hpp"
 #include "solver/estimate.hpp"
 #include "solver/plan.hpp"
 #include "solver/world.hpp"
@@ -32,8 +33,9 @@ std::vector<Warning> implausible_bodies(const scene::Scene& scene, const World& 
 /// Warnings of the step and of what the run costs.
 std::vector<Warning> implausible_cost(const scene::Scene& scene, const World& world, const Estimate& wants);
 
-/// All of them, and drives too long for their bed. Where gravity or a material looks wrong, what would follow for
-/// bodies is left out.
-std::vector<Warning> plausibility(const scene::Scene& scene, const World& world, const Estimate& wants);
+/// All of them, and drives too long for their bed (`rooms`: of drive_rooms). Where gravity or a material looks wrong,
+/// what would follow for bodies is left out.
+std::vector<Warning> plausibility(const scene::Scene& scene, const World& world, const Estimate& wants,
+                                  const std::vector<DriveRoom>& rooms);
 
 } // namespace tread::solver

@@ -92,17 +92,18 @@ void say_plan(Log& log, const scene::Scene& scene, const World& world, const std
 /// What every run of either backend shares.
 struct Job
 {
-    const Communicator& communicator;
-    Log&                log;
-    const scene::Scene& scene;
-    const World&        world;
-    Plan                plan;
-    Estimate            wants;
-    const RunOptions&   options;
-    std::vector<Stage>  stages;
-    io::RunDirectory    directory;
-    DriverOptions       driver;
-    io::Summary         summary;
+    const Communicator&    communicator;
+    Log&                   log;
+    const scene::Scene&    scene;
+    const World&           world;
+    std::vector<DriveRoom> rooms; ///< of the driven bodies
+    Plan                   plan;
+    Estimate               wants;
+    const RunOptions&      options;
+    std::vector<Stage>     stages;
+    io::RunDirectory       directory;
+    DriverOptions          driver;
+    io::Summary            summary;
 };
 
 /// Nothing on one rank.
@@ -133,7 +134,7 @@ ExitCode run_on(const Exec& exec, Job& job)
     std::optional<decomp::Decomposition<Exec>> decomposition = decompose(exec, job);
     Simulation<Exec, Real> simulation(exec, job.scene, job.world, job.plan, decomposition ? &*decomposition : nullptr);
     Driver<Exec, Real>     driver(job.communicator, job.log, job.scene, job.world, job.directory, job.plan, simulation,
-                                  job.driver);
+                                  job.rooms, job.driver);
     try
     {
         const std::optional<std::string> interruption = driver.run();
@@ -205,16 +206,13 @@ void say_start(Job& job, Backend backend, int threads)
                          job.scene.numerics.precision == scene::Precision::single_ ? "single" : "double"));
     job.summary.bed = describe_bed(job.scene, job.world);
     say_plan(log, job.scene, job.world, job.stages);
-    for (const Warning& warning : plausibility(job.scene, job.world, job.wants))
+    for (const Warning& warning : plausibility(job.scene, job.world, job.wants, job.rooms))
     {
         job.summary.warnings.push_back(text_of(warning));
         log.warning(job.summary.warnings.back());
     }
     for (const std::string& line : bed_lines(job.summary.bed)) { log.info(line); }
-    for (const std::string& note : drive_notes(job.scene, job.world, drive_rooms(job.scene, job.world)))
-    {
-        log.info(note);
-    }
+    for (const std::string& note : drive_notes(job.scene, job.world, job.rooms)) { log.info(note); }
 }
 
 /// The last lines of a log. On rank 0, which has the time series.
@@ -262,6 +260,7 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
             log,
             scene,
             world,
+            drive_rooms(scene, world),
             plan,
             estimate(scene, world, plan),
             options,

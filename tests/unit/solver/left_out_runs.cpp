@@ -50,7 +50,8 @@ RunUse use_of_run(const std::string& text, const std::vector<std::string>& overr
         const auto directory =
             io::RunDirectory::create(test::world(), folder.path("run"), io::Existing::refuse, "# a scene\n");
         Simulation<Cpu, float> simulation(Cpu{&counters}, scene, world, plan);
-        Driver<Cpu, float>     driver(test::world(), log, scene, world, directory, plan, simulation, {});
+        Driver<Cpu, float>     driver(test::world(), log, scene, world, directory, plan, simulation,
+                                      drive_rooms(scene, world), {});
         EXPECT_FALSE(driver.run());
     }
     RunUse use{used_of(counters), mpi_calls(), names_in(folder.path("run")), {}};
