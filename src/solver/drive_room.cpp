@@ -265,21 +265,26 @@ std::vector<DriveRoom> drive_rooms(const scene::Scene& scene, const World& world
     return rooms;
 }
 
-const WayEnd* reached_end(const DriveRoom& room, const scene::Drive& drive, double x)
+double distance_to_end(const DriveRoom& room, const scene::Drive& drive, double x)
 {
     const double direction = direction_of(drive);
-    if (direction == 0) { return nullptr; }
-    const WayEnd& end = end_ahead(room, direction);
-    return direction * (x - end.axle) >= 0 ? &end : nullptr;
+    return direction == 0 ? infinity : direction * (end_ahead(room, direction).axle - x);
 }
 
-bool has_left(const DriveRoom& room, const Vec3<double>& axle)
+const WayEnd* reached_end(const DriveRoom& room, const scene::Drive& drive, double x)
 {
-    if (!room.ground) { return false; }
-    const DriveRoom::Ground& ground = *room.ground;
-    return axle[0] < ground.low_x || axle[0] > ground.high_x || axle[1] < ground.low_y || axle[1] > ground.high_y ||
-           axle[2] - room.reach < ground.floor - deepest_below * room.reach;
+    return distance_to_end(room, drive, x) <= 0 ? &end_ahead(room, direction_of(drive)) : nullptr;
 }
+
+double distance_to_leave(const DriveRoom& room, const Vec3<double>& axle)
+{
+    if (!room.ground) { return infinity; }
+    const DriveRoom::Ground& ground = *room.ground;
+    return std::min({axle[0] - ground.low_x, ground.high_x - axle[0], axle[1] - ground.low_y, ground.high_y - axle[1],
+                     axle[2] - room.reach - ground.floor + deepest_below * room.reach});
+}
+
+bool has_left(const DriveRoom& room, const Vec3<double>& axle) { return distance_to_leave(room, axle) < 0; }
 
 std::vector<std::string> drive_warnings(const scene::Scene& scene, const World& world,
                                         const std::vector<DriveRoom>& rooms)

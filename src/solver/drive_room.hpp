@@ -42,8 +42,16 @@ std::vector<DriveRoom> drive_rooms(const scene::Scene& scene, const World& world
 /// The end of the way that a drive is at when its axle is at x (m), or null.
 const WayEnd* reached_end(const DriveRoom& room, const scene::Drive& drive, double x);
 
+/// Computes the distance (m) that the axle at x has to the end of the way; infinite where nothing ends it, at most 0 at
+/// the end.
+double distance_to_end(const DriveRoom& room, const scene::Drive& drive, double x);
+
 /// Whether the axle (m) is no longer over the ground that it started on, or the rim hangs below its floor.
 bool has_left(const DriveRoom& room, const Vec3<double>& axle);
+
+/// Computes the least distance (m) that the axle must go to have left; infinite without ground, negative where it has
+/// left.
+double distance_to_leave(const DriveRoom& room, const Vec3<double>& axle);
 
 /// Drives of prescribed slip that are too long for their room, each with the duration that fits, and bodies that stand
 /// in their way. The drives of a scene follow each other.

@@ -9,6 +9,7 @@
 #include "io/summary.hpp"
 #include "solver/checkpoint_clock.hpp"
 #include "solver/drive_room.hpp"
+#include "solver/drive_watch.hpp"
 #include "solver/simulation.hpp"
 #include "solver/snapshots.hpp"
 #include "solver/surface.hpp"
@@ -78,7 +79,7 @@ private:
     void   pass_on();
     bool   phase_is_over();
     bool   is_at_end_of_bed();
-    void   require_on_terrain();
+    void   require_on_terrain(const DriveRoom& room, const Vec3<double>& axle) const;
     void   advance();
     void   write_due();
     void   write_row();
@@ -100,7 +101,8 @@ private:
     Simulation<Exec, Real>&              simulation_;
     DriverOptions                        options_;
     PhaseClock                           phases_;
-    std::vector<DriveRoom>               rooms_;     ///< of the driven bodies
+    std::vector<DriveRoom>               rooms_; ///< of the driven bodies
+    DriveWatch                           drive_watch_;
     std::optional<Recorder>              recorder_;  ///< on rank 0
     std::optional<Snapshots<Exec, Real>> snapshots_; ///< only if the scene wants snapshots
     std::optional<Watchdog>              watchdog_;  ///< on several ranks

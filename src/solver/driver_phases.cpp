@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
@@ -14,7 +17,6 @@ namespace tread::solver
 template<class Exec, class Real>
 void Driver<Exec, Real>::pass_on()
 {
-    require_on_terrain();
     bool over = phase_is_over();
     while (over)
     {
@@ -41,35 +43,39 @@ bool Driver<Exec, Real>::phase_is_over()
     return is_at_end_of_bed() || phases_.over(time_, simulation_.unbalanced());
 }
 
+/// Whether the drive is at the end of the bed. Checks on the way that the driven bodies are on the terrain. Reads their
+/// places only when one of them can have got to one of these limits.
 template<class Exec, class Real>
 bool Driver<Exec, Real>::is_at_end_of_bed()
 {
-    const auto& drive = phases_.phase().drive;
-    if (!drive || !simulation_.measured()) { return false; }
-    for (const DriveRoom& room : rooms_)
-    {
-        if (scene_.bodies[room.body].name != drive->body) { continue; }
-        const WayEnd* end = reached_end(room, *drive, simulation_.place(room.body)[0]);
-        if (end != nullptr) { phases_.end_of_bed(time_, simulation_.unbalanced(), end->what); }
-        return end != nullptr;
-    }
-    return false;
-}
-
-/// Checks every body that the scene drives. NumericalError where one has rolled off the terrain: its answers would mean
-/// nothing.
-template<class Exec, class Real>
-void Driver<Exec, Real>::require_on_terrain()
-{
-    if (!simulation_.measured()) { return; }
+    if (!simulation_.measured() || rooms_.empty()) { return false; }
+    drive_watch_.note_speed(time_, simulation_.pace().largest_speed);
+    if (!drive_watch_.is_due()) { return false; }
+    const auto&   drive = phases_.phase().drive;
+    const WayEnd* end   = nullptr;
+    double        left  = std::numeric_limits<double>::infinity();
     for (const DriveRoom& room : rooms_)
     {
         const Vec3<double> axle = simulation_.place(room.body);
-        if (!has_left(room, axle)) { continue; }
-        throw NumericalError(fmt::format("t = {:.6g} s: '{}' has left the terrain: its axle is at [{:.4g}, {:.4g}, "
-                                         "{:.4g}] m; a longer bed, closed walls, or a shorter drive",
-                                         time_, scene_.bodies[room.body].name, axle[0], axle[1], axle[2]));
+        require_on_terrain(room, axle);
+        left = std::min(left, distance_to_leave(room, axle));
+        if (!drive || scene_.bodies[room.body].name != drive->body) { continue; }
+        end  = reached_end(room, *drive, axle[0]);
+        left = std::min(left, distance_to_end(room, *drive, axle[0]));
     }
+    drive_watch_.set_distance_left(left);
+    if (end != nullptr) { phases_.end_of_bed(time_, simulation_.unbalanced(), end->what); }
+    return end != nullptr;
+}
+
+/// NumericalError where a driven body has rolled off the terrain: its answers would mean nothing.
+template<class Exec, class Real>
+void Driver<Exec, Real>::require_on_terrain(const DriveRoom& room, const Vec3<double>& axle) const
+{
+    if (!has_left(room, axle)) { return; }
+    throw NumericalError(fmt::format("t = {:.6g} s: '{}' has left the terrain: its axle is at [{:.4g}, {:.4g}, "
+                                     "{:.4g}] m; a longer bed, closed walls, or a shorter drive",
+                                     time_, scene_.bodies[room.body].name, axle[0], axle[1], axle[2]));
 }
 
 template<class Exec, class Real>
@@ -81,6 +87,7 @@ void Driver<Exec, Real>::begin_phase()
     surface_.renew(simulation_.surface_heights(surface_.lattice()));
     surface_.press(bodies);
     on_root(communicator_, [&] { recorder_->begin_phase(phases_.index(), time_); });
+    drive_watch_.reset();
     warned_ = false;
 }
 

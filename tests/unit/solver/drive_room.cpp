@@ -1,5 +1,7 @@
 #include "solver/drive_room.hpp"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "scene_text.hpp"
@@ -8,6 +10,8 @@ namespace tread::solver
 {
 namespace
 {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The roller (radius 0.1 m) at x = 0.15 m on sand from 0 to 0.8 m.
 std::string bed_text(const std::string& walls, const std::string& phases)
@@ -110,6 +114,43 @@ TEST(DriveRoom, KnowsABodyThatHasLeft)
     EXPECT_TRUE(has_left(room, {1.02, 0.2, 0.25})) << "over the edge ahead";
     EXPECT_TRUE(has_left(room, {0.3, 0.43, 0.25})) << "over the edge beside";
     EXPECT_TRUE(has_left(room, {0.3, 0.2, 0.08})) << "under the floor";
+}
+
+TEST(DriveRoom, ComputesTheDistanceToTheEndAhead)
+{
+    const Built         built(bed_text("slip", drive(1.0, 1.0) + drive(-1.0, 1.0, "back")));
+    const DriveRoom&    room = built.rooms[0];
+    const scene::Drive &on = *built.scene.phases[1].drive, &back = *built.scene.phases[2].drive;
+    for (const double x : {0.3, 0.6, 0.9})
+    {
+        EXPECT_DOUBLE_EQ(distance_to_end(room, on, x), room.front.axle - x);
+        EXPECT_DOUBLE_EQ(distance_to_end(room, back, x), x - room.back.axle);
+    }
+    scene::Drive still     = on;
+    still.angular_velocity = 0;
+    EXPECT_EQ(distance_to_end(room, still, 0.3), infinity) << "it goes nowhere";
+    DriveRoom endless  = room;
+    endless.front.axle = infinity;
+    EXPECT_EQ(distance_to_end(endless, on, 0.3), infinity);
+    EXPECT_EQ(reached_end(endless, on, 1e9), nullptr);
+}
+
+TEST(DriveRoom, ComputesTheLeastDistanceToTheEdges)
+{
+    const Built              built(bed_text("open", drive(1.0, 1.0)));
+    const DriveRoom&         room   = built.rooms[0];
+    const DriveRoom::Ground& ground = *room.ground;
+    EXPECT_DOUBLE_EQ(distance_to_leave(room, {ground.low_x + 0.01, 0.2, 0.3}), 0.01) << "behind";
+    EXPECT_NEAR(distance_to_leave(room, {ground.high_x - 0.01, 0.2, 0.3}), 0.01, 1e-12) << "ahead";
+    EXPECT_NEAR(distance_to_leave(room, {0.5, ground.low_y + 0.01, 0.3}), 0.01, 1e-12) << "beside";
+    EXPECT_NEAR(distance_to_leave(room, {0.5, ground.high_y - 0.01, 0.3}), 0.01, 1e-12) << "beside";
+    const double lowest = ground.floor + 0.9 * room.reach;
+    EXPECT_NEAR(distance_to_leave(room, {0.5, 0.2, lowest + 0.01}), 0.01, 1e-12) << "down";
+    EXPECT_NEAR(distance_to_leave(room, {ground.high_x + 0.02, 0.2, 0.3}), -0.02, 1e-12) << "it has left";
+    DriveRoom bare = room;
+    bare.ground.reset();
+    EXPECT_EQ(distance_to_leave(bare, {5, 5, -5}), infinity);
+    EXPECT_FALSE(has_left(bare, {5, 5, -5}));
 }
 
 } // namespace
