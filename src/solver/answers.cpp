@@ -169,6 +169,12 @@ void add_share(std::vector<io::Answer>& quantities)
                                                pull.standard_error / load, std::nullopt});
 }
 
+/// A wheel that does not turn has no slip, one that carries nothing no share of its load.
+void leave_out_unknown(std::vector<io::Answer>& quantities)
+{
+    std::erase_if(quantities, [](const io::Answer& answer) { return !std::isfinite(answer.mean); });
+}
+
 std::string text_of(const io::Answer& answer)
 {
     std::string text = fmt::format("{} {:.4g}", answer.name, answer.mean);
@@ -184,8 +190,8 @@ std::string line_of(const std::string& body, const io::PhaseAnswers& phase)
         if (answer.name == "pull_over_load") { line += fmt::format(" ({:.3g} of the load)", answer.mean); }
         else { line += (line.back() == ' ' ? "" : ", ") + text_of(answer); }
     }
-    line += fmt::format(", {} {:.4g} to {:.4g} s", phase.steady ? "steady over" : "NOT steady, means over", phase.from,
-                        phase.to);
+    line += fmt::format("{}{} {:.4g} to {:.4g} s", phase.quantities.empty() ? "" : ", ",
+                        phase.steady ? "steady over" : "NOT steady, means over", phase.from, phase.to);
     return phase.ended ? line : line + " (the phase did not end)";
 }
 
@@ -204,14 +210,19 @@ auto* last_driven(const scene::Scene& scene, Answers& answers)
     return found;
 }
 
-/// Only what a driven phase answers begins with a pull.
-bool is_drive(const io::PhaseAnswers& phase) { return phase.quantities.front().name == std::string("pull"); }
+/// Whether these answers are of a phase that drives the body.
+bool is_drive(const scene::Scene& scene, const std::string& body, const io::PhaseAnswers& answers)
+{
+    return std::any_of(scene.phases.begin(), scene.phases.end(),
+                       [&](const scene::Phase& phase) { return phase.name == answers.phase && drives(phase, body); });
+}
 
+/// NaN of a quantity that is left out.
 double mean_of(const io::PhaseAnswers& phase, const std::string& name)
 {
     const auto found = std::find_if(phase.quantities.begin(), phase.quantities.end(),
                                     [&](const io::Answer& answer) { return answer.name == name; });
-    return found->mean;
+    return found == phase.quantities.end() ? std::numeric_limits<double>::quiet_NaN() : found->mean;
 }
 
 std::optional<double> error_of(const io::Answer& answer, const io::GridError& error)
@@ -244,6 +255,7 @@ std::vector<io::BodyAnswers> make_answers(const scene::Scene& scene, const std::
             auto         one       = answers_of(pick(history.time, rows),
                                   driven ? driven_series(history, rows, direction) : standing_series(history, rows));
             if (driven) { add_share(one.quantities); }
+            leave_out_unknown(one.quantities);
             one.phase = phase.name;
             one.ended = span.phase < ended;
             answers.phases.push_back(std::move(one));
@@ -259,7 +271,7 @@ void add_grid_error(const scene::Scene& scene, const io::GridError& error, std::
     if (wheel == nullptr) { return; }
     for (io::PhaseAnswers& phase : wheel->phases)
     {
-        if (!is_drive(phase)) { continue; }
+        if (!is_drive(scene, wheel->body, phase)) { continue; }
         for (io::Answer& answer : phase.quantities) { answer.estimated_error = error_of(answer, error); }
     }
 }
@@ -267,8 +279,9 @@ void add_grid_error(const scene::Scene& scene, const io::GridError& error, std::
 std::optional<io::DriveMeans> last_drive(const scene::Scene& scene, const std::vector<io::BodyAnswers>& answers)
 {
     const auto* wheel = last_driven(scene, answers);
-    if (wheel == nullptr || wheel->phases.empty() || !is_drive(wheel->phases.back())) { return std::nullopt; }
+    if (wheel == nullptr || wheel->phases.empty()) { return std::nullopt; }
     const io::PhaseAnswers& drive = wheel->phases.back();
+    if (!is_drive(scene, wheel->body, drive)) { return std::nullopt; }
     return io::DriveMeans{mean_of(drive, "pull"), mean_of(drive, "torque"), mean_of(drive, "sinkage")};
 }
 

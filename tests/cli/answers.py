@@ -54,7 +54,7 @@ class Answers(CommandTest):
         self.assertEqual(answers["pull_over_load"]["estimated_error"], error["pull"])
         for name in ("torque", "sinkage"):
             self.assertAlmostEqual(answers[name]["estimated_error"], error[name] * abs(answers[name]["mean"]), places=12)
-        for name in ("slip", "power", "load"):
+        for name in answers.keys() & {"slip", "power", "load"}:
             self.assertIsNone(answers[name]["estimated_error"])
 
     def test_answers_are_those_of_postprocess(self):
@@ -117,6 +117,25 @@ class Answers(CommandTest):
             self.assertAlmostEqual(phases[0]["sinkage"]["mean"], wheel["sinkage"][rows].mean(), places=12)
             # Before it sinks in, it stands as far above the bed as the scene says: lowest point at 0.105 m, sand up to 0.1 m.
             self.assertAlmostEqual(wheel["sinkage"][0], -0.005, delta=1e-6)
+
+    def test_a_wheel_that_is_kept_from_turning_has_no_slip(self):
+        answers = self.answers(driven(0.0).replace(", slip = 0.3", ""))
+        with h5py.File(self.output / "timeseries.h5", "r") as file:
+            wheel = file["wheel/roller"]
+            self.assertTrue(np.isnan(wheel["slip"][wheel["time"][:] >= answers["from"]]).all())
+        self.assertEqual(set(answers) & {*NAMES, "pull_over_load", "power"}, {"pull", "pull_over_load", "load", "torque", "sinkage", "power"})
+        line = (self.output / "log.txt").read_text().rstrip().splitlines()[-1]
+        self.assertRegex(line, r"answers: roller, drive: pull .* of the load\), load .*, torque .*, sinkage .* m, power ")
+        self.assertNotRegex(line, "slip|nan")
+        self.assertNotRegex((self.output / "summary.json").read_text(), r'"mean": null')
+
+    def test_a_wheel_that_carries_nothing_has_no_share_of_its_load(self):
+        """It still falls."""
+        text = driven().replace("duration = 0.1", "duration = 0.02").replace("duration = 0.3", "duration = 0.1").replace("0.165]", "0.3]")
+        answers = self.summary_of(text)["answers"]["roller"][0]
+        self.assertEqual((answers["pull"]["mean"], answers["load"]["mean"]), (0, 0))
+        self.assertNotIn("pull_over_load", answers)
+        self.assertIn("pull 0 +- 0 N, load 0 +- 0 N, ", (self.output / "log.txt").read_text())
 
     def test_a_run_that_stops_within_a_phase_says_so(self):
         phases = self.summary_of(driven(0.01).replace("duration = 0.3", "duration = 300"), "--walltime-limit", "00:00:08", code=75)["answers"]["roller"]
