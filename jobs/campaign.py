@@ -27,7 +27,7 @@ from tread_jobs.directory import CampaignDirectory
 from tread_jobs.errors import CampaignError, MachineError
 from tread_jobs.resources import read_site
 from tread_jobs.status import FAILED, STALE, UNFINISHED, case_states, summary_text
-from tread_jobs.submission import make_submission, past_submissions
+from tread_jobs.submission import last_means, make_submission, past_submissions
 
 SOME_FAILED = 3
 
@@ -116,7 +116,10 @@ def retry(options):
         return 0
     if not past:
         raise CampaignError(f"{directory.path}: nothing was submitted yet; submit or local begins")
-    how = {name: value for name, value in past[-1][2].items() if name in ("means", "site", "at_once", "gpus")}
+    how = {name: value for name, value in last_means(directory).items() if name in ("means", "site", "at_once", "gpus")}
+    if not how:
+        raise CampaignError(f"{past[-1][0] / 'submission.json'}: cannot be read, and no other says how cases were run; "
+                            f"without {directory.submissions}, submit or local takes up what is missing")
     options.site = options.site or how["site"]
     how |= {"site": options.site} | {name: value for name in ("at_once", "gpus") if (value := getattr(options, name))}
     return start(options, campaign, directory, entries, how)

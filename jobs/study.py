@@ -23,6 +23,7 @@ from tread_jobs.cases import make_cases, without_repetition
 from tread_jobs.check import check_cases, seconds_of
 from tread_jobs.directory import CampaignDirectory
 from tread_jobs.errors import CampaignError, MachineError
+from tread_jobs.files import printable, write_text
 from tread_jobs.resources import Site
 from tread_jobs.status import DONE, FAILED, UNFINISHED, case_states, summary_text
 from tread_jobs.study_plan import DESIGNS, campaign_text, default_repeats, read_scene, read_setting, read_variation
@@ -150,6 +151,13 @@ def run_missing(options, campaign, directory, program):
         return case_states(directory, 900)
 
 
+def print_states(states):
+    print(summary_text(states))
+    for name, case in states.items():
+        if case.state == FAILED:
+            print(f"variant {name}: {printable(case.reason)}")
+
+
 def study(options):
     complete(options)
     from tread_jobs.study_answers import RunError, chosen_quantities, write_table  # what a study needs beyond the standard library, before it runs
@@ -172,21 +180,19 @@ def study(options):
         if options.dry_run:
             return 0
         with directory.locked():
-            campaign.path.write_text(campaign.text, encoding="utf-8")
+            write_text(campaign.path, campaign.text)
             directory.write(campaign, cases, cost)
     states = run_missing(options, campaign, directory, os.path.abspath(program))
-    print(summary_text(states))
-    for name, case in states.items():
-        if case.state == FAILED:
-            print(f"variant {name}: {case.reason}")
     try:
-        write_table(options.output / "study.csv", directory, states, quantities, options)
+        states = write_table(options.output / "study.csv", directory, states, quantities, options)
     except RunError as error:
-        print(f"study: error: {error}", file=sys.stderr)
+        print_states(states)
+        print(f"study: error: {printable(error)}", file=sys.stderr)
         return SOME_FAILED
+    print_states(states)
     report = [sys.executable, str(REPORT), str(options.output / "study.csv"), "--within", str(options.within)]
     done = subprocess.run(report, stdout=subprocess.PIPE, text=True, check=False)
-    (options.output / "study.txt").write_text(done.stdout, encoding="utf-8")
+    write_text(options.output / "study.txt", done.stdout)
     print(done.stdout, end="")
     return done.returncode or (0 if all(case.state == DONE for case in states.values()) else SOME_FAILED)
 

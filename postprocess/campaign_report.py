@@ -11,15 +11,19 @@ from pathlib import Path
 
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parents[1] / "jobs"))
+
 import drives
 import sinkage_slip
 import slices
 import slip_curves
+from tread_jobs.files import printable, write_text
 from tread_post import RunError
 from tread_post.campaign import CampaignTable
 from tread_post.page import figure, headline_paragraph, page, paragraph, preformatted, section, table
+from tread_post.run import DAMAGE, words_of
 from tread_post.style import readable, with_unit
-from tread_post.verdict import ESTIMATED_ERRORS, headline, text_of
+from tread_post.verdict import ESTIMATED_ERRORS, FAILED, headline, text_of
 
 MOST_SLICES = 2  # runs whose sections are shown
 # Columns of the table of answers, as far as slip is no axis. What follows from the axes is in campaign.csv.
@@ -111,21 +115,44 @@ def mean_and_spread(campaign, name, row):
 
 
 def figures_of(campaign):
+    """What can be drawn; of what cannot, why."""
     parts = []
-    has_drives = "torque" in campaign.columns
-    if has_drives and campaign.slip_axes:
-        parts.append(figure(slip_curves.figure_of(campaign), OF_CURVES))
-    if has_drives and drives.groups_of(campaign):
-        parts.append(figure(drives.figure_of(campaign), OF_DRIVES))
-    if has_drives and campaign.slip_axes and (traces := sinkage_slip.traces_of(campaign.path)):
-        parts.append(figure(sinkage_slip.figure_of(traces), "Sinkage over the largest of its curve against slip."))
+    if "torque" in campaign.columns and np.isfinite(campaign["torque"][campaign.verdicts != FAILED]).any():
+        figures = (("The drives against time", drives_of),)
+        if campaign.slip_axes:
+            figures = (("The curves against slip", curves_of), *figures, ("Sinkage against slip", sinkage_of))
+        parts = [drawn(name, draw, campaign) for name, draw in figures]
     for row in rows_with_snapshots(campaign)[:MOST_SLICES]:
-        run = campaign.run(row)
-        numbers = slices.chosen_snapshots(run)
-        at = slices.default_place(run, slices.PLANES["y"][0], numbers[0])
-        case = f"{int(campaign['number'][row]):04}"
-        parts.append(figure(slices.figure_of(run, ("y", at), numbers), f"Case {case}: sand and bodies on the plane of the wheel."))
-    return section("Figures", *(parts or [paragraph("Nothing to draw yet.")]))
+        parts.append(drawn(f"Case {int(campaign['number'][row]):04}", slice_of, campaign, row))
+    return section("Figures", *(filter(None, parts) if any(parts) else [paragraph("Nothing to draw yet.")]))
+
+
+def drawn(name, draw, *of):
+    """What `draw` gives: a figure, or an empty text where there is nothing to draw. Where files are damaged, a sentence that says so."""
+    try:
+        return draw(*of)
+    except DAMAGE as error:
+        return paragraph(f"{name} cannot be drawn: {printable(words_of(error))}")
+
+
+def curves_of(campaign):
+    return figure(slip_curves.figure_of(campaign), OF_CURVES)
+
+
+def drives_of(campaign):
+    return figure(drives.figure_of(campaign), OF_DRIVES) if drives.groups_of(campaign) else ""
+
+
+def sinkage_of(campaign):
+    traces = sinkage_slip.traces_of(campaign.path)
+    return figure(sinkage_slip.figure_of(traces), "Sinkage over the largest of its curve against slip.") if traces else ""
+
+
+def slice_of(campaign, row):
+    run = campaign.run(row)
+    numbers = slices.chosen_snapshots(run)
+    at = slices.default_place(run, slices.PLANES["y"][0], numbers[0])
+    return figure(slices.figure_of(run, ("y", at), numbers), f"Case {int(campaign['number'][row]):04}: sand and bodies on the plane of the wheel.")
 
 
 def rows_with_snapshots(campaign):
@@ -134,7 +161,7 @@ def rows_with_snapshots(campaign):
         try:
             if campaign.run(row).points_times:
                 rows.append(row)
-        except RunError:
+        except DAMAGE:
             continue
     return rows
 
@@ -175,7 +202,7 @@ def main():
     options = arguments()
     campaign = CampaignTable(options.campaign)
     output = options.output or options.campaign / "report.html"
-    output.write_text(report_of(campaign), encoding="utf-8")
+    write_text(output, report_of(campaign))
     print(output)
 
 

@@ -17,6 +17,7 @@ import slip_curves
 from tread_post import RunError
 from tread_post.answers import last_drive
 from tread_post.campaign import CampaignTable
+from tread_post.run import DAMAGE
 from tread_post.style import COLOURS, figure_grid, finish, legend_below, readable, with_unit, write
 from tread_post.verdict import FAILED, headline, plot_verdicts, verdict_handles
 
@@ -116,7 +117,7 @@ def _label(table, row):
 def _drive(table, row):
     try:
         return last_drive(table.run(row))
-    except RunError:
+    except DAMAGE:
         return None
 
 

@@ -9,14 +9,15 @@ import sys
 from pathlib import Path
 
 from tread_jobs.errors import MachineError
-from tread_jobs.status import read_summary
+from tread_jobs.files import number_of, printable, write_text
+from tread_jobs.status import DONE, CaseState, read_summary
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postprocess"))
 try:
     from tread_post.answers import answers_of
     from tread_post.campaign import write_campaign_table
-    from tread_post.run import Run, RunError
-    from tread_post.verdict import FAILED, resolution_of
+    from tread_post.run import DAMAGE, Run, words_of
+    from tread_post.verdict import FAILED, UNKNOWN, Resolution, resolution_of
 except ImportError as missing:
     raise MachineError(f"collect needs h5py and numpy ({missing}): on Debian /usr/bin/python3 with python3-h5py") from missing
 
@@ -29,16 +30,16 @@ PROVENANCE = ("scene_hash", "version", "commit", "backend", "devices", "ranks", 
 def collect_campaign(directory, states, dry_run):
     """Writes campaign.h5 and campaign.csv, or with `dry_run` gives the CSV back, in lines. One row a case, done or not."""
     manifest, entries = directory.manifest, directory.entries()
-    rows = [_row(directory.cases / entry.name) for entry in entries]
+    rows = [_row(directory.cases / entry.name, states[entry.name]) for entry in entries]
     groups = {
         "case": {
             "number": ([entry.number for entry in entries], "1"),
-            "state": ([states[entry.name].state for entry in entries], "1"),
-            "reason": ([states[entry.name].reason for entry in entries], "1"),
-            "tail": ([states[entry.name].tail for entry in entries], "1"),
-            "verdict": ([_verdict(row, states[entry.name].state) for row, entry in zip(rows, entries)], "1"),
-            "worst_figure": ([row["resolution"].worst_figure for row in rows], "1"),
-            "warning_text": (["\n".join(row["resolution"].warnings) for row in rows], "1"),
+            "state": ([row["state"].state for row in rows], "1"),
+            "reason": ([printable(row["state"].reason) for row in rows], "1"),
+            "tail": ([row["state"].tail for row in rows], "1"),
+            "verdict": ([printable(_verdict(row)) for row in rows], "1"),
+            "worst_figure": ([printable(row["resolution"].worst_figure) for row in rows], "1"),
+            "warning_text": ([printable("\n".join(row["resolution"].warnings)) for row in rows], "1"),
         },
         "labels": {name: ([entry.labels[name] for entry in entries], "1") for name in entries[0].labels},
         "axes": {name: column for name in entries[0].labels if (column := _numbers(entries, manifest, name))},
@@ -55,39 +56,49 @@ def collect_campaign(directory, states, dry_run):
         "collected": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
     }
     write_campaign_table(directory.path / "campaign.h5", attributes, groups)
-    (directory.path / "campaign.csv").write_text(table, encoding="utf-8")
+    write_text(directory.path / "campaign.csv", table)
     return [f"{directory.path / name}: {len(entries)} cases" for name in ("campaign.h5", "campaign.csv")]
 
 
-def _row(case):
-    """Answers, numbers and texts of a case; empty where it has none. A damaged file costs that case's answers, not the table."""
-    summary = read_summary(case) or {}
-    answers = {}
+def _row(case, state):
+    """State, answers, numbers and texts of a case; empty where it has none. A case that is done and damaged has failed: it costs its own row alone."""
+    answers, told, damage = {}, {"summary": {}, "provenance": {}, "resolution": Resolution(UNKNOWN)}, []
+    try:
+        told = _told(read_summary(case) or {})
+    except DAMAGE as error:
+        damage.append(f"summary.json: {words_of(error)}")
     try:
         values, units = answers_of(Run(case / "run"))
         answers = {name: (value, units[name]) for name, value in values.items()}
-    except RunError:
-        pass
-    numbers = {name: (summary[name], unit) for name, unit in NUMBERS.items() if isinstance(summary.get(name), (int, float))}
+    except DAMAGE as error:
+        damage.append(words_of(error))
+    if damage and state.state == DONE:
+        answers, state = {}, CaseState(FAILED, f"cannot be read: {damage[0]}", state.tail)
+    return {"state": state, "answers": answers, **told}
+
+
+def _told(summary):
+    """What a summary.json says."""
+    numbers = {name: (number_of(summary[name]), unit) for name, unit in NUMBERS.items() if name in summary}
     errors = summary.get("errors") or {}
-    numbers |= {f"{name}_error": (errors[name], unit) for name, unit in ERRORS.items() if isinstance(errors.get(name), (int, float))}
+    numbers |= {f"{name}_error": (number_of(errors[name]), unit) for name, unit in ERRORS.items() if name in errors}
     resolution = resolution_of(summary)
-    numbers |= {name: (value, "1") for name, value in resolution.errors.items()}
+    numbers |= {name: (number_of(value), "1") for name, value in resolution.errors.items()}
     if summary:
         numbers["warnings"] = (len(resolution.warnings), "1")
-    texts = {name: _text(summary[name]) for name in PROVENANCE if summary.get(name) is not None}
-    return {"answers": answers, "summary": numbers, "provenance": texts, "resolution": resolution}
+    texts = {name: printable(_text(summary[name])) for name in PROVENANCE if summary.get(name) is not None}
+    return {"summary": numbers, "provenance": texts, "resolution": resolution}
 
 
-def _verdict(row, state):
+def _verdict(row):
     """A case that was killed has failed, too, although its summary, if any, is one of before."""
-    return FAILED if state == FAILED else row["resolution"].verdict
+    return FAILED if row["state"].state == FAILED else row["resolution"].verdict
 
 
 def _columns(rows):
     """Columns of all names that any row has; NaN where one has none."""
     units = {name: unit for row in rows for name, (_, unit) in row.items()}
-    return {name: ([float(row[name][0]) if name in row else math.nan for row in rows], unit) for name, unit in units.items()}
+    return {name: ([row[name][0] if name in row else math.nan for row in rows], unit) for name, unit in units.items()}
 
 
 def _numbers(entries, manifest, name):

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tread_jobs.errors import CampaignError
+from tread_jobs.files import read_object
 
 SCHEMA = 1
 # What tasks read and write in the directory of a case.
@@ -65,10 +66,9 @@ class CampaignDirectory:
 
     @property
     def manifest(self):
-        try:
-            manifest = json.loads((self.cases / "manifest.json").read_text(encoding="utf-8"))
-        except (OSError, json.JSONDecodeError) as error:
-            raise CampaignError(f"{self.path}: no campaign was expanded here ({error})") from error
+        manifest = read_object(self.cases / "manifest.json")
+        if manifest is None:
+            raise CampaignError(f"{self.path}: no campaign was expanded here; cases/manifest.json cannot be read")
         if manifest.get("schema") != SCHEMA:
             raise CampaignError(f"{self.path}: its manifest has schema {manifest.get('schema')}, known is {SCHEMA}")
         return manifest

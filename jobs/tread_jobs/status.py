@@ -1,6 +1,6 @@
 """How far each case is, from what stands in its directory; SLURM is asked for what waits or runs, and needs no accounting database."""
 
-import json
+import contextlib
 import os
 import re
 import signal
@@ -8,6 +8,7 @@ import socket
 import time
 from dataclasses import dataclass
 
+from tread_jobs.files import printable, read_object, read_text
 from tread_jobs.slurm import queued_tasks
 from tread_jobs.submission import past_submissions
 
@@ -17,6 +18,7 @@ DONE, RUNNING, QUEUED, STOPPED, FAILED, STALE, NOT_STARTED = STATES = (
 UNFINISHED = (STOPPED, FAILED, STALE, NOT_STARTED)
 TAIL = 5  # lines
 EARLY = 75
+HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
 @dataclass(frozen=True)
@@ -59,14 +61,11 @@ def summary_text(states):
 
 def read_summary(case):
     """A run's summary.json; None while there is none that can be read."""
-    try:
-        return json.loads((case / "run" / "summary.json").read_text(encoding="utf-8"))
-    except (OSError, json.JSONDecodeError):
-        return None
+    return read_object(case / "run" / "summary.json")
 
 
 def _queue(directory):
-    submissions = [(tasks, how["job"]) for _, tasks, how in past_submissions(directory) if "job" in how]
+    submissions = [(tasks, str(how["job"])) for _, tasks, how in past_submissions(directory) if "job" in how]
     tasks = queued_tasks({job for _, job in submissions})
     if tasks is None:
         return Queue({}, {}, set())
@@ -89,14 +88,17 @@ def _state(case, queue, name, quiet_for):
         return CaseState(STALE, f"began on {attempt.host} and never ended", _tail(case))
     summary = read_summary(case)
     if attempt and attempt.code == 0 and summary and summary.get("status") == "finished":
-        return CaseState(DONE, f"{summary.get('wall_s', 0):.3g} s", "")
+        if not holds_series(case):
+            return CaseState(FAILED, "finished, but run/timeseries.h5 is no whole HDF5 file; without run/, retry repeats it", _tail(case))
+        wall = summary.get("wall_s")
+        return CaseState(DONE, f"{wall:.3g} s" if isinstance(wall, float) else "", "")
     # Beside others of its task that still run, a case that failed has failed.
     if slurm and (not attempt or attempt.code == EARLY or slurm == "PENDING"):
         return CaseState(QUEUED, slurm.lower(), "")
     if not attempt:
         return CaseState(NOT_STARTED, "", "")
     if attempt.code == EARLY:
-        return CaseState(STOPPED, (summary or {}).get("reason", "before its first step"), "")
+        return CaseState(STOPPED, printable((summary or {}).get("reason", "before its first step")), "")
     return CaseState(FAILED, _reason(attempt, summary), _tail(case))
 
 
@@ -110,6 +112,18 @@ def _is_alive(attempt, case, queue, quiet_for):
     return time.time() - _last_touched(case) < quiet_for
 
 
+def holds_series(case):
+    """Whether the run's time series begins like an HDF5 file and is as long as that says: what is damaged further in is for those to find that
+    have h5py."""
+    try:
+        with open(case / "run" / "timeseries.h5", "rb") as file:
+            head, length = file.read(52), os.fstat(file.fileno()).st_size
+    except OSError:
+        return False
+    end_at = {0: 40, 1: 44}.get(head[8], 28) if len(head) == 52 else 0  # of the file's end in its superblock, by the version of that
+    return head.startswith(HDF5_SIGNATURE) and length >= int.from_bytes(head[end_at:end_at + 8], "little")
+
+
 def _process_lives(pid):
     try:
         os.kill(pid, 0)
@@ -121,18 +135,22 @@ def _process_lives(pid):
 
 
 def _last_touched(case):
-    return max((path.stat().st_mtime for path in (case / "run", *case.glob("run/*"), case / "output.txt") if path.exists()), default=0.0)
+    latest = 0.0
+    for path in (case / "run", *case.glob("run/*"), case / "output.txt"):
+        with contextlib.suppress(OSError):  # a run replaces its files as it goes on
+            latest = max(latest, path.stat().st_mtime)
+    return latest
 
 
 def _attempts(path):
     """In the order in which they began, the last one to end last."""
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = read_text(path).splitlines()
     except OSError:
         return []
     attempts = {}
     for line in lines:
-        found = re.search(r" (start|end) job (\S+) host (\S+) pid (\d+)(?: code (\d+))?$", line)
+        found = re.search(r" (start|end) job (\S+) host (\S+) pid (\d{1,9})(?: code (\d{1,3}))?$", line)
         if found:
             who, code = (found[2], found[3], int(found[4])), found[5]
             attempts.pop(who, None)
@@ -142,11 +160,13 @@ def _attempts(path):
 
 def _reason(attempt, summary):
     if summary and summary.get("exit_code"):
-        return f"exit {attempt.code}: {summary.get('reason')}"
+        return f"exit {attempt.code}: {printable(summary.get('reason'))}"
     if attempt.code > 128:
         number = attempt.code - 128
         name = signal.Signals(number).name if number in set(signal.Signals) else f"signal {number}"
         return f"killed by {name}"
+    if attempt.code == 0 and summary is None:
+        return "ended, but run/summary.json cannot be read"
     return f"exit {attempt.code}"
 
 
@@ -154,9 +174,9 @@ def _tail(case):
     """What the run said to the terminal, else its own log."""
     for path in (case / "output.txt", case / "run" / "log.txt"):
         try:
-            lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+            lines = read_text(path).splitlines()
         except OSError:
             continue
         if lines:
-            return "\n".join(lines[-TAIL:])
+            return printable("\n".join(lines[-TAIL:]))
     return ""

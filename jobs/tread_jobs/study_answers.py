@@ -1,13 +1,16 @@
 """From the runs of a study to its table. Needs h5py and numpy, and reads runs with postprocess/tread_post."""
 
+import functools
 import math
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from tread_jobs.axes import label_of
 from tread_jobs.errors import CampaignError, MachineError
+from tread_jobs.files import number_of, printable, write_text
 from tread_jobs.scene_keys import canonical, value_at
-from tread_jobs.status import DONE, read_summary
+from tread_jobs.status import DONE, FAILED, CaseState, read_summary
 from tread_jobs.study_plan import PERTURBATION
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postprocess"))
@@ -15,8 +18,8 @@ try:
     from tread_post.closed_forms import FORMS
     from tread_post.quantities import QUANTITIES, default_quantities
     from tread_post.references import Variant, from_file, hub_of, judge, known_value
-    from tread_post.run import Run, RunError
-    from tread_post.study_table import Row, write_study
+    from tread_post.run import DAMAGE, Run, RunError, words_of
+    from tread_post.study_table import Row, study_text
     from tread_post.verdict import resolution_of
 except ImportError as missing:
     raise MachineError(f"a study needs h5py, numpy and matplotlib ({missing}): Debian's python3-h5py and python3-matplotlib, with /usr/bin/python3; "
@@ -45,18 +48,46 @@ def form_of(scene):
 
 
 def write_table(path, directory, states, quantities, options):
-    """study.csv of all variants that finished, and of the others that they did not. RunError if none did."""
+    """study.csv of all variants that finished, and of the others that they did not; the states, in which those that cannot be read have failed.
+    RunError if none can be compared."""
     manifest, entries = directory.manifest, directory.entries()
     keys = [axis["name"] for axis in manifest["axes"] if axis["name"] != PERTURBATION]
-    variants = [_variant(entry, manifest, directory) for entry in entries if states[entry.name].state == DONE]
-    if not variants:
-        raise RunError(f"{directory.path}: no variant finished; campaign.py status says why")
+    quantities = {name: _measured_once(quantity) for name, quantity in quantities.items()}
+    states, variants = _variants(entries, states, quantities, directory)
     hub = hub_of([variant for variant in variants if not variant.is_perturbed], options.design)
     rows = []
     for name, quantity in quantities.items():
         judged = judge(variants, quantity, _known(name, quantity, hub.run, options), options.design)
-        rows += [_row(entry, keys, states[entry.name].state, directory, name, quantity, judged, hub.run) for entry in entries]
-    write_study(path, _comments(manifest, options, hub.run), keys, rows)
+        rows += [_row(entry, keys, states[entry.name].state, directory, name, quantity, judged) for entry in entries]
+    comments = _comments(manifest, options, read_summary(directory.cases / hub.name) or {})
+    comments += [f"variant {name}: {state.reason}" for name, state in states.items() if state.state == FAILED]
+    write_text(path, study_text([" ".join(printable(line).split()) for line in comments], keys, rows))
+    return states
+
+
+def _measured_once(quantity):
+    """The same, but that it reads each run once."""
+    return replace(quantity, measure=functools.cache(quantity.measure), noise=quantity.noise and functools.cache(quantity.noise))
+
+
+def _variants(entries, states, quantities, directory):
+    """States by name and Variants of those that can be read: what is damaged, or tells a quantity no answer, has failed."""
+    manifest, variants, states = directory.manifest, [], dict(states)
+    for entry in (entry for entry in entries if states[entry.name].state == DONE):
+        try:
+            _numbers(read_summary(directory.cases / entry.name) or {})
+            variant = _variant(entry, manifest, directory)
+            for quantity in quantities.values():
+                quantity.measure(variant.run)
+                if quantity.noise:
+                    quantity.noise(variant.run)
+            variants.append(variant)
+        except DAMAGE as error:
+            states[entry.name] = CaseState(FAILED, f"cannot be compared: {words_of(error)}", "")
+    if not variants:
+        reasons = [f"; variant {name}: {state.reason}" for name, state in states.items() if state.state == FAILED]
+        raise RunError(f"{directory.path}: no variant finished that can be compared{''.join(reasons[:1])}")
+    return states, variants
 
 
 def _variant(entry, manifest, directory):
@@ -82,28 +113,41 @@ def _known(name, quantity, run, options):
     return told or (known_value(quantity.right, 0.0, "no loss") if quantity.right is not None else None)
 
 
-def _row(entry, keys, state, directory, name, quantity, judged, hub_run):
+def _numbers(summary):
+    """Of a summary.json: the verdict, and what a variant cost."""
+    numbers = [number_of(summary.get(name)) for name in ("points", "bodies", "steps", "substeps", "wall_s")]
+    return resolution_of(summary).verdict, *numbers, number_of(summary.get("peak_device_bytes") or summary.get("peak_host_bytes"))
+
+
+def _settings(entry, keys, directory):
+    """What the run's own scene says of the keys; where there is none that can be read, the labels."""
     axes = {axis["name"]: axis for axis in directory.manifest["axes"]}
-    case = directory.cases / entry.name
-    summary = read_summary(case) or {}
-    scene = Run(case / "run").scene if (case / "run" / "scene.toml").is_file() else None
-    settings = {key: label_of(value_at(scene, canonical(scene, axes[key]["keys"][0]), "default")) if scene else entry.labels[key] for key in keys}
+    try:
+        scene = Run(directory.cases / entry.name / "run").scene
+        return {key: label_of(value_at(scene, canonical(scene, axes[key]["keys"][0]), "default")) for key in keys}
+    except (*DAMAGE, CampaignError):
+        return {key: entry.labels[key] for key in keys}
+
+
+def _row(entry, keys, state, directory, name, quantity, judged):
+    axes = {axis["name"]: axis for axis in directory.manifest["axes"]}
+    try:
+        numbers = _numbers(read_summary(directory.cases / entry.name) or {})
+    except DAMAGE:
+        numbers = _numbers({})
     reference, scale = judged.reference, judged.scale
     share = 1.0 if math.isnan(scale) else 1 / scale if scale > 0 else math.nan
     measured = judged.measured.get(entry.name, math.nan)
     is_curve = reference.curve is not None
     return Row(
-        entry.name, settings, entry.labels[PERTURBATION] if _is_perturbed(entry, axes) else "", state,
-        resolution_of(summary).verdict,
-        *(float(summary.get(number, math.nan)) for number in ("points", "bodies", "steps", "substeps", "wall_s")),
-        float(summary.get("peak_device_bytes") or summary.get("peak_host_bytes", math.nan)), name, quantity.unit,
+        entry.name, _settings(entry, keys, directory), entry.labels[PERTURBATION] if _is_perturbed(entry, axes) else "", state, *numbers, name, quantity.unit,
         math.nan if is_curve else measured, reference.value, reference.uncertainty * share, judged.scatter * share,
         judged.errors.get(entry.name, math.nan), reference.text, judged.noise.get(entry.name, math.nan))
 
 
-def _comments(manifest, options, run):
-    summary = run.summary
-    devices = ", ".join(summary.get("devices") or []) or f"{summary.get('threads')} threads"
+def _comments(manifest, options, summary):
+    devices = summary.get("devices")
+    devices = ", ".join(map(str, devices)) if devices and isinstance(devices, list) else f"{summary.get('threads')} threads"
     return [manifest["title"], f"tread {summary.get('version')} ({summary.get('commit')}), {summary.get('backend')}, {devices}; {options.jobs} runs at a time",
             f"{options.design} of " + ", ".join(axis["name"] for axis in manifest["axes"]),
             "uncertainty, scatter and error are shares of what is right, or of the quantity's scale; memory is the backend's at most"]

@@ -6,6 +6,8 @@ import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
+from tread_jobs.files import read_object, read_text, write_text
+
 TEMPLATE = Path(__file__).resolve().parents[1] / "campaign.sbatch"
 
 
@@ -19,19 +21,19 @@ class Submission:
     def write(self):
         """The directory, with everything that sbatch or a shell needs."""
         (self.folder / "logs").mkdir(parents=True)
-        (self.folder / "tasks.txt").write_text("".join(" ".join(task) + "\n" for task in self.tasks), encoding="utf-8")
-        (self.folder / "campaign.sbatch").write_text(self.script, encoding="utf-8")
+        write_text(self.folder / "tasks.txt", "".join(" ".join(task) + "\n" for task in self.tasks))
+        write_text(self.folder / "campaign.sbatch", self.script)
 
     def record(self, how):
         """Leaves what `status` and `retry` ask for: the means and, under SLURM, the job's number."""
-        (self.folder / "submission.json").write_text(json.dumps(how), encoding="utf-8")
+        write_text(self.folder / "submission.json", json.dumps(how))
 
 
 def make_submission(directory, entries, resources, site, program):
     """Tasks of `resources.cases_a_task` cases each, and their script."""
     names = [entry.name for entry in entries]
     tasks = [names[first:first + resources.cases_a_task] for first in range(0, len(names), resources.cases_a_task)]
-    number = 1 + max((int(folder.name) for folder in directory.submissions.glob("[0-9]*")), default=0)
+    number = 1 + max((int(folder.name) for folder in _folders(directory)), default=0)
     script = render(TEMPLATE.read_text(encoding="utf-8"), _fillings(directory, tasks, resources, site, program))
     return Submission(directory.submissions / f"{number:04}", tasks, script, resources.restarts)
 
@@ -42,14 +44,27 @@ def render(template, fillings):
 
 
 def past_submissions(directory):
-    """(folder, tasks, how) of every submission so far, oldest first."""
-    found = []
-    for folder in sorted(directory.submissions.glob("[0-9]*")):
-        record = folder / "submission.json"
-        if record.is_file():
-            tasks = [line.split() for line in (folder / "tasks.txt").read_text(encoding="utf-8").splitlines()]
-            found.append((folder, tasks, json.loads(record.read_text(encoding="utf-8"))))
-    return found
+    """(folder, tasks, how) of every submission so far, oldest first; of one whose record cannot be read, `how` is empty."""
+    return [(folder, _tasks(folder), read_object(folder / "submission.json") or {})
+            for folder in _folders(directory) if (folder / "submission.json").exists()]
+
+
+def last_means(directory):
+    """`how` of the last submission that can be read; empty where none can."""
+    return next((how for _, _, how in reversed(past_submissions(directory)) if {"means", "site"} <= set(how)), {})
+
+
+def _folders(directory):
+    """Directories of submissions in their order. What a user has laid beside them, such as 0001.bak, is none."""
+    found = [folder for folder in directory.submissions.glob("*") if re.fullmatch("[0-9]{1,9}", folder.name) and folder.is_dir()]
+    return sorted(found, key=lambda folder: int(folder.name))
+
+
+def _tasks(folder):
+    try:
+        return [line.split() for line in read_text(folder / "tasks.txt").splitlines()]
+    except OSError:
+        return []
 
 
 def _fillings(directory, tasks, resources, site, program):

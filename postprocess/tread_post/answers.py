@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tread_post.run import RunError
+from tread_post.run import RunError, UnreadableError
 from tread_post.steady import steady_part
 
 # Names and units, in the order of tables. Each has a mean and a spread.
@@ -66,9 +66,11 @@ def _series(wheel, rows, direction):
 
 def answers_of(run):
     """(values, units) by name: mean and spread of QUANTITIES over the steady part of the last drive, whether and since when it is steady.
-    Empty where no wheel is up to speed, or too few rows tell anything."""
+    Empty where no wheel is up to speed, or too few rows tell anything; UnreadableError where the time series is damaged."""
     try:
         drive = last_drive(run)
+    except UnreadableError:
+        raise
     except RunError:
         return {}, {}
     parts = {name: steady_part(drive.time, values) for name, values in drive.series.items()}

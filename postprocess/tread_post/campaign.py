@@ -80,7 +80,7 @@ class CampaignTable:
         path = self.path / "cases" / f"{int(self['number'][row]):04}" / "scene.toml"
         try:
             return tomllib.loads(path.read_text(encoding="utf-8"))
-        except OSError as error:
+        except (OSError, ValueError) as error:
             raise RunError(f"{path}: {error}") from error
 
     def run(self, row):

@@ -23,6 +23,15 @@ class UnreadableError(RunError):
     """HDF5 cannot read the file: it is damaged, or a run is writing it just now."""
 
 
+# What reading a run may raise whose files are not what `tread` wrote: a table lacks a column, a text stands where a number should.
+DAMAGE = (RunError, ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError)
+
+
+def words_of(error):
+    """Why a run cannot be read, of one of DAMAGE."""
+    return str(error) if isinstance(error, RunError) else f"{type(error).__name__}: {error}"
+
+
 @dataclass(frozen=True)
 class Series:
     """A table of timeseries.h5: columns by name, one row a time, and the unit of each."""
@@ -86,7 +95,7 @@ class Run:
     def scene(self):
         try:
             return tomllib.loads(self.scene_text)
-        except tomllib.TOMLDecodeError as error:
+        except (OSError, ValueError) as error:
             raise RunError(f"{self.path / 'scene.toml'}: {error}") from error
 
     @property
@@ -97,7 +106,10 @@ class Run:
     def summary(self):
         """Of a run that has ended; None while it goes on."""
         path = self.path / "summary.json"
-        return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+        try:
+            return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+        except (OSError, ValueError) as error:
+            raise RunError(f"{path}: {error}") from error
 
     @property
     def wheels(self):

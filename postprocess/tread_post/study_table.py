@@ -67,14 +67,15 @@ def short_name(key, keys):
     return last if sum(other.rpartition(".")[2] == last for other in keys) == 1 else key
 
 
-def write_study(path, comments, keys, rows):
+def study_text(comments, keys, rows):
+    """The whole of study.csv."""
     text = io.StringIO()
     text.writelines(f"# {line}\n" for line in comments)
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["variant", *keys, *COLUMNS])
     for row in rows:
         writer.writerow([row.variant, *(row.settings[key] for key in keys), *(_cell(getattr(row, name)) for name in COLUMNS)])
-    path.write_text(text.getvalue(), encoding="utf-8")
+    return text.getvalue()
 
 
 def read_study(path):

@@ -25,12 +25,15 @@ class Resolution:
 
 
 def resolution_of(summary):
-    """Of a summary.json as a dictionary, or None. A run that failed is `failed` whatever its figures say."""
+    """Of a summary.json as a dictionary, or None. A run that failed is `failed` whatever its figures say.
+    Raises one of DAMAGE where it is not what a run writes."""
     if not summary:
         return Resolution(UNKNOWN)
     resolution = summary.get("resolution") or {}
     figures = {name: figure for name, figure in (resolution.get("figures") or {}).items() if isinstance(figure, dict)}
     verdict = FAILED if summary.get("status") == FAILED else resolution.get("verdict") or UNKNOWN
+    if not isinstance(verdict, str):
+        raise TypeError(f"the verdict is {verdict!r}")
     errors = {name: figures[name]["value"] for name in ESTIMATED_ERRORS if isinstance(figures.get(name, {}).get("value"), (int, float))}
     return Resolution(verdict, _worst(figures), errors, tuple(map(str, summary.get("warnings") or ())))
 

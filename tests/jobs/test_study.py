@@ -2,6 +2,7 @@
 """`tread study`: limits and fronts of made-up data with known answers, what is refused, and studies of scenes that take a second."""
 
 import csv
+import json
 import math
 import os
 import subprocess
@@ -25,7 +26,7 @@ from tread_post.fronts import pareto_front  # noqa: E402
 from tread_post.orders import order_sentences  # noqa: E402
 from tread_post.quantities import QUANTITIES, Quantity, window_of  # noqa: E402
 from tread_post.references import Variant, from_file, judge, known_value  # noqa: E402
-from tread_post.study_table import Row, Study, read_study, write_study  # noqa: E402
+from tread_post.study_table import Row, Study, read_study, study_text  # noqa: E402
 
 TREAD = os.environ["TREAD"]
 
@@ -180,7 +181,7 @@ class Fronts(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "study.csv"
             rows = self.rows((0.08, math.nan, 0.002)) + self.rows((0.02, 0.01, 1e-12), "sinkage")
-            write_study(path, ["Of a wheel", "on sand"], ["grid.spacing", "time.substeps"], rows)
+            path.write_text(study_text(["Of a wheel", "on sand"], ["grid.spacing", "time.substeps"], rows), encoding="utf-8")
             study = read_study(path)
             self.assertEqual((study.comments, study.keys, study.quantities), (["Of a wheel", "on sand"], ["grid.spacing", "time.substeps"], ["torque", "sinkage"]))
             skipped = {"error": 0, "scatter": 0, "noise": 0}  # NaN is not itself
@@ -400,6 +401,23 @@ class Studies(unittest.TestCase):
         done = self.study("--vary", "time.dt=2e-2,1e-3", "--set", "time.substeps=2", "--output", "out", code=3)
         self.assertRegex(done.stdout, r"variant 0000: exit 3: .*substeps")
         self.assertEqual([(row["state"], row["error"] != "") for row in self.rows("out")], [("failed", False), ("done", True)])
+
+    def test_a_damaged_variant_is_told(self):
+        """Whether its series cannot be read, or its summary has other types: one failed row, and the others are compared."""
+        options = ("--vary", "time.dt=4e-3,2e-3,1e-3", "--output", "out")
+        self.study(*options)
+        run = self.directory / "out" / "variants" / "cases" / "0001" / "run"
+        series, summary = (run / "timeseries.h5").read_bytes(), (run / "summary.json").read_text(encoding="utf-8")
+        for name, damaged in (("timeseries.h5", series[:96] + bytes(len(series) - 96)), ("timeseries.h5", b""),
+                              ("summary.json", json.dumps(json.loads(summary) | {"wall_s": "fast"}).encode())):
+            with self.subTest(name=name, length=len(damaged)):
+                (run / name).write_bytes(damaged)
+                done = self.study(*options, code=3)
+                self.assertRegex(done.stdout, "2 done, 1 failed\nvariant 0001: .*(cannot be compared|no whole HDF5 file)")
+                self.assertEqual([(row["state"], row["error"] != "") for row in self.rows("out")], [("done", True), ("failed", False), ("done", True)])
+                self.assertIn("\n# variant 0001: ", (self.directory / "out" / "study.csv").read_text(encoding="utf-8"))
+                (run / "timeseries.h5").write_bytes(series)
+                (run / "summary.json").write_text(summary, encoding="utf-8")
 
     def test_dry_run_writes_nothing(self):
         done = self.study("--vary", "time.dt=2e-3,1e-3", "--dry-run")
