@@ -23,6 +23,14 @@ void check_mpi(int result, const char* what)
 namespace
 {
 
+/// Those of `all` that are on the machine of this one, which is `rank` among all. The caller frees it.
+MPI_Comm ranks_of_machine(MPI_Comm all, int rank)
+{
+    MPI_Comm machine = MPI_COMM_NULL;
+    check_mpi(MPI_Comm_split_type(all, MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &machine), "split by machine");
+    return machine;
+}
+
 std::int64_t reduce(MPI_Comm communicator, std::int64_t value, MPI_Op operation)
 {
     std::int64_t result = 0;
@@ -121,12 +129,21 @@ void Communicator::abort(ExitCode code) const
 
 int Communicator::local_rank() const
 {
-    MPI_Comm machine = MPI_COMM_NULL;
+    MPI_Comm machine = ranks_of_machine(native_, rank_);
     int      rank    = 0;
-    check_mpi(MPI_Comm_split_type(native_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine), "split by machine");
     MPI_Comm_rank(machine, &rank);
     MPI_Comm_free(&machine);
     return rank;
+}
+
+int Communicator::local_size() const
+{
+    if (size_ == 1) { return 1; }
+    MPI_Comm machine = ranks_of_machine(native_, rank_);
+    int      size    = 1;
+    MPI_Comm_size(machine, &size);
+    MPI_Comm_free(&machine);
+    return size;
 }
 
 std::string Communicator::broadcast(const std::string& text, int from) const

@@ -59,6 +59,9 @@ public:
     /// This rank's number among those on its machine.
     int local_rank() const;
 
+    /// How many ranks are on its machine.
+    int local_size() const;
+
     /// to[r] goes to rank r; of every rank what it had for this one.
     std::vector<std::int64_t>               all_to_all(const std::vector<std::int64_t>& to) const;
     std::vector<std::vector<std::uint64_t>> all_to_all(const std::vector<std::vector<std::uint64_t>>& to) const;

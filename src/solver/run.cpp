@@ -1,10 +1,8 @@
 #include "solver/run.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -26,6 +24,7 @@
 #include "solver/page_loads.hpp"
 #include "solver/plausibility.hpp"
 #include "solver/rank_devices.hpp"
+#include "solver/threads.hpp"
 #ifdef TREAD_WITH_CUDA
 #include "backend/device.hpp"
 #endif
@@ -37,15 +36,6 @@ namespace
 
 /// How long a rank that has failed waits for the others to fail, too.
 constexpr double patience = 10; // s
-
-/// Threads for this process: asked for, or OMP_NUM_THREADS, or the cores over the ranks of this machine.
-int choose_threads(const Communicator& communicator, int asked)
-{
-    if (asked > 0) { return asked; }
-    if (std::getenv("OMP_NUM_THREADS") != nullptr) { return omp_get_max_threads(); }
-    const int cores = static_cast<int>(std::thread::hardware_concurrency());
-    return std::max(1, cores / communicator.size());
-}
 
 enum class Backend
 {
