@@ -13,10 +13,11 @@ import unittest
 
 from campaign_fixture import ROOT, CampaignTest
 
-sys.path.insert(0, str(ROOT / "jobs"))
+sys.path[:0] = [str(ROOT / "jobs"), str(ROOT / "postprocess")]
 
 from made_up_run import RESOLUTION, make_run  # noqa: E402
 from tread_jobs.files import number_of, printable, write_text  # noqa: E402
+from tread_post import Run, RunError  # noqa: E402
 
 SUMMARY = {"status": "finished", "wall_s": 1.5, "steps": 100, "errors": {"mass": 1e-12}, "resolution": RESOLUTION, "warnings": ["gravity points up"]}
 HOW = {"means": "local", "site": "", "at_once": 2, "gpus": 0}
@@ -36,6 +37,16 @@ class Files(unittest.TestCase):
         self.assertEqual((printable(None), number_of(3), number_of(None) != number_of(None)), ("None", 3.0, True))
         for value in ("fast", [1.0], {}, "1"):
             self.assertRaises(TypeError, number_of, value)
+
+
+class Runs(unittest.TestCase):
+    def test_what_is_no_text_is_an_error_of_the_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            for name in ("scene.toml", "summary.json"):
+                (path / name).write_bytes(b"\xff")
+            for read, words in ((lambda: Run(path).scene, "scene.toml: .*utf-8"), (lambda: Run(path).summary, "summary.json: .*utf-8")):
+                self.assertRaisesRegex(RunError, words, read)
 
 
 class Damage(CampaignTest):
