@@ -51,7 +51,8 @@ def case_states(directory, quiet_for):
     """CaseState by case name. An attempt on another machine that SLURM does not know counts as stale after `quiet_for` s without a sign of life."""
     entries = directory.entries()
     queue = _queue(directory)
-    return {entry.name: _state(directory.cases / entry.name, queue, entry.name, quiet_for) for entry in entries}
+    states = {entry.name: _state(directory.cases / entry.name, queue, entry.name, quiet_for) for entry in entries}
+    return {name: CaseState(one.state, printable(one.reason), printable(one.tail)) for name, one in states.items()}
 
 
 def summary_text(states):
@@ -98,7 +99,7 @@ def _state(case, queue, name, quiet_for):
     if not attempt:
         return CaseState(NOT_STARTED, "", "")
     if attempt.code == EARLY:
-        return CaseState(STOPPED, printable((summary or {}).get("reason", "before its first step")), "")
+        return CaseState(STOPPED, (summary or {}).get("reason", "before its first step"), "")
     return CaseState(FAILED, _reason(attempt, summary), _tail(case))
 
 
@@ -160,7 +161,7 @@ def _attempts(path):
 
 def _reason(attempt, summary):
     if summary and summary.get("exit_code"):
-        return f"exit {attempt.code}: {printable(summary.get('reason'))}"
+        return f"exit {attempt.code}: {summary.get('reason')}"
     if attempt.code > 128:
         number = attempt.code - 128
         name = signal.Signals(number).name if number in set(signal.Signals) else f"signal {number}"
@@ -178,5 +179,5 @@ def _tail(case):
         except OSError:
             continue
         if lines:
-            return printable("\n".join(lines[-TAIL:]))
+            return "\n".join(lines[-TAIL:])
     return ""
