@@ -5,19 +5,17 @@ Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
 """
 
 import argparse
+import os
 import sys
 from collections import Counter
 from pathlib import Path
 
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "jobs"))
-
 import drives
 import sinkage_slip
 import slices
 import slip_curves
-from tread_jobs.files import printable, write_text
 from tread_post import RunError
 from tread_post.campaign import CampaignTable
 from tread_post.page import figure, headline_paragraph, page, paragraph, preformatted, section, table
@@ -132,7 +130,7 @@ def drawn(name, draw, *of):
     try:
         return draw(*of)
     except DAMAGE as error:
-        return paragraph(f"{name} cannot be drawn: {printable(words_of(error))}")
+        return paragraph(f"{name} cannot be drawn: {words_of(error)}")
 
 
 def curves_of(campaign):
@@ -198,11 +196,21 @@ def report_of(campaign):
                                  axes_of(campaign), failures_of(campaign), provenance_of(campaign)])
 
 
+def replace(path, page_text):
+    """Replaces the page in one step: who reads it finds the old one or the new one. What UTF-8 cannot hold becomes a question mark."""
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        temporary.write_text(page_text, encoding="utf-8", errors="replace")
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
 def main():
     options = arguments()
     campaign = CampaignTable(options.campaign)
     output = options.output or options.campaign / "report.html"
-    write_text(output, report_of(campaign))
+    replace(output, report_of(campaign))
     print(output)
 
 

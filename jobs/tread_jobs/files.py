@@ -19,7 +19,7 @@ def write_text(path, text):
 
 
 def read_text(path):
-    """Of a file that others wrote; U+FFFD stands for bytes that are no UTF-8."""
+    """Reads a file that others wrote; U+FFFD stands for bytes that are no UTF-8."""
     return path.read_text(encoding="utf-8", errors="replace")
 
 

@@ -23,7 +23,7 @@ void check_mpi(int result, const char* what)
 namespace
 {
 
-/// Those of `all` that are on the machine of this one, which is `rank` among all. The caller frees it.
+/// Splits `all` by machine and returns the part of this rank, which is `rank` in `all`. The caller frees it.
 MPI_Comm ranks_of_machine(MPI_Comm all, int rank)
 {
     MPI_Comm machine = MPI_COMM_NULL;

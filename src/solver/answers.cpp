@@ -169,7 +169,7 @@ void add_share(std::vector<io::Answer>& quantities)
                                                pull.standard_error / load, std::nullopt});
 }
 
-/// A wheel that does not turn has no slip, one that carries nothing no share of its load.
+/// Removes quantities that are not defined: a wheel that does not turn has no slip, one without load no share of it.
 void leave_out_unknown(std::vector<io::Answer>& quantities)
 {
     std::erase_if(quantities, [](const io::Answer& answer) { return !std::isfinite(answer.mean); });
@@ -217,7 +217,7 @@ bool is_drive(const scene::Scene& scene, const std::string& body, const io::Phas
                        [&](const scene::Phase& phase) { return phase.name == answers.phase && drives(phase, body); });
 }
 
-/// NaN of a quantity that is left out.
+/// Returns the mean of a quantity, NaN where the answers leave it out.
 double mean_of(const io::PhaseAnswers& phase, const std::string& name)
 {
     const auto found = std::find_if(phase.quantities.begin(), phase.quantities.end(),
