@@ -231,7 +231,7 @@ TREAD_HD Mat3<Real> law_gradient(const PointState<Real>& point, const Mat3<Real>
 {
     const Mat3<Real> change = to_mid_step(gradient, step.dt);
     sums[point_stress_power] += Sum(point.volume * stress_power(point.stress, change));
-    const Mat3<Real> middle = gradient + change;
+    Mat3<Real> middle = gradient + change;
     if (step.cell_divergence == nullptr) { return middle; }
     return middle + (step.cell_divergence[cell] - middle.trace()) * Real(1.0 / 3) * Mat3<Real>::Identity();
 }
