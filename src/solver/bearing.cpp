@@ -22,7 +22,7 @@ Patch chord_patch(const RoundBody& body, double sinkage)
 
 } // namespace
 
-double Patch::side() const { return std::sqrt(length * width); }
+double Patch::area() const { return length * width; }
 
 BearingFactors bearing_factors(double friction_angle_deg)
 {
@@ -42,7 +42,7 @@ Patch bearing_patch(const scene::Material& soil, double gravity, const RoundBody
         const double weight   = soil.density * gravity;
         const double pressure = soil.cohesion * factors.cohesion + weight * patch.sinkage * factors.surcharge +
                                 0.5 * weight * breadth * factors.weight;
-        return pressure * patch.length * patch.width;
+        return pressure * patch.area();
     };
     double low = 0, high = body.radius;
     if (capacity(chord_patch(body, high)) < body.load)

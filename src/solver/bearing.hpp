@@ -32,7 +32,7 @@ struct Patch
     double width;   ///< m
     bool   carried; ///< false: the soil does not carry the load before the body stands in it up to its axle
 
-    double side() const; ///< m, of the square of the same area
+    double area() const; ///< m2
 };
 
 /// Patch on granular soil: the load equals the bearing capacity times the area of the chord of the sinkage, with the

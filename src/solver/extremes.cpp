@@ -75,7 +75,9 @@ void Extremes::note(const TimeStep& step, std::int64_t steps, const PaceLimits& 
 double points_across(const Extremes& extremes, const World& world)
 {
     if (extremes.touched == 0) { return 0; }
-    return std::sqrt(extremes.touching / extremes.touched / static_cast<double>(world.bodies.named));
+    const double points  = extremes.touching / extremes.touched / static_cast<double>(world.bodies.named);
+    const double spacing = world.point_spacing;
+    return patch_side(points * spacing * spacing, world) / spacing;
 }
 
 double contact_cells(const Extremes& extremes, const World& world)

@@ -45,7 +45,8 @@ struct CellBounds
 
 CellBounds cell_bounds(const Plan& plan);
 
-/// Points across the contact patch of a named body, as a square of as many: mean over the time in contact; 0 = none.
+/// Points along a side of the contact patch of a named body (`patch_side`), from the mean number of touched points over
+/// the time in contact; 0 = none.
 double points_across(const Extremes& extremes, const World& world);
 
 /// The same in cells of the grid.

@@ -44,11 +44,12 @@ Prediction predict(const Patch& patch, const World& world, const Plan& plan, con
     const CellBounds bounds   = cell_bounds(plan);
     const double     resolved = cells_needed(bounds.resolved, resolved_error, wheel);
     const double     marginal = cells_needed(bounds.marginal, marginal_error, wheel);
-    const double     cells    = patch.side() / world.geometry.spacing;
-    const double     points   = patch.side() / world.point_spacing;
+    const double     side     = patch_side(patch.area(), world);
+    const double     cells    = side / world.geometry.spacing;
+    const double     points   = side / world.point_spacing;
     if (cells >= resolved) { return {cells, points, io::Verdict::resolved, world.geometry.spacing}; }
-    if (cells >= marginal) { return {cells, points, io::Verdict::marginal, patch.side() / resolved}; }
-    return {cells, points, io::Verdict::under_resolved, patch.side() / marginal};
+    if (cells >= marginal) { return {cells, points, io::Verdict::marginal, side / resolved}; }
+    return {cells, points, io::Verdict::under_resolved, side / marginal};
 }
 
 std::string footing_lines(const scene::Scene& scene, const World& world, const Plan& plan, const Footing& footing)
@@ -56,8 +57,7 @@ std::string footing_lines(const scene::Scene& scene, const World& world, const P
     std::string text = fmt::format("{}: weight {:.4g} N", scene.bodies[footing.body].name, footing.load);
     if (footing.patch && footing.patch->carried)
     {
-        text += fmt::format(", {:.3g} kPa on its contact patch",
-                            1e-3 * footing.load / footing.patch->length / footing.patch->width);
+        text += fmt::format(", {:.3g} kPa on its contact patch", 1e-3 * footing.load / footing.patch->area());
     }
     if (footing.gap) { text += fmt::format(", {:.3g} m above the ground", *footing.gap); }
     if (footing.ground)

@@ -216,6 +216,13 @@ void add_rocks(const scene::Scene& scene, const std::vector<std::vector<RockDraw
 
 } // namespace
 
+double patch_side(double area, const World& world)
+{
+    const auto&  last   = world.grid_walls.last_node;
+    const double narrow = world.geometry.spacing * std::min(last[0], last[1]);
+    return std::max(std::sqrt(area), area / narrow);
+}
+
 int material_index(const scene::Scene& scene, const std::string& name)
 {
     const auto at = std::find_if(scene.materials.begin(), scene.materials.end(),

@@ -96,6 +96,10 @@ struct World
 /// another, a wall or the sand (unless it replaces it), a shape over 100 times the domain, a region too small.
 World build_world(const scene::Scene& scene);
 
+/// Side of a contact patch on the bed, m: of the square of the same area, or, where the domain is narrower than that
+/// square (a slab in plane strain), of the rectangle across the domain.
+double patch_side(double area, const World& world);
+
 /// Index of a material by its name.
 int material_index(const scene::Scene& scene, const std::string& name);
 

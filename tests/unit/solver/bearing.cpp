@@ -67,7 +67,7 @@ TEST(Bearing, ElasticGroundFollowsHertz)
     const double star = 1e7 / 0.91;
     const Patch  ball = hertz_patch(ground, {0.1, 0, 50});
     EXPECT_NEAR(ball.sinkage, std::pow(std::pow(0.75 * 50 / star, 2) / 0.1, 1.0 / 3), 1e-12);
-    EXPECT_NEAR(ball.side() * ball.side(), std::numbers::pi * 0.1 * ball.sinkage, 1e-12);
+    EXPECT_NEAR(ball.area(), std::numbers::pi * 0.1 * ball.sinkage, 1e-12);
     const Patch wheel = hertz_patch(ground, {0.1, 0.2, 50});
     EXPECT_NEAR(0.5 * wheel.length, std::sqrt(4 * 250 * 0.1 / (std::numbers::pi * star)), 1e-12);
 }

@@ -78,6 +78,20 @@ TEST(Extremes, MeasureTheContactPatch)
     EXPECT_NEAR(run.figure("contact_cells")->value, 0.5 * std::sqrt(52.0), 1e-12);
 }
 
+/// A patch as wide as the domain is a strip: its length counts, not the square of the same area.
+TEST(Extremes, MeasureTheContactPatchOfASlab)
+{
+    Rolled       run(test::roller_text);
+    const double spacing = run.world.geometry.spacing;
+    EXPECT_NEAR(patch_side(9 * spacing * spacing, run.world), 3 * spacing, 1e-12);
+    run.world.grid_walls.last_node[1] = 2;
+    EXPECT_NEAR(patch_side(26 * spacing * spacing, run.world), 13 * spacing, 1e-12);
+    EXPECT_EQ(patch_side(0, run.world), 0);
+    // 8 points a cell are two across it: a strip of 2 x 13 cells.
+    run.extremes.note({1e-3, 1, ""}, 1, run.limits, {}, touching(4 * 26, 0));
+    EXPECT_NEAR(run.figure("contact_cells")->value, 13, 1e-12);
+}
+
 TEST(Extremes, SayNothingOfWhatTheSceneHasNot)
 {
     const Rolled sand(test::sand_text);
