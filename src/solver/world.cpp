@@ -218,8 +218,7 @@ void add_rocks(const scene::Scene& scene, const std::vector<std::vector<RockDraw
 
 double patch_side(double area, const World& world)
 {
-    const auto&  last   = world.grid_walls.last_node;
-    const double narrow = world.geometry.spacing * std::min(last[0], last[1]);
+    const double narrow = std::min(world.geometry.size[0], world.geometry.size[1]);
     return std::max(std::sqrt(area), area / narrow);
 }
 

@@ -84,7 +84,7 @@ TEST(Extremes, MeasureTheContactPatchOfASlab)
     Rolled       run(test::roller_text);
     const double spacing = run.world.geometry.spacing;
     EXPECT_NEAR(patch_side(9 * spacing * spacing, run.world), 3 * spacing, 1e-12);
-    run.world.grid_walls.last_node[1] = 2;
+    run.world.geometry.size[1] = 2 * spacing;
     EXPECT_NEAR(patch_side(26 * spacing * spacing, run.world), 13 * spacing, 1e-12);
     EXPECT_EQ(patch_side(0, run.world), 0);
     // 8 points a cell are two across it: a strip of 2 x 13 cells.
