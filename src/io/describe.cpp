@@ -1,17 +1,22 @@
 #include "io/describe.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/errors.hpp"
 #include "io/h5.hpp"
+#include "io/in_child.hpp"
 
 namespace tread::io
 {
 
 namespace
 {
+
+constexpr std::size_t most_values = 1000; ///< of an attribute that is shown
 
 std::string type_name(hid_t type)
 {
@@ -45,12 +50,28 @@ std::string text_value(const h5::Handle& attribute, const h5::Handle& type)
     return value;
 }
 
+/// The same without what a terminal would obey.
+std::string printable(const std::string& text)
+{
+    std::string shown;
+    for (const char c : text)
+    {
+        const auto byte  = static_cast<unsigned char>(c);
+        const bool plain = byte >= 0x20 ? byte != 0x7f : c == '\n' || c == '\t';
+        shown += plain ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
+    }
+    return shown;
+}
+
 std::string attribute_value(const h5::Handle& attribute)
 {
     const h5::Handle type{H5Aget_type(attribute.id()), H5Tclose};
     const h5::Handle space{H5Aget_space(attribute.id()), H5Sclose};
     const auto       count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id()));
-    if (H5Tget_class(type.id()) == H5T_STRING) { return count == 1 ? text_value(attribute, type) : "?"; }
+    const auto       kind  = H5Tget_class(type.id());
+    if (kind == H5T_STRING) { return count == 1 ? printable(text_value(attribute, type)) : "?"; }
+    if (kind != H5T_INTEGER && kind != H5T_FLOAT) { return "?"; }
+    if (count > most_values) { return fmt::format("{} values", count); }
     std::vector<double> values(count);
     if (H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, values.data()) < 0) { return "?"; }
     return fmt::format("{}", fmt::join(values, " "));
@@ -59,7 +80,7 @@ std::string attribute_value(const h5::Handle& attribute)
 herr_t add_attribute(hid_t object, const char* name, const H5A_info_t*, void* text)
 {
     const h5::Handle attribute{H5Aopen(object, name, H5P_DEFAULT), H5Aclose};
-    *static_cast<std::string*>(text) += fmt::format("  {} = {}", name, attribute_value(attribute));
+    *static_cast<std::string*>(text) += fmt::format("  {} = {}", printable(name), attribute_value(attribute));
     return 0;
 }
 
@@ -67,7 +88,7 @@ std::string dataset_shape(hid_t dataset)
 {
     const h5::Handle     space{H5Dget_space(dataset), H5Sclose};
     const h5::Handle     type{H5Dget_type(dataset), H5Tclose};
-    std::vector<hsize_t> size(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.id())));
+    std::vector<hsize_t> size(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.id()))));
     H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
     return fmt::format("  [{}] {}", fmt::join(size, ", "), type_name(type.id()));
 }
@@ -78,7 +99,7 @@ herr_t add_object(hid_t file, const char* name, const H5O_info_t* info, void* te
     const h5::Handle object{H5Oopen(file, name, H5P_DEFAULT), H5Oclose};
     std::string&     lines = *static_cast<std::string*>(text);
 
-    lines += is_root ? "/" : fmt::format("/{}", name);
+    lines += is_root ? "/" : fmt::format("/{}", printable(name));
     if (info->type == H5O_TYPE_GROUP && !is_root) { lines += "/"; }
     if (info->type == H5O_TYPE_DATASET) { lines += dataset_shape(object.id()); }
     H5Aiterate2(object.id(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add_attribute, &lines);
@@ -86,26 +107,26 @@ herr_t add_object(hid_t file, const char* name, const H5O_info_t* info, void* te
     return 0;
 }
 
-h5::File open_input(const std::string& path)
+} // namespace
+
+std::string describe_here(const std::string& path)
+{
+    const h5::File file = h5::File::open(path);
+    std::string    text;
+    h5::checked(H5Ovisit(file.id(), H5_INDEX_NAME, H5_ITER_NATIVE, add_object, &text), path, "listing the file");
+    return text;
+}
+
+std::string describe_file(const std::string& path)
 {
     try
     {
-        return h5::File::open(path);
+        return run_in_child(path, [&] { return describe_here(path); });
     }
     catch (const EnvironmentError& error)
     {
         throw InputError(error.what());
     }
-}
-
-} // namespace
-
-std::string describe_file(const std::string& path)
-{
-    const h5::File file = open_input(path);
-    std::string    text;
-    h5::checked(H5Ovisit(file.id(), H5_INDEX_NAME, H5_ITER_NATIVE, add_object, &text), path, "listing the file");
-    return text;
 }
 
 } // namespace tread::io
