@@ -6,17 +6,50 @@
 
 #include <fmt/format.h>
 
+#include "base/errors.hpp"
+#include "io/describe.hpp"
 #include "io/h5.hpp"
+#include "io/in_child.hpp"
 
 namespace tread::io
 {
+namespace
+{
+
+constexpr const char* series_schema = "tread-timeseries";
+
+} // namespace
+
+void require_series(const std::string& path, const std::string& checkpoint)
+{
+    const auto look = [&]
+    {
+        describe_here(path);
+        const h5::File file = h5::File::open_received(path);
+        return h5::read_text_attribute(file, "/", "schema");
+    };
+    std::string schema;
+    try
+    {
+        schema = run_in_child(path, look);
+    }
+    catch (const EnvironmentError& error)
+    {
+        throw EnvironmentError(
+            fmt::format("{}: the checkpoint cannot be used: run/timeseries: {}", checkpoint, error.what()));
+    }
+    if (schema == series_schema) { return; }
+    throw EnvironmentError(fmt::format("{}: the checkpoint cannot be used: run/timeseries: its schema is \"{}\"; "
+                                       "accepted: \"{}\"",
+                                       checkpoint, schema, series_schema));
+}
 
 TimeSeries::TimeSeries(std::string path, const Provenance& provenance, SeriesFile series)
     : path_(std::move(path))
 {
     if (series == SeriesFile::continued) { return; }
     h5::File file = h5::File::create(path_);
-    h5::write_attribute(file, "/", "schema", std::string("tread-timeseries"));
+    h5::write_attribute(file, "/", "schema", std::string(series_schema));
     h5::write_attribute(file, "/", "schema_version", std::vector<std::int64_t>{1, 0});
     write_provenance(file, provenance);
     file.close();
@@ -29,8 +62,12 @@ void TimeSeries::add_table(const std::string& group, std::vector<Column> columns
     if (!there) { h5::create_group(file, group); }
     for (const Column& column : columns)
     {
-        if (there) { break; }
         const std::string name = group + "/" + column.name;
+        if (there)
+        {
+            h5::require_growing(file, name, column.width);
+            continue;
+        }
         h5::create_growing(file, name, column.width);
         h5::write_attribute(file, name, "units", column.unit);
     }

@@ -22,6 +22,10 @@ enum class SeriesFile
     continued ///< as it is; rows follow those that are there
 };
 
+/// EnvironmentError unless a file, which came within a checkpoint, is a time series whose tables can be continued. Its
+/// contents would else be whatever other file it names.
+void require_series(const std::string& path, const std::string& checkpoint);
+
 /// timeseries.h5: a data set for every column of every table, one row a time. Of one process. The file is closed
 /// between flushes, so that it can be read while the run goes on. EnvironmentError when it cannot be written.
 class TimeSeries

@@ -13,10 +13,16 @@ void Simulation<Exec, Real>::transfer(StateFile& file)
     if (balance_ && file.exact()) { transfer_balance(file); }
     if (sand_) { sand_->transfer(file, world_.points); }
     if (rigid_) { rigid_->transfer(file); }
-    if (coupling_) { coupling_->transfer(file, rigid_->view()); }
+    if (coupling_)
+    {
+        coupling_->transfer(
+            file, rigid_->view(),
+            {world_.bodies.size(), static_cast<std::size_t>(sand_->view().count), world_.points.size()});
+    }
     file.doubles("simulation/pace", pace_);
     file.doubles("simulation/extremes", extremes_);
-    file.numbers("simulation/steps", unbalanced_, damping_, last_.dt, last_.substeps, last_time_, measure_every_);
+    file.numbers("simulation/steps", unbalanced_, damping_, accept::number(last_.dt, 0, accept::largest),
+                 last_.substeps, last_time_, accept::number(measure_every_, 1, most_unmeasured));
     file.doubles("simulation/ledger", *ledger_);
     if (guard_) { guard_->transfer(file); }
 }
@@ -24,8 +30,9 @@ void Simulation<Exec, Real>::transfer(StateFile& file)
 template<class Exec, class Real>
 void Simulation<Exec, Real>::transfer_balance(StateFile& file)
 {
-    auto state = balance_->state();
-    file.common("ranks/loads", state.row.loads);
+    auto       state = balance_->state();
+    const auto ranks = static_cast<std::size_t>(file.communicator().size());
+    file.common("ranks/loads", state.row.loads, accept::all(accept::rows(ranks), accept::not_negative()));
     file.numbers("ranks/balance", state.row.imbalance, state.row.repartitions, state.row.points_moved,
                  state.partitioned, state.not_before, steps_, arranged_);
     if (file.loads()) { balance_->resume(std::move(state)); }
