@@ -30,9 +30,11 @@ void Simulation<Exec, Real>::transfer(StateFile& file)
 template<class Exec, class Real>
 void Simulation<Exec, Real>::transfer_balance(StateFile& file)
 {
-    auto       state = balance_->state();
-    const auto ranks = static_cast<std::size_t>(file.communicator().size());
-    file.common("ranks/loads", state.row.loads, accept::all(accept::rows(ranks), accept::not_negative()));
+    auto       state       = balance_->state();
+    const auto ranks       = static_cast<std::size_t>(file.communicator().size());
+    const auto none_or_all = [ranks](const std::vector<double>& loads)
+    { return loads.empty() ? accept::Verdict{} : accept::rows(ranks)(loads); };
+    file.common("ranks/loads", state.row.loads, accept::all(none_or_all, accept::not_negative()));
     file.numbers("ranks/balance", state.row.imbalance, state.row.repartitions, state.row.points_moved,
                  state.partitioned, state.not_before, steps_, arranged_);
     if (file.loads()) { balance_->resume(std::move(state)); }
