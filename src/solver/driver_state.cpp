@@ -196,7 +196,7 @@ void Driver<Exec, Real>::transfer_files(StateFile& file)
         io::write_atomically(received, std::string(bytes.begin(), bytes.end()));
         try
         {
-            io::require_series(received, options_.checkpoint);
+            io::require_series(received, series_tables(scene_, communicator_.size()), options_.checkpoint);
         }
         catch (...)
         {

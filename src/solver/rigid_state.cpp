@@ -182,9 +182,9 @@ void Rigid<Exec>::transfer_means(StateFile& file)
 {
     std::vector<dem::ContactImpulse> impulses     = impulses_.to_host();
     const auto                       named        = static_cast<std::size_t>(named_);
-    const auto                       of_each_rank = [named](const auto& values)
+    const auto                       of_each_rank = [named, own = file.exact()](const auto& values)
     {
-        const bool whole = named == 0 ? values.empty() : values.size() % named == 0;
+        const bool whole = own || named == 0 ? values.size() == named : values.size() % named == 0;
         return whole ? accept::Verdict{} : accept::rows(named)(values);
     };
     file.own_or_all("bodies/impulse", impulses, accept::all(of_each_rank, accept::finite()));

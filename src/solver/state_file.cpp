@@ -20,6 +20,7 @@ void StateFile::row_of_numbers(const std::string& name, std::vector<double>& row
     }
     const auto read = [&]
     {
+        require_a_row_each(name);
         row = reader_->read<double>(name, columns, exact() ? communicator_.rank() : 0, 1);
         for (std::size_t i = 0; i < row.size(); ++i)
         {
@@ -30,6 +31,22 @@ void StateFile::row_of_numbers(const std::string& name, std::vector<double>& row
         }
     };
     on_every_rank(communicator_, read);
+}
+
+/// Every rank has written one row.
+void StateFile::require_a_row_each(const std::string& name) const
+{
+    const std::vector<std::int64_t> first = reader_->first_rows(name);
+    const auto                      ranks = static_cast<std::int64_t>(first.size()) - 1;
+    for (std::int64_t rank = 0; rank < ranks; ++rank)
+    {
+        const auto own = first[static_cast<std::size_t>(rank) + 1] - first[static_cast<std::size_t>(rank)];
+        if (own != 1) { refuse(name, {-1, fmt::format("{} rows of rank {}", own, rank), "1"}); }
+    }
+    if (exact() && ranks != communicator_.size())
+    {
+        refuse(name, {-1, fmt::format("rows of {} ranks", ranks), fmt::format("of {}", communicator_.size())});
+    }
 }
 
 void StateFile::text(const std::string& name, std::string& value)

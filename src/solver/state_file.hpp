@@ -215,6 +215,7 @@ private:
 
     Share rows_of_rank(const std::string& name) const;
     Share all_of(const std::string& name) const;
+    void  require_a_row_each(const std::string& name) const;
     void  require_total(const std::string& name, const Share& rows) const;
 
     const Communicator&         communicator_;

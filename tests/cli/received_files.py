@@ -158,8 +158,7 @@ class ReceivedFiles(RestartTest):
             self.assertEqual((result.returncode, result.stdout), (2, ""), result.stderr)
             self.assertIn(word, result.stderr)
             bed = ON_BED.replace("bed.h5", str(path))
-            result = self.run_scene(bed, self.directory / "new", code=2)
-            self.assertIn(word, result.stderr)
+            self.assertIn("accepted: bed.h5 of a run", self.run_scene(bed, self.directory / "new", code=2).stderr)
 
     def test_a_run_directory_of_pipes_is_not_waited_for(self):
         self.run_scene(SCENE, self.output, EVERY_FEW_STEPS)

@@ -22,10 +22,10 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 from checkpoint_file import HEAD_BYTES, edited, seal  # noqa: E402
 from command import TREAD  # noqa: E402
+from forged_files import ASLEEP  # noqa: E402
 from restart_test import BODIES, MIXED, lasting  # noqa: E402
 
-SLEEP = "[sleep]\ndistance = 0.05\nrest = 0.001\nspeed = 1.0\n"
-SCENES = {"sand and a rock": lasting(MIXED, 0.03), "rocks": lasting(BODIES, 0.1), "sleeping sand": lasting(MIXED, 0.03) + SLEEP}
+SCENES = [lasting(MIXED, 0.03), lasting(BODIES, 0.1), ASLEEP]
 SPECIAL = [0.0, -0.0, 1.0, -1.0, 1e-300, 1e30, 1e300, -1e300, float("nan"), float("inf"), -float("inf")]
 FINE = {0, 2, 3, 4}
 TIMEOUT, MEMORY = 60, 4 << 30  # s, bytes
@@ -81,13 +81,13 @@ def try_one(folder, seed, scene, original):
 def originals(folder):
     """Scene and a checkpoint, of each."""
     found = []
-    for number, text in enumerate(SCENES.values()):
+    for number, text in enumerate(SCENES):
         scene, output = folder / f"scene{number}.toml", folder / f"original{number}"
         scene.write_text(text)
         code, _ = run(scene, "--output", output, "--set=checkpoint.every_steps=5")
         if code != 0:
             sys.exit(f"{scene}: exit code {code}")
-        found.append((scene, sorted((output / "checkpoints").glob("*.h5"))[0]))
+        found.append((scene, sorted((output / "checkpoints").glob("*.h5"))[-1]))
     return found
 
 
