@@ -16,6 +16,8 @@ namespace
 
 constexpr double freedoms = dem::lock_all | dem::hangs; ///< all bits of BodiesView::locked
 constexpr double furthest = 1e6;                        ///< m, that a body may be from the domain's corner
+constexpr double fastest  = 1e6;                        ///< m/s and rad/s: steps that follow faster bodies never end
+constexpr double shortest = 1e-10;                      ///< s, sqrt(m / K) of a body with contacts of stiffness K
 
 /// What was asked of a named body last, as doubles.
 struct CommandRow
@@ -47,6 +49,39 @@ std::optional<BodyCommand> command_of(const CommandRow& row)
     if (row.has_forward != 0) { command.forward = row.forward; }
     if (row.has_lowering != 0) { command.lowering = {row.lowering[0], row.lowering[1], row.lowering[2]}; }
     return command;
+}
+
+/// Accepts contact stiffnesses of bodies that do not ask for endless substeps.
+auto accepted_stiffness(const HostBodies& bodies)
+{
+    const auto most = [&bodies](std::size_t b) { return bodies.mass[b] / (shortest * shortest); };
+    return accept::each_at([most](std::size_t b, double value) { return 0 <= value && value <= most(b); },
+                           [most](std::size_t b) { return fmt::format("0 to {}", most(b)); });
+}
+
+/// Accepts what a field of the bodies may hold; `present` is what the scene gives: sizes, shapes and materials stay.
+template<class T>
+auto accepted_field(std::string_view name, std::vector<T> present, const HostBodies& bodies)
+{
+    return [name, &bodies, present = std::move(present)](const std::vector<T>& values) -> accept::Verdict
+    {
+        if (auto refusal = accept::rows(present.size())(values)) { return refusal; }
+        if constexpr (std::is_same_v<T, std::uint32_t>) { return accept::within(0, freedoms)(values); }
+        else if constexpr (std::is_same_v<T, std::int32_t>)
+        {
+            return name == "damped" ? accept::within(0, 1)(values) : accept::same_as(present)(values);
+        }
+        else if constexpr (std::is_same_v<T, Quat>) { return accept::unit_quaternions()(values); }
+        else if constexpr (std::is_same_v<T, double>)
+        {
+            if (name == "stiffness") { return accepted_stiffness(bodies)(values); }
+            return name == "weight" ? accept::finite()(values) : accept::same_as(present)(values);
+        }
+        else if (name == "inertia") { return accept::same_as(present)(values); }
+        else if (name == "position") { return accept::within(-furthest, furthest)(values); }
+        else if (name == "force" || name == "torque") { return accept::finite()(values); }
+        else { return accept::within(-fastest, fastest)(values); }
+    };
 }
 
 /// Accepts commands that a named body can have been given.
@@ -111,35 +146,15 @@ auto accepted_nodes(const World& world, const std::vector<std::uint64_t>& keys, 
 
 } // namespace
 
-/// Sizes, shapes and materials are those of the scene.
 template<class Exec>
 void Rigid<Exec>::transfer_bodies(StateFile& file)
 {
-    const auto bound = [&]<class T>(std::string_view name, std::vector<T> present)
-    {
-        return [name, present = std::move(present)](const std::vector<T>& values) -> accept::Verdict
-        {
-            if (auto refusal = accept::rows(present.size())(values)) { return refusal; }
-            if constexpr (std::is_same_v<T, std::uint32_t>) { return accept::within(0, freedoms)(values); }
-            else if constexpr (std::is_same_v<T, std::int32_t>)
-            {
-                return name == "damped" ? accept::within(0, 1)(values) : accept::same_as(present)(values);
-            }
-            else if constexpr (std::is_same_v<T, Quat>) { return accept::unit_quaternions()(values); }
-            else if (name == "mass" || name == "inertia" || name == "scale")
-            {
-                return accept::same_as(present)(values);
-            }
-            else if (name == "position") { return accept::within(-furthest, furthest)(values); }
-            else { return name == "stiffness" ? accept::not_negative()(values) : accept::finite()(values); }
-        };
-    };
     bodies_.for_each_field(
-        [&](const char* name, auto& array)
+        [&](std::string_view name, auto& array)
         {
             auto present = array.to_host();
             if (!file.loads()) { present.clear(); }
-            file.common(fmt::format("bodies/{}", name), array, bound(name, std::move(present)));
+            file.common(fmt::format("bodies/{}", name), array, accepted_field(name, std::move(present), world_.bodies));
         });
 }
 

@@ -5,6 +5,12 @@
 
 namespace tread::solver
 {
+namespace
+{
+
+constexpr double largest_speed = 1e7; ///< m/s: steps that follow a larger one never end
+
+} // namespace
 
 /// Bodies in the order that Simulation::step uses them in: contact wants places of points and bodies.
 template<class Exec, class Real>
@@ -19,7 +25,9 @@ void Simulation<Exec, Real>::transfer(StateFile& file)
             file, rigid_->view(),
             {world_.bodies.size(), static_cast<std::size_t>(sand_->view().count), world_.points.size()});
     }
-    file.doubles("simulation/pace", pace_);
+    file.numbers("simulation/pace", accept::number(pace_.largest_speed, 0, largest_speed),
+                 accept::number(pace_.stiffest_point, 0, accept::largest),
+                 accept::number(pace_.shortest_contact, 0, accept::largest), pace_.overlap);
     file.doubles("simulation/extremes", extremes_);
     file.numbers("simulation/steps", unbalanced_, damping_, accept::number(last_.dt, 0, accept::largest),
                  last_.substeps, last_time_, accept::number(measure_every_, 1, most_unmeasured));
