@@ -61,7 +61,7 @@ void write_all(int to, std::string_view text)
         std::signal(number, SIG_DFL);
     }
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, limits.seconds);
+    limit(RLIMIT_CPU, limits.busy);
     limit(RLIMIT_AS, address_space() + limits.bytes);
     int code = 0;
     try
@@ -80,7 +80,7 @@ void write_all(int to, std::string_view text)
 bool read_all(int from, std::string& text, const ChildLimits& limits)
 {
     using Clock           = std::chrono::steady_clock;
-    const auto        end = Clock::now() + std::chrono::seconds(2 * limits.seconds);
+    const auto        end = Clock::now() + std::chrono::seconds(limits.wall);
     std::vector<char> part(std::size_t{1} << 16);
     while (text.size() <= limits.text)
     {

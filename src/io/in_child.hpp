@@ -10,9 +10,10 @@ namespace tread::io
 /// What a child process may take.
 struct ChildLimits
 {
-    int          seconds = 20;                    ///< of processor time, and twice as many of wall time
-    std::int64_t bytes   = std::int64_t{1} << 30; ///< of memory beyond what this process has
-    std::size_t  text    = std::size_t{64} << 20; ///< of the answer
+    int          busy  = 10;                    ///< s, of processor time
+    int          wall  = 60;                    ///< s: disks may be slow
+    std::int64_t bytes = std::int64_t{1} << 30; ///< of memory beyond what this process has
+    std::size_t  text  = std::size_t{64} << 20; ///< of the answer
 };
 
 /// Runs `work` in a copy of this process and returns the text that it returns: a library that crashes, loops or takes

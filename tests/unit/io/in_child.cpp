@@ -49,9 +49,9 @@ TEST(InChild, ItsEndIsNotOurs)
         {
             for (;;) { std::this_thread::sleep_for(std::chrono::seconds(1)); }
         },
-        {1, std::int64_t{1} << 30, 1000});
+        {1, 1, std::int64_t{1} << 30, 1000});
     EXPECT_EQ(too_long, "that: takes too long or too much; the file is damaged");
-    const std::string too_much = error_of([] { return std::string(2000, 'x'); }, {1, std::int64_t{1} << 30, 1000});
+    const std::string too_much = error_of([] { return std::string(2000, 'x'); }, {1, 1, std::int64_t{1} << 30, 1000});
     EXPECT_EQ(too_much, too_long);
 }
 
