@@ -1,14 +1,17 @@
 #include "io/bed_file.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "base/regular_file.hpp"
+#include "io/accept.hpp"
+#include "io/describe.hpp"
 #include "io/files.hpp"
 #include "io/h5.hpp"
+#include "io/in_child.hpp"
 
 namespace tread::io
 {
@@ -79,6 +82,37 @@ void write_points(const h5::File& file, const BedPoints& points)
     write_with_unit(file, "/points/plastic_shear", points.plastic_shear, 1, "1");
 }
 
+[[noreturn]] void refuse(const std::string& path, const std::string& what)
+{
+    throw EnvironmentError(fmt::format("{}: the bed cannot be used: {}", path, what));
+}
+
+/// The rows of a data set, of which there must be so many, and whose values must keep the bound.
+template<class T, class Bound>
+std::vector<T> read_rows(const h5::File& file, const std::string& name, int width, std::size_t rows,
+                         const Bound& accepted)
+{
+    std::vector<T>    values = h5::read<T>(file, name, width);
+    const auto        size   = static_cast<std::size_t>(width);
+    const std::size_t found  = values.size() / size;
+    if (found != rows)
+    {
+        refuse(file.path(), fmt::format("{}: {} rows; accepted: {}, as of what stands beside it", name, found, rows));
+    }
+    if (const accept::Verdict refusal = accepted(values))
+    {
+        refuse(file.path(),
+               fmt::format("{} row {}: {}; accepted: {}", name, refusal->row / static_cast<std::int64_t>(size),
+                           refusal->value, refusal->accepted));
+    }
+    return values;
+}
+
+std::size_t rows_of(const h5::File& file, const std::string& name)
+{
+    return static_cast<std::size_t>(h5::count_rows(file, name));
+}
+
 BedPoints read_points(const h5::File& file)
 {
     BedPoints points;
@@ -91,80 +125,75 @@ BedPoints read_points(const h5::File& file)
         points.materials.push_back(
             {h5::read_text_attribute(file, group, "name"), number("density"), number("young"), number("poisson")});
     }
-    points.material      = h5::read<std::int32_t>(file, "/points/material", 1);
-    points.position      = h5::read<double>(file, "/points/position", 3);
-    points.volume        = h5::read<double>(file, "/points/volume", 1);
-    points.mass          = h5::read<double>(file, "/points/mass", 1);
-    points.stress        = h5::read<double>(file, "/points/stress", 6);
-    points.plastic_shear = h5::read<double>(file, "/points/plastic_shear", 1);
+    const std::size_t count     = rows_of(file, "/points/material");
+    const auto        materials = accept::index(points.materials.size());
+
+    points.material      = read_rows<std::int32_t>(file, "/points/material", 1, count, materials);
+    points.position      = read_rows<double>(file, "/points/position", 3, count, accept::finite());
+    points.volume        = read_rows<double>(file, "/points/volume", 1, count, accept::positive());
+    points.mass          = read_rows<double>(file, "/points/mass", 1, count, accept::positive());
+    points.stress        = read_rows<double>(file, "/points/stress", 6, count, accept::finite());
+    points.plastic_shear = read_rows<double>(file, "/points/plastic_shear", 1, count, accept::finite());
     return points;
 }
 
-[[noreturn]] void refuse(const std::string& path, const char* what)
+/// Accepts quaternions of unit length, four numbers each.
+accept::Verdict unit_quaternions(const std::vector<double>& values)
 {
-    throw EnvironmentError(fmt::format("{}: the bed is damaged: {}", path, what));
+    for (std::size_t q = 0; q < values.size(); q += 4)
+    {
+        const auto   turn   = values.begin() + static_cast<std::ptrdiff_t>(q);
+        const double square = std::inner_product(turn, turn + 4, turn, 0.0);
+        if (std::abs(square - 1) <= 1e-9) { continue; }
+        return accept::Refusal{static_cast<std::int64_t>(q), fmt::format("a length of {}", std::sqrt(square)),
+                               "a quaternion of length 1"};
+    }
+    return {};
 }
 
-void require_rows(const std::string& path, std::size_t rows, const std::vector<std::size_t>& sizes)
+void read_rocks(const h5::File& file, BedFile& bed)
 {
-    if (std::any_of(sizes.begin(), sizes.end(), [&](std::size_t size) { return size != rows; }))
-    {
-        refuse(path, "its columns have not the same length");
-    }
+    const std::size_t count = rows_of(file, "/rocks/kind");
+    bed.kind                = read_rows<std::int32_t>(file, "/rocks/kind", 1, count, accept::index(bed.kinds.size()));
+    bed.position            = read_rows<double>(file, "/rocks/position", 3, count, accept::finite());
+    bed.orientation         = read_rows<double>(file, "/rocks/orientation", 4, count, unit_quaternions);
+    bed.scale               = read_rows<double>(file, "/rocks/scale", 1, count, accept::positive());
+    bed.diameter            = read_rows<double>(file, "/rocks/diameter", 1, count, accept::positive());
 }
 
-void require_points_in_range(const std::string& path, const BedPoints& points)
+/// Accepts pairs of a rock and another after it, or a wall: two numbers each.
+auto pairs_of(std::size_t rocks)
 {
-    const auto finite   = [](double value) { return std::isfinite(value); };
-    const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
-    const auto known    = [&](std::int32_t material)
-    { return material >= 0 && static_cast<std::size_t>(material) < points.materials.size(); };
-    const auto all = [](const auto& values, const auto& holds)
-    { return std::all_of(values.begin(), values.end(), holds); };
-    if (!all(points.material, known)) { refuse(path, "a point is of no material"); }
-    if (!all(points.position, finite) || !all(points.stress, finite) || !all(points.plastic_shear, finite) ||
-        !all(points.volume, positive) || !all(points.mass, positive))
+    return [rocks](const std::vector<std::int32_t>& values) -> accept::Verdict
     {
-        refuse(path, "a point has no finite place, size or stress");
-    }
-}
-
-void require_in_range(const std::string& path, const BedFile& bed)
-{
-    const auto         finite   = [](double value) { return std::isfinite(value); };
-    const auto         positive = [](double value) { return std::isfinite(value) && value > 0; };
-    const BedContacts& contacts = bed.contacts;
-    const auto         all      = [](const auto& values, const auto& holds)
-    { return std::all_of(values.begin(), values.end(), holds); };
-    const auto known = [&](std::int32_t kind)
-    { return kind >= 0 && static_cast<std::size_t>(kind) < bed.kinds.size(); };
-    if (!all(bed.kind, known)) { refuse(path, "a rock is of no kind"); }
-    if (!all(bed.position, finite) || !all(bed.orientation, finite) || !all(bed.scale, positive) ||
-        !all(bed.diameter, positive))
-    {
-        refuse(path, "a rock has no finite place or size");
-    }
-    for (std::size_t q = 0; q < bed.orientation.size(); q += 4)
-    {
-        const auto turn = bed.orientation.begin() + static_cast<std::ptrdiff_t>(q);
-        if (std::abs(std::inner_product(turn, turn + 4, turn, 0.0) - 1) > 1e-9)
+        constexpr std::int64_t walls = 6;
+        const auto             count = static_cast<std::int64_t>(rocks);
+        for (std::size_t i = 0; i < values.size(); i += 2)
         {
-            refuse(path, "a rock's orientation is no unit quaternion");
+            const std::int64_t a = values[i], b = values[i + 1];
+            if (a >= 0 && a < b && a < count && b < count + walls) { continue; }
+            return accept::Refusal{
+                static_cast<std::int64_t>(i), fmt::format("{} and {}", a, b),
+                fmt::format("one of 0 to {}, and a later one up to {}", count - 1, count + walls - 1)};
         }
-    }
-    constexpr std::int64_t walls = 6;
-    const auto             count = static_cast<std::int64_t>(bed.size());
-    for (std::size_t i = 0; i < contacts.stiffness.size(); ++i)
-    {
-        const std::int64_t a = contacts.pair[2 * i], b = contacts.pair[2 * i + 1];
-        if (a < 0 || a >= b || a >= count || b >= count + walls) { refuse(path, "a contact names no pair"); }
-    }
-    for (const auto* values :
-         {&contacts.tangential, &contacts.normal, &contacts.torsion, &contacts.stiffness, &contacts.twist_stiffness,
-          &contacts.place, &contacts.rolling, &contacts.rolling_stiffness})
-    {
-        if (!all(*values, finite)) { refuse(path, "a contact is not finite"); }
-    }
+        return {};
+    };
+}
+
+void read_contacts(const h5::File& file, std::size_t rocks, BedContacts& contacts)
+{
+    const std::size_t count = rows_of(file, "/contacts/stiffness");
+    const auto        read  = [&](const char* name, int width, const auto& accepted)
+    { return read_rows<double>(file, fmt::format("/contacts/{}", name), width, count, accepted); };
+    contacts.pair              = read_rows<std::int32_t>(file, "/contacts/pair", 2, count, pairs_of(rocks));
+    contacts.tangential        = read("tangential", 3, accept::finite());
+    contacts.normal            = read("normal", 3, accept::finite());
+    contacts.torsion           = read("torsion", 1, accept::finite());
+    contacts.stiffness         = read("stiffness", 1, accept::not_negative());
+    contacts.twist_stiffness   = read("twist_stiffness", 1, accept::not_negative());
+    contacts.place             = read("place", 3, accept::finite());
+    contacts.rolling           = read("rolling", 3, accept::finite());
+    contacts.rolling_stiffness = read("rolling_stiffness", 1, accept::not_negative());
 }
 
 } // namespace
@@ -199,37 +228,15 @@ void write_bed(const std::string& path, const BedFile& bed, const Provenance& pr
 
 BedFile read_bed(const std::string& path)
 {
-    const h5::File file = h5::File::open(path);
+    if (const auto why = irregularity(path)) { throw EnvironmentError(fmt::format("{}: {}", path, *why)); }
+    run_in_child(path, [&] { return describe_here(path).substr(0, 0); });
+    const h5::File file = h5::File::open_received(path);
     if (h5::read_text_attribute(file, "/", "format") != format_name) { refuse(path, "it has another format"); }
     BedFile bed;
-    bed.kinds       = read_kinds(file);
-    bed.kind        = h5::read<std::int32_t>(file, "/rocks/kind", 1);
-    bed.position    = h5::read<double>(file, "/rocks/position", 3);
-    bed.orientation = h5::read<double>(file, "/rocks/orientation", 4);
-    bed.scale       = h5::read<double>(file, "/rocks/scale", 1);
-    bed.diameter    = h5::read<double>(file, "/rocks/diameter", 1);
-    require_rows(path, bed.size(),
-                 {bed.position.size() / 3, bed.orientation.size() / 4, bed.scale.size(), bed.diameter.size()});
-    BedContacts& contacts      = bed.contacts;
-    contacts.pair              = h5::read<std::int32_t>(file, "/contacts/pair", 2);
-    contacts.tangential        = h5::read<double>(file, "/contacts/tangential", 3);
-    contacts.normal            = h5::read<double>(file, "/contacts/normal", 3);
-    contacts.torsion           = h5::read<double>(file, "/contacts/torsion", 1);
-    contacts.stiffness         = h5::read<double>(file, "/contacts/stiffness", 1);
-    contacts.twist_stiffness   = h5::read<double>(file, "/contacts/twist_stiffness", 1);
-    contacts.place             = h5::read<double>(file, "/contacts/place", 3);
-    contacts.rolling           = h5::read<double>(file, "/contacts/rolling", 3);
-    contacts.rolling_stiffness = h5::read<double>(file, "/contacts/rolling_stiffness", 1);
-    require_rows(path, contacts.stiffness.size(),
-                 {contacts.pair.size() / 2, contacts.tangential.size() / 3, contacts.normal.size() / 3,
-                  contacts.torsion.size(), contacts.twist_stiffness.size(), contacts.place.size() / 3,
-                  contacts.rolling.size() / 3, contacts.rolling_stiffness.size()});
-    require_in_range(path, bed);
+    bed.kinds = read_kinds(file);
+    read_rocks(file, bed);
+    read_contacts(file, bed.size(), bed.contacts);
     bed.points = read_points(file);
-    require_rows(path, bed.points.volume.size(),
-                 {bed.points.material.size(), bed.points.position.size() / 3, bed.points.mass.size(),
-                  bed.points.stress.size() / 6, bed.points.plastic_shear.size()});
-    require_points_in_range(path, bed.points);
     return bed;
 }
 

@@ -1,5 +1,6 @@
 #include "io/checkpoint_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -8,10 +9,14 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/errors.hpp"
+#include "base/regular_file.hpp"
 #include "io/checksum.hpp"
+#include "io/describe.hpp"
 #include "io/files.hpp"
+#include "io/in_child.hpp"
 
 namespace tread::io
 {
@@ -63,7 +68,6 @@ std::string temporary(const std::string& path) { return path + ".tmp"; }
 /// What needs no look at the bytes behind the head.
 std::optional<std::string> damage_of_head(const std::string& path, const std::optional<Head>& head)
 {
-    if (!std::filesystem::is_regular_file(path)) { return "there is no such file"; }
     if (!head) { return "it is no checkpoint, or its first bytes are damaged"; }
     const std::int64_t bytes = bytes_of(path);
     if (bytes != head->bytes) { return fmt::format("it has {} bytes of {}", bytes, head->bytes); }
@@ -72,9 +76,10 @@ std::optional<std::string> damage_of_head(const std::string& path, const std::op
 
 std::optional<std::string> damage_of_schema(const std::string& path)
 {
-    const h5::File file    = h5::File::open(path);
+    const h5::File file    = h5::File::open_received(path);
     const auto     version = h5::read_numbers_attribute(file, "/", "schema_version");
     if (version.size() == 2 && version[0] <= schema[0]) { return {}; }
+    if (version.size() != 2) { return "its schema is none of this program's"; }
     return fmt::format("its schema is {}.{}, and this program (schema {}.{}) is older", version.at(0), version.at(1),
                        schema[0], schema[1]);
 }
@@ -165,7 +170,15 @@ std::int64_t CheckpointWriter::finish()
 
 std::vector<std::int64_t> CheckpointReader::first_rows(const std::string& name) const
 {
-    return h5::read_numbers_attribute(file_, name, io::first_rows);
+    const std::vector<std::int64_t> first = h5::read_numbers_attribute(file_, name, io::first_rows);
+    const std::int64_t              rows  = h5::count_rows(file_, name);
+    if (first.size() > 1 && first.front() == 0 && first.back() == rows && std::is_sorted(first.begin(), first.end()))
+    {
+        return first;
+    }
+    throw EnvironmentError(fmt::format("{}: the checkpoint cannot be used: {} of {}: {}; accepted: numbers that ascend "
+                                       "from 0 to {}, its rows",
+                                       path(), io::first_rows, name, fmt::join(first, ", "), rows));
 }
 
 std::optional<std::string> damage_of(const Communicator& communicator, const std::string& path)
@@ -173,7 +186,11 @@ std::optional<std::string> damage_of(const Communicator& communicator, const std
     try
     {
         std::string         found;
-        std::optional<Head> head = head_of(path);
+        std::optional<Head> head;
+        on_root(communicator, [&] { found = irregularity(path).value_or(""); });
+        found = communicator.broadcast(found);
+        if (!found.empty()) { return found; }
+        head = head_of(path);
         on_root(communicator, [&] { found = damage_of_head(path, head).value_or(""); });
         found = communicator.broadcast(found);
         if (!found.empty()) { return found; }
@@ -181,7 +198,18 @@ std::optional<std::string> damage_of(const Communicator& communicator, const std
         {
             return "its bytes have changed since it was written (checksum)";
         }
-        on_root(communicator, [&] { found = damage_of_schema(path).value_or(""); });
+        const auto look = [&]
+        {
+            // What reads all of its structure and texts, so that it crashes there if anywhere.
+            found = run_in_child(path,
+                                 [&]
+                                 {
+                                     auto damage = damage_of_schema(path);
+                                     if (!damage) { describe_here(path); }
+                                     return damage.value_or("");
+                                 });
+        };
+        on_root(communicator, look);
         found = communicator.broadcast(found);
         return found.empty() ? std::nullopt : std::optional<std::string>(found);
     }

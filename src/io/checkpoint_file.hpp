@@ -50,7 +50,7 @@ class CheckpointReader
 {
 public:
     explicit CheckpointReader(const std::string& path)
-        : file_(h5::File::open(path))
+        : file_(h5::File::open_received(path))
     {
     }
 
@@ -58,7 +58,7 @@ public:
 
     bool holds(const std::string& name) const { return h5::holds(file_, name); }
 
-    /// [ranks + 1]: the rows of each rank that wrote.
+    /// [ranks + 1]: the rows of each rank that wrote, ascending from 0 to how many there are. EnvironmentError.
     std::vector<std::int64_t> first_rows(const std::string& name) const;
 
     template<class T>

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "base/errors.hpp"
+#include "base/regular_file.hpp"
 
 namespace tread::io
 {
@@ -98,6 +99,7 @@ void require_space(const std::string& path, std::int64_t bytes)
 
 std::string read_file(const std::string& path)
 {
+    if (const auto why = irregularity(path)) { throw EnvironmentError(fmt::format("{}: {}", path, *why)); }
     std::ifstream file(path, std::ios::binary);
     std::string   bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
     if (!file) { throw EnvironmentError(fmt::format("{}: cannot be read", path)); }

@@ -23,7 +23,7 @@ void flush_to_disk(const std::string& path);
 /// the file system cannot take them at once, what it says is free counts.
 void require_space(const std::string& path, std::int64_t bytes);
 
-/// All bytes of a file. EnvironmentError.
+/// All bytes of a regular file. EnvironmentError.
 std::string read_file(const std::string& path);
 
 } // namespace tread::io

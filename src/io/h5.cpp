@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "base/regular_file.hpp"
 #include "io/h5_parts.hpp"
 
 namespace tread::io::h5
@@ -111,10 +112,18 @@ File File::append(const std::string& path)
 File File::open(const std::string& path)
 {
     silence();
+    if (const auto why = irregularity(path)) { throw EnvironmentError(fmt::format("{}: {}", path, *why)); }
     const Handle access = property_list(H5P_FILE_ACCESS);
     H5Pset_file_locking(access.id(), false, true);
     const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id());
     return {checked(id, path, "opening the file"), path, property_list(H5P_DATASET_XFER)};
+}
+
+File File::open_received(const std::string& path)
+{
+    File file = open(path);
+    require_self_contained(file);
+    return file;
 }
 
 void File::close() { check(H5Fclose(handle_.release()), *this, "closing the file"); }

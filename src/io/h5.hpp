@@ -61,7 +61,12 @@ public:
     /// For more rows. Takes no file lock: a reader that has the file open must not end the run.
     static File append(const std::string& path);
 
+    /// To be read. EnvironmentError unless it is a regular file.
     static File open(const std::string& path);
+
+    /// The same of a file that may come from anywhere. EnvironmentError unless all that it holds is its own: links that
+    /// lead to other files or by name, storage in other files, filters and huge chunks are refused.
+    static File open_received(const std::string& path);
 
     /// Reports what the destructor could not: data that never reached the disk.
     void close();
@@ -104,13 +109,20 @@ void write(const File& file, const std::string& name, const std::vector<T>& valu
     write(file, name, values, width, Rows{count, 0, count});
 }
 
-/// What `write` wrote, by this process alone. The data set must have `width` columns.
+/// What `write` wrote, by this process alone. The data set must have `width` columns, of numbers of T's kind, and no
+/// more values than the file and the free memory have room for.
 template<class T>
 std::vector<T> read(const File& file, const std::string& name, int width);
 
 /// The same of `count` rows from `first` on.
 template<class T>
 std::vector<T> read_rows(const File& file, const std::string& name, int width, hsize_t first, hsize_t count);
+
+/// Rows of a data set.
+std::int64_t count_rows(const File& file, const std::string& name);
+
+/// EnvironmentError unless a data set grows by append_rows: its own storage in chunks, doubles, `width` columns.
+void require_growing(const File& file, const std::string& name, int width);
 
 /// Whether there is an object of that path.
 bool holds(const File& file, const std::string& name);

@@ -28,6 +28,9 @@ hid_t type_of()
     }
 }
 
+/// EnvironmentError unless a file holds all that it shows (h5_received.cpp).
+void require_self_contained(const File& file);
+
 inline Handle property_list(hid_t kind) { return {H5Pcreate(kind), H5Pclose}; }
 
 inline std::vector<hsize_t> shape(hsize_t rows, int width)

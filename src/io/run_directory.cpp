@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/regular_file.hpp"
 #include "io/files.hpp"
 
 namespace tread::io
@@ -40,6 +41,12 @@ std::string in_the_way(const fs::path& directory)
         if (fs::exists(directory / name, none)) { return name; }
     }
     return {};
+}
+
+/// Of a file, if it is one.
+std::optional<std::string> text_of(const fs::path& path)
+{
+    return irregularity(path.string()) ? std::nullopt : std::optional<std::string>(read_file(path.string()));
 }
 
 // The first directory that create_directories would make: what to remove if the run cannot start after all.
@@ -80,6 +87,7 @@ RunDirectory RunDirectory::create(const Communicator& communicator, const std::s
 {
     const fs::path directory = normal(path);
     fs::path       missing;
+    Before         before;
     const auto     make = [&]
     {
         if (existing == Existing::refuse && tread::io::holds_run(directory))
@@ -95,7 +103,15 @@ RunDirectory RunDirectory::create(const Communicator& communicator, const std::s
                                          "another place",
                                          directory.string(), name));
         }
-        missing = first_missing(directory);
+        missing           = first_missing(directory);
+        before.missing    = missing.string();
+        before.resumed    = existing == Existing::resume;
+        before.had_a_lock = fs::exists(directory / lock_file);
+        if (before.resumed)
+        {
+            before.scene   = text_of(directory / scene_file);
+            before.summary = text_of(directory / summary_file);
+        }
         fs::create_directories(directory);
     };
     const auto usable = [&](const auto& work)
@@ -122,8 +138,29 @@ RunDirectory RunDirectory::create(const Communicator& communicator, const std::s
     }
     on_root(communicator, [&] { usable([&] { prepare(directory, existing, resolved_scene); }); });
     RunDirectory made(directory.string());
-    made.lock_ = std::move(lock);
+    made.lock_   = std::move(lock);
+    made.before_ = std::move(before);
     return made;
+}
+
+void RunDirectory::undo() const
+{
+    std::error_code none;
+    const fs::path  directory = path_;
+    if (!before_.missing.empty())
+    {
+        fs::remove_all(before_.missing, none);
+        return;
+    }
+    if (before_.resumed)
+    {
+        if (before_.scene) { write_atomically(scene(), *before_.scene); }
+        if (before_.summary) { write_atomically(summary(), *before_.summary); }
+        return;
+    }
+    fs::remove(directory / scene_file, none);
+    for (const char* name : run_files) { fs::remove_all(directory / name, none); }
+    if (!before_.had_a_lock) { fs::remove(directory / lock_file, none); }
 }
 
 RunDirectory RunDirectory::at(const std::string& path) { return RunDirectory(normal(path).string()); }

@@ -33,6 +33,10 @@ public:
     /// The same without making anything: where a run would be, or is.
     static RunDirectory at(const std::string& path);
 
+    /// Takes back what create() has made and done, as far as it can: a new directory goes, in one that was there the
+    /// run's files; a run to be gone on with has its scene.toml and summary.json again. What was overwritten is gone.
+    void undo() const;
+
     /// Of a file: as seen from the directory, if it is in it.
     std::string within(const std::string& file) const;
 
@@ -54,8 +58,18 @@ private:
     {
     }
 
+    /// What was there before create().
+    struct Before
+    {
+        std::string                missing; ///< the first directory that was not; empty = all were
+        bool                       resumed    = false;
+        bool                       had_a_lock = false;
+        std::optional<std::string> scene, summary; ///< of a run that is gone on with
+    };
+
     std::string                  path_;
     std::optional<DirectoryLock> lock_;
+    Before                       before_;
 };
 
 } // namespace tread::io

@@ -6,37 +6,82 @@
 
 #include <fmt/format.h>
 
+#include "base/errors.hpp"
+#include "io/describe.hpp"
 #include "io/h5.hpp"
+#include "io/in_child.hpp"
 
 namespace tread::io
 {
+namespace
+{
+
+constexpr const char* series_schema = "tread-timeseries";
+
+void require_growing(const h5::File& file, const SeriesTable& table)
+{
+    for (const Column& column : table.columns)
+    {
+        h5::require_growing(file, table.group + "/" + column.name, column.width);
+    }
+}
+
+} // namespace
+
+void require_series(const std::string& path, const std::vector<SeriesTable>& tables, const std::string& checkpoint)
+{
+    const auto look = [&]
+    {
+        describe_here(path);
+        const h5::File file = h5::File::open_received(path);
+        for (const SeriesTable& table : tables)
+        {
+            if (h5::holds(file, table.group)) { require_growing(file, table); }
+        }
+        return h5::read_text_attribute(file, "/", "schema");
+    };
+    std::string schema;
+    try
+    {
+        schema = run_in_child(path, look);
+    }
+    catch (const EnvironmentError& error)
+    {
+        throw EnvironmentError(
+            fmt::format("{}: the checkpoint cannot be used: run/timeseries: {}", checkpoint, error.what()));
+    }
+    if (schema == series_schema) { return; }
+    throw EnvironmentError(fmt::format("{}: the checkpoint cannot be used: run/timeseries: its schema is \"{}\"; "
+                                       "accepted: \"{}\"",
+                                       checkpoint, schema, series_schema));
+}
 
 TimeSeries::TimeSeries(std::string path, const Provenance& provenance, SeriesFile series)
     : path_(std::move(path))
 {
     if (series == SeriesFile::continued) { return; }
     h5::File file = h5::File::create(path_);
-    h5::write_attribute(file, "/", "schema", std::string("tread-timeseries"));
+    h5::write_attribute(file, "/", "schema", std::string(series_schema));
     h5::write_attribute(file, "/", "schema_version", std::vector<std::int64_t>{1, 0});
     write_provenance(file, provenance);
     file.close();
 }
 
-void TimeSeries::add_table(const std::string& group, std::vector<Column> columns)
+void TimeSeries::add_table(const SeriesTable& table)
 {
-    h5::File   file  = h5::File::append(path_);
-    const bool there = h5::holds(file, group);
-    if (!there) { h5::create_group(file, group); }
-    for (const Column& column : columns)
+    h5::File file = h5::File::append(path_);
+    if (!h5::holds(file, table.group))
     {
-        if (there) { break; }
-        const std::string name = group + "/" + column.name;
-        h5::create_growing(file, name, column.width);
-        h5::write_attribute(file, name, "units", column.unit);
+        h5::create_group(file, table.group);
+        for (const Column& column : table.columns)
+        {
+            const std::string name = table.group + "/" + column.name;
+            h5::create_growing(file, name, column.width);
+            h5::write_attribute(file, name, "units", column.unit);
+        }
     }
     file.close();
-    const std::size_t count = columns.size();
-    tables_[group]          = {std::move(columns), std::vector<std::vector<double>>(count)};
+    tables_[table.group] = {table.columns, std::vector<std::vector<double>>(table.columns.size())};
 }
 
 void TimeSeries::append(const std::string& group, const std::vector<double>& values)

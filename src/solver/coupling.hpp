@@ -10,6 +10,14 @@ namespace tread::solver
 
 class StateFile;
 
+/// How many there are of what contacts name.
+struct ContactPartners
+{
+    std::size_t bodies;
+    std::size_t points; ///< of this rank, awake: places in memory
+    std::size_t ids;    ///< of the scene
+};
+
 /// Contact of the sand with the bodies of a scene, on one backend.
 template<class Exec, class Real>
 class Coupling
@@ -56,15 +64,17 @@ public:
     const contact::Summary& summary() const { return summary_; }
 
     /// What contacts remember, and the candidates, into a checkpoint or out of it, after the sand and the bodies.
-    void transfer(StateFile& file, const dem::BodiesView& bodies);
+    void transfer(StateFile& file, const dem::BodiesView& bodies, const ContactPartners& partners);
 
 private:
     bool any_near() const { return contact_.candidates.body.size() > 0; }
 
     std::vector<contact::HistoryRecord> remembered();
 
-    void transfer_records(StateFile& file, std::vector<contact::HistoryRecord>& records);
-    void transfer_candidates(StateFile& file, const dem::BodiesView& bodies);
+    void transfer_records(StateFile& file, std::vector<contact::HistoryRecord>& records,
+                          const ContactPartners& partners);
+    void transfer_candidates(StateFile& file, const dem::BodiesView& bodies, const ContactPartners& partners);
+    void transfer_slots(StateFile& file, const ContactPartners& partners);
 
     Exec                            exec_;
     contact::PointContact<Exec>     contact_;

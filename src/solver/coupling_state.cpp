@@ -1,3 +1,7 @@
+#include <limits>
+
+#include <fmt/format.h>
+
 #include "solver/coupling.hpp"
 #include "solver/state_file.hpp"
 
@@ -6,17 +10,21 @@ namespace tread::solver
 {
 
 template<class Exec, class Real>
-void Coupling<Exec, Real>::transfer(StateFile& file, const dem::BodiesView& bodies)
+void Coupling<Exec, Real>::transfer(StateFile& file, const dem::BodiesView& bodies, const ContactPartners& partners)
 {
-    file.numbers("contact/steps", used_, version_, begun_);
+    const double nobody = -1, last = static_cast<double>(partners.bodies) - 1;
+    const auto   body = [&](std::int32_t& value) { return accept::number(value, nobody, last); };
+    file.numbers("contact/steps", accept::number(used_, 0, accept::largest), version_,
+                 accept::number(begun_, 0, 0)); // a step that has begun is not saved
     file.numbers("contact/summary", summary_.live, summary_.live_named, summary_.energy, summary_.dissipated,
-                 summary_.stiffest.value, summary_.stiffest.body, summary_.stiffest.point_id, summary_.deepest.value,
-                 summary_.deepest.body, summary_.deepest.point_id, summary_.flattest.value, summary_.flattest.body,
-                 summary_.flattest.point_id);
+                 summary_.stiffest.value, body(summary_.stiffest.body), summary_.stiffest.point_id,
+                 summary_.deepest.value, body(summary_.deepest.body), summary_.deepest.point_id,
+                 accept::number(summary_.flattest.value, 0, std::numeric_limits<double>::infinity()),
+                 body(summary_.flattest.body), summary_.flattest.point_id);
     std::vector<contact::HistoryRecord> records;
     if (!file.loads()) { records = remembered(); }
-    transfer_records(file, records);
-    if (file.exact()) { transfer_candidates(file, bodies); }
+    transfer_records(file, records, partners);
+    if (file.exact()) { transfer_candidates(file, bodies, partners); }
     if (!file.loads()) { return; }
     if (!file.exact())
     {
@@ -39,7 +47,8 @@ std::vector<contact::HistoryRecord> Coupling<Exec, Real>::remembered()
 }
 
 template<class Exec, class Real>
-void Coupling<Exec, Real>::transfer_records(StateFile& file, std::vector<contact::HistoryRecord>& records)
+void Coupling<Exec, Real>::transfer_records(StateFile& file, std::vector<contact::HistoryRecord>& records,
+                                            const ContactPartners& partners)
 {
     std::vector<std::uint64_t>       keys;
     std::vector<contact::Tangential> tangential;
@@ -48,8 +57,12 @@ void Coupling<Exec, Real>::transfer_records(StateFile& file, std::vector<contact
         keys.push_back(record.key);
         tangential.push_back(record.tangential);
     }
-    file.own_or_all("contact/key", keys);
-    file.own_or_all("contact/tangential", tangential);
+    const auto names_a_pair = [&](std::uint64_t key)
+    { return key >> 36 < partners.bodies && contact::point_of(key) < partners.ids && (key & 15) != 0; };
+    const std::string pair =
+        fmt::format("the key of one of {} bodies and one of {} points", partners.bodies, partners.ids);
+    file.own_or_all("contact/key", keys, accept::all(accept::each(pair, names_a_pair), accept::distinct()));
+    file.own_or_all("contact/tangential", tangential, accept::all(accept::rows(keys.size()), accept::finite()));
     records.clear();
     for (std::size_t i = 0; i < keys.size(); ++i) { records.push_back({keys[i], tangential[i]}); }
 }
@@ -57,25 +70,41 @@ void Coupling<Exec, Real>::transfer_records(StateFile& file, std::vector<contact
 /// Pairs that are listed have a place for what they remember whether they do or not; the search that follows files it
 /// under the ids of the points that the last step has copied.
 template<class Exec, class Real>
-void Coupling<Exec, Real>::transfer_candidates(StateFile& file, const dem::BodiesView& bodies)
+void Coupling<Exec, Real>::transfer_candidates(StateFile& file, const dem::BodiesView& bodies,
+                                               const ContactPartners& partners)
 {
-    file.own("candidates/body", contact_.candidates.body);
-    file.own("candidates/point", contact_.candidates.point);
+    std::vector<std::int32_t> body  = contact_.candidates.body.to_host();
+    std::vector<std::int32_t> point = contact_.candidates.point.to_host();
+    file.own("candidates/body", body, accept::all(accept::index(partners.bodies), accept::ascending()));
+    file.own("candidates/point", point, accept::all(accept::rows(body.size()), accept::index(partners.points)));
+    if (file.loads())
+    {
+        contact_.candidates.body.assign(body);
+        contact_.candidates.point.assign(point);
+        contact::resume_candidates(exec_, contact_, bodies, law_);
+    }
+    transfer_slots(file, partners);
+}
+
+/// Before they are loaded, there is a slot for each that the candidates want.
+template<class Exec, class Real>
+void Coupling<Exec, Real>::transfer_slots(StateFile& file, const ContactPartners& partners)
+{
     std::vector<contact::Tangential> tangential = contact_.tangential.to_host();
     std::vector<std::uint32_t>       ids        = contact_.id.to_host();
-    file.own("candidates/tangential", tangential);
-    file.own("candidates/id", ids);
+    const std::size_t                slots = tangential.size(), points = ids.size();
+    file.own("candidates/tangential", tangential, accept::all(accept::rows(slots), accept::finite()));
+    file.own("candidates/id", ids, accept::all(accept::rows(points), accept::index(partners.ids)));
     if (!file.loads()) { return; }
-    contact::resume_candidates(exec_, contact_, bodies, law_);
     contact_.tangential.assign(tangential);
     contact_.id.assign(ids);
 }
 
-template void Coupling<Cpu, float>::transfer(StateFile&, const dem::BodiesView&);
-template void Coupling<Cpu, double>::transfer(StateFile&, const dem::BodiesView&);
+template void Coupling<Cpu, float>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
+template void Coupling<Cpu, double>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
 #ifdef TREAD_WITH_CUDA
-template void Coupling<Gpu, float>::transfer(StateFile&, const dem::BodiesView&);
-template void Coupling<Gpu, double>::transfer(StateFile&, const dem::BodiesView&);
+template void Coupling<Gpu, float>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
+template void Coupling<Gpu, double>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
 #endif
 
 } // namespace tread::solver

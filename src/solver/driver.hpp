@@ -66,6 +66,7 @@ private:
 
     void start();
     void resume();
+    void load_checkpoint();
     void write_checkpoint();
 
     Interruption look_outside();

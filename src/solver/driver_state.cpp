@@ -42,6 +42,18 @@ io::PhaseReport report_of(const std::string& name, const PhaseRow& row)
     return report;
 }
 
+/// Whether a loaded row can be one that was saved.
+bool is_report(const PhaseRow& row)
+{
+    const double kind = row.end;
+    return std::isfinite(row.start) && std::isfinite(row.time) && std::isfinite(row.unbalanced) &&
+           !std::isinf(row.packing_fraction) && kind >= 0 && kind <= static_cast<double>(EndKind::end_of_bed) &&
+           kind == std::floor(kind) && (row.settled == -1 || row.settled == 0 || row.settled == 1);
+}
+
+constexpr double latest     = 1e9;                ///< s of simulated time: some thirty years
+constexpr double most_steps = 9007199254740992.0; ///< 2^53: doubles hold them exactly
+
 constexpr const char* exact_word = "exact";
 
 } // namespace
@@ -79,27 +91,49 @@ void Driver<Exec, Real>::write_checkpoint()
                           checkpoints_.newest, static_cast<double>(bytes) / 1e6, seconds));
 }
 
+/// A checkpoint that is refused leaves the directory as the run found it. What is wrong may be so on one rank alone.
 template<class Exec, class Real>
 void Driver<Exec, Real>::resume()
 {
-    std::unique_ptr<io::CheckpointReader> reader;
-    on_every_rank(communicator_, [&] { reader = std::make_unique<io::CheckpointReader>(options_.checkpoint); });
-    const auto ranks = static_cast<int>(reader->first_rows("simulation/pace").size()) - 1;
-    const bool exact = reader->text("fidelity") == exact_word && ranks == communicator_.size();
-    StateFile  file(communicator_, *reader, exact ? Fidelity::exact : Fidelity::physical);
-    transfer(file);
+    try
+    {
+        load_checkpoint();
+    }
+    catch (...)
+    {
+        recorder_.reset();
+        if (communicator_.rank() == 0) { directory_.undo(); }
+        throw;
+    }
     ++restarts_;
     rows_          = multiples(time_, scene_.output.every);
     snapshots_due_ = multiples(time_, scene_.output.snapshots_every);
     on_root(communicator_, [&] { io::Checkpoints(directory_.checkpoints()).remove_after(steps_); });
+    said_ = standing();
+    if (time_ >= phases_.latest_end() - 5e-10) { pass_on(); } // the scene has made it shorter since
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::load_checkpoint()
+{
+    std::unique_ptr<io::CheckpointReader> reader;
+    on_every_rank(communicator_, [&] { reader = std::make_unique<io::CheckpointReader>(options_.checkpoint); });
+    int  ranks = 0;
+    bool exact = false;
+    on_every_rank(communicator_,
+                  [&]
+                  {
+                      ranks = static_cast<int>(reader->first_rows("simulation/pace").size()) - 1;
+                      exact = reader->text("fidelity") == exact_word && ranks == communicator_.size();
+                  });
+    StateFile file(communicator_, *reader, exact ? Fidelity::exact : Fidelity::physical);
+    transfer(file);
     checkpoints_.newest = directory_.within(options_.checkpoint);
     checkpoints_.bytes += static_cast<std::int64_t>(std::filesystem::file_size(options_.checkpoint)); // it did not know
     ++checkpoints_.written;
     log_.info(fmt::format("goes on from {} at {:.6g} s, step {}, in phase '{}'{}", options_.checkpoint, time_, steps_,
                           phases_.phase().name,
                           exact ? "" : fmt::format(" (written by {} rank(s): the same to rounding)", ranks)));
-    said_ = standing();
-    if (time_ >= phases_.latest_end() - 5e-10) { pass_on(); } // the scene has made it shorter since
 }
 
 template<class Exec, class Real>
@@ -110,14 +144,17 @@ void Driver<Exec, Real>::transfer(StateFile& file)
     phases_.transfer(file);
     clock_.transfer(file);
     double wall = wall_before_ + wall_clock() - wall_start_;
-    file.numbers("run/steps", time_, steps_, substeps_, step_.dt, step_.substeps, warned_, wall, restarts_);
+    file.numbers("run/steps", accept::number(time_, 0, latest), accept::number(steps_, 0, most_steps), substeps_,
+                 accept::number(step_.dt, 0, accept::largest), step_.substeps, warned_, wall, restarts_);
     surface_.transfer(file);
     file.numbers("run/checkpoints", checkpoints_.written, checkpoints_.bytes, checkpoints_.seconds);
     file.text("limit", step_.limit);
     if (file.loads()) { wall_before_ = wall; }
     std::vector<PhaseRow> ended;
     for (const io::PhaseReport& report : ended_) { ended.push_back(row_of(report)); }
-    file.common("run/phases", ended);
+    const auto all_that_ended = [&](const std::vector<PhaseRow>& rows)
+    { return rows.size() == phases_.index() ? accept::Verdict{} : accept::rows(phases_.index())(rows); };
+    file.common("run/phases", ended, accept::all(all_that_ended, accept::each("the report of a phase", is_report)));
     ended_.clear();
     for (std::size_t p = 0; p < ended.size(); ++p) { ended_.push_back(report_of(scene_.phases[p].name, ended[p])); }
     transfer_files(file);
@@ -128,7 +165,7 @@ void Driver<Exec, Real>::require_same_world(StateFile& file) const
 {
     const std::vector<double> here  = measures(world_);
     std::vector<double>       there = here;
-    file.common("run/world", there);
+    file.common("run/world", there, accept::all(accept::rows(here.size()), accept::finite()));
     if (are_same(here, there)) { return; }
     throw InputError(
         fmt::format("{}: the scene builds other points or bodies than when this was written: a file that it "
@@ -137,14 +174,12 @@ void Driver<Exec, Real>::require_same_world(StateFile& file) const
 }
 
 /// The time series goes along as a file: whatever becomes of it later, the rows up to here are safe, and those behind
-/// are gone when the run goes on from here.
+/// are gone when the run goes on from here. Nothing is replaced before all that was loaded is known to be sound.
 template<class Exec, class Real>
 void Driver<Exec, Real>::transfer_files(StateFile& file)
 {
     std::vector<double> times = snapshots_ ? snapshots_->times() : std::vector<double>{};
-    file.common("run/snapshots", times);
-    if (file.loads() && snapshots_) { snapshots_->resume(times); }
-
+    file.common("run/snapshots", times, accept::all(accept::finite(), accept::ascending()));
     std::vector<std::uint8_t> bytes;
     const auto                read = [&]
     {
@@ -153,15 +188,27 @@ void Driver<Exec, Real>::transfer_files(StateFile& file)
         bytes.assign(text.begin(), text.end());
     };
     if (!file.loads()) { on_root(communicator_, read); }
-    file.common("run/timeseries", bytes);
+    file.common("run/timeseries", bytes, accept::anything());
     if (!file.loads()) { return; }
     const auto restore = [&]
     {
-        io::write_atomically(directory_.time_series(), std::string(bytes.begin(), bytes.end()));
+        const std::string received = directory_.time_series() + ".received.tmp";
+        io::write_atomically(received, std::string(bytes.begin(), bytes.end()));
+        try
+        {
+            io::require_series(received, series_tables(scene_, communicator_.size()), options_.checkpoint);
+        }
+        catch (...)
+        {
+            std::filesystem::remove(received);
+            throw;
+        }
+        io::rename_file(received, directory_.time_series());
         recorder_.emplace(directory_, scene_, world_, communicator_.size(), options_.provenance,
                           io::SeriesFile::continued);
     };
     on_root(communicator_, restore);
+    if (snapshots_) { snapshots_->resume(times); }
 }
 
 template void Driver<Cpu, float>::write_checkpoint();

@@ -133,12 +133,13 @@ void PageWatch<Exec>::transfer(StateFile& file, mpm::HeldPages<Exec>& held)
         held_key.push_back(key);
         load.push_back(page.load);
     }
-    file.own("sleep/rest_page", rest_key);
-    file.own("sleep/rest", rest);
-    file.own("sleep/held_page", held_key);
-    file.own("sleep/load", load);
-    file.own("sleep/speeds", speeds_);
-    file.own("sleep/impulse", held.impulse);
+    const auto held_pages = static_cast<std::size_t>(held.impulse.size());
+    file.own("sleep/rest_page", rest_key, accept::all(accept::ascending(), accept::distinct()));
+    file.own("sleep/rest", rest, accept::all(accept::rows(rest_key.size()), accept::not_negative()));
+    file.own("sleep/held_page", held_key, accept::same_as(held_key)); // what was followed follows from the pages
+    file.own("sleep/load", load, accept::all(accept::rows(held_key.size()), accept::finite()));
+    file.own("sleep/speeds", speeds_, accept::all(accept::rows(keys_.size()), accept::not_negative()));
+    file.own("sleep/impulse", held.impulse, accept::all(accept::rows(held_pages), accept::finite()));
     file.numbers("sleep/watch", window_, uncollected_);
     if (!file.loads()) { return; }
     rest_.clear();

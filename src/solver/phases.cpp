@@ -162,9 +162,13 @@ BodyCommand PhaseClock::lower() const
 
 void PhaseClock::transfer(StateFile& file)
 {
-    file.numbers("phases/now", index_, start_, still_since_, ending_.kind, ending_.after, ending_.unbalanced);
+    const auto last = static_cast<double>(scene_.phases.size()) - 1;
+    file.numbers("phases/now", accept::number(index_, 0, last), start_,
+                 accept::number(still_since_, -accept::largest, std::numeric_limits<double>::infinity()),
+                 accept::number(ending_.kind, 0, static_cast<double>(EndKind::end_of_bed)), ending_.after,
+                 ending_.unbalanced);
     file.numbers("phases/carried", carried_.last, carried_.carried, carried_.share);
-    file.common("phases/start_spins", start_spins_);
+    file.common("phases/start_spins", start_spins_, accept::all(accept::rows(start_spins_.size()), accept::finite()));
 }
 
 BodyCommand PhaseClock::command(std::size_t body, double time) const

@@ -37,20 +37,27 @@ std::string group(const scene::Body& body) { return "/wheel/" + body.name; }
 
 } // namespace
 
+std::vector<io::SeriesTable> series_tables(const scene::Scene& scene, int ranks)
+{
+    std::vector<io::SeriesTable> tables;
+    for (const scene::Body& body : scene.bodies) { tables.push_back({group(body), wheel_columns()}); }
+    tables.push_back({"/energy", energy_columns()});
+    tables.push_back(
+        {"/balance", {{"time", 1, "s"}, {"mass", 1, "kg"}, {"momentum", 3, "kg m/s"}, {"impulse_error", 1, "1"}}});
+    tables.push_back({"/phases", {{"index", 1, "1"}, {"start", 1, "s"}}});
+    if (ranks == 1) { return tables; }
+    tables.push_back(
+        {"/ranks", {{"time", 1, "s"}, {"imbalance", 1, "1"}, {"repartitions", 1, "1"}, {"points_moved", 1, "1"}}});
+    return tables;
+}
+
 Recorder::Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const World& world, int ranks,
                    const io::Provenance& provenance, io::SeriesFile file)
     : scene_(scene)
     , rolling_radii_(rolling_radii(scene, world))
     , series_(directory.time_series(), provenance, file)
 {
-    for (const scene::Body& body : scene.bodies) { series_.add_table(group(body), wheel_columns()); }
-    series_.add_table("/energy", energy_columns());
-    series_.add_table("/balance",
-                      {{"time", 1, "s"}, {"mass", 1, "kg"}, {"momentum", 3, "kg m/s"}, {"impulse_error", 1, "1"}});
-    series_.add_table("/phases", {{"index", 1, "1"}, {"start", 1, "s"}});
-    if (ranks == 1) { return; }
-    series_.add_table("/ranks",
-                      {{"time", 1, "s"}, {"imbalance", 1, "1"}, {"repartitions", 1, "1"}, {"points_moved", 1, "1"}});
+    for (const io::SeriesTable& table : series_tables(scene, ranks)) { series_.add_table(table); }
 }
 
 void Recorder::begin_phase(std::size_t index, double time)

@@ -25,6 +25,9 @@ struct BodyRow
     double       surface = 0;      ///< m, height of the terrain under it before bodies came (SurfaceMap)
 };
 
+/// The tables of timeseries.h5.
+std::vector<io::SeriesTable> series_tables(const scene::Scene& scene, int ranks);
+
 /// timeseries.h5 of a run: /wheel/<name>, /energy, /balance, /phases, and on several ranks /ranks.
 class Recorder
 {

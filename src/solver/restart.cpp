@@ -1,5 +1,6 @@
 #include "solver/restart.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/errors.hpp"
+#include "base/regular_file.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/checkpoints.hpp"
 #include "io/files.hpp"
@@ -23,6 +25,8 @@ namespace fs = std::filesystem;
 
 namespace
 {
+
+constexpr double most_phases = 1e6;
 
 /// `source`: whose scene `stored` is.
 void require_same_scene(const std::string& stored, const scene::Scene& scene, std::size_t phase,
@@ -45,11 +49,19 @@ void require_same_scene(const std::string& path, const scene::Scene& scene)
 {
     const io::CheckpointReader reader(path);
     const double               phase = reader.read<double>("phases/now", 6, 0, 1).front();
+    if (!(phase >= 0 && phase <= most_phases && phase == std::floor(phase)))
+    {
+        throw EnvironmentError(
+            fmt::format("{}: the checkpoint cannot be used: phases/now: the phase is {}; accepted: a "
+                        "whole number from 0 to {}",
+                        path, phase, most_phases));
+    }
     require_same_scene(reader.text("scene"), scene, static_cast<std::size_t>(phase), path);
 }
 
 bool is_finished(const io::RunDirectory& directory)
 {
+    if (irregularity(directory.summary())) { return false; }
     std::ifstream file(directory.summary());
     if (!file) { return false; }
     const auto summary = nlohmann::json::parse(file, nullptr, false);

@@ -136,6 +136,7 @@ public:
     void transfer(StateFile& file);
 
 private:
+    void transfer_bodies(StateFile& file);
     void transfer_commands(StateFile& file);
     void transfer_means(StateFile& file);
     void transfer_contacts(StateFile& file);

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,11 @@ namespace tread::solver
 {
 namespace
 {
+
+constexpr double freedoms = dem::lock_all | dem::hangs; ///< all bits of BodiesView::locked
+constexpr double furthest = 1e6;                        ///< m, that a body may be from the domain's corner
+constexpr double fastest  = 1e6;                        ///< m/s and rad/s: steps that follow faster bodies never end
+constexpr double shortest = 1e-10;                      ///< s, sqrt(m / K) of a body with contacts of stiffness K
 
 /// What was asked of a named body last, as doubles.
 struct CommandRow
@@ -44,13 +51,118 @@ std::optional<BodyCommand> command_of(const CommandRow& row)
     return command;
 }
 
+/// Accepts contact stiffnesses of bodies that do not ask for endless substeps.
+auto accepted_stiffness(const HostBodies& bodies)
+{
+    const auto most = [&bodies](std::size_t b) { return bodies.mass[b] / (shortest * shortest); };
+    return accept::each_at([most](std::size_t b, double value) { return 0 <= value && value <= most(b); },
+                           [most](std::size_t b) { return fmt::format("0 to {}", most(b)); });
+}
+
+/// Accepts what a field of the bodies may hold; `present` is what the scene gives: sizes, shapes and materials stay.
+template<class T>
+auto accepted_field(std::string_view name, std::vector<T> present, const HostBodies& bodies)
+{
+    return [name, &bodies, present = std::move(present)](const std::vector<T>& values) -> accept::Verdict
+    {
+        if (auto refusal = accept::rows(present.size())(values)) { return refusal; }
+        if constexpr (std::is_same_v<T, std::uint32_t>) { return accept::within(0, freedoms)(values); }
+        else if constexpr (std::is_same_v<T, std::int32_t>)
+        {
+            return name == "damped" ? accept::within(0, 1)(values) : accept::same_as(present)(values);
+        }
+        else if constexpr (std::is_same_v<T, Quat>) { return accept::unit_quaternions()(values); }
+        else if constexpr (std::is_same_v<T, double>)
+        {
+            if (name == "stiffness") { return accepted_stiffness(bodies)(values); }
+            return name == "weight" ? accept::finite()(values) : accept::same_as(present)(values);
+        }
+        else if (name == "inertia") { return accept::same_as(present)(values); }
+        else if (name == "position") { return accept::within(-furthest, furthest)(values); }
+        else if (name == "force" || name == "torque") { return accept::finite()(values); }
+        else { return accept::within(-fastest, fastest)(values); }
+    };
+}
+
+/// Accepts commands that a named body can have been given.
+auto commands_that_can_be()
+{
+    const auto flag = [](double value) { return value == 0 || value == 1; };
+    return accept::all(accept::finite(), accept::each("a command of a body",
+                                                      [flag](const CommandRow& row)
+                                                      {
+                                                          return flag(row.given) && flag(row.has_spin) &&
+                                                                 flag(row.has_forward) && flag(row.has_lowering) &&
+                                                                 row.locked >= 0 && row.locked <= freedoms &&
+                                                                 row.locked == std::floor(row.locked);
+                                                      }));
+}
+
+/// Nodes of a body's surface.
+std::int64_t nodes_of(const World& world, std::int64_t body)
+{
+    const auto shape = static_cast<std::size_t>(world.bodies.shape[static_cast<std::size_t>(body)]);
+    return static_cast<std::int64_t>(world.templates[shape].nodes.positions.size());
+}
+
+/// Accepts keys of two bodies, or of a body and a wall; where they are listed, in their order.
+auto accepted_keys(const World& world, bool listed)
+{
+    const auto        bodies = static_cast<std::int64_t>(world.bodies.size());
+    const auto        sides  = bodies + static_cast<std::int64_t>(world.planes.size());
+    const std::string pair   = fmt::format("the key of two of {} bodies and walls, the first a body", sides);
+    const auto        is_key = [=](std::uint64_t key)
+    {
+        const std::int64_t a = dem::first_of(key), b = dem::second_of(key);
+        return a < bodies && a < b && b < sides;
+    };
+    return [=](const std::vector<std::uint64_t>& values) -> accept::Verdict
+    {
+        if (auto refusal = accept::each(pair, is_key)(values)) { return refusal; }
+        return listed ? accept::ascending()(values) : accept::Verdict{};
+    };
+}
+
+/// Accepts, of each pair, nodes of its bodies: i of the first, ~i of the second. `first`: each pair's run of them.
+auto accepted_nodes(const World& world, const std::vector<std::uint64_t>& keys, const std::vector<std::int32_t>& first)
+{
+    return [&](const std::vector<std::int32_t>& values) -> accept::Verdict
+    {
+        for (std::size_t pair = 0; pair + 1 < first.size(); ++pair)
+        {
+            const std::int64_t a = dem::first_of(keys[pair]), b = dem::second_of(keys[pair]);
+            const bool         wall = b >= static_cast<std::int64_t>(world.bodies.size());
+            const std::int64_t high = nodes_of(world, a) - 1, low = wall ? 0 : -nodes_of(world, b);
+            for (auto i = static_cast<std::size_t>(first[pair]); i < static_cast<std::size_t>(first[pair + 1]); ++i)
+            {
+                if (low <= values[i] && values[i] <= high) { continue; }
+                return accept::Refusal{static_cast<std::int64_t>(i), fmt::format("{}", values[i]),
+                                       fmt::format("{} to {}", low, high)};
+            }
+        }
+        return {};
+    };
+}
+
 } // namespace
+
+template<class Exec>
+void Rigid<Exec>::transfer_bodies(StateFile& file)
+{
+    bodies_.for_each_field(
+        [&](std::string_view name, auto& array)
+        {
+            auto present = array.to_host();
+            if (!file.loads()) { present.clear(); }
+            file.common(fmt::format("bodies/{}", name), array, accepted_field(name, std::move(present), world_.bodies));
+        });
+}
 
 template<class Exec>
 void Rigid<Exec>::transfer(StateFile& file)
 {
     if (!file.loads() && ranks_) { ranks_->collect(bodies_); }
-    bodies_.for_each_field([&](const char* name, auto& array) { file.common(fmt::format("bodies/{}", name), array); });
+    transfer_bodies(file);
     file.numbers("bodies/steps", deals_, watched_, commanded_speed_, overlap_, mean_time_, substep_, command_work_);
     file.doubles("bodies/command_impulse", command_impulse_);
     transfer_commands(file);
@@ -71,8 +183,9 @@ void Rigid<Exec>::transfer_commands(StateFile& file)
     std::vector<CommandRow>   commands;
     std::vector<std::int32_t> released(released_.begin(), released_.end());
     for (const auto& command : commanded_) { commands.push_back(row_of(command)); }
-    file.common("bodies/commanded", commands);
-    file.common("bodies/released", released);
+    const auto named = static_cast<std::size_t>(named_);
+    file.common("bodies/commanded", commands, accept::all(accept::rows(named), commands_that_can_be()));
+    file.common("bodies/released", released, accept::all(accept::rows(named), accept::within(0, 1)));
     if (!file.loads()) { return; }
     std::transform(commands.begin(), commands.end(), commanded_.begin(), command_of);
     std::transform(released.begin(), released.end(), released_.begin(), [](std::int32_t value) { return value != 0; });
@@ -82,11 +195,16 @@ void Rigid<Exec>::transfer_commands(StateFile& file)
 template<class Exec>
 void Rigid<Exec>::transfer_means(StateFile& file)
 {
-    std::vector<dem::ContactImpulse> impulses = impulses_.to_host();
-    file.own_or_all("bodies/impulse", impulses);
-    file.common("bodies/kept_impulse", kept_impulses_);
+    std::vector<dem::ContactImpulse> impulses     = impulses_.to_host();
+    const auto                       named        = static_cast<std::size_t>(named_);
+    const auto                       of_each_rank = [named, own = file.exact()](const auto& values)
+    {
+        const bool whole = own || named == 0 ? values.size() == named : values.size() % named == 0;
+        return whole ? accept::Verdict{} : accept::rows(named)(values);
+    };
+    file.own_or_all("bodies/impulse", impulses, accept::all(of_each_rank, accept::finite()));
+    file.common("bodies/kept_impulse", kept_impulses_, accept::all(accept::rows(named), accept::finite()));
     if (!file.loads()) { return; }
-    const auto                       named = static_cast<std::size_t>(named_);
     std::vector<dem::ContactImpulse> sums(named, {Vec3<double>::Zero(), Vec3<double>::Zero()});
     const bool                       mine = file.exact() || file.communicator().rank() == 0;
     for (std::size_t i = 0; mine && i < impulses.size(); ++i)
@@ -110,10 +228,11 @@ void Rigid<Exec>::transfer_contacts(StateFile& file)
     places.resize(keys.size(), Vec3<double>::Zero());
     bool with_places = several;
     file.numbers("pairs/several", with_places);
-    file.own_or_all("pairs/key", keys);
-    file.own_or_all("pairs/patch", patches);
-    file.own_or_all("pairs/rolling", rolling);
-    file.own_or_all("pairs/place", places);
+    file.own_or_all("pairs/key", keys, accepted_keys(world_, file.exact()));
+    const auto of_each_pair = accept::all(accept::rows(keys.size()), accept::finite());
+    file.own_or_all("pairs/patch", patches, of_each_pair);
+    file.own_or_all("pairs/rolling", rolling, of_each_pair);
+    file.own_or_all("pairs/place", places, of_each_pair);
     if (!file.loads()) { return; }
 
     std::vector<std::size_t> order;
@@ -139,18 +258,30 @@ void Rigid<Exec>::transfer_contacts(StateFile& file)
 template<class Exec>
 void Rigid<Exec>::transfer_lists(StateFile& file)
 {
-    std::vector<double> peaks = pairs_.peak.to_host();
-    file.own("pairs/peak", peaks);
-    file.own("pairs/travel", pairs_.travel);
-    file.own("pairs/first_node", pairs_.first_node);
-    file.own("pairs/node", pairs_.node);
-    file.own("pairs/several_first", pairs_.patches.several);
-    file.own("bodies/position_at_search", strays_.position);
-    file.own("bodies/orientation_at_search", strays_.orientation);
-    file.own("bodies/totals", totals_);
-    file.doubles("bodies/taken", taken_);
+    const auto count = static_cast<std::size_t>(bodies_.position.size());
     file.numbers("pairs/listed", listed_);
+    const std::vector<std::uint64_t> keys = pairs_.key.to_host();
+    // What has not been listed yet has no rows.
+    const auto of_each = [&](std::size_t rows, auto bound)
+    {
+        return [&, rows, bound](const auto& values)
+        { return !listed_ && values.empty() ? accept::Verdict{} : accept::all(accept::rows(rows), bound)(values); };
+    };
+    std::vector<double>       peaks = pairs_.peak.to_host();
+    std::vector<std::int32_t> first = pairs_.first_node.to_host();
+    file.own("pairs/peak", peaks, of_each(keys.size(), accept::finite()));
+    file.own("pairs/travel", pairs_.travel, of_each(count, accept::not_negative()));
+    file.own("pairs/first_node", first, of_each(keys.size() + 1, accept::cuts()));
+    const std::size_t nodes = first.empty() ? 0 : static_cast<std::size_t>(std::max(first.back(), 0));
+    file.own("pairs/node", pairs_.node, accept::all(accept::rows(nodes), accepted_nodes(world_, keys, first)));
+    file.own("pairs/several_first", pairs_.patches.several,
+             accept::all(accept::ascending(), accept::index(keys.size())));
+    file.own("bodies/position_at_search", strays_.position, of_each(count, accept::finite()));
+    file.own("bodies/orientation_at_search", strays_.orientation, of_each(count, accept::unit_quaternions()));
+    file.own("bodies/totals", totals_, accept::all(accept::rows(count), accept::finite()));
+    file.doubles("bodies/taken", taken_);
     if (!file.loads() || !listed_) { return; }
+    pairs_.first_node.assign(first);
     dem::resume_list(exec_, pairs_, bodies_.view());
     pairs_.peak.assign(peaks);
 }

@@ -245,6 +245,7 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
     const World world = build_world(scene);
     const Plan  plan  = make_plan(scene, world);
     require_ranks_can(communicator, scene);
+    const std::string start = start_of(communicator, restart.checkpoint);
 
     Job job{communicator,
             log,
@@ -267,7 +268,7 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
     job.summary.ranks      = communicator.size();
     job.summary.threads    = threads;
     job.summary.bodies     = static_cast<std::int64_t>(world.bodies.size());
-    job.summary.start      = start_of(communicator, restart.checkpoint);
+    job.summary.start      = start;
     job.driver             = {{job.summary.scene_hash, job.summary.backend, {}, communicator.size(), job.summary.start},
                               restart.checkpoint,
                               wall_start,

@@ -112,7 +112,9 @@ public:
     void transfer(StateFile& file, const HostPoints& built);
 
 private:
-    void transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder);
+    void transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder,
+                         std::vector<bool>& seen);
+    void transfer_lists(StateFile& file, const HostPoints& built, std::vector<bool>& seen);
     /// Those of the steps, then those that sleep.
     std::vector<const mpm::Points<Exec, Real>*> all_points() const;
 

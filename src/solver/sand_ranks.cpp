@@ -29,8 +29,9 @@ void SandRanks<Exec, Real>::transfer(StateFile& file)
 {
     std::vector<std::uint64_t> keys  = decomposition_.owners.keys();
     decomp::PageRanks          ranks = decomposition_.owners.ranks();
-    file.common("ranks/page_key", keys);
-    file.common("ranks/page_owner", ranks);
+    const auto                 count = static_cast<std::size_t>(file.communicator().size());
+    file.common("ranks/page_key", keys, accept::all(accept::ascending(), accept::distinct()));
+    file.common("ranks/page_owner", ranks, accept::all(accept::rows(keys.size()), accept::index(count)));
     if (file.loads()) { decomposition_.owners.assign(keys, ranks); }
 }
 

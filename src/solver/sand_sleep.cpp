@@ -192,7 +192,7 @@ template<class Exec, class Real>
 void SandSleep<Exec, Real>::transfer(StateFile& file, const mpm::Pages<Exec>& pages, const mpm::PagesView& view,
                                      SortScratch<Exec>& scratch)
 {
-    file.own("sleep/asleep", asleep_);
+    file.own("sleep/asleep", asleep_, accept::all(accept::ascending(), accept::distinct()));
     file.doubles("sleep/census", census_);
     file.doubles("sleep/stopped", impulse_);
     file.numbers("sleep/time", slept_, lived_);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/page_bounds.hpp"
 #include "solver/sand.hpp"
 #include "solver/state_file.hpp"
 
@@ -18,6 +19,44 @@ bool lasts(std::string_view name)
     return name == "start" || name == "mass" || name == "volume" || name == "material";
 }
 
+/// Spacings beyond the domain in which a point may be that has not been dropped yet.
+constexpr double outside = 16;
+
+/// Accepts numbers of points of which none is among those seen before; notes them.
+auto new_ids(std::vector<bool>& seen)
+{
+    return [&seen](const auto& values) -> accept::Verdict
+    {
+        for (std::size_t i = 0; i < values.size(); ++i)
+        {
+            const auto id = static_cast<std::size_t>(values[i]);
+            if (id < seen.size() && !seen[id])
+            {
+                seen[id] = true;
+                continue;
+            }
+            return accept::Refusal{static_cast<std::int64_t>(i), fmt::format("{}", values[i]),
+                                   fmt::format("each of 0 to {} once at most", seen.size() - 1)};
+        }
+        return {};
+    };
+}
+
+/// Accepts what the plane of a point's field may hold. Only ids are integers.
+auto accepted_plane(std::string_view name, double lowest, double highest, std::vector<bool>& seen)
+{
+    return [=, &seen]<class T>(const std::vector<T>& values) -> accept::Verdict
+    {
+        if constexpr (std::is_integral_v<T>) { return new_ids(seen)(values); }
+        else
+        {
+            if (name == "position") { return accept::within(lowest, highest)(values); }
+            if (name == "volume_ratio") { return accept::positive()(values); }
+            return accept::finite()(values);
+        }
+    };
+}
+
 } // namespace
 
 /// Points that are listed need nothing of the last step any more but what they are.
@@ -25,22 +64,12 @@ template<class Exec, class Real>
 void Sand<Exec, Real>::transfer(StateFile& file, const HostPoints& built)
 {
     if (!file.loads()) { order(); }
-    transfer_points(file, points_, "points");
+    std::vector<bool> seen(built.size(), false);
+    transfer_points(file, points_, "points", seen);
     if (file.loads()) { restore_lasting(points_, built); }
     file.numbers("sand/steps", step_, relists_, orders_, mass_);
     file.doubles("sand/left", left_);
-    if (file.exact())
-    {
-        pages_.for_each_field([&](const char* name, auto& array) { file.own(fmt::format("pages/{}", name), array); });
-        if (ranks_) { ranks_->transfer(file); }
-        if (file.loads()) { resume_lists(); }
-        if (sleep_)
-        {
-            transfer_points(file, sleep_->points(), "asleep");
-            if (file.loads()) { restore_lasting(sleep_->points(), built); }
-            sleep_->transfer(file, pages_, pages(), order_scratch_.sort);
-        }
-    }
+    if (file.exact()) { transfer_lists(file, built, seen); }
     if (!file.loads()) { return; }
     if (!file.exact())
     {
@@ -51,13 +80,31 @@ void Sand<Exec, Real>::transfer(StateFile& file, const HostPoints& built)
     steps_  = 0;
 }
 
+/// What an exact state has beside the points. `seen`: ids.
 template<class Exec, class Real>
-void Sand<Exec, Real>::transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder)
+void Sand<Exec, Real>::transfer_lists(StateFile& file, const HostPoints& built, std::vector<bool>& seen)
 {
-    StateFile::Share rows{0, points.count};
+    PageBounds bounds(points_.count);
+    pages_.for_each_field(
+        [&](const std::string& name, auto& array)
+        { file.own("pages/" + name, array, [&](const auto& values) { return bounds(name, values); }); });
+    if (ranks_) { ranks_->transfer(file); }
+    if (file.loads()) { resume_lists(); }
+    if (!sleep_) { return; }
+    transfer_points(file, sleep_->points(), "asleep", seen);
+    if (file.loads()) { restore_lasting(sleep_->points(), built); }
+    sleep_->transfer(file, pages_, pages(), order_scratch_.sort);
+}
+
+template<class Exec, class Real>
+void Sand<Exec, Real>::transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder,
+                                       std::vector<bool>& seen)
+{
+    const double     beyond = outside * geometry_.spacing;
+    StateFile::Share rows{0, points.count, points.count};
     if (file.loads())
     {
-        rows = file.share(fmt::format("{}/id_0", folder));
+        rows = file.share(fmt::format("{}/id_0", folder), seen.size());
         points.reserve(rows.count);
         points.count = rows.count;
     }
@@ -66,7 +113,9 @@ void Sand<Exec, Real>::transfer_points(StateFile& file, mpm::Points<Exec, Real>&
         {
             for (int c = 0; c < components && !lasts(name); ++c)
             {
-                file.plane(exec_, fmt::format("{}/{}_{}", folder, name, c), field.data() + c * points.stride, rows);
+                const double highest = geometry_.size[c % 3] + beyond;
+                file.plane(exec_, fmt::format("{}/{}_{}", folder, name, c), field.data() + c * points.stride, rows,
+                           accepted_plane(name, -beyond, highest, seen));
             }
         });
 }

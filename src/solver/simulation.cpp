@@ -19,9 +19,8 @@ namespace
 
 constexpr double longest_substep =
     0.8; ///< of sqrt(m / sum K): beyond it a contact gains energy (docs/theory.md#time-step)
-constexpr double unseen_travel   = 0.5; ///< of a spacing: what sand may move before it is measured again
-constexpr int    most_unmeasured = 8;   ///< steps
-constexpr double least_gradient  = 0.5; ///< |grad phi| in contact under which a point is past the medial axis
+constexpr double unseen_travel  = 0.5; ///< of a spacing: what sand may move before it is measured again
+constexpr double least_gradient = 0.5; ///< |grad phi| in contact under which a point is past the medial axis
 
 Vec3<double> vector(const scene::Vector3& v) { return {v[0], v[1], v[2]}; }
 

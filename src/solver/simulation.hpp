@@ -28,6 +28,8 @@ template<class Exec, class Real>
 class Simulation
 {
 public:
+    static constexpr int most_unmeasured = 8; ///< steps without a measuring
+
     /// `decomposition`: who owns which page; null on one rank.
     Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
                decomp::Decomposition<Exec>* decomposition = nullptr);

@@ -1,11 +1,18 @@
 #include "solver/stage_clock.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "solver/state_file.hpp"
 
 namespace tread::solver
 {
+namespace
+{
+
+constexpr double most_calls = 9007199254740992.0; // 2^53: doubles hold them exactly
+
+} // namespace
 
 void StageClock::transfer(StateFile& file)
 {
@@ -18,11 +25,12 @@ void StageClock::transfer(StateFile& file)
         values.insert(values.end(), {calls, calls, row.all_seconds()});
     }
     file.text("stages", names);
-    file.common("stages", values);
+    const auto lines = static_cast<std::size_t>(std::count(names.begin(), names.end(), '\n'));
+    file.common("stages", values, accept::all(accept::rows(3 * lines), accept::within(0, most_calls)));
     if (!file.loads()) { return; }
-    std::istringstream lines(names);
+    std::istringstream each_name(names);
     auto               value = values.begin();
-    for (std::string name; std::getline(lines, name) && value != values.end(); value += 3)
+    for (std::string name; std::getline(each_name, name) && value != values.end(); value += 3)
     {
         rows_[name]        = {};
         rows_[name].before = {static_cast<std::int64_t>(value[0]), static_cast<std::int64_t>(value[1]), value[2]};

@@ -8,10 +8,13 @@
 #include <vector>
 
 #include "backend/array.hpp"
+#include "io/accept.hpp"
 #include "io/checkpoint_file.hpp"
 
 namespace tread::solver
 {
+
+namespace accept = io::accept;
 
 /// What a loaded state can be.
 enum class Fidelity
@@ -45,16 +48,12 @@ public:
     bool                exact() const { return fidelity_ == Fidelity::exact; }
     const Communicator& communicator() const { return communicator_; }
 
-    /// Single numbers: integers, doubles, words of an enum, yes or no. Loaded from a rank's own, or from rank 0's where
-    /// the state is not exact.
+    /// Single numbers: integers, doubles, yes or no; with a range where their type has more than they may be
+    /// (accept::number). Loaded from a rank's own, or from rank 0's where the state is not exact.
     template<class... T>
-    void numbers(const std::string& name, T&... values)
+    void numbers(const std::string& name, T&&... values)
     {
-        std::vector<double> row{static_cast<double>(values)...};
-        row_of_numbers(name, row);
-        if (!loads()) { return; }
-        std::size_t at = 0;
-        ((values = static_cast<T>(row[at++])), ...);
+        numbers_within(name, accept::by_type(values)...);
     }
 
     /// A struct that holds doubles and nothing else; in the same way.
@@ -64,64 +63,68 @@ public:
         static_assert(std::is_trivially_destructible_v<T> && sizeof(T) % sizeof(double) == 0);
         std::vector<double> row(sizeof(T) / sizeof(double));
         std::memcpy(row.data(), static_cast<const void*>(&value), sizeof(T));
-        row_of_numbers(name, row);
+        row_of_numbers(name, row, std::vector<NumberRange>(row.size(), {-accept::largest, accept::largest, false}));
         std::memcpy(static_cast<void*>(&value), row.data(), sizeof(T));
     }
 
     /// A text that all ranks have.
     void text(const std::string& name, std::string& value);
 
+    // What follows takes a bound of accept.hpp, which loaded values must keep: EnvironmentError with the file, the data
+    // set, the value and what is accepted, on all ranks.
+
     /// Values of this rank, of the exact state only.
-    template<class T>
-    void own(const std::string& name, std::vector<T>& values)
+    template<class T, class Bound>
+    void own(const std::string& name, std::vector<T>& values, const Bound& accepted)
     {
-        if (loads()) { values = own_rows<T>(name); }
+        if (loads()) { values = own_rows<T>(name, accepted); }
         else { write(name, values); }
     }
-    template<class Exec, class T>
-    void own(const std::string& name, Array<Exec, T>& array)
+    template<class Exec, class T, class Bound>
+    void own(const std::string& name, Array<Exec, T>& array, const Bound& accepted)
     {
-        if (loads()) { array.assign(own_rows<T>(name)); }
+        if (loads()) { array.assign(own_rows<T>(name, accepted)); }
         else { write(name, array.to_host()); }
     }
 
     /// Values that all ranks have: written by rank 0, read by all.
-    template<class T>
-    void common(const std::string& name, std::vector<T>& values)
+    template<class T, class Bound>
+    void common(const std::string& name, std::vector<T>& values, const Bound& accepted)
     {
-        if (loads()) { values = all_rows<T>(name); }
+        if (loads()) { values = all_rows<T>(name, accepted); }
         else { write(name, communicator_.rank() == 0 ? values : std::vector<T>{}); }
     }
-    template<class Exec, class T>
-    void common(const std::string& name, Array<Exec, T>& array)
+    template<class Exec, class T, class Bound>
+    void common(const std::string& name, Array<Exec, T>& array, const Bound& accepted)
     {
-        if (loads()) { array.assign(all_rows<T>(name)); }
+        if (loads()) { array.assign(all_rows<T>(name, accepted)); }
         else { write(name, communicator_.rank() == 0 ? array.to_host() : std::vector<T>{}); }
     }
 
     /// Values of this rank. Loaded are its own, or all ranks' where the state is not exact.
-    template<class T>
-    void own_or_all(const std::string& name, std::vector<T>& values)
+    template<class T, class Bound>
+    void own_or_all(const std::string& name, std::vector<T>& values, const Bound& accepted)
     {
         if (!loads()) { write(name, values); }
-        else { values = exact() ? own_rows<T>(name) : all_rows<T>(name); }
+        else { values = exact() ? own_rows<T>(name, accepted) : all_rows<T>(name, accepted); }
     }
 
     /// One plane of `count` values of this rank. Loaded are its own, or an even share of all where the state is not
-    /// exact: `share` says which.
+    /// exact: `share` says which of the rows of a data set, which may be `most` in all.
     struct Share
     {
         std::int64_t first;
         std::int64_t count;
+        std::int64_t total;
     };
-    Share share(const std::string& name) const;
-    template<class Exec, class T>
-    void plane(const Exec& exec, const std::string& name, T* data, const Share& rows)
+    Share share(const std::string& name, std::size_t most) const;
+    template<class Exec, class T, class Bound>
+    void plane(const Exec& exec, const std::string& name, T* data, const Share& rows, const Bound& accepted)
     {
         const auto count = static_cast<std::size_t>(rows.count);
         if (loads())
         {
-            const std::vector<T> values = read<T>(name, rows.first, rows.count);
+            const std::vector<T> values = checked<T>(name, rows, accepted);
             copy_from_host(exec, data, values.data(), count * sizeof(T));
             return;
         }
@@ -131,14 +134,32 @@ public:
         write(name, values);
     }
 
-private:
-    /// Numbers as themselves; structs, which hold doubles, as rows of these.
-    template<class T>
-    using Word = std::conditional_t<std::is_arithmetic_v<T>, T, double>;
-    template<class T>
-    static constexpr int width = sizeof(T) / sizeof(Word<T>);
+    /// Ends the loading with what is wrong with a data set.
+    [[noreturn]] void refuse(const std::string& name, const accept::Refusal& refusal) const;
 
-    void row_of_numbers(const std::string& name, std::vector<double>& row);
+private:
+    template<class T>
+    using Word = accept::Word<T>;
+    template<class T>
+    static constexpr int width = static_cast<int>(accept::words<T>);
+
+    struct NumberRange
+    {
+        double low, high;
+        bool   whole;
+    };
+
+    template<class... T>
+    void numbers_within(const std::string& name, accept::Bounded<T>... values)
+    {
+        std::vector<double> row{static_cast<double>(values.value)...};
+        row_of_numbers(name, row, {{values.low, values.high, !std::is_floating_point_v<T>}...});
+        if (!loads()) { return; }
+        std::size_t at = 0;
+        ((values.value = static_cast<T>(row[at++])), ...);
+    }
+
+    void row_of_numbers(const std::string& name, std::vector<double>& row, const std::vector<NumberRange>& ranges);
 
     template<class T>
     void write(const std::string& name, const std::vector<T>& values)
@@ -147,7 +168,7 @@ private:
         if constexpr (std::is_arithmetic_v<T>) { writer_->write(name, values, 1); }
         else
         {
-            std::vector<Word<T>> words(values.size() * width<T>);
+            std::vector<Word<T>> words(values.size() * accept::words<T>);
             if (!values.empty())
             {
                 std::memcpy(words.data(), static_cast<const void*>(values.data()), values.size() * sizeof(T));
@@ -157,27 +178,45 @@ private:
     }
 
     template<class T>
-    std::vector<T> read(const std::string& name, std::int64_t first, std::int64_t count) const
+    std::vector<T> read(const std::string& name, const Share& rows) const
     {
-        const std::vector<Word<T>> words = reader_->read<Word<T>>(name, width<T>, first, count);
-        std::vector<T>             values(static_cast<std::size_t>(count));
-        if (count > 0) { std::memcpy(static_cast<void*>(values.data()), words.data(), values.size() * sizeof(T)); }
+        const std::vector<Word<T>> words = reader_->read<Word<T>>(name, width<T>, rows.first, rows.count);
+        std::vector<T>             values(static_cast<std::size_t>(rows.count));
+        if (rows.count > 0) { std::memcpy(static_cast<void*>(values.data()), words.data(), values.size() * sizeof(T)); }
         return values;
     }
 
-    template<class T>
-    std::vector<T> own_rows(const std::string& name) const
+    /// All ranks leave together where the values of one are refused.
+    template<class T, class Bound>
+    std::vector<T> checked(const std::string& name, const Share& rows, const Bound& accepted) const
     {
-        const auto first = reader_->first_rows(name);
-        const auto rank  = static_cast<std::size_t>(communicator_.rank());
-        return read<T>(name, first.at(rank), first.at(rank + 1) - first.at(rank));
+        std::vector<T> values;
+        on_every_rank(communicator_,
+                      [&]
+                      {
+                          require_total(name, rows);
+                          values = read<T>(name, rows);
+                          if (const accept::Verdict refusal = accepted(values)) { refuse(name, *refusal); }
+                      });
+        return values;
     }
 
-    template<class T>
-    std::vector<T> all_rows(const std::string& name) const
+    template<class T, class Bound>
+    std::vector<T> own_rows(const std::string& name, const Bound& accepted) const
     {
-        return read<T>(name, 0, reader_->first_rows(name).back());
+        return checked<T>(name, rows_of_rank(name), accepted);
     }
+
+    template<class T, class Bound>
+    std::vector<T> all_rows(const std::string& name, const Bound& accepted) const
+    {
+        return checked<T>(name, all_of(name), accepted);
+    }
+
+    Share rows_of_rank(const std::string& name) const;
+    Share all_of(const std::string& name) const;
+    void  require_a_row_each(const std::string& name) const;
+    void  require_total(const std::string& name, const Share& rows) const;
 
     const Communicator&         communicator_;
     io::CheckpointWriter*       writer_ = nullptr;

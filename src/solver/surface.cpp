@@ -153,8 +153,8 @@ double SurfaceMap::under(std::size_t body, const BodyRow& row) const
 
 void SurfaceMap::transfer(StateFile& file)
 {
-    file.common("surface/height", height_);
-    file.common("surface/pressed", pressed_);
+    file.common("surface/height", height_, accept::all(accept::rows(height_.size()), accept::finite_or_none()));
+    file.common("surface/pressed", pressed_, accept::all(accept::rows(height_.size()), accept::within(0, 1)));
 }
 
 } // namespace tread::solver

@@ -34,9 +34,14 @@ def edited(original, copy):
     shutil.copy(original, copy)
     with h5py.File(copy, "r+") as file:
         yield file
-    body = pathlib.Path(copy).read_bytes()[HEAD_BYTES:]
+    seal(copy)
+
+
+def seal(path):
+    """Makes the head of a file right for what it holds."""
+    body = pathlib.Path(path).read_bytes()[HEAD_BYTES:]
     head = f"tread checkpoint\nbytes {HEAD_BYTES + len(body)}\nchecksum {checksum(body):016x}\n".encode()
-    pathlib.Path(copy).write_bytes(head + bytes(HEAD_BYTES - len(head)) + body)
+    pathlib.Path(path).write_bytes(head + bytes(HEAD_BYTES - len(head)) + body)
 
 
 def perturbed(original, copy, distance, seed):

@@ -1,11 +1,18 @@
-"""Writes small meshes, good and broken, as seeds for tests/fuzz/read_mesh.cpp: seeds.py FOLDER.
+"""Writes small files, good and broken, as seeds for a target of ci/fuzz: seeds.py TARGET FOLDER.
 
-The first byte chooses the format: 0 = STL, 1 = OBJ.
+Of meshes and height maps the first byte chooses the format: 0 = STL or PGM, 1 = OBJ or CSV. Of scenes what stands before
+the first zero byte is a --set.
 """
 
 import pathlib
 import struct
 import sys
+import tempfile
+
+import h5py
+import numpy
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 
 CORNERS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
 TRIANGLES = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4),
@@ -30,7 +37,7 @@ def obj(faces):
     return (vertices + "".join(f"f {face}\n" for face in faces)).encode()
 
 
-def seeds():
+def meshes():
     turned = [TRIANGLES[0][::-1]] + TRIANGLES[1:]
     swapped = bytearray(binary_stl(TRIANGLES))
     swapped[80:84] = struct.pack(">I", len(TRIANGLES))
@@ -51,8 +58,77 @@ def seeds():
     }
 
 
+def scenes():
+    text = (REPOSITORY / "configs" / "quickstart.toml").read_bytes()
+    small = b'title = "t"\n[domain]\nsize = [1.0, 1.0, 1.0]\ngravity = [0.0, 0.0, -9.8]\n'
+    settings = ["domain.gravity=[0, 0, -3.7]", "material.sand.young=1e6", "material[0].young=2e6", "title=bare word",
+                "grid.spacing=nan", "phase[99].duration=1", "a.b.c.d=1", "=", "x", "output.every={}"]
+    seeds = {f"set{i}": setting.encode() + b"\0" + text for i, setting in enumerate(settings)}
+    seeds.update({f"file{i}": path.read_bytes() for i, path in enumerate(sorted((REPOSITORY / "configs").glob("*.toml")))})
+    return {**seeds, "small": small, "nested": small + b"x = " + b"[" * 200 + b"]" * 200, "brace": small + b"y = { a = 1\n"}
+
+
+def rasters():
+    return {
+        "plain.pgm": b"\0P2\n# a remark\n3 2\n255\n0 128 255\n1 2 3\n",
+        "raw.pgm": b"\0P5 2 2 255\n\x00\x80\xff\x01",
+        "wide.pgm": b"\0P5 2 2 65535\n" + bytes(range(8)),
+        "huge.pgm": b"\0P5 99999999 99999999 255\n",
+        "heights.csv": b"\1# x, y\n0.1, 0.2, 0.3\n1e-3,-2,+3\n",
+        "ragged.csv": b"\11,2\n3\n",
+        "words.csv": b"\1a,b\nnan,inf\n",
+    }
+
+
+def bed(change=lambda file: None):
+    """A bed of two rocks in contact, with three points of sand, as tread writes one."""
+    columns = {"rocks": {"kind": ("i4", [0, 0]), "position": ("f8", numpy.ones((2, 3))), "orientation": ("f8", [[1, 0, 0, 0]] * 2),
+                         "scale": ("f8", [1, 2]), "diameter": ("f8", [0.1, 0.2])},
+               "contacts": {"pair": ("i4", [[0, 1]]), **{name: ("f8", numpy.ones((1, 3))) for name in ("tangential", "normal", "place", "rolling")},
+                            **{name: ("f8", [1.0]) for name in ("torsion", "stiffness", "twist_stiffness", "rolling_stiffness")}},
+               "points": {"material": ("i4", [0, 0, 0]), "position": ("f8", numpy.ones((3, 3))), "volume": ("f8", [1, 1, 1]),
+                          "mass": ("f8", [1, 1, 1]), "stress": ("f8", numpy.zeros((3, 6))), "plastic_shear": ("f8", [0, 0, 0])}}
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "bed.h5"
+        with h5py.File(path, "w") as file:
+            file.attrs["format"] = "tread bed 1"
+            for group, texts in (("kinds/0", {"shape": "clast", "member": "clast", "material": "rock", "inertia": 1.0}), ("materials/0", {"name": "sand"})):
+                file.create_group(group).attrs.update({**texts, "density": 2700.0, "young": 1e6, "poisson": 0.3})
+            for group, members in columns.items():
+                for name, (kind, values) in members.items():
+                    file.create_dataset(f"{group}/{name}", data=numpy.asarray(values, dtype=kind))
+            file["points"].attrs["grid_spacing"] = 0.05
+            change(file)
+        return path.read_bytes()
+
+
+def beds():
+    def put(name, value):
+        def change(file):
+            file[name][0] = value
+        return change
+
+    def link(name, target):
+        def change(file):
+            del file[name]
+            file[name] = target
+        return change
+
+    def declare(file):
+        del file["points/mass"]
+        file.create_dataset("points/mass", shape=(10**12,), dtype="f8")
+
+    return {
+        "good": bed(), "kind": bed(put("rocks/kind", 7)), "nan": bed(put("rocks/scale", float("nan"))), "pair": bed(put("contacts/pair", (1, 99))),
+        "soft": bed(link("rocks/scale", h5py.SoftLink("/rocks/diameter"))),
+        "external": bed(link("rocks/scale", h5py.ExternalLink("/dev/zero", "/x"))), "declared": bed(declare),
+    }
+
+
+SEEDS = {"read_mesh": meshes, "read_scene": scenes, "read_raster": rasters, "read_bed": beds}
+
 if __name__ == "__main__":
-    folder = pathlib.Path(sys.argv[1])
+    target, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
-    for name, data in seeds().items():
+    for name, data in SEEDS[target]().items():
         (folder / name).write_bytes(data)

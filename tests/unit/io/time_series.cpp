@@ -22,8 +22,8 @@ TEST(TimeSeries, rows_of_every_flush_follow_each_other)
     const std::string              path = directory.path("timeseries.h5");
 
     TimeSeries series(path);
-    series.add_table("/wheel/front", columns);
-    series.add_table("/energy", {{"total", 1, "J"}});
+    series.add_table({"/wheel/front", columns});
+    series.add_table({"/energy", {{"total", 1, "J"}}});
     series.append("/wheel/front", {0.0, 1, 2, 3});
     series.append("/wheel/front", {0.1, 4, 5, 6});
     series.flush();
@@ -45,7 +45,7 @@ TEST(TimeSeries, many_rows_cross_chunks)
     const std::string              path = directory.path("timeseries.h5");
 
     TimeSeries series(path);
-    series.add_table("/t", columns);
+    series.add_table({"/t", columns});
     for (int i = 0; i < 3000; ++i)
     {
         series.append("/t", {double(i), 1.0 * i, 2.0 * i, 3.0 * i});
@@ -64,7 +64,7 @@ TEST(TimeSeries, reader_with_a_lock_does_not_stop_the_run)
     const std::string              path = directory.path("timeseries.h5");
 
     TimeSeries series(path);
-    series.add_table("/t", columns);
+    series.add_table({"/t", columns});
     const int reader = open(path.c_str(), O_RDONLY);
     ASSERT_EQ(flock(reader, LOCK_SH | LOCK_NB), 0);
     series.append("/t", {0, 1, 2, 3});
@@ -91,7 +91,7 @@ TEST(TimeSeries, row_of_another_width_is_refused)
 {
     const test::TemporaryDirectory directory;
     TimeSeries                     series(directory.path("timeseries.h5"));
-    series.add_table("/t", columns);
+    series.add_table({"/t", columns});
     EXPECT_THROW(series.append("/t", {0, 1}), std::logic_error);
 }
 

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""Checkpoints with right checksums in which one value is out of its range, or one data set of another length."""
+
+import concurrent.futures
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+from checkpoint_file import edited
+from command import TREAD
+from restart_test import BODIES, EVERY_FEW_STEPS, MIXED, MPIRUN, RestartTest, lasting
+
+# A long bed with a rock at one end, and sand that sleeps at the other.
+ASLEEP = lasting(MIXED, 0.06).replace("[0.4, 0.4, 0.4]", "[1.0, 0.2, 0.4]").replace("[0.4, 0.4, 0.1]", "[1.0, 0.2, 0.1]").replace(
+    "[0.2, 0.2, 0.155]", "[0.15, 0.1, 0.155]").replace("velocity = [0.3, 0.0, -0.8]\n", "") + "[sleep]\ndistance = 0.1\nrest = 0.001\nspeed = 1.0\n"
+
+NAN, INF = float("nan"), float("inf")
+
+# What is wrong with one shows at another.
+SAID_OF = {"pairs/first_node": "pairs/"}
+
+# Columns without terrain have no height, phases of sand no packing fraction of rocks; received_files.py looks into the series.
+ALLOWED = {("surface/height", "nan"), ("run/phases", "nan at the end"), ("run/timeseries", "high")}
+
+def datasets(path):
+    """Kind and columns of data sets by name, of those with values."""
+    found = {}
+
+    def note(name, item):
+        if isinstance(item, h5py.Dataset) and item.size:
+            found[name] = (item.dtype, item.shape[1] if len(item.shape) == 2 else 1)
+
+    with h5py.File(path, "r") as file:
+        file.visititems(note)
+    return found
+
+
+def spoil(value, column=0):
+    """Puts a value into the middle row."""
+    def change(file, name):
+        data = file[name]
+        row = data.shape[0] // 2
+        data[(row, column) if len(data.shape) == 2 else row] = value
+    return change
+
+
+def resize(by):
+    """Takes rows away or adds some, and says so in first_row."""
+    def change(file, name):
+        values, first = file[name][...], file[name].attrs["first_row"]
+        del file[name]
+        rows = len(values) + by
+        file[name] = values[:rows] if by < 0 else numpy.concatenate([values, values[-by:]])
+        file[name].attrs["first_row"] = numpy.array([*first[:-1], rows], dtype=numpy.int64)
+    return change
+
+
+def changes_of(dtype, columns):
+    """Name and change of everything that a data set of this kind must not be: its last column, too, may not."""
+    if dtype.kind == "f":
+        return {"nan": spoil(NAN), "inf": spoil(INF), **({"nan at the end": spoil(NAN, columns - 1)} if columns > 1 else {})}
+    numbers = numpy.iinfo(dtype)
+    return {"high": spoil(numbers.max), **({"low": spoil(numbers.min)} if numbers.min < 0 else {})}
+
+
+class Forged(RestartTest):
+    def forge(self, original, name, change):
+        """A copy in which change(file, name) was done; its checksum is right."""
+        handle, path = tempfile.mkstemp(suffix=".h5", dir=self.directory)
+        os.close(handle)
+        with edited(original, path) as file:
+            change(file, name)
+        return path
+
+    def start_from(self, scene, path, launcher=()):
+        """What `tread run --restart` of that file says; whether it left anything where it was to write."""
+        output = pathlib.Path(str(path) + ".run")
+        result = subprocess.run([*launcher, TREAD, "run", scene, "--output", output / "deep" / "er", "--backend", "cpu",
+                                 "--threads", "1", "--restart", path],
+                                cwd=self.directory, capture_output=True, text=True, timeout=100)
+        left = output.exists()
+        shutil.rmtree(output, ignore_errors=True)
+        return result, left
+
+    def faults_of(self, scene, original, name, word, change, launcher=(), said_of=None):
+        """What is wrong with how a forged data set is refused; nothing if it is refused as it should be."""
+        path = self.forge(original, name, change)
+        result, left = self.start_from(scene, path, launcher)
+        os.remove(path)
+        case = f"{name} {word}: exit code {result.returncode}, {result.stderr[-400:]}"
+        named = re.escape(said_of or SAID_OF.get(name, name))
+        said = re.search(f"{re.escape(str(path))}.*{named}.*accepted: ", result.stderr)
+        refused = result.returncode == 4 and said
+        return None if refused and not left else f"{case} {'something is left' if left else ''}"
+
+    def check_all(self, text, original, cases, launcher=(), said_of=lambda name: None):
+        scene = self.write("scene.toml", text)
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            faults = pool.map(lambda case: self.faults_of(scene, original, *case, launcher, said_of(case[0])), cases)
+        faults = [fault for fault in faults if fault]
+        self.assertEqual(faults, [], "\n".join(faults))
+        print(f"  {len(cases)} forged files refused")
+
+    def write_checkpoint(self, text, launcher=()):
+        self.run_scene(text, self.directory / "whole", EVERY_FEW_STEPS, launcher=launcher)
+        return self.checkpoints(self.directory / "whole")[-1]
+
+    def check_every_value(self, text, launcher=()):
+        original = self.write_checkpoint(text, launcher)
+        cases = [(name, word, change) for name, kind in datasets(original).items()
+                 for word, change in changes_of(*kind).items() if (name, word) not in ALLOWED]
+        self.check_all(text, original, cases, launcher)
+        return original
+
+    def test_every_data_set_of_sand_and_a_rock_is_checked(self):
+        original = self.check_every_value(lasting(MIXED, 0.04))
+        for name in ("bodies/material", "bodies/shape", "candidates/body", "candidates/point", "pages/first_point", "pages/point_at",
+                     "pages/node_page_of", "pages/point_page_of", "points/id_0", "bodies/scale", "contact/key"):
+            self.assertIn(name, datasets(original))
+
+    def test_every_data_set_of_rocks_is_checked(self):
+        original = self.check_every_value(lasting(BODIES, 0.1))
+        for name in ("pairs/key", "pairs/node", "pairs/first_node"):
+            self.assertIn(name, datasets(original))
+
+    def test_every_data_set_of_sleeping_sand_is_checked(self):
+        self.assertIn("asleep/id_0", datasets(self.check_every_value(ASLEEP)))
+
+    def test_every_data_set_of_two_ranks_is_checked(self):
+        text = re.sub(r"\[\[body\]\].*?velocity[^\n]*\n", "", lasting(MIXED, 0.02), flags=re.S)
+        self.assertIn("ranks/page_owner", datasets(self.check_every_value(text, (*MPIRUN, "-n", "2"))))
+
+    def test_sizes_agree_with_each_other(self):
+        text = lasting(MIXED, 0.04)
+        original = self.write_checkpoint(text)
+        free = {"run/timeseries", "run/snapshots", "contact/key"}  # others follow the last; a file and times are as long as they are
+        cases = [(name, word, resize(by)) for name in datasets(original) if name not in free
+                 for word, by in (("shorter", -1), ("longer", 1))]
+        self.check_all(text, original, cases, said_of=lambda name: name.split("/")[0] + "/")  # or of what is beside it
+
+
+if __name__ == "__main__":
+    unittest.main()
