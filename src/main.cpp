@@ -26,6 +26,7 @@
 #include "shape/form.hpp"
 #include "shape/report.hpp"
 #include "shape/template.hpp"
+#include "solver/agreement.hpp"
 #include "solver/run.hpp"
 
 // The command line: what the user typed, to one call of the room that does it.
@@ -123,7 +124,8 @@ ExitCode run(const RunArguments& arguments)
         [&](const Communicator& world)
         {
             Log                log(world, arguments.terminal);
-            const scene::Scene scene   = scene::load_scene(arguments.scene.path, arguments.scene.overrides);
+            const scene::Scene scene =
+                solver::load_on_every_rank(world, arguments.scene.path, arguments.scene.overrides);
             solver::RunOptions options = arguments.options;
             if (options.output.empty())
             {

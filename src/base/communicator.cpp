@@ -264,6 +264,14 @@ MpiSession::MpiSession()
     require_launcher_agrees(world_.size());
 }
 
+std::string host_name()
+{
+    char name[MPI_MAX_PROCESSOR_NAME];
+    int  length = 0;
+    MPI_Get_processor_name(name, &length);
+    return {name, static_cast<std::size_t>(length)};
+}
+
 void on_root(const Communicator& communicator, const std::function<void()>& work)
 {
     std::int64_t code = 0;
@@ -300,8 +308,15 @@ void on_every_rank(const Communicator& communicator, const std::function<void()>
     const std::vector<std::int64_t> codes = communicator.gather(own);
     const auto first = std::find_if(codes.begin(), codes.end(), [](std::int64_t code) { return code != 0; });
     if (first == codes.end()) { return; }
-    message = communicator.broadcast(message, static_cast<int>(first - codes.begin()));
-    rethrow(static_cast<ExitCode>(*first), message);
+    const auto                     rank     = static_cast<int>(first - codes.begin());
+    const std::vector<std::string> messages = communicator.gather(message);
+    if (std::equal(messages.begin() + 1, messages.end(), messages.begin()))
+    {
+        rethrow(static_cast<ExitCode>(*first), message);
+    }
+    const std::string host = communicator.broadcast(host_name(), rank);
+    rethrow(static_cast<ExitCode>(*first),
+            fmt::format("rank {} on {}: {}", rank, host, messages[static_cast<std::size_t>(rank)]));
 }
 
 void require_launcher_agrees(int mpi_size)

@@ -93,7 +93,11 @@ private:
     Communicator world_;
 };
 
-/// Runs `work` on every rank. Where some throw an Error, all throw that of the lowest of them.
+/// Name of the machine, as MPI has it.
+std::string host_name();
+
+/// Runs `work` on every rank. Where some throw an Error, all throw that of the lowest of them; unless all ranks failed
+/// alike, its rank and host stand before the message.
 void on_every_rank(const Communicator& communicator, const std::function<void()>& work);
 
 /// Runs `work` on rank 0 alone. The error that it throws, if any, is thrown on every rank, so that all leave together.

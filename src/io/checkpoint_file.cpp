@@ -1,5 +1,6 @@
 #include "io/checkpoint_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -68,6 +69,17 @@ std::optional<std::string> damage_of_head(const std::string& path, const std::op
     const std::int64_t bytes = bytes_of(path);
     if (bytes != head->bytes) { return fmt::format("it has {} bytes of {}", bytes, head->bytes); }
     return {};
+}
+
+/// A rank that sees another file than rank 0, as far as heads tell: theirs have the length and the checksum of the rest.
+std::string stranger(const Communicator& communicator, const std::optional<Head>& head)
+{
+    const std::vector<std::string> heads = communicator.gather(head ? text_of(*head) : "");
+    const auto other = std::find_if(heads.begin(), heads.end(), [&](const auto& text) { return text != heads.front(); });
+    if (other == heads.end()) { return ""; }
+    const auto rank = static_cast<int>(other - heads.begin());
+    return fmt::format("rank {} on {} sees {} there", rank, communicator.broadcast(host_name(), rank),
+                       other->empty() ? "no checkpoint" : "another file");
 }
 
 std::optional<std::string> damage_of_schema(const std::string& path)
@@ -176,6 +188,7 @@ std::optional<std::string> damage_of(const Communicator& communicator, const std
         std::optional<Head> head = head_of(path);
         on_root(communicator, [&] { found = damage_of_head(path, head).value_or(""); });
         found = communicator.broadcast(found);
+        if (found.empty()) { found = stranger(communicator, head); }
         if (!found.empty()) { return found; }
         if (checksum(communicator, path, head_bytes, head->bytes) != head->checksum)
         {

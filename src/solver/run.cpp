@@ -15,6 +15,7 @@
 #include "io/checkpoint_file.hpp"
 #include "io/progress.hpp"
 #include "scene/resolved.hpp"
+#include "solver/agreement.hpp"
 #include "solver/answers.hpp"
 #include "solver/bed.hpp"
 #include "solver/drive_room.hpp"
@@ -59,6 +60,23 @@ Backend choose_backend(BackendChoice choice)
         "--backend cuda: this build has no GPU backend (no CUDA compiler was found when it was made)");
 }
 #endif
+
+const char* name_of(Backend backend) { return backend == Backend::cpu ? "cpu" : "cuda"; }
+
+/// What this rank computes on, once all ranks are about to run the same.
+Backend agreed_backend(const Communicator& communicator, const scene::Scene& scene, const RunOptions& options)
+{
+    Backend           backend = Backend::cpu;
+    std::vector<Fact> facts;
+    on_every_rank(communicator,
+                  [&]
+                  {
+                      backend = choose_backend(options.backend);
+                      if (communicator.size() > 1) { facts = facts_of_run(scene, options, name_of(backend)); }
+                  });
+    require_agreement(communicator, scene::resolved_toml(scene), facts);
+    return backend;
+}
 
 void say_plan(Log& log, const scene::Scene& scene, const World& world, const std::vector<Stage>& stages)
 {
@@ -185,8 +203,6 @@ ExitCode run_backend(Backend backend, Job& job)
     return code;
 }
 
-const char* name_of(Backend backend) { return backend == Backend::cpu ? "cpu" : "cuda"; }
-
 void say_start(Job& job, Backend backend, int threads)
 {
     Log& log = job.log;
@@ -233,7 +249,7 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
 {
     const double      wall_start = wall_clock() - process_age();
     const SignalWatch signals;
-    const Backend     backend = choose_backend(options.backend);
+    const Backend     backend = agreed_backend(communicator, scene, options);
     const int         threads = choose_threads(communicator, options.threads);
     omp_set_num_threads(threads);
     RestartPlan restart = plan_restart(communicator, scene, options.restart, options.output, options.existing);

@@ -94,7 +94,7 @@ class Ranks(CommandTest):
                                 cwd=self.directory, capture_output=True, text=True, timeout=60)
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertEqual(result.stderr.count("tread: error"), 1, result.stderr)
-        self.assertIn("rank 1: ", result.stderr)
+        self.assertIn("rank 1 on ", result.stderr)
         self.assertLess(time.monotonic() - start, 30)
 
     def test_a_rank_that_dies_ends_the_job(self):
