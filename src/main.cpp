@@ -16,6 +16,7 @@
 #include "base/communicator.hpp"
 #include "base/errors.hpp"
 #include "base/log.hpp"
+#include "base/printable.hpp"
 #include "base/script.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
@@ -83,7 +84,7 @@ ExitCode code_of(const std::exception& error)
 std::string text_of(const std::exception& error)
 {
     return dynamic_cast<const std::bad_alloc*>(&error) == nullptr
-               ? error.what()
+               ? printable(error.what())
                : "out of host memory while the scene was built or written: fewer points or rocks, a coarser grid, or a "
                  "machine with more memory";
 }
@@ -127,6 +128,7 @@ ExitCode run(const RunArguments& arguments)
             const scene::Scene scene =
                 solver::load_on_every_rank(world, arguments.scene.path, arguments.scene.overrides);
             solver::RunOptions options = arguments.options;
+            options.scene_file         = arguments.scene.path;
             if (options.output.empty())
             {
                 options.output = "runs/" + std::filesystem::path(arguments.scene.path).stem().string();
@@ -142,7 +144,7 @@ ExitCode check(const CheckArguments& arguments)
         {
             decomp::require_single_rank(world, "tread check runs");
             const scene::Scene scene = scene::load_scene(arguments.scene.path, arguments.scene.overrides);
-            std::cout << solver::check(world, scene, arguments.ranks);
+            std::cout << printable(solver::check(world, scene, arguments.ranks));
             return ExitCode::finished;
         });
 }
@@ -201,7 +203,7 @@ ExitCode sdf_of_family(const SdfArguments& arguments, const scene::Shape& family
         throw InputError(fmt::format("'{}' is a family: --write-stl and --report are for one rock, as in --shape {}",
                                      family.name, shape::members(family).front().name));
     }
-    std::cout << shape::form_table(shape::family_forms(family));
+    std::cout << printable(shape::form_table(shape::family_forms(family)));
     return ExitCode::finished;
 }
 
@@ -214,8 +216,8 @@ ExitCode sdf(const SdfArguments& arguments)
 
     const auto  measured = shape::make_measured_template(asked, directory, [](double) { return 0.0; });
     const auto& form     = measured.form;
-    std::cout << shape::template_text(form);
-    for (const std::string& warning : form.warnings) { std::cerr << "warning: " << warning << '\n'; }
+    std::cout << printable(shape::template_text(form));
+    for (const std::string& warning : form.warnings) { std::cerr << "warning: " << printable(warning) << '\n'; }
     if (arguments.stl) { shape::write_stl(form.mesh, *arguments.stl); }
     if (arguments.report == Report::none) { return ExitCode::finished; }
 
@@ -227,7 +229,7 @@ ExitCode sdf(const SdfArguments& arguments)
 
 ExitCode info(const std::string& path)
 {
-    std::cout << io::describe_file(path);
+    std::cout << printable(io::describe_file(path));
     return ExitCode::finished;
 }
 

@@ -71,11 +71,13 @@ std::optional<std::string> damage_of_head(const std::string& path, const std::op
     return {};
 }
 
-/// A rank that sees another file than rank 0, as far as heads tell: theirs have the length and the checksum of the rest.
+/// A rank that sees another file than rank 0, as far as heads tell: theirs have the length and the checksum of the
+/// rest.
 std::string stranger(const Communicator& communicator, const std::optional<Head>& head)
 {
     const std::vector<std::string> heads = communicator.gather(head ? text_of(*head) : "");
-    const auto other = std::find_if(heads.begin(), heads.end(), [&](const auto& text) { return text != heads.front(); });
+    const auto                     other =
+        std::find_if(heads.begin(), heads.end(), [&](const auto& text) { return text != heads.front(); });
     if (other == heads.end()) { return ""; }
     const auto rank = static_cast<int>(other - heads.begin());
     return fmt::format("rank {} on {} sees {} there", rank, communicator.broadcast(host_name(), rank),

@@ -157,7 +157,7 @@ void require_agreement(const Communicator& communicator, const std::string& scen
 {
     if (communicator.size() == 1) { return; }
     const std::string        scene_of_rank_0 = communicator.broadcast(scene);
-    std::vector<std::string> lines = fact_lines(facts, facts_of(communicator.broadcast(text_of(facts))));
+    std::vector<std::string> lines           = fact_lines(facts, facts_of(communicator.broadcast(text_of(facts))));
     add_scene_lines(scene, scene_of_rank_0, lines);
     const std::string own =
         lines.empty() ? "" : fmt::format("\n  rank {} on {}{}", communicator.rank(), host_name(), indented(lines));
