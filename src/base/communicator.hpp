@@ -8,6 +8,7 @@
 #include <mpi.h>
 
 #include "base/errors.hpp"
+#include "base/wait_note.hpp"
 
 namespace tread
 {
@@ -29,6 +30,9 @@ public:
     int      rank() const { return rank_; }
     int      size() const { return size_; }
     MPI_Comm native() const { return native_; }
+
+    /// What this rank waits for in calls of this class; those who wait by native() note it, too.
+    WaitNote& waits() const { return waits_; }
 
     void barrier() const;
 
@@ -71,6 +75,8 @@ private:
     MPI_Comm meeting_ = MPI_COMM_NULL; ///< of all_arrive
     int      rank_    = 0;
     int      size_    = 1;
+
+    mutable WaitNote waits_; ///< says nothing of what the ranks are
 };
 
 /// MPI between construction and destruction. EnvironmentError when MPI does not start, when it has no place for

@@ -1,10 +1,7 @@
 #include "solver/driver.hpp"
 
-#include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <system_error>
 #include <utility>
 
@@ -19,17 +16,6 @@ namespace
 {
 
 constexpr double progress_every = 5; ///< s of wall time
-
-/// Of wall time without a step, on several ranks: then one of them waits for what will not come.
-constexpr std::chrono::minutes longest_silence{30};
-
-/// This process alone; the launcher then ends the others.
-[[noreturn]] void end_silent_run(int rank)
-{
-    std::cerr << fmt::format("tread: error: rank {}: no step in {} minutes: a rank waits for what does not come\n",
-                             rank, longest_silence.count());
-    std::_Exit(static_cast<int>(ExitCode::environment));
-}
 
 std::vector<io::NamedMesh> meshes(const World& world)
 {
@@ -58,10 +44,6 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , wall_start_(wall_clock())
     , said_{wall_start_, 0, 0}
 {
-    if (communicator.size() > 1)
-    {
-        watchdog_.emplace(longest_silence, [rank = communicator.rank()] { end_silent_run(rank); });
-    }
     if (plan.snapshots)
     {
         io::SnapshotWriter files(communicator, directory.snapshots(), options.provenance);
@@ -95,6 +77,7 @@ std::optional<std::string> Driver<Exec, Real>::carry_on()
     else { resume(); }
     interruptions_.emplace(scene_.checkpoint, options_.walltime_limit, options_.wall_start, time_, steps_);
     interruptions_->expect(state_bytes());
+    if (options_.watchdog != nullptr) { options_.watchdog->begin_steps(); }
     while (!phases_.finished())
     {
         const Interruption asked = look_outside();
@@ -154,7 +137,7 @@ void Driver<Exec, Real>::advance()
     simulation_.command(commands, phases_.phase().damping);
     clock_.begin_step(steps_);
     step = simulation_.step(step, time_, clock_);
-    if (watchdog_) { watchdog_->advance(); }
+    if (options_.watchdog != nullptr) { options_.watchdog->advance(); }
     time_ += step.dt;
     ++steps_;
     substeps_ += step.substeps;

@@ -167,6 +167,7 @@ ExitCode run_on(const Exec& exec, Job& job)
         job.summary.exit_code = error.code();
         job.summary.reason    = error.what();
     }
+    if (job.driver.watchdog != nullptr) { job.driver.watchdog->end_steps(); }
     driver.report(job.summary, job.stages);
     return job.summary.exit_code;
 }
@@ -289,7 +290,8 @@ std::vector<io::NeededFile> needed_files(const scene::Scene& scene, const RunOpt
 
 } // namespace
 
-ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& scene, const RunOptions& options)
+ExitCode run(const Communicator& communicator, Log& log, Watchdog* watchdog, const scene::Scene& scene,
+             const RunOptions& options)
 {
     const double      wall_start = wall_clock() - process_age();
     const SignalWatch signals;
@@ -332,7 +334,8 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
     job.driver             = {{job.summary.scene_hash, job.summary.backend, {}, communicator.size(), job.summary.start},
                               job.restart.checkpoint,
                               wall_start,
-                              options.walltime_limit};
+                              options.walltime_limit,
+                              watchdog};
     const ExitCode code    = run_backend(backend, job);
     log.info(fmt::format("\n{}", io::timing_table(job.summary.stages, job.summary.wall_s)));
     log.info(fmt::format("errors: mass {:.3g}, momentum {:.3g}, energy {:.3g}", job.summary.errors.mass,

@@ -5,6 +5,7 @@
 #include "base/communicator.hpp"
 #include "base/exit_code.hpp"
 #include "base/log.hpp"
+#include "base/watchdog.hpp"
 #include "decomp/decomposition.hpp"
 #include "io/run_directory.hpp"
 #include "scene/scene.hpp"
@@ -37,7 +38,7 @@ struct RunOptions
     GpuSharing    gpus     = GpuSharing::refused;
 
     RestartOptions restart;
-    double         walltime_limit = 0; ///< s since the start of run(); 0 = none
+    double         walltime_limit = 0; ///< s since the start of the process; 0 = none
 
     decomp::DecompositionOptions decomposition; ///< of a run on several ranks
 };
@@ -49,7 +50,9 @@ struct RunOptions
 /// run if options.restart says so; with one that is finished nothing is left to do. Collective; on several ranks every
 /// rank computes with the pages that are its own. Throws InputError and EnvironmentError for what is found before the
 /// first step.
-ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& scene, const RunOptions& options);
+/// `watchdog`, on several ranks, hears of every step.
+ExitCode run(const Communicator& communicator, Log& log, Watchdog* watchdog, const scene::Scene& scene,
+             const RunOptions& options);
 
 /// What `tread check` prints: warnings, cost, slope, what each named body stands on and how well the grid resolves it,
 /// the bed, shapes, how the scene falls to so many ranks, and the stages of a step with reasons.
