@@ -68,6 +68,13 @@ std::optional<std::string> Driver<Exec, Real>::run()
         finish_files();
         throw;
     }
+    catch (const StoppedInStep& stop)
+    {
+        finish_files();
+        return fmt::format("{} within step {}, of which no checkpoint can be written; the newest is {}", stop.what(),
+                           steps_ + 1,
+                           checkpoints_.newest.empty() ? "none: a restart begins anew" : checkpoints_.newest);
+    }
 }
 
 template<class Exec, class Real>
@@ -77,6 +84,7 @@ std::optional<std::string> Driver<Exec, Real>::carry_on()
     else { resume(); }
     interruptions_.emplace(scene_.checkpoint, options_.walltime_limit, options_.wall_start, time_, steps_);
     interruptions_->expect(state_bytes());
+    simulation_.ask_within_steps([this] { return interruptions_->look_within_step(communicator_); });
     if (options_.watchdog != nullptr) { options_.watchdog->begin_steps(); }
     while (!phases_.finished())
     {
