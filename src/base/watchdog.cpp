@@ -71,12 +71,14 @@ std::optional<std::string> Watchdog::complaint() const
     const Clock::time_point             now    = Clock::now();
     const std::optional<WaitNote::Wait> wait   = waits_.present();
     const Seconds                       waited = wait ? now - wait->since : Seconds(0);
-    const std::string                   done   = fmt::format("after {} steps of this run", steps_);
-    if (waited >= timeout_) { return fmt::format("{}, {}", wait_text(*wait, waited), done); }
-    if (!last_ || now - *last_ < timeout_) { return std::nullopt; }
-    return fmt::format("has taken no step for {:.3g} s, {}, and {}", Seconds(now - *last_).count(), done,
-                       wait ? wait_text(*wait, waited)
-                            : "waits for no message: it computes, or waits for a file, for NCCL or for its GPU");
+    const Seconds                       idle   = last_ ? now - *last_ : Seconds(0);
+    if (waited < timeout_ && idle < timeout_) { return std::nullopt; }
+    const std::string what =
+        wait ? wait_text(*wait, waited)
+             : fmt::format("has ended no step for {:.3g} s and waits for no message: it computes, or waits for a file, "
+                           "for NCCL or for its GPU",
+                           idle.count());
+    return fmt::format("{}, after {} steps of this run", what, steps_);
 }
 
 void Watchdog::watch()

@@ -27,7 +27,7 @@ public:
     Watchdog(const Watchdog&)            = delete;
     Watchdog& operator=(const Watchdog&) = delete;
 
-    /// From now on steps end in time.
+    /// From now on a step is due.
     void begin_steps();
 
     /// A step has ended, and another follows.

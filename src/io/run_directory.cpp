@@ -218,8 +218,8 @@ std::int64_t RunDirectory::bytes_to_remove() const
     return static_cast<std::int64_t>(bytes);
 }
 
-bool RunDirectory::exists() const { return fs::is_directory(path_); }
-
 bool RunDirectory::holds_run() const { return tread::io::holds_run(path_); }
+
+bool RunDirectory::is_of_run() const { return holds_run() || has_lock_of_run(path_); }
 
 } // namespace tread::io

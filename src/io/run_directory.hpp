@@ -62,8 +62,10 @@ public:
     /// Bytes of the files that a run which begins anew here would remove. On any one rank.
     std::int64_t bytes_to_remove() const;
 
-    bool exists() const;
     bool holds_run() const;
+
+    /// Whether a run has been at work in it, be it that it was stopped before its files were there.
+    bool is_of_run() const;
 
     const std::string& path() const { return path_; }
     std::string        log() const { return path_ + "/log.txt"; }

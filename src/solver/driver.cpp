@@ -80,12 +80,12 @@ std::optional<std::string> Driver<Exec, Real>::run()
 template<class Exec, class Real>
 std::optional<std::string> Driver<Exec, Real>::carry_on()
 {
+    if (options_.watchdog != nullptr) { options_.watchdog->begin_steps(); } // what is written before them counts
     if (options_.checkpoint.empty()) { start(); }
     else { resume(); }
     interruptions_.emplace(scene_.checkpoint, options_.walltime_limit, options_.wall_start, time_, steps_);
     interruptions_->expect(state_bytes());
     simulation_.ask_within_steps([this] { return interruptions_->look_within_step(communicator_); });
-    if (options_.watchdog != nullptr) { options_.watchdog->begin_steps(); }
     while (!phases_.finished())
     {
         const Interruption asked = look_outside();

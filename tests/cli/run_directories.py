@@ -60,8 +60,14 @@ class Inputs(RestartTest):
         (self.output / "checkpoints" / "mine.h5").write_text("mine")
         (self.output / ".lock").write_text("of a package manager")
         self.refuse(SCENE, self.output, mentions=["holds 'checkpoints'"])
-        for options in (("--overwrite",), ("--restart", "auto")):
-            self.refuse(SCENE, self.output, *options, mentions=[".lock: is not the lock of a run"])
+        self.refuse(SCENE, self.output, "--restart", "auto", mentions=["holds 'checkpoints'"])
+        self.refuse(SCENE, self.output, "--overwrite", mentions=[".lock: is not the lock of a run"])
+
+    def test_a_restart_does_not_make_a_directory_a_runs(self):
+        (self.output / "snapshots").mkdir(parents=True)
+        (self.output / "snapshots" / "mine.h5").write_text("mine")
+        for _ in range(2):
+            self.refuse(SCENE, self.output, "--restart", "auto", mentions=["holds 'snapshots'"])
 
 
 class Room(RestartTest):

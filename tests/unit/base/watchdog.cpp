@@ -53,10 +53,18 @@ TEST(Watchdog, BarksOnceWhenNoStepFollows)
     WaitNote waits;
     Barking  barking(waits);
     barking.dog.advance();
-    EXPECT_THAT(barking.text(), ::testing::AllOf(HasSubstr("no step for"), HasSubstr("after 1 steps"),
+    EXPECT_THAT(barking.text(), ::testing::AllOf(HasSubstr("has ended no step for"), HasSubstr("after 1 steps"),
                                                  HasSubstr("waits for no message")));
     std::this_thread::sleep_for(milliseconds(50));
     EXPECT_EQ(barking.barks, 1);
+}
+
+TEST(Watchdog, BarksWhenTheFirstStepDoesNotEnd)
+{
+    WaitNote waits;
+    Barking  barking(waits);
+    barking.dog.begin_steps();
+    EXPECT_THAT(barking.text(), HasSubstr("after 0 steps"));
 }
 
 TEST(Watchdog, IsQuietWhereNobodyWaitsAndNoStepIsDue)
