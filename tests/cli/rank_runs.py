@@ -110,7 +110,7 @@ class Ranks(CommandTest):
         self.assertNotEqual(job.wait(timeout=30), 0)
 
     def test_a_rank_that_waits_too_long_says_for_whom(self):
-        scene = self.write("scene.toml", SCENE.replace("duration = 0.02", "duration = 1000.0"))
+        scene = self.write("scene.toml", SCENE.replace("duration = 0.02", "duration = 1000.0").replace("= 0.01", "= 0.0"))
         job = subprocess.Popen([*MPIRUN, "-n", "2", TREAD, "run", str(scene), "--output", str(self.output), "--backend",
                                 "cpu", "--hang-timeout", "00:00:10"], cwd=self.directory, stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE, text=True)
