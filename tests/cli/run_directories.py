@@ -92,14 +92,6 @@ class Room(RestartTest):
         facts = self.write("meminfo", "MemAvailable: 100 kB\n")
         self.assertIn("out of host memory", self.run_again_where(f"mount --bind {facts} /proc/meminfo"))
 
-    def test_no_device_leaves_the_run_that_is_there(self):
-        self.run_scene(SCENE, self.output)
-        before = {path: path.read_bytes() for path in self.output.rglob("*") if path.is_file()}
-        result = self.tread("run", self.directory / "scene.toml", "--output", self.output, "--backend", "cuda",
-                            "--overwrite", environment={"CUDA_VISIBLE_DEVICES": ""})
-        self.assertEqual(result.returncode, 4, result.stdout + result.stderr)
-        self.assertEqual({path: path.read_bytes() for path in self.output.rglob("*") if path.is_file()}, before)
-
     def test_a_disk_without_room_for_the_first_files(self):
         scene = self.write("scene.toml", SCENE)
         disk = self.directory / "disk"
