@@ -2,12 +2,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <map>
-#include <new>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -16,16 +13,18 @@
 #include "base/communicator.hpp"
 #include "base/errors.hpp"
 #include "base/log.hpp"
+#include "base/printable.hpp"
 #include "base/script.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
 #include "io/describe.hpp"
-#include "io/h5.hpp"
 #include "io/sdf_report.hpp"
 #include "scene/load.hpp"
 #include "shape/form.hpp"
 #include "shape/report.hpp"
 #include "shape/template.hpp"
+#include "solver/agreement.hpp"
+#include "solver/on_ranks.hpp"
 #include "solver/run.hpp"
 
 // The command line: what the user typed, to one call of the room that does it.
@@ -50,7 +49,8 @@ struct RunArguments
 {
     SceneArguments     scene;
     solver::RunOptions options;
-    Terminal           terminal = Terminal::shown;
+    double             hang_timeout = 600; ///< s
+    Terminal           terminal     = Terminal::shown;
 };
 
 enum class Report
@@ -71,76 +71,33 @@ struct SdfArguments
     std::string                report_file; ///< empty = none
 };
 
-ExitCode code_of(const std::exception& error)
-{
-    if (const auto* known = dynamic_cast<const Error*>(&error)) { return known->code(); }
-    const bool machine = dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
-                         dynamic_cast<const std::system_error*>(&error) != nullptr;
-    return machine ? ExitCode::environment : ExitCode::numerical;
-}
-
-std::string text_of(const std::exception& error)
-{
-    return dynamic_cast<const std::bad_alloc*>(&error) == nullptr
-               ? error.what()
-               : "out of host memory while the scene was built or written: fewer points or rocks, a coarser grid, or a "
-                 "machine with more memory";
-}
-
-/// How long a rank that has failed waits for the others to fail, too, before it ends them.
-constexpr double patience = 10; // s
-
-/// An error that all ranks come upon together is said once, by rank 0; one that befell a rank alone is said by it, and
-/// ends the job.
-template<class Command>
-ExitCode on_ranks(const Command& command)
-{
-    io::h5::begin();
-    const MpiSession    session;
-    const Communicator& world = session.world();
-    ExitCode            code  = ExitCode::finished;
-    try
-    {
-        code = command(world);
-        world.all_arrive(std::numeric_limits<double>::infinity());
-    }
-    catch (const std::exception& error)
-    {
-        code = code_of(error);
-        if (!world.all_arrive(patience))
-        {
-            std::cerr << "tread: error: rank " << world.rank() << ": " << text_of(error) << std::endl;
-            world.abort(code);
-        }
-        if (world.rank() == 0) { std::cerr << "tread: error: " << text_of(error) << std::endl; }
-    }
-    return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
-}
-
 ExitCode run(const RunArguments& arguments)
 {
-    return on_ranks(
+    return solver::on_ranks(
         [&](const Communicator& world)
         {
+            const auto         watchdog = solver::watch_ranks(world, arguments.hang_timeout);
             Log                log(world, arguments.terminal);
-            const scene::Scene scene   = scene::load_scene(arguments.scene.path, arguments.scene.overrides);
+            const scene::Scene scene =
+                solver::load_on_every_rank(world, arguments.scene.path, arguments.scene.overrides);
             solver::RunOptions options = arguments.options;
+            options.scene_file         = arguments.scene.path;
             if (options.output.empty())
             {
                 options.output = "runs/" + std::filesystem::path(arguments.scene.path).stem().string();
             }
-            return solver::run(world, log, scene, options);
+            return solver::run(world, log, watchdog.get(), scene, options);
         });
 }
 
 ExitCode check(const CheckArguments& arguments)
 {
-    return on_ranks(
+    return solver::on_ranks(
         [&](const Communicator& world)
         {
             decomp::require_single_rank(world, "tread check runs");
             const scene::Scene scene = scene::load_scene(arguments.scene.path, arguments.scene.overrides);
-            std::cout << solver::check(world, scene, arguments.ranks);
+            std::cout << printable(solver::check(world, scene, arguments.ranks));
             return ExitCode::finished;
         });
 }
@@ -199,7 +156,7 @@ ExitCode sdf_of_family(const SdfArguments& arguments, const scene::Shape& family
         throw InputError(fmt::format("'{}' is a family: --write-stl and --report are for one rock, as in --shape {}",
                                      family.name, shape::members(family).front().name));
     }
-    std::cout << shape::form_table(shape::family_forms(family));
+    std::cout << printable(shape::form_table(shape::family_forms(family)));
     return ExitCode::finished;
 }
 
@@ -212,8 +169,8 @@ ExitCode sdf(const SdfArguments& arguments)
 
     const auto  measured = shape::make_measured_template(asked, directory, [](double) { return 0.0; });
     const auto& form     = measured.form;
-    std::cout << shape::template_text(form);
-    for (const std::string& warning : form.warnings) { std::cerr << "warning: " << warning << '\n'; }
+    std::cout << printable(shape::template_text(form));
+    for (const std::string& warning : form.warnings) { std::cerr << "warning: " << printable(warning) << '\n'; }
     if (arguments.stl) { shape::write_stl(form.mesh, *arguments.stl); }
     if (arguments.report == Report::none) { return ExitCode::finished; }
 
@@ -225,7 +182,7 @@ ExitCode sdf(const SdfArguments& arguments)
 
 ExitCode info(const std::string& path)
 {
-    std::cout << io::describe_file(path);
+    std::cout << printable(io::describe_file(path));
     return ExitCode::finished;
 }
 
@@ -249,16 +206,24 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments)
         ->allow_extra_args(false);
 }
 
-/// s, of "HH:MM:SS".
-double seconds_of(const std::string& text)
+/// s, of "HH:MM:SS", as an option has it.
+double seconds_of(const std::string& option, const std::string& text)
 {
     unsigned   hours = 0, minutes = 0, seconds = 0;
     int        read       = 0;
     const bool understood = std::sscanf(text.c_str(), "%4u:%2u:%2u%n", &hours, &minutes, &seconds, &read) == 3 &&
                             static_cast<std::size_t>(read) == text.size() && minutes < 60 && seconds < 60 &&
                             hours + minutes + seconds > 0;
-    if (!understood) { throw CLI::ValidationError("--walltime-limit", text + ": not a time over 0 as HH:MM:SS"); }
+    if (!understood) { throw CLI::ValidationError(option, text + ": not a time over 0 as HH:MM:SS"); }
     return 3600.0 * hours + 60.0 * minutes + seconds;
+}
+
+void add_time_option(CLI::App& command, const std::string& name, double& value, const std::string& meaning)
+{
+    command
+        .add_option_function<std::string>(
+            name, [name, &value](const std::string& text) { value = seconds_of(name, text); }, meaning)
+        ->type_name("HH:MM:SS");
 }
 
 solver::RestartOptions restart_of(const std::string& word)
@@ -275,11 +240,8 @@ void add_restart_options(CLI::App& command, RunArguments& arguments)
             "--restart", [&](const std::string& word) { arguments.options.restart = restart_of(word); },
             "Go on from the newest usable checkpoint of the run directory (auto) or from a file; default none")
         ->type_name("auto|none|FILE");
-    command
-        .add_option_function<std::string>(
-            "--walltime-limit", [&](const std::string& text) { arguments.options.walltime_limit = seconds_of(text); },
-            "Write a checkpoint and stop (exit code 75) before so much wall time is over")
-        ->type_name("HH:MM:SS");
+    add_time_option(command, "--walltime-limit", arguments.options.walltime_limit,
+                    "Write a checkpoint and stop (exit code 75) before so much wall time is over");
 }
 
 void add_run_options(CLI::App& command, RunArguments& arguments)
@@ -307,6 +269,9 @@ void add_run_options(CLI::App& command, RunArguments& arguments)
     command.add_flag_callback(
         "--overwrite", [&] { arguments.options.existing = io::Existing::overwrite; }, "Replace the run that is there");
     add_restart_options(command, arguments);
+    add_time_option(
+        command, "--hang-timeout", arguments.hang_timeout,
+        "End a run on several ranks (exit code 4) in which one waits so long for another; default 00:10:00");
     command.add_option("--threads", arguments.options.threads, "CPU threads; default: what OpenMP finds")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));

@@ -31,10 +31,11 @@ MPI_Comm ranks_of_machine(MPI_Comm all, int rank)
     return machine;
 }
 
-std::int64_t reduce(MPI_Comm communicator, std::int64_t value, MPI_Op operation)
+std::int64_t reduce(const Communicator& communicator, std::int64_t value, MPI_Op operation)
 {
-    std::int64_t result = 0;
-    check_mpi(MPI_Allreduce(&value, &result, 1, MPI_INT64_T, operation, communicator), "all-reduce");
+    std::int64_t  result = 0;
+    const Waiting wait(communicator.waits(), "all-reduce");
+    check_mpi(MPI_Allreduce(&value, &result, 1, MPI_INT64_T, operation, communicator.native()), "all-reduce");
     return result;
 }
 
@@ -43,6 +44,7 @@ std::vector<T> gather_all(const Communicator& communicator, T value, MPI_Datatyp
 {
     if (communicator.size() == 1) { return std::vector<T>{value}; }
     std::vector<T> values(static_cast<std::size_t>(communicator.size()));
+    const Waiting  wait(communicator.waits(), "all-gather");
     check_mpi(MPI_Allgather(&value, 1, type, values.data(), 1, type, communicator.native()), "all-gather");
     return values;
 }
@@ -60,6 +62,7 @@ std::vector<T> gather_all(const Communicator& communicator, const std::vector<T>
         place += static_cast<int>(count);
     }
     std::vector<T> all(static_cast<std::size_t>(place));
+    const Waiting  wait(communicator.waits(), "all-gather");
     check_mpi(MPI_Allgatherv(values.data(), static_cast<int>(values.size()), type, all.data(), counts.data(),
                              places.data(), type, communicator.native()),
               "all-gather");
@@ -103,12 +106,14 @@ Communicator::~Communicator()
 void Communicator::barrier() const
 {
     if (size_ == 1) { return; }
+    const Waiting wait(waits_, "barrier");
     check_mpi(MPI_Barrier(native_), "barrier");
 }
 
 bool Communicator::all_arrive(double seconds) const
 {
-    MPI_Request request = MPI_REQUEST_NULL;
+    const Waiting wait(waits_, "the end of a run or of its steps");
+    MPI_Request   request = MPI_REQUEST_NULL;
     check_mpi(MPI_Ibarrier(meeting_, &request), "barrier");
     const double start = MPI_Wtime();
     int          done  = 0;
@@ -149,7 +154,8 @@ int Communicator::local_size() const
 std::string Communicator::broadcast(const std::string& text, int from) const
 {
     if (size_ == 1) { return text; }
-    std::int64_t length = static_cast<std::int64_t>(text.size());
+    const Waiting wait(waits_, "broadcast", {from});
+    std::int64_t  length = static_cast<std::int64_t>(text.size());
     check_mpi(MPI_Bcast(&length, 1, MPI_INT64_T, from, native_), "broadcast");
     std::string result = text;
     result.resize(static_cast<std::size_t>(length));
@@ -157,13 +163,10 @@ std::string Communicator::broadcast(const std::string& text, int from) const
     return result;
 }
 
-std::int64_t Communicator::sum(std::int64_t value) const
-{
-    return size_ == 1 ? value : reduce(native_, value, MPI_SUM);
-}
+std::int64_t Communicator::sum(std::int64_t value) const { return size_ == 1 ? value : reduce(*this, value, MPI_SUM); }
 std::int64_t Communicator::maximum(std::int64_t value) const
 {
-    return size_ == 1 ? value : reduce(native_, value, MPI_MAX);
+    return size_ == 1 ? value : reduce(*this, value, MPI_MAX);
 }
 
 std::vector<std::int64_t> Communicator::gather(std::int64_t value) const
@@ -205,6 +208,7 @@ std::vector<double> Communicator::gather(const std::vector<double>& values) cons
 std::vector<std::int64_t> Communicator::all_to_all(const std::vector<std::int64_t>& to) const
 {
     std::vector<std::int64_t> from(to.size());
+    const Waiting             wait(waits_, "all-to-all");
     check_mpi(MPI_Alltoall(to.data(), 1, MPI_INT64_T, from.data(), 1, MPI_INT64_T, native_), "all-to-all");
     return from;
 }
@@ -233,6 +237,7 @@ Communicator::all_to_all(const std::vector<std::vector<std::uint64_t>>& to) cons
         place += static_cast<int>(count);
     }
     std::vector<std::uint64_t> in(static_cast<std::size_t>(place));
+    const Waiting              wait(waits_, "all-to-all");
     check_mpi(MPI_Alltoallv(out.data(), out_count.data(), out_place.data(), MPI_UINT64_T, in.data(), in_count.data(),
                             in_place.data(), MPI_UINT64_T, native_),
               "all-to-all");
@@ -262,6 +267,14 @@ MpiSession::MpiSession()
     : world_(MPI_COMM_WORLD)
 {
     require_launcher_agrees(world_.size());
+}
+
+std::string host_name()
+{
+    char name[MPI_MAX_PROCESSOR_NAME];
+    int  length = 0;
+    MPI_Get_processor_name(name, &length);
+    return {name, static_cast<std::size_t>(length)};
 }
 
 void on_root(const Communicator& communicator, const std::function<void()>& work)
@@ -300,8 +313,15 @@ void on_every_rank(const Communicator& communicator, const std::function<void()>
     const std::vector<std::int64_t> codes = communicator.gather(own);
     const auto first = std::find_if(codes.begin(), codes.end(), [](std::int64_t code) { return code != 0; });
     if (first == codes.end()) { return; }
-    message = communicator.broadcast(message, static_cast<int>(first - codes.begin()));
-    rethrow(static_cast<ExitCode>(*first), message);
+    const auto                     rank     = static_cast<int>(first - codes.begin());
+    const std::vector<std::string> messages = communicator.gather(message);
+    if (std::equal(messages.begin() + 1, messages.end(), messages.begin()))
+    {
+        rethrow(static_cast<ExitCode>(*first), message);
+    }
+    const std::string host = communicator.broadcast(host_name(), rank);
+    rethrow(static_cast<ExitCode>(*first),
+            fmt::format("rank {} on {}: {}", rank, host, messages[static_cast<std::size_t>(rank)]));
 }
 
 void require_launcher_agrees(int mpi_size)

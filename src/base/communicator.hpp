@@ -8,6 +8,7 @@
 #include <mpi.h>
 
 #include "base/errors.hpp"
+#include "base/wait_note.hpp"
 
 namespace tread
 {
@@ -29,6 +30,9 @@ public:
     int      rank() const { return rank_; }
     int      size() const { return size_; }
     MPI_Comm native() const { return native_; }
+
+    /// What this rank waits for in calls of this class; those who wait by native() note it, too.
+    WaitNote& waits() const { return waits_; }
 
     void barrier() const;
 
@@ -71,6 +75,8 @@ private:
     MPI_Comm meeting_ = MPI_COMM_NULL; ///< of all_arrive
     int      rank_    = 0;
     int      size_    = 1;
+
+    mutable WaitNote waits_; ///< says nothing of what the ranks are
 };
 
 /// MPI between construction and destruction. EnvironmentError when MPI does not start, when it has no place for
@@ -93,7 +99,11 @@ private:
     Communicator world_;
 };
 
-/// Runs `work` on every rank. Where some throw an Error, all throw that of the lowest of them.
+/// Name of the machine, as MPI has it.
+std::string host_name();
+
+/// Runs `work` on every rank. Where some throw an Error, all throw that of the lowest of them; unless all ranks failed
+/// alike, its rank and host stand before the message.
 void on_every_rank(const Communicator& communicator, const std::function<void()>& work);
 
 /// Runs `work` on rank 0 alone. The error that it throws, if any, is thrown on every rank, so that all leave together.

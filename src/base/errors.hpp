@@ -51,4 +51,20 @@ struct EnvironmentError : Error
     }
 };
 
+/// Somebody asked the run to stop while it was in a step, of which no checkpoint can be written: exit 75.
+struct StoppedInStep : Error
+{
+    explicit StoppedInStep(const std::string& message)
+        : Error(ExitCode::stopped_early, message)
+    {
+    }
+};
+
+/// What the process returns when it ends with this: of an Error its own, of no memory and of the system's errors that
+/// of the machine, of anything else that of a computation that cannot go on.
+ExitCode code_of(const std::exception& error);
+
+/// What is said of it, printable.
+std::string text_of(const std::exception& error);
+
 } // namespace tread

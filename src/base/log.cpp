@@ -2,7 +2,11 @@
 
 #include <iostream>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/printable.hpp"
 
 namespace tread
 {
@@ -16,14 +20,15 @@ Log::Log(const Communicator& communicator, Terminal terminal)
 void Log::info(std::string_view line)
 {
     if (!speaks_) { return; }
-    if (terminal_ == Terminal::shown) { std::cout << line << std::endl; }
-    keep(std::string(line));
+    std::string shown = printable(line);
+    if (terminal_ == Terminal::shown) { std::cout << shown << std::endl; }
+    keep(std::move(shown));
 }
 
 void Log::warning(std::string_view line)
 {
     if (!speaks_) { return; }
-    std::string marked = fmt::format("warning: {}", line);
+    std::string marked = fmt::format("warning: {}", printable(line));
     if (terminal_ == Terminal::shown) { std::cerr << marked << std::endl; }
     keep(std::move(marked));
 }
@@ -32,9 +37,17 @@ void Log::open(const std::string& path, LogFile file)
 {
     if (!speaks_) { return; }
     path_ = path;
-    file_.open(path, file == LogFile::anew ? std::ios::out : std::ios::app);
+    file_ = open_file(path, file);
     for (std::string& line : early_) { keep(std::move(line)); }
     early_.clear();
+}
+
+/// Null where that fails.
+Log::File Log::open_file(const std::string& path, LogFile file)
+{
+    const int flags      = O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | (file == LogFile::anew ? O_EXCL : O_APPEND);
+    const int descriptor = ::open(path.c_str(), flags, 0644);
+    return File(descriptor < 0 ? nullptr : fdopen(descriptor, file == LogFile::anew ? "w" : "a"));
 }
 
 void Log::keep(std::string line)
@@ -44,8 +57,9 @@ void Log::keep(std::string line)
         early_.push_back(std::move(line));
         return;
     }
-    file_ << line << std::endl;
-    if (!file_) { throw EnvironmentError(fmt::format("{}: the log cannot be written", path_)); }
+    const bool written = file_ && std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() &&
+                         std::fputc('\n', file_.get()) != EOF && std::fflush(file_.get()) == 0;
+    if (!written) { throw EnvironmentError(fmt::format("{}: the log cannot be written", path_)); }
 }
 
 } // namespace tread

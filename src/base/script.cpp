@@ -25,22 +25,18 @@ fs::path this_program()
     return path;
 }
 
+/// Beside an installed program (bin, share), or in the sources that this program was built from.
 fs::path find_script(const fs::path& program, const std::string& name)
 {
-    for (fs::path folder = program.parent_path();; folder = folder.parent_path())
+    const fs::path installed = program.parent_path().parent_path() / "share" / "tread" / name;
+    const fs::path source    = fs::path(TREAD_SOURCE_DIRECTORY) / name;
+    for (const fs::path& script : {installed, source})
     {
-        for (const fs::path& script : {folder / name, folder / "share" / "tread" / name})
-        {
-            std::error_code error;
-            if (fs::is_regular_file(script, error)) { return script; }
-        }
-        if (folder == folder.parent_path())
-        {
-            throw EnvironmentError(
-                fmt::format("there is no {0} above {1}, nor share/tread/{0}: it is part of tread's sources", name,
-                            program.string()));
-        }
+        std::error_code error;
+        if (fs::is_regular_file(script, error)) { return script; }
     }
+    throw EnvironmentError(fmt::format("{} is part of tread's sources; it is neither {} nor {}", name,
+                                       installed.string(), source.string()));
 }
 
 } // namespace

@@ -63,6 +63,8 @@ Request SignalWatch::take()
     return checkpoint ? Request::checkpoint : Request::none;
 }
 
+bool SignalWatch::stop_is_asked() { return stop_asked; }
+
 const char* SignalWatch::last_name()
 {
     for (const Watched& signal : watched)

@@ -24,6 +24,9 @@ public:
     /// The most that was asked for since the last call; a stop stays.
     static Request take();
 
+    /// Whether a stop was asked for; take() says so too.
+    static bool stop_is_asked();
+
     /// "USR2", of the last signal; "" before any.
     static const char* last_name();
 };

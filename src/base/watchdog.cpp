@@ -1,14 +1,37 @@
 #include "base/watchdog.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace tread
 {
+namespace
+{
 
-Watchdog::Watchdog(std::chrono::duration<double> patience, std::function<void()> bark)
-    : patience_(patience)
+using Seconds = std::chrono::duration<double>;
+
+constexpr Seconds longest_nap{1};
+
+std::string ranks_text(const std::vector<int>& ranks)
+{
+    if (ranks.empty()) { return "all ranks"; }
+    return fmt::format("{} {}", ranks.size() == 1 ? "rank" : "ranks", fmt::join(ranks, ", "));
+}
+
+std::string wait_text(const WaitNote::Wait& wait, Seconds passed)
+{
+    return fmt::format("has waited {:.3g} s for {} ({})", passed.count(), ranks_text(wait.ranks), wait.what);
+}
+
+} // namespace
+
+Watchdog::Watchdog(const WaitNote& waits, Seconds timeout, std::function<void(const std::string&)> bark)
+    : waits_(waits)
+    , timeout_(timeout)
     , bark_(std::move(bark))
-    , last_(Clock::now())
     , thread_([this] { watch(); })
 {
 }
@@ -23,24 +46,54 @@ Watchdog::~Watchdog()
     thread_.join();
 }
 
-void Watchdog::advance()
+void Watchdog::begin_steps()
 {
     const std::lock_guard<std::mutex> lock(mutex_);
     last_ = Clock::now();
 }
 
+void Watchdog::advance()
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    last_ = Clock::now();
+    ++steps_;
+}
+
+void Watchdog::end_steps()
+{
+    const std::lock_guard<std::mutex> lock(mutex_);
+    last_.reset();
+}
+
+/// What is wrong, if anything is. The mutex is held.
+std::optional<std::string> Watchdog::complaint() const
+{
+    const Clock::time_point             now    = Clock::now();
+    const std::optional<WaitNote::Wait> wait   = waits_.present();
+    const Seconds                       waited = wait ? now - wait->since : Seconds(0);
+    const Seconds                       idle   = last_ ? now - *last_ : Seconds(0);
+    if (waited < timeout_ && idle < timeout_) { return std::nullopt; }
+    const std::string what =
+        wait ? wait_text(*wait, waited)
+             : fmt::format("has ended no step for {:.3g} s and waits for no message: it computes, or waits for a file, "
+                           "for NCCL or for its GPU",
+                           idle.count());
+    return fmt::format("{}, after {} steps of this run", what, steps_);
+}
+
 void Watchdog::watch()
 {
+    const auto                   nap = std::chrono::duration_cast<Clock::duration>(std::min(longest_nap, timeout_ / 4));
     std::unique_lock<std::mutex> lock(mutex_);
     while (!ended_)
     {
-        const auto due = last_ + std::chrono::duration_cast<Clock::duration>(patience_);
-        if (Clock::now() >= due)
+        if (const auto found = complaint())
         {
-            bark_();
+            lock.unlock();
+            bark_(*found);
             return;
         }
-        changed_.wait_until(lock, due);
+        changed_.wait_for(lock, nap);
     }
 }
 

@@ -9,6 +9,7 @@ void combine(const Communicator& communicator, double* values, int sums, int pea
 {
     const int           count = sums + peaks;
     std::vector<double> all(static_cast<std::size_t>(count) * static_cast<std::size_t>(communicator.size()));
+    const Waiting       wait(communicator.waits(), "all-gather of sums");
     check_mpi(MPI_Allgather(values, count, MPI_DOUBLE, all.data(), count, MPI_DOUBLE, communicator.native()),
               "all-gather");
     std::copy_n(all.begin(), count, values);

@@ -44,6 +44,7 @@ std::vector<Letter> exchange_letters(const Communicator& communicator, const std
     for (const std::int64_t bytes : communicator.all_to_all(sent)) { from.push_back(checked(bytes)); }
     const std::vector<int> to_place = places_of(to), from_place = places_of(from);
     Letter                 in(static_cast<std::size_t>(from_place.back()));
+    const Waiting          wait(communicator.waits(), "all-to-all");
     check_mpi(MPI_Alltoallv(out.data(), to.data(), to_place.data(), MPI_BYTE, in.data(), from.data(), from_place.data(),
                             MPI_BYTE, communicator.native()),
               "all-to-all of letters");

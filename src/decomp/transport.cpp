@@ -118,6 +118,7 @@ Mail<Exec>::Mail(Transport<Exec>& transport, const Exec& exec, const char* name)
     , exec_(exec)
     , outgoing_(exec, name, transport.carrier())
     , incoming_(exec, name, transport.carrier())
+    , name_(name)
     , channel_(transport.open_channel())
 {
 }
@@ -128,6 +129,7 @@ void Mail<Exec>::depart(const Parcels& out, const Parcels& in)
     turn_ = (turn_ + 1) % turns;
     requests_.clear();
     expected_.clear();
+    partners_.clear();
     if (out.empty() && in.empty()) { return; }
     if (transport_->carrier() == Carrier::nccl)
     {
@@ -158,6 +160,7 @@ void Mail<Exec>::post_receive(const Parcel& parcel)
         check_mpi(MPI_Irecv(incoming_.data() + first, bytes, MPI_BYTE, parcel.rank, channel_ * turns + turn_,
                             transport_->communicator().native(), &requests_.emplace_back()),
                   "receive");
+        partners_.push_back(parcel.rank);
         expected_.push_back({parcel.rank, first, bytes});
     };
     for_each_piece(parcel, receive);
@@ -171,8 +174,18 @@ void Mail<Exec>::post_send(const Parcel& parcel)
         check_mpi(MPI_Isend(outgoing_.data() + first, bytes, MPI_BYTE, parcel.rank, channel_ * turns + turn_,
                             transport_->communicator().native(), &requests_.emplace_back()),
                   "send");
+        partners_.push_back(parcel.rank);
     };
     for_each_piece(parcel, send);
+}
+
+template<class Exec>
+void Mail<Exec>::wait_for_all()
+{
+    std::sort(partners_.begin(), partners_.end());
+    partners_.erase(std::unique(partners_.begin(), partners_.end()), partners_.end());
+    const Waiting wait(transport_->communicator().waits(), name_, partners_);
+    check_mpi(MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), states_.data()), "messages");
 }
 
 template<class Exec>
@@ -181,7 +194,7 @@ void Mail<Exec>::arrive()
     if (!leaving_.empty() || !coming_.empty()) { post(); }
     if (requests_.empty()) { return; }
     states_.resize(requests_.size());
-    check_mpi(MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), states_.data()), "messages");
+    wait_for_all();
     for (std::size_t i = 0; i < expected_.size(); ++i)
     {
         int bytes = 0;

@@ -84,6 +84,7 @@ private:
     void post();
     void post_receive(const Parcel& parcel);
     void post_send(const Parcel& parcel);
+    void wait_for_all();
 
     Transport<Exec>*         transport_;
     Exec                     exec_;
@@ -94,6 +95,8 @@ private:
     Parcels                  leaving_;  ///< not yet posted
     Parcels                  coming_;   ///< the same
     Parcels                  expected_; ///< of the first requests
+    std::vector<int>         partners_; ///< of all of them
+    const char*              name_;     ///< for a watchdog
     int                      channel_;
     int                      turn_ = 0;
 };

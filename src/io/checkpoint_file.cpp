@@ -74,6 +74,19 @@ std::optional<std::string> damage_of_head(const std::string& path, const std::op
     return {};
 }
 
+/// A rank that sees another file than rank 0, as far as heads tell: theirs have the length and the checksum of the
+/// rest.
+std::string stranger(const Communicator& communicator, const std::optional<Head>& head)
+{
+    const std::vector<std::string> heads = communicator.gather(head ? text_of(*head) : "");
+    const auto                     other =
+        std::find_if(heads.begin(), heads.end(), [&](const auto& text) { return text != heads.front(); });
+    if (other == heads.end()) { return ""; }
+    const auto rank = static_cast<int>(other - heads.begin());
+    return fmt::format("rank {} on {} sees {} there", rank, communicator.broadcast(host_name(), rank),
+                       other->empty() ? "no checkpoint" : "another file");
+}
+
 std::optional<std::string> damage_of_schema(const std::string& path)
 {
     const h5::File file    = h5::File::open_received(path);
@@ -193,6 +206,7 @@ std::optional<std::string> damage_of(const Communicator& communicator, const std
         head = head_of(path);
         on_root(communicator, [&] { found = damage_of_head(path, head).value_or(""); });
         found = communicator.broadcast(found);
+        if (found.empty()) { found = stranger(communicator, head); }
         if (!found.empty()) { return found; }
         if (checksum(communicator, path, head_bytes, head->bytes) != head->checksum)
         {

@@ -1,12 +1,15 @@
 #include "io/directory_lock.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/errors.hpp"
@@ -16,11 +19,12 @@ namespace tread::io
 namespace
 {
 
-std::string holder_of(int file)
+/// What an open file begins with.
+std::string text_of(int file)
 {
     std::array<char, 512> text{};
     const auto            bytes = pread(file, text.data(), text.size(), 0);
-    return bytes > 0 ? std::string(text.data(), static_cast<std::size_t>(bytes)) : "another process";
+    return {text.data(), static_cast<std::size_t>(std::max<ssize_t>(bytes, 0))};
 }
 
 std::string this_process()
@@ -30,25 +34,75 @@ std::string this_process()
     return fmt::format("process {} on {}", getpid(), host.data());
 }
 
+/// Whether a text is what this_process() says in some process of some machine.
+bool names_process(const std::string& text)
+{
+    int  process = 0, read = 0;
+    char host[256];
+    return std::sscanf(text.c_str(), "process %d on %255s%n", &process, host, &read) == 2 &&
+           static_cast<std::size_t>(read) == text.size();
+}
+
+/// Never waits, whatever has that name.
+int open_lock(const std::string& path, int flags)
+{
+    return open(path.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644);
+}
+
+/// Whether nobody loses anything if a run writes into it: it is new, or a run's.
+bool may_be_written(int file)
+{
+    struct stat facts   = {};
+    const bool  regular = fstat(file, &facts) == 0 && S_ISREG(facts.st_mode);
+    return regular && (facts.st_size == 0 || names_process(text_of(file)));
+}
+
+/// Says whose it is, at every moment: a run that is killed here leaves its mark.
+void sign(int file)
+{
+    const std::string text    = this_process();
+    const auto        written = pwrite(file, text.data(), text.size(), 0);
+    const bool        said    = written > 0 && ftruncate(file, written) == 0;
+    static_cast<void>(said); // only for messages
+}
+
 } // namespace
+
+bool has_lock_of_run(const std::string& directory)
+{
+    const int file = open_lock(directory + "/" + lock_file, O_RDONLY);
+    if (file < 0) { return false; }
+    const bool marked = names_process(text_of(file));
+    close(file);
+    return marked;
+}
 
 class DirectoryLock::Held
 {
 public:
     explicit Held(const std::string& directory)
-        : file_(open((directory + "/" + lock_file).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644))
+        : file_(open_lock(directory + "/" + lock_file, O_RDWR | O_CREAT))
     {
-        if (file_ < 0) { throw EnvironmentError(fmt::format("{}/{}: {}", directory, lock_file, std::strerror(errno))); }
+        const int reason = errno;
+        if (file_ < 0 && reason != ELOOP)
+        {
+            throw EnvironmentError(fmt::format("{}/{}: {}", directory, lock_file, std::strerror(reason)));
+        }
+        if (file_ < 0 || !may_be_written(file_))
+        {
+            if (file_ >= 0) { close(file_); }
+            throw InputError(fmt::format("{}/{}: is not the lock of a run, which would write into it: move it away, or "
+                                         "--output names another place",
+                                         directory, lock_file));
+        }
         if (flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         {
-            const std::string holder = holder_of(file_);
+            const std::string holder = text_of(file_);
             close(file_);
-            throw EnvironmentError(fmt::format("{}: is in use by {}: one run at a time", directory, holder));
+            throw EnvironmentError(fmt::format("{}: is in use by {}: one run at a time", directory,
+                                               holder.empty() ? "another process" : holder));
         }
-        // A file system without locks leaves runs unguarded, but lets them run.
-        const std::string self = this_process();
-        const bool        said = ftruncate(file_, 0) == 0 && pwrite(file_, self.data(), self.size(), 0) > 0;
-        static_cast<void>(said); // only for the message above
+        sign(file_); // a file system without locks leaves runs unguarded, but lets them run
     }
     ~Held() { close(file_); }
     Held(const Held&)            = delete;

@@ -4,8 +4,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <memory>
 
 #include <fcntl.h>
@@ -32,13 +34,29 @@ struct Close
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
+/// Of a file that was not there before; below 0 where that fails.
+int open_new(const std::string& path)
+{
+    remove_name(path);
+    return open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
+}
+
 } // namespace
+
+void remove_name(const std::string& path) { unlink(path.c_str()); }
 
 void write_atomically(const std::string& path, const std::string& text)
 {
+    write_atomically(path, text, [] {});
+}
+
+void write_atomically(const std::string& path, const std::string& text, const std::function<void()>& before)
+{
     const std::string temporary = path + ".tmp";
 
-    std::unique_ptr<std::FILE, Close> file(std::fopen(temporary.c_str(), "w"));
+    const int descriptor = open_new(temporary);
+    if (descriptor < 0) { fail(path); }
+    std::unique_ptr<std::FILE, Close> file(fdopen(descriptor, "w"));
     if (!file) { fail(path); }
     const bool written = std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() &&
                          std::fflush(file.get()) == 0 && fsync(fileno(file.get())) == 0;
@@ -50,6 +68,7 @@ void write_atomically(const std::string& path, const std::string& text)
         fail(path);
     }
     file.reset();
+    before();
     rename_file(temporary, path);
 }
 
@@ -81,7 +100,7 @@ void flush_to_disk(const std::string& path)
 void require_space(const std::string& path, std::int64_t bytes)
 {
     const std::string probe = path + ".room.tmp";
-    const int         file  = open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    const int         file  = open_new(probe);
     if (file < 0) { fail(path); }
     int            reason = fallocate(file, 0, 0, std::max<std::int64_t>(bytes, 1)) == 0 ? 0 : errno;
     struct statvfs disk   = {};
@@ -95,6 +114,15 @@ void require_space(const std::string& path, std::int64_t bytes)
     std::remove(probe.c_str());
     errno = reason;
     if (reason != 0) { fail(path); }
+}
+
+std::int64_t free_space(const std::string& path)
+{
+    std::error_code       none;
+    std::filesystem::path place = std::filesystem::absolute(path, none);
+    while (!std::filesystem::exists(place, none) && place.has_relative_path()) { place = place.parent_path(); }
+    const std::filesystem::space_info space = std::filesystem::space(place, none);
+    return none ? std::numeric_limits<std::int64_t>::max() : static_cast<std::int64_t>(space.available);
 }
 
 std::string read_file(const std::string& path)

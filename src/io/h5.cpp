@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "base/regular_file.hpp"
+#include "io/files.hpp"
 #include "io/h5_parts.hpp"
 
 namespace tread::io::h5
@@ -84,7 +85,8 @@ File::File(hid_t id, std::string path, Handle transfer)
 File File::create(const std::string& path)
 {
     silence();
-    const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    remove_name(path);
+    const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
     return {checked(id, path, "creating the file"), path, property_list(H5P_DATASET_XFER)};
 }
 
@@ -96,7 +98,9 @@ File File::create(const std::string& path, const Communicator& communicator, hsi
     Handle       transfer = alone ? property_list(H5P_DATASET_XFER) : collective_transfer();
     const Handle creation = property_list(H5P_FILE_CREATE);
     H5Pset_userblock(creation.id(), user_block);
-    const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
+    if (communicator.rank() == 0) { remove_name(path); }
+    communicator.barrier();
+    const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation.id(), access.id());
     return {checked(id, path, "creating the file"), path, std::move(transfer)};
 }
 

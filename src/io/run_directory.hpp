@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/communicator.hpp"
 #include "io/directory_lock.hpp"
@@ -17,18 +19,39 @@ enum class Existing
     resume ///< keep its files, but for summary.json, and go on with them
 };
 
+/// A file that a run reads and that must outlast it.
+struct NeededFile
+{
+    std::string path;
+    std::string what; ///< it is: "[[rocks]] 0 from"
+};
+
+/// What a run asks of its directory.
+struct NewRun
+{
+    std::string             path;
+    Existing                existing = Existing::refuse;
+    std::string             resolved_scene;
+    std::vector<NeededFile> needed;
+};
+
 /// Where a run writes. Paths of its files; the directory exists.
 class RunDirectory
 {
 public:
+    /// InputError when a run may not begin in its directory: it holds a run and `existing` says refuse, it holds
+    /// somebody's files by names that a run takes, or what the run needs is among those that it would replace. Looks
+    /// only. Collective.
+    static void require_free(const Communicator& communicator, const NewRun& run);
+
     /// Makes the directory (and those above it) and writes scene.toml, whose presence marks it as a run's. With
     /// Existing::overwrite an earlier run's files go first, files of others stay. Locks it, unless the caller has.
     /// Collective.
     ///
-    /// InputError when it holds a run and `existing` says refuse; EnvironmentError when it cannot be made or written,
-    /// and then nothing of it is left behind, or when another process has its lock.
-    static RunDirectory create(const Communicator& communicator, const std::string& path, Existing existing,
-                               const std::string& resolved_scene, std::optional<DirectoryLock> lock = {});
+    /// InputError as of require_free; EnvironmentError when it cannot be made or written, and then nothing of it is
+    /// left behind, or when another process has its lock.
+    static RunDirectory create(const Communicator& communicator, const NewRun& run,
+                               std::optional<DirectoryLock> lock = {});
 
     /// The same without making anything: where a run would be, or is.
     static RunDirectory at(const std::string& path);
@@ -40,8 +63,13 @@ public:
     /// Of a file: as seen from the directory, if it is in it.
     std::string within(const std::string& file) const;
 
-    bool exists() const;
+    /// Bytes of the files that a run which begins anew here would remove. On any one rank.
+    std::int64_t bytes_to_remove() const;
+
     bool holds_run() const;
+
+    /// Whether a run has been at work in it, be it that it was stopped before its files were there.
+    bool is_of_run() const;
 
     const std::string& path() const { return path_; }
     std::string        log() const { return path_ + "/log.txt"; }

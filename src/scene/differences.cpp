@@ -69,14 +69,19 @@ std::vector<Difference> differences(const std::string& before, const std::string
     return found;
 }
 
-std::string describe(const Difference& difference)
+std::string place_of(const Difference& difference)
 {
-    const auto        shown = [](const std::string& value) { return value.empty() ? "not given" : value; };
     const std::string table = difference.table.empty() ? ""
                               : is_array(difference.table)
                                   ? fmt::format("[[{}]] {} ", difference.table, difference.index)
                                   : fmt::format("[{}] ", difference.table);
-    return fmt::format("{}{}: {}, was {}", table, difference.key, shown(difference.is), shown(difference.was));
+    return table + difference.key;
+}
+
+std::string describe(const Difference& difference)
+{
+    const auto shown = [](const std::string& value) { return value.empty() ? "not given" : value; };
+    return fmt::format("{}: {}, was {}", place_of(difference), shown(difference.is), shown(difference.was));
 }
 
 bool may_change(const Difference& difference, std::size_t phase)

@@ -20,6 +20,9 @@ struct Difference
 /// Of two scenes as resolved_toml writes them.
 std::vector<Difference> differences(const std::string& before, const std::string& after);
 
+/// "[[phase]] 1 duration".
+std::string place_of(const Difference& difference);
+
 /// "[[phase]] 1 duration: 0.5, was 0.2".
 std::string describe(const Difference& difference);
 

@@ -46,6 +46,9 @@ struct GridOptions
     bool operator==(const GridOptions&) const = default;
 };
 
+/// Contact substeps of a step: more never come to an end that anybody waits for.
+inline constexpr std::int64_t most_substeps = 1000000;
+
 struct TimeOptions
 {
     std::optional<double>       dt;       ///< s; nothing means "auto"

@@ -44,6 +44,8 @@ std::string signal_text()
     return name.empty() ? "a signal to another rank" : "signal " + name;
 }
 
+std::string reason_of(std::int64_t stop) { return stop == stop_by_limit ? "the wall-time limit" : signal_text(); }
+
 } // namespace
 
 double wall_clock()
@@ -78,7 +80,15 @@ Interruption CheckpointClock::look(const Communicator& communicator, double time
     }
     const auto all = communicator.maximum(wish);
     if (all < stop_by_limit) { return {all == write, false, ""}; }
-    return {true, true, all == stop_by_limit ? "the wall-time limit" : signal_text()};
+    return {true, true, reason_of(all)};
+}
+
+std::optional<std::string> CheckpointClock::look_within_step(const Communicator& communicator) const
+{
+    Wish wish = SignalWatch::stop_is_asked() ? stop_by_signal : go_on;
+    if (communicator.rank() == 0 && wall_clock() + least_margin >= end_) { wish = std::max(wish, stop_by_limit); }
+    const auto all = communicator.maximum(wish);
+    return all < stop_by_limit ? std::nullopt : std::optional<std::string>(reason_of(all));
 }
 
 void CheckpointClock::written(double time, std::int64_t step, double seconds)

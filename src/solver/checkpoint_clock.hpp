@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "base/communicator.hpp"
@@ -33,6 +34,9 @@ public:
 
     /// Collective, the same on all ranks; rank 0's clock counts.
     Interruption look(const Communicator& communicator, double time, std::int64_t step);
+
+    /// Within a step: why the run has to stop at once, if it has to. Collective, the same on all ranks.
+    std::optional<std::string> look_within_step(const Communicator& communicator) const;
 
     /// A checkpoint was written, which took so many seconds.
     void written(double time, std::int64_t step, double seconds);

@@ -1,10 +1,7 @@
 #include "solver/driver.hpp"
 
-#include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <system_error>
 #include <utility>
 
@@ -19,17 +16,6 @@ namespace
 {
 
 constexpr double progress_every = 5; ///< s of wall time
-
-/// Of wall time without a step, on several ranks: then one of them waits for what will not come.
-constexpr std::chrono::minutes longest_silence{30};
-
-/// This process alone; the launcher then ends the others.
-[[noreturn]] void end_silent_run(int rank)
-{
-    std::cerr << fmt::format("tread: error: rank {}: no step in {} minutes: a rank waits for what does not come\n",
-                             rank, longest_silence.count());
-    std::_Exit(static_cast<int>(ExitCode::environment));
-}
 
 std::vector<io::NamedMesh> meshes(const World& world)
 {
@@ -58,10 +44,6 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , wall_start_(wall_clock())
     , said_{wall_start_, 0, 0}
 {
-    if (communicator.size() > 1)
-    {
-        watchdog_.emplace(longest_silence, [rank = communicator.rank()] { end_silent_run(rank); });
-    }
     if (plan.snapshots)
     {
         io::SnapshotWriter files(communicator, directory.snapshots(), options.provenance);
@@ -86,15 +68,24 @@ std::optional<std::string> Driver<Exec, Real>::run()
         finish_files();
         throw;
     }
+    catch (const StoppedInStep& stop)
+    {
+        finish_files();
+        return fmt::format("{} within step {}, of which no checkpoint can be written; the newest is {}", stop.what(),
+                           steps_ + 1,
+                           checkpoints_.newest.empty() ? "none: a restart begins anew" : checkpoints_.newest);
+    }
 }
 
 template<class Exec, class Real>
 std::optional<std::string> Driver<Exec, Real>::carry_on()
 {
+    if (options_.watchdog != nullptr) { options_.watchdog->begin_steps(); } // what is written before them counts
     if (options_.checkpoint.empty()) { start(); }
     else { resume(); }
     interruptions_.emplace(scene_.checkpoint, options_.walltime_limit, options_.wall_start, time_, steps_);
     interruptions_->expect(state_bytes());
+    simulation_.ask_within_steps([this] { return interruptions_->look_within_step(communicator_); });
     while (!phases_.finished())
     {
         const Interruption asked = look_outside();
@@ -154,7 +145,7 @@ void Driver<Exec, Real>::advance()
     simulation_.command(commands, phases_.phase().damping);
     clock_.begin_step(steps_);
     step = simulation_.step(step, time_, clock_);
-    if (watchdog_) { watchdog_->advance(); }
+    if (options_.watchdog != nullptr) { options_.watchdog->advance(); }
     time_ += step.dt;
     ++steps_;
     substeps_ += step.substeps;

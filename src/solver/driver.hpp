@@ -23,9 +23,10 @@ class StateFile;
 struct DriverOptions
 {
     io::Provenance provenance;
-    std::string    checkpoint;         ///< to go on from; empty = from the start
-    double         wall_start     = 0; ///< wall_clock() of the process's start
-    double         walltime_limit = 0; ///< s since then; 0 = none
+    std::string    checkpoint;               ///< to go on from; empty = from the start
+    double         wall_start     = 0;       ///< wall_clock() of the process's start
+    double         walltime_limit = 0;       ///< s since then; 0 = none
+    Watchdog*      watchdog       = nullptr; ///< to tell of steps; none on one rank
 };
 
 /// How many multiples of `every` (s; 0: none) have gone by at `time`; half a nanosecond forgives the rounding of a sum
@@ -106,7 +107,6 @@ private:
     DriveWatch                           drive_watch_;
     std::optional<Recorder>              recorder_;  ///< on rank 0
     std::optional<Snapshots<Exec, Real>> snapshots_; ///< only if the scene wants snapshots
-    std::optional<Watchdog>              watchdog_;  ///< on several ranks
     StageClock                           clock_;
     std::vector<io::PhaseReport>         ended_;
     SurfaceMap                           surface_; ///< that sinkage counts from

@@ -245,6 +245,7 @@ DiskUse disk_use(const scene::Scene& scene, const World& world, const Plan& plan
     use.time_series = time_series_bytes(2 + static_cast<std::int64_t>(time / scene.output.every), world.bodies.named);
     const std::int64_t checkpoint = points * checkpoint_bytes_per_point(scene, plan) + checkpoint_page_bytes(pages) +
                                     bodies * checkpoint_of_body + use.time_series + of_file;
+    use.least       = (plan.snapshots ? snapshot : 0) + time_series_bytes(1, world.bodies.named);
     use.checkpoints = (scene.checkpoint.keep + 1) * checkpoint;
     return use;
 }
@@ -258,6 +259,15 @@ void require_room(const char* memory, std::int64_t wanted, std::int64_t free)
         fmt::format("out of {} memory: the scene wants about {}, {} is free: fewer points, a coarser "
                     "grid, or a machine with more memory",
                     memory, bytes_text(wanted), bytes_text(free)));
+}
+
+void require_disk(const std::string& directory, std::int64_t wanted, std::int64_t free)
+{
+    if (wanted <= free) { return; }
+    throw EnvironmentError(
+        fmt::format("{}: the disk is too full: the first snapshot and rows take about {}, and {} would "
+                    "be free",
+                    directory, bytes_text(wanted), bytes_text(free)));
 }
 
 Estimate estimate(const scene::Scene& scene, const World& world, const Plan& plan)

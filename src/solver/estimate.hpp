@@ -14,6 +14,7 @@ struct DiskUse
     std::int64_t snapshots;
     std::int64_t time_series;
     std::int64_t checkpoints; ///< as many as are kept, and the one that is being written
+    std::int64_t least;       ///< of the first snapshot and rows, which every run writes
     std::int64_t all() const { return snapshots + time_series + checkpoints; }
 };
 
@@ -37,6 +38,9 @@ struct Estimate
 /// EnvironmentError when a run that wants `wanted` bytes of "host" or "device" memory does not fit into `free` even if
 /// the estimate is a tenth too high.
 void require_room(const char* memory, std::int64_t wanted, std::int64_t free);
+
+/// EnvironmentError when `wanted` bytes do not fit where so many are free.
+void require_disk(const std::string& directory, std::int64_t wanted, std::int64_t free);
 
 Estimate estimate(const scene::Scene& scene, const World& world, const Plan& plan);
 

@@ -9,19 +9,6 @@
 
 namespace tread::solver
 {
-namespace
-{
-
-std::string host_name()
-{
-    char name[MPI_MAX_PROCESSOR_NAME];
-    int  length = 0;
-    MPI_Get_processor_name(name, &length);
-    return {name, static_cast<std::size_t>(length)};
-}
-
-} // namespace
-
 int device_of_rank(const Communicator& communicator, GpuSharing sharing)
 {
     const int                      device = communicator.local_rank() % device_count();

@@ -184,7 +184,7 @@ RestartPlan plan_restart(const Communicator& communicator, const scene::Scene& s
     {
         throw InputError("--restart auto goes on with the run that is there, and --overwrite replaces it: one of them");
     }
-    if (as_rank_0_has_it(communicator, directory.exists())) { plan.lock.emplace(communicator, directory.path()); }
+    if (as_rank_0_has_it(communicator, directory.is_of_run())) { plan.lock.emplace(communicator, directory.path()); }
     return options.mode == RestartMode::automatic
                ? plan_from_directory(communicator, scene, directory, std::move(plan))
                : plan_from_file(communicator, scene, options.file, directory, std::move(plan));

@@ -33,7 +33,7 @@ struct RestartPlan
     io::Existing             existing = io::Existing::refuse;
     std::vector<std::string> remarks; ///< for the log: what was passed over, and why
 
-    std::optional<io::DirectoryLock> lock; ///< of the directory, if it was there
+    std::optional<io::DirectoryLock> lock; ///< of the directory, if it was a run's
 };
 
 /// Collective. InputError when the scene is another than the one to go on with (every difference is named), when

@@ -97,6 +97,9 @@ public:
     /// The least sqrt(m / sum K) over bodies, of contacts that are live or may come in the step, s; 0 = none.
     double shortest_contact();
 
+    /// NumericalError: a step would take too many substeps, and which body wants them.
+    [[noreturn]] void refuse_substeps(const TimeStep& step, const Pace& pace, double time);
+
     /// Pairs that are listed, those of them that touch, and the nodes that are listed; waits for them.
     ContactCount count_contacts();
 

@@ -77,15 +77,44 @@ void Rigid<Exec>::require_resolved(double time, double speed)
                                      time, name(body - rows.begin()), leap, leap / smallest_radius_, longest_leap));
 }
 
+/// The rank that has the stiffest body names it.
+template<class Exec>
+void Rigid<Exec>::refuse_substeps(const TimeStep& step, const Pace& pace, double time)
+{
+    const std::string start = fmt::format(
+        "t = {:.6g} s: a step of {:.4g} s would take {:.3g} contact substeps, over the {} that a step may have", time,
+        step.dt, static_cast<double>(step.substeps), scene::most_substeps);
+    const double own = dem::smallest_contact_time(exec_, pairs_, bodies_.view());
+    const double all = ranks_ ? ranks_->shortest(own) : own, share = scene_.time.contact_share;
+    const bool   too_stiff = all > 0 && step.dt > share * all * static_cast<double>(scene::most_substeps);
+    together(
+        [&]
+        {
+            if (!too_stiff || own != all) { return; }
+            const auto body = dem::stiffest_body(pairs_, static_cast<std::int64_t>(bodies_.position.size()));
+            throw NumericalError(
+                fmt::format("{}: sqrt(m / sum K) of body {} is {:.3g} s, of which a substep takes "
+                            "time.contact_share = {}: a softer material or a heavier body, a smaller dt, "
+                            "or a larger contact_share",
+                            start, name(body), all, share));
+        });
+    throw NumericalError(
+        fmt::format("{}: something moves at {:.4g} m/s, and the smallest body has a radius of {:.3g} m: "
+                    "a smaller dt",
+                    start, pace.largest_speed, smallest_radius_));
+}
+
 template double Rigid<Cpu>::guard(double, double);
 template void   Rigid<Cpu>::require_finite(double);
 template void   Rigid<Cpu>::require_listed(double, double);
 template void   Rigid<Cpu>::require_resolved(double, double);
+template void   Rigid<Cpu>::refuse_substeps(const TimeStep&, const Pace&, double);
 #ifdef TREAD_WITH_CUDA
 template double Rigid<Gpu>::guard(double, double);
 template void   Rigid<Gpu>::require_finite(double);
 template void   Rigid<Gpu>::require_listed(double, double);
 template void   Rigid<Gpu>::require_resolved(double, double);
+template void   Rigid<Gpu>::refuse_substeps(const TimeStep&, const Pace&, double);
 #endif
 
 } // namespace tread::solver

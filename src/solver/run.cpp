@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -13,8 +15,11 @@
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
 #include "io/checkpoint_file.hpp"
+#include "io/files.hpp"
 #include "io/progress.hpp"
+#include "scene/input_files.hpp"
 #include "scene/resolved.hpp"
+#include "solver/agreement.hpp"
 #include "solver/answers.hpp"
 #include "solver/bed.hpp"
 #include "solver/drive_room.hpp"
@@ -60,6 +65,23 @@ Backend choose_backend(BackendChoice choice)
 }
 #endif
 
+const char* name_of(Backend backend) { return backend == Backend::cpu ? "cpu" : "cuda"; }
+
+/// What this rank computes on, once all ranks are about to run the same.
+Backend agreed_backend(const Communicator& communicator, const scene::Scene& scene, const RunOptions& options)
+{
+    Backend           backend = Backend::cpu;
+    std::vector<Fact> facts;
+    on_every_rank(communicator,
+                  [&]
+                  {
+                      backend = choose_backend(options.backend);
+                      if (communicator.size() > 1) { facts = facts_of_run(scene, options, name_of(backend)); }
+                  });
+    require_agreement(communicator, scene::resolved_toml(scene), facts);
+    return backend;
+}
+
 void say_plan(Log& log, const scene::Scene& scene, const World& world, const std::vector<Stage>& stages)
 {
     log.info(fmt::format("{} points, {} bodies ({} rocks)", world.points.size(), world.bodies.size(),
@@ -91,7 +113,9 @@ struct Job
     Estimate               wants;
     const RunOptions&      options;
     std::vector<Stage>     stages;
-    io::RunDirectory       directory;
+    RestartPlan            restart;
+    io::NewRun             place;
+    io::RunDirectory       directory; ///< there once the run has begun
     DriverOptions          driver;
     io::Summary            summary;
 };
@@ -143,6 +167,7 @@ ExitCode run_on(const Exec& exec, Job& job)
         job.summary.exit_code = error.code();
         job.summary.reason    = error.what();
     }
+    if (job.driver.watchdog != nullptr) { job.driver.watchdog->end_steps(); }
     driver.report(job.summary, job.stages);
     return job.summary.exit_code;
 }
@@ -154,45 +179,12 @@ ExitCode run_precision(const Exec& exec, Job& job)
                                                                      : run_on<Exec, double>(exec, job);
 }
 
-ExitCode run_backend(Backend backend, Job& job)
-{
-    Counters           counters;
-    const std::int64_t wanted = job.wants.memory_bytes / job.communicator.size();
-    counters.expect(wanted);
-    ExitCode code = ExitCode::finished;
-    if (backend == Backend::cpu)
-    {
-        const Cpu cpu{&counters};
-        require_room("host", wanted, free_bytes(cpu));
-        code                        = run_precision(cpu, job);
-        job.summary.peak_host_bytes = counters.peak_bytes();
-    }
-#ifdef TREAD_WITH_CUDA
-    else
-    {
-        const int    number = device_of_rank(job.communicator, job.options.gpus);
-        const Device device(number, counters);
-        for (const std::string& name : say_devices(job.communicator, job.log, number))
-        {
-            job.summary.devices.push_back(name);
-        }
-        job.driver.provenance.devices = job.summary.devices;
-        require_room("device", wanted, free_bytes(device.gpu()));
-        code                          = run_precision(device.gpu(), job);
-        job.summary.peak_device_bytes = counters.peak_bytes();
-    }
-#endif
-    return code;
-}
-
-const char* name_of(Backend backend) { return backend == Backend::cpu ? "cpu" : "cuda"; }
-
-void say_start(Job& job, Backend backend, int threads)
+void say_start(Job& job)
 {
     Log& log = job.log;
     log.info(fmt::format("tread {} ({}): {}", version, commit(), job.scene.title));
-    log.info(fmt::format("backend {}, {} rank(s), {} thread(s), {} precision", name_of(backend),
-                         job.communicator.size(), threads,
+    log.info(fmt::format("backend {}, {} rank(s), {} thread(s), {} precision", job.summary.backend, job.summary.ranks,
+                         job.summary.threads,
                          job.scene.numerics.precision == scene::Precision::single_ ? "single" : "double"));
     job.summary.bed = describe_bed(job.scene, job.world);
     say_plan(log, job.scene, job.world, job.stages);
@@ -203,6 +195,62 @@ void say_start(Job& job, Backend backend, int threads)
     }
     for (const std::string& line : bed_lines(job.summary.bed)) { log.info(line); }
     for (const std::string& note : drive_notes(job.scene, job.world, job.rooms)) { log.info(note); }
+}
+
+/// EnvironmentError, on all ranks, where the backend's memory or the disk is too small.
+void require_rooms(const Job& job, const char* memory, std::int64_t wanted, std::int64_t free)
+{
+    on_every_rank(job.communicator, [&] { require_room(memory, wanted, free); });
+    if (job.restart.existing == io::Existing::resume) { return; }
+    on_root(job.communicator,
+            [&]
+            {
+                require_disk(job.directory.path(), job.wants.disk.least,
+                             io::free_space(job.directory.path()) + job.directory.bytes_to_remove());
+            });
+}
+
+/// What might refuse the run has had its say: from here on it changes files.
+void begin(Job& job)
+{
+    const bool goes_on = job.restart.existing == io::Existing::resume;
+    job.directory      = io::RunDirectory::create(job.communicator, job.place, job.restart.lock);
+    job.log.open(job.directory.log(), goes_on ? LogFile::continued : LogFile::anew);
+    say_start(job);
+    for (const std::string& remark : job.restart.remarks) { job.log.warning(remark); }
+}
+
+ExitCode run_backend(Backend backend, Job& job)
+{
+    Counters           counters;
+    const std::int64_t wanted = job.wants.memory_bytes / job.communicator.size();
+    counters.expect(wanted);
+    ExitCode code = ExitCode::finished;
+    if (backend == Backend::cpu)
+    {
+        const Cpu cpu{&counters};
+        require_rooms(job, "host", wanted, free_bytes(cpu));
+        begin(job);
+        code                        = run_precision(cpu, job);
+        job.summary.peak_host_bytes = counters.peak_bytes();
+    }
+#ifdef TREAD_WITH_CUDA
+    else
+    {
+        const int    number = device_of_rank(job.communicator, job.options.gpus);
+        const Device device(number, counters);
+        require_rooms(job, "device", wanted, free_bytes(device.gpu()));
+        begin(job);
+        for (const std::string& name : say_devices(job.communicator, job.log, number))
+        {
+            job.summary.devices.push_back(name);
+        }
+        job.driver.provenance.devices = job.summary.devices;
+        code                          = run_precision(device.gpu(), job);
+        job.summary.peak_device_bytes = counters.peak_bytes();
+    }
+#endif
+    return code;
 }
 
 /// The last lines of a log. On rank 0, which has the time series.
@@ -227,13 +275,27 @@ std::string start_of(const Communicator& communicator, const std::string& checkp
     return communicator.broadcast(start);
 }
 
+/// What the run reads and must leave as it is. A run that goes on was started from elsewhere than its own files, but
+/// may take its own scene.toml for the scene.
+std::vector<io::NeededFile> needed_files(const scene::Scene& scene, const RunOptions& options,
+                                         const RestartPlan& restart)
+{
+    std::vector<io::NeededFile> needed;
+    for (const scene::InputFile& file : scene::input_files(scene)) { needed.push_back({file.path, file.key}); }
+    if (restart.existing == io::Existing::resume) { return needed; }
+    if (!options.scene_file.empty()) { needed.push_back({options.scene_file, "the scene"}); }
+    if (!restart.checkpoint.empty()) { needed.push_back({restart.checkpoint, "--restart"}); }
+    return needed;
+}
+
 } // namespace
 
-ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& scene, const RunOptions& options)
+ExitCode run(const Communicator& communicator, Log& log, Watchdog* watchdog, const scene::Scene& scene,
+             const RunOptions& options)
 {
     const double      wall_start = wall_clock() - process_age();
     const SignalWatch signals;
-    const Backend     backend = choose_backend(options.backend);
+    const Backend     backend = agreed_backend(communicator, scene, options);
     const int         threads = choose_threads(communicator, options.threads);
     omp_set_num_threads(threads);
     RestartPlan restart = plan_restart(communicator, scene, options.restart, options.output, options.existing);
@@ -242,6 +304,9 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
         log.info(fmt::format("{}: the run is finished; nothing is left to do", options.output));
         return ExitCode::finished;
     }
+    const io::NewRun place{options.output, restart.existing, scene::resolved_toml(scene),
+                           needed_files(scene, options, restart)};
+    io::RunDirectory::require_free(communicator, place);
     const World world = build_world(scene);
     const Plan  plan  = make_plan(scene, world);
     require_ranks_can(communicator, scene);
@@ -256,13 +321,11 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
             estimate(scene, world, plan),
             options,
             stages(scene, plan, communicator.size()),
-            io::RunDirectory::create(communicator, options.output, restart.existing, scene::resolved_toml(scene),
-                                     restart.lock),
+            std::move(restart),
+            place,
+            io::RunDirectory::at(options.output),
             {},
             {}};
-    log.open(job.directory.log(), restart.existing == io::Existing::resume ? LogFile::continued : LogFile::anew);
-    say_start(job, backend, threads);
-    for (const std::string& remark : restart.remarks) { log.warning(remark); }
     job.summary.scene_hash = scene::scene_hash(scene);
     job.summary.backend    = name_of(backend);
     job.summary.ranks      = communicator.size();
@@ -270,9 +333,10 @@ ExitCode run(const Communicator& communicator, Log& log, const scene::Scene& sce
     job.summary.bodies     = static_cast<std::int64_t>(world.bodies.size());
     job.summary.start      = start;
     job.driver             = {{job.summary.scene_hash, job.summary.backend, {}, communicator.size(), job.summary.start},
-                              restart.checkpoint,
+                              job.restart.checkpoint,
                               wall_start,
-                              options.walltime_limit};
+                              options.walltime_limit,
+                              watchdog};
     const ExitCode code    = run_backend(backend, job);
     log.info(fmt::format("\n{}", io::timing_table(job.summary.stages, job.summary.wall_s)));
     log.info(fmt::format("errors: mass {:.3g}, momentum {:.3g}, energy {:.3g}", job.summary.errors.mass,

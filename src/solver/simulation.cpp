@@ -100,6 +100,7 @@ TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& cl
     }
     if (unmeasured_ == 0) { find_contacts(step, clock); }
     if (plan_.body_contact) { step.substeps = substeps_of(scene_.time, step.dt, limits_, pace_); }
+    if (step.substeps > scene::most_substeps) { rigid_->refuse_substeps(step, pace_, time); }
     if (coupling_)
     {
         clock.run(exec_, stage::candidates, [&] { coupling_->begin_step(sand_->view()); });
@@ -192,58 +193,6 @@ void Simulation<Exec, Real>::find_contacts(const TimeStep& step, StageClock& clo
                                                  pace_.largest_speed);
                   });
     }
-}
-
-template<class Exec, class Real>
-void Simulation<Exec, Real>::substeps(const TimeStep& step, double time, StageClock& clock)
-{
-    const double dt    = step.dt / static_cast<double>(step.substeps);
-    const auto   batch = plan_.body_contact
-                             ? rigid_->unwatched_substeps(step, pace_.largest_speed, pace_.shortest_contact)
-                             : step.substeps;
-    for (std::int64_t done = 0; done < step.substeps; done += batch)
-    {
-        const std::int64_t next = std::min(step.substeps - done, batch);
-        if (done > 0)
-        {
-            clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs_if_strayed(step, batch, done, time); });
-        }
-        if (plan_.body_contact && !coupling_)
-        {
-            clock.run(exec_, stage::body_contact, [&] { rigid_->run(dt, damping_, next); });
-        }
-        else if (!in_one_launch(dt, next, clock))
-        {
-            for (std::int64_t substep = 0; substep < next; ++substep) { coupled_substep(dt, clock); }
-        }
-    }
-}
-
-/// Sand and bodies, where that is worth it: all of it counts as sand-body contact.
-template<class Exec, class Real>
-bool Simulation<Exec, Real>::in_one_launch(double dt, std::int64_t count, StageClock& clock)
-{
-    if (!coupling_ || rigid_->shares()) { return false; }
-    const dem::BodyStep<Exec> step = rigid_->body_step(dt, damping_);
-    if (!coupling_->worth_one_launch(step)) { return false; }
-    clock.run(exec_, stage::sand_contact, [&] { coupling_->run_substeps(step, count); });
-    rigid_->count_substeps(dt, count);
-    return true;
-}
-
-template<class Exec, class Real>
-void Simulation<Exec, Real>::coupled_substep(double dt, StageClock& clock)
-{
-    if (coupling_)
-    {
-        clock.run(exec_, stage::sand_contact, [&] { coupling_->substep(rigid_->view(), dt); });
-    }
-    if (plan_.body_contact)
-    {
-        clock.run(exec_, stage::body_contact, [&] { rigid_->contact(dt); });
-    }
-    clock.run(exec_, stage::integrate,
-              [&] { rigid_->move(dt, damping_, coupling_ ? coupling_->wrenches() : dem::OutsideWrenches{}); });
 }
 
 /// Several steps may pass before sand is measured, as many as no point needs for half a cell, and bodies that it meets,

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "io/snapshot.hpp"
@@ -63,6 +66,10 @@ public:
     /// Tells the named bodies what to do (held, driven, free) until the next call; `damping` of the phase.
     void command(const std::vector<BodyCommand>& commands, double damping);
 
+    /// Within a step of many substeps `why` is asked from time to time, by all ranks together: what it returns stops
+    /// the run there (StoppedInStep).
+    void ask_within_steps(std::function<std::optional<std::string>()> why) { why_stop_ = std::move(why); }
+
     /// One MPM step of `step.dt`, or a shorter one where a command has made a body too fast for it, with its contact
     /// substeps (docs/theory.md#coupling). NumericalError, with what, where and
     /// which limit, when the state cannot be trusted any more; `time` is for that message. What moves little is
@@ -118,6 +125,9 @@ private:
     void find_contacts(const TimeStep& step, StageClock& clock);
     void substeps(const TimeStep& step, double time, StageClock& clock);
     void coupled_substep(double dt, StageClock& clock);
+    void run_batch(double dt, std::int64_t done, std::int64_t count, StageClock& clock);
+    void run_substeps(double dt, std::int64_t count, StageClock& clock);
+    void look_outside();
     bool in_one_launch(double dt, std::int64_t count, StageClock& clock);
     void measure();
     void choose_measuring();
@@ -144,11 +154,13 @@ private:
     std::int64_t                         steps_         = 0; ///< taken
     std::int64_t                         arranged_      = 0; ///< version() that the balance has noted
     std::optional<decomp::Balance<Exec>> balance_;           ///< only on several ranks
-    std::optional<Sand<Exec, Real>>      sand_;
-    std::optional<Rigid<Exec>>           rigid_;
-    std::optional<Coupling<Exec, Real>>  coupling_;
-    std::optional<Ledger>                ledger_;
-    std::optional<SandGuard>             guard_;
+
+    std::function<std::optional<std::string>()> why_stop_; ///< empty: nobody asks
+    std::optional<Sand<Exec, Real>>             sand_;
+    std::optional<Rigid<Exec>>                  rigid_;
+    std::optional<Coupling<Exec, Real>>         coupling_;
+    std::optional<Ledger>                       ledger_;
+    std::optional<SandGuard>                    guard_;
 };
 
 } // namespace tread::solver

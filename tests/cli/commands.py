@@ -35,15 +35,31 @@ class Commands(CommandTest):
         self.assertIn("2 variants", done.stdout)
         self.assertEqual(self.files(), ["scene.toml"])
 
-    def test_study_needs_python_and_its_script(self):
+    def test_study_needs_python(self):
         done = self.tread("study", "scene.toml", environment={"TREAD_PYTHON": "/nowhere/python3"})
         self.assertEqual(done.returncode, 4)
         self.assertIn("/nowhere/python3: No such file", done.stderr)
         self.assertIn("TREAD_PYTHON", done.stderr)
-        shutil.copy(TREAD, self.directory / "tread")
-        done = subprocess.run([self.directory / "tread", "study", "scene.toml"], capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 4)
-        self.assertIn("there is no jobs/study.py above", done.stderr)
+
+    def test_study_takes_no_script_from_the_folders_above(self):
+        bin_folder = self.directory / "prefix" / "bin"
+        bin_folder.mkdir(parents=True)
+        shutil.copy(TREAD, bin_folder / "tread")
+
+        def answer():
+            done = subprocess.run([bin_folder / "tread", "study", "--help"], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done.stdout
+
+        def put(folder, says):
+            (folder / "jobs").mkdir(parents=True)
+            (folder / "jobs" / "study.py").write_text(f"print('{says}')\n")
+
+        for folder in (bin_folder, bin_folder.parent, self.directory, self.directory / "share" / "tread"):
+            put(folder, "a stranger")
+        self.assertIn("--vary", answer())
+        put(bin_folder.parent / "share" / "tread", "the installed one")
+        self.assertEqual(answer(), "the installed one\n")
 
     def test_check_writes_nothing(self):
         scene = self.write("scene.toml", SCENE + BODY)
@@ -51,6 +67,17 @@ class Commands(CommandTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("points", result.stdout)
         self.assertEqual(self.files(), ["scene.toml"])
+
+    def test_a_title_does_not_command_the_terminal(self):
+        scene = self.write("scene.toml", SCENE.replace("a small", "\\u001b]0;mine\\u0007 small"))
+        for arguments in (("check", scene), ("run", scene, "--output", self.output, "--backend", "cpu"),
+                          ("info", self.output / "timeseries.h5"), ("run", self.directory / "\x1b.toml")):
+            result = self.tread(*arguments)
+            said = result.stdout + result.stderr
+            self.assertNotRegex(said, "[\x07\x1b]")
+            if arguments[0] != "info":
+                self.assertIn("\\x1b", said)
+        self.assertNotIn("\x1b", (self.output / "log.txt").read_text())
 
     def test_check_puts_first_what_a_user_asks(self):
         page = self.tread("check", self.write("scene.toml", SCENE.replace("[0.0, 0.0, -9.81]", "[-1.0, 0.0, -9.81]") + BODY)).stdout

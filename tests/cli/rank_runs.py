@@ -94,7 +94,7 @@ class Ranks(CommandTest):
                                 cwd=self.directory, capture_output=True, text=True, timeout=60)
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertEqual(result.stderr.count("tread: error"), 1, result.stderr)
-        self.assertIn("rank 1: ", result.stderr)
+        self.assertIn("rank 1 on ", result.stderr)
         self.assertLess(time.monotonic() - start, 30)
 
     def test_a_rank_that_dies_ends_the_job(self):
@@ -108,6 +108,27 @@ class Ranks(CommandTest):
             time.sleep(0.2)
         os.kill(children(job.pid)[1], signal.SIGKILL)
         self.assertNotEqual(job.wait(timeout=30), 0)
+
+    def test_a_rank_that_waits_too_long_says_for_whom(self):
+        scene = self.write("scene.toml", SCENE.replace("duration = 0.02", "duration = 1000.0").replace("= 0.01", "= 0.0"))
+        job = subprocess.Popen([*MPIRUN, "-n", "2", TREAD, "run", str(scene), "--output", str(self.output), "--backend",
+                                "cpu", "--hang-timeout", "00:00:10"], cwd=self.directory, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.PIPE, text=True)
+        self.addCleanup(job.stderr.close)
+        self.addCleanup(job.kill)
+        while not (self.output / "timeseries.h5").exists():
+            self.assertIsNone(job.poll())
+            time.sleep(0.2)
+        os.kill(children(job.pid)[1], signal.SIGSTOP)
+        _, said = job.communicate(timeout=100)
+        self.assertEqual(job.returncode, 4, said)
+        self.assertRegex(said, r"tread: error: rank [01] on \S+: has waited [0-9.]+ s for (all ranks|rank [01]) \([a-z -]+\), "
+                         r"after \d+ steps of this run; --hang-timeout allows for more")
+
+    def test_the_time_to_wait_is_checked(self):
+        result = self.tread("run", "scene.toml", "--hang-timeout", "0")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--hang-timeout: 0: not a time over 0 as HH:MM:SS", result.stderr)
 
 
 if __name__ == "__main__":

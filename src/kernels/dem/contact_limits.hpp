@@ -30,6 +30,14 @@ void expect_shared_contacts(const Gpu&, Pairs<Gpu>& pairs, const SharedView& sha
 double smallest_contact_time(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies);
 double smallest_contact_time(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies);
 
+/// Which body has it, after smallest_contact_time has found it.
+template<class Exec>
+std::int64_t stiffest_body(const Pairs<Exec>& pairs, std::int64_t bodies)
+{
+    const std::vector<double> squared = pairs.measure.to_host();
+    return std::max_element(squared.begin(), squared.begin() + bodies) - squared.begin();
+}
+
 /// The largest overlap over the smaller equivalent radius of the pair, of any pair since it was listed; 0 if nothing
 /// touched; returns where the backend will have it, until pairs.measure is used again. Warn above 0.1, stop above 0.5.
 const double* largest_overlap(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);

@@ -1,5 +1,7 @@
 #include "base/log.hpp"
 
+#include <filesystem>
+
 #include <gtest/gtest.h>
 
 #include "mpi_session.hpp"
@@ -49,6 +51,45 @@ TEST(Log, unwritable_file_is_an_environment_error)
     Log log(world(), Terminal::silent);
     log.info("a");
     EXPECT_THROW(log.open("/proc/nowhere/log.txt"), EnvironmentError);
+}
+
+TEST(Log, follows_no_link)
+{
+    const test::TemporaryDirectory directory;
+    std::ofstream(directory.path("outside")) << "mine";
+    std::filesystem::create_symlink(directory.path("outside"), directory.path("log.txt"));
+    for (const LogFile file : {LogFile::anew, LogFile::continued})
+    {
+        Log log(world(), Terminal::silent);
+        log.info("a");
+        EXPECT_THROW(log.open(directory.path("log.txt"), file), EnvironmentError);
+    }
+    EXPECT_EQ(test::read_text(directory.path("outside")), "mine");
+}
+
+TEST(Log, goes_on_at_the_end_of_a_file)
+{
+    const test::TemporaryDirectory directory;
+    for (const LogFile file : {LogFile::anew, LogFile::continued})
+    {
+        Log log(world(), Terminal::silent);
+        log.open(directory.path("log.txt"), file);
+        log.info("a");
+    }
+    EXPECT_EQ(test::read_text(directory.path("log.txt")), "a\na\n");
+}
+
+TEST(Log, says_no_control_characters)
+{
+    const test::TemporaryDirectory directory;
+    ::testing::internal::CaptureStdout();
+    Log log(world(), Terminal::shown);
+    log.open(directory.path("log.txt"));
+    log.info("title \x1b]0;mine\x07 of gr\xc3\xbc\xc3\x9f\xc2\x9b"
+             "e\tone\ntwo\r\x7f");
+    const std::string wanted = "title \\x1b]0;mine\\x07 of gr\xc3\xbc\xc3\x9f\\u009be\tone\ntwo\\x0d\\x7f\n";
+    EXPECT_EQ(::testing::internal::GetCapturedStdout(), wanted);
+    EXPECT_EQ(test::read_text(directory.path("log.txt")), wanted);
 }
 
 } // namespace

@@ -1,7 +1,9 @@
 #include "base/watchdog.hpp"
 
 #include <atomic>
+#include <future>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace
@@ -9,24 +11,73 @@ namespace
 
 using namespace tread;
 using std::chrono::milliseconds;
+using ::testing::HasSubstr;
 
-TEST(Watchdog, BarksOnceWhenNothingGoesOn)
+/// Of the first bark of a watchdog with a timeout of 20 ms.
+class Barking
 {
-    std::atomic<int> barks{0};
-    Watchdog         dog(milliseconds(10), [&] { ++barks; });
-    while (barks == 0) { std::this_thread::sleep_for(milliseconds(1)); }
-    std::this_thread::sleep_for(milliseconds(50));
-    EXPECT_EQ(barks, 1);
+public:
+    explicit Barking(const WaitNote& waits)
+        : dog(waits, milliseconds(20),
+              [this](const std::string& text)
+              {
+                  ++barks;
+                  said.set_value(text);
+              })
+    {
+    }
+
+    std::string text() { return said.get_future().get(); }
+
+    std::promise<std::string> said;
+    std::atomic<int>          barks{0};
+    Watchdog                  dog;
+};
+
+TEST(Watchdog, NamesTheRanksThatAreWaitedFor)
+{
+    WaitNote      waits;
+    const Waiting wait(waits, "halo messages", {1, 3});
+    EXPECT_THAT(Barking(waits).text(), HasSubstr("s for ranks 1, 3 (halo messages), after 0 steps"));
 }
 
-TEST(Watchdog, IsQuietWhileThereIsProgressAndAtTheEnd)
+TEST(Watchdog, SaysThatAllAreWaitedFor)
 {
-    std::atomic<int> barks{0};
+    WaitNote      waits;
+    const Waiting wait(waits, "sum");
+    EXPECT_THAT(Barking(waits).text(), HasSubstr("for all ranks (sum)"));
+}
+
+TEST(Watchdog, BarksOnceWhenNoStepFollows)
+{
+    WaitNote waits;
+    Barking  barking(waits);
+    barking.dog.advance();
+    EXPECT_THAT(barking.text(), ::testing::AllOf(HasSubstr("has ended no step for"), HasSubstr("after 1 steps"),
+                                                 HasSubstr("waits for no message")));
+    std::this_thread::sleep_for(milliseconds(50));
+    EXPECT_EQ(barking.barks, 1);
+}
+
+TEST(Watchdog, BarksWhenTheFirstStepDoesNotEnd)
+{
+    WaitNote waits;
+    Barking  barking(waits);
+    barking.dog.begin_steps();
+    EXPECT_THAT(barking.text(), HasSubstr("after 0 steps"));
+}
+
+TEST(Watchdog, IsQuietWhereNobodyWaitsAndNoStepIsDue)
+{
+    WaitNote waits;
+    Barking  barking(waits);
     {
-        Watchdog dog(std::chrono::hours(1), [&] { ++barks; });
-        dog.advance();
+        const Waiting wait(waits, "sum");
     }
-    EXPECT_EQ(barks, 0);
+    barking.dog.advance();
+    barking.dog.end_steps();
+    std::this_thread::sleep_for(milliseconds(100));
+    EXPECT_EQ(barking.barks, 0);
 }
 
 } // namespace

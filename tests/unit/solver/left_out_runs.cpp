@@ -48,7 +48,7 @@ RunUse use_of_run(const std::string& text, const std::vector<std::string>& overr
     mpi_calls() = {};
     {
         const auto directory =
-            io::RunDirectory::create(test::world(), folder.path("run"), io::Existing::refuse, "# a scene\n");
+            io::RunDirectory::create(test::world(), {folder.path("run"), io::Existing::refuse, "# a scene\n", {}});
         Simulation<Cpu, float> simulation(Cpu{&counters}, scene, world, plan);
         Driver<Cpu, float>     driver(test::world(), log, scene, world, directory, plan, simulation,
                                       drive_rooms(scene, world), {});

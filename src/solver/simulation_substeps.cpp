@@ -1,0 +1,105 @@
+#include <algorithm>
+
+#include "base/errors.hpp"
+#include "solver/simulation.hpp"
+
+// The contact substeps of a step.
+namespace tread::solver
+{
+namespace
+{
+
+/// At what goes on outside; more than a usual step has.
+constexpr std::int64_t substeps_between_looks = 1000;
+
+} // namespace
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::substeps(const TimeStep& step, double time, StageClock& clock)
+{
+    const double dt    = step.dt / static_cast<double>(step.substeps);
+    const auto   batch = plan_.body_contact
+                             ? rigid_->unwatched_substeps(step, pace_.largest_speed, pace_.shortest_contact)
+                             : step.substeps;
+    for (std::int64_t done = 0; done < step.substeps; done += batch)
+    {
+        const std::int64_t next = std::min(step.substeps - done, batch);
+        if (done > 0)
+        {
+            clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs_if_strayed(step, batch, done, time); });
+        }
+        run_batch(dt, done, next, clock);
+    }
+}
+
+/// `count` substeps after `done` others of the step. Between them somebody may stop the run.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::run_batch(double dt, std::int64_t done, std::int64_t count, StageClock& clock)
+{
+    for (const std::int64_t end = done + count; done < end;)
+    {
+        const std::int64_t look = (done / substeps_between_looks + 1) * substeps_between_looks;
+        const std::int64_t next = std::min(look, end);
+        run_substeps(dt, next - done, clock);
+        done = next;
+        if (done == look) { look_outside(); }
+    }
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::run_substeps(double dt, std::int64_t count, StageClock& clock)
+{
+    if (plan_.body_contact && !coupling_)
+    {
+        clock.run(exec_, stage::body_contact, [&] { rigid_->run(dt, damping_, count); });
+    }
+    else if (!in_one_launch(dt, count, clock))
+    {
+        for (std::int64_t substep = 0; substep < count; ++substep) { coupled_substep(dt, clock); }
+    }
+}
+
+/// What was launched has to end first: else no time would pass between two looks.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::look_outside()
+{
+    if (!why_stop_) { return; }
+    synchronize(exec_);
+    if (const auto why = why_stop_()) { throw StoppedInStep(*why); }
+}
+
+/// Sand and bodies, where that is worth it: all of it counts as sand-body contact.
+template<class Exec, class Real>
+bool Simulation<Exec, Real>::in_one_launch(double dt, std::int64_t count, StageClock& clock)
+{
+    if (!coupling_ || rigid_->shares()) { return false; }
+    const dem::BodyStep<Exec> step = rigid_->body_step(dt, damping_);
+    if (!coupling_->worth_one_launch(step)) { return false; }
+    clock.run(exec_, stage::sand_contact, [&] { coupling_->run_substeps(step, count); });
+    rigid_->count_substeps(dt, count);
+    return true;
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::coupled_substep(double dt, StageClock& clock)
+{
+    if (coupling_)
+    {
+        clock.run(exec_, stage::sand_contact, [&] { coupling_->substep(rigid_->view(), dt); });
+    }
+    if (plan_.body_contact)
+    {
+        clock.run(exec_, stage::body_contact, [&] { rigid_->contact(dt); });
+    }
+    clock.run(exec_, stage::integrate,
+              [&] { rigid_->move(dt, damping_, coupling_ ? coupling_->wrenches() : dem::OutsideWrenches{}); });
+}
+
+template void Simulation<Cpu, float>::substeps(const TimeStep&, double, StageClock&);
+template void Simulation<Cpu, double>::substeps(const TimeStep&, double, StageClock&);
+#ifdef TREAD_WITH_CUDA
+template void Simulation<Gpu, float>::substeps(const TimeStep&, double, StageClock&);
+template void Simulation<Gpu, double>::substeps(const TimeStep&, double, StageClock&);
+#endif
+
+} // namespace tread::solver

@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""Steps that would take for ever: refused, or stopped from outside."""
+
+import signal
+import time
+import unittest
+
+from command import BODY, SCENE
+from restart_test import MPIRUN, RestartTest
+
+MANY = SCENE + BODY + "\n[time]\nsubsteps = 1000000\n"
+
+
+class LongSteps(RestartTest):
+    def test_values_without_an_end_are_refused(self):
+        for key, value, accepted in (("contact_share", "1e-12", "number >= 0.001 and <= 0.4"),
+                                     ("substeps", "1000001", "integer 1 to 1000000")):
+            scene = self.write("scene.toml", f"{SCENE}{BODY}[time]\n{key} = {value}\n")
+            result = self.tread("check", scene)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn(f"[time] {key}", result.stderr)
+            self.assertIn(accepted, result.stderr)
+
+    def test_a_body_that_wants_too_many_names_itself(self):
+        beside_sand = SCENE.replace("[[0.0, 0.0, 0.0], [0.4, 0.4, 0.1]]", "[[0.0, 0.0, 0.0], [0.2, 0.4, 0.1]]")
+        hard = beside_sand.replace("young   = 1.0e7", "young   = 1.0e22") + BODY.replace("[0.2, 0.2, 0.3]", "[0.3, 0.2, 0.0601]")
+        for launcher in ((), (*MPIRUN, "-n", "2")):
+            result = self.run_scene(hard, self.output, "--overwrite", code=3, launcher=launcher)
+            self.assertRegex(self.summary()["reason"], r"contact substeps, over the 1000000 .* of body 'roller' is .* s, of which a "
+                             r"substep takes time.contact_share = 0.2")
+            self.assertIn("contact substeps, over the 1000000", result.stdout + result.stderr)
+
+    def stop_within_the_first_step(self, stop, *options, ranks=1):
+        """What the run said. A stop that came before the step began is tried again, later."""
+        launcher = (*MPIRUN, "-n", str(ranks)) if ranks > 1 else ()
+        for seconds in (1, 4, 16):
+            job = self.begin(MANY, "--overwrite", *options, launcher=launcher)
+            self.wait_for((self.output / "snapshots" / "points.hdf.series").exists, job)
+            stop(job, seconds)
+            said = self.end(job, 75)
+            if "step 0: checkpoints" not in said:
+                break
+        self.assertRegex(said, "stopped by .* within step 1, of which no checkpoint can be written; the newest is none")
+        summary = self.summary()
+        self.assertEqual((summary["status"], summary["exit_code"], summary["steps"]), ("stopped", 75, 0))
+        self.assertEqual(self.checkpoints(), [])
+        return said
+
+    def test_a_signal_stops_it(self):
+        def ask(job, seconds):
+            time.sleep(seconds)
+            job.send_signal(signal.SIGUSR2)
+
+        for ranks in (1, 2):
+            said = self.stop_within_the_first_step(ask, ranks=ranks)
+            self.assertRegex(said, "stopped by (signal USR2|a signal to another rank) within step 1")
+
+    def test_the_wall_time_limit_stops_it(self):
+        said = self.stop_within_the_first_step(lambda job, seconds: None, "--walltime-limit", "00:00:08")
+        self.assertIn("stopped by the wall-time limit within step 1", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
