@@ -2,14 +2,13 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <limits>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "backend/counters.hpp"
 #include "base/bytes_text.hpp"
+#include "base/host_memory.hpp"
 
 namespace tread
 {
@@ -27,17 +26,7 @@ EnvironmentError out_of_memory(const char* memory, const char* name, std::size_t
                     bytes_text(counters.current_bytes()), in_all));
 }
 
-std::int64_t free_bytes(const Cpu&)
-{
-    std::ifstream facts("/proc/meminfo");
-    std::string   word;
-    std::int64_t  kibibytes = 0;
-    while (facts >> word)
-    {
-        if (word == "MemAvailable:" && facts >> kibibytes) { return 1024 * kibibytes; }
-    }
-    return std::numeric_limits<std::int64_t>::max(); // not Linux, or no /proc: nothing is known
-}
+std::int64_t free_bytes(const Cpu&) { return available_host_memory(); }
 
 void* allocate(const Cpu& cpu, const char* name, std::size_t bytes)
 {
