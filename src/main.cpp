@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -137,8 +136,8 @@ AskedShape shape_in_scene(const SdfArguments& arguments)
 AskedShape mesh_or_builtin(const SdfArguments& arguments)
 {
     if (arguments.shape) { throw InputError("--shape NAME is for a SCENE.toml"); }
-    const std::vector<std::string> builtin = shape::builtin_shape_names();
-    if (std::find(builtin.begin(), builtin.end(), arguments.mesh) != builtin.end())
+    // A mesh file has an extension, a name has none.
+    if (std::filesystem::path(arguments.mesh).extension().empty())
     {
         return {shape::find_shape({}, arguments.mesh), "."};
     }

@@ -2,12 +2,13 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "backend/counters.hpp"
 #include "base/bytes_text.hpp"
-#include "base/free_memory.hpp"
+#include "base/host_memory.hpp"
 
 namespace tread
 {
@@ -25,7 +26,7 @@ EnvironmentError out_of_memory(const char* memory, const char* name, std::size_t
                     bytes_text(counters.current_bytes()), in_all));
 }
 
-std::int64_t free_bytes(const Cpu&) { return free_memory(); }
+std::int64_t free_bytes(const Cpu&) { return available_host_memory(); }
 
 void* allocate(const Cpu& cpu, const char* name, std::size_t bytes)
 {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
-#include "base/free_memory.hpp"
+#include "base/host_memory.hpp"
 #include "io/h5_parts.hpp"
 
 // Files that were written, by one process.
@@ -43,10 +43,10 @@ void require_readable(const File& file, const Handle& dataset, const std::string
     {
         refuse(fmt::format("it declares {} rows; accepted: what a file of {:.0f} bytes can hold", rows, stored));
     }
-    if (values * sizeof(T) > static_cast<double>(free_memory()))
+    if (values * sizeof(T) > static_cast<double>(available_host_memory()))
     {
         refuse(fmt::format("it holds {:.3g} MB, and {:.3g} MB of memory are free", values * sizeof(T) / 1e6,
-                           static_cast<double>(free_memory()) / 1e6));
+                           static_cast<double>(available_host_memory()) / 1e6));
     }
 }
 

@@ -1,5 +1,6 @@
 #include "scene/formula.hpp"
 #include "scene/keys.hpp"
+#include "scene/ranges.hpp"
 
 namespace tread::scene
 {
@@ -9,8 +10,8 @@ namespace
 Keys<Sphere> sphere_region_keys()
 {
     return {
-        required("centre", "m", &Sphere::centre, vector3(any_number()), "Of the sphere."),
-        required("radius", "m", &Sphere::radius, number(above(0)), "Of the sphere."),
+        required("centre", "m", &Sphere::centre, vector3(coordinate()), "Of the sphere."),
+        required("radius", "m", &Sphere::radius, number(length()), "Of the sphere."),
     };
 }
 
@@ -38,9 +39,9 @@ Keys<RasterFile> raster_keys()
                  "Grey values (PGM, P2 or P5, 8 or 16 bits) or rows of numbers (CSV) on a rectangular lattice, the "
                  "first row at high y; bilinear between them. Ends in .pgm or .csv; a relative path starts at the "
                  "scene file."),
-        required("low", "m", &RasterFile::low, number(any_number()), "Height of black.")
+        required("low", "m", &RasterFile::low, number(coordinate()), "Height of black.")
             .when("file = \"*.pgm\"", is_picture),
-        required("high", "m", &RasterFile::high, number(any_number()), "Height of white.")
+        required("high", "m", &RasterFile::high, number(coordinate()), "Height of white.")
             .when("file = \"*.pgm\"", is_picture),
         optional("unit", "", &RasterFile::unit, length_unit(), "Of the heights.").when("file = \"*.csv\"", is_numbers),
         optional("extent", "m", &RasterFile::extent, extent_given(), "Where the outermost samples stand.",
@@ -109,19 +110,19 @@ std::vector<TableText> describe_height() { return {describe("[[terrain]] height"
 Keys<UniformDiameters> uniform_keys()
 {
     return {
-        required("low", "m", &UniformDiameters::low, number(above(0)), "Smallest."),
-        required("high", "m", &UniformDiameters::high, number(above(0)), "Largest."),
+        required("low", "m", &UniformDiameters::low, number(length()), "Smallest."),
+        required("high", "m", &UniformDiameters::high, number(length()), "Largest."),
     };
 }
 
 Keys<LogNormalDiameters> log_normal_keys()
 {
     return {
-        required("median", "m", &LogNormalDiameters::median, number(above(0)), "Of the distribution untruncated."),
-        required("deviation", "", &LogNormalDiameters::deviation, number(above(0)),
+        required("median", "m", &LogNormalDiameters::median, number(length()), "Of the distribution untruncated."),
+        required("deviation", "", &LogNormalDiameters::deviation, number(between(1e-6, 100)),
                  "Standard deviation of the natural logarithm of the diameter."),
-        required("low", "m", &LogNormalDiameters::low, number(above(0)), "Smallest: the distribution is cut there."),
-        required("high", "m", &LogNormalDiameters::high, number(above(0)), "Largest: the distribution is cut there."),
+        required("low", "m", &LogNormalDiameters::low, number(length()), "Smallest: the distribution is cut there."),
+        required("high", "m", &LogNormalDiameters::high, number(length()), "Largest: the distribution is cut there."),
     };
 }
 
@@ -130,8 +131,8 @@ Keys<PowerLawDiameters> power_law_keys()
     return {
         required("exponent", "", &PowerLawDiameters::exponent, number(between(-20, 20)),
                  "Rocks per unit of diameter are as diameter^-exponent."),
-        required("low", "m", &PowerLawDiameters::low, number(above(0)), "Smallest."),
-        required("high", "m", &PowerLawDiameters::high, number(above(0)), "Largest."),
+        required("low", "m", &PowerLawDiameters::low, number(length()), "Smallest."),
+        required("high", "m", &PowerLawDiameters::high, number(length()), "Largest."),
     };
 }
 
@@ -187,7 +188,7 @@ void read_distribution(const Node& node, const std::string& label, Diameter& dia
 
 std::string write_diameter(const Rocks& rocks)
 {
-    if (const auto* one = std::get_if<double>(&rocks.diameter)) { return number(above(0)).write(*one); }
+    if (const auto* one = std::get_if<double>(&rocks.diameter)) { return number(length()).write(*one); }
     std::string text;
     for_each_distribution(
         [&](const std::string& word, const auto& keys)
@@ -235,7 +236,7 @@ Key<Rocks> rocks_diameter_key()
     std::vector<TableText> inner;
     for_each_distribution([&](const std::string& word, const auto& keys)
                           { inner.push_back(describe(label + write_string(word), "", keys)); });
-    const std::string accepted = above(0).text() + " (m), or table with distribution = " + list_words(distributions());
+    const std::string accepted = length().text() + " (m), or table with distribution = " + list_words(distributions());
     KeyText           text{"diameter",
                  "",
                  "required",
@@ -251,7 +252,7 @@ Key<Rocks> rocks_diameter_key()
         }
         try
         {
-            rocks.diameter = read_number(node, above(0));
+            rocks.diameter = read_number(node, length());
         }
         catch (const BadValue& bad)
         {

@@ -1,4 +1,5 @@
 #include "scene/keys.hpp"
+#include "scene/ranges.hpp"
 
 namespace tread::scene
 {
@@ -20,8 +21,8 @@ void read_position(const Node& node, Body& body)
 {
     const NodeArray& items = read_array(node, 3);
     body.on_surface        = is_on_surface(items[2]);
-    const double x = read_number(items[0], any_number()), y = read_number(items[1], any_number());
-    body.position = {x, y, body.on_surface ? 0.0 : read_number(items[2], any_number())};
+    const double x = read_number(items[0], coordinate()), y = read_number(items[1], coordinate());
+    body.position = {x, y, body.on_surface ? 0.0 : read_number(items[2], coordinate())};
 }
 
 std::string write_position(const Body& body)

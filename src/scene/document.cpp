@@ -1,26 +1,52 @@
 #include "scene/document.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <regex>
+#include <new>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <toml.hpp>
 
 #include "base/errors.hpp"
+#include "scene/text.hpp"
+#include "scene/text_limits.hpp"
 
 namespace tread::scene
 {
 namespace
 {
 
-Location location_of(const toml::value& value, const std::string& file)
+/// Finds the lines of a document's values. toml11's own `location` copies a value's whole line, and counts lines from
+/// the file's beginning, for every value.
+class LineNumbers
 {
-    const auto line = value.location().line();
-    return {fmt::format("{}:{}", file, line), static_cast<std::int64_t>(line)};
-}
+public:
+    LineNumbers(std::string file, std::string_view text)
+        : file_(std::move(file))
+    {
+        for (std::size_t at = 0; at < text.size(); ++at)
+        {
+            if (text[at] == '\n') { ends_.push_back(static_cast<std::ptrdiff_t>(at)); }
+        }
+    }
+
+    Location operator()(const toml::value& value) const
+    {
+        const auto* region = dynamic_cast<const toml::detail::region*>(toml::detail::get_region(value));
+        const auto  at     = region != nullptr ? region->first() - region->begin() : 0;
+        const auto  line   = 1 + (std::lower_bound(ends_.begin(), ends_.end(), at) - ends_.begin());
+        return {fmt::format("{}:{}", file_, line), static_cast<std::int64_t>(line)};
+    }
+
+private:
+    std::string                 file_;
+    std::vector<std::ptrdiff_t> ends_;
+};
 
 /// T or, as toml11 reads what T cannot hold as the largest or lowest T, the news of that.
 template<class T>
@@ -55,21 +81,58 @@ Node convert(const toml::value& value, const Locate& locate)
     return node;
 }
 
+/// The number of a drawing's line "12 | text"; empty if it is none.
+std::string_view drawn_line(std::string_view line)
+{
+    take(line, " ");
+    std::string_view rest = line;
+    if (!take(rest, "0123456789") || rest.substr(0, 2) != " |") { return {}; }
+    return line.substr(0, line.size() - rest.size());
+}
+
+/// What a drawing's line "| ^^^ remark" says; nothing if it underlines nothing.
+std::optional<std::string> remark_of(std::string_view line)
+{
+    take(line, " ");
+    if (line.substr(0, 1) != "|") { return std::nullopt; }
+    line.remove_prefix(1);
+    take(line, " ");
+    if (!take(line, "~^-")) { return std::nullopt; }
+    take(line, " ");
+    return std::string(line);
+}
+
+std::string_view without_origin(std::string_view sentence)
+{
+    constexpr std::string_view error = "[error]", space = "toml::";
+    if (sentence.substr(0, error.size()) == error) { sentence.remove_prefix(error.size()); }
+    take(sentence, " ");
+    if (sentence.substr(0, space.size()) != space) { return sentence; }
+    take(sentence, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_:");
+    take(sentence, " :");
+    return sentence;
+}
+
 /// toml11 answers with a drawing of several lines; this keeps its first sentence and the last place that it points to:
 /// where the second of two keys stands, not the first.
 std::string syntax_message(const std::string& file, const std::string& drawing)
 {
-    const std::regex place("\n *([0-9]+) \\|[^\n]*\n *\\| *(?:~+|\\^-+) *([^\n]*)");
-    const std::regex origin("^\\[error\\] *(?:toml::[A-Za-z_:]+ *:? *)?");
-    std::string      line = "1";
-    std::string      remark;
-    for (std::sregex_iterator match(drawing.begin(), drawing.end(), place), end; match != end; ++match)
+    constexpr std::size_t most = 200;
+    std::istringstream    lines(drawing);
+    std::string           sentence, line, number = "1", remark;
+    std::string           drawn;
+    std::getline(lines, sentence);
+    while (std::getline(lines, line))
     {
-        line   = (*match)[1];
-        remark = (*match)[2];
+        if (const auto said = remark_of(line); said && !drawn.empty())
+        {
+            number = drawn;
+            remark = *said;
+        }
+        drawn = drawn_line(line);
     }
-    const auto sentence = std::regex_replace(drawing.substr(0, drawing.find('\n')), origin, std::string());
-    return fmt::format("{}:{}: malformed TOML: {} ({})", file, line, sentence, remark);
+    return fmt::format("{}:{}: malformed TOML: {} ({})", file, number, shown(without_origin(sentence), most),
+                       shown(remark, most));
 }
 
 std::string read_file(const std::string& path)
@@ -77,11 +140,23 @@ std::string read_file(const std::string& path)
     std::error_code error;
     if (!std::filesystem::exists(path, error)) { throw InputError(path + ": no such file"); }
     if (!std::filesystem::is_regular_file(path, error)) { throw InputError(path + ": not a file"); }
+    const auto bytes = std::filesystem::file_size(path, error);
+    if (!error && bytes > most_bytes)
+    {
+        throw InputError(fmt::format("{}: a file of {} bytes; accepted: at most {} bytes", path, bytes, most_bytes));
+    }
     std::ifstream      stream(path, std::ios::binary);
     std::ostringstream text;
     text << stream.rdbuf();
     if (!stream) { throw InputError(path + ": cannot be read"); }
     return text.str();
+}
+
+/// Without the mark that some editors put before UTF-8.
+std::string without_mark(const std::string& text)
+{
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    return text.compare(0, mark.size(), mark) == 0 ? text.substr(mark.size()) : text;
 }
 
 } // namespace
@@ -94,7 +169,7 @@ std::string kind_of(const Node& node)
         std::string operator()(bool) const { return "a boolean"; }
         std::string operator()(std::int64_t) const { return "an integer"; }
         std::string operator()(double) const { return "a floating-point number"; }
-        std::string operator()(const std::string& text) const { return fmt::format("the string \"{}\"", text); }
+        std::string operator()(const std::string& text) const { return fmt::format("the string \"{}\"", shown(text)); }
         std::string operator()(const NodeArray&) const { return "an array"; }
         std::string operator()(const NodeTable&) const { return "a table"; }
     };
@@ -111,11 +186,20 @@ const Node* find(const Node& node, const std::string& key)
 
 Node parse_document(const std::string& path)
 {
-    std::istringstream text(read_file(path));
+    const std::string text = without_mark(read_file(path));
+    if (const auto excess = excess_of(text))
+    {
+        throw InputError(fmt::format("{}:{}: {}; accepted: {}", path, excess->line, excess->what, excess->accepted));
+    }
+    std::istringstream stream(text);
     try
     {
-        const auto root = toml::parse(text, path);
-        return convert(root, [&](const toml::value& value) { return location_of(value, path); });
+        const auto root = toml::parse(stream, path);
+        return convert(root, LineNumbers(path, text));
+    }
+    catch (const std::bad_alloc&)
+    {
+        throw;
     }
     catch (const std::exception& error)
     {

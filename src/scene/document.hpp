@@ -39,10 +39,12 @@ std::string kind_of(const Node& node);
 /// The member `key` of a table; nullptr if `node` is no table or has no such member.
 const Node* find(const Node& node, const std::string& key);
 
-/// The root table of a TOML file. InputError, with file and line, if it cannot be read or is malformed.
+/// The root table of a TOML file. InputError, with file and line, if it cannot be read, is malformed or is beyond the
+/// limits of text_limits.hpp.
 Node parse_document(const std::string& path);
 
-/// One TOML value; what is not TOML is taken as a bare word, that is a string.
+/// One TOML value of a text within the limits of text_limits.hpp; what is not TOML is taken as a bare word, that is a
+/// string.
 Node parse_value(const std::string& text, const Location& where);
 
 } // namespace tread::scene

@@ -1,4 +1,5 @@
 #include "scene/keys.hpp"
+#include "scene/ranges.hpp"
 
 namespace tread::scene
 {
@@ -13,7 +14,7 @@ Keys<Walls> wall_keys()
         optional("y", "", &Walls::y, wall, "Both walls normal to y."),
         optional("bottom", "", &Walls::bottom, wall, "The wall at z = 0."),
         optional("top", "", &Walls::top, wall, "The wall at z = size."),
-        optional("friction", "", &Walls::friction, number(at_least(0)),
+        optional("friction", "", &Walls::friction, number(coefficient()),
                  "Coefficient of Coulomb's friction of sand with every \"frictional\" wall."),
     };
 }
@@ -22,9 +23,9 @@ Keys<Drive> drive_keys()
 {
     return {
         required("body", "", &Drive::body, name(), "The wheel that is driven: the name of a [[body]]."),
-        required("angular_velocity", "rad/s", &Drive::angular_velocity, number(any_number()),
+        required("angular_velocity", "rad/s", &Drive::angular_velocity, number(spin()),
                  "Spin about the wheel's axle; positive drives towards +x."),
-        optional("ramp", "s", &Drive::ramp, number(at_least(0)),
+        optional("ramp", "s", &Drive::ramp, number(time_or_none()),
                  "Time over which the spin goes linearly from its value at phase start to `angular_velocity`."),
         optional("slip", "", &Drive::slip, number_or("free", between(-1, 1)),
                  "Slip ratio s: the wheel is moved at v_x = (1 - s) omega r. \"free\" leaves v_x to the forces."),
@@ -35,7 +36,7 @@ Keys<Lower> lower_keys()
 {
     return {
         required("body", "", &Lower::body, name(), "The body that is lowered: the name of a [[body]]."),
-        required("speed", "m/s", &Lower::speed, number(above(0)),
+        required("speed", "m/s", &Lower::speed, number(speed()),
                  "Speed along gravity; the body neither turns nor moves otherwise."),
         optional("share", "", &Lower::share, number(above_up_to(0, 1)),
                  "Share of the body's weight that contacts carry when the phase ends."),
@@ -48,7 +49,7 @@ Keys<WeightShare> weight_keys()
         required("body", "", &WeightShare::body, name(), "The body: the name of a [[body]]."),
         required("from", "", &WeightShare::from, number(between(0, 10)), "Share of its weight that acts at first."),
         optional("to", "", &WeightShare::to, number(between(0, 10)), "Share of its weight that acts after the ramp."),
-        optional("ramp", "s", &WeightShare::ramp, number(at_least(0)),
+        optional("ramp", "s", &WeightShare::ramp, number(time_or_none()),
                  "Time over which the share goes linearly from `from` to `to`."),
     };
 }
@@ -69,8 +70,8 @@ Keys<Scene> scene_keys()
 Keys<Domain> domain_keys()
 {
     return {
-        required("size", "m", &Domain::size, vector3(above(0)), "Edge lengths; one corner is the origin."),
-        required("gravity", "m/s2", &Domain::gravity, vector3(any_number()), "Acceleration of gravity."),
+        required("size", "m", &Domain::size, vector3(length()), "Edge lengths; one corner is the origin."),
+        required("gravity", "m/s2", &Domain::gravity, vector3(acceleration()), "Acceleration of gravity."),
         table_key<Domain>(
             Presence::optional, "walls", "[domain] walls", &Domain::walls, wall_keys(),
             "What the domain's faces do to sand: \"slip\" stops the normal velocity towards the wall, \"fixed\" all "
@@ -83,14 +84,14 @@ Keys<Domain> domain_keys()
 
 Keys<GridOptions> grid_keys()
 {
-    return {optional("spacing", "m", &GridOptions::spacing, number(above(0)), "Edge length h of a grid cell.",
+    return {optional("spacing", "m", &GridOptions::spacing, number(length()), "Edge length h of a grid cell.",
                      "required with [[terrain]]")};
 }
 
 Keys<TimeOptions> time_keys()
 {
     return {
-        optional("dt", "s", &TimeOptions::dt, number_or("auto", above(0)),
+        optional("dt", "s", &TimeOptions::dt, number_or("auto", step_of_time()),
                  "Time step. \"auto\" takes the largest stable one; a fixed one is checked."),
         optional("substeps", "", &TimeOptions::substeps, integer_or("auto", 1, most_substeps),
                  "Contact substeps in a step. \"auto\" takes as many as contact between bodies needs; a run that needs "
@@ -112,7 +113,7 @@ Keys<Numerics> numerics_keys()
             "How velocity goes between points and grid; \"aflip\" is FLIP that also gives the grid its points' affine "
             "velocities, as APIC does: docs/transfers.md."),
         optional(
-            "pic_rate", "c_p/h", &Numerics::pic_rate, number_or("auto", at_least(0)),
+            "pic_rate", "c_p/h", &Numerics::pic_rate, number_or("auto", coefficient()),
             "PIC part of FLIP per unit time. \"auto\": 0.2 for granular materials, 0.04 for elastic ones; the largest "
             "of the materials of the sand holds for all of it.")
             .when("transfer = \"flip\" or \"aflip\"",
@@ -129,13 +130,13 @@ Keys<Numerics> numerics_keys()
                  "Factor of the contact force: 4/3 E* sqrt(R*) d^1.5, or the paper's Eq. 7, which is 1/sqrt(2) of it."),
         optional("point_radius", "", &Numerics::point_radius, word<PointRadius>({"sphere", "semi-domain"}),
                  "Contact radius of a point: of the sphere of its initial volume V (Eq. 11), or 0.5 V^(1/3)."),
-        optional("refine_below", "point radii", &Numerics::refine_below, number(at_least(0)),
+        optional("refine_below", "point radii", &Numerics::refine_below, number(pure_number()),
                  "Bodies whose sphere of equal volume has a smaller radius than this many of the largest point's are "
                  "sampled at nine places of each point's contact patch, not at its centre alone; 0: none."),
         optional("volume_strain", "", &Numerics::volume_strain, word<VolumeStrain>({"point", "cell-average"}),
                  "Volumetric strain that the material law sees: each point's own, or the mean over its cell's points, "
                  "against locking where the flow keeps its volume (undrained clay, sand that does not dilate)."),
-        optional("linear_overlap", "R*", &Numerics::linear_overlap, number(above_up_to(0, 0.1)),
+        optional("linear_overlap", "R*", &Numerics::linear_overlap, number(between(1e-9, 0.1)),
                  "Overlap below which traction between bodies is linear; 1e-2 allows 1.8 times the step of 1e-3."),
     };
 }
@@ -149,9 +150,9 @@ Keys<Material> material_keys()
                  word<MaterialModel>({"elastic", "mohr-coulomb", "drucker-prager", "rigid"}),
                  "Constitutive model of points. Rocks and bodies take \"elastic\" or \"rigid\"; both stay rigid, and "
                  "`young` and `poisson` set the stiffness of their contacts."),
-        optional("density", "kg/m3", &Material::density, number(above(0)),
+        optional("density", "kg/m3", &Material::density, number(density()),
                  "Of points: in bulk. Of rocks: of the solid.", "required with [[terrain]] and [[rocks]]"),
-        optional("young", "Pa", &Material::young, number(above(0)),
+        optional("young", "Pa", &Material::young, number(stiffness()),
                  "Young's modulus. Of two things that meet, walls included, one must have it.",
                  "required unless rigid; then perfectly stiff"),
         optional("poisson", "", &Material::poisson, number(between(0, 0.499)), "Poisson's ratio."),
@@ -161,7 +162,7 @@ Keys<Material> material_keys()
         optional("dilation_angle_deg", "degrees", &Material::dilation_angle_deg, number(from_below(0, 90)),
                  "Dilation angle; at most the friction angle.")
             .when(granular, flows),
-        optional("cohesion", "Pa", &Material::cohesion, number(at_least(0)), "Cohesion.").when(granular, flows),
+        optional("cohesion", "Pa", &Material::cohesion, number(strength()), "Cohesion.").when(granular, flows),
         required(
             "drucker_prager_fit", "", &Material::drucker_prager_fit,
             word<ConeFit>({"compression", "extension", "plane-strain"}),
@@ -179,7 +180,7 @@ Keys<Contact> contact_keys()
     return {
         required("between", "", &Contact::between, pair_of_names(),
                  "Two families, or a family and \"wall\". Pairs that are left out get the defaults below."),
-        optional("friction", "", &Contact::friction, number(at_least(0)), "Coulomb's coefficient.",
+        optional("friction", "", &Contact::friction, number(coefficient()), "Coulomb's coefficient.",
                  "0.3; with \"wall\" 0.5"),
         optional("restitution", "", &Contact::restitution, number(between(0, 1)),
                  "Coefficient of restitution between bodies and with walls; points have none."),
@@ -208,12 +209,12 @@ Keys<Terrain> terrain_keys()
         optional("points_per_cell", "", &Terrain::points_per_cell, integer_of({1, 8, 27, 64}),
                  "Points in a grid cell: 1, 2, 3 or 4 each way.")
             .when("`from` and `spacing` left out", on_the_grid),
-        optional("spacing", "m", &Terrain::spacing, number_or("", above(0)),
+        optional("spacing", "m", &Terrain::spacing, number_or("", length()),
                  "Distance of the points instead of `points_per_cell`: a lattice that begins half a spacing inside the "
                  "region's low corner.",
                  "by `points_per_cell`")
             .when(made, is_made),
-        optional("velocity", "m/s", &Terrain::velocity, vector3(any_number()), "Of the points at the start.")
+        optional("velocity", "m/s", &Terrain::velocity, vector3(velocity()), "Of the points at the start.")
             .when(made, is_made),
     };
 }
@@ -267,17 +268,17 @@ Keys<Body> body_keys()
         required("shape", "", &Body::shape, name(),
                  fmt::format("The name of a [[shape]], or a built-in wheel: {}.", fmt::join(builtin_wheels, ", "))),
         required("material", "", &Body::material, name(), "The name of an elastic or rigid [[material]]."),
-        optional("diameter", "m", &Body::diameter, number_or("", above(0)),
+        optional("diameter", "m", &Body::diameter, number_or("", length()),
                  "Of the sphere of equal volume: scales the shape. Required for generated rocks and spheres.",
                  "the shape's own size"),
-        optional("density", "kg/m3", &Body::density, number_or("", above(0)), "Of the shape's solid volume.", one_of),
-        optional("mass", "kg", &Body::mass, number_or("", above(0)), "Spread evenly over the shape's volume.", one_of),
-        optional("load", "N", &Body::load, number_or("", above(0)), "Weight under the scene's gravity.", one_of),
+        optional("density", "kg/m3", &Body::density, number_or("", density()), "Of the shape's solid volume.", one_of),
+        optional("mass", "kg", &Body::mass, number_or("", mass()), "Spread evenly over the shape's volume.", one_of),
+        optional("load", "N", &Body::load, number_or("", force()), "Weight under the scene's gravity.", one_of),
         body_position_key(),
-        optional("gap", "m", &Body::gap, number(at_least(0)), "Left between the body and what lies under it.")
+        optional("gap", "m", &Body::gap, number(length_or_none()), "Left between the body and what lies under it.")
             .when("position = [x, y, \"on surface\"]", [](const Body& body) { return body.on_surface; }),
-        optional("velocity", "m/s", &Body::velocity, vector3(any_number()), "When the body is first released."),
-        optional("rolling_radius", "m", &Body::rolling_radius, number_or("auto", above(0)),
+        optional("velocity", "m/s", &Body::velocity, vector3(velocity()), "When the body is first released."),
+        optional("rolling_radius", "m", &Body::rolling_radius, number_or("auto", length()),
                  "Radius r of the slip ratio 1 - v_x/(omega r). \"auto\": over the grousers."),
         optional("lock", "", &Body::lock, words_of({"x", "y", "z", "roll", "pitch", "yaw"}),
                  "Degrees of freedom in the world's axes that are held fixed."),
@@ -293,9 +294,9 @@ Keys<Phase> phase_keys()
                  "Local (Cundall) damping of sand and rocks; for settling only."),
         optional("until", "", &Phase::until, word<StopRule>({"duration", "equilibrium", "lowered"}),
                  "What ends the phase: its time, rest of sand and rocks, or that the ground carries what is lowered."),
-        required("duration", "s", &Phase::duration, number(above(0)), "Simulated time of the phase.")
+        required("duration", "s", &Phase::duration, number(span_of_time()), "Simulated time of the phase.")
             .when("until = \"duration\"", [](const Phase& phase) { return phase.until == StopRule::duration; }),
-        required("max_duration", "s", &Phase::max_duration, number(above(0)),
+        required("max_duration", "s", &Phase::max_duration, number(span_of_time()),
                  "Simulated time after which the phase ends all the same, with a warning.")
             .when("until = \"equilibrium\" or \"lowered\"", may_end_early),
         table_key<Phase>(Presence::optional, "drive", "[[phase]] drive", &Phase::drive, drive_keys(),
@@ -314,8 +315,9 @@ Keys<Phase> phase_keys()
 Keys<Output> output_keys()
 {
     return {
-        optional("every", "s", &Output::every, number(above(0)), "Simulated time between rows of the time series."),
-        optional("snapshots_every", "s", &Output::snapshots_every, number(at_least(0)),
+        optional("every", "s", &Output::every, number(span_of_time()),
+                 "Simulated time between rows of the time series."),
+        optional("snapshots_every", "s", &Output::snapshots_every, zero_or(span_of_time()),
                  "Simulated time between snapshots; 0 writes none."),
         optional(
             "bed_after", "", &Output::bed_after, name(),
@@ -331,13 +333,13 @@ Keys<Output> output_keys()
 Keys<CheckpointOptions> checkpoint_keys()
 {
     return {
-        optional("every_wall", "s", &CheckpointOptions::every_wall, number(at_least(0)),
+        optional("every_wall", "s", &CheckpointOptions::every_wall, number(time_or_none()),
                  "Wall time between checkpoints; 0: never for that."),
-        optional("every_time", "s", &CheckpointOptions::every_time, number(at_least(0)),
+        optional("every_time", "s", &CheckpointOptions::every_time, zero_or(span_of_time()),
                  "Simulated time between checkpoints; 0: never for that."),
-        optional("every_steps", "", &CheckpointOptions::every_steps, integer<std::int64_t>(0),
+        optional("every_steps", "", &CheckpointOptions::every_steps, integer<std::int64_t>(0, 1'000'000'000'000),
                  "Steps between checkpoints; 0: never for that."),
-        optional("keep", "", &CheckpointOptions::keep, integer<std::int64_t>(1),
+        optional("keep", "", &CheckpointOptions::keep, integer<std::int64_t>(1, 10'000),
                  "How many of the newest checkpoints stay."),
     };
 }
@@ -345,7 +347,7 @@ Keys<CheckpointOptions> checkpoint_keys()
 Keys<Balance> balance_keys()
 {
     return {optional(
-        "threshold", "", &Balance::threshold, number(above(1)),
+        "threshold", "", &Balance::threshold, number(above_up_to(1, 1e6)),
         "The largest predicted work of a rank over the mean, beyond which pages are given to other ranks, if that "
         "is predicted to save more than it costs.")};
 }
@@ -354,17 +356,17 @@ Keys<Sleep> sleep_keys()
 {
     const auto given = [](const Sleep& sleep) { return sleep.distance.has_value(); };
     return {
-        optional("distance", "m", &Sleep::distance, number_or("", above(0)),
+        optional("distance", "m", &Sleep::distance, number_or("", above_up_to(0, 1e5)),
                  "Sand falls asleep, page by page, only further than this from the bounding sphere of every body, and "
                  "wakes when one comes nearer. One rank only.",
                  "no sand sleeps"),
-        optional("speed", "m/s", &Sleep::speed, number(above(0)),
+        optional("speed", "m/s", &Sleep::speed, number(speed()),
                  "A page is at rest while no point in it is faster. One that is not keeps two pages all around awake.")
             .when("distance given", given),
-        optional("rest", "s", &Sleep::rest, number(above(0)),
+        optional("rest", "s", &Sleep::rest, number(span_of_time()),
                  "Simulated time for which a page must have been at rest before it falls asleep, and between looks.")
             .when("distance given", given),
-        optional("load", "", &Sleep::load, number(above(0)),
+        optional("load", "", &Sleep::load, number(above_up_to(0, 1e6)),
                  "A sleeping page wakes when the pressure that the sand beside it holds it with changes by this share "
                  "of the bed's weight over the area of the domain's floor.")
             .when("distance given", given),

@@ -12,7 +12,7 @@ namespace tread::scene
 /// where that is not known: a built-in shape, a scene that was not read from a file.
 std::string line_of(const Scene& scene, const std::string& table);
 
-/// What `act` gives. An InputError of it says also where the table was written.
+/// What `act` gives. An InputError or EnvironmentError of it says also where the table was written.
 template<class Act>
 decltype(auto) with_line_of(const Scene& scene, const std::string& table, const Act& act)
 {
@@ -23,6 +23,10 @@ decltype(auto) with_line_of(const Scene& scene, const std::string& table, const 
     catch (const InputError& error)
     {
         throw InputError(line_of(scene, table) + error.what());
+    }
+    catch (const EnvironmentError& error)
+    {
+        throw EnvironmentError(line_of(scene, table) + error.what());
     }
 }
 

@@ -15,6 +15,13 @@ namespace tread::scene
 namespace
 {
 
+/// Tables of a list. All pairs of families of that many materials stand in a resolved scene.
+std::size_t most_tables(const std::string& table)
+{
+    if (table == "material") { return 100; }
+    return table == "contact" ? 10'000 : 1000;
+}
+
 template<class T>
 void read_member(const Node& document, const std::string& table, const Keys<T>& keys, T& object, Problems& problems)
 {
@@ -33,6 +40,13 @@ void read_member(const Node& document, const std::string& table, const Keys<T>& 
     if (array == nullptr)
     {
         problems.push_back({node->where, table, "", "wrong type: " + kind_of(*node), fmt::format("[[{}]]", table)});
+        return;
+    }
+    const std::size_t most = most_tables(table);
+    if (array->size() > most)
+    {
+        problems.push_back({(*array)[most].where, "", table, fmt::format("{} tables", array->size()),
+                            fmt::format("at most {} tables [[{}]]", most, table)});
         return;
     }
     objects.resize(array->size());
@@ -177,6 +191,7 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
     apply_overrides(document, overrides, problems);
     Scene scene     = read_scene(document, problems);
     scene.directory = std::filesystem::absolute(path).parent_path().string();
+    if (problems.size() > most_problems) { throw_if_any(problems); }
     complete_materials(scene);
     complete_wall_friction(scene, document);
     complete_meshes(scene, document, problems);

@@ -1,10 +1,16 @@
 #include "scene/overrides.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
-#include <regex>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
+
+#include "scene/text.hpp"
+#include "scene/text_limits.hpp"
+#include "scene/values.hpp"
 
 namespace tread::scene
 {
@@ -52,8 +58,47 @@ Node* element(NodeArray& array, const std::string& segment)
     return whole && index < array.size() ? &array[index] : nullptr;
 }
 
-/// The node that `segment` names below `node`, made if a table lacks it; nullptr, with a problem, if there is no way.
-Node* descend(Node& node, const std::string& segment, const Location& where, Problems& problems)
+bool holds_tables(const NodeArray& array)
+{
+    return !array.empty() &&
+           std::all_of(array.begin(), array.end(),
+                       [](const Node& item) { return std::holds_alternative<NodeTable>(item.value); });
+}
+
+/// A value as TOML, for messages.
+struct AsToml
+{
+    std::string operator()(const OtherValue& other) const { return other.kind; }
+    std::string operator()(bool value) const { return value ? "true" : "false"; }
+    std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
+    std::string operator()(double value) const { return write_number(value); }
+    std::string operator()(const std::string& text) const { return write_string(shown(text)); }
+    std::string operator()(const NodeTable&) const { return "{ ... }"; }
+    std::string operator()(const NodeArray& array) const
+    {
+        std::string text;
+        for (const Node& item : array)
+        {
+            text += fmt::format("{}{}", text.empty() ? "" : ", ", std::visit(*this, item.value));
+        }
+        return fmt::format("[{}]", text);
+    }
+};
+
+/// `path` leads to an array of values, none of which is called `segment`.
+Problem no_such_value(const NodeArray& array, const std::string& path, const std::string& segment,
+                      const Location& where)
+{
+    const std::string whole = fmt::format("{}={}", path, shown(AsToml{}(array)));
+    return {where, "", "",
+            fmt::format("\"{}\" stands below {}, which is an array of {} values", segment, path, array.size()),
+            array.empty() ? whole : fmt::format("{}, or {}[0] to {}[{}]", whole, path, path, array.size() - 1)};
+}
+
+/// The node that `segment` names below `node`, to which `path` leads, made if a table lacks it; nullptr, with a
+/// problem, if there is no way.
+Node* descend(Node& node, const std::string& path, const std::string& segment, const Location& where,
+              Problems& problems)
 {
     if (auto* table = std::get_if<NodeTable>(&node.value))
     {
@@ -62,10 +107,16 @@ Node* descend(Node& node, const std::string& segment, const Location& where, Pro
     if (auto* array = std::get_if<NodeArray>(&node.value))
     {
         if (Node* found = element(*array, segment)) { return found; }
+        if (!holds_tables(*array))
+        {
+            problems.push_back(no_such_value(*array, path, segment, where));
+            return nullptr;
+        }
         const auto names = names_in(*array);
         problems.push_back({where, "", "",
                             fmt::format("nothing is called \"{}\" there{}", segment, suggestion(segment, names)),
-                            fmt::format("index below {}, or a name: {}", array->size(), fmt::join(names, ", "))});
+                            fmt::format("index below {}, or a name: {}", array->size(),
+                                        shown(fmt::format("{}", fmt::join(names, ", ")), 500))});
         return nullptr;
     }
     problems.push_back({where, "", "", fmt::format("\"{}\" stands below {}", segment, kind_of(node)), ""});
@@ -74,31 +125,87 @@ Node* descend(Node& node, const std::string& segment, const Location& where, Pro
 
 void apply(Node& document, const std::string& path, const std::string& value, const Location& where, Problems& problems)
 {
-    Node* node = &document;
+    Node*       node = &document;
+    std::string so_far;
     for (const auto& segment : split_path(path))
     {
-        node = descend(*node, segment, where, problems);
+        node = descend(*node, so_far, segment, where, problems);
         if (node == nullptr) { return; }
+        so_far += (so_far.empty() ? "" : ".") + segment;
     }
     *node = parse_value(value, where);
+}
+
+constexpr std::string_view name_letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+constexpr std::string_view blanks       = " \t\n\v\f\r";
+
+std::string_view trimmed(std::string_view text)
+{
+    const auto first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) { return {}; }
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// Whether a text is a path to a key: a.b, a[0].b ...
+bool is_path(std::string_view text)
+{
+    bool whole = take(text, name_letters);
+    while (whole && !text.empty())
+    {
+        const char joint = text.front();
+        text.remove_prefix(1);
+        if (joint == '[')
+        {
+            whole = take(text, "0123456789") && text.substr(0, 1) == "]";
+            if (whole) { text.remove_prefix(1); }
+        }
+        else { whole = joint == '.' && take(text, name_letters); }
+    }
+    return whole;
+}
+
+struct Override
+{
+    std::string path;
+    std::string value;
+};
+
+/// Nothing where the text is not of the form key=value.
+std::optional<Override> split_override(std::string_view text)
+{
+    const auto equals = text.find('=');
+    if (equals == std::string_view::npos) { return std::nullopt; }
+    const auto path  = trimmed(text.substr(0, equals));
+    auto       value = text.substr(equals + 1);
+    take(value, blanks);
+    if (!is_path(path) || value.empty()) { return std::nullopt; }
+    return Override{std::string(path), std::string(value)};
+}
+
+void apply_override(Node& document, const std::string& text, const Location& where, Problems& problems)
+{
+    if (const auto excess = excess_of(text))
+    {
+        problems.push_back({where, "", "", excess->what, excess->accepted});
+        return;
+    }
+    const auto override = split_override(text);
+    if (!override)
+    {
+        problems.push_back({where, "", "", "is not of the form key=value", "a.b=c, a.name.b=c or a[0].b=c"});
+        return;
+    }
+    apply(document, override->path, override->value, where, problems);
 }
 
 } // namespace
 
 void apply_overrides(Node& document, const std::vector<std::string>& overrides, Problems& problems)
 {
-    const std::regex form(R"(\s*([A-Za-z0-9_-]+(?:\.[A-Za-z0-9_-]+|\[[0-9]+\])*)\s*=\s*(\S(?:.|\n)*))");
-    std::int64_t     order = first_override;
+    std::int64_t order = first_override;
     for (const auto& text : overrides)
     {
-        const Location where{"--set " + text, order++};
-        std::smatch    match;
-        if (!std::regex_match(text, match, form))
-        {
-            problems.push_back({where, "", "", "is not of the form key=value", "a.b=c, a.name.b=c or a[0].b=c"});
-            continue;
-        }
-        apply(document, match[1], match[2], where, problems);
+        apply_override(document, text, {fmt::format("--set {}", shown(text)), order++}, problems);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "scene/checker.hpp"
+#include "scene/ranges.hpp"
 
 namespace tread::scene
 {
@@ -130,7 +131,7 @@ void validate_diameter(const Scene& scene, const Body& body, const TableAt& at, 
                        !std::holds_alternative<SphereGenerator>(shape->source);
     if (sized || !checker.sound(shape_at, {"generate", "file"})) { return; }
     checker.report(at, "diameter", fmt::format("missing; \"{}\" is generated without a size", body.shape),
-                   "number > 0 (m)");
+                   length().text() + " (m)");
 }
 
 void validate_position(const Scene& scene, const Body& body, const TableAt& at, Checker& checker)

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "scene/text.hpp"
 
 namespace tread::scene
 {
@@ -31,15 +32,25 @@ std::size_t edit_distance(const std::string& a, const std::string& b)
     return row.back();
 }
 
+std::string lower(std::string text)
+{
+    for (char& letter : text)
+    {
+        if (letter >= 'A' && letter <= 'Z') { letter = static_cast<char>(letter - 'A' + 'a'); }
+    }
+    return text;
+}
+
 } // namespace
 
 std::string to_string(const Problem& problem)
 {
-    std::string text = problem.where.text + ":";
-    if (!problem.table.empty()) { text += " [" + problem.table + "]"; }
-    if (!problem.key.empty()) { text += " " + problem.key; }
+    constexpr std::size_t most_text = 500; // of what is said; a user's names and words are in it
+    std::string           text      = problem.where.text + ":";
+    if (!problem.table.empty()) { text += fmt::format(" [{}]", shown(problem.table)); }
+    if (!problem.key.empty()) { text += fmt::format(" {}", shown(problem.key)); }
     if (!problem.table.empty() || !problem.key.empty()) { text += ":"; }
-    text += " " + problem.what;
+    text += fmt::format(" {}", shown(problem.what, most_text));
     if (!problem.accepted.empty()) { text += "; accepted: " + problem.accepted; }
     return text;
 }
@@ -63,18 +74,27 @@ void throw_if_any(Problems problems)
     std::stable_sort(problems.begin(), problems.end(),
                      [](const Problem& a, const Problem& b) { return a.where.order < b.where.order; });
     std::vector<std::string> lines;
-    for (const auto& problem : problems) { lines.push_back(to_string(problem)); }
+    const std::size_t        named = std::min(problems.size(), most_problems);
+    for (std::size_t i = 0; i < named; ++i) { lines.push_back(to_string(problems[i])); }
+    if (named < problems.size()) { lines.push_back(fmt::format("and {} errors more", problems.size() - named)); }
     throw InputError(fmt::format("{}", fmt::join(lines, "\n")));
 }
 
 std::optional<std::string> nearest(const std::string& word, const std::vector<std::string>& candidates)
 {
-    const auto        best    = std::min_element(candidates.begin(), candidates.end(),
-                                                 [&](const std::string& a, const std::string& b)
-                                                 { return edit_distance(word, a) < edit_distance(word, b); });
-    const std::size_t allowed = (word.size() + 2) / 3;
-    if (best == candidates.end() || edit_distance(word, *best) > allowed) { return std::nullopt; }
-    return *best;
+    constexpr std::size_t longest = 100;
+    if (word.empty() || word.size() > longest) { return std::nullopt; }
+    const std::string          typed   = lower(word);
+    std::size_t                allowed = std::min((word.size() + 2) / 3, word.size() - 1);
+    std::optional<std::string> best;
+    for (const std::string& candidate : candidates)
+    {
+        const std::size_t away = edit_distance(typed, lower(candidate));
+        if (candidate.empty() || away > allowed || (best && away == allowed)) { continue; }
+        allowed = away;
+        best    = candidate;
+    }
+    return best;
 }
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates)

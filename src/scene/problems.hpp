@@ -30,10 +30,14 @@ bool mentions(const Problems& problems, const std::string& table, const std::str
 /// Whether a problem was found in this inner table or deeper.
 bool mentions_inside(const Problems& problems, const std::string& table);
 
-/// InputError with every problem, one a line in the order of the file; returns if there is none.
+/// Problems that one message names.
+inline constexpr std::size_t most_problems = 100;
+
+/// InputError with the first `most_problems` problems, one a line in the order of the file; returns if there is none.
 void throw_if_any(Problems problems);
 
-/// The candidate nearest to a misspelt word by edit distance; nothing if none is near.
+/// The candidate nearest to a misspelt word by edit distance, whether letters are large or small; nothing if none is
+/// near.
 std::optional<std::string> nearest(const std::string& word, const std::vector<std::string>& candidates);
 
 /// "; did you mean "sand"?", or nothing if no candidate is near.

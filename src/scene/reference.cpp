@@ -15,7 +15,13 @@ A scene is a TOML file; `tread check SCENE.toml` reads and checks it, `tread run
 the table that reads scenes (src/scene/keys.cpp); `TREAD_REGENERATE_DOCS=1 unit_scene` writes it anew.
 
 Units are SI; angles are in degrees, and their keys say so. Where a number is expected an integer does too. Unknown keys are
-errors. All errors of a scene are reported at once, each as `file:line: [table] key: what; accepted: range`.
+errors. All errors of a scene are reported at once, each as `file:line: [table] key: what; accepted: range`; at most 100.
+
+Ranges are wider than what sand, rock and wheels have, so that no count made of the numbers leaves what a computer can hold. The text
+itself may have 1 MiB, 32 KiB a line, 32 brackets in each other and 32 segments in a dotted key: the parser calls itself for each level,
+and its time grows as the square of a line's length. A scene has at most 100 [[material]], 10,000 [[contact]] and 1000 of each other
+list of tables. What a scene makes (points, rocks, distance fields, maps of the surface, files that it reads) is estimated before it is made, and
+refused, with exit code 4 and both figures, where it is more than the memory that the machine, a control group or `ulimit -v` leaves.
 
 `--set table.key=value` sets a key as if the file said so: `--set domain.gravity=[0,0,-9.8]`, `--set material.sand.young=1e6`,
 `--set phase.drive.drive.slip=0.3`. Arrays of tables go by name (`material.sand`) or index (`material[0]`, `terrain[0]`). The value

@@ -1,4 +1,5 @@
 #include "scene/keys.hpp"
+#include "scene/ranges.hpp"
 
 namespace tread::scene
 {
@@ -31,29 +32,29 @@ Keys<SphereGenerator> sphere_keys()
 Keys<WheelGenerator> wheel_keys()
 {
     return {
-        optional("radius", "m", &WheelGenerator::radius, number(above(0)), "Over the grousers."),
-        optional("width", "m", &WheelGenerator::width, number(above(0)), "Along the axle, which is the mesh's y axis."),
-        optional("wall_thickness", "m", &WheelGenerator::wall_thickness, number(above(0)), "Of the drum."),
-        optional("crown", "m", &WheelGenerator::crown, number(at_least(0)),
+        optional("radius", "m", &WheelGenerator::radius, number(length()), "Over the grousers."),
+        optional("width", "m", &WheelGenerator::width, number(length()), "Along the axle, which is the mesh's y axis."),
+        optional("wall_thickness", "m", &WheelGenerator::wall_thickness, number(length()), "Of the drum."),
+        optional("crown", "m", &WheelGenerator::crown, number(length_or_none()),
                  "By how much the drum's radius is smaller at its edges than in the middle; parabolic between."),
         optional("grousers", "", &WheelGenerator::grousers, integer<int>(0, 1000), "How many."),
-        optional("grouser_height", "m", &WheelGenerator::grouser_height, number(at_least(0)), "Above the drum."),
-        optional("grouser_width", "m", &WheelGenerator::grouser_width, number(above(0)), "Along the circumference."),
+        optional("grouser_height", "m", &WheelGenerator::grouser_height, number(length_or_none()), "Above the drum."),
+        optional("grouser_width", "m", &WheelGenerator::grouser_width, number(length()), "Along the circumference."),
         optional("grouser_shape", "", &WheelGenerator::grouser_shape,
                  word<GrouserShape>({"straight", "chevron", "curved"}),
                  "Seen from outside: along the axle, a V, or a parabola."),
         optional("grouser_sweep_deg", "deg", &WheelGenerator::grouser_sweep_deg, number(between(-60, 60)),
                  "From a grouser's middle to its ends, about the axle; positive, and rolling towards +x, the ends meet "
                  "the ground first. Needed by chevron and curved grousers, 0 for straight ones."),
-        optional("rim_height", "m", &WheelGenerator::rim_height, number(at_least(0)),
+        optional("rim_height", "m", &WheelGenerator::rim_height, number(length_or_none()),
                  "Of the flanges inside both edges of the drum; 0 is none."),
-        optional("rim_thickness", "m", &WheelGenerator::rim_thickness, number(at_least(0)),
+        optional("rim_thickness", "m", &WheelGenerator::rim_thickness, number(length_or_none()),
                  "Of the flanges, along the axle; with `rim_height` alone."),
-        optional("hub_radius", "m", &WheelGenerator::hub_radius, number(at_least(0)),
+        optional("hub_radius", "m", &WheelGenerator::hub_radius, number(length_or_none()),
                  "Of a solid hub in the middle, carried by a disc; 0 is an open rim."),
-        optional("hub_width", "m", &WheelGenerator::hub_width, number(at_least(0)),
+        optional("hub_width", "m", &WheelGenerator::hub_width, number(length_or_none()),
                  "Of the hub, along the axle; with `hub_radius` alone."),
-        optional("web_thickness", "m", &WheelGenerator::web_thickness, number(at_least(0)),
+        optional("web_thickness", "m", &WheelGenerator::web_thickness, number(length_or_none()),
                  "Of the disc from hub to drum; with `hub_radius` alone."),
     };
 }
@@ -193,7 +194,7 @@ Keys<Shape> shape_keys()
             "sdf_cells", "", &Shape::sdf_cells, integer_or("auto", 8, 1024),
             "Cells of the signed distance field along the longest axis of its box (1.2 times the shape's). "
             "\"auto\": 1.5 across the thinnest wall, 40 to 512; one a surface node of a rock or sphere, 40 to 64."),
-        optional("node_spacing", "m", &Shape::node_spacing, number(at_least(0)),
+        optional("node_spacing", "m", &Shape::node_spacing, number(length_or_none()),
                  "Of the surface nodes; 0 leaves it to the generator, or takes a 40th of a mesh file's extent."),
     };
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "scene/checker.hpp"
+#include "scene/ranges.hpp"
 
 namespace tread::scene
 {
@@ -48,11 +49,11 @@ void validate_material(const Scene& scene, const Material& material, const Table
     }
     if (checker.sound(at, {"model"}) && material.model != MaterialModel::rigid && checker.given(at, "young") == nullptr)
     {
-        checker.report(at, "young", "missing", "number > 0 (Pa)");
+        checker.report(at, "young", "missing", stiffness().text() + " (Pa)");
     }
     if (needs_density(scene, material) && checker.given(at, "density") == nullptr)
     {
-        checker.report(at, "density", "missing; terrain or rocks are made of this", "number > 0 (kg/m3)");
+        checker.report(at, "density", "missing; terrain or rocks are made of this", density().text() + " (kg/m3)");
     }
 }
 
@@ -78,7 +79,7 @@ void validate_stiffness(const Scene& scene, Checker& checker)
         {
             checker.report(at, "young",
                            "missing; perfectly stiff, it would meet another perfectly stiff body or the walls",
-                           "number > 0 (Pa), or one such body in a domain of open walls");
+                           stiffness().text() + " (Pa), or one such body in a domain of open walls");
         }
     };
     for (const auto& rocks : scene.rocks) { check(rocks.material, rocks.count.value_or(many)); }
@@ -169,14 +170,30 @@ void validate_spacing(const Scene& scene, Checker& checker)
 {
     if (checker.given({"grid"}, "spacing") == nullptr && checker.sound({"grid"}, {}))
     {
-        checker.report({"grid"}, "spacing", "missing; [[terrain]] needs it", "number > 0 (m)");
+        checker.report({"grid"}, "spacing", "missing; [[terrain]] needs it", length().text() + " (m)");
     }
     const double smallest = *std::min_element(scene.domain.size.begin(), scene.domain.size.end());
     if (scene.grid.spacing > smallest && checker.sound({"domain"}, {"size"}))
     {
         checker.report({"grid"}, "spacing", fmt::format("{} is more than the domain", scene.grid.spacing),
-                       fmt::format("number > 0 and <= {} (m)", smallest));
+                       between(length().low, smallest).text() + " (m)");
     }
+}
+
+/// Pages of cells are numbered by 19 bits along each axis.
+void validate_cells(const Scene& scene, Checker& checker)
+{
+    constexpr double most = 1e6;
+    if (!checker.sound({"domain"}, {"size"}) || !checker.sound({"grid"}, {"spacing"}) || scene.grid.spacing == 0)
+    {
+        return;
+    }
+    const double largest = *std::max_element(scene.domain.size.begin(), scene.domain.size.end());
+    if (largest / scene.grid.spacing <= most) { return; }
+    checker.report({"grid"}, "spacing",
+                   fmt::format("{} gives {:.3g} cells along the domain's longest edge, over {:.0f}", scene.grid.spacing,
+                               largest / scene.grid.spacing, most),
+                   fmt::format("number >= {} (m)", largest / most));
 }
 
 } // namespace
@@ -192,6 +209,7 @@ void validate(const Scene& scene, const Node& document, Problems& problems)
     validate_bodies(scene, checker);
     validate_phases(scene, checker);
     validate_contents(scene, checker);
+    validate_cells(scene, checker);
 }
 
 void validate_names(const Scene& scene, Checker& checker)

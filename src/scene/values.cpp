@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "scene/problems.hpp"
+#include "scene/ranges.hpp"
 
 namespace tread::scene
 {
@@ -56,7 +57,7 @@ std::string write_vector3(const Vector3& value) { return write_array(value, writ
 Box read_box(const Node& node)
 {
     const auto corners =
-        read_each(read_array(node, 2), [](const Node& item) { return read_vector3(item, any_number()); });
+        read_each(read_array(node, 2), [](const Node& item) { return read_vector3(item, coordinate()); });
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
         if (!(corners[0][axis] < corners[1][axis])) { throw BadValue{"the box is empty"}; }
@@ -74,7 +75,7 @@ constexpr const char* accepted_box = "[[x, y, z], [x, y, z]], the second above t
 PlanExtent read_extent(const Node& node)
 {
     const auto read_corner = [](const Node& item)
-    { return read_each(read_array(item, 2), [](const Node& number) { return read_number(number, any_number()); }); };
+    { return read_each(read_array(item, 2), [](const Node& number) { return read_number(number, coordinate()); }); };
     const auto corners = read_each(read_array(node, 2), read_corner);
     if (!(corners[0][0] < corners[1][0] && corners[0][1] < corners[1][1])) { throw BadValue{"the extent is empty"}; }
     return {{{corners[0][0], corners[0][1]}, {corners[1][0], corners[1][1]}}};
@@ -118,27 +119,14 @@ bool Range::contains(double value) const
 std::string Range::text() const
 {
     std::string limits;
-    if (std::isfinite(low)) { limits += fmt::format(" {} {}", with_low ? ">=" : ">", low); }
+    if (std::isfinite(low)) { limits += fmt::format(" {} {:.6g}", with_low ? ">=" : ">", low); }
     if (std::isfinite(high))
     {
-        limits += fmt::format("{} {} {}", limits.empty() ? "" : " and", with_high ? "<=" : "<", high);
+        limits += fmt::format("{} {} {:.6g}", limits.empty() ? "" : " and", with_high ? "<=" : "<", high);
     }
     return limits.empty() ? "finite number" : "number" + limits;
 }
 
-Range any_number() { return {}; }
-Range above(double low)
-{
-    Range range    = at_least(low);
-    range.with_low = false;
-    return range;
-}
-Range at_least(double low)
-{
-    Range range;
-    range.low = low;
-    return range;
-}
 Range between(double low, double high) { return {low, high, true, true}; }
 Range from_below(double low, double high) { return {low, high, true, false}; }
 Range above_up_to(double low, double high) { return {low, high, false, true}; }
@@ -218,6 +206,13 @@ Value<double> number(Range range)
 {
     return {range.text(), [=](const Node& node) { return read_number(node, range); },
             [=](const double& value) { return range.contains(value) ? write_number(value) : std::string(); }};
+}
+
+Value<double> zero_or(Range range)
+{
+    const auto read = [=](const Node& node)
+    { return read_number(node, between(0, range.high)) == 0 ? 0.0 : read_number(node, range); };
+    return {"0, or " + range.text(), read, write_number};
 }
 
 Value<std::optional<double>> number_or(const std::string& word, Range range)
@@ -343,8 +338,14 @@ Value<std::optional<Box>> box_given()
 
 Value<std::vector<Box>> boxes()
 {
-    return {fmt::format("array of boxes {}", accepted_box),
-            [](const Node& node) { return read_each(read_list(node), read_box); },
+    constexpr std::size_t most = 100; // columns of a region are cut at the faces of each
+    const auto            read = [](const Node& node)
+    {
+        const NodeArray& list = read_list(node);
+        if (list.size() > most) { throw BadValue{fmt::format("{} boxes", list.size())}; }
+        return read_each(list, read_box);
+    };
+    return {fmt::format("array of at most {} boxes {}", most, accepted_box), read,
             [](const std::vector<Box>& value) { return write_array(value, write_box); }};
 }
 
@@ -361,13 +362,14 @@ Value<std::optional<PlanExtent>> extent_given()
 
 Value<double> length_unit()
 {
+    const Range              metres = between(1e-9, 1e6);
     std::vector<std::string> words;
     words.reserve(length_units.size());
     for (const auto& unit : length_units) { words.emplace_back(unit.first); }
-    return {list_words(words) + ", or number > 0 of metres",
-            [words](const Node& node)
+    return {list_words(words) + ", or " + metres.text() + " of metres",
+            [words, metres](const Node& node)
             {
-                if (!std::holds_alternative<std::string>(node.value)) { return read_number(node, above(0)); }
+                if (!std::holds_alternative<std::string>(node.value)) { return read_number(node, metres); }
                 return length_units[read_word(node, words)].second;
             },
             [](const double& value)

@@ -44,9 +44,6 @@ struct Range
     std::string text() const; ///< "number > 0 and <= 1"
 };
 
-Range any_number();
-Range above(double low);
-Range at_least(double low);
 Range between(double low, double high);     ///< [low, high]
 Range from_below(double low, double high);  ///< [low, high)
 Range above_up_to(double low, double high); ///< (low, high]
@@ -71,6 +68,9 @@ std::string write_string(const std::string& text);
 
 /// A number out of range (0 where only > 0 is accepted) stands for "not given" and is not written.
 Value<double> number(Range range);
+
+/// 0, or a number in range.
+Value<double> zero_or(Range range);
 
 /// `word` stands for "nothing"; with an empty word, absence does.
 Value<std::optional<double>>       number_or(const std::string& word, Range range);

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "base/errors.hpp"
+#include "scene/problems.hpp"
 #include "shape/template.hpp"
 
 namespace tread::shape
@@ -84,7 +85,8 @@ scene::Shape find_shape(const scene::Scene& scene, const std::string& name)
     std::vector<std::string> names;
     names.reserve(known.size());
     for (const scene::Shape& shape : known) { names.push_back(shape.name); }
-    throw InputError(fmt::format("shape '{}' is unknown; known are {}", name, fmt::join(names, ", ")));
+    throw InputError(fmt::format("shape '{}' is unknown{}; known are {}; the file of a mesh ends in .stl or .obj", name,
+                                 scene::suggestion(name, names), fmt::join(names, ", ")));
 }
 
 } // namespace tread::shape

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "base/host_memory.hpp"
 #include "shape/triple_hash.hpp"
 
 namespace tread::shape
@@ -44,6 +45,9 @@ std::string read_bytes(const std::string& path)
     std::error_code error;
     const auto      size = std::filesystem::file_size(path, error);
     if (error) { throw InputError(fmt::format("{}: the mesh cannot be read: {}", path, error.message())); }
+    constexpr double in_memory = 6; // bytes of vertices, triangles and their directory a byte of the file
+    require_host_memory(
+        {in_memory * static_cast<double>(size), fmt::format("{}: its triangles", path), "a coarser mesh"});
     if (size == 0) { throw InputError(fmt::format("{}: the mesh file is empty", path)); }
     std::string   bytes(size, ' ');
     std::ifstream file(path, std::ios::binary);

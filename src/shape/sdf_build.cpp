@@ -5,6 +5,9 @@
 #include <limits>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "base/host_memory.hpp"
 #include "shape/sdf_grid.hpp"
 
 namespace tread::shape
@@ -242,11 +245,37 @@ void share_nodes(SignedDistanceGrid& sdf, const Brick& brick)
         });
 }
 
+double bytes_of_fine(double bricks) { return bricks * static_cast<double>(per_brick * sizeof(float)); }
+
+/// Refuses a field that does not fit into memory: a value at each corner and middle of a brick, and `fine` fine bricks.
+void require_room(const SignedDistanceGrid& sdf, double fine)
+{
+    constexpr double of_brick = sizeof(float) + sizeof(double) + sizeof(std::int32_t);
+    double           bricks   = 1;
+    for (const std::int32_t count : sdf.bricks) { bricks *= count; }
+    require_host_memory({of_brick * bricks + bytes_of_fine(fine),
+                         fmt::format("the {:.3g} cells of a shape's distance field", bricks * edge * edge * edge),
+                         "fewer sdf_cells, or finer points beside a small body"});
+}
+
+/// Bricks that are fine for the reach alone: at least half of what lies in it outside the shape's box.
+double least_fine(const SignedDistanceGrid& sdf, double reach)
+{
+    double all = 1, inner = 1;
+    for (const std::int32_t count : sdf.nodes)
+    {
+        all *= count;
+        inner *= std::max(0.0, count - 2 * reach / sdf.spacing);
+    }
+    return reach > 0 ? 0.5 * (all - inner) / (edge * edge * edge) : 0;
+}
+
 void fill_bricks(SignedDistanceGrid& sdf, const SignedDistance& distance, double reach)
 {
     const double band = reach + band_cells * sdf.spacing;
     sdf.fine_reach    = band - std::sqrt(3.0) * sdf.spacing;
     sdf.bricks        = bricks_over(sdf);
+    require_room(sdf, least_fine(sdf, reach));
 
     const Index3 corners{sdf.bricks[0] + 1, sdf.bricks[1] + 1, sdf.bricks[2] + 1};
     sdf.corners.resize(total(corners));
@@ -262,6 +291,7 @@ void fill_bricks(SignedDistanceGrid& sdf, const SignedDistance& distance, double
         sdf.slots[at] = static_cast<std::int32_t>(fine.size());
         fine.push_back(at);
     }
+    require_room(sdf, static_cast<double>(fine.size()));
     sdf.values.resize(per_brick * fine.size());
 #pragma omp parallel for schedule(dynamic, 4)
     for (std::size_t n = 0; n < fine.size(); ++n)

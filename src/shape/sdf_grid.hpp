@@ -51,7 +51,7 @@ enum class Storage
 };
 
 /// Samples a signed distance on grid_over(box, cells, reach). In bricks, those with any point nearer to the surface
-/// than `reach` and four cells are fine.
+/// than `reach` and four cells are fine. EnvironmentError where the grid does not fit into memory.
 SignedDistanceGrid build_sdf(const Bounds& box, int cells, const SignedDistance& distance, double reach = 0,
                              Storage storage = Storage::by_size);
 

@@ -7,6 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
 #include "shape/node_places.hpp"
 #include "shape/refinement.hpp"
 #include "shape/surface_samples.hpp"
@@ -106,8 +109,15 @@ SurfaceNodes resample_to_count(const TriangleMesh& mesh, int count)
 
 SurfaceNodes resample(const TriangleMesh& mesh, double spacing)
 {
-    return resample_to_count(mesh,
-                             std::max(1, static_cast<int>(std::lround(surface_area(mesh) / (spacing * spacing)))));
+    constexpr double most  = 1e6;
+    const double     nodes = surface_area(mesh) / (spacing * spacing);
+    if (nodes > most)
+    {
+        throw InputError(
+            fmt::format("surface nodes {:.3g} m apart are {:.3g}; accepted: at most {:.0f}, {:.3g} m apart", spacing,
+                        nodes, most, std::sqrt(surface_area(mesh) / most)));
+    }
+    return resample_to_count(mesh, std::max(1, static_cast<int>(std::lround(nodes))));
 }
 
 } // namespace tread::shape

@@ -13,7 +13,7 @@ SurfaceNodes nodes_at_vertices(const TriangleMesh& mesh);
 /// thin wall keep their own nodes.
 SurfaceNodes resample_to_count(const TriangleMesh& mesh, int count);
 
-/// The same, as many as are `spacing` (m) apart: area / spacing^2.
+/// The same, as many as are `spacing` (m) apart: area / spacing^2. InputError if that is over a million.
 SurfaceNodes resample(const TriangleMesh& mesh, double spacing);
 
 } // namespace tread::shape

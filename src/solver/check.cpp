@@ -86,7 +86,7 @@ std::string cost_lines(const scene::Scene& scene, const World& world, const Plan
     text += fmt::format("dt {:.4g} s at the start (limit: {}), at most {:.4g} s simulated: {:.3g} steps{}\n", wants.dt,
                         wants.limit, wants.time, wants.steps, resting_text(plan, wants));
     text += fmt::format("memory about {} on the backend, disk at most {}\n", bytes_text(wants.memory_bytes),
-                        bytes_text(wants.disk.all()));
+                        bytes_text(wants.disk.all));
     text += fmt::format("  of it snapshots {}, time series {}, checkpoints {} ({} kept, one on its way)\n",
                         bytes_text(wants.disk.snapshots), bytes_text(wants.disk.time_series),
                         bytes_text(wants.disk.checkpoints), scene.checkpoint.keep);

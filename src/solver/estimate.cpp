@@ -10,6 +10,7 @@
 
 #include "base/bytes_text.hpp"
 #include "base/errors.hpp"
+#include "base/saturated.hpp"
 #include "kernels/dem/ray_kern.hpp"
 #include "kernels/mpm/census.hpp"
 #include "kernels/mpm/gather.hpp"
@@ -208,11 +209,11 @@ double resting_contact(const scene::Scene& scene, const World& world)
 std::int64_t bytes_per_body(const Plan& plan) { return plan.body_contact ? 2200 : 700; }
 
 /// Columns of doubles (solver/recorder.cpp) that grow by 1024 rows (io/h5.cpp), and what names them.
-std::int64_t time_series_bytes(std::int64_t rows, std::int64_t named)
+double time_series_bytes(double rows, std::int64_t named)
 {
-    constexpr std::int64_t of_scene = 8 * (15 + 6 + 2 + 4), of_body = 8 * 20, growth = 1024, names_of_table = 12000;
-    const std::int64_t     taken = (rows + growth - 1) / growth * growth;
-    return taken * (of_scene + named * of_body) + (5 + named) * names_of_table;
+    constexpr double of_scene = 8 * (15 + 6 + 2 + 4), of_body = 8 * 20, growth = 1024, names_of_table = 12000;
+    const double     taken = std::ceil(rows / growth) * growth, bodies = static_cast<double>(named);
+    return taken * (of_scene + bodies * of_body) + (5 + bodies) * names_of_table;
 }
 
 double longest_time(const scene::Scene& scene)
@@ -239,15 +240,14 @@ DiskUse disk_use(const scene::Scene& scene, const World& world, const Plan& plan
     const auto             bodies   = static_cast<std::int64_t>(world.bodies.size());
     const double           time     = longest_time(scene);
     const std::int64_t     snapshot = points * snapshot_bytes_per_point(plan) + bodies * snapshot_of_body + 2 * of_file;
-    DiskUse                use{};
-    use.snapshots =
-        plan.snapshots ? (2 + static_cast<std::int64_t>(time / scene.output.snapshots_every)) * snapshot : 0;
-    use.time_series = time_series_bytes(2 + static_cast<std::int64_t>(time / scene.output.every), world.bodies.named);
-    const std::int64_t checkpoint = points * checkpoint_bytes_per_point(scene, plan) + checkpoint_page_bytes(pages) +
-                                    bodies * checkpoint_of_body + use.time_series + of_file;
-    use.least       = (plan.snapshots ? snapshot : 0) + time_series_bytes(1, world.bodies.named);
-    use.checkpoints = (scene.checkpoint.keep + 1) * checkpoint;
-    return use;
+    const double           snapshots =
+        plan.snapshots ? (2 + std::floor(time / scene.output.snapshots_every)) * static_cast<double>(snapshot) : 0;
+    const double       series = time_series_bytes(2 + std::floor(time / scene.output.every), world.bodies.named);
+    const std::int64_t state  = points * checkpoint_bytes_per_point(scene, plan) + checkpoint_page_bytes(pages) +
+                               bodies * checkpoint_of_body + of_file;
+    const double checkpoints = (static_cast<double>(scene.checkpoint.keep) + 1) * (static_cast<double>(state) + series);
+    return {saturated(snapshots), saturated(series), saturated(checkpoints),
+            saturated(snapshots + series + checkpoints)};
 }
 
 } // namespace

@@ -8,14 +8,14 @@
 namespace tread::solver
 {
 
-/// Bytes that a run's files come to, at most.
+/// Bytes that a run's files come to, at most; what is beyond 64 bits is the largest integer.
 struct DiskUse
 {
     std::int64_t snapshots;
     std::int64_t time_series;
     std::int64_t checkpoints; ///< as many as are kept, and the one that is being written
     std::int64_t least;       ///< of the first snapshot and rows, which every run writes
-    std::int64_t all() const { return snapshots + time_series + checkpoints; }
+    std::int64_t all;
 };
 
 /// What a run will want, from counts alone.

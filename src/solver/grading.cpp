@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "base/host_memory.hpp"
 #include "base/random.hpp"
 
 namespace tread::solver
@@ -64,6 +65,51 @@ struct Quantile
     }
 };
 
+/// m3, mean and largest of a table's rocks.
+struct Volumes
+{
+    double mean;
+    double largest;
+};
+
+Volumes volumes_of(const scene::Diameter& diameter)
+{
+    constexpr int parts = 4096; // of the distribution, each as likely as another
+    double        sum   = 0;
+    for (int part = 0; part < parts; ++part) { sum += sphere_volume(quantile(diameter, (part + 0.5) / parts)); }
+    return {sum / parts, sphere_volume(quantile(diameter, 1))};
+}
+
+std::string text_of(const scene::Rocks& rocks)
+{
+    return rocks.count ? fmt::format("count = {}", *rocks.count)
+                       : fmt::format("solid_fraction = {}", *rocks.solid_fraction);
+}
+
+/// Refuses, before any is drawn, rocks that are more than the region's volume with all but certainty (four standard
+/// deviations of the sum), more than may be, or more than fit into memory.
+void require_possible(const scene::Rocks& rocks, double volume)
+{
+    constexpr double deviations = 4, bytes_a_rock = 400; // as drawn, as a body, and in the lattice of bodies
+    const Volumes    one = volumes_of(rocks.diameter);
+    const double count   = rocks.count ? static_cast<double>(*rocks.count) : *rocks.solid_fraction * volume / one.mean;
+    const double least   = count * one.mean * (1 - deviations * std::sqrt(one.largest / (one.mean * count)));
+    const auto   table   = fmt::format("[[rocks]] of shape '{}': {}", rocks.shape, text_of(rocks));
+    if (rocks.count && least > volume)
+    {
+        throw InputError(fmt::format("{}: rocks of {:.4g} m3 in a region of {:.4g} m3; accepted: rocks that fit "
+                                     "without overlap, at most {:.0f} of this size",
+                                     table, count * one.mean, volume, std::floor(volume / one.mean)));
+    }
+    if (count > 1.1 * static_cast<double>(most_rocks))
+    {
+        throw InputError(
+            fmt::format("{} of {:.4g} m3 is {:.3g} rocks; accepted: at most {}", table, volume, count, most_rocks));
+    }
+    require_host_memory({bytes_a_rock * count, fmt::format("{}: {:.3g} rocks", table, count),
+                         "fewer or larger rocks, or a smaller region"});
+}
+
 /// Whether the rocks so far are nearer to the volume that is wanted than with one more.
 bool enough(const scene::Rocks& rocks, std::size_t drawn, double filled, double next, double wanted)
 {
@@ -79,6 +125,7 @@ double sphere_volume(double diameter) { return std::numbers::pi / 6 * diameter *
 
 std::vector<RockDraw> draw_rocks(const scene::Rocks& rocks, double volume, std::size_t members)
 {
+    require_possible(rocks, volume);
     const double          wanted = rocks.solid_fraction.value_or(0) * volume;
     Random                random(rocks.seed);
     std::vector<RockDraw> drawn;

@@ -23,7 +23,7 @@ struct RockDraw
 
 /// The rocks of a table, the largest first: as many as `count`, or as many as come nearest to `solid_fraction` of
 /// `volume` (m3). Sizes and forms depend on the seed alone. InputError if the fraction asks for over 1e8 rocks, or for
-/// less than one.
+/// less than one, or if the rocks' volume is over `volume`; EnvironmentError if they do not fit into memory.
 std::vector<RockDraw> draw_rocks(const scene::Rocks& rocks, double volume, std::size_t members);
 
 } // namespace tread::solver

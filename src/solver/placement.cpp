@@ -1,12 +1,17 @@
 #include "solver/placement.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
 #include "base/random.hpp"
+#include "base/saturated.hpp"
 #include "solver/body_grid.hpp"
 #include "solver/rocks.hpp"
 
@@ -200,30 +205,38 @@ bool find_place(Placer& placer, Random& random, Patience& patience)
     return false;
 }
 
-std::vector<Vec3<double>> lattice(const scene::Box& box, double spacing)
+/// Sites of a cubic lattice over a box, x fastest; made one by one, as a fine one has more than memory holds.
+class Lattice
 {
-    std::vector<Vec3<double>> sites;
-    const auto                along = [&](std::size_t c)
-    { return static_cast<long>(std::floor((box.high[c] - box.low[c]) / spacing + 1e-9)) + 1; };
-    if (empty(box)) { return sites; }
-    for (long k = 0; k < along(2); ++k)
+public:
+    Lattice(const scene::Box& box, double spacing)
+        : low_(box.low)
+        , spacing_(spacing)
     {
-        for (long j = 0; j < along(1); ++j)
+        for (std::size_t c = 0; c < 3 && !empty(box); ++c)
         {
-            for (long i = 0; i < along(0); ++i)
-            {
-                sites.emplace_back(box.low[0] + spacing * double(i), box.low[1] + spacing * double(j),
-                                   box.low[2] + spacing * double(k));
-            }
+            count_[c] = std::floor((box.high[c] - box.low[c]) / spacing + 1e-9) + 1;
         }
     }
-    return sites;
-}
+
+    std::size_t size() const { return static_cast<std::size_t>(saturated(count_[0] * count_[1] * count_[2])); }
+
+    Vec3<double> operator[](std::size_t site) const
+    {
+        const auto        along_x = static_cast<std::size_t>(count_[0]), along_y = static_cast<std::size_t>(count_[1]);
+        const std::size_t i = site % along_x, j = site / along_x % along_y, k = site / along_x / along_y;
+        return {low_[0] + spacing_ * double(i), low_[1] + spacing_ * double(j), low_[2] + spacing_ * double(k)};
+    }
+
+private:
+    scene::Vector3        low_;
+    double                spacing_;
+    std::array<double, 3> count_{};
+};
 
 bool turn_until_it_fits(Placer& placer, const Vec3<double>& site, Random& random)
 {
     constexpr int turns = 20;
-    if (!placer.centre_fits(site)) { return false; }
     for (int turn = 0; turn < turns; ++turn)
     {
         if (placer.fits(site, random_rotation(random))) { return true; }
@@ -231,15 +244,48 @@ bool turn_until_it_fits(Placer& placer, const Vec3<double>& site, Random& random
     return false;
 }
 
+/// Counts sites in a row that do not take a rock: of fine lattices there are more than anyone waits for.
+struct SitePatience
+{
+    std::size_t outside = 0; ///< the space
+    std::size_t taken   = 0; ///< by other bodies
+
+    void require_more(double diameter) const
+    {
+        constexpr std::size_t most_outside = 100'000'000, most_taken = 2'000'000;
+        if (outside <= most_outside && taken <= most_taken) { return; }
+        throw InputError(fmt::format("[[rocks]] placement: {} sites in a row do not take a rock of {:.4g} m: {} lie "
+                                     "outside the space, {} touch other bodies; accepted: a region that begins where "
+                                     "the rocks shall stand, or larger rocks",
+                                     outside + taken, diameter, outside, taken));
+    }
+};
+
+/// The first site from `site` on that takes the rock on trial; past the end if none does.
+template<class SiteList>
+std::size_t find_site(Placer& placer, const SiteList& sites, std::size_t site, double diameter, Random& random)
+{
+    SitePatience patience;
+    for (; site < sites.size(); ++site)
+    {
+        const Vec3<double> x       = sites[site];
+        const bool         outside = !placer.centre_fits(x);
+        if (!outside && turn_until_it_fits(placer, x, random)) { break; }
+        ++(outside ? patience.outside : patience.taken);
+        patience.require_more(diameter);
+    }
+    return site;
+}
+
 /// Returns how many rocks found a site.
-std::size_t place_on_sites(Placer& placer, const std::vector<Vec3<double>>& sites, const std::vector<RockDraw>& rocks,
-                           Random& random)
+template<class SiteList>
+std::size_t place_on_sites(Placer& placer, const SiteList& sites, const std::vector<RockDraw>& rocks, Random& random)
 {
     std::size_t site = 0;
     for (std::size_t rock = 0; rock < rocks.size(); ++rock)
     {
         placer.begin(rocks[rock]);
-        while (site < sites.size() && !turn_until_it_fits(placer, sites[site], random)) { ++site; }
+        site = find_site(placer, sites, site, rocks[rock].diameter, random);
         if (site == sites.size())
         {
             placer.drop();
@@ -325,8 +371,8 @@ std::size_t place_on_lattice(const scene::Scene& scene, std::size_t table, const
     constexpr int     lattices = 17; // each narrower than the one before by 3 %, down to 61 %
     for (int narrowed = 0; narrowed < lattices; ++narrowed)
     {
-        const double spacing = widest * std::pow(0.97, narrowed);
-        const auto   sites   = lattice(shrunk(bounds(space.region), 0.5 * spacing), spacing);
+        const double  spacing = widest * std::pow(0.97, narrowed);
+        const Lattice sites(shrunk(bounds(space.region), 0.5 * spacing), spacing);
         // The narrowest lattice is tried anyway: an error says how many it takes.
         if (sites.size() < rocks.size() && narrowed + 1 < lattices) { continue; }
         Placer placer(scene, table, space, world);

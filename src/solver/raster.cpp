@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -10,7 +11,10 @@
 
 #include <fmt/format.h>
 
+#include "base/bytes_text.hpp"
 #include "base/errors.hpp"
+#include "base/host_memory.hpp"
+#include "base/saturated.hpp"
 
 namespace tread::solver
 {
@@ -19,8 +23,21 @@ namespace
 
 constexpr std::size_t most_samples = 100'000'000;
 
+/// The bytes of a file; they and the samples that may be in them, one in two bytes, have to fit into memory.
 std::string contents(const std::string& path)
 {
+    constexpr double most = 1e9, with_samples = 1 + 0.5 * sizeof(double);
+    std::error_code  error;
+    const auto       bytes = static_cast<double>(std::filesystem::file_size(path, error));
+    if (!error && bytes > most)
+    {
+        throw InputError(fmt::format("{}: a file of {}; accepted: at most {}", path, bytes_text(saturated(bytes)),
+                                     bytes_text(saturated(most))));
+    }
+    if (!error)
+    {
+        require_host_memory({with_samples * bytes, fmt::format("{}: its samples", path), "a file of fewer samples"});
+    }
     std::ifstream stream(path, std::ios::binary);
     std::string   text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
     if (!stream) { throw InputError(fmt::format("{}: cannot be read", path)); }
@@ -181,6 +198,7 @@ Raster read_numbers(const scene::RasterFile& file)
         }
         raster.heights.insert(raster.heights.end(), heights.begin(), heights.end());
         ++raster.rows;
+        if (raster.heights.size() > most_samples) { require_sizes(file.path, raster.columns, raster.rows); }
     }
     require_sizes(file.path, raster.columns, std::max<std::size_t>(raster.rows, 1));
     return raster;

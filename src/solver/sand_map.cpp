@@ -4,6 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
+#include "base/host_memory.hpp"
+
 namespace tread::solver
 {
 namespace
@@ -38,6 +42,9 @@ SandMap::SandMap(const scene::Scene& scene, const HostPoints& points)
             sites.size[static_cast<std::size_t>(c)] =
                 static_cast<std::int64_t>(std::floor((high[table][c] - sites.low[c]) / sites.spacing)) + 1;
         }
+        const double all = double(sites.size[0]) * double(sites.size[1]) * double(sites.size[2]);
+        require_host_memory({all / 8, fmt::format("[[terrain]] {}: the {:.3g} sites of its lattice", table, all),
+                             "coarsen its points, or several tables of smaller regions"});
         sites.taken.resize(static_cast<std::size_t>(sites.size[0] * sites.size[1] * sites.size[2]));
     }
     for (std::size_t i = 0; i < points.size(); ++i)

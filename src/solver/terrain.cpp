@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "base/host_memory.hpp"
 #include "scene/lines.hpp"
 #include "solver/region.hpp"
 #include "solver/saved_sand.hpp"
@@ -86,12 +87,50 @@ void require_countable(const HostPoints& points)
     }
 }
 
+std::size_t count(const Sites& sites) { return static_cast<std::size_t>(std::max(0L, sites.end - sites.first)); }
+
+/// EnvironmentError where a table's columns or points do not fit into this machine's memory. Points are counted by the
+/// space's volume: its box may be emptier by far.
+void require_room_for_points(const Space& space, const std::array<Sites, 3>& axes, const std::string& owner)
+{
+    constexpr double of_column = sizeof(std::pair<double, double>), growth = 2; // of a vector that is filled
+    constexpr double of_point = growth * (sizeof(Vec3<double>) + sizeof(Sym3<double>) + 2 * sizeof(double) +
+                                          sizeof(std::uint8_t) + sizeof(std::int32_t));
+    const char*      advice   = "coarsen [grid] spacing, points_per_cell or the table's spacing";
+    const double     columns  = static_cast<double>(count(axes[0])) * static_cast<double>(count(axes[1]));
+    const double     sites    = columns * static_cast<double>(count(axes[2]));
+    require_host_memory({of_column * columns, fmt::format("{}: its {:.3g} columns of points", owner, columns), advice});
+    if (of_column * columns + of_point * sites < 0.1 * static_cast<double>(available_host_memory())) { return; }
+    const double points = std::min(sites, volume(space) / std::pow(axes[0].spacing, 3));
+    require_host_memory({of_column * columns + of_point * points,
+                         fmt::format("{}: its {:.3g} points, {:.3g} m apart,", owner, points, axes[0].spacing),
+                         advice});
+}
+
+/// Sites along z that lie between the lowest and the highest level of all columns.
+Sites sites_of_levels(Sites along_z, const std::vector<std::pair<double, double>>& level)
+{
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (const auto& [low, high] : level)
+    {
+        lowest  = std::min(lowest, low);
+        highest = std::max(highest, high);
+    }
+    if (level.empty()) { return along_z; }
+    const double bottom = along_z.at(along_z.first - 1), top = along_z.at(along_z.end);
+    const Sites  between = sites_between(std::clamp(lowest, bottom, top), std::clamp(highest, bottom, top),
+                                         along_z.spacing, along_z.origin);
+    along_z.first        = std::max(along_z.first, between.first - 1);
+    along_z.end          = std::min(along_z.end, between.end + 1);
+    return along_z;
+}
+
 void fill(const Space& space, const std::array<Sites, 3>& axes, const PointKind& kind, HostPoints& points)
 {
     // Points go layer by layer, the surfaces' levels are asked for once a column.
-    const auto [along_x, along_y, along_z] = axes;
-    const auto columns_x                   = static_cast<std::size_t>(std::max(0L, along_x.end - along_x.first)),
-               columns_y                   = static_cast<std::size_t>(std::max(0L, along_y.end - along_y.first));
+    const auto& [along_x, along_y, all_along_z] = axes;
+    const std::size_t columns_x = count(along_x), columns_y = count(along_y);
+
     std::vector<std::pair<double, double>> level(columns_x * columns_y);
     for (std::size_t j = 0; j < columns_y; ++j)
     {
@@ -101,6 +140,7 @@ void fill(const Space& space, const std::array<Sites, 3>& axes, const PointKind&
                                               along_y.at(along_y.first + static_cast<long>(j)));
         }
     }
+    const Sites along_z = sites_of_levels(all_along_z, level);
     for (long k = along_z.first; k < along_z.end; ++k)
     {
         for (std::size_t column = 0; column < level.size(); ++column)
@@ -130,7 +170,9 @@ void add_table(const scene::Scene& scene, std::size_t table, HostPoints& points)
     const int    material = material_index(scene, terrain.material);
     const double density  = scene.materials[static_cast<std::size_t>(material)].density;
     const auto   before   = points.size();
-    fill(space, lattice(terrain, spacing),
+    const auto   sites    = lattice(terrain, spacing);
+    require_room_for_points(space, sites, owner);
+    fill(space, sites,
          {volume, density * volume, static_cast<std::uint8_t>(material), static_cast<std::int32_t>(table)}, points);
     if (points.size() == before)
     {

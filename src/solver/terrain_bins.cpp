@@ -6,6 +6,11 @@
 #include <numbers>
 #include <optional>
 
+#include <fmt/format.h>
+
+#include "base/host_memory.hpp"
+#include "scene/lines.hpp"
+
 namespace tread::solver
 {
 namespace
@@ -130,6 +135,20 @@ ColumnLattice column_lattice(const scene::Scene& scene, const World& world)
     }
     lattice.bin = std::max(spacing, 0.5 * mean);
     return lattice;
+}
+
+void require_room_for_columns(const scene::Scene& scene, const World& world)
+{
+    constexpr double    of_column = 64; // bytes of the bins and heights of an empty one
+    const ColumnLattice lattice   = column_lattice(scene, world);
+    const double        columns   = static_cast<double>(lattice.count[0]) * static_cast<double>(lattice.count[1]);
+    scene::with_line_of(scene, "grid",
+                        [&]
+                        {
+                            require_host_memory({of_column * columns,
+                                                 fmt::format("[grid] spacing: {:.3g} columns of the domain", columns),
+                                                 "a coarser spacing or a smaller [domain] size"});
+                        });
 }
 
 TerrainBins::TerrainBins(const ColumnLattice& lattice)

@@ -26,6 +26,9 @@ struct ColumnLattice
 
 ColumnLattice column_lattice(const scene::Scene& scene, const World& world);
 
+/// EnvironmentError where a map of a scene's columns does not fit into memory.
+void require_room_for_columns(const scene::Scene& scene, const World& world);
+
 /// The volume of sand and rock in each bin of a lattice.
 class TerrainBins
 {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/saturated.hpp"
 #include "kernels/dem/pairs_kern.hpp"
 
 namespace tread::solver
@@ -68,7 +69,7 @@ std::int64_t substeps_of(const scene::TimeOptions& options, double dt, const Pac
         const double travel = dt * pace.largest_speed / (travel_bound * limits.smallest_body);
         needed              = std::max(needed, std::ceil(travel - 1e-9));
     }
-    return static_cast<std::int64_t>(std::min(needed, 1e18));
+    return saturated(needed);
 }
 
 TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace, double last_dt)

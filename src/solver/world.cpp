@@ -20,6 +20,7 @@
 #include "solver/rocks.hpp"
 #include "solver/saved_bed.hpp"
 #include "solver/terrain.hpp"
+#include "solver/terrain_bins.hpp"
 
 namespace tread::solver
 {
@@ -145,21 +146,34 @@ std::vector<Wanted> wanted_shapes(const scene::Scene& scene, const std::vector<s
     return shapes.wanted;
 }
 
+/// Of a body's radius, that a point's contact radius may be: the body's distance field goes out to it.
+constexpr double most_point_radii = 8;
+
 /// The largest radius of a point beside the smallest instance of a shape, m at the shape's scale 1: sand is in contact
 /// from that distance on.
-double contact_reach(const scene::Scene& scene, const HostPoints& points, double smallest, double equivalent_radius)
+double contact_reach(const scene::Scene& scene, const HostPoints& points, const Wanted& wanted,
+                     double equivalent_radius)
 {
     if (points.size() == 0) { return 0; }
     const double volume  = *std::max_element(points.volume.begin(), points.volume.end());
     const double largest = contact::point_radius(volume, radius_rule(scene.numerics.point_radius));
-    return largest / std::min(1.0, 0.5 * smallest / equivalent_radius);
+    const double radius  = std::min(equivalent_radius, 0.5 * wanted.smallest);
+    if (largest > most_point_radii * radius)
+    {
+        throw InputError(fmt::format(
+            "[[shape]] '{}': a body of {:.3g} m radius (of the sphere of equal volume) beside points of sand "
+            "with a contact radius of {:.3g} m, {:.3g} times its own; accepted: at most {} "
+            "times: a larger body, or finer points ([grid] spacing, points_per_cell)",
+            wanted.shape.name, radius, largest, largest / radius, most_point_radii));
+    }
+    return largest / std::min(1.0, 0.5 * wanted.smallest / equivalent_radius);
 }
 
 shape::ShapeTemplate make_template(const scene::Scene& scene, const HostPoints& points, const Wanted& wanted)
 {
     const auto& size  = scene.domain.size;
     const auto  reach = [&](double equivalent_radius)
-    { return contact_reach(scene, points, wanted.smallest, equivalent_radius); };
+    { return contact_reach(scene, points, wanted, equivalent_radius); };
     auto         form   = shape::make_template(wanted.shape, scene.directory, reach);
     const double extent = form.box.extent().maxCoeff();
     if (std::isinf(wanted.smallest) && extent > 100 * *std::max_element(size.begin(), size.end()))
@@ -253,6 +267,7 @@ World build_world(const scene::Scene& scene)
     world.templates     = make_templates(scene, world.points, wanted_shapes(scene, draws));
     add_named_bodies(scene, world);
     add_rocks(scene, draws, beds, world);
+    require_room_for_columns(scene, world);
     find_heights(scene, world);
     set_geostatic_stress(scene, world.bodies, world.points);
     return world;

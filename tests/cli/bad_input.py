@@ -54,7 +54,7 @@ class BadScene(RefusedScene):
         self.refuse_value("young              = 1.0e6", "young              = nan", ["young"])
 
     def test_negative_density(self):
-        self.refuse_value("density            = 1600.0", "density            = -1600.0", ["density", "> 0"])
+        self.refuse_value("density            = 1600.0", "density            = -1600.0", ["density", ">= 0.001"])
 
     def refuse_walls(self, walls, mentions):
         old = "gravity = [0.0, 0.0, -9.81]\n"

@@ -73,9 +73,9 @@ class CommandTest(unittest.TestCase):
         self.directory = pathlib.Path(directory.name)
         self.output = self.directory / "run"
 
-    def tread(self, *arguments, launcher=(), environment=None):
+    def tread(self, *arguments, launcher=(), environment=None, before=None):
         command = [*launcher, TREAD, *map(str, arguments)]
-        return subprocess.run(command, cwd=self.directory, env={**os.environ, **(environment or {})}, capture_output=True, text=True, timeout=250)
+        return subprocess.run(command, cwd=self.directory, env={**os.environ, **(environment or {})}, capture_output=True, text=True, timeout=250, preexec_fn=before)
 
     def write(self, name, text):
         path = self.directory / name

@@ -130,6 +130,14 @@ class Commands(CommandTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("watertight      yes", result.stdout)
 
+    def test_sdf_of_a_name_that_is_none(self):
+        unknown = self.tread("sdf", "perseverence")
+        self.assertEqual(unknown.returncode, 2, unknown.stderr)
+        self.assertIn("'perseverence' is unknown; did you mean \"perseverance\"?; known are ", unknown.stderr)
+        for name in ("perseverance", "curiosity", "spirit", "viper"):
+            self.assertIn(name, unknown.stderr.partition("known are")[2])
+        self.assertIn("ends in .stl or .obj", unknown.stderr)
+
     def test_sdf_of_a_shape_in_a_scene(self):
         scene = self.write("scene.toml", SCENE + BODY)
         only = self.tread("sdf", scene)

@@ -122,7 +122,7 @@ REFUSED = {
     "a wheel in the sand": (["body.wheel.position=[0.3,0.3,0.2]"], ["'wheel'", "stand inside it"]),
     "a wheel outside": (["body.wheel.position=[3,0.3,0.33]"], ["position"]),
     "time that goes back": (["phase.drive.duration=-2"], ["duration"]),
-    "sand of no mass": (["material.sand.density=0"], ["density", "> 0"]),
+    "sand of no mass": (["material.sand.density=0"], ["density", ">= 0.001"]),
 }
 
 

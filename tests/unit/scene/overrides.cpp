@@ -62,8 +62,17 @@ TEST(Override, a_place_that_is_not_there_is_an_error)
                 AllOf(StartsWith("--set material.snad.young=1: "), HasSubstr("did you mean \"sand\"?")));
     EXPECT_THAT(refusal(good_scene, {"material[3].young=1"}), HasSubstr("nothing is called \"3\""));
     EXPECT_THAT(refusal(good_scene, {"grid.spacing.x=1"}), HasSubstr("\"x\" stands below a floating-point number"));
+    EXPECT_THAT(
+        refusal(good_scene, {"domain.gravity.z=-9.8"}),
+        StartsWith("--set domain.gravity.z=-9.8: \"z\" stands below domain.gravity, which is an array of 3 values; "
+                   "accepted: domain.gravity=[0, 0, -9.81], or domain.gravity[0] to domain.gravity[2]"));
+    EXPECT_THAT(refusal(good_scene, {"domain.gravity[3]=1"}), HasSubstr("\"3\" stands below domain.gravity"));
     EXPECT_THAT(refusal(good_scene, {"grid.spacing"}), HasSubstr("is not of the form key=value"));
-    EXPECT_THAT(refusal(good_scene, {"grid.spacing="}), HasSubstr("is not of the form key=value"));
+    for (const std::string wrong :
+         {"grid.spacing=", "=1", "a..b=1", ".a=1", "a.=1", "a[0=1", "a[x]=1", "a[]=1", "a b=1"})
+    {
+        EXPECT_THAT(refusal(good_scene, {wrong}), HasSubstr("is not of the form key=value")) << wrong;
+    }
 }
 
 TEST(Override, a_value_cannot_bring_a_second_key)

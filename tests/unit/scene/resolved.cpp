@@ -34,12 +34,12 @@ hertz = "paper-eq7"
 point_radius = "semi-domain"
 refine_below = 1.5
 volume_strain = "cell-average"
-linear_overlap = 1e-2
+linear_overlap = 1e-7
 [[material]]
 name = "sand"
 model = "drucker-prager"
 density = 1600
-young = 1e21
+young = 1e15
 poisson = 0.1
 friction_angle_deg = 30
 dilation_angle_deg = 5
@@ -162,8 +162,8 @@ TEST(Resolved, what_was_read_is_what_was_written)
     EXPECT_EQ(scene.time, (TimeOptions{1e-5, 7, 0.3}));
     EXPECT_EQ(scene.numerics, (Numerics{Precision::double_, Transfer::apic, std::nullopt, ShapeFunctions::linear,
                                         NarrowPhase::rays, PointMotion::frozen, HertzFactor::paper_eq7,
-                                        PointRadius::semi_domain, 1.5, 1e-2, VolumeStrain::cell_average}));
-    EXPECT_EQ(scene.materials[0], (Material{"sand", MaterialModel::drucker_prager, 1600, 1e21, 0.1, 30, 5, 100,
+                                        PointRadius::semi_domain, 1.5, 1e-7, VolumeStrain::cell_average}));
+    EXPECT_EQ(scene.materials[0], (Material{"sand", MaterialModel::drucker_prager, 1600, 1e15, 0.1, 30, 5, 100,
                                             "ripple", ConeFit::plane_strain}));
     EXPECT_EQ(scene.materials[1].family, "steel");
     EXPECT_EQ(std::get<WheelGenerator>(scene.shapes[2].source),

@@ -185,7 +185,7 @@ TEST(Template, FindShapePrefersTheSceneAndListsWhatItKnows)
     EXPECT_TRUE(std::holds_alternative<scene::SphereGenerator>(find_shape(scene, "spirit").source));
     EXPECT_TRUE(std::holds_alternative<scene::WheelGenerator>(find_shape(scene, "viper").source));
     EXPECT_THAT(test::input_error([&] { find_shape(scene, "bal"); }),
-                HasSubstr("shape 'bal' is unknown; known are ball, spirit, perseverance"));
+                HasSubstr("shape 'bal' is unknown; did you mean \"ball\"?; known are ball, spirit, perseverance"));
 }
 
 TEST(Template, OfABrokenFileNeedsRepair)

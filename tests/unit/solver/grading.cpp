@@ -125,6 +125,21 @@ TEST(Grading, FractionsOfTooFewOrTooManyAreRefused)
     rocks.diameter       = 0.1;
     rocks.solid_fraction = 0.1;
     EXPECT_THROW(draw_rocks(rocks, 1e-3, 1), InputError);
+    rocks.diameter = 1e-4;
+    EXPECT_THROW(draw_rocks(rocks, 1, 1), InputError);
+}
+
+/// A sum of volumes that all but certainly is more than the region's is refused before a rock is drawn; one that may
+/// fit is left to the placement.
+TEST(Grading, RocksThatAreMoreThanTheirRegionAreRefused)
+{
+    scene::Rocks rocks;
+    rocks.count    = 10'000;
+    rocks.diameter = scene::UniformDiameters{0.001, 0.02};
+    double solids  = 0;
+    for (const RockDraw& rock : draw_rocks(rocks, 1, 1)) { solids += sphere_volume(rock.diameter); }
+    EXPECT_EQ(draw_rocks(rocks, 0.99 * solids, 1).size(), 10'000u);
+    EXPECT_THROW(draw_rocks(rocks, 0.8 * solids, 1), InputError);
 }
 
 } // namespace
