@@ -165,12 +165,32 @@ void require_terrain_to_replace(const Scene& scene, Checker& checker)
     }
 }
 
+/// What a refined grid cannot do yet; where its boxes may lie, the world of the scene knows.
+void validate_refinement(const Scene& scene, Checker& checker)
+{
+    constexpr std::size_t most = 3;
+    if (scene.grid.refine.empty()) { return; }
+    const auto refuse = [&](const char* what, const char* accepted) { checker.report({"grid"}, "refine", what, accepted); };
+    if (scene.grid.refine.size() > most) { refuse("more boxes than levels", "at most 3 boxes"); }
+    if (scene.numerics.shape_functions != ShapeFunctions::quadratic)
+    {
+        refuse("linear shape functions cannot be refined", "[numerics] shape_functions = \"quadratic\"");
+    }
+    if (scene.sleep.distance) { refuse("sand of a refined grid cannot sleep", "no [sleep] distance"); }
+    const auto saved = [](const Terrain& terrain) { return !terrain.from.empty(); };
+    if (std::any_of(scene.terrain.begin(), scene.terrain.end(), saved))
+    {
+        refuse("sand of a saved bed does not follow the grid", "[[terrain]] without `from`");
+    }
+}
+
 void validate_spacing(const Scene& scene, Checker& checker)
 {
     if (checker.given({"grid"}, "spacing") == nullptr && checker.sound({"grid"}, {}))
     {
         checker.report({"grid"}, "spacing", "missing; [[terrain]] needs it", "number > 0 (m)");
     }
+    validate_refinement(scene, checker);
     const double smallest = *std::min_element(scene.domain.size.begin(), scene.domain.size.end());
     if (scene.grid.spacing > smallest && checker.sound({"domain"}, {"size"}))
     {

@@ -219,7 +219,7 @@ struct ScatterPage
     __device__ void stage(std::int64_t i, Index3 cell, Real* brought) const
     {
         const Stencil<Real> s =
-            stencil_above<Real>(cell, points.position.get(i), 1, pages.inverse_spacing, pages.stencil_shift);
+            stencil_above<Real>(cell, points.position.get(i), 1, pages);
         const Real       mass     = points.mass[i];
         const Vec3<Real> velocity = points.velocity.get(i);
         const Real       scale    = -points.volume[i] * Real(pages.inverse_spacing);
