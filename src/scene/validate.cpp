@@ -184,6 +184,16 @@ void validate_refinement(const Scene& scene, Checker& checker)
     }
 }
 
+/// Pages of all levels have keys of their own (kernels/mpm/levels.hpp).
+void validate_cells(const Scene& scene, Checker& checker)
+{
+    constexpr double most    = 262000; // of the smallest, along an axis
+    const double     largest = *std::max_element(scene.domain.size.begin(), scene.domain.size.end());
+    if (!checker.sound({"domain"}, {"size"}) || largest <= most * scene.grid.finest()) { return; }
+    checker.report({"grid"}, "spacing", fmt::format("{:.4g} cells along the longest edge of the domain", largest / scene.grid.finest()),
+                   fmt::format("number >= {:.4g} (m), for at most {} cells", largest / most * scene.grid.spacing / scene.grid.finest(), most));
+}
+
 void validate_spacing(const Scene& scene, Checker& checker)
 {
     if (checker.given({"grid"}, "spacing") == nullptr && checker.sound({"grid"}, {}))
@@ -191,6 +201,7 @@ void validate_spacing(const Scene& scene, Checker& checker)
         checker.report({"grid"}, "spacing", "missing; [[terrain]] needs it", "number > 0 (m)");
     }
     validate_refinement(scene, checker);
+    validate_cells(scene, checker);
     const double smallest = *std::min_element(scene.domain.size.begin(), scene.domain.size.end());
     if (scene.grid.spacing > smallest && checker.sound({"domain"}, {"size"}))
     {
