@@ -84,8 +84,14 @@ Keys<Domain> domain_keys()
 
 Keys<GridOptions> grid_keys()
 {
-    return {optional("spacing", "m", &GridOptions::spacing, number(length()), "Edge length h of a grid cell.",
-                     "required with [[terrain]]")};
+    return {
+        optional("spacing", "m", &GridOptions::spacing, number(length()), "Edge length h of a grid cell.",
+                 "required with [[terrain]]"),
+        optional("refine", "m", &GridOptions::refine, boxes(),
+                 "Boxes in which cells are smaller: half the edge length in the first one, a quarter in the second, an "
+                 "eighth in the third, each inside the one before; points, where `points_per_cell` sets them, follow. "
+                 "docs/refinement.md."),
+    };
 }
 
 Keys<TimeOptions> time_keys()

@@ -39,9 +39,21 @@ struct Domain
     bool operator==(const Domain&) const = default;
 };
 
+struct Box
+{
+    Vector3 low{};
+    Vector3 high{};
+
+    bool operator==(const Box&) const = default;
+};
+
 struct GridOptions
 {
-    double spacing = 0; ///< m
+    double           spacing = 0; ///< m
+    std::vector<Box> refine;      ///< m; half the spacing in the first, half of that in the second, and so on
+
+    /// m, in the last of the boxes.
+    double finest() const { return spacing / static_cast<double>(1 << refine.size()); }
 
     bool operator==(const GridOptions&) const = default;
 };
@@ -165,14 +177,6 @@ struct Shape
     double                      node_spacing = 0; ///< m; surface nodes; 0 = by the generator, or a 40th of the extent
 
     bool operator==(const Shape&) const = default;
-};
-
-struct Box
-{
-    Vector3 low{};
-    Vector3 high{};
-
-    bool operator==(const Box&) const = default;
 };
 
 struct Sphere

@@ -166,12 +166,33 @@ void require_terrain_to_replace(const Scene& scene, Checker& checker)
     }
 }
 
+/// What a refined grid cannot do yet; where its boxes may lie, the world of the scene knows.
+void validate_refinement(const Scene& scene, Checker& checker)
+{
+    constexpr std::size_t most = 3;
+    if (scene.grid.refine.empty()) { return; }
+    const auto refuse = [&](const char* what, const char* accepted)
+    { checker.report({"grid"}, "refine", what, accepted); };
+    if (scene.grid.refine.size() > most) { refuse("more boxes than levels", "at most 3 boxes"); }
+    if (scene.numerics.shape_functions != ShapeFunctions::quadratic)
+    {
+        refuse("linear shape functions cannot be refined", "[numerics] shape_functions = \"quadratic\"");
+    }
+    if (scene.sleep.distance) { refuse("sand of a refined grid cannot sleep", "no [sleep] distance"); }
+    const auto saved = [](const Terrain& terrain) { return !terrain.from.empty(); };
+    if (std::any_of(scene.terrain.begin(), scene.terrain.end(), saved))
+    {
+        refuse("sand of a saved bed does not follow the grid", "[[terrain]] without `from`");
+    }
+}
+
 void validate_spacing(const Scene& scene, Checker& checker)
 {
     if (checker.given({"grid"}, "spacing") == nullptr && checker.sound({"grid"}, {}))
     {
         checker.report({"grid"}, "spacing", "missing; [[terrain]] needs it", length().text() + " (m)");
     }
+    validate_refinement(scene, checker);
     const double smallest = *std::min_element(scene.domain.size.begin(), scene.domain.size.end());
     if (scene.grid.spacing > smallest && checker.sound({"domain"}, {"size"}))
     {
@@ -180,20 +201,21 @@ void validate_spacing(const Scene& scene, Checker& checker)
     }
 }
 
-/// Pages of cells are numbered by 19 bits along each axis.
+/// Pages of all levels of the grid have numbers of their own, of 16 bits along each axis.
 void validate_cells(const Scene& scene, Checker& checker)
 {
-    constexpr double most = 1e6;
+    constexpr double most = 262000; // of the smallest
     if (!checker.sound({"domain"}, {"size"}) || !checker.sound({"grid"}, {"spacing"}) || scene.grid.spacing == 0)
     {
         return;
     }
     const double largest = *std::max_element(scene.domain.size.begin(), scene.domain.size.end());
-    if (largest / scene.grid.spacing <= most) { return; }
+    const double cells   = largest / scene.grid.finest();
+    if (cells <= most) { return; }
     checker.report({"grid"}, "spacing",
                    fmt::format("{} gives {:.3g} cells along the domain's longest edge, over {:.0f}", scene.grid.spacing,
-                               largest / scene.grid.spacing, most),
-                   fmt::format("number >= {} (m)", largest / most));
+                               cells, most),
+                   fmt::format("number >= {} (m)", scene.grid.spacing * cells / most));
 }
 
 } // namespace

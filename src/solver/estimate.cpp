@@ -72,14 +72,15 @@ struct PageCounts
 template<class Add>
 void add_reached(mpm::Index3 cell, const mpm::GridGeometry& geometry, const Add& add)
 {
-    const auto   nearer = [](std::int32_t at) { return (at & 3) < mpm::page_edge / 2 ? -1 : 1; };
-    const Index3 page   = mpm::page_of(cell);
-    const double edge   = mpm::page_edge * geometry.spacing;
+    const auto   nearer  = [](std::int32_t at) { return (at & 3) < mpm::page_edge / 2 ? -1 : 1; };
+    const Index3 page    = mpm::page_of(cell);
+    const auto   lattice = mpm::level_lattice(geometry.lattice(), mpm::level_of(page));
+    const double edge = mpm::page_edge * lattice.spacing, shift = lattice.node_shift * lattice.spacing;
     for (int corner = 0; corner < 8; ++corner)
     {
         const Index3 reached{page.x + (corner & 1) * nearer(cell.x), page.y + (corner >> 1 & 1) * nearer(cell.y),
                              page.z + (corner >> 2) * nearer(cell.z)};
-        const double corner_at[] = {reached.x * edge, reached.y * edge, reached.z * edge};
+        const double corner_at[] = {reached.x * edge + shift, reached.y * edge + shift, reached.z * edge + shift};
         const double margin      = 3 * geometry.spacing;
         bool         kept        = true;
         for (int c = 0; c < 3; ++c)
@@ -96,7 +97,7 @@ PageCounts count_pages(const World& world)
     std::uint64_t                     last = mpm::no_page; // points stand cell by cell along x
     for (const Vec3<double>& x : world.points.position)
     {
-        const Index3 cell = mpm::cell_of(x, 1 / world.geometry.spacing, world.geometry.stencil_shift);
+        const Index3 cell = mpm::finest_cell(world.geometry.lattice(), world.geometry.refinement, x);
         if (mpm::cell_key(cell) == last) { continue; }
         last = mpm::cell_key(cell);
         holding.insert(mpm::page_key(mpm::page_of(cell)));
@@ -246,7 +247,8 @@ DiskUse disk_use(const scene::Scene& scene, const World& world, const Plan& plan
     const std::int64_t state  = points * checkpoint_bytes_per_point(scene, plan) + checkpoint_page_bytes(pages) +
                                bodies * checkpoint_of_body + of_file;
     const double checkpoints = (static_cast<double>(scene.checkpoint.keep) + 1) * (static_cast<double>(state) + series);
-    return {saturated(snapshots), saturated(series), saturated(checkpoints),
+    const double least = static_cast<double>(plan.snapshots ? snapshot : 0) + time_series_bytes(1, world.bodies.named);
+    return {saturated(snapshots), saturated(series), saturated(checkpoints), saturated(least),
             saturated(snapshots + series + checkpoints)};
 }
 

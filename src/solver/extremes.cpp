@@ -82,7 +82,7 @@ double points_across(const Extremes& extremes, const World& world)
 
 double contact_cells(const Extremes& extremes, const World& world)
 {
-    return points_across(extremes, world) * world.point_spacing / world.geometry.spacing;
+    return points_across(extremes, world) * world.point_spacing / world.geometry.finest_spacing();
 }
 
 CellBounds cell_bounds(const Plan& plan) { return plan.plasticity ? CellBounds{20, 6} : CellBounds{4, 2}; }

@@ -180,7 +180,7 @@ double pic_rate(const scene::Scene& scene, const HostPoints& points)
         const scene::Material& material = scene.materials[m];
         const bool             granular = scene::is_granular(material.model);
         const double           factor   = scene.numerics.pic_rate.value_or(granular ? 0.2 : 0.04);
-        largest = std::max(largest, factor * compression_wave_speed(material) / scene.grid.spacing);
+        largest = std::max(largest, factor * compression_wave_speed(material) / scene.grid.finest());
     }
     return largest;
 }

@@ -32,7 +32,7 @@ PaceLimits pace_limits(const scene::Scene& scene, const World& world, const Plan
         const auto& sand  = scene.materials[static_cast<std::size_t>(material_index(scene, terrain.material))];
         limits.wave_speed = std::max(limits.wave_speed, compression_wave_speed(sand));
     }
-    limits.spacing = scene.grid.spacing;
+    limits.spacing = scene.grid.finest();
     limits.courant = fewest > 7.99 ? 0.6 : 0.4;
     return limits;
 }

@@ -56,7 +56,7 @@ decomp::PageGraph page_graph_of(const World& world)
     auto                            last = loads.end(); // points that follow each other are often in one page
     const auto                      add  = [&](const Vec3<double>& at, double load)
     {
-        const mpm::Index3   cell = mpm::cell_of(at, 1 / spacing, world.geometry.stencil_shift);
+        const mpm::Index3   cell = mpm::cell_of(at, mpm::make_lattice(spacing, world.geometry.stencil_shift));
         const std::uint64_t page = mpm::page_key(mpm::page_of(cell));
         if (last == loads.end() || last->first != page) { last = loads.try_emplace(page, 0.0).first; }
         last->second += load;

@@ -190,7 +190,7 @@ void check_cells(const Placed& placed, Warnings& warnings)
     const auto& patch = placed.footing.patch;
     if (!placed.footing.driven || !patch || !patch->carried) { return; }
     const double side  = patch_side(patch->area(), placed.world);
-    const double cells = side / placed.scene.grid.spacing;
+    const double cells = side / placed.scene.grid.finest();
     if (cells >= 1) { return; }
     warnings.add(placed.table,
                  fmt::format("{}: its contact patch of {:.3g} x {:.3g} m is {:.2g} cells across: a grid of "

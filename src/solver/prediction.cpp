@@ -33,8 +33,9 @@ std::string prediction_lines(const Footing& footing, const World& world, const P
     }
     text += fmt::format("  resolution of the contact: {}", io::name_of(seen.verdict));
     if (seen.verdict == io::Verdict::resolved) { return text + "\n"; }
-    const auto better = seen.verdict == io::Verdict::marginal ? io::Verdict::resolved : io::Verdict::marginal;
-    return text + fmt::format("; {} from grid.spacing = {:.3g} m\n", io::name_of(better), seen.next);
+    const auto   better   = seen.verdict == io::Verdict::marginal ? io::Verdict::resolved : io::Verdict::marginal;
+    const double coarsest = seen.next * world.geometry.spacing / world.geometry.finest_spacing();
+    return text + fmt::format("; {} from grid.spacing = {:.3g} m\n", io::name_of(better), coarsest);
 }
 
 } // namespace
@@ -45,9 +46,10 @@ Prediction predict(const Patch& patch, const World& world, const Plan& plan, con
     const double     resolved = cells_needed(bounds.resolved, resolved_error, wheel);
     const double     marginal = cells_needed(bounds.marginal, marginal_error, wheel);
     const double     side     = patch_side(patch.area(), world);
-    const double     cells    = side / world.geometry.spacing;
+    const double     finest   = world.geometry.finest_spacing();
+    const double     cells    = side / finest;
     const double     points   = side / world.point_spacing;
-    if (cells >= resolved) { return {cells, points, io::Verdict::resolved, world.geometry.spacing}; }
+    if (cells >= resolved) { return {cells, points, io::Verdict::resolved, finest}; }
     if (cells >= marginal) { return {cells, points, io::Verdict::marginal, side / resolved}; }
     return {cells, points, io::Verdict::under_resolved, side / marginal};
 }

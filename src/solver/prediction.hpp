@@ -16,7 +16,7 @@ struct Prediction
     double      cells;   ///< contact_cells of the patch
     double      points;  ///< across the patch
     io::Verdict verdict; ///< of contact_cells and of the grid errors
-    double      next;    ///< m, spacing at which it is one better; the present spacing if it is resolved
+    double      next;    ///< m, finest spacing at which it is one better; the present one if it is resolved
 };
 
 /// `wheel`: of the scene, if this body is the one that it is about.

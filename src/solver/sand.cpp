@@ -62,7 +62,7 @@ HostPoints own_points(const World& world, const decomp::Decomposition<Exec>& dec
     own.id = numbers(own);
     for (const Vec3<double>& at : own.position)
     {
-        const mpm::Index3 cell = mpm::cell_of(at, 1 / world.geometry.spacing, world.geometry.stencil_shift);
+        const mpm::Index3 cell = mpm::cell_of(at, world.geometry.lattice());
         kept.push_back(decomposition.owners.owner(mpm::page_key(mpm::page_of(cell))) == decomposition.rank());
     }
     keep_points(own, kept);
@@ -114,6 +114,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     stirred_in_.fill_zero();
     if (decomposition != nullptr) { ranks_.emplace(*decomposition); }
     if (scene.sleep.distance) { sleep_.emplace(exec, scene, world, fields); }
+    if (geometry_.refinement.levels > 0) { seams_.emplace(exec); }
     const bool only_own = decomposition == nullptr || !world.points.id.empty();
     if (only_own) { upload(world.points, fields); }
     else { upload(own_points(world, *decomposition), fields); }
@@ -141,7 +142,23 @@ void Sand<Exec, Real>::upload(const HostPoints& host, mpm::PointFields fields)
 template<class Exec, class Real>
 mpm::PagesView Sand<Exec, Real>::pages() const
 {
-    return pages_.view(geometry_.spacing, geometry_.stencil_shift);
+    return pages_.view(geometry_.lattice(), geometry_.refinement.levels);
+}
+
+/// Calls launch(pages, list) with the lattice and the point pages of each level of the grid.
+template<class Exec, class Real>
+template<class Launch>
+void Sand<Exec, Real>::for_each_level(const Launch& launch)
+{
+    if (!seams_)
+    {
+        launch(pages(), mpm::all_point_pages(pages()));
+        return;
+    }
+    for (int level = 0; level <= geometry_.refinement.levels; ++level)
+    {
+        launch(mpm::on_level(pages(), geometry_.refinement, level), seams_->point_pages(level));
+    }
 }
 
 template<class Exec, class Real>
@@ -243,6 +260,7 @@ void Sand<Exec, Real>::make_room()
         cell_divergence_.resize(point_pages * mpm::page_cells);
         shared_stress_.resize(points_.stress.size());
     }
+    if (seams_) { mpm::list_seams(exec_, pages(), geometry_.refinement, *seams_, order_scratch_.sort); }
     if (mpm::has_walls(walls_)) { mpm::list_wall_pages(exec_, pages(), walls_, wall_pages_, order_scratch_.sort); }
     moves_to_.resize(points_.count);
     move_counts_.resize(point_pages * mpm::move_counts);
@@ -272,20 +290,29 @@ void Sand<Exec, Real>::scatter()
         mpm::share_pressure(exec_, points, pages(), shared);
         points.stress = shared;
     }
-    if (ranks_) { ranks_->halo().begin(points, pages(), tiles_.data()); }
-    const mpm::PageList list = ranks_ ? ranks_->halo().interior() : mpm::all_point_pages(pages());
-    mpm::scatter(exec_, points, pages(), list, tiles_.data());
+    if (ranks_)
+    {
+        ranks_->halo().begin(points, pages(), tiles_.data());
+        mpm::scatter(exec_, points, pages(), ranks_->halo().interior(), tiles_.data());
+        return;
+    }
+    for_each_level([&](const mpm::PagesView& pages, const mpm::PageList& list)
+                   { mpm::scatter(exec_, points, pages, list, tiles_.data()); });
+    if (seams_) { mpm::hand_down(exec_, pages(), geometry_.refinement, tiles_.data(), *seams_); }
 }
 
 template<class Exec, class Real>
 void Sand<Exec, Real>::update_grid(double dt, double damping)
 {
     const mpm::GridStep<Real> step{static_cast<Real>(dt), gravity_, static_cast<Real>(damping), mass_floor_, walls_};
-    const mpm::SharedPagesView<Real> shared = ranks_ ? ranks_->halo().view() : mpm::SharedPagesView<Real>{};
+    const mpm::SharedPagesView<Real> shared = ranks_   ? ranks_->halo().view()
+                                              : seams_ ? seams_->view()
+                                                       : mpm::SharedPagesView<Real>{};
     mpm::update_grid(exec_, pages(), wall_pages_.view(), shared, tiles_.data(), step, motion_.data(),
                      grid_rows_.data());
     mpm::update_walls(exec_, pages(), wall_pages_.view(), step, motion_.data(), grid_rows_.data());
     if (sleep_) { sleep_->hold(pages(), tiles_.data(), step, motion_.data(), grid_rows_.data()); }
+    if (seams_) { mpm::follow_coarser(exec_, pages(), geometry_.refinement, *seams_, motion_.data()); }
 }
 
 template<class Exec, class Real>
@@ -294,12 +321,21 @@ void Sand<Exec, Real>::gather(double dt)
     ++step_;
     if (cell_means_)
     {
-        mpm::average_divergence(exec_, points_.view(), pages(), motion_.data(), static_cast<Real>(dt),
-                                cell_divergence_.data());
+        for_each_level(
+            [&](const mpm::PagesView& pages, const mpm::PageList& list)
+            {
+                mpm::average_divergence(exec_, points_.view(), pages, list, motion_.data(), static_cast<Real>(dt),
+                                        cell_divergence_.data());
+            });
     }
     const mpm::GatherStep<Real> step{static_cast<Real>(dt), materials_.data(),
                                      static_cast<Real>(pic_share(pic_rate_, dt)), cell_divergence_.data()};
-    mpm::gather(exec_, points_.view(), pages(), motion_.data(), step, moves(), point_rows_.data(), peak_rows_.data());
+    for_each_level(
+        [&](const mpm::PagesView& pages, const mpm::PageList& list)
+        {
+            mpm::gather(exec_, points_.view(), pages, list, motion_.data(), step, moves(), point_rows_.data(),
+                        peak_rows_.data());
+        });
     if (sleep_) { sleep_->pass(dt); }
     listed_ = false;
     ++steps_;

@@ -15,6 +15,7 @@
 #include "kernels/mpm/order.hpp"
 #include "kernels/mpm/relist.hpp"
 #include "kernels/mpm/scatter.hpp"
+#include "kernels/mpm/seams.hpp"
 #include "kernels/mpm/wall_pages.hpp"
 #include "solver/point_copy.hpp"
 #include "solver/sand_ranks.hpp"
@@ -127,6 +128,8 @@ private:
     void           list_anew();
     void           clear_tallies();
     mpm::MovesView moves();
+    template<class Launch>
+    void for_each_level(const Launch& launch);
 
     Exec                                       exec_;
     mpm::GridGeometry                          geometry_;
@@ -143,6 +146,7 @@ private:
     mpm::WallPages<Exec, Real>                 wall_pages_;
     std::optional<SandRanks<Exec, Real>>       ranks_; ///< only on several ranks
     std::optional<SandSleep<Exec, Real>>       sleep_; ///< only if the scene has sleep.distance
+    std::optional<mpm::Seams<Exec, Real>>      seams_; ///< only on a refined grid
     Array<Exec, Real>                          tiles_;
     Array<Exec, Real>                          motion_;
     Array<Exec, double>                        grid_rows_;

@@ -204,7 +204,7 @@ void Simulation<Exec, Real>::choose_measuring()
     if (!sand_ || over_limit(last_, limits_, pace_)) { return; }
     const double travel = pace_.largest_speed * last_.dt;
     measure_every_      = static_cast<std::int64_t>(
-        std::clamp(unseen_travel * scene_.grid.spacing / travel, 1.0, static_cast<double>(most_unmeasured)));
+        std::clamp(unseen_travel * scene_.grid.finest() / travel, 1.0, static_cast<double>(most_unmeasured)));
     if (rigid_) { measure_every_ = std::min(measure_every_, rigid_->unwatched_steps(last_.dt, pace_.largest_speed)); }
 }
 

@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "base/host_memory.hpp"
 #include "scene/lines.hpp"
+#include "solver/refinement.hpp"
 #include "solver/region.hpp"
 #include "solver/saved_sand.hpp"
 
@@ -35,13 +36,15 @@ Sites sites_between(double low, double high, double spacing, double origin)
     return {origin, spacing, index(low), index(high)};
 }
 
-std::array<Sites, 3> lattice(const scene::Terrain& terrain, double spacing)
+/// `within`: where sites are wanted at all.
+std::array<Sites, 3> lattice(const scene::Terrain& terrain, double spacing, const scene::Box& within)
 {
     const auto           box = bounds(terrain.region);
     std::array<Sites, 3> axes{};
     for (std::size_t c = 0; c < 3; ++c)
     {
-        axes[c] = sites_between(box.low[c], box.high[c], spacing, terrain.spacing ? box.low[c] : 0.0);
+        axes[c] = sites_between(std::max(box.low[c], within.low[c]), std::min(box.high[c], within.high[c]), spacing,
+                                terrain.spacing ? box.low[c] : 0.0);
     }
     return axes;
 }
@@ -125,7 +128,10 @@ Sites sites_of_levels(Sites along_z, const std::vector<std::pair<double, double>
     return along_z;
 }
 
-void fill(const Space& space, const std::array<Sites, 3>& axes, const PointKind& kind, HostPoints& points)
+/// Adds a point at each site in the space that `wanted` holds of.
+template<class Wanted>
+void fill(const Space& space, const std::array<Sites, 3>& axes, const PointKind& kind, const Wanted& wanted,
+          HostPoints& points)
 {
     // Points go layer by layer, the surfaces' levels are asked for once a column.
     const auto& [along_x, along_y, all_along_z] = axes;
@@ -148,13 +154,34 @@ void fill(const Space& space, const std::array<Sites, 3>& axes, const PointKind&
             const Vec3<double> x(along_x.at(along_x.first + static_cast<long>(column % columns_x)),
                                  along_y.at(along_y.first + static_cast<long>(column / columns_x)), along_z.at(k));
             const auto& [low, high] = level[column];
-            if (low <= x[2] && x[2] < high && contains(space.region, x)) { append(points, x, kind); }
+            if (low <= x[2] && x[2] < high && contains(space.region, x) && wanted(x)) { append(points, x, kind); }
         }
         require_countable(points);
     }
 }
 
-void add_table(const scene::Scene& scene, std::size_t table, HostPoints& points)
+PointKind kind_of(const scene::Scene& scene, std::size_t table, double spacing)
+{
+    const int    material = material_index(scene, scene.terrain[table].material);
+    const double volume   = spacing * spacing * spacing;
+    return {volume, scene.materials[static_cast<std::size_t>(material)].density * volume,
+            static_cast<std::uint8_t>(material), static_cast<std::int32_t>(table)};
+}
+
+/// Points of one level of the grid, on the lattice of its cells.
+void fill_level(const scene::Scene& scene, std::size_t table, const Space& space, const mpm::Refinement& refinement,
+                int level, HostPoints& points)
+{
+    const scene::Terrain& terrain = scene.terrain[table];
+    const double          spacing = lattice_spacing(scene, terrain) / (1 << level);
+    const scene::Box      within  = level == 0 ? bounds(terrain.region) : box_of(scene, refinement, level);
+    const auto            here    = [&](const Vec3<double>& x) { return level_at(scene, refinement, x) == level; };
+    const auto            sites   = lattice(terrain, spacing, within);
+    require_room_for_points(space, sites, fmt::format("[[terrain]] {}", table));
+    fill(space, sites, kind_of(scene, table, spacing), here, points);
+}
+
+void add_table(const scene::Scene& scene, std::size_t table, const mpm::Refinement& refinement, HostPoints& points)
 {
     const scene::Terrain& terrain = scene.terrain[table];
     if (!terrain.from.empty())
@@ -165,15 +192,22 @@ void add_table(const scene::Scene& scene, std::size_t table, HostPoints& points)
     const auto  owner = fmt::format("[[terrain]] {}", table);
     const Space space = make_space(terrain.region, terrain.height, terrain.floor, owner);
     remove_inside(points, space);
-    const double spacing  = lattice_spacing(scene, terrain);
-    const double volume   = spacing * spacing * spacing;
-    const int    material = material_index(scene, terrain.material);
-    const double density  = scene.materials[static_cast<std::size_t>(material)].density;
-    const auto   before   = points.size();
-    const auto   sites    = lattice(terrain, spacing);
-    require_room_for_points(space, sites, owner);
-    fill(space, sites,
-         {volume, density * volume, static_cast<std::uint8_t>(material), static_cast<std::int32_t>(table)}, points);
+    const double spacing = lattice_spacing(scene, terrain);
+    const auto   before  = points.size();
+    if (refinement.levels == 0 || terrain.spacing)
+    {
+        const auto anywhere = [](const Vec3<double>&) { return true; };
+        const auto sites    = lattice(terrain, spacing, bounds(terrain.region));
+        require_room_for_points(space, sites, owner);
+        fill(space, sites, kind_of(scene, table, spacing), anywhere, points);
+    }
+    else
+    {
+        for (int level = 0; level <= refinement.levels; ++level)
+        {
+            fill_level(scene, table, space, refinement, level, points);
+        }
+    }
     if (points.size() == before)
     {
         throw InputError(fmt::format("{}: no point of its lattice (spacing {:.4g} m) lies in its region {} between "
@@ -194,12 +228,13 @@ void set_velocities(const scene::Scene& scene, HostPoints& points)
 
 } // namespace
 
-HostPoints make_terrain(const scene::Scene& scene)
+HostPoints make_terrain(const scene::Scene& scene, const mpm::Refinement& refinement)
 {
     HostPoints points;
     for (std::size_t table = 0; table < scene.terrain.size(); ++table)
     {
-        scene::with_line_of(scene, fmt::format("terrain[{}]", table), [&] { add_table(scene, table, points); });
+        scene::with_line_of(scene, fmt::format("terrain[{}]", table),
+                            [&] { add_table(scene, table, refinement, points); });
     }
     set_velocities(scene, points);
     return points;
@@ -215,7 +250,8 @@ double terrain_spacing(const scene::Scene& scene, const HostPoints& points)
     double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-        if (scene.terrain[static_cast<std::size_t>(points.terrain[i])].from.empty()) { continue; }
+        const bool on_scene_lattice = scene.grid.refine.empty();
+        if (on_scene_lattice && scene.terrain[static_cast<std::size_t>(points.terrain[i])].from.empty()) { continue; }
         smallest = std::min(smallest, std::cbrt(points.volume[i]));
     }
     for (const scene::Terrain& terrain : scene.terrain)

@@ -16,6 +16,7 @@
 #include "solver/make_room.hpp"
 #include "solver/materials.hpp"
 #include "solver/named_bodies.hpp"
+#include "solver/refinement.hpp"
 #include "solver/region.hpp"
 #include "solver/rocks.hpp"
 #include "solver/saved_bed.hpp"
@@ -257,12 +258,13 @@ World build_world(const scene::Scene& scene)
     World      world{};
     const bool linear = scene.numerics.shape_functions == scene::ShapeFunctions::linear;
     world.geometry    = {
-           scene.grid.spacing, linear ? 0.0 : 0.5, {scene.domain.size[0], scene.domain.size[1], scene.domain.size[2]}};
-    world.grid_walls = grid_walls(scene);
-    world.planes     = body_planes(scene);
+           scene.grid.spacing, linear ? 0.0 : 0.5, {scene.domain.size[0], scene.domain.size[1], scene.domain.size[2]}, {}};
+    world.geometry.refinement = refinement_of(scene);
+    world.grid_walls          = grid_walls(scene);
+    world.planes              = body_planes(scene);
     SavedBeds  beds(scene);
     const auto draws    = draw_all_rocks(scene, beds);
-    world.points        = make_terrain(scene);
+    world.points        = make_terrain(scene, world.geometry.refinement);
     world.point_spacing = terrain_spacing(scene, world.points);
     world.templates     = make_templates(scene, world.points, wanted_shapes(scene, draws));
     add_named_bodies(scene, world);

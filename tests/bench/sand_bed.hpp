@@ -88,7 +88,7 @@ inline std::vector<std::pair<std::int32_t, std::int64_t>> page_starts(const mpm:
     for (std::int64_t i = 0; i < count; ++i)
     {
         const Vec3<double> at   = Vec3<double>::Constant(corner + distance * (double(i) + 0.5));
-        const std::int32_t page = mpm::page_of(mpm::cell_of(at, 1 / geometry.spacing, geometry.stencil_shift)).x;
+        const std::int32_t page = mpm::page_of(mpm::cell_of(at, geometry.lattice())).x;
         if (starts.empty() || starts.back().first != page) { starts.emplace_back(page, i); }
     }
     starts.emplace_back(0, count);

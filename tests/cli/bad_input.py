@@ -84,6 +84,18 @@ class BadScene(RefusedScene):
         self.refuse(SCENE + "[sleep]\ndistance = 0.0\n", ["sleep", "distance", "> 0"])
         self.refuse(SCENE + "[sleep]\nspeed = 0.1\n", ["sleep", "speed", "distance given"])
 
+    def test_refined_grid(self):
+        def refuse(boxes, mentions, more=""):
+            line = "spacing = 0.05\nrefine = " + boxes
+            self.refuse(SCENE.replace("spacing = 0.05", line, 1) + more, ["scene.toml:", "refine", *mentions])
+
+        box = "[[0.1, 0.1, 0.1], [0.3, 0.3, 0.4]]"
+        refuse("[[[0.3, 0.1, 0.1], [0.1, 0.3, 0.4]]]", ["empty"])
+        refuse(f"[{box}, {box}, {box}, {box}]", ["at most 3 boxes"])
+        refuse(f"[{box}]", ["box 0", "along x", "4 cells of 0.05 m inside the walls"])
+        refuse(f"[{box}]", ["quadratic"], '[numerics]\nshape_functions = "linear"\n')
+        refuse(f"[{box}]", ["sleep"], "[sleep]\ndistance = 0.3\n")
+
     def test_unknown_volume_strain(self):
         self.refuse(SCENE + '[numerics]\nvolume_strain = "nodes"\n', ["volume_strain", "cell-average"])
 

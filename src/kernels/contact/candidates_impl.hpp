@@ -22,8 +22,7 @@ struct CountLookups
     {
         count[b] = 0;
         if (b == bodies.count || !bodies.is_here(b)) { return; }
-        const PageBox box = page_box(search_body(bodies, templates, b, reach), pages, reach);
-        count[b]          = static_cast<std::int32_t>(lookups(box, pages.point_pages));
+        count[b] = static_cast<std::int32_t>(lookups(search_body(bodies, templates, b, reach), pages, reach));
     }
 };
 
@@ -43,9 +42,8 @@ struct LookUpPages
 
     TREAD_HD Lookup operator()(std::int64_t i) const
     {
-        const std::int64_t b   = owner_of(first, bodies.count, i);
-        const PageBox      box = page_box(search_body(bodies, templates, b, reach), pages, reach);
-        return {b, look_up(box, pages, i - first[b])};
+        const std::int64_t b = owner_of(first, bodies.count, i);
+        return {b, contact::look_up(search_body(bodies, templates, b, reach), pages, reach, i - first[b])};
     }
 };
 

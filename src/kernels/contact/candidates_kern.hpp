@@ -6,6 +6,7 @@
 #include "kernels/contact/candidates.hpp"
 #include "kernels/contact/samples_kern.hpp"
 #include "kernels/dem/sdf_kern.hpp"
+#include "kernels/mpm/levels.hpp"
 
 namespace tread::contact
 {
@@ -36,13 +37,19 @@ struct PageBox
     }
 };
 
-/// Page coordinate of a position along one axis, held to the range that has keys: a body may be anywhere.
+/// Page coordinate of a position along one axis, held to [low, high]: a body may be anywhere.
+TREAD_HD std::int32_t page_coordinate(double position, double spacing, double shift, double low, double high)
+{
+    const double page = std::floor((position / spacing - shift) / mpm::page_edge);
+    if (!(page > low)) { return static_cast<std::int32_t>(low); }
+    return static_cast<std::int32_t>(page < high ? page : high);
+}
+
+/// The same, held to the range that has keys.
 TREAD_HD std::int32_t page_coordinate(double position, double spacing, double stencil_shift)
 {
-    const double page  = std::floor((position / spacing - stencil_shift) / mpm::page_edge);
     const double limit = mpm::page_bias - 1;
-    if (!(page > -limit)) { return static_cast<std::int32_t>(-limit); }
-    return static_cast<std::int32_t>(page < limit ? page : limit);
+    return page_coordinate(position, spacing, stencil_shift, -limit, limit);
 }
 
 /// A body as the search sees it.
@@ -67,19 +74,23 @@ TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::Templa
     return {shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], nearer + 2.0 * patch};
 }
 
-/// Pages whose points may be candidates of the body: those under its axis-aligned box, grown.
-TREAD_HD PageBox page_box(const SearchBody& body, const mpm::PagesView& pages, const SearchReach& reach)
+/// Pages of a level whose points may be candidates of the body: those under its axis-aligned box, grown.
+TREAD_HD PageBox page_box(const SearchBody& body, const mpm::PagesView& pages, int level, const SearchReach& reach)
 {
     const Mat3<double> rotation = body.orientation.toRotationMatrix();
     const Vec3<double> centre   = body.position + rotation * (0.5 * body.scale * (body.shape->low + body.shape->high));
     const Vec3<double> half     = rotation.cwiseAbs() * (0.5 * body.scale * (body.shape->high - body.shape->low));
     const double       margin   = reach.largest_radius + reach.point_drift + body.travel;
 
-    const auto page_at = [&](const Vec3<double>& x) -> mpm::Index3
+    const mpm::Lattice lattice = mpm::level_lattice(pages, level);
+    const double       shift   = lattice.stencil_shift + lattice.node_shift;
+    const double       low     = level == 0 ? -(mpm::page_bias - 1) : level << mpm::level_bits;
+    const double       high    = pages.levels == 0 ? mpm::page_bias - 1 : ((level + 1) << mpm::level_bits) - 1;
+    const auto         page_at = [&](const Vec3<double>& x) -> mpm::Index3
     {
-        return {page_coordinate(x[0], pages.spacing, pages.stencil_shift),
-                page_coordinate(x[1], pages.spacing, pages.stencil_shift),
-                page_coordinate(x[2], pages.spacing, pages.stencil_shift)};
+        return {page_coordinate(x[0], lattice.spacing, shift, low, high),
+                page_coordinate(x[1], lattice.spacing, shift, low, high),
+                page_coordinate(x[2], lattice.spacing, shift, low, high)};
     };
     const Vec3<double> grown = half + Vec3<double>::Constant(margin);
     return {page_at(centre - grown), page_at(centre + grown)};
@@ -92,6 +103,17 @@ TREAD_HD std::int64_t lookups(const PageBox& box, std::int64_t point_pages)
     return own < point_pages ? own : point_pages;
 }
 
+/// Lookups of all levels for a body.
+TREAD_HD std::int64_t lookups(const SearchBody& body, const mpm::PagesView& pages, const SearchReach& reach)
+{
+    std::int64_t count = 0;
+    for (int level = 0; level <= pages.levels; ++level)
+    {
+        count += lookups(page_box(body, pages, level, reach), pages.point_pages);
+    }
+    return count;
+}
+
 /// Point page of lookup `i` of the box, or -1.
 TREAD_HD std::int64_t look_up(const PageBox& box, const mpm::PagesView& pages, std::int64_t i)
 {
@@ -100,6 +122,20 @@ TREAD_HD std::int64_t look_up(const PageBox& box, const mpm::PagesView& pages, s
         return find_sorted(pages.point_page_key, pages.point_pages, mpm::page_key(box.page(i)));
     }
     return box.contains(mpm::page_coordinates(pages.point_page_key[i])) ? i : -1;
+}
+
+/// Point page of lookup `i` of all levels for a body, or -1.
+TREAD_HD std::int64_t look_up(const SearchBody& body, const mpm::PagesView& pages, const SearchReach& reach,
+                              std::int64_t i)
+{
+    for (int level = 0; level < pages.levels; ++level)
+    {
+        const PageBox      box = page_box(body, pages, level, reach);
+        const std::int64_t own = lookups(box, pages.point_pages);
+        if (i < own) { return look_up(box, pages, i); }
+        i -= own;
+    }
+    return look_up(page_box(body, pages, pages.levels, reach), pages, i);
 }
 
 /// Whether x stands in the body's own box, grown by `margin` along each of the body's axes.
@@ -123,8 +159,10 @@ TREAD_HD bool cell_may_touch(const SearchBody& body, const mpm::PagesView& pages
     const mpm::Index3  corner = mpm::page_coordinates(pages.point_page_key[page]);
     const Vec3<double> cell(corner.x * mpm::page_edge + (place & 3), corner.y * mpm::page_edge + (place >> 2 & 3),
                             corner.z * mpm::page_edge + (place >> 4));
-    const Vec3<double> centre  = pages.spacing * (cell + Vec3<double>::Constant(pages.stencil_shift + 0.5));
-    const double       corners = std::sqrt(3.0) * (0.5 * pages.spacing + reach.point_drift);
+    const mpm::Lattice lattice = mpm::level_lattice(pages, mpm::level_of(corner));
+    const double       shift   = lattice.stencil_shift + lattice.node_shift + 0.5;
+    const Vec3<double> centre  = lattice.spacing * (cell + Vec3<double>::Constant(shift));
+    const double       corners = std::sqrt(3.0) * (0.5 * lattice.spacing + reach.point_drift);
     return in_grown_box(body, centre, corners + reach.largest_radius + body.travel);
 }
 

@@ -14,12 +14,14 @@ struct AveragePage
 {
     PointsView<Real> points;
     PagesView        pages;
+    PageList         list;
     const Real*      motion;
     Real             dt;
     Real*            cell_divergence;
 
-    __device__ void operator()(std::int64_t page) const
+    __device__ void operator()(std::int64_t block) const
     {
+        const std::int64_t page = list.at(block);
         __shared__ VelocityTile<Real> tile;
         for (int node = threadIdx.x; node < tile_nodes; node += page_cells)
         {
@@ -34,15 +36,16 @@ struct AveragePage
 } // namespace
 
 template<class Real>
-void average_divergence(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-                        Real dt, Real* cell_divergence)
+void average_divergence(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
+                        const Real* motion, Real dt, Real* cell_divergence)
 {
-    for_each_block<page_cells>(gpu, "cell divergence", pages.point_pages,
-                               AveragePage<Real>{points, pages, motion, dt, cell_divergence});
+    for_each_block<page_cells>(gpu, "cell divergence", list.count,
+                               AveragePage<Real>{points, pages, list, motion, dt, cell_divergence});
 }
 
-template void average_divergence(const Gpu&, const PointsView<float>&, const PagesView&, const float*, float, float*);
-template void average_divergence(const Gpu&, const PointsView<double>&, const PagesView&, const double*, double,
-                                 double*);
+template void average_divergence(const Gpu&, const PointsView<float>&, const PagesView&, const PageList&, const float*,
+                                 float, float*);
+template void average_divergence(const Gpu&, const PointsView<double>&, const PagesView&, const PageList&,
+                                 const double*, double, double*);
 
 } // namespace tread::mpm

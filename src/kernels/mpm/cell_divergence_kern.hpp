@@ -58,8 +58,7 @@ TREAD_HD Real mean_divergence(const PointsView<Real>& points, const PagesView& p
     for (std::int64_t at = pages.cell_first_point[cell]; at < pages.cell_first_point[cell + 1]; ++at)
     {
         const std::int64_t i        = pages.point_at[at];
-        const auto         stencil  = stencil_above<Real>(node, points.position.get(i), pages.inverse_spacing,
-                                                 pages.inverse_spacing, pages.stencil_shift);
+        const auto         stencil  = stencil_above<Real>(node, points.position.get(i), pages.inverse_spacing, pages);
         const Mat3<Real>   at_start = gradient_at(stencil, tile);
         const Real         share    = points.volume[i];
         volume += share;

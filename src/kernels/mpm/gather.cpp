@@ -47,13 +47,12 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
     double       sums[point_sums] = {};
     for (std::int64_t at = pages.first_point[page]; at < pages.first_point[page + 1]; ++at)
     {
-        const std::int64_t i     = pages.point_at[at];
-        const Index3       cell  = node_at(low, pages.place_at[at]);
-        const auto         point = read_point(points, i);
-        const auto  stencil = stencil_above<Real>(cell, point.position, pages.inverse_spacing, pages.inverse_spacing,
-                                                 pages.stencil_shift);
-        const auto* lowest  = tile + tile_base(stencil.base);
-        const auto  nodes   = [=](int a, int b, int c) -> const NodeMotion<Quad<Real>>&
+        const std::int64_t i       = pages.point_at[at];
+        const Index3       cell    = node_at(low, pages.place_at[at]);
+        const auto         point   = read_point(points, i);
+        const auto         stencil = stencil_above<Real>(cell, point.position, pages.inverse_spacing, pages);
+        const auto*        lowest  = tile + tile_base(stencil.base);
+        const auto         nodes   = [=](int a, int b, int c) -> const NodeMotion<Quad<Real>>&
         { return lowest[tile_offset(a, b, c)]; };
         const auto seen = see(stencil, spacing, nodes, Moment{});
         const Move move = update_point(points, i, point, seen, stencil.base, pages, page, step, sums, peaks);
@@ -72,25 +71,26 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
 } // namespace
 
 template<class Real>
-void gather(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-            const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks)
+void gather(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
+            const Real* motion, const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks)
 {
     const auto launch = [&](auto moment)
     {
-        const auto item = [=](std::int64_t page)
+        const auto item = [=](std::int64_t i)
         {
+            const std::int64_t page = list.at(i);
             gather_page(points, pages, motion, step, moves, page, tallies + page * tally_width(point_sums),
                         peaks + page * point_peaks, moment);
         };
-        for_each_heavy(cpu, "gather", pages.point_pages, item);
+        for_each_heavy(cpu, "gather", list.count, item);
     };
     if (points.affine.data != nullptr) { launch(WithMoment{}); }
     else { launch(WithoutMoment{}); }
 }
 
-template void gather(const Cpu&, const PointsView<float>&, const PagesView&, const float*, const GatherStep<float>&,
-                     const MovesView&, double*, double*);
-template void gather(const Cpu&, const PointsView<double>&, const PagesView&, const double*, const GatherStep<double>&,
-                     const MovesView&, double*, double*);
+template void gather(const Cpu&, const PointsView<float>&, const PagesView&, const PageList&, const float*,
+                     const GatherStep<float>&, const MovesView&, double*, double*);
+template void gather(const Cpu&, const PointsView<double>&, const PagesView&, const PageList&, const double*,
+                     const GatherStep<double>&, const MovesView&, double*, double*);
 
 } // namespace tread::mpm

@@ -177,16 +177,18 @@ struct GatherPage
 {
     PointsView<Real> points;
     PagesView        pages;
+    PageList         list;
     const Real*      motion;
     GatherStep<Real> step;
     MovesView        moves;
     double*          tallies;
     double*          peaks;
 
-    __device__ void operator()(std::int64_t page) const
+    __device__ void operator()(std::int64_t block) const
     {
-        const std::int64_t end = pages.first_point[page + 1];
-        std::int64_t       at  = pages.first_point[page];
+        const std::int64_t page = list.at(block);
+        const std::int64_t end  = pages.first_point[page + 1];
+        std::int64_t       at   = pages.first_point[page];
         if (at == end)
         {
             clear(page);
@@ -214,14 +216,13 @@ struct GatherPage
         for (; at < end; at += threads)
         {
             __pipeline_wait_prior(0);
-            const PointState<Real> point = waiting.take(points, material);
-            const Listed           now   = next;
-            next                         = later;
-            material                     = fetch(next, at + threads < end, waiting);
-            later                        = listed(at + 2 * threads, end);
-            const Index3 cell            = node_at(low, now.place);
-            const auto stencil = stencil_above<Real>(cell, point.position, pages.inverse_spacing, pages.inverse_spacing,
-                                                     pages.stencil_shift);
+            const PointState<Real> point    = waiting.take(points, material);
+            const Listed           now      = next;
+            next                            = later;
+            material                        = fetch(next, at + threads < end, waiting);
+            later                           = listed(at + 2 * threads, end);
+            const Index3            cell    = node_at(low, now.place);
+            const auto              stencil = stencil_above<Real>(cell, point.position, pages.inverse_spacing, pages);
             const NodesOfTile<Real> nodes{tile + gather_slot(cell.x & 3, cell.y & 3, cell.z & 3)};
             const auto              seen = see(stencil, spacing, nodes, Moment{});
             const Move move = update_point(points, now.point, point, seen, stencil.base, pages, page, step, sum, peak);
@@ -273,14 +274,14 @@ struct GatherPage
 } // namespace
 
 template<class Real>
-void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-            const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks)
+void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
+            const Real* motion, const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks)
 {
     const auto launch = [&](auto threads, auto moment)
     {
         for_each_block<threads, std::max(1, threads_an_sm<decltype(moment)> / threads)>(
-            gpu, "gather", pages.point_pages,
-            GatherPage<threads, Real, decltype(moment)>{points, pages, motion, step, moves, tallies, peaks});
+            gpu, "gather", list.count,
+            GatherPage<threads, Real, decltype(moment)>{points, pages, list, motion, step, moves, tallies, peaks});
     };
     const auto with_threads = [&](auto threads)
     {
@@ -288,14 +289,14 @@ void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pag
         else { launch(threads, WithoutMoment{}); }
     };
     constexpr int many_threads = sizeof(Real) == 4 ? 256 : 128;
-    if (pages.point_pages < few_pages) { with_threads(std::integral_constant<int, many_threads>{}); }
+    if (list.count < few_pages) { with_threads(std::integral_constant<int, many_threads>{}); }
     else if (points.count < full_page * pages.point_pages) { with_threads(std::integral_constant<int, warp_size>{}); }
     else { with_threads(std::integral_constant<int, 64>{}); }
 }
 
-template void gather(const Gpu&, const PointsView<float>&, const PagesView&, const float*, const GatherStep<float>&,
-                     const MovesView&, double*, double*);
-template void gather(const Gpu&, const PointsView<double>&, const PagesView&, const double*, const GatherStep<double>&,
-                     const MovesView&, double*, double*);
+template void gather(const Gpu&, const PointsView<float>&, const PagesView&, const PageList&, const float*,
+                     const GatherStep<float>&, const MovesView&, double*, double*);
+template void gather(const Gpu&, const PointsView<double>&, const PagesView&, const PageList&, const double*,
+                     const GatherStep<double>&, const MovesView&, double*, double*);
 
 } // namespace tread::mpm

@@ -4,6 +4,7 @@
 #include "kernels/mpm/grid.hpp"
 #include "kernels/mpm/material_parameters.hpp"
 #include "kernels/mpm/moves.hpp"
+#include "kernels/mpm/page_list.hpp"
 #include "kernels/mpm/pages.hpp"
 #include "kernels/mpm/points.hpp"
 #include "kernels/mpm/tally.hpp"
@@ -41,14 +42,14 @@ enum PointPeak : int
     point_peaks
 };
 
-/// G2P: velocity (FLIP with PIC part, APIC, AFLIP), position, stress and plastic state of every point; for coupled
-/// scenes also the interpolated grid velocity and the support acceleration. Books the step in the page's tally of
-/// PointSum, and in peaks[point page][PointPeak]; `moves`: where every point is now.
+/// G2P of the points of the listed pages: velocity (FLIP with PIC part, APIC, AFLIP), position, stress and plastic
+/// state; for coupled scenes also the interpolated grid velocity and the support acceleration. Books the step in the
+/// page's tally of PointSum, and in peaks[point page][PointPeak]; `moves`: where every point is now.
 template<class Real>
-void gather(const Cpu&, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-            const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks);
+void gather(const Cpu&, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
+            const Real* motion, const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks);
 template<class Real>
-void gather(const Gpu&, const PointsView<Real>& points, const PagesView& pages, const Real* motion,
-            const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks);
+void gather(const Gpu&, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
+            const Real* motion, const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks);
 
 } // namespace tread::mpm

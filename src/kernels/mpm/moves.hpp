@@ -12,7 +12,7 @@ enum class Stir : std::int32_t
 {
     none,      ///< same cell
     moved,     ///< another cell of a page that is listed
-    rim,       ///< a cell beside a page that is not listed: the points should be ordered anew soon
+    rim,       ///< a cell beside a page that is not listed, or one of another level: order the points anew soon
     lost,      ///< no listed page: the points must be ordered anew
     not_finite ///< position, velocity or stress
 };
@@ -59,11 +59,8 @@ TREAD_HD bool at_rim(const PagesView& pages, std::int64_t page, int place)
 /// all are ordered anew.
 TREAD_HD Move move_to(const PagesView& pages, std::int64_t page, Index3 before, const Vec3<double>& position)
 {
-    if (stays_in(before, position, pages.inverse_spacing, pages.stencil_shift))
-    {
-        return {own_page, place_in_page(before), Stir::none};
-    }
-    const Index3 now  = cell_of(position, pages.inverse_spacing, pages.stencil_shift);
+    if (stays_in(before, position, pages)) { return {own_page, place_in_page(before), Stir::none}; }
+    const Index3 now  = cell_of(position, pages);
     const Index3 from = page_of(before), to = page_of(now);
     const int    x = to.x - from.x, y = to.y - from.y, z = to.z - from.z;
     const Move   stay{own_page, place_in_page(before), Stir::lost};
@@ -71,7 +68,9 @@ TREAD_HD Move move_to(const PagesView& pages, std::int64_t page, Index3 before, 
     const int          direction = own_page + x + 3 * y + 9 * z;
     const std::int32_t reached   = pages.neighbour[page * directions + direction];
     if (reached < 0) { return stay; }
-    return {direction, place_in_page(now), at_rim(pages, reached, place_in_page(now)) ? Stir::rim : Stir::moved};
+    const bool soon =
+        pages.replaced.contains(now) || !pages.own.contains(now) || at_rim(pages, reached, place_in_page(now));
+    return {direction, place_in_page(now), soon ? Stir::rim : Stir::moved};
 }
 
 TREAD_HD std::uint16_t packed(const Move& move)

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "backend/sort.hpp"
-#include "kernels/mpm/pages.hpp"
+#include "kernels/mpm/levels.hpp"
 #include "kernels/mpm/points.hpp"
 
 namespace tread::mpm
@@ -15,6 +15,12 @@ struct GridGeometry
     double       spacing;       ///< m
     double       stencil_shift; ///< cell = floor(x / spacing - stencil_shift): 0.5 quadratic, 0 linear
     Vec3<double> size;          ///< m; the domain is [0, size]
+    Refinement   refinement{};
+
+    TREAD_HD Lattice lattice() const { return make_lattice(spacing, stencil_shift); }
+
+    /// m, on the last level.
+    TREAD_HD double finest_spacing() const { return level_lattice(lattice(), refinement.levels).spacing; }
 };
 
 /// Scratch of order_points, kept between calls.

@@ -28,7 +28,7 @@ struct MakeKeys
         {
             inside = inside && x[c] >= -margin && (c == 2 || x[c] <= geometry.size[c] + margin);
         }
-        keys[i]  = inside ? cell_key(cell_of(x, 1 / geometry.spacing, geometry.stencil_shift)) : no_page;
+        keys[i]  = inside ? cell_key(finest_cell(geometry.lattice(), geometry.refinement, x)) : no_page;
         order[i] = static_cast<std::int32_t>(i);
     }
 };
@@ -180,9 +180,10 @@ struct SurroundingKeys
         const std::uint64_t own       = page_key[i / directions];
         const int           direction = static_cast<int>(i % directions);
         const Index3        page      = towards(page_coordinates(own), direction);
-        const double        edge      = page_edge * geometry.spacing;
-        const double        corner[]  = {page.x * edge, page.y * edge, page.z * edge};
-        bool                inside    = true;
+        const Lattice       lattice   = level_lattice(geometry.lattice(), level_of(page));
+        const double        edge = page_edge * lattice.spacing, shift = lattice.node_shift * lattice.spacing;
+        const double        corner[] = {page.x * edge + shift, page.y * edge + shift, page.z * edge + shift};
+        bool                inside   = true;
         for (int c = 0; c < 3; ++c)
         {
             const double margin = (drop_margin + 1) * geometry.spacing;
@@ -202,6 +203,27 @@ struct NeighbourKeys
     TREAD_HD void operator()(std::int64_t i) const
     {
         keys[i]  = tread::mpm::page_key(shifted(page_coordinates(page_key[i / 8]), static_cast<int>(i % 8), 1));
+        order[i] = 0;
+    }
+};
+
+/// Node pages of the level below that have the parents of nodes that a point page reaches, where some of these are
+/// slaves of it (seams.hpp).
+struct ParentKeys
+{
+    const std::uint64_t* page_key;
+    Refinement           refinement;
+    std::uint64_t*       keys;
+    std::int32_t*        order;
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        const Index3 page  = page_coordinates(page_key[i / 8]);
+        const Index3 last  = node_at(page, page_cells - 1);
+        const int    level = level_of(page);
+        const bool   needs =
+            level > 0 && !all_free(refinement, level, node_at(page, 0), shifted_by(last, tile_edge - page_edge));
+        keys[i]  = needs ? tread::mpm::page_key(coarser_page(page, static_cast<int>(i % 8))) : no_page;
         order[i] = 0;
     }
 };
@@ -324,16 +346,23 @@ void link_pages(const Exec& exec, Pages<Exec>& pages)
                             pages.point_page_of.data()});
 }
 
-/// Node pages = point pages and their upper neighbours.
+/// Node pages = point pages and their upper neighbours, and those of the parents of slave nodes.
 template<class Exec, class Real>
-void build_node_pages(const Exec& exec, Pages<Exec>& pages, OrderScratch<Exec, Real>& scratch)
+void build_node_pages(const Exec& exec, Pages<Exec>& pages, const Refinement& refinement,
+                      OrderScratch<Exec, Real>& scratch)
 {
     using namespace order_steps;
-    const std::int64_t point_pages = pages.point_page_key.size();
-    scratch.neighbour_keys.resize(8 * point_pages);
-    scratch.neighbour_order.resize(8 * point_pages);
-    for_each(exec, "neighbour keys", 8 * point_pages,
+    const std::int64_t reached = 8 * pages.point_page_key.size(), all = reached * (refinement.levels > 0 ? 2 : 1);
+    scratch.neighbour_keys.resize(all);
+    scratch.neighbour_order.resize(all);
+    for_each(exec, "neighbour keys", reached,
              NeighbourKeys{pages.point_page_key.data(), scratch.neighbour_keys.data(), scratch.neighbour_order.data()});
+    if (refinement.levels > 0)
+    {
+        for_each(exec, "parent keys", reached,
+                 ParentKeys{pages.point_page_key.data(), refinement, scratch.neighbour_keys.data() + reached,
+                            scratch.neighbour_order.data() + reached});
+    }
     sort_by_key(exec, scratch.neighbour_keys, scratch.neighbour_order, scratch.sort);
     write_pages(exec, scratch.neighbour_keys, 0, pages.node_page_key, scratch);
     link_pages(exec, pages);
@@ -351,7 +380,7 @@ std::int64_t order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Ex
     sort_by_key(exec, scratch.keys, scratch.order, scratch.sort);
     gather_points(exec, points, scratch.order.data(), scratch.sort);
     build_point_pages(exec, points, pages, geometry, scratch);
-    build_node_pages(exec, pages, scratch);
+    build_node_pages(exec, pages, geometry.refinement, scratch);
     return n - points.count;
 }
 

@@ -9,9 +9,10 @@ namespace tread::mpm
 struct PageList
 {
     std::int64_t        count;
-    const std::int32_t* page; ///< [count], each once; null: all of them, in their order
+    const std::int32_t* page; ///< [count], each once; null: those from `first` on, in their order
+    std::int64_t        first = 0;
 
-    TREAD_HD std::int64_t at(std::int64_t i) const { return page == nullptr ? i : page[i]; }
+    TREAD_HD std::int64_t at(std::int64_t i) const { return page == nullptr ? first + i : page[i]; }
 };
 
 inline PageList all_point_pages(const PagesView& pages) { return {pages.point_pages, nullptr}; }

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "backend/array.hpp"
-#include "kernels/mpm/page_key.hpp"
+#include "kernels/mpm/lattice.hpp"
 
 namespace tread::mpm
 {
@@ -12,20 +12,14 @@ namespace tread::mpm
 constexpr int directions = 27;
 constexpr int own_page   = 13;
 
-/// How far (in spacings) a point may pass the boundary of its cell before it is listed in the next one: beds at rest on
-/// a lattice that falls on boundaries do not change their lists with every breath. Quadratic weights, continued beyond
-/// the cell, still sum to one and reproduce linear fields exactly; they differ from the next cell's by half the square
-/// of this, the rounding of fp32. Hats have a kink at the boundary, and no slack.
-constexpr double quadratic_cell_slack = 1.0 / 1024;
-
 /// The pages that hold points, with all their neighbours ("point pages"), and those that their stencils reach ("node
 /// pages", which include them). Points are listed by page key, then by place in the page; in memory they stand as they
 /// were when they were last ordered. The cell of a point is the one in which it is listed.
-struct PagesView
+struct PagesView : Lattice
 {
-    double               spacing;         ///< m, of the grid
-    double               inverse_spacing; ///< 1/m
-    double               stencil_shift;   ///< cell = floor(x / spacing - stencil_shift): 0.5 quadratic, 0 linear
+    int                  levels;   ///< beyond the scene's own grid (levels.hpp); tables are those of all levels
+    CellBox              replaced; ///< cells in which points belong to the next level
+    CellBox              own;      ///< cells in which they may stay on this one
     std::int64_t         point_pages;
     std::int64_t         node_pages;
     const std::uint64_t* point_page_key;   ///< [point_pages], ascending
@@ -56,11 +50,13 @@ struct Pages
     {
     }
 
-    PagesView view(double spacing, double stencil_shift) const
+    /// `levels`: beyond the scene's own grid, whose lattice this is.
+    PagesView view(const Lattice& lattice, int levels = 0) const
     {
-        return {spacing,
-                1 / spacing,
-                stencil_shift,
+        return {lattice,
+                levels,
+                CellBox{},
+                all_cells(),
                 point_page_key.size(),
                 node_page_key.size(),
                 point_page_key.data(),
@@ -73,6 +69,8 @@ struct Pages
                 node_page_of.data(),
                 point_page_of.data()};
     }
+
+    PagesView view(double spacing, double stencil_shift) const { return view(make_lattice(spacing, stencil_shift)); }
 
     /// Calls f(name, array) for every array.
     template<class F>
@@ -99,29 +97,5 @@ struct Pages
     Array<Exec, std::int32_t>  node_page_of;
     Array<Exec, std::int32_t>  point_page_of;
 };
-
-/// Node that names the cell of a position: the lowest of its stencil. A product with the inverse, not a quotient: fp64
-/// division costs a GPU as much as the rest of the stencil. The multiply-add is explicit: left to compilers it would be
-/// fused in one kernel and not in another, and they would disagree about points on the boundary of a cell.
-TREAD_HD Index3 cell_of(const Vec3<double>& position, double inverse_spacing, double stencil_shift)
-{
-    return {static_cast<std::int32_t>(std::floor(std::fma(position[0], inverse_spacing, -stencil_shift))),
-            static_cast<std::int32_t>(std::floor(std::fma(position[1], inverse_spacing, -stencil_shift))),
-            static_cast<std::int32_t>(std::floor(std::fma(position[2], inverse_spacing, -stencil_shift)))};
-}
-
-/// Whether a point of `cell` may stay listed there.
-TREAD_HD bool stays_in(Index3 cell, const Vec3<double>& position, double inverse_spacing, double stencil_shift)
-{
-    const double reach     = 0.5 + (stencil_shift > 0 ? quadratic_cell_slack : 0);
-    const double centre[3] = {cell.x + 0.5 + stencil_shift, cell.y + 0.5 + stencil_shift, cell.z + 0.5 + stencil_shift};
-    bool         stays     = true;
-    for (int c = 0; c < 3; ++c)
-    {
-        const double off = std::fma(position[c], inverse_spacing, -centre[c]);
-        stays            = stays && off >= -reach && off < reach;
-    }
-    return stays;
-}
 
 } // namespace tread::mpm

@@ -115,8 +115,7 @@ void scatter_page(const PointsView<Real>& points, const PagesView& pages, std::i
     {
         const std::int64_t i       = pages.point_at[at];
         const Index3       cell    = node_at(low, pages.place_at[at]);
-        const auto         stencil = stencil_above<Real>(cell, points.position.get(i), pages.inverse_spacing,
-                                                 pages.inverse_spacing, pages.stencil_shift);
+        const auto         stencil = stencil_above<Real>(cell, points.position.get(i), pages.inverse_spacing, pages);
         add_load(burden(point_load(points, i)), stencil, spacing, tile + tile_base(stencil.base), Affine{});
     }
     store_tile(tile, out);

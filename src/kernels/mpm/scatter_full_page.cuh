@@ -218,13 +218,12 @@ struct ScatterPage
 
     __device__ void stage(std::int64_t i, Index3 cell, Real* brought) const
     {
-        const Stencil<Real> s =
-            stencil_above<Real>(cell, points.position.get(i), 1, pages.inverse_spacing, pages.stencil_shift);
-        const Real       mass     = points.mass[i];
-        const Vec3<Real> velocity = points.velocity.get(i);
-        const Real       scale    = -points.volume[i] * Real(pages.inverse_spacing);
-        const Sym3<Real> stress   = scale * points.stress.get(i);
-        brought[brought_mass]     = mass;
+        const Stencil<Real> s        = stencil_above<Real>(cell, points.position.get(i), 1, pages);
+        const Real          mass     = points.mass[i];
+        const Vec3<Real>    velocity = points.velocity.get(i);
+        const Real          scale    = -points.volume[i] * Real(pages.inverse_spacing);
+        const Sym3<Real>    stress   = scale * points.stress.get(i);
+        brought[brought_mass]        = mass;
         for (int c = 0; c < 3; ++c)
         {
             brought[brought_mass + 1 + c] = mass * velocity[c];

@@ -78,8 +78,7 @@ struct ScatterSparsePage
             const std::int64_t i     = pages.point_at[at];
             const int          place = pages.place_at[at];
             load                     = point_load(points, i);
-            s    = stencil_above<Real>(node_at(low, place), points.position.get(i), pages.inverse_spacing,
-                                    pages.inverse_spacing, pages.stencil_shift);
+            s    = stencil_above<Real>(node_at(low, place), points.position.get(i), pages.inverse_spacing, pages);
             base = (place & 3) + sparse_row * (place >> 2 & 3) + sparse_layer * (place >> 4);
         }
 #pragma unroll

@@ -52,20 +52,20 @@ TREAD_HD void axis_weights(Real f, Real inverse_spacing, double stencil_shift, R
     else { linear_weights(f, inverse_spacing, weight, slope); }
 }
 
-/// Stencil of a position (m) whose lowest node is `base`. `slope_scale`: 1/m, or 1 for slopes per spacing;
-/// `stencil_shift` 0.5 means quadratic, 0 linear.
+/// Stencil of a position (m) whose lowest node is `base`. `slope_scale`: 1/m, or 1 for slopes per spacing.
 template<class Real>
 TREAD_HD Stencil<Real> stencil_above(Index3 base, const Vec3<double>& position, double slope_scale,
-                                     double inverse_spacing, double stencil_shift)
+                                     const Lattice& lattice)
 {
     Stencil<Real> stencil;
     stencil.base          = base;
-    const double lowest[] = {double(base.x), double(base.y), double(base.z)};
+    const double shift    = lattice.node_shift;
+    const double lowest[] = {base.x + shift, base.y + shift, base.z + shift};
     for (int axis = 0; axis < 3; ++axis)
     {
-        stencil.fraction[axis] = static_cast<Real>(position[axis] * inverse_spacing - lowest[axis]);
-        axis_weights(stencil.fraction[axis], static_cast<Real>(slope_scale), stencil_shift, stencil.weight[axis],
-                     stencil.slope[axis]);
+        stencil.fraction[axis] = static_cast<Real>(position[axis] * lattice.inverse_spacing - lowest[axis]);
+        axis_weights(stencil.fraction[axis], static_cast<Real>(slope_scale), lattice.stencil_shift,
+                     stencil.weight[axis], stencil.slope[axis]);
     }
     return stencil;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/mpm/grid.hpp"
+#include "kernels/mpm/levels.hpp"
 
 // What walls do to the grid's velocity. A quadratic spline on a wall's plane weighs three nodes, 1/8, 6/8 and 1/8: a
 // node on the plane that stands still does not make the sand there stand still. The three nodes (outside, on the plane,
@@ -63,9 +64,10 @@ TREAD_HD Held held_by(const GridWalls& walls, Index3 node)
     return held;
 }
 
-/// Whether any wall may hold a node of the page at `page`.
+/// Whether any wall may hold a node of the page at `page`. Refined boxes keep off walls.
 TREAD_HD bool has_held_nodes(const GridWalls& walls, Index3 page)
 {
+    if (level_of(page) > 0) { return false; }
     for (int axis = 0; axis < 3; ++axis)
     {
         const std::int32_t first = along(page, axis) * page_edge;

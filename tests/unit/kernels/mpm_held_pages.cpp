@@ -83,8 +83,8 @@ protected:
         for (std::size_t i = 0; i < static_cast<std::size_t>(points.count); ++i)
         {
             const Vec3<double> at(x[i], x[s + i], x[2 * s + i]);
-            const auto         stencil =
-                stencil_above<double>(cell_of(at, 1 / spacing, 0.5), at, 1 / spacing, 1 / spacing, 0.5);
+            const Lattice      lattice = make_lattice(spacing, 0.5);
+            const auto         stencil = stencil_above<double>(cell_of(at, lattice), at, 1 / spacing, lattice);
             for (int n = 0; n < 27; ++n)
             {
                 const int a = n % 3, b = n / 3 % 3, c = n / 9;

@@ -39,8 +39,9 @@ void expect_partition_of_unity(double shift, double tolerance)
     for (int trial = 0; trial < 10000; ++trial)
     {
         const double       spacing = 0.025;
+        const Lattice      lattice = make_lattice(spacing, shift);
         const Vec3<double> x(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-        const auto stencil = stencil_above<Real>(cell_of(x, 1 / spacing, shift), x, 1 / spacing, 1 / spacing, shift);
+        const auto         stencil = stencil_above<Real>(cell_of(x, lattice), x, 1 / spacing, lattice);
         for (int axis = 0; axis < 3; ++axis)
         {
             double sum = 0, slope = 0, moment = 0;
@@ -117,8 +118,8 @@ protected:
                 const auto   here = place[static_cast<std::size_t>(at)];
                 const Index3 cell = node_at(page_coordinates(keys[page]), here);
                 const auto   of   = page * page_cells + here;
-                misplaced += !stays_in(cell, {x[k], x[s + k], x[2 * s + k]}, 1 / spacing, 0.5) || at < cells[of] ||
-                             at >= cells[of + 1];
+                misplaced += !stays_in(cell, {x[k], x[s + k], x[2 * s + k]}, make_lattice(spacing, 0.5)) ||
+                             at < cells[of] || at >= cells[of + 1];
                 seen.insert(list[static_cast<std::size_t>(at)]);
             }
         }
@@ -151,7 +152,7 @@ TYPED_TEST(PagesTest, EveryPointStandsInTheRangeOfItsCell)
         {
             const auto   k    = static_cast<std::size_t>(i);
             const auto   s    = static_cast<std::size_t>(points.stride);
-            const Index3 cell = cell_of({x[k], x[s + k], x[2 * s + k]}, 1 / this->spacing, 0.5);
+            const Index3 cell = cell_of({x[k], x[s + k], x[2 * s + k]}, make_lattice(this->spacing, 0.5));
             EXPECT_EQ(page_key(page_of(cell)), keys[page]);
             const auto at = page * page_cells + static_cast<std::size_t>(place_in_page(cell));
             EXPECT_GE(i, cells[at]);
@@ -227,7 +228,8 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
         const MovesView moves{to.data(), counts.data(), stirred_in.data(), step};
         sums.fill_zero();
         peaks.fill_zero();
-        gather(this->exec(), points.view(), pages.view(this->spacing, 0.5), motion.data(),
+        const PagesView view = pages.view(this->spacing, 0.5);
+        gather(this->exec(), points.view(), view, all_point_pages(view), motion.data(),
                GatherStep<double>{dt, materials.data(), 0.0, nullptr}, moves, sums.data(), peaks.data());
         double     worst = 0;
         const auto rows  = peaks.to_host();
