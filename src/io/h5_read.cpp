@@ -104,8 +104,8 @@ std::vector<T> read_rows(const File& file, const std::string& name, int width, h
     const hsize_t rows    = rows_in(file, dataset, name, width);
     if (first > rows || count > rows - first)
     {
-        throw EnvironmentError(
-            fmt::format("{}: reading {} failed: {} rows, wanted up to {}", file.path(), name, rows, first + count));
+        throw EnvironmentError(fmt::format("{}: reading {} failed: {} rows; accepted: at least {}", file.path(), name,
+                                           rows, first + count));
     }
     require_readable<T>(file, dataset, name, rows, width);
     std::vector<T> values(count * static_cast<hsize_t>(width));

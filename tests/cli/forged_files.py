@@ -143,7 +143,7 @@ class Forged(RestartTest):
         free = {"run/timeseries", "run/snapshots", "contact/key"}  # others follow the last; a file and times are as long as they are
         cases = [(name, word, resize(by)) for name in datasets(original) if name not in free
                  for word, by in (("shorter", -1), ("longer", 1))]
-        self.check_all(text, original, cases, said_of=lambda name: name.split("/")[0] + "/")  # or of what is beside it
+        self.check_all(text, original, cases, said_of=lambda name: name.split("/")[0])  # or of what is beside it
 
 
 if __name__ == "__main__":

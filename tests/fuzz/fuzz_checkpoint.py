@@ -97,6 +97,7 @@ def main():
     options.add_argument("--seed", type=int, default=time.time_ns() % 10**9)
     options.add_argument("--finds", type=pathlib.Path, default=pathlib.Path("finds"))
     asked = options.parse_args()
+    numpy.seterr(over="ignore")  # 1e300 as a float is infinite
     codes, slowest, finds = collections.Counter(), (0.0, ""), 0
     with tempfile.TemporaryDirectory(prefix="tread-fuzz-") as name, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         folder = pathlib.Path(name)
