@@ -107,7 +107,7 @@ def other_type(text, chance):
 
 def swapped_values(text, chance):
     lines = text.splitlines()
-    keys = lines_with_keys(lines)
+    keys = [i for i in lines_with_keys(lines) if not LEFT_ALONE.search(lines[i])]
     if len(keys) > 1:
         a, b = chance.sample(keys, 2)
         (key_a, value_a), (key_b, value_b) = (lines[i].split("=", 1) for i in (a, b))
