@@ -321,9 +321,8 @@ Keys<Phase> phase_keys()
 Keys<Output> output_keys()
 {
     return {
-        optional("every", "s", &Output::every, number(span_of_time()),
-                 "Simulated time between rows of the time series."),
-        optional("snapshots_every", "s", &Output::snapshots_every, zero_or(span_of_time()),
+        optional("every", "s", &Output::every, number(interval()), "Simulated time between rows of the time series."),
+        optional("snapshots_every", "s", &Output::snapshots_every, zero_or(interval()),
                  "Simulated time between snapshots; 0 writes none."),
         optional(
             "bed_after", "", &Output::bed_after, name(),
@@ -339,9 +338,9 @@ Keys<Output> output_keys()
 Keys<CheckpointOptions> checkpoint_keys()
 {
     return {
-        optional("every_wall", "s", &CheckpointOptions::every_wall, number(time_or_none()),
+        optional("every_wall", "s", &CheckpointOptions::every_wall, zero_or(interval()),
                  "Wall time between checkpoints; 0: never for that."),
-        optional("every_time", "s", &CheckpointOptions::every_time, zero_or(span_of_time()),
+        optional("every_time", "s", &CheckpointOptions::every_time, zero_or(interval()),
                  "Simulated time between checkpoints; 0: never for that."),
         optional("every_steps", "", &CheckpointOptions::every_steps, integer<std::int64_t>(0, 1'000'000'000'000),
                  "Steps between checkpoints; 0: never for that."),

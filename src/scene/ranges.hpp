@@ -19,8 +19,9 @@ inline Range stiffness() { return between(1, 1e15); }       ///< Pa; diamond has
 inline Range strength() { return between(0, 1e12); }        ///< Pa
 inline Range mass() { return between(1e-12, 1e12); }        ///< kg
 inline Range force() { return between(1e-12, 1e12); }       ///< N
-inline Range span_of_time() { return between(1e-9, 1e7); }  ///< s; 1e7 s are four months
-inline Range time_or_none() { return between(0, 1e7); }     ///< s
+inline Range span_of_time() { return between(1e-9, 1e10); } ///< s; three centuries
+inline Range time_or_none() { return between(0, 1e10); }    ///< s
+inline Range interval() { return between(1e-9, 1e12); }     ///< s; longer than any run: "never"
 inline Range step_of_time() { return between(1e-12, 1e3); } ///< s
 inline Range coefficient() { return between(0, 1e3); }      ///< of friction
 inline Range pure_number() { return between(0, 1e6); }
