@@ -87,8 +87,8 @@ class HostileCounts(HostileInput):
                                       "coarsen [grid] spacing"])
 
     def test_columns_of_points(self):
-        text = SCENE.replace("spacing = 0.05", "spacing = 1e-6")
-        self.refuse_for_memory(text, ["[[terrain]] 0", "6.4e+11 columns of points"])
+        text = SCENE.replace("spacing = 0.05", "spacing = 2e-6")
+        self.refuse_for_memory(text, ["[[terrain]] 0", "1.6e+11 columns of points"])
 
     def test_columns_of_the_surface(self):
         size = "size    = [0.4, 0.4, 0.4]"
