@@ -15,7 +15,7 @@ inline Range velocity() { return between(-1e4, 1e4); }      ///< m/s
 inline Range speed() { return between(1e-9, 1e4); }         ///< m/s
 inline Range spin() { return between(-1e5, 1e5); }          ///< rad/s
 inline Range density() { return between(1e-3, 1e6); }       ///< kg/m3
-inline Range stiffness() { return between(1, 1e15); }       ///< Pa; diamond has 1e12
+inline Range stiffness() { return between(1, 1e18); }       ///< Pa; diamond has 1e12
 inline Range strength() { return between(0, 1e12); }        ///< Pa
 inline Range mass() { return between(1e-12, 1e12); }        ///< kg
 inline Range force() { return between(1e-12, 1e12); }       ///< N
