@@ -431,7 +431,7 @@ class Studies(unittest.TestCase):
             (("--vary", "time.dt=1e-3"), "at least two values"),
             (("--vary", "time.dt=1e-3,"), "an empty value"),
             (("--vary", "time.dt=1e-3,1e-3"), "stands there twice"),
-            (("--vary", "time.dt=1e-3,0"), r"\[time\] dt: 0 is out of range; accepted: number > 0, or \"auto\" \(s\)"),
+            (("--vary", "time.dt=1e-3,0"), r"\[time\] dt: 0 is out of range; accepted: number >= 1e-12 and <= 1000, or \"auto\" \(s\)"),
             (("--vary", "time.substeps=1,2.5"), r"\[time\] substeps: .*accepted: .*integer"),
             (("--vary", "time.td=1e-3,2e-3"), r"\[time\] td: unknown key; accepted: dt, substeps"),
             (("--vary", "body.bell.mass=1,2"), "no 'bell' among ball"),
