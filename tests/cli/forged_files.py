@@ -120,7 +120,7 @@ class Forged(RestartTest):
         return original
 
     def test_every_data_set_of_sand_and_a_rock_is_checked(self):
-        original = self.check_every_value(lasting(MIXED, 0.04))
+        original = self.check_every_value(lasting(MIXED, 0.03))
         for name in ("bodies/material", "bodies/shape", "candidates/body", "candidates/point", "pages/first_point", "pages/point_at",
                      "pages/node_page_of", "pages/point_page_of", "points/id_0", "bodies/scale", "contact/key"):
             self.assertIn(name, datasets(original))
