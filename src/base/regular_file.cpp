@@ -3,6 +3,10 @@
 #include <filesystem>
 #include <system_error>
 
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+
 namespace tread
 {
 
@@ -24,6 +28,11 @@ std::optional<std::string> irregularity(const std::string& path)
     default:
         return "it is a device or a socket; accepted: a regular file";
     }
+}
+
+void require_regular(const std::string& path)
+{
+    if (const auto why = irregularity(path)) { throw EnvironmentError(fmt::format("{}: {}", path, *why)); }
 }
 
 } // namespace tread

@@ -10,4 +10,7 @@ namespace tread
 /// link leads to; does not open it.
 std::optional<std::string> irregularity(const std::string& path);
 
+/// EnvironmentError, with that reason, unless a path is a regular file.
+void require_regular(const std::string& path);
+
 } // namespace tread

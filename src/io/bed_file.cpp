@@ -228,7 +228,7 @@ void write_bed(const std::string& path, const BedFile& bed, const Provenance& pr
 
 BedFile read_bed(const std::string& path)
 {
-    if (const auto why = irregularity(path)) { throw EnvironmentError(fmt::format("{}: {}", path, *why)); }
+    require_regular(path);
     run_in_child(path, [&] { return describe_here(path).substr(0, 0); });
     const h5::File file = h5::File::open_received(path);
     if (h5::read_text_attribute(file, "/", "format") != format_name) { refuse(path, "it has another format"); }

@@ -1,13 +1,13 @@
 #include "io/describe.hpp"
 
 #include <algorithm>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/errors.hpp"
+#include "base/printable.hpp"
 #include "io/h5.hpp"
 #include "io/in_child.hpp"
 
@@ -49,36 +49,6 @@ std::string text_value(const h5::Handle& attribute, const h5::Handle& type)
     if (H5Aread(attribute.id(), type.id(), value.data()) < 0) { return "?"; }
     value.erase(value.find_last_not_of('\0') + 1); // padding of a fixed-length string
     return value;
-}
-
-/// Bytes of the character that a text begins with; 0 if it is none of UTF-8, or one that a terminal would obey.
-std::size_t plain_bytes(std::string_view text)
-{
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    if (byte(0) < 0x80) { return byte(0) >= 0x20 ? byte(0) != 0x7f : byte(0) == '\n' || byte(0) == '\t'; }
-    const std::size_t bytes = byte(0) < 0xc2 ? 0 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : byte(0) < 0xf5 ? 4 : 0;
-    if (bytes == 0 || text.size() < bytes) { return 0; }
-    for (std::size_t i = 1; i < bytes; ++i)
-    {
-        if ((byte(i) & 0xc0) != 0x80) { return 0; }
-    }
-    const bool control = byte(0) == 0xc2 && byte(1) < 0xa0; // C1
-    const bool beyond  = (byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xed && byte(1) > 0x9f) ||
-                        (byte(0) == 0xf0 && byte(1) < 0x90) || (byte(0) == 0xf4 && byte(1) > 0x8f);
-    return control || beyond ? 0 : bytes;
-}
-
-/// The same without what a terminal would obey.
-std::string printable(const std::string& text)
-{
-    std::string shown;
-    for (std::size_t at = 0; at < text.size();)
-    {
-        const std::size_t bytes = plain_bytes(std::string_view(text).substr(at));
-        shown += bytes > 0 ? text.substr(at, bytes) : fmt::format("\\x{:02x}", static_cast<unsigned char>(text[at]));
-        at += std::max<std::size_t>(bytes, 1);
-    }
-    return shown;
 }
 
 std::string attribute_value(const h5::Handle& attribute)

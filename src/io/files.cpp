@@ -34,7 +34,7 @@ struct Close
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// Of a file that was not there before; below 0 where that fails.
+/// Makes a new file and returns its descriptor; below 0 where that fails.
 int open_new(const std::string& path)
 {
     remove_name(path);
@@ -127,7 +127,7 @@ std::int64_t free_space(const std::string& path)
 
 std::string read_file(const std::string& path)
 {
-    if (const auto why = irregularity(path)) { throw EnvironmentError(fmt::format("{}: {}", path, *why)); }
+    require_regular(path);
     std::ifstream file(path, std::ios::binary);
     std::string   bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
     if (!file) { throw EnvironmentError(fmt::format("{}: cannot be read", path)); }

@@ -116,7 +116,7 @@ File File::append(const std::string& path)
 File File::open(const std::string& path)
 {
     silence();
-    if (const auto why = irregularity(path)) { throw EnvironmentError(fmt::format("{}: {}", path, *why)); }
+    require_regular(path);
     const Handle access = property_list(H5P_FILE_ACCESS);
     H5Pset_file_locking(access.id(), false, true);
     const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id());

@@ -57,7 +57,7 @@ std::string in_the_way(const fs::path& directory)
     return {};
 }
 
-/// Of a file, if it is one.
+/// Contents of a regular file; nothing of anything else.
 std::optional<std::string> text_of(const fs::path& path)
 {
     return irregularity(path.string()) ? std::nullopt : std::optional<std::string>(read_file(path.string()));

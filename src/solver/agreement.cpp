@@ -21,7 +21,7 @@ namespace
 
 constexpr std::size_t most_lines = 20; ///< of a message, a rank
 
-/// Of all bytes of a file, as this rank sees it.
+/// Size and checksum of a file, as this rank sees it.
 std::string contents(const Communicator& alone, const std::string& path)
 {
     std::error_code error;

@@ -11,8 +11,8 @@ namespace tread::solver
 {
 
 /// Runs a command between the start and the end of HDF5 and MPI; what it returns, or the exit code of its error, is
-/// that of all ranks. An error that all ranks come upon together is said once, by rank 0; one that befell a rank alone
-/// is said by it, and ends the job.
+/// that of all ranks. Rank 0 reports an error that all ranks have; an error of one rank alone is reported by that
+/// rank and ends the job.
 ExitCode on_ranks(const std::function<ExitCode(const Communicator&)>& command);
 
 /// Ends the job, with exit code 4, when a rank waits for so many seconds; each rank that does says so. None on one

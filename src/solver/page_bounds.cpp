@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/sort.hpp"
 #include "kernels/mpm/tile_kern.hpp"
 
 namespace tread::solver
@@ -17,25 +18,11 @@ using accept::Verdict;
 
 constexpr std::uint64_t key_end = std::uint64_t{1} << 57; ///< keys are Morton codes of 57 bits
 
-/// The place of the page at `offset` from a page in ascending keys, or -1.
-std::int32_t place_of(const std::vector<std::uint64_t>& keys, std::uint64_t from, mpm::Index3 offset)
+/// The place of a page in ascending keys, or -1.
+std::int32_t place_of(const std::vector<std::uint64_t>& keys, mpm::Index3 page)
 {
-    const mpm::Index3   page = mpm::page_coordinates(from);
-    const std::uint64_t key  = mpm::page_key({page.x + offset.x, page.y + offset.y, page.z + offset.z});
-    const auto          at   = std::lower_bound(keys.begin(), keys.end(), key);
-    return at != keys.end() && *at == key ? static_cast<std::int32_t>(at - keys.begin()) : -1;
-}
-
-mpm::Index3 octant(std::size_t o, int sign)
-{
-    const int bits = static_cast<int>(o);
-    return {sign * (bits & 1), sign * (bits >> 1 & 1), sign * (bits >> 2)};
-}
-
-mpm::Index3 direction(std::size_t d)
-{
-    const int number = static_cast<int>(d);
-    return {number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1};
+    return static_cast<std::int32_t>(
+        find_sorted(keys.data(), static_cast<std::int64_t>(keys.size()), mpm::page_key(page)));
 }
 
 /// Accepts a table of `width` places for each of the keys, each of them what expected(key, column) says.
@@ -67,7 +54,7 @@ Verdict PageBounds::keys(const std::string& name, const std::vector<std::uint64_
     return {};
 }
 
-/// Of each point of the list, its cell's place in the page.
+/// Checks the place in its page of each listed point's cell.
 Verdict PageBounds::places(const std::string& name, const std::vector<std::uint8_t>& values) const
 {
     if (name != "place_at") { return Refusal{-1, "a table of bytes", "one that this program knows"}; }
@@ -123,22 +110,25 @@ Verdict PageBounds::cells(const std::vector<std::int32_t>& values) const
 
 Verdict PageBounds::neighbours(const std::vector<std::int32_t>& values) const
 {
-    return table(values, point_page_key_, mpm::directions,
-                 [&](std::uint64_t key, std::size_t d) { return place_of(point_page_key_, key, direction(d)); });
+    const auto place = [&](std::uint64_t key, std::size_t d)
+    { return place_of(point_page_key_, mpm::page_towards(mpm::page_coordinates(key), static_cast<int>(d))); };
+    return table(values, point_page_key_, mpm::directions, place);
 }
 
 /// Every point page has the node pages that it reaches.
 Verdict PageBounds::node_pages(const std::vector<std::int32_t>& values) const
 {
-    const auto place = [&](std::uint64_t key, std::size_t o) { return place_of(node_page_key_, key, octant(o, 1)); };
+    const auto place = [&](std::uint64_t key, std::size_t o)
+    { return place_of(node_page_key_, mpm::page_at_octant(mpm::page_coordinates(key), static_cast<int>(o))); };
     if (auto refusal = table(values, point_page_key_, mpm::octants, place)) { return refusal; }
     return accept::index(node_page_key_.size())(values);
 }
 
 Verdict PageBounds::point_pages(const std::vector<std::int32_t>& values) const
 {
-    return table(values, node_page_key_, mpm::octants,
-                 [&](std::uint64_t key, std::size_t o) { return place_of(point_page_key_, key, octant(o, -1)); });
+    const auto place = [&](std::uint64_t key, std::size_t o)
+    { return place_of(point_page_key_, mpm::page_at_octant(mpm::page_coordinates(key), static_cast<int>(o), -1)); };
+    return table(values, node_page_key_, mpm::octants, place);
 }
 
 } // namespace tread::solver

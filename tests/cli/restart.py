@@ -16,6 +16,12 @@ class Restart(RestartTest):
     def test_sand_restarted_gives_the_same_bits(self):
         self.check_uninterrupted_is_stopped_and_restarted(lasting(SCENE, 0.3))
 
+    def test_a_refined_grid_restarted_gives_the_same_bits(self):
+        text = lasting(SCENE, 0.1).replace("[0.4, 0.4, 0.4]", "[0.8, 0.8, 0.8]").replace("[0.4, 0.4, 0.1]", "[0.8, 0.8, 0.35]")
+        refined = text.replace("spacing = 0.05", "spacing = 0.05\nrefine = [[[0.23, 0.23, 0.23], [0.55, 0.55, 0.55]]]")
+        self.assertNotEqual(refined, text)
+        self.check_uninterrupted_is_stopped_and_restarted(refined)
+
     def test_bodies_restarted_give_the_same_bits(self):
         self.check_uninterrupted_is_stopped_and_restarted(lasting(BODIES, 0.3))
 

@@ -58,7 +58,7 @@ struct CellBox
     Index3 low{0, 0, 0};
     Index3 high{0, 0, 0};
 
-    /// By so many cells on every side.
+    /// The box with so many more cells on every side.
     TREAD_HD CellBox grown(std::int32_t by) const
     {
         return {{low.x - by, low.y - by, low.z - by}, {high.x + by, high.y + by, high.z + by}};

@@ -92,16 +92,11 @@ TREAD_HD bool is_near_box(const Refinement& refinement, Index3 page)
            low.x < box.high.x + around && low.y < box.high.y + around && low.z < box.high.z + around;
 }
 
-TREAD_HD Index3 neighbour_at(Index3 page, int direction)
-{
-    return {page.x + direction % 3 - 1, page.y + direction / 3 % 3 - 1, page.z + direction / 9 - 1};
-}
-
 /// The page of the next level in a direction from twice a page.
 TREAD_HD Index3 finer_page(Index3 page, int direction)
 {
     const Index3 plain = plain_page(page);
-    return shifted_by(neighbour_at({2 * plain.x, 2 * plain.y, 2 * plain.z}, direction),
+    return shifted_by(page_towards({2 * plain.x, 2 * plain.y, 2 * plain.z}, direction),
                       level_offset(level_of(page) + 1));
 }
 
@@ -109,9 +104,8 @@ TREAD_HD Index3 finer_page(Index3 page, int direction)
 TREAD_HD Index3 coarser_page(Index3 page, int octant)
 {
     const Index3 plain = plain_page(page);
-    return shifted_by(
-        {(plain.x >> 1) + (octant & 1), (plain.y >> 1) + (octant >> 1 & 1), (plain.z >> 1) + (octant >> 2)},
-        level_offset(level_of(page) - 1));
+    return shifted_by(page_at_octant({plain.x >> 1, plain.y >> 1, plain.z >> 1}, octant),
+                      level_offset(level_of(page) - 1));
 }
 
 /// Cell of a position on the finest level that has one there.

@@ -128,16 +128,6 @@ struct FirstOfCell
     }
 };
 
-TREAD_HD Index3 shifted(Index3 page, int octant, int sign)
-{
-    return {page.x + sign * (octant & 1), page.y + sign * (octant >> 1 & 1), page.z + sign * (octant >> 2)};
-}
-
-TREAD_HD Index3 towards(Index3 page, int direction)
-{
-    return {page.x + direction % 3 - 1, page.y + direction / 3 % 3 - 1, page.z + direction / 9 - 1};
-}
-
 /// How far from its page's faces, in cells, a point makes the page beyond be listed, too.
 constexpr int surround_reach = 2;
 
@@ -179,7 +169,7 @@ struct SurroundingKeys
     {
         const std::uint64_t own       = page_key[i / directions];
         const int           direction = static_cast<int>(i % directions);
-        const Index3        page      = towards(page_coordinates(own), direction);
+        const Index3        page      = page_towards(page_coordinates(own), direction);
         const Lattice       lattice   = level_lattice(geometry.lattice(), level_of(page));
         const double        edge = page_edge * lattice.spacing, shift = lattice.node_shift * lattice.spacing;
         const double        corner[] = {page.x * edge + shift, page.y * edge + shift, page.z * edge + shift};
@@ -202,7 +192,7 @@ struct NeighbourKeys
 
     TREAD_HD void operator()(std::int64_t i) const
     {
-        keys[i]  = tread::mpm::page_key(shifted(page_coordinates(page_key[i / 8]), static_cast<int>(i % 8), 1));
+        keys[i]  = tread::mpm::page_key(page_at_octant(page_coordinates(page_key[i / 8]), static_cast<int>(i % 8)));
         order[i] = 0;
     }
 };
@@ -238,7 +228,7 @@ struct FindNeighbours
 
     TREAD_HD void operator()(std::int64_t i) const
     {
-        const auto key = page_key(shifted(page_coordinates(from_key[i / 8]), static_cast<int>(i % 8), sign));
+        const auto key = page_key(page_at_octant(page_coordinates(from_key[i / 8]), static_cast<int>(i % 8), sign));
         found[i]       = static_cast<std::int32_t>(find_sorted(in_key, in_count, key));
     }
 };
@@ -251,7 +241,7 @@ struct FindAround
 
     TREAD_HD void operator()(std::int64_t i) const
     {
-        const Index3 page = towards(page_coordinates(page_key[i / directions]), static_cast<int>(i % directions));
+        const Index3 page = page_towards(page_coordinates(page_key[i / directions]), static_cast<int>(i % directions));
         neighbour[i]      = static_cast<std::int32_t>(find_sorted(page_key, pages, tread::mpm::page_key(page)));
     }
 };

@@ -12,6 +12,17 @@ namespace tread::mpm
 constexpr int directions = 27;
 constexpr int own_page   = 13;
 
+TREAD_HD Index3 page_towards(Index3 page, int direction)
+{
+    return {page.x + direction % 3 - 1, page.y + direction / 3 % 3 - 1, page.z + direction / 9 - 1};
+}
+
+/// The page at an octant, (octant & 1, octant >> 1 & 1, octant >> 2), of a page; `sign` -1: at the opposite one.
+TREAD_HD Index3 page_at_octant(Index3 page, int octant, int sign = 1)
+{
+    return {page.x + sign * (octant & 1), page.y + sign * (octant >> 1 & 1), page.z + sign * (octant >> 2)};
+}
+
 /// The pages that hold points, with all their neighbours ("point pages"), and those that their stencils reach ("node
 /// pages", which include them). Points are listed by page key, then by place in the page; in memory they stand as they
 /// were when they were last ordered. The cell of a point is the one in which it is listed.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "kernels/mpm/numbered_pages_impl.hpp"
 #include "kernels/mpm/seams_kern.hpp"
 #include "kernels/mpm/shared_pages_impl.hpp"
 
@@ -31,28 +32,6 @@ struct IsSeamPage
             }
         }
         return false;
-    }
-};
-
-struct MarkSeamPage
-{
-    IsSeamPage    is_seam;
-    std::int32_t* marks;
-
-    TREAD_HD void operator()(std::int64_t i) const { marks[i] = is_seam(i); }
-};
-
-/// After the scan number_of[i] counts the seam pages before i.
-struct WriteSeamPage
-{
-    IsSeamPage    is_seam;
-    std::int32_t* number_of;
-    std::int32_t* page;
-
-    TREAD_HD void operator()(std::int64_t i) const
-    {
-        if (is_seam(i)) { page[number_of[i]] = static_cast<std::int32_t>(i); }
-        else { number_of[i] = -1; }
     }
 };
 
@@ -87,7 +66,7 @@ struct FindParent
     }
 };
 
-/// Of level l, and one past the last.
+/// Finds the first point page of a level.
 struct FindLevel
 {
     PagesView     pages;
@@ -168,13 +147,9 @@ void list_seams(const Exec& exec, const PagesView& pages, const Refinement& refi
                 SortScratch<Exec>& scratch)
 {
     using namespace seam_steps;
-    const IsSeamPage is_seam{pages, refinement};
-    seams.number_of.resize(pages.node_pages);
-    for_each(exec, "mark seam pages", pages.node_pages, MarkSeamPage{is_seam, seams.number_of.data()});
-    const std::int64_t count = exclusive_scan(exec, seams.number_of, scratch);
-    seams.page.resize(count);
-    for_each(exec, "write seam pages", pages.node_pages,
-             WriteSeamPage{is_seam, seams.number_of.data(), seams.page.data()});
+    number_pages(exec, pages, IsSeamPage{pages, refinement}, "mark seam pages", "write seam pages", seams.page,
+                 seams.number_of, scratch);
+    const std::int64_t count = seams.page.size();
     seams.child.resize(directions * count);
     for_each(exec, "find finer pages", seams.child.size(),
              FindChild{pages, refinement, seams.page.data(), seams.number_of.data(), seams.child.data()});

@@ -6,12 +6,6 @@
 namespace tread::mpm
 {
 
-/// Node page of a key, or -1.
-TREAD_HD std::int32_t find_node_page(const PagesView& pages, Index3 page)
-{
-    return static_cast<std::int32_t>(find_sorted(pages.node_page_key, pages.node_pages, page_key(page)));
-}
-
 /// Share of child c (0..3) of a node along an axis.
 template<class Real>
 TREAD_HD Real child_share(int c)
@@ -19,7 +13,8 @@ TREAD_HD Real child_share(int c)
     return c == 0 || c == 3 ? Real(0.25) : Real(0.75);
 }
 
-/// What the slave nodes among the children of node `place` of seam page `number` hand down to it is added to `total`.
+/// Adds to `total` what the slave nodes among the children of node `place` of a page hand down to it. `child`: seam
+/// pages of the next level, by direction; `totals`: of all seam pages.
 template<class Real>
 TREAD_HD void add_children(const Refinement& refinement, Index3 page, int place, const std::int32_t* child,
                            const Real* totals, Real* total)

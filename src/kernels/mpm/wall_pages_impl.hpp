@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/mpm/numbered_pages_impl.hpp"
 #include "kernels/mpm/wall_kern.hpp"
 #include "kernels/mpm/wall_pages.hpp"
 
@@ -7,33 +8,14 @@
 namespace tread::mpm
 {
 
-struct MarkWallPage
+struct IsWallPage
 {
-    PagesView     pages;
-    GridWalls     walls;
-    std::int32_t* marks;
+    PagesView pages;
+    GridWalls walls;
 
-    TREAD_HD void operator()(std::int64_t i) const
+    TREAD_HD bool operator()(std::int64_t i) const
     {
-        marks[i] = has_held_nodes(walls, page_coordinates(pages.node_page_key[i]));
-    }
-};
-
-/// After the scan number_of[i] counts the wall pages before i.
-struct WriteWallPage
-{
-    PagesView     pages;
-    GridWalls     walls;
-    std::int32_t* number_of;
-    std::int32_t* page;
-
-    TREAD_HD void operator()(std::int64_t i) const
-    {
-        if (has_held_nodes(walls, page_coordinates(pages.node_page_key[i])))
-        {
-            page[number_of[i]] = static_cast<std::int32_t>(i);
-        }
-        else { number_of[i] = -1; }
+        return has_held_nodes(walls, page_coordinates(pages.node_page_key[i]));
     }
 };
 
@@ -46,10 +28,8 @@ struct FindWallPage
 
     TREAD_HD void operator()(std::int64_t i) const
     {
-        const Index3       from = page_coordinates(pages.node_page_key[page[i / directions]]);
-        const int          d    = static_cast<int>(i % directions);
-        const Index3       to{from.x + d % 3 - 1, from.y + d / 3 % 3 - 1, from.z + d / 9 - 1};
-        const std::int64_t found = find_sorted(pages.node_page_key, pages.node_pages, page_key(to));
+        const Index3       from  = page_coordinates(pages.node_page_key[page[i / directions]]);
+        const std::int32_t found = find_node_page(pages, page_towards(from, static_cast<int>(i % directions)));
         neighbour[i]             = found < 0 ? -1 : number_of[found];
     }
 };
@@ -59,10 +39,8 @@ void list_wall_pages(const Exec& exec, const PagesView& pages, const GridWalls& 
                      WallPages<Exec, Real>& wall_pages, SortScratch<Exec>& scratch)
 {
     auto& [page, number_of, neighbour, node] = wall_pages;
-    number_of.resize(pages.node_pages);
-    for_each(exec, "mark wall pages", pages.node_pages, MarkWallPage{pages, walls, number_of.data()});
-    page.resize(exclusive_scan(exec, number_of, scratch));
-    for_each(exec, "write wall pages", pages.node_pages, WriteWallPage{pages, walls, number_of.data(), page.data()});
+    number_pages(exec, pages, IsWallPage{pages, walls}, "mark wall pages", "write wall pages", page, number_of,
+                 scratch);
     neighbour.resize(directions * page.size());
     for_each(exec, "find wall pages", neighbour.size(),
              FindWallPage{pages, page.data(), number_of.data(), neighbour.data()});
