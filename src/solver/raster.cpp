@@ -14,6 +14,7 @@
 #include "base/bytes_text.hpp"
 #include "base/errors.hpp"
 #include "base/host_memory.hpp"
+#include "base/regular_file.hpp"
 #include "base/saturated.hpp"
 
 namespace tread::solver
@@ -27,17 +28,16 @@ constexpr std::size_t most_samples = 100'000'000;
 std::string contents(const std::string& path)
 {
     constexpr double most = 1e9, with_samples = 1 + 0.5 * sizeof(double);
-    std::error_code  error;
-    const auto       bytes = static_cast<double>(std::filesystem::file_size(path, error));
-    if (!error && bytes > most)
+    if (const auto why = irregularity(path)) { throw InputError(fmt::format("{}: {}", path, *why)); }
+    std::error_code error;
+    const auto      bytes = static_cast<double>(std::filesystem::file_size(path, error));
+    if (error) { throw InputError(fmt::format("{}: cannot be read: {}", path, error.message())); }
+    if (bytes > most)
     {
         throw InputError(fmt::format("{}: a file of {}; accepted: at most {}", path, bytes_text(saturated(bytes)),
                                      bytes_text(saturated(most))));
     }
-    if (!error)
-    {
-        require_host_memory({with_samples * bytes, fmt::format("{}: its samples", path), "a file of fewer samples"});
-    }
+    require_host_memory({with_samples * bytes, fmt::format("{}: its samples", path), "a file of fewer samples"});
     std::ifstream stream(path, std::ios::binary);
     std::string   text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
     if (!stream) { throw InputError(fmt::format("{}: cannot be read", path)); }

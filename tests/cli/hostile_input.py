@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Text and numbers that no honest scene has: refused with place, figure and accepted range, before memory is taken."""
 
+import os
 import resource
 import unittest
 
@@ -139,6 +140,14 @@ class HostileCounts(HostileInput):
             self.refuse(text, [f"{name}: a file of 5.00 GB; accepted: at most 1.00 GB"])
             self.sparse(name, 900_000_000)
             self.refuse_for_memory(text, [f"{name}: its samples"])
+
+    def test_inputs_that_would_be_waited_for(self):
+        os.mkfifo(self.directory / "heights.csv")
+        text = SCENE.replace("[0.4, 0.4, 0.1]] }", '[0.4, 0.4, 0.1]] }\nheight = { file = "heights.csv" }')
+        self.refuse(text, ["heights.csv: it is a pipe; accepted: a regular file"])
+        os.mkfifo(self.directory / "mesh.stl")
+        old = next(line for line in SCENE.splitlines() if line.startswith("generate"))
+        self.refuse(SCENE.replace(old, 'file = "mesh.stl"') + BODY, ["mesh.stl"])
 
     def test_large_mesh(self):
         self.sparse("mesh.stl", 5_000_000_000)
