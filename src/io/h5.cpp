@@ -52,6 +52,12 @@ Handle collective_transfer()
     return transfer;
 }
 
+/// Small data sets and chunks reach the disk here, and nowhere else is said that they did not.
+void close_written(Handle& dataset, const File& file, const std::string& what)
+{
+    check(H5Dclose(dataset.release()), file, what);
+}
+
 Handle links_with_groups()
 {
     Handle links = property_list(H5P_LINK_CREATE);
@@ -163,13 +169,14 @@ void write(const File& file, const std::string& name, const std::vector<T>& valu
     const Handle links = links_with_groups();
     const hid_t  id =
         H5Dcreate2(file.id(), name.c_str(), type_of<T>(), in_file.id(), links.id(), creation.id(), H5P_DEFAULT);
-    const Handle dataset{checked(id, file.path(), what), H5Dclose};
+    Handle dataset{checked(id, file.path(), what), H5Dclose};
 
     const Handle in_memory = dataspace(shape(rows.count, width));
     if (rows.count == 0) { H5Sselect_none(in_memory.id()); }
     select_rows(file, in_file, rows.first, rows.count, width);
     check(H5Dwrite(dataset.id(), type_of<T>(), in_memory.id(), in_file.id(), file.transfer(), values.data()), file,
           what);
+    close_written(dataset, file, what);
 }
 
 template void write(const File&, const std::string&, const std::vector<double>&, int, const Rows&);
@@ -193,14 +200,15 @@ void create_growing(const File& file, const std::string& name, int width)
     H5Pset_chunk(creation.id(), static_cast<int>(chunk.size()), chunk.data());
     const hid_t id =
         H5Dcreate2(file.id(), name.c_str(), H5T_NATIVE_DOUBLE, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT);
-    const Handle dataset{checked(id, file.path(), "creating " + name), H5Dclose};
+    Handle dataset{checked(id, file.path(), "creating " + name), H5Dclose};
+    close_written(dataset, file, "creating " + name);
 }
 
 void append_rows(const File& file, const std::string& name, const std::vector<double>& values, int width)
 {
     const std::string what    = "appending to " + name;
     const hsize_t     count   = values.size() / static_cast<hsize_t>(width);
-    const Handle      dataset = open_dataset(file, name);
+    Handle            dataset = open_dataset(file, name);
 
     hsize_t size[2] = {0, 0};
     {
@@ -216,6 +224,7 @@ void append_rows(const File& file, const std::string& name, const std::vector<do
     select_rows(file, in_file, first, count, width);
     check(H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, in_memory.id(), in_file.id(), file.transfer(), values.data()), file,
           what);
+    close_written(dataset, file, what);
 }
 
 void write_attribute(const File& file, const std::string& object, const std::string& name, const std::string& value)
