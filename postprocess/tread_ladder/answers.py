@@ -5,7 +5,6 @@ import math
 from dataclasses import dataclass, fields
 
 import numpy as np
-from tread_ladder.problems import LAYERS
 from tread_post import Run
 from tread_post.answers import last_drive
 from tread_post.convergence import limit_of
@@ -56,7 +55,7 @@ def _fitted(problem, name, answers):
 
 
 def _width(run):
-    return LAYERS * run.scene["grid"]["spacing"]
+    return run.scene["domain"]["size"][1]
 
 
 def _cohesion(run):

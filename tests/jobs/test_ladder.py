@@ -23,7 +23,7 @@ sys.path.insert(0, str(ROOT / "postprocess"))
 
 from tread_ladder.answers import PRANDTL, cylinder_load  # noqa: E402
 from tread_ladder.arguments import changes_of, write_arguments  # noqa: E402
-from tread_ladder.problems import LAYERS, PROBLEMS, SCENES, plate_mesh, settings_of  # noqa: E402
+from tread_ladder.problems import PROBLEMS, SCENES, layers_of, plate_mesh, settings_of  # noqa: E402
 
 LADDER = ROOT / "postprocess" / "ladder.py"
 PLATE, CYLINDER, ELASTIC, SAND = (PROBLEMS[name] for name in ("plate_clay", "cylinder_clay", "drum_elastic", "drum_sand"))
@@ -64,13 +64,19 @@ def columns_of(time, force, sinkage=0.0, torque=0.0, speed=0.0, pull=0.0):
     }
 
 
+def width_of(problem, count):
+    """m, of the slab."""
+    h = problem.length / count
+    return layers_of(problem, h) * h
+
+
 def make_run(output, problem, count, columns, settings=()):
     """A finished run of a problem with `count` cells, as `ladder.py run` leaves it."""
     folder = output / problem.name / str(count)
     folder.mkdir(parents=True)
     write_arguments(folder, settings)
     drive = f"\ndrive = {{ body = '{problem.body}', angular_velocity = {SPIN}, ramp = {RAMP} }}" if problem.body == "drum" else ""
-    (folder / "scene.toml").write_text(f"[grid]\nspacing = {problem.length / count!r}\n[[material]]\nname = 'soil'\ncohesion = {COHESION}\n"
+    (folder / "scene.toml").write_text(f"[domain]\nsize = [1.0, {width_of(problem, count)!r}, 1.0]\n[[material]]\nname = 'soil'\ncohesion = {COHESION}\n"
                                        f"[[body]]\nname = '{problem.body}'\n[[phase]]\nname = 'only'{drive}\n")
     (folder / "summary.json").write_text(json.dumps({"status": "finished"}))
     with h5py.File(folder / "timeseries.h5", "w") as file:
@@ -100,6 +106,14 @@ class LadderTest(unittest.TestCase):
 
 class SceneTest(LadderTest):
     """What the ladder sets is what the scenes' own files say."""
+
+    def test_no_drum_is_too_narrow_for_tread(self):
+        for count in (12, 20, 34, 38, 40, 50, 100):
+            settings = changes_of(settings_of(SAND, count))
+            width, across = float(settings["shape.drum.generate.width"]), json.loads(settings["domain.size"])[1]
+            self.assertGreaterEqual(width, SAND.length / 20)
+            self.assertLess(width, across)
+            self.assertLessEqual(width, max(2 * SAND.length / count, SAND.length / 20 + SAND.length / count))
 
     def test_settings_of_the_first_count_are_the_scenes_own(self):
         for problem in PROBLEMS.values():
@@ -154,7 +168,7 @@ class ReportTest(LadderTest):
         for count in counts:
             h = PLATE.length / count
             time = np.linspace(0, 0.075, 201)
-            load = (limit + slope * h**order) * 0.5 * PLATE.length * COHESION * LAYERS * h
+            load = (limit + slope * h**order) * 0.5 * PLATE.length * COHESION * width_of(PLATE, count)
             # Before the last quarter the plate carries something else.
             make_run(self.output, PLATE, count, columns_of(time, np.where(time < 0.056, 0.3 * load, load), sinkage=0.02 * time))
         rows = self.rows(PLATE, counts, "load_over_c")
@@ -168,12 +182,12 @@ class ReportTest(LadderTest):
         self.assertIn("order 0.94", (self.output / "ladder.txt").read_text())
 
     def test_noise_of_a_drive_becomes_a_range_of_the_order(self):
-        limit, slope, order, sigma, counts = -100.0, 30000.0, 1.0, 5.0, (12, 20, 28, 36)
+        limit, slope, order, sigma, counts = -100.0, 30000.0, 1.0, 5.0, (12, 20, 34, 50)
         random, time = np.random.default_rng(5), np.arange(0, END + 1e-9, 0.005)
         for count in counts:
-            h = SAND.length / count
-            pull = (limit + slope * h**order + random.normal(0, sigma, len(time))) * LAYERS * h
-            make_run(self.output, SAND, count, columns_of(time, SAND.load * LAYERS * h, torque=500 * LAYERS * h, speed=0.6 * SPIN * SAND.length, pull=pull))
+            h, width = SAND.length / count, width_of(SAND, count)
+            pull = (limit + slope * h**order + random.normal(0, sigma, len(time))) * width
+            make_run(self.output, SAND, count, columns_of(time, SAND.load * width, torque=500 * width, speed=0.6 * SPIN * SAND.length, pull=pull))
         rows = self.rows(SAND, counts, "pull")
         window = int(0.5 * (END - RAMP) / 0.005)
         for row in rows:
@@ -190,7 +204,7 @@ class ReportTest(LadderTest):
     def test_a_ringing_push_states_no_exact_limit(self):
         counts, time = (10, 20, 32), np.linspace(0, 0.075, 401)
         for count in counts:
-            scale, ringing = 0.5 * PLATE.length * COHESION * LAYERS * PLATE.length / count, 0.3 * np.sin(2 * np.pi * time / 0.0075)
+            scale, ringing = 0.5 * PLATE.length * COHESION * width_of(PLATE, count), 0.3 * np.sin(2 * np.pi * time / 0.0075)
             make_run(self.output, PLATE, count, columns_of(time, (5.1 + 4.0 / count + ringing) * scale))
         rows = self.rows(PLATE, counts, "load_over_c")
         self.assertTrue(all(float(row["noise"]) > 0.01 for row in rows), rows)
@@ -199,7 +213,7 @@ class ReportTest(LadderTest):
     def test_cylinders_and_rolling_drums_are_held_against_their_references(self):
         time = np.linspace(0, 0.4, 401)
         depth = 0.05 * time
-        force = np.array([1.1 * cylinder_load(CYLINDER.length, COHESION, one) for one in depth]) * LAYERS * CYLINDER.length / 12
+        force = np.array([1.1 * cylinder_load(CYLINDER.length, COHESION, one) for one in depth]) * width_of(CYLINDER, 12)
         make_run(self.output, CYLINDER, 12, columns_of(time, force, sinkage=depth))
         (row,) = self.rows(CYLINDER, (12,), "load_over_level_soil")
         self.check("cylinder over level soil", float(row["value"]), 1.1, 1e-12, "rounding")
@@ -207,7 +221,7 @@ class ReportTest(LadderTest):
         time = np.arange(0, 0.8, 0.005)
         # Faster in the first half of the drive, which must not count.
         speed = SPIN * ELASTIC.length * np.where(time < 0.4, 1.5, 1.002)
-        make_run(self.output, ELASTIC, 12, columns_of(time, ELASTIC.load * LAYERS * ELASTIC.length / 12, speed=speed))
+        make_run(self.output, ELASTIC, 12, columns_of(time, ELASTIC.load * width_of(ELASTIC, 12), speed=speed))
         (row,) = self.rows(ELASTIC, (12,), "speed_over_rim_speed")
         self.check("speed over rim speed", float(row["value"]), 1.002, 1e-9, "rounding")
 
