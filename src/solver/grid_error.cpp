@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/contacts.hpp"
+#include "shape/template.hpp"
 
 namespace tread::solver
 {
@@ -40,6 +41,14 @@ const scene::Material* soil_of(const scene::Scene& scene, const World& world)
         soil = &scene.materials[m];
     }
     return soil;
+}
+
+/// m, of the wheel as large as it is in the scene.
+double grouser_height(const scene::Scene& scene, const World& world, std::size_t body)
+{
+    const scene::Shape shape = shape::find_shape(scene, scene.bodies[body].shape);
+    const auto*        wheel = std::get_if<scene::WheelGenerator>(&shape.source);
+    return wheel != nullptr && wheel->grousers > 0 ? world.bodies.scale[body] * wheel->grouser_height : 0;
 }
 
 } // namespace
@@ -82,7 +91,8 @@ std::optional<DrivenWheel> driven_wheel(const scene::Scene& scene, const World& 
     const SoilKind kind = soil->friction_angle_deg < least_friction_angle ? SoilKind::cohesive : SoilKind::frictional;
     ErrorLaws      laws = laws_on(kind);
     laws.pull.factor *= share_of_friction(kind, friction);
-    return DrivenWheel{world.bodies.mass[*body] * Vec3<double>(scene.domain.gravity.data()).norm(), laws};
+    return DrivenWheel{world.bodies.mass[*body] * Vec3<double>(scene.domain.gravity.data()).norm(), laws,
+                       grouser_height(scene, world, *body)};
 }
 
 std::optional<io::GridError> grid_error(const std::optional<DrivenWheel>& wheel, double contact_cells)
@@ -98,6 +108,12 @@ std::vector<io::Figure> grid_error_figures(const io::GridError& error)
     return {{"pull_error", error.pull, resolved_error, marginal_error},
             {"torque_error", error.torque, resolved_error, marginal_error},
             {"sinkage_error", error.sinkage, resolved_error, marginal_error}};
+}
+
+std::optional<io::Figure> grouser_figure(const std::optional<DrivenWheel>& wheel, double spacing)
+{
+    if (!wheel || wheel->grouser_height <= 0) { return std::nullopt; }
+    return io::Figure{"grouser_cells", wheel->grouser_height / spacing, resolved_grouser, marginal_grouser};
 }
 
 } // namespace tread::solver

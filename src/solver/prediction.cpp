@@ -11,12 +11,22 @@ namespace tread::solver
 namespace
 {
 
-/// Cells across the patch from which on contact_cells and the grid errors keep their bounds.
-double cells_needed(double bound, double error, const std::optional<DrivenWheel>& wheel)
+/// The largest spacing of cells (m) at which the contact and the grousers keep bounds of their figures.
+struct Bounds
 {
-    if (!wheel) { return bound; }
-    const ErrorLaws& laws = wheel->laws;
-    return std::max({bound, laws.pull.cells_for(error), laws.torque.cells_for(error), laws.sinkage.cells_for(error)});
+    double cells;   ///< across the patch
+    double error;   ///< of pull, torque and sinkage
+    double grouser; ///< cells over its height
+};
+
+double coarsest(const Bounds& bounds, double side, const std::optional<DrivenWheel>& wheel)
+{
+    if (!wheel) { return side / bounds.cells; }
+    const ErrorLaws& laws   = wheel->laws;
+    const double     cells  = std::max({bounds.cells, laws.pull.cells_for(bounds.error),
+                                        laws.torque.cells_for(bounds.error), laws.sinkage.cells_for(bounds.error)});
+    const double     height = wheel->grouser_height;
+    return height > 0 ? std::min(side / cells, height / bounds.grouser) : side / cells;
 }
 
 std::string prediction_lines(const Footing& footing, const World& world, const Plan& plan,
@@ -27,6 +37,10 @@ std::string prediction_lines(const Footing& footing, const World& world, const P
     std::string text = fmt::format("  at rest, by bearing capacity or Hertz: sinkage {:.3g} m, patch {:.3g} x {:.3g} "
                                    "m, {:.3g} cells and {:.3g} points across\n",
                                    patch.sinkage, patch.length, patch.width, seen.cells, seen.points);
+    if (const auto grousers = grouser_figure(wheel, world.geometry.finest_spacing()))
+    {
+        text += fmt::format("  grousers: {:.3g} cells high\n", grousers->value);
+    }
     if (const auto error = grid_error(wheel, seen.cells))
     {
         text += fmt::format("  grid error: {}\n", io::grid_error_line(*error, std::nullopt));
@@ -42,16 +56,16 @@ std::string prediction_lines(const Footing& footing, const World& world, const P
 
 Prediction predict(const Patch& patch, const World& world, const Plan& plan, const std::optional<DrivenWheel>& wheel)
 {
-    const CellBounds bounds   = cell_bounds(plan);
-    const double     resolved = cells_needed(bounds.resolved, resolved_error, wheel);
-    const double     marginal = cells_needed(bounds.marginal, marginal_error, wheel);
-    const double     side     = patch_side(patch.area(), world);
-    const double     finest   = world.geometry.finest_spacing();
-    const double     cells    = side / finest;
-    const double     points   = side / world.point_spacing;
-    if (cells >= resolved) { return {cells, points, io::Verdict::resolved, finest}; }
-    if (cells >= marginal) { return {cells, points, io::Verdict::marginal, side / resolved}; }
-    return {cells, points, io::Verdict::under_resolved, side / marginal};
+    const CellBounds bounds = cell_bounds(plan);
+    const double     side   = patch_side(patch.area(), world);
+    const double     finest = world.geometry.finest_spacing();
+    const double     cells = side / finest, points = side / world.point_spacing;
+
+    const double resolved = coarsest({bounds.resolved, resolved_error, resolved_grouser}, side, wheel);
+    const double marginal = coarsest({bounds.marginal, marginal_error, marginal_grouser}, side, wheel);
+    if (finest <= resolved) { return {cells, points, io::Verdict::resolved, finest}; }
+    if (finest <= marginal) { return {cells, points, io::Verdict::marginal, resolved}; }
+    return {cells, points, io::Verdict::under_resolved, marginal};
 }
 
 std::string footing_lines(const scene::Scene& scene, const World& world, const Plan& plan, const Footing& footing)

@@ -15,7 +15,7 @@ struct Prediction
 {
     double      cells;   ///< contact_cells of the patch
     double      points;  ///< across the patch
-    io::Verdict verdict; ///< of contact_cells and of the grid errors
+    io::Verdict verdict; ///< of contact_cells, grouser_cells and the grid errors
     double      next;    ///< m, finest spacing at which it is one better; the present one if it is resolved
 };
 

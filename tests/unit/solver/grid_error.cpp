@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "scene_text.hpp"
@@ -117,6 +118,41 @@ TEST(GridError, IsSaidWithTheAnswersOrWithout)
     EXPECT_EQ(io::grid_error_line(error, io::DriveMeans{154, 107.8, 0.0363}),
               "pull 154 N, error of the grid about 180 N (18 % of the load, first order); torque 108 N m, error of "
               "the grid about 7.5 N m (7 %); sinkage 0.0363 m, error of the grid about 0.0073 m (20 %)");
+}
+
+const std::vector<std::string> with_grousers{"shape.roller.generate.grousers=12",
+                                             "shape.roller.generate.grouser_height=0.02",
+                                             "shape.roller.generate.grouser_width=0.01"};
+
+TEST(Grousers, AreCountedInCells)
+{
+    EXPECT_FALSE(grouser_figure(Driven().wheel, 0.01).has_value()) << "a smooth roller";
+    EXPECT_FALSE(grouser_figure(std::nullopt, 0.01).has_value());
+    const Driven run(with_grousers);
+    const auto   verdict = [&](double spacing) { return grouser_figure(run.wheel, spacing)->verdict(); };
+    EXPECT_NEAR(grouser_figure(run.wheel, 0.01)->value, 2, 1e-12);
+    EXPECT_EQ(verdict(0.02), io::Verdict::under_resolved);
+    EXPECT_EQ(verdict(0.01), io::Verdict::marginal);
+    EXPECT_EQ(verdict(0.0079), io::Verdict::resolved);
+}
+
+TEST(Grousers, GrowWithTheBody)
+{
+    std::vector<std::string> larger = with_grousers;
+    const Driven             run(larger);
+    larger.push_back(fmt::format("body.roller.diameter={}", 4 * run.world.bodies.radius[0]));
+    EXPECT_NEAR(Driven(larger).wheel->grouser_height, 0.04, 1e-9);
+}
+
+/// A patch of many cells is not enough where the grousers are smaller than a cell.
+TEST(Grousers, DecideThePredictionWhereTheyAreCoarser)
+{
+    Driven      run(with_grousers);
+    const Patch patch{0.01, 4, 4, true};
+    run.world.geometry.spacing = 0.01;
+    const Prediction seen      = predict(patch, run.world, run.plan, run.wheel);
+    EXPECT_EQ(seen.verdict, io::Verdict::marginal);
+    EXPECT_NEAR(seen.next, 0.02 / resolved_grouser, 1e-12);
 }
 
 /// The spacing that a prediction names has the verdict that it promises.
