@@ -249,6 +249,12 @@ class Local(CampaignTest):
         self.assertEqual(list(self.directory.rglob("pwned*")), [])
         self.assertEqual({path.name for path in self.directory.iterdir()}, {"campaign.toml", hostile})
 
+    def test_cases_that_share_a_gpu_are_warned_of(self):
+        for resources, warned in (("cases_a_task = 2\ngpus = 1\n", True), ("cases_a_task = 2\n", False), ("gpus = 1\n", False)):
+            self.file.write_text(CAMPAIGN + resources, encoding="utf-8")
+            said = self.campaign("expand", "--dry-run", program=self.checked_only()).stdout
+            self.assertEqual("warning: cases_a_task = 2: cases take turns on a GPU" in said, warned, said)
+
     def test_stopped_runs_begin_again_by_themselves(self):
         # Stops early at each case's first attempt.
         program = self.script("stops_once", '#!/bin/bash\n[[ $1 == run ]] || exec "$TREAD" "$@"\nmkdir -p "$4"\n'
