@@ -183,8 +183,8 @@ std::int64_t CheckpointWriter::finish()
 
 std::vector<std::int64_t> CheckpointReader::first_rows(const std::string& name) const
 {
-    const std::vector<std::int64_t> first = h5::read_numbers_attribute(file_, name, io::first_rows);
-    const std::int64_t              rows  = h5::count_rows(file_, name);
+    std::vector<std::int64_t> first = h5::read_numbers_attribute(file_, name, io::first_rows);
+    const std::int64_t        rows  = h5::count_rows(file_, name);
     if (first.size() > 1 && first.front() == 0 && first.back() == rows && std::is_sorted(first.begin(), first.end()))
     {
         return first;

@@ -268,8 +268,8 @@ std::size_t find_site(Placer& placer, const SiteList& sites, std::size_t site, d
     SitePatience patience;
     for (; site < sites.size(); ++site)
     {
-        const Vec3<double> x       = sites[site];
-        const bool         outside = !placer.centre_fits(x);
+        const Vec3<double>& x       = sites[site];
+        const bool          outside = !placer.centre_fits(x);
         if (!outside && turn_until_it_fits(placer, x, random)) { break; }
         ++(outside ? patience.outside : patience.taken);
         patience.require_more(diameter);

@@ -22,10 +22,10 @@ struct Bounds
 double coarsest(const Bounds& bounds, double side, const std::optional<DrivenWheel>& wheel)
 {
     if (!wheel) { return side / bounds.cells; }
-    const ErrorLaws& laws   = wheel->laws;
-    const double     cells  = std::max({bounds.cells, laws.pull.cells_for(bounds.error),
-                                        laws.torque.cells_for(bounds.error), laws.sinkage.cells_for(bounds.error)});
-    const double     height = wheel->grouser_height;
+    const ErrorLaws& laws = wheel->laws;
+    const double cells = std::max({bounds.cells, laws.pull.cells_for(bounds.error), laws.torque.cells_for(bounds.error),
+                                   laws.sinkage.cells_for(bounds.error)});
+    const double height = wheel->grouser_height;
     return height > 0 ? std::min(side / cells, height / bounds.grouser) : side / cells;
 }
 

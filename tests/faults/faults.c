@@ -6,7 +6,8 @@
 //   TREAD_FAULT_COUNTS=FILE at the end "KIND COUNT" lines are appended there
 //
 // Kinds: write, fsync, rename, open, close, truncate, allocation, message; kill ends the process before its n-th call
-// of any kind that touches files; clock sets the wall clock a day ahead from its n-th reading on, clock_back a day back.
+// of any kind that touches files; clock sets the wall clock a day ahead from its n-th reading on, clock_back a day
+// back.
 
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -26,9 +27,23 @@
 #include <time.h>
 #include <unistd.h>
 
-enum kind { WRITE, FSYNC, RENAME, OPEN, CLOSE, TRUNCATE, ALLOCATION, MESSAGE, KILL, CLOCK, CLOCK_BACK, KINDS };
+enum kind
+{
+    WRITE,
+    FSYNC,
+    RENAME,
+    OPEN,
+    CLOSE,
+    TRUNCATE,
+    ALLOCATION,
+    MESSAGE,
+    KILL,
+    CLOCK,
+    CLOCK_BACK,
+    KINDS
+};
 
-static const char* const names[KINDS] = {"write",      "fsync",   "rename", "open",  "close", "truncate",
+static const char* const names[KINDS] = {"write",      "fsync",   "rename", "open",  "close",     "truncate",
                                          "allocation", "message", "kill",   "clock", "clock_back"};
 
 static atomic_long counts[KINDS];
@@ -220,14 +235,12 @@ int posix_memalign(void** place, size_t alignment, size_t size)
     int function signature { return goes_wrong(MESSAGE) ? MPI_ERR_OTHER : P##function arguments; }
 
 MESSAGES(MPI_Allreduce, (const void* in, void* out, int n, MPI_Datatype t, MPI_Op o, MPI_Comm c), (in, out, n, t, o, c))
-MESSAGES(MPI_Allgather,
-         (const void* in, int n, MPI_Datatype t, void* out, int m, MPI_Datatype u, MPI_Comm c),
+MESSAGES(MPI_Allgather, (const void* in, int n, MPI_Datatype t, void* out, int m, MPI_Datatype u, MPI_Comm c),
          (in, n, t, out, m, u, c))
 MESSAGES(MPI_Allgatherv,
          (const void* in, int n, MPI_Datatype t, void* out, const int* m, const int* d, MPI_Datatype u, MPI_Comm c),
          (in, n, t, out, m, d, u, c))
-MESSAGES(MPI_Alltoall,
-         (const void* in, int n, MPI_Datatype t, void* out, int m, MPI_Datatype u, MPI_Comm c),
+MESSAGES(MPI_Alltoall, (const void* in, int n, MPI_Datatype t, void* out, int m, MPI_Datatype u, MPI_Comm c),
          (in, n, t, out, m, u, c))
 MESSAGES(MPI_Alltoallv,
          (const void* in, const int* n, const int* e, MPI_Datatype t, void* out, const int* m, const int* d,

@@ -155,13 +155,13 @@ void expect_the_drum_is_kept(int paddles)
 {
     const test::PaddleWheel wheel{paddles};
     const TriangleMesh      mesh = test::wheel_with_paddles_inside_out(wheel);
-    EXPECT_THAT(test::input_error([&] { make_solid(mesh, shape::Repair::none, "wheel"); }),
-                HasSubstr(std::to_string(paddles) + " of its " + std::to_string(paddles + 1) + " parts are inside out"));
+    EXPECT_THAT(
+        test::input_error([&] { make_solid(mesh, shape::Repair::none, "wheel"); }),
+        HasSubstr(std::to_string(paddles) + " of its " + std::to_string(paddles + 1) + " parts are inside out"));
     const RepairReport report = repair_mesh(mesh).report;
     EXPECT_EQ(report.turned_parts, paddles);
     EXPECT_EQ(report.cavities, 0);
-    const double measured = make_solid(mesh, shape::Repair::tried, "wheel").unit.volume,
-                 expected = test::volume(wheel);
+    const double measured = make_solid(mesh, shape::Repair::tried, "wheel").unit.volume, expected = test::volume(wheel);
     std::printf("volume with %d paddles: measured %.6f, expected %.6f m3, tolerance 1 %%: the sampling's 0.1 %%, thin "
                 "paddles\n",
                 paddles, measured, expected);
