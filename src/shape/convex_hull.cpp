@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -66,11 +67,10 @@ TriangleMesh convex_hull(const std::vector<Eigen::Vector3d>& points)
     Workspace   workspace;
     qhT* const  qh      = &workspace.context; // the name that Qhull's macros expect
     std::string command = "qhull Qt";
-    if (qh_new_qhull(qh, 3, static_cast<int>(points.size()), coordinates.data(), False, command.data(), nullptr,
-                     workspace.complaints.get()) != 0)
-    {
-        throw InputError(fmt::format("no convex hull: the {} points lie in a plane", points.size()));
-    }
+    const int failure = qh_new_qhull(qh, 3, static_cast<int>(points.size()), coordinates.data(), False, command.data(),
+                                     nullptr, workspace.complaints.get());
+    if (failure == qh_ERRmem) { throw std::bad_alloc(); }
+    if (failure != 0) { throw InputError(fmt::format("no convex hull: the {} points lie in a plane", points.size())); }
 
     TriangleMesh              hull;
     std::vector<std::int32_t> place(points.size(), -1);

@@ -86,8 +86,8 @@ class Faults(RestartTest):
         if ended.returncode == 4:
             self.assertIn("tread: error: ", ended.stderr)
             return "refused with the cause"
-        # A library without memory may end the process by itself; nothing of the program is then there to speak.
-        self.assertEqual(kind, "allocation", f"code {ended.returncode}: {ended.stdout}{ended.stderr}")
+        # Open MPI without memory may end the process by itself, before the program is there to speak.
+        self.assertTrue(kind == "allocation" and "tread: error: " not in ended.stderr, f"code {ended.returncode}: {ended.stdout}{ended.stderr}")
         return f"ended by a library without memory (code {ended.returncode})"
 
     def assert_same_end(self, ranks):
