@@ -47,7 +47,10 @@ class Faults(RestartTest):
 
     def calls(self, ranks, rank=0):
         """How many calls of each kind the whole run makes; it stays in `whole`."""
-        self.assertEqual(self.start("write 0", ranks, rank=rank).returncode, 0)
+        shutil.rmtree(self.output, ignore_errors=True)
+        (self.directory / "counts.txt").unlink(missing_ok=True)
+        whole = self.start("write 0", ranks, rank=rank)
+        self.assertEqual(whole.returncode, 0, whole.stderr)
         counts = collections.Counter()
         for line in (self.directory / "counts.txt").read_text().splitlines():
             kind, count = line.split()

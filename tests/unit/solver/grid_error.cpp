@@ -24,10 +24,11 @@ duration = 0.1
 drive    = { body = "roller", angular_velocity = 0.7, slip = 0.3 }
 )";
 
-/// The field counts for nothing here, and takes most of the time.
-std::vector<std::string> with_coarse_field(std::vector<std::string> overrides)
+/// Field and nodes count for nothing here, and take most of the time.
+std::vector<std::string> with_coarse_shape(std::vector<std::string> overrides)
 {
     overrides.emplace_back("shape.roller.sdf_cells=16");
+    overrides.emplace_back("shape.roller.node_spacing=0.05");
     return overrides;
 }
 
@@ -37,7 +38,7 @@ struct Driven
     explicit Driven(const std::vector<std::string>& overrides = {}, const std::string& phase = drive_text)
         : scene(test::load_text(test::roller_text + "[[contact]]\nbetween = [\"steel\", \"sand\"]\nfriction = 0.8\n" +
                                     phase,
-                                with_coarse_field(overrides)))
+                                with_coarse_shape(overrides)))
         , world(build_world(scene))
         , plan(make_plan(scene, world))
         , wheel(driven_wheel(scene, world, plan))
