@@ -58,6 +58,8 @@ void close_written(Handle& dataset, const File& file, const std::string& what)
     check(H5Dclose(dataset.release()), file, what);
 }
 
+herr_t leave_open(hid_t) { return 0; }
+
 Handle links_with_groups()
 {
     Handle links = property_list(H5P_LINK_CREATE);
@@ -81,8 +83,8 @@ hid_t checked(hid_t id, const std::string& path, const std::string& what)
     throw EnvironmentError(fmt::format("{}: HDF5: {} failed: {}", path, what, reason));
 }
 
-File::File(hid_t id, std::string path, Handle transfer)
-    : handle_(id, H5Fclose)
+File::File(hid_t id, std::string path, Handle transfer, Handle::Closer abandon)
+    : handle_(id, abandon)
     , path_(std::move(path))
     , transfer_(std::move(transfer))
 {
@@ -107,7 +109,7 @@ File File::create(const std::string& path, const Communicator& communicator, hsi
     if (communicator.rank() == 0) { remove_name(path); }
     communicator.barrier();
     const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation.id(), access.id());
-    return {checked(id, path, "creating the file"), path, std::move(transfer)};
+    return {checked(id, path, "creating the file"), path, std::move(transfer), alone ? H5Fclose : leave_open};
 }
 
 File File::append(const std::string& path)

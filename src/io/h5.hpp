@@ -47,7 +47,8 @@ private:
     Closer close_;
 };
 
-/// An open file. While several ranks hold it, every call below that takes it is collective.
+/// An open file. While several ranks hold it, every call below that takes it is collective. Closes itself, but for a
+/// file of several ranks, which stays open until close(): a rank that fails alone would wait for the others there.
 class File
 {
 public:
@@ -76,7 +77,7 @@ public:
     hid_t              transfer() const { return transfer_.id(); }
 
 private:
-    File(hid_t id, std::string path, Handle transfer);
+    File(hid_t id, std::string path, Handle transfer, Handle::Closer abandon = H5Fclose);
 
     Handle      handle_;
     std::string path_;
