@@ -100,9 +100,13 @@ void complete_path(const Scene& scene, std::string& path, const Node& file, cons
     const auto absolute = (std::filesystem::path(scene.directory) / path).lexically_normal();
     path                = absolute.string();
     std::error_code error;
-    if (!std::filesystem::is_regular_file(absolute, error))
+    if (!std::filesystem::exists(absolute, error))
     {
         problems.push_back({file.where, label, key, fmt::format("there is no file {}", path), accepted});
+    }
+    else if (!std::filesystem::is_regular_file(absolute, error))
+    {
+        problems.push_back({file.where, label, key, fmt::format("{} is no regular file", path), accepted});
     }
 }
 

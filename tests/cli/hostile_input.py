@@ -144,10 +144,10 @@ class HostileCounts(HostileInput):
     def test_inputs_that_would_be_waited_for(self):
         os.mkfifo(self.directory / "heights.csv")
         text = SCENE.replace("[0.4, 0.4, 0.1]] }", '[0.4, 0.4, 0.1]] }\nheight = { file = "heights.csv" }')
-        self.refuse(text, ["heights.csv: it is a pipe; accepted: a regular file"])
+        self.refuse(text, ["heights.csv is no regular file; accepted: PGM or CSV"])
         os.mkfifo(self.directory / "mesh.stl")
         old = next(line for line in SCENE.splitlines() if line.startswith("generate"))
-        self.refuse(SCENE.replace(old, 'file = "mesh.stl"') + BODY, ["mesh.stl"])
+        self.refuse(SCENE.replace(old, 'file = "mesh.stl"') + BODY, ["mesh.stl is no regular file; accepted: STL or OBJ"])
 
     def test_large_mesh(self):
         self.sparse("mesh.stl", 5_000_000_000)
