@@ -21,9 +21,9 @@ inline Range mass() { return between(1e-12, 1e12); }        ///< kg
 inline Range force() { return between(1e-12, 1e12); }       ///< N
 inline Range span_of_time() { return between(1e-9, 1e10); } ///< s; three centuries
 inline Range time_or_none() { return between(0, 1e10); }    ///< s
-inline Range interval() { return between(1e-9, 1e12); }     ///< s; longer than any run: "never"
+inline Range interval() { return between(1e-12, 1e12); }    ///< s; longer than any run: "never"
 inline Range step_of_time() { return between(1e-12, 1e3); } ///< s
-inline Range coefficient() { return between(0, 1e3); }      ///< of friction
+inline Range coefficient() { return between(0, 1e6); }      ///< of friction; from 1e3 on nothing slips
 inline Range pure_number() { return between(0, 1e6); }
 
 } // namespace tread::scene

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Calls that go wrong on purpose, one a run: whatever it was, a restart ends with the same bits, and a run that ends early says why.
 
-TREAD_FAULT_POINTS: calls of each kind that are tried, evenly spread over a run, or "all". Prints what became of them.
+TREAD_FAULT_POINTS: calls of each kind that are tried, evenly spread over a run, or "all"; on several ranks that many over their
+number, as runs that end there take their time. Prints what became of them.
 """
 
 import collections
@@ -22,9 +23,9 @@ OPTIONS = ("--backend", "cpu", "--threads", "1", "--set=checkpoint.every_steps=2
 LONGEST = 100  # s that a run may take, on a machine that does other things too; alone it takes one
 
 
-def chosen(calls):
+def chosen(calls, ranks):
     """Which of so many calls go wrong."""
-    wanted = calls if POINTS == "all" else min(int(POINTS), calls)
+    wanted = calls if POINTS == "all" else min(int(POINTS) // ranks, calls)
     return sorted({1 + round(at * (calls - 1) / max(1, wanted - 1)) for at in range(wanted)})
 
 
@@ -64,7 +65,7 @@ class Faults(RestartTest):
     def check_kind(self, kind, calls, ranks=1, rank=0):
         """Tries a kind's calls; prints how the runs ended."""
         ends = collections.Counter()
-        tried = chosen(calls)
+        tried = chosen(calls, ranks)
         self.assertTrue(tried, kind)
         for call in tried:
             with self.subTest(kind=kind, call=call, ranks=ranks):

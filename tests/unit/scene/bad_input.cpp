@@ -104,9 +104,9 @@ const std::vector<BadCase> key_cases{
     {"too_many_checkpoints", "[grid]", "[checkpoint]\nkeep = 4600000000000000000\n[grid]", 6,
      "[checkpoint] keep: 4600000000000000000 is out of range; accepted: integer 1 to 10000"},
     {"too_many_snapshots", "[grid]", "[output]\nsnapshots_every = 1e-30\n[grid]", 6,
-     "[output] snapshots_every: 1e-30 is out of range; accepted: 0, or number >= 1e-09 and <= 1e+12 (s)"},
+     "[output] snapshots_every: 1e-30 is out of range; accepted: 0, or number >= 1e-12 and <= 1e+12 (s)"},
     {"too_many_rows", "[grid]", "[output]\nevery = 1e-30\n[grid]", 6,
-     "[output] every: 1e-30 is out of range; accepted: number >= 1e-09 and <= 1e+12 (s)"},
+     "[output] every: 1e-30 is out of range; accepted: number >= 1e-12 and <= 1e+12 (s)"},
     {"body_at_the_end_of_the_world", "[0.5, 0.5, 0.6]", "[0.5, 0.5, 1e300]", 48, "position: 1e+300 is out of range"},
     {"single_bracket", "[[terrain]]", "[terrain]", 32, "[terrain]: wrong type: a table; accepted: [[terrain]]"},
 };
