@@ -11,7 +11,7 @@ namespace tread::solver
 namespace
 {
 
-/// The largest spacing of cells (m) at which the contact and the grousers keep bounds of their figures.
+/// Of the verdict's figures.
 struct Bounds
 {
     double cells;   ///< across the patch
@@ -19,6 +19,7 @@ struct Bounds
     double grouser; ///< cells over its height
 };
 
+/// The largest spacing of cells (m) that keeps the bounds on a contact patch as long as `side` (m).
 double coarsest(const Bounds& bounds, double side, const std::optional<DrivenWheel>& wheel)
 {
     if (!wheel) { return side / bounds.cells; }
