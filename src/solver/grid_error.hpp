@@ -99,7 +99,7 @@ std::vector<io::Figure> grid_error_figures(const io::GridError& error);
 std::optional<io::Figure> grouser_figure(const std::optional<DrivenWheel>& wheel, double spacing);
 
 /// Bounds of grouser_cells. 24 grousers of 20 mm raised the pull of the drum on sand by 10 N with cells of 20 mm, by
-/// 64, 75, 49, 51 and 52 N with cells of 12.5, 10, 7.5, 6.25 and 5 mm (docs/verdict.md).
+/// 64, 65 to 75, 49, 51 and 46 N with cells of 12.5, 10, 7.5, 6.25 and 5 mm (docs/verdict.md).
 inline constexpr double resolved_grouser = 2.5;
 inline constexpr double marginal_grouser = 1.5;
 

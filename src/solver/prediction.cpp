@@ -11,7 +11,7 @@ namespace tread::solver
 namespace
 {
 
-/// Of the verdict's figures.
+/// Bounds of the verdict's figures.
 struct Bounds
 {
     double cells;   ///< across the patch

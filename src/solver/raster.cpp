@@ -14,7 +14,6 @@
 #include "base/bytes_text.hpp"
 #include "base/errors.hpp"
 #include "base/host_memory.hpp"
-#include "base/regular_file.hpp"
 #include "base/saturated.hpp"
 
 namespace tread::solver
@@ -28,9 +27,8 @@ constexpr std::size_t most_samples = 100'000'000;
 std::string contents(const std::string& path)
 {
     constexpr double most = 1e9, with_samples = 1 + 0.5 * sizeof(double);
-    if (const auto why = irregularity(path)) { throw InputError(fmt::format("{}: {}", path, *why)); }
-    std::error_code error;
-    const auto      bytes = static_cast<double>(std::filesystem::file_size(path, error));
+    std::error_code  error;
+    const auto       bytes = static_cast<double>(std::filesystem::file_size(path, error));
     if (error) { throw InputError(fmt::format("{}: cannot be read: {}", path, error.message())); }
     if (bytes > most)
     {

@@ -18,7 +18,6 @@ from restart_test import MIXED, MPIRUN, RestartTest, lasting
 FAULTS = os.environ["TREAD_FAULTS"]  # tests/faults
 POINTS = os.environ.get("TREAD_FAULT_POINTS", "16")
 TEXT = lasting(MIXED, 0.05)
-# Two ranks share the sand; a rock that falls on it belongs to one of them.
 OPTIONS = ("--backend", "cpu", "--threads", "1", "--set=checkpoint.every_steps=20", "--set=checkpoint.keep=2")
 LONGEST = 200  # s that a run may take on a machine that does other things too; alone it takes one, or 30 where ranks wait
 
