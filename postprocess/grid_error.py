@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Convergence of a driven wheel over the grid's spacing: the rows of `measured_convergence` in src/solver/grid_error.hpp.
+"""Convergence of a driven wheel over the grid's spacing: the rows of `measured_convergence` in src/run/grid_error.hpp.
 
 Takes runs of one scene at three spacings or more. Fits answer = limit + slope / cells^order by least squares, cells being the run's own contact_cells;
 the orders are those of the table (ORDERS), and the scatter about the fits of both orders is printed. Needs Debian's python3-h5py and python3-numpy.

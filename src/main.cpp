@@ -18,13 +18,14 @@
 #include "decomp/single_rank.hpp"
 #include "io/describe.hpp"
 #include "io/sdf_report.hpp"
+#include "run/agreement.hpp"
+#include "run/on_ranks.hpp"
+#include "run/check.hpp"
+#include "run/run_scene.hpp"
 #include "scene/load.hpp"
 #include "shape/form.hpp"
 #include "shape/report.hpp"
 #include "shape/template.hpp"
-#include "solver/agreement.hpp"
-#include "solver/on_ranks.hpp"
-#include "solver/run.hpp"
 
 // The command line: what the user typed, to one call of the room that does it.
 namespace
@@ -46,10 +47,10 @@ struct CheckArguments
 
 struct RunArguments
 {
-    SceneArguments     scene;
-    solver::RunOptions options;
-    double             hang_timeout = 600; ///< s
-    Terminal           terminal     = Terminal::shown;
+    SceneArguments  scene;
+    run::RunOptions options;
+    double          hang_timeout = 600; ///< s
+    Terminal        terminal     = Terminal::shown;
 };
 
 enum class Report
@@ -72,31 +73,30 @@ struct SdfArguments
 
 ExitCode run(const RunArguments& arguments)
 {
-    return solver::on_ranks(
+    return run::on_ranks(
         [&](const Communicator& world)
         {
-            const auto         watchdog = solver::watch_ranks(world, arguments.hang_timeout);
+            const auto         watchdog = run::watch_ranks(world, arguments.hang_timeout);
             Log                log(world, arguments.terminal);
-            const scene::Scene scene =
-                solver::load_on_every_rank(world, arguments.scene.path, arguments.scene.overrides);
-            solver::RunOptions options = arguments.options;
+            const scene::Scene scene = run::load_on_every_rank(world, arguments.scene.path, arguments.scene.overrides);
+            run::RunOptions    options = arguments.options;
             options.scene_file         = arguments.scene.path;
             if (options.output.empty())
             {
                 options.output = "runs/" + std::filesystem::path(arguments.scene.path).stem().string();
             }
-            return solver::run(world, log, watchdog.get(), scene, options);
+            return run::run_scene(world, log, watchdog.get(), scene, options);
         });
 }
 
 ExitCode check(const CheckArguments& arguments)
 {
-    return solver::on_ranks(
+    return run::on_ranks(
         [&](const Communicator& world)
         {
             decomp::require_single_rank(world, "tread check runs");
             const scene::Scene scene = scene::load_scene(arguments.scene.path, arguments.scene.overrides);
-            std::cout << printable(solver::check(world, scene, arguments.ranks));
+            std::cout << printable(run::check_scene(world, scene, arguments.ranks));
             return ExitCode::finished;
         });
 }
@@ -225,11 +225,11 @@ void add_time_option(CLI::App& command, const std::string& name, double& value, 
         ->type_name("HH:MM:SS");
 }
 
-solver::RestartOptions restart_of(const std::string& word)
+run::RestartOptions restart_of(const std::string& word)
 {
-    if (word == "none") { return {solver::RestartMode::none, ""}; }
-    if (word == "auto") { return {solver::RestartMode::automatic, ""}; }
-    return {solver::RestartMode::file, word};
+    if (word == "none") { return {run::RestartMode::none, ""}; }
+    if (word == "auto") { return {run::RestartMode::automatic, ""}; }
+    return {run::RestartMode::file, word};
 }
 
 void add_restart_options(CLI::App& command, RunArguments& arguments)
@@ -246,11 +246,10 @@ void add_restart_options(CLI::App& command, RunArguments& arguments)
 void add_run_options(CLI::App& command, RunArguments& arguments)
 {
     add_scene_options(command, arguments.scene);
-    add_word_option<solver::BackendChoice>(command, "--backend", arguments.options.backend,
-                                           {{"auto", solver::BackendChoice::automatic},
-                                            {"cpu", solver::BackendChoice::cpu},
-                                            {"cuda", solver::BackendChoice::cuda}},
-                                           "Where to compute; default auto");
+    add_word_option<run::BackendChoice>(
+        command, "--backend", arguments.options.backend,
+        {{"auto", run::BackendChoice::automatic}, {"cpu", run::BackendChoice::cpu}, {"cuda", run::BackendChoice::cuda}},
+        "Where to compute; default auto");
     add_word_option<decomp::TransportChoice>(command, "--transport", arguments.options.decomposition.transport,
                                              {{"auto", decomp::TransportChoice::automatic},
                                               {"mpi", decomp::TransportChoice::mpi},
@@ -258,7 +257,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments)
                                               {"host", decomp::TransportChoice::host}},
                                              "What carries data between ranks with GPUs; default auto");
     command.add_flag_callback(
-        "--share-gpus", [&] { arguments.options.gpus = solver::GpuSharing::allowed; },
+        "--share-gpus", [&] { arguments.options.gpus = run::GpuSharing::allowed; },
         "Let several ranks of a machine use one GPU");
     command.add_flag_callback(
         "--checksums", [&] { arguments.options.decomposition.checksums = decomp::Checksums::on; },

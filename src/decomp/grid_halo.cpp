@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "kernels/mpm/wall_kern.hpp"
+#include "kernels/mpm/grid/wall_kern.hpp"
 
 namespace tread::decomp
 {

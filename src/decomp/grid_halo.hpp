@@ -4,10 +4,10 @@
 #include "decomp/decomposition.hpp"
 #include "decomp/exchange.hpp"
 #include "decomp/halo_plan.hpp"
-#include "kernels/mpm/order.hpp"
-#include "kernels/mpm/scatter.hpp"
-#include "kernels/mpm/shared_pages.hpp"
-#include "kernels/mpm/walls.hpp"
+#include "kernels/mpm/grid/walls.hpp"
+#include "kernels/mpm/pages/order.hpp"
+#include "kernels/mpm/pages/shared_pages.hpp"
+#include "kernels/mpm/transfers/scatter.hpp"
 
 namespace tread::decomp
 {

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <limits>
 
-#include "kernels/mpm/page_key.hpp"
+#include "kernels/mpm/pages/page_key.hpp"
 
 namespace tread::decomp
 {

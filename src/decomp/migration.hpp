@@ -5,7 +5,7 @@
 
 #include "decomp/decomposition.hpp"
 #include "decomp/exchange.hpp"
-#include "kernels/mpm/leaving.hpp"
+#include "kernels/mpm/pages/leaving.hpp"
 
 namespace tread::decomp
 {

@@ -10,7 +10,7 @@ namespace tread::decomp
 /// Pages that hold points or bodies, and which of them reach the same nodes of the grid. Every edge stands twice.
 struct PageGraph
 {
-    std::vector<std::uint64_t> key;       ///< [pages], ascending (kernels/mpm/page_key.hpp)
+    std::vector<std::uint64_t> key;       ///< [pages], ascending (kernels/mpm/pages/page_key.hpp)
     std::vector<double>        load;      ///< [pages], predicted work, in points; not negative
     std::vector<std::int64_t>  first;     ///< [pages + 1], the edges of each page
     std::vector<std::int32_t>  neighbour; ///< [edges], a page

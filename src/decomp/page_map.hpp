@@ -5,7 +5,7 @@
 
 #include "backend/array.hpp"
 #include "decomp/partition.hpp"
-#include "kernels/mpm/leaving.hpp"
+#include "kernels/mpm/pages/leaving.hpp"
 
 namespace tread::decomp
 {

@@ -7,13 +7,13 @@
 
 #include "backend/vector.hpp"
 #include "decomp/partition.hpp"
-#include "kernels/mpm/page_key.hpp"
+#include "kernels/mpm/pages/page_key.hpp"
 
 // Which rank owns which place, for every place there is: the pages of a partition and those that may come to be.
 namespace tread::decomp
 {
 
-/// How positions fall to pages: those of kernels/mpm/pages.hpp.
+/// How positions fall to pages: those of kernels/mpm/pages/pages.hpp.
 struct PageLattice
 {
     double spacing;       ///< m, of the grid

@@ -22,8 +22,8 @@ struct BedKind
     double      poisson;
 };
 
-/// Pairs in contact: records of friction (kernels/dem/patch_kern.hpp). A rock is numbered by its row; a wall of the
-/// domain by the rocks' count and 0 to 5: x low, x high, y low, y high, bottom, top.
+/// Pairs in contact: records of friction (kernels/dem/contact/patch_kern.hpp). A rock is numbered by its row; a wall of
+/// the domain by the rocks' count and 0 to 5: x low, x high, y low, y high, bottom, top.
 struct BedContacts
 {
     std::vector<std::int32_t> pair;            ///< [n][2]

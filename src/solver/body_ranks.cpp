@@ -6,7 +6,7 @@
 #include "base/errors.hpp"
 #include "decomp/combine.hpp"
 #include "decomp/letters.hpp"
-#include "kernels/dem/pairs_kern.hpp"
+#include "kernels/dem/pairs/pairs_kern.hpp"
 #include "solver/page_loads.hpp"
 
 namespace tread::solver
@@ -48,7 +48,7 @@ std::vector<std::int32_t> joined(const std::vector<std::vector<std::int32_t>>& l
 } // namespace
 
 template<class Exec>
-BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const World& world, double sand_reach,
+BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const world::World& world, double sand_reach,
                            dem::Bodies<Exec>& bodies)
     : communicator_(decomposition.communicator)
     , decomposition_(decomposition)

@@ -11,9 +11,9 @@
 #include "decomp/exchange.hpp"
 #include "decomp/territory.hpp"
 #include "kernels/dem/bodies.hpp"
-#include "kernels/dem/pairs.hpp"
-#include "kernels/dem/shared.hpp"
-#include "solver/world.hpp"
+#include "kernels/dem/motion/shared.hpp"
+#include "kernels/dem/pairs/pairs.hpp"
+#include "world/world.hpp"
 
 namespace tread::solver
 {
@@ -28,7 +28,7 @@ class BodyRanks
 public:
     /// Bodies have their owners, and no guests before the first deal(). `sand_reach`: m, how far beyond its surface a
     /// body must be known to the owner of sand.
-    BodyRanks(decomp::Decomposition<Exec>& decomposition, const World& world, double sand_reach,
+    BodyRanks(decomp::Decomposition<Exec>& decomposition, const world::World& world, double sand_reach,
               dem::Bodies<Exec>& bodies);
 
     /// Whether all ranks say so.

@@ -2,14 +2,14 @@
 
 #include "kernels/dem/bodies.hpp"
 #include "solver/page_rest.hpp"
-#include "solver/world.hpp"
+#include "world/world.hpp"
 
 namespace tread::solver
 {
 
 /// Where all bodies are now; waits for it.
 template<class Exec>
-std::vector<BodyReach> body_reaches(const Exec& exec, const dem::BodiesView& bodies, const World& world)
+std::vector<BodyReach> body_reaches(const Exec& exec, const dem::BodiesView& bodies, const world::World& world)
 {
     std::vector<Vec3<double>> centre(static_cast<std::size_t>(bodies.count));
     copy_to_host(exec, centre.data(), bodies.position, centre.size() * sizeof(Vec3<double>));

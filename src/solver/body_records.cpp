@@ -2,7 +2,7 @@
 #include <map>
 
 #include "decomp/letters.hpp"
-#include "kernels/dem/pairs_kern.hpp"
+#include "kernels/dem/pairs/pairs_kern.hpp"
 #include "solver/body_ranks.hpp"
 
 // What contacts remember goes with the body that decides who answers them.
@@ -12,13 +12,13 @@ namespace
 {
 
 template<class Exec>
-std::vector<ContactRecord> last_records(const dem::Pairs<Exec>& pairs)
+std::vector<world::ContactRecord> last_records(const dem::Pairs<Exec>& pairs)
 {
-    const std::vector<std::uint64_t> keys    = pairs.last_key.to_host();
-    const std::vector<dem::Patch>    patches = pairs.last_patch.to_host();
-    const std::vector<dem::Rolling>  rolling = pairs.last_rolling.to_host();
-    const std::vector<Vec3<double>>  places  = pairs.patches.last_place.to_host();
-    std::vector<ContactRecord>       records;
+    const std::vector<std::uint64_t>  keys    = pairs.last_key.to_host();
+    const std::vector<dem::Patch>     patches = pairs.last_patch.to_host();
+    const std::vector<dem::Rolling>   rolling = pairs.last_rolling.to_host();
+    const std::vector<Vec3<double>>   places  = pairs.patches.last_place.to_host();
+    std::vector<world::ContactRecord> records;
     records.reserve(keys.size());
     for (std::size_t p = 0; p < keys.size(); ++p)
     {
@@ -29,12 +29,12 @@ std::vector<ContactRecord> last_records(const dem::Pairs<Exec>& pairs)
 }
 
 template<class Exec>
-void put_back(const std::vector<ContactRecord>& records, dem::Pairs<Exec>& pairs)
+void put_back(const std::vector<world::ContactRecord>& records, dem::Pairs<Exec>& pairs)
 {
     std::vector<std::uint64_t> keys;
     std::vector<dem::Patch>    patches;
     std::vector<dem::Rolling>  rolling;
-    for (const ContactRecord& record : records)
+    for (const world::ContactRecord& record : records)
     {
         keys.push_back(record.key);
         patches.push_back(record.patch);
@@ -46,11 +46,11 @@ void put_back(const std::vector<ContactRecord>& records, dem::Pairs<Exec>& pairs
 }
 
 template<class Exec>
-void put_places_back(const std::vector<ContactRecord>& records, dem::Pairs<Exec>& pairs)
+void put_places_back(const std::vector<world::ContactRecord>& records, dem::Pairs<Exec>& pairs)
 {
     std::vector<Vec3<double>> places;
     places.reserve(records.size());
-    for (const ContactRecord& record : records) { places.push_back(record.place); }
+    for (const world::ContactRecord& record : records) { places.push_back(record.place); }
     pairs.patches.last_place.assign(places);
 }
 
@@ -66,14 +66,14 @@ void BodyRanks<Exec>::hand_over_records(dem::Pairs<Exec>& pairs, const std::vect
     }
     const bool have_places = !all(pairs.patches.last_place.size() == 0);
 
-    std::vector<ContactRecord>              kept;
-    std::vector<std::vector<ContactRecord>> leaving(rank_count());
-    for (const ContactRecord& record : last_records(pairs))
+    std::vector<world::ContactRecord>              kept;
+    std::vector<std::vector<world::ContactRecord>> leaving(rank_count());
+    for (const world::ContactRecord& record : last_records(pairs))
     {
         const auto to = moved.find(decider(is_large_, record.key));
         (to == moved.end() ? kept : leaving[to->second]).push_back(record);
     }
-    const auto by_key = [](const ContactRecord& a, const ContactRecord& b) { return a.key < b.key; };
+    const auto by_key = [](const world::ContactRecord& a, const world::ContactRecord& b) { return a.key < b.key; };
     for (const auto& arriving : decomp::exchange_values(communicator_, leaving))
     {
         const auto own = static_cast<std::ptrdiff_t>(kept.size());

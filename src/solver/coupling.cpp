@@ -7,8 +7,8 @@
 
 #include "base/errors.hpp"
 #include "decomp/letters.hpp"
-#include "solver/cover.hpp"
-#include "solver/materials.hpp"
+#include "world/cover.hpp"
+#include "world/materials.hpp"
 
 namespace tread::solver
 {
@@ -19,13 +19,13 @@ namespace
 /// of 1e-5 s this one lasts 60 steps.
 constexpr double skin_share = 0.25;
 
-double largest_point_radius(const World& world, contact::RadiusRule rule)
+double largest_point_radius(const world::World& world, contact::RadiusRule rule)
 {
     return contact::point_radius(*std::max_element(world.points.volume.begin(), world.points.volume.end()), rule);
 }
 
 /// The limit given by the scene, m; 0 where no body is under it, so that the others' contacts stay plain.
-double met_limit(const World& world, double limit)
+double met_limit(const world::World& world, double limit)
 {
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
     {
@@ -38,16 +38,16 @@ double met_limit(const World& world, double limit)
 } // namespace
 
 template<class Exec, class Real>
-Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, const World& world,
+Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, const world::World& world,
                                const dem::TemplateView* templates, dem::PairTable pairs,
                                decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
     , contact_(exec)
     , law_{templates,
            pairs,
-           hertz_factor(scene.numerics.hertz),
-           radius_rule(scene.numerics.point_radius),
-           point_motion(scene.numerics.point_motion),
+           world::hertz_factor(scene.numerics.hertz),
+           world::radius_rule(scene.numerics.point_radius),
+           world::point_motion(scene.numerics.point_motion),
            0.0}
     , largest_radius_(largest_point_radius(world, law_.radius))
     , skin_(skin_share * largest_radius_)
@@ -60,7 +60,7 @@ Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, cons
     {
         throw NumericalError(fmt::format("{} bodies meet sand: at most {}", world.bodies.size(), most));
     }
-    law_.sampled_below = met_limit(world, sampled_below(scene, world.points));
+    law_.sampled_below = met_limit(world, world::sampled_below(scene, world.points));
 }
 
 template<class Exec, class Real>

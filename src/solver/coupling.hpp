@@ -3,7 +3,7 @@
 #include "backend/fetched.hpp"
 #include "decomp/decomposition.hpp"
 #include "kernels/contact/substeps.hpp"
-#include "solver/world.hpp"
+#include "world/world.hpp"
 
 namespace tread::solver
 {
@@ -23,7 +23,7 @@ template<class Exec, class Real>
 class Coupling
 {
 public:
-    Coupling(const Exec& exec, const scene::Scene& scene, const World& world, const dem::TemplateView* templates,
+    Coupling(const Exec& exec, const scene::Scene& scene, const world::World& world, const dem::TemplateView* templates,
              dem::PairTable pairs, decomp::Decomposition<Exec>* decomposition = nullptr);
 
     /// Collective, on several ranks: what contacts remember of points goes to the ranks that these (by id, ascending,

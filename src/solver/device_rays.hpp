@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "backend/array.hpp"
-#include "kernels/dem/ray_shape.hpp"
+#include "kernels/dem/contact/ray_shape.hpp"
 #include "shape/template.hpp"
 
 namespace tread::solver

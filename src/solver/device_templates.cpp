@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernels/dem/sdf_kern.hpp"
+#include "kernels/dem/contact/sdf_kern.hpp"
 #include "shape/sdf_grid.hpp"
 
 namespace tread::solver

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/materials.hpp"
-#include "solver/terrain.hpp"
+#include "world/materials.hpp"
+#include "world/terrain.hpp"
 
 namespace tread::solver
 {
@@ -15,7 +15,7 @@ constexpr double longest_step = 0.02; ///< s, where nothing moves: what then beg
 
 } // namespace
 
-PaceLimits pace_limits(const scene::Scene& scene, const World& world, const Plan& plan)
+PaceLimits pace_limits(const scene::Scene& scene, const world::World& world, const Plan& plan)
 {
     PaceLimits limits;
     limits.gravity = Vec3<double>(scene.domain.gravity.data()).norm();
@@ -28,9 +28,9 @@ PaceLimits pace_limits(const scene::Scene& scene, const World& world, const Plan
     double fewest = 1000; // points in a cell
     for (const scene::Terrain& terrain : scene.terrain)
     {
-        fewest            = std::min(fewest, std::pow(scene.grid.spacing / lattice_spacing(scene, terrain), 3));
-        const auto& sand  = scene.materials[static_cast<std::size_t>(material_index(scene, terrain.material))];
-        limits.wave_speed = std::max(limits.wave_speed, compression_wave_speed(sand));
+        fewest            = std::min(fewest, std::pow(scene.grid.spacing / world::lattice_spacing(scene, terrain), 3));
+        const auto& sand  = scene.materials[static_cast<std::size_t>(world::material_index(scene, terrain.material))];
+        limits.wave_speed = std::max(limits.wave_speed, world::compression_wave_speed(sand));
     }
     limits.spacing = scene.grid.finest();
     limits.courant = fewest > 7.99 ? 0.6 : 0.4;

@@ -7,6 +7,6 @@ namespace tread::solver
 {
 
 /// What bounds the steps of a scene from its start to its end.
-PaceLimits pace_limits(const scene::Scene& scene, const World& world, const Plan& plan);
+PaceLimits pace_limits(const scene::Scene& scene, const world::World& world, const Plan& plan);
 
 } // namespace tread::solver

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "backend/sort.hpp"
-#include "kernels/mpm/tile_kern.hpp"
+#include "kernels/mpm/transfers/tile_kern.hpp"
 
 namespace tread::solver
 {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/mpm/pages.hpp"
+#include "kernels/mpm/pages/pages.hpp"
 #include "solver/state_file.hpp"
 
 namespace tread::solver

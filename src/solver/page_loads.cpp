@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "decomp/partition.hpp"
-#include "kernels/mpm/pages.hpp"
+#include "kernels/mpm/pages/pages.hpp"
 
 namespace tread::solver
 {
@@ -18,7 +18,7 @@ namespace
 {
 
 /// m, of the grid. Bodies alone have none, and take a middle one of their diameters.
-double spacing_of(const World& world)
+double spacing_of(const world::World& world)
 {
     std::vector<double> radii = world.bodies.radius;
     if (world.points.size() > 0 || radii.empty()) { return world.geometry.spacing; }
@@ -47,9 +47,12 @@ std::string describe_partition(const decomp::PageGraph& graph, const decomp::Par
     return text;
 }
 
-decomp::PageLattice page_lattice_of(const World& world) { return {spacing_of(world), world.geometry.stencil_shift}; }
+decomp::PageLattice page_lattice_of(const world::World& world)
+{
+    return {spacing_of(world), world.geometry.stencil_shift};
+}
 
-decomp::PageGraph page_graph_of(const World& world)
+decomp::PageGraph page_graph_of(const world::World& world)
 {
     const double                    spacing = spacing_of(world);
     std::map<std::uint64_t, double> loads;
@@ -75,7 +78,7 @@ decomp::PageGraph page_graph_of(const World& world)
     return decomp::page_graph(std::move(key), std::move(load));
 }
 
-std::string partition_lines(const Communicator& communicator, const World& world, int ranks)
+std::string partition_lines(const Communicator& communicator, const world::World& world, int ranks)
 {
     const decomp::PageGraph  graph = page_graph_of(world);
     decomp::PartitionOptions options;

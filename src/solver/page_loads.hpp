@@ -6,7 +6,7 @@
 #include "decomp/decomposition.hpp"
 #include "decomp/page_graph.hpp"
 #include "decomp/territory.hpp"
-#include "solver/world.hpp"
+#include "world/world.hpp"
 
 namespace tread::solver
 {
@@ -19,10 +19,10 @@ inline constexpr double body_load = 150;
 std::string describe_partition(const decomp::PageGraph& graph, const decomp::Partition& found, int ranks);
 
 /// How places fall to the pages of page_graph_of.
-decomp::PageLattice page_lattice_of(const World& world);
+decomp::PageLattice page_lattice_of(const world::World& world);
 
 /// The pages that hold points or centres of bodies, and what they weigh. Without points the pages are four bodies wide.
-decomp::PageGraph page_graph_of(const World& world);
+decomp::PageGraph page_graph_of(const world::World& world);
 
 /// Collective: gives every page of a graph that all ranks have to one of them. Returns how, for the log.
 template<class Exec>
@@ -37,12 +37,12 @@ std::string share_out(decomp::Decomposition<Exec>& decomposition, const decomp::
 
 /// The same of the pages of a world.
 template<class Exec>
-std::string share_out(decomp::Decomposition<Exec>& decomposition, const World& world)
+std::string share_out(decomp::Decomposition<Exec>& decomposition, const world::World& world)
 {
     return share_out(decomposition, page_graph_of(world));
 }
 
 /// Collective: how a world falls to `ranks`, by each partitioner: a line each.
-std::string partition_lines(const Communicator& communicator, const World& world, int ranks);
+std::string partition_lines(const Communicator& communicator, const world::World& world, int ranks);
 
 } // namespace tread::solver

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "kernels/mpm/page_key.hpp"
+#include "kernels/mpm/pages/page_key.hpp"
 
 namespace tread::solver
 {

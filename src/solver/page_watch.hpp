@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "kernels/mpm/held_pages.hpp"
+#include "kernels/mpm/grid/held_pages.hpp"
 #include "solver/page_rest.hpp"
 
 namespace tread::solver

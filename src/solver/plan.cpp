@@ -5,7 +5,7 @@
 namespace tread::solver
 {
 
-Plan make_plan(const scene::Scene& scene, const World& world)
+Plan make_plan(const scene::Scene& scene, const world::World& world)
 {
     const auto plastic = [](const scene::Material& material) { return scene::is_granular(material.model); };
     const auto damped  = [](const scene::Phase& phase) { return phase.damping > 0; };

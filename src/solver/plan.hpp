@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
-#include "solver/world.hpp"
+#include "world/world.hpp"
 
 namespace tread::solver
 {
@@ -33,7 +33,7 @@ struct Plan
     bool sleep; ///< of sand that lies still
 };
 
-Plan make_plan(const scene::Scene& scene, const World& world);
+Plan make_plan(const scene::Scene& scene, const world::World& world);
 
 /// The stages of a step on so many ranks in their order, as `tread check`, the log and summary.json list them.
 std::vector<Stage> stages(const scene::Scene& scene, const Plan& plan, int ranks);

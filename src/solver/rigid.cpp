@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
-#include "kernels/dem/body_contact.hpp"
-#include "kernels/dem/contact_limits.hpp"
-#include "kernels/dem/move.hpp"
-#include "kernels/dem/pairs_kern.hpp"
-#include "kernels/dem/substeps.hpp"
-#include "solver/materials.hpp"
+#include "kernels/dem/contact/body_contact.hpp"
+#include "kernels/dem/contact/contact_limits.hpp"
+#include "kernels/dem/motion/move.hpp"
+#include "kernels/dem/motion/substeps.hpp"
+#include "kernels/dem/pairs/pairs_kern.hpp"
+#include "world/materials.hpp"
 
 namespace tread::solver
 {
@@ -35,7 +35,7 @@ constexpr double watched_share = 0.5;
 /// rank, and have a radius.
 constexpr double sand_reach = mpm::page_edge + 2;
 
-std::vector<double> bounding_radii(const World& world)
+std::vector<double> bounding_radii(const world::World& world)
 {
     std::vector<double> radii;
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
@@ -49,7 +49,7 @@ std::vector<double> bounding_radii(const World& world)
 } // namespace
 
 template<class Exec>
-Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
+Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const world::World& world, const Plan& plan,
                    decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
     , scene_(scene)
@@ -83,7 +83,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
         throw InputError(fmt::format("{} bodies and walls: at most {} can be told apart", sides, dem::most_bodies));
     }
     upload(world);
-    const std::vector<dem::PairProperties> properties = pair_properties(scene);
+    const std::vector<dem::PairProperties> properties = world::pair_properties(scene);
     properties_.assign(properties);
     pairs_.resists_rolling =
         std::any_of(properties.begin(), properties.end(), [](const auto& pair) { return pair.rolling_friction > 0; });
@@ -93,7 +93,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
                         {properties_.data(), static_cast<std::int32_t>(scene.materials.size() + 1)},
                         planes_.data(),
                         static_cast<std::int32_t>(world.planes.size()),
-                        {hertz_factor(scene.numerics.hertz), scene.numerics.linear_overlap},
+                        {world::hertz_factor(scene.numerics.hertz), scene.numerics.linear_overlap},
                         rays_.views()};
     const auto count = static_cast<std::int64_t>(world.bodies.size());
     totals_.resize(count);
@@ -117,9 +117,9 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const World& wor
 }
 
 template<class Exec>
-void Rigid<Exec>::upload(const World& world)
+void Rigid<Exec>::upload(const world::World& world)
 {
-    const HostBodies&          host = world.bodies;
+    const world::HostBodies&   host = world.bodies;
     const std::size_t          n    = host.size();
     std::vector<Sym3<double>>  inertia;
     std::vector<std::uint32_t> locked(n, 0);

@@ -9,20 +9,20 @@
 #include "backend/moment.hpp"
 #include "io/snapshot.hpp"
 #include "kernels/dem/bodies.hpp"
-#include "kernels/dem/impulses.hpp"
-#include "kernels/dem/move.hpp"
-#include "kernels/dem/pairs.hpp"
-#include "kernels/dem/strays.hpp"
-#include "kernels/dem/totals.hpp"
+#include "kernels/dem/motion/impulses.hpp"
+#include "kernels/dem/motion/move.hpp"
+#include "kernels/dem/motion/totals.hpp"
+#include "kernels/dem/pairs/pairs.hpp"
+#include "kernels/dem/pairs/strays.hpp"
+#include "solver/body_command.hpp"
 #include "solver/body_ranks.hpp"
+#include "solver/body_row.hpp"
 #include "solver/device_rays.hpp"
 #include "solver/device_templates.hpp"
 #include "solver/ledger.hpp"
-#include "solver/phases.hpp"
 #include "solver/plan.hpp"
-#include "solver/recorder.hpp"
 #include "solver/time_step.hpp"
-#include "solver/world.hpp"
+#include "world/world.hpp"
 
 namespace tread::solver
 {
@@ -43,7 +43,7 @@ class Rigid
 public:
     /// `decomposition`: who owns which page; null on one rank. With it every call is collective, and what comes back is
     /// of all bodies.
-    Rigid(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
+    Rigid(const Exec& exec, const scene::Scene& scene, const world::World& world, const Plan& plan,
           decomp::Decomposition<Exec>* decomposition = nullptr);
 
     dem::BodiesView          view() { return bodies_.view(); }
@@ -121,7 +121,7 @@ public:
     void ask_report();
 
     /// Of the pairs of the last step that touch.
-    std::vector<ContactRecord> contacts() const;
+    std::vector<world::ContactRecord> contacts() const;
 
     RigidCensus          census();
     std::vector<BodyRow> named_bodies();
@@ -152,7 +152,7 @@ private:
 
     std::vector<dem::ContactImpulse> summed_impulses() const;
 
-    void          upload(const World& world);
+    void          upload(const world::World& world);
     void          restore_contacts();
     void          list_pairs_anew(double dt);
     bool          list_holds(double dt);
@@ -189,7 +189,7 @@ private:
 
     Exec                                          exec_;
     const scene::Scene&                           scene_;
-    const World&                                  world_;
+    const world::World&                           world_;
     Vec3<double>                                  gravity_;
     double                                        mass_ = 0;
     std::int64_t                                  named_;

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
-#include "kernels/dem/contact_limits.hpp"
+#include "kernels/dem/contact/contact_limits.hpp"
 #include "solver/rigid.hpp"
 
 // What stops a run of bodies, by name, instead of letting it go on wrong.

@@ -22,7 +22,7 @@ void Rigid<Exec>::restore_contacts()
     patches.reserve(world_.contacts.size());
     bool       several  = false;
     const auto is_large = pairs_.is_large.to_host();
-    for (const ContactRecord& contact : world_.contacts)
+    for (const world::ContactRecord& contact : world_.contacts)
     {
         if (ranks_ && !ranks_->owns(ranks_->decider(is_large, contact.key))) { continue; }
         const bool again = !keys.empty() && dem::same_pair(keys.back(), contact.key);
@@ -39,13 +39,13 @@ void Rigid<Exec>::restore_contacts()
 }
 
 template<class Exec>
-std::vector<ContactRecord> Rigid<Exec>::contacts() const
+std::vector<world::ContactRecord> Rigid<Exec>::contacts() const
 {
-    const std::vector<std::uint64_t> keys    = pairs_.key.to_host();
-    const std::vector<dem::Patch>    patches = pairs_.patch.to_host();
-    const std::vector<dem::Rolling>  rolling = pairs_.rolling.to_host();
-    const std::vector<Vec3<double>>  places  = pairs_.patches.place.to_host();
-    std::vector<ContactRecord>       found;
+    const std::vector<std::uint64_t>  keys    = pairs_.key.to_host();
+    const std::vector<dem::Patch>     patches = pairs_.patch.to_host();
+    const std::vector<dem::Rolling>   rolling = pairs_.rolling.to_host();
+    const std::vector<Vec3<double>>   places  = pairs_.patches.place.to_host();
+    std::vector<world::ContactRecord> found;
     for (std::size_t p = 0; p < keys.size(); ++p)
     {
         if (!(patches[p].stiffness > 0)) { continue; }
@@ -53,7 +53,7 @@ std::vector<ContactRecord> Rigid<Exec>::contacts() const
                          places.empty() ? Vec3<double>::Zero() : places[p]});
     }
     if (!ranks_) { return found; }
-    std::vector<ContactRecord> all;
+    std::vector<world::ContactRecord> all;
     for (const auto& records : decomp::gather_values(ranks_->communicator(), found))
     {
         all.insert(all.end(), records.begin(), records.end());
@@ -62,11 +62,11 @@ std::vector<ContactRecord> Rigid<Exec>::contacts() const
     return all;
 }
 
-template void                       Rigid<Cpu>::restore_contacts();
-template std::vector<ContactRecord> Rigid<Cpu>::contacts() const;
+template void                              Rigid<Cpu>::restore_contacts();
+template std::vector<world::ContactRecord> Rigid<Cpu>::contacts() const;
 #ifdef TREAD_WITH_CUDA
-template void                       Rigid<Gpu>::restore_contacts();
-template std::vector<ContactRecord> Rigid<Gpu>::contacts() const;
+template void                              Rigid<Gpu>::restore_contacts();
+template std::vector<world::ContactRecord> Rigid<Gpu>::contacts() const;
 #endif
 
 } // namespace tread::solver

@@ -7,8 +7,8 @@
 #include "backend/reduce.hpp"
 #include "base/errors.hpp"
 #include "decomp/combine.hpp"
-#include "kernels/dem/contact_limits.hpp"
-#include "kernels/dem/sums.hpp"
+#include "kernels/dem/contact/contact_limits.hpp"
+#include "kernels/dem/motion/sums.hpp"
 #include "solver/rigid.hpp"
 
 // What bodies tell: to the books, the recorder and snapshots.

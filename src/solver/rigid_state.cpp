@@ -52,7 +52,7 @@ std::optional<BodyCommand> command_of(const CommandRow& row)
 }
 
 /// Accepts contact stiffnesses of bodies that do not ask for endless substeps.
-auto accepted_stiffness(const HostBodies& bodies)
+auto accepted_stiffness(const world::HostBodies& bodies)
 {
     const auto most = [&bodies](std::size_t b) { return bodies.mass[b] / (shortest * shortest); };
     return accept::each_at([most](std::size_t b, double value) { return 0 <= value && value <= most(b); },
@@ -61,7 +61,7 @@ auto accepted_stiffness(const HostBodies& bodies)
 
 /// Accepts what a field of the bodies may hold; `present` is what the scene gives: sizes, shapes and materials stay.
 template<class T>
-auto accepted_field(std::string_view name, std::vector<T> present, const HostBodies& bodies)
+auto accepted_field(std::string_view name, std::vector<T> present, const world::HostBodies& bodies)
 {
     return [name, &bodies, present = std::move(present)](const std::vector<T>& values) -> accept::Verdict
     {
@@ -99,14 +99,14 @@ auto commands_that_can_be()
 }
 
 /// Nodes of a body's surface.
-std::int64_t nodes_of(const World& world, std::int64_t body)
+std::int64_t nodes_of(const world::World& world, std::int64_t body)
 {
     const auto shape = static_cast<std::size_t>(world.bodies.shape[static_cast<std::size_t>(body)]);
     return static_cast<std::int64_t>(world.templates[shape].nodes.positions.size());
 }
 
 /// Accepts keys of two bodies, or of a body and a wall; where they are listed, in their order.
-auto accepted_keys(const World& world, bool listed)
+auto accepted_keys(const world::World& world, bool listed)
 {
     const auto        bodies = static_cast<std::int64_t>(world.bodies.size());
     const auto        sides  = bodies + static_cast<std::int64_t>(world.planes.size());
@@ -124,7 +124,8 @@ auto accepted_keys(const World& world, bool listed)
 }
 
 /// Accepts, of each pair, nodes of its bodies: i of the first, ~i of the second. `first`: each pair's run of them.
-auto accepted_nodes(const World& world, const std::vector<std::uint64_t>& keys, const std::vector<std::int32_t>& first)
+auto accepted_nodes(const world::World& world, const std::vector<std::uint64_t>& keys,
+                    const std::vector<std::int32_t>& first)
 {
     return [&](const std::vector<std::int32_t>& values) -> accept::Verdict
     {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "solver/materials.hpp"
+#include "world/materials.hpp"
 
 namespace tread::solver
 {
@@ -42,7 +42,7 @@ std::vector<Real> planes(const std::vector<Eigen::Matrix<double, components, 1>>
     return out;
 }
 
-std::vector<std::uint32_t> numbers(const HostPoints& points)
+std::vector<std::uint32_t> numbers(const world::HostPoints& points)
 {
     if (!points.id.empty()) { return points.id; }
     std::vector<std::uint32_t> ids(points.size());
@@ -52,9 +52,9 @@ std::vector<std::uint32_t> numbers(const HostPoints& points)
 
 /// The points of the pages that a rank owns.
 template<class Exec>
-HostPoints own_points(const World& world, const decomp::Decomposition<Exec>& decomposition)
+world::HostPoints own_points(const world::World& world, const decomp::Decomposition<Exec>& decomposition)
 {
-    HostPoints                own = world.points;
+    world::HostPoints         own = world.points;
     std::vector<std::uint8_t> kept;
     own.id = numbers(own);
     for (const Vec3<double>& at : own.position)
@@ -62,14 +62,14 @@ HostPoints own_points(const World& world, const decomp::Decomposition<Exec>& dec
         const mpm::Index3 cell = mpm::cell_of(at, world.geometry.lattice());
         kept.push_back(decomposition.owners.owner(mpm::page_key(mpm::page_of(cell))) == decomposition.rank());
     }
-    keep_points(own, kept);
+    world::keep_points(own, kept);
     return own;
 }
 
 } // namespace
 
 template<class Exec, class Real>
-Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields,
+Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const world::World& world, mpm::PointFields fields,
                        decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
     , geometry_(world.geometry)
@@ -95,7 +95,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
     , sums_scratch_(exec, "sand sums scratch")
     , told_(exec, "sand sums told")
     , materials_(exec, "materials")
-    , pic_rate_(pic_rate(scene, world.points))
+    , pic_rate_(world::pic_rate(scene, world.points))
     , cell_means_(scene.numerics.volume_strain == scene::VolumeStrain::cell_average)
     , cell_divergence_(exec, "cell divergence")
     , shared_stress_(exec, "point stress of cell pressure")
@@ -111,7 +111,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const World&
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::upload(const HostPoints& host, mpm::PointFields fields)
+void Sand<Exec, Real>::upload(const world::HostPoints& host, mpm::PointFields fields)
 {
     const auto n = host.size();
     points_.allocate(static_cast<std::int64_t>(n), fields);
@@ -319,7 +319,7 @@ void Sand<Exec, Real>::gather(double dt)
             });
     }
     const mpm::GatherStep<Real> step{static_cast<Real>(dt), materials_.data(),
-                                     static_cast<Real>(pic_share(pic_rate_, dt)), cell_divergence_.data()};
+                                     static_cast<Real>(world::pic_share(pic_rate_, dt)), cell_divergence_.data()};
     for_each_level(
         [&](const mpm::PagesView& pages, const mpm::PageList& list)
         {

@@ -8,21 +8,21 @@
 #include "backend/fetched.hpp"
 #include "backend/reduce.hpp"
 #include "decomp/balance.hpp"
-#include "kernels/mpm/cell_divergence.hpp"
-#include "kernels/mpm/cell_stress.hpp"
-#include "kernels/mpm/gather.hpp"
-#include "kernels/mpm/grid.hpp"
-#include "kernels/mpm/order.hpp"
-#include "kernels/mpm/relist.hpp"
-#include "kernels/mpm/scatter.hpp"
-#include "kernels/mpm/seams.hpp"
-#include "kernels/mpm/wall_pages.hpp"
+#include "kernels/mpm/grid/grid.hpp"
+#include "kernels/mpm/grid/seams.hpp"
+#include "kernels/mpm/grid/wall_pages.hpp"
+#include "kernels/mpm/pages/order.hpp"
+#include "kernels/mpm/pages/relist.hpp"
+#include "kernels/mpm/transfers/cell_divergence.hpp"
+#include "kernels/mpm/transfers/cell_stress.hpp"
+#include "kernels/mpm/transfers/gather.hpp"
+#include "kernels/mpm/transfers/scatter.hpp"
 #include "solver/point_copy.hpp"
 #include "solver/sand_ranks.hpp"
 #include "solver/sand_report.hpp"
 #include "solver/sand_sleep.hpp"
-#include "solver/terrain_bins.hpp"
-#include "solver/world.hpp"
+#include "world/terrain_bins.hpp"
+#include "world/world.hpp"
 
 namespace tread::solver
 {
@@ -36,7 +36,7 @@ class Sand
 {
 public:
     /// `decomposition`: who owns which page; null on one rank. A world whose points have ids has only this rank's.
-    Sand(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields,
+    Sand(const Exec& exec, const scene::Scene& scene, const world::World& world, mpm::PointFields fields,
          decomp::Decomposition<Exec>* decomposition = nullptr);
 
     /// Of this rank.
@@ -103,26 +103,26 @@ public:
     std::vector<Vec3<double>> positions() const;
 
     /// This rank's points, those that sleep among them, as cubes of their present volume.
-    void add_to(TerrainBins& bins) const;
+    void add_to(world::TerrainBins& bins) const;
 
     /// Takes what a snapshot shows, of this rank.
     void copy_to(PointCopy<Exec, Real>& copy) const { copy.take(exec_, all_points()); }
 
     /// Into a checkpoint, or out of it into sand of the same scene, which was built as `built`. Due right after a
     /// report; changes nothing that comes after it. Collective.
-    void transfer(StateFile& file, const HostPoints& built);
+    void transfer(StateFile& file, const world::HostPoints& built);
 
 private:
     void transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder,
                          std::vector<bool>& seen);
-    void transfer_lists(StateFile& file, const HostPoints& built, std::vector<bool>& seen);
+    void transfer_lists(StateFile& file, const world::HostPoints& built, std::vector<bool>& seen);
     /// Those of the steps, then those that sleep.
     std::vector<const mpm::Points<Exec, Real>*> all_points() const;
 
-    void           restore_lasting(mpm::Points<Exec, Real>& points, const HostPoints& built);
+    void           restore_lasting(mpm::Points<Exec, Real>& points, const world::HostPoints& built);
     void           resume_lists();
     void           make_room();
-    void           upload(const HostPoints& host, mpm::PointFields fields);
+    void           upload(const world::HostPoints& host, mpm::PointFields fields);
     void           order_in_memory();
     void           keep_account_of(std::int64_t left);
     void           list_anew();

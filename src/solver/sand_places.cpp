@@ -30,7 +30,7 @@ std::vector<Vec3<double>> Sand<Exec, Real>::positions() const
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::add_to(TerrainBins& bins) const
+void Sand<Exec, Real>::add_to(world::TerrainBins& bins) const
 {
     constexpr double loosest = 1.5; // of the initial volume: what is looser floats, and is no larger for that
     for (const mpm::Points<Exec, Real>* points : all_points())
@@ -48,17 +48,17 @@ void Sand<Exec, Real>::add_to(TerrainBins& bins) const
 
 template std::vector<const mpm::Points<Cpu, float>*>  Sand<Cpu, float>::all_points() const;
 template std::vector<Vec3<double>>                    Sand<Cpu, float>::positions() const;
-template void                                         Sand<Cpu, float>::add_to(TerrainBins&) const;
+template void                                         Sand<Cpu, float>::add_to(world::TerrainBins&) const;
 template std::vector<const mpm::Points<Cpu, double>*> Sand<Cpu, double>::all_points() const;
 template std::vector<Vec3<double>>                    Sand<Cpu, double>::positions() const;
-template void                                         Sand<Cpu, double>::add_to(TerrainBins&) const;
+template void                                         Sand<Cpu, double>::add_to(world::TerrainBins&) const;
 #ifdef TREAD_WITH_CUDA
 template std::vector<const mpm::Points<Gpu, float>*>  Sand<Gpu, float>::all_points() const;
 template std::vector<Vec3<double>>                    Sand<Gpu, float>::positions() const;
-template void                                         Sand<Gpu, float>::add_to(TerrainBins&) const;
+template void                                         Sand<Gpu, float>::add_to(world::TerrainBins&) const;
 template std::vector<const mpm::Points<Gpu, double>*> Sand<Gpu, double>::all_points() const;
 template std::vector<Vec3<double>>                    Sand<Gpu, double>::positions() const;
-template void                                         Sand<Gpu, double>::add_to(TerrainBins&) const;
+template void                                         Sand<Gpu, double>::add_to(world::TerrainBins&) const;
 #endif
 
 } // namespace tread::solver

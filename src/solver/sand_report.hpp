@@ -3,9 +3,9 @@
 #include <array>
 #include <cstdint>
 
-#include "kernels/mpm/census.hpp"
-#include "kernels/mpm/gather.hpp"
-#include "kernels/mpm/grid.hpp"
+#include "kernels/mpm/grid/grid.hpp"
+#include "kernels/mpm/pages/census.hpp"
+#include "kernels/mpm/transfers/gather.hpp"
 
 namespace tread::solver
 {

@@ -7,7 +7,7 @@
 
 #include "backend/reduce.hpp"
 #include "decomp/point_columns.hpp"
-#include "kernels/mpm/census.hpp"
+#include "kernels/mpm/pages/census.hpp"
 #include "solver/state_file.hpp"
 
 namespace tread::solver
@@ -22,7 +22,7 @@ constexpr double unseen_share = 0.25;
 constexpr std::int64_t census_run = 512;
 
 /// Pressure of the bed on the domain's floor, Pa.
-double floor_pressure(const scene::Scene& scene, const World& world)
+double floor_pressure(const scene::Scene& scene, const world::World& world)
 {
     double mass = 0;
     for (const double m : world.points.mass) { mass += m; }
@@ -48,7 +48,7 @@ bool is_motion(std::string_view field)
 } // namespace
 
 template<class Exec, class Real>
-SandSleep<Exec, Real>::SandSleep(const Exec& exec, const scene::Scene& scene, const World& world,
+SandSleep<Exec, Real>::SandSleep(const Exec& exec, const scene::Scene& scene, const world::World& world,
                                  mpm::PointFields fields)
     : exec_(exec)
     , rule_{mpm::page_edge * world.geometry.spacing, scene.sleep.distance.value(), scene.sleep.speed, scene.sleep.rest}

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "kernels/mpm/leaving.hpp"
-#include "kernels/mpm/material_parameters.hpp"
+#include "kernels/mpm/laws/material_parameters.hpp"
+#include "kernels/mpm/pages/leaving.hpp"
 #include "scene/scene.hpp"
 #include "solver/page_watch.hpp"
 #include "solver/sand_report.hpp"
-#include "solver/world.hpp"
+#include "world/world.hpp"
 
 namespace tread::solver
 {
@@ -17,7 +17,7 @@ class SandSleep
 {
 public:
     /// The scene must have sleep.distance.
-    SandSleep(const Exec& exec, const scene::Scene& scene, const World& world, mpm::PointFields fields);
+    SandSleep(const Exec& exec, const scene::Scene& scene, const world::World& world, mpm::PointFields fields);
 
     /// Those that sleep.
     mpm::Points<Exec, Real>&       points() { return points_; }

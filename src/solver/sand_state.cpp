@@ -61,7 +61,7 @@ auto accepted_plane(std::string_view name, double lowest, double highest, std::v
 
 /// Points that are listed need nothing of the last step any more but what they are.
 template<class Exec, class Real>
-void Sand<Exec, Real>::transfer(StateFile& file, const HostPoints& built)
+void Sand<Exec, Real>::transfer(StateFile& file, const world::HostPoints& built)
 {
     if (!file.loads()) { order(); }
     std::vector<bool> seen(built.size(), false);
@@ -82,7 +82,7 @@ void Sand<Exec, Real>::transfer(StateFile& file, const HostPoints& built)
 
 /// What an exact state has beside the points. `seen`: ids.
 template<class Exec, class Real>
-void Sand<Exec, Real>::transfer_lists(StateFile& file, const HostPoints& built, std::vector<bool>& seen)
+void Sand<Exec, Real>::transfer_lists(StateFile& file, const world::HostPoints& built, std::vector<bool>& seen)
 {
     PageBounds bounds(points_.count);
     pages_.for_each_field(
@@ -122,7 +122,7 @@ void Sand<Exec, Real>::transfer_points(StateFile& file, mpm::Points<Exec, Real>&
 
 /// By the ids, which are places in what was built.
 template<class Exec, class Real>
-void Sand<Exec, Real>::restore_lasting(mpm::Points<Exec, Real>& points, const HostPoints& built)
+void Sand<Exec, Real>::restore_lasting(mpm::Points<Exec, Real>& points, const world::HostPoints& built)
 {
     const std::vector<std::uint32_t> id      = points.id.to_host();
     const auto                       count   = static_cast<std::size_t>(points.count);
@@ -152,11 +152,11 @@ void Sand<Exec, Real>::resume_lists()
     stirred_in_.fill_zero();
 }
 
-template void Sand<Cpu, float>::transfer(StateFile&, const HostPoints&);
-template void Sand<Cpu, double>::transfer(StateFile&, const HostPoints&);
+template void Sand<Cpu, float>::transfer(StateFile&, const world::HostPoints&);
+template void Sand<Cpu, double>::transfer(StateFile&, const world::HostPoints&);
 #ifdef TREAD_WITH_CUDA
-template void Sand<Gpu, float>::transfer(StateFile&, const HostPoints&);
-template void Sand<Gpu, double>::transfer(StateFile&, const HostPoints&);
+template void Sand<Gpu, float>::transfer(StateFile&, const world::HostPoints&);
+template void Sand<Gpu, double>::transfer(StateFile&, const world::HostPoints&);
 #endif
 
 } // namespace tread::solver

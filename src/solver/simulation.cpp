@@ -10,7 +10,7 @@
 #include "base/errors.hpp"
 #include "solver/body_reaches.hpp"
 #include "solver/pace_limits.hpp"
-#include "solver/terrain_bins.hpp"
+#include "world/terrain_bins.hpp"
 
 namespace tread::solver
 {
@@ -24,7 +24,7 @@ constexpr double least_gradient = 0.5; ///< |grad phi| in contact under which a 
 
 Vec3<double> vector(const scene::Vector3& v) { return {v[0], v[1], v[2]}; }
 
-double free_weight(const scene::Scene& scene, const World& world)
+double free_weight(const scene::Scene& scene, const world::World& world)
 {
     const double sand  = std::accumulate(world.points.mass.begin(), world.points.mass.end(), 0.0);
     const double rocks = std::accumulate(world.bodies.mass.begin() + world.bodies.named, world.bodies.mass.end(), 0.0);
@@ -42,8 +42,8 @@ double speed_at_start(const scene::Scene& scene)
 } // namespace
 
 template<class Exec, class Real>
-Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
-                                   decomp::Decomposition<Exec>* decomposition)
+Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, const world::World& world,
+                                   const Plan& plan, decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
     , decomposition_(decomposition)
     , scene_(scene)
@@ -291,9 +291,9 @@ io::PointFields Simulation<Exec, Real>::point_fields() const
 }
 
 template<class Exec, class Real>
-std::vector<ContactRecord> Simulation<Exec, Real>::contacts()
+std::vector<world::ContactRecord> Simulation<Exec, Real>::contacts()
 {
-    return rigid_ ? rigid_->contacts() : std::vector<ContactRecord>{};
+    return rigid_ ? rigid_->contacts() : std::vector<world::ContactRecord>{};
 }
 
 template<class Exec, class Real>
@@ -303,9 +303,9 @@ io::BodyFields Simulation<Exec, Real>::body_fields()
 }
 
 template<class Exec, class Real>
-std::vector<double> Simulation<Exec, Real>::surface_heights(const ColumnLattice& lattice)
+std::vector<double> Simulation<Exec, Real>::surface_heights(const world::ColumnLattice& lattice)
 {
-    TerrainBins bins(lattice);
+    world::TerrainBins bins(lattice);
     if (sand_) { sand_->add_to(bins); }
     if (decomposition_ != nullptr) { bins.add_ranks(decomposition_->communicator); }
     if (plan_.rocks)

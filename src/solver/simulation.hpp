@@ -7,18 +7,18 @@
 #include <vector>
 
 #include "io/snapshot.hpp"
+#include "solver/body_command.hpp"
+#include "solver/body_row.hpp"
 #include "solver/coupling.hpp"
 #include "solver/extremes.hpp"
 #include "solver/ledger.hpp"
-#include "solver/phases.hpp"
 #include "solver/plan.hpp"
-#include "solver/recorder.hpp"
 #include "solver/rigid.hpp"
 #include "solver/sand.hpp"
 #include "solver/sand_guard.hpp"
 #include "solver/stage_clock.hpp"
 #include "solver/time_step.hpp"
-#include "solver/world.hpp"
+#include "world/world.hpp"
 
 namespace tread::solver
 {
@@ -34,7 +34,7 @@ public:
     static constexpr int most_unmeasured = 8; ///< steps without a measuring
 
     /// `decomposition`: who owns which page; null on one rank.
-    Simulation(const Exec& exec, const scene::Scene& scene, const World& world, const Plan& plan,
+    Simulation(const Exec& exec, const scene::Scene& scene, const world::World& world, const Plan& plan,
                decomp::Decomposition<Exec>* decomposition = nullptr);
 
     const Exec& exec() const { return exec_; }
@@ -100,10 +100,10 @@ public:
     io::BodyFields  body_fields();
 
     /// Of bodies with bodies and walls.
-    std::vector<ContactRecord> contacts();
+    std::vector<world::ContactRecord> contacts();
 
     /// m, of sand and rocks (TerrainBins::surface).
-    std::vector<double> surface_heights(const ColumnLattice& lattice);
+    std::vector<double> surface_heights(const world::ColumnLattice& lattice);
 
     /// Into a checkpoint, or out of it into a simulation of the same scene, on as many ranks if it is to be exact; when
     /// measured(). Saving changes nothing that comes after it.
@@ -138,7 +138,7 @@ private:
     Exec                                 exec_;
     decomp::Decomposition<Exec>*         decomposition_;
     const scene::Scene&                  scene_;
-    const World&                         world_;
+    const world::World&                  world_;
     Plan                                 plan_;
     PaceLimits                           limits_;
     Pace                                 pace_;

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/saturated.hpp"
-#include "kernels/dem/pairs_kern.hpp"
+#include "kernels/dem/pairs/pairs_kern.hpp"
 
 namespace tread::solver
 {

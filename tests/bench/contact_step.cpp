@@ -32,9 +32,9 @@ struct Kind
 /// A scene, and its bodies where they are.
 struct Pile
 {
-    scene::Scene  scene;
-    solver::World world;
-    double        unit; ///< J, m g R of all bodies
+    scene::Scene scene;
+    world::World world;
+    double       unit; ///< J, m g R of all bodies
 };
 
 Pile poured(const test::RockForms& forms, const Kind& kind)
@@ -47,7 +47,7 @@ Pile poured(const test::RockForms& forms, const Kind& kind)
     text += "\n[[shape]]\nname = \"sphere\"\ngenerate = { kind = \"sphere\", nodes = 162 }\nsdf_cells = 40\n";
     text += test::rocks_of(kind.shape, count, "rain", {0, 0, 0}, {width, width, height}) + test::phase("all", 0, 1);
     Pile pile{test::load_text(text), {}, 0};
-    pile.world = solver::build_world(pile.scene);
+    pile.world = world::build_world(pile.scene);
     for (scene::Contact& contact : pile.scene.contacts) { contact.rolling_friction = 0.05; } // else balls roll on
     for (shape::ShapeTemplate& form : pile.world.templates) { form.sphere_radius *= kind.closed_form; }
     for (const double mass : pile.world.bodies.mass) { pile.unit += mass * test::earth * test::rock_radius; }
@@ -129,7 +129,7 @@ LiveTimes live_times(const Pile& pile)
     const std::vector<double>& mass = pile.world.bodies.mass;
     std::vector<double>        sums(mass.size(), 0.0);
     LiveTimes                  found;
-    for (const solver::ContactRecord& contact : pile.world.contacts)
+    for (const world::ContactRecord& contact : pile.world.contacts)
     {
         const auto   a    = static_cast<std::size_t>(dem::first_of(contact.key));
         const auto   b    = static_cast<std::size_t>(dem::second_of(contact.key));

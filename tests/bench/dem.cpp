@@ -9,8 +9,8 @@
 
 #include "timed.hpp"
 
+#include "run/phases.hpp"
 #include "scene/load.hpp"
-#include "solver/phases.hpp"
 #include "solver/rigid.hpp"
 
 namespace tread::bench
@@ -25,11 +25,11 @@ template<class Exec>
 class DemBench
 {
 public:
-    DemBench(const Exec& exec, const scene::Scene& scene, const solver::World& world, int substeps)
+    DemBench(const Exec& exec, const scene::Scene& scene, const world::World& world, int substeps)
         : exec_(exec)
         , scene_(scene)
         , rigid_(exec, scene, world, solver::make_plan(scene, world))
-        , phases_(scene, solver::rolling_radii(scene, world))
+        , phases_(scene, run::rolling_radii(scene, world))
         , substeps_(substeps)
     {
         command();
@@ -60,7 +60,7 @@ public:
             if (number % look_every != 0) { continue; }
             const double out_of_balance = rigid_.report(at).net_force / weight;
             if (!(out_of_balance <= at_rest)) { still_since = at; }
-            if (at - still_since >= solver::PhaseClock::equilibrium_hold) { break; }
+            if (at - still_since >= run::PhaseClock::equilibrium_hold) { break; }
         }
         return {at, rigid_.report(at).net_force / weight};
     }
@@ -148,13 +148,13 @@ private:
     Exec                exec_;
     const scene::Scene& scene_;
     solver::Rigid<Exec> rigid_;
-    solver::PhaseClock  phases_;
+    run::PhaseClock     phases_;
     int                 substeps_;
     double              dt_ = 0;
 };
 
 template<class Exec>
-void run_on(const Exec& exec, const DemCase& what, const scene::Scene& scene, const solver::World& world)
+void run_on(const Exec& exec, const DemCase& what, const scene::Scene& scene, const world::World& world)
 {
     const auto       count = static_cast<double>(world.bodies.size());
     DemBench<Exec>   bench(exec, scene, world, what.substeps);
@@ -184,8 +184,8 @@ void run_on(const Exec& exec, const DemCase& what, const scene::Scene& scene, co
 
 void run_dem(const DemCase& what)
 {
-    const scene::Scene  scene = scene::load_scene(what.scene, what.overrides);
-    const solver::World world = solver::build_world(scene);
+    const scene::Scene scene = scene::load_scene(what.scene, what.overrides);
+    const world::World world = world::build_world(scene);
     on_backend(what.backend, [&](const auto& exec) { run_on(exec, what, scene, world); });
 }
 

@@ -9,7 +9,7 @@
 
 #include "backend/vector.hpp"
 #include "decomp/exchange.hpp"
-#include "kernels/dem/shared.hpp"
+#include "kernels/dem/motion/shared.hpp"
 #include "timed.hpp"
 
 namespace tread::bench

@@ -19,7 +19,7 @@ void run_on(const Exec& exec, const MpmCase& what)
 {
     const Lattice         points = lattice(what);
     const scene::Scene    scene  = make_scene(what, points);
-    const solver::World   world  = make_world(what, scene, points, [](std::uint64_t) { return true; });
+    const world::World    world  = make_world(what, scene, points, [](std::uint64_t) { return true; });
     const auto            count  = static_cast<double>(world.points.size());
     SandBench<Exec, Real> bench(exec, what, scene, world, nullptr);
     const double          height = static_cast<double>(points.across[2]) * points.distance;

@@ -8,7 +8,7 @@
 
 #include "decomp/page_graph.hpp"
 #include "mpm.hpp"
-#include "solver/world.hpp"
+#include "world/world.hpp"
 
 // A bed or a column of sand on a lattice; a rank makes the points of its own pages alone.
 namespace tread::bench
@@ -131,9 +131,9 @@ inline decomp::PageGraph graph_of(const LatticePages& pages)
 }
 
 /// Walls and grid, no points.
-inline solver::World empty_world(const scene::Scene& scene)
+inline world::World empty_world(const scene::Scene& scene)
 {
-    solver::World world{};
+    world::World world{};
     world.geometry = {sand_spacing, 0.5, {scene.domain.size[0], scene.domain.size[1], scene.domain.size[2]}};
     using mpm::WallRule;
     world.grid_walls.rule[0][0] = world.grid_walls.rule[0][1] = WallRule::slip;
@@ -149,7 +149,7 @@ inline solver::World empty_world(const scene::Scene& scene)
 }
 
 /// Bytes of host memory matter: a thousand million points must fit.
-inline void fill(solver::HostPoints& points, const scene::Material& sand, const Vec3<double>& corner,
+inline void fill(world::HostPoints& points, const scene::Material& sand, const Vec3<double>& corner,
                  const Lattice& lattice, const std::vector<PagePoints>& pages)
 {
     std::vector<std::int64_t> first{0};
@@ -188,9 +188,9 @@ inline void fill(solver::HostPoints& points, const scene::Material& sand, const 
 
 /// With the points of the pages of which owned(page key) holds.
 template<class Owned>
-solver::World make_world(const MpmCase& what, const scene::Scene& scene, const Lattice& lattice, Owned owned)
+world::World make_world(const MpmCase& what, const scene::Scene& scene, const Lattice& lattice, Owned owned)
 {
-    solver::World           world = empty_world(scene);
+    world::World            world = empty_world(scene);
     std::vector<PagePoints> own;
     for (const auto& [key, points] : pages_of(world.geometry, corner_of(what, scene), lattice))
     {

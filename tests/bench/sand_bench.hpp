@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "sand_bed.hpp"
-#include "solver/materials.hpp"
 #include "solver/sand.hpp"
 #include "timed.hpp"
+#include "world/materials.hpp"
 
 // Sand whose steps are timed, on one rank or on several.
 namespace tread::bench
@@ -18,13 +18,13 @@ class SandBench
 {
 public:
     /// `decomposition`: null on one rank.
-    SandBench(const Exec& exec, const MpmCase& what, const scene::Scene& scene, const solver::World& world,
+    SandBench(const Exec& exec, const MpmCase& what, const scene::Scene& scene, const world::World& world,
               decomp::Decomposition<Exec>* decomposition)
         : exec_(exec)
         , sand_(exec, scene, world, {what.transfer != scene::Transfer::flip, scene::is_granular(what.law), false},
                 decomposition)
         , ranks_(decomposition == nullptr ? 1 : decomposition->ranks())
-        , dt_((what.per_cell == 1 ? 0.35 : 0.5) * sand_spacing / solver::compression_wave_speed(scene.materials[0]))
+        , dt_((what.per_cell == 1 ? 0.35 : 0.5) * sand_spacing / world::compression_wave_speed(scene.materials[0]))
     {
     }
 

@@ -28,7 +28,7 @@ void run_on(const Exec& exec, const Communicator& communicator, const MpmCase& w
     }
     const auto owned = [&](std::uint64_t page)
     { return !decomposition || decomposition->owners.owner(page) == communicator.rank(); };
-    const solver::World   world = make_world(what, scene, points, owned);
+    const world::World    world = make_world(what, scene, points, owned);
     SandBench<Exec, Real> bench(exec, what, scene, world, decomposition.get());
     bench.time_steps(20);
     std::vector<double> times(3);

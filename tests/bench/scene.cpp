@@ -22,13 +22,13 @@ class SceneBench
 {
 public:
     /// `decomposition`: null on one rank.
-    SceneBench(const Exec& exec, const scene::Scene& scene, const solver::World& world,
+    SceneBench(const Exec& exec, const scene::Scene& scene, const world::World& world,
                decomp::Decomposition<Exec>* decomposition)
         : exec_(exec)
         , scene_(scene)
         , plan_(solver::make_plan(scene, world))
         , simulation_(exec, scene, world, plan_, decomposition)
-        , phases_(scene, solver::rolling_radii(scene, world))
+        , phases_(scene, run::rolling_radii(scene, world))
     {
     }
 
@@ -77,7 +77,7 @@ private:
     const scene::Scene&            scene_;
     solver::Plan                   plan_;
     solver::Simulation<Exec, Real> simulation_;
-    solver::PhaseClock             phases_;
+    run::PhaseClock                phases_;
     solver::StageClock             clock_;
     solver::TimeStep               step_;
     double                         time_     = 0; ///< s
@@ -106,8 +106,8 @@ void print_stages(const Communicator& communicator, const std::vector<io::StageR
 template<class Exec, class Real>
 void run_on(const Exec& exec, const Communicator& communicator, const SceneCase& what, const scene::Scene& scene)
 {
-    const solver::World world = solver::build_world(scene);
-    const auto          count = static_cast<double>(world.points.size());
+    const world::World world = world::build_world(scene);
+    const auto         count = static_cast<double>(world.points.size());
 
     std::unique_ptr<decomp::Decomposition<Exec>> decomposition;
     std::string                                  partition = "one rank";

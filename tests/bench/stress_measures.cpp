@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
-#include "kernels/mpm/law_kern.hpp"
-#include "kernels/mpm/mid_step_kern.hpp"
+#include "kernels/mpm/laws/law_kern.hpp"
+#include "kernels/mpm/laws/mid_step_kern.hpp"
 
 // What the stress could be measured by, compared on one point: figures of docs/stress_measure.md. A measure has a
 // State<Real> and step(material, state, l), l = velocity gradient x dt, and gives the Kirchhoff stress.

@@ -5,7 +5,7 @@
 
 #include "base/errors.hpp"
 #include "scratch_file.hpp"
-#include "solver/raster.hpp"
+#include "world/raster.hpp"
 
 // Any bytes as a height map: an InputError or finite heights, as many as rows times columns. The first byte chooses the
 // format: 0 = PGM, 1 = CSV.
@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     named.high = 1.0;
     try
     {
-        const solver::Raster raster = solver::read_raster(named);
+        const world::Raster raster = world::read_raster(named);
         if (raster.heights.size() != raster.columns * raster.rows) { std::abort(); }
         for (const double height : raster.heights)
         {

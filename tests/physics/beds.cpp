@@ -6,8 +6,8 @@
 
 #include "harness.hpp"
 #include "io/bed_file.hpp"
-#include "solver/saved_bed.hpp"
 #include "temporary_directory.hpp"
+#include "world/saved_bed.hpp"
 
 // Beds of rocks that are settled in one scene and start another.
 namespace
@@ -99,7 +99,7 @@ struct Stillness
 };
 
 template<class Exec>
-Stillness watch(const Exec& exec, const scene::Scene& scene, const solver::World& world)
+Stillness watch(const Exec& exec, const scene::Scene& scene, const world::World& world)
 {
     test::Experiment<Exec> experiment(exec, scene, world);
     const auto             start = experiment.simulation().body_fields().position;
@@ -134,7 +134,7 @@ TYPED_TEST(Beds, SavedHeapStaysAtRestInAnotherScene)
     io::write_bed(path, saved);
 
     const scene::Scene scene = test::load_text(other_text(path));
-    solver::World      world = solver::build_world(scene);
+    world::World       world = world::build_world(scene);
     ASSERT_EQ(world.bodies.size(), saved.size() + 1);
     ASSERT_EQ(world.contacts.size(), saved.contacts.stiffness.size());
     EXPECT_GE(world.contacts.size(), saved.size()) << "every rock lies on something";

@@ -111,9 +111,9 @@ TYPED_TEST(Guards, NotANumberIsNamedAtOnce)
     const TypeParam   exec  = this->exec();
     const std::string balls = ball("first", 0.1, 1, "[1.0, 0.5, 0.5]", "[0.0, 0.0, 0.0]") +
                               ball("second", 0.1, 1, "[2.0, 0.5, 0.5]", "[0.0, 0.0, 0.0]");
-    const scene::Scene  scene = test::load_text(text(0.01, 1e-3, 1, balls));
-    const solver::World world = solver::build_world(scene);
-    const Vec3<double>  lost(0, std::numeric_limits<double>::quiet_NaN(), 0);
+    const scene::Scene scene = test::load_text(text(0.01, 1e-3, 1, balls));
+    const world::World world = world::build_world(scene);
+    const Vec3<double> lost(0, std::numeric_limits<double>::quiet_NaN(), 0);
     for (auto array : {&dem::BodiesView::velocity, &dem::BodiesView::angular_velocity, &dem::BodiesView::position})
     {
         solver::Rigid<TypeParam> rigid(exec, scene, world, make_plan(scene, world));
@@ -137,7 +137,7 @@ TYPED_TEST(Guards, BodyBeyondItsSearchStopsTheRunByName)
     const std::string balls = ball("first", 0.1, 1, "[1.0, 0.5, 0.5]", "[0.0, 0.0, 0.0]") +
                               ball("second", 0.1, 1, "[2.0, 0.5, 0.5]", "[0.0, 0.0, 0.0]");
     const scene::Scene       scene = test::load_text(text(0.01, 1e-3, 1, balls));
-    const solver::World      world = solver::build_world(scene);
+    const world::World       world = world::build_world(scene);
     solver::Rigid<TypeParam> rigid(exec, scene, world, make_plan(scene, world));
     rigid.command(std::vector<solver::BodyCommand>(2));
     rigid.find_pairs(1e-3);

@@ -26,28 +26,28 @@ public:
     }
 
     Experiment(const Exec& exec, const scene::Scene& scene)
-        : Experiment(exec, scene, solver::build_world(scene))
+        : Experiment(exec, scene, world::build_world(scene))
     {
     }
 
     /// `decomposition`: null for the whole scene on this rank.
-    Experiment(const Exec& exec, scene::Scene scene, solver::World world,
+    Experiment(const Exec& exec, scene::Scene scene, world::World world,
                decomp::Decomposition<Exec>* decomposition = nullptr)
         : scene_(std::move(scene))
         , world_(std::move(world))
         , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_), decomposition)
-        , phases_(scene_, solver::rolling_radii(scene_, world_))
+        , phases_(scene_, run::rolling_radii(scene_, world_))
     {
     }
 
-    Simulation&          simulation() { return simulation_; }
-    const scene::Scene&  scene() const { return scene_; }
-    const solver::World& world() const { return world_; }
-    double               time() const { return time_; }
-    double               dt() const { return step_.dt; }
+    Simulation&         simulation() { return simulation_; }
+    const scene::Scene& scene() const { return scene_; }
+    const world::World& world() const { return world_; }
+    double              time() const { return time_; }
+    double              dt() const { return step_.dt; }
 
     /// How the last phase that ran ended.
-    const solver::PhaseEnd& phase_end() const { return phases_.ending(); }
+    const run::PhaseEnd& phase_end() const { return phases_.ending(); }
 
     /// Before every step, adjust(commands) may ask of the named bodies what no phase can.
     void steer(std::function<void(std::vector<solver::BodyCommand>&)> adjust) { adjust_ = std::move(adjust); }
@@ -90,9 +90,9 @@ public:
 
 private:
     scene::Scene       scene_;
-    solver::World      world_;
+    world::World       world_;
     Simulation         simulation_;
-    solver::PhaseClock phases_;
+    run::PhaseClock    phases_;
     solver::StageClock clock_;
     solver::TimeStep   step_;
     double             time_ = 0;

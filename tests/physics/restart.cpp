@@ -35,9 +35,9 @@ class Run
 public:
     Run(const Exec& exec, const std::string& text)
         : scene_(test::load_text(text))
-        , world_(solver::build_world(scene_))
+        , world_(world::build_world(scene_))
         , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_))
-        , phases_(scene_, solver::rolling_radii(scene_, world_))
+        , phases_(scene_, run::rolling_radii(scene_, world_))
     {
     }
 
@@ -133,9 +133,9 @@ private:
 
     Communicator                     self_{MPI_COMM_SELF};
     scene::Scene                     scene_;
-    solver::World                    world_;
+    world::World                     world_;
     solver::Simulation<Exec, double> simulation_;
-    solver::PhaseClock               phases_;
+    run::PhaseClock                  phases_;
     solver::StageClock               clock_;
     solver::TimeStep                 step_;
     double                           time_ = 0;

@@ -60,7 +60,7 @@ template<class Experiment>
 std::vector<Vec3<double>> patches(Experiment& run)
 {
     std::vector<Vec3<double>> found;
-    for (const solver::ContactRecord& contact : run.simulation().contacts())
+    for (const world::ContactRecord& contact : run.simulation().contacts())
     {
         if (dem::second_of(contact.key) == 1) { found.push_back(contact.patch.normal); }
     }

@@ -105,7 +105,7 @@ position = [{}, 0.1, 0.05]
             test::rock_domain(size, 0, "x = \"open\", y = \"open\", bottom = \"fixed\", top = \"open\"", "") +
             test::stone(stone_young, 0.5, 0.5) + clast(162) + fmt::format(fmt::runtime(rock), "one", x) +
             fmt::format(fmt::runtime(rock), "other", 0.6) + fixed_step(2e-4) + test::phase("fall", 0, 1));
-        const solver::World              world = solver::build_world(scene);
+        const world::World               world = world::build_world(scene);
         decomp::Decomposition<TypeParam> decomposition(test::world(), this->exec(), {});
         const test::OwnedPages           pages = test::pages_of(solver::page_lattice_of(world), size, halves);
         decomposition.owners.assign(pages.key, pages.rank);

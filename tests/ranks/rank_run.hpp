@@ -31,8 +31,8 @@ public:
     RankRun(const Exec& exec, const std::string& text, Ranks ranks, const OwnerOf& owner_of = {},
             decomp::TransportChoice transport = decomp::TransportChoice::automatic)
         : scene_(load_text(text))
-        , world_(solver::build_world(scene_))
-        , phases_(scene_, solver::rolling_radii(scene_, world_))
+        , world_(world::build_world(scene_))
+        , phases_(scene_, run::rolling_radii(scene_, world_))
     {
         if (ranks == Ranks::all) { decompose(exec, owner_of, transport); }
         simulation_ = std::make_unique<solver::Simulation<Exec, Real>>(
@@ -103,8 +103,8 @@ private:
     }
 
     scene::Scene                                    scene_;
-    solver::World                                   world_;
-    solver::PhaseClock                              phases_;
+    world::World                                    world_;
+    run::PhaseClock                                 phases_;
     std::unique_ptr<decomp::Decomposition<Exec>>    decomposition_;
     std::unique_ptr<solver::Simulation<Exec, Real>> simulation_;
     solver::StageClock                              clock_;

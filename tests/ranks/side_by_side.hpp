@@ -89,7 +89,7 @@ public:
     template<class Owner>
     SideBySide(const Exec& exec, const scene::Scene& scene, const Vec3<double>& size, Owner owner,
                Owners owners = Owners::stay)
-        : built_(solver::build_world(scene))
+        : built_(world::build_world(scene))
         , decomposition_(world(), exec, {decomp::TransportChoice::automatic, decomp::Checksums::on})
         , alone(exec, scene, built_)
         , together(exec, with(owners, scene), built_, given(size, owner))
@@ -128,7 +128,7 @@ private:
         return &decomposition_;
     }
 
-    solver::World               built_;
+    world::World                built_;
     decomp::Decomposition<Exec> decomposition_;
 
 public:

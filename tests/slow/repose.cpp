@@ -11,7 +11,7 @@
 #include "../physics/rock_scenes.hpp"
 #include "../statistics.hpp"
 #include "../unit/kernels/dem_ray_shapes.hpp"
-#include "kernels/dem/strays.hpp"
+#include "kernels/dem/pairs/strays.hpp"
 #include "shape/sdf_grid.hpp"
 
 // The slope at which irregular rocks lie, against that of spheres of their volume.
@@ -51,8 +51,8 @@ Grains rained(const std::string& kind)
                     "region = {{ box = [[0, 0, {}], [{}, {}, {}]] }}\n",
                     count, 0.9 * mean, 1.1 * mean, mean, fence * mean, across * mean, (drop + 1) * mean) +
         test::phase("all", 0, 1);
-    const solver::World         world  = solver::build_world(test::load_text(text));
-    const solver::HostBodies&   bodies = world.bodies;
+    const world::World          world  = world::build_world(test::load_text(text));
+    const world::HostBodies&    bodies = world.bodies;
     const shape::ShapeTemplate& form   = world.templates[0];
     Grains                      grains{test::solid_of(form), {}};
     grains.shape.sphere_radius = form.sphere_radius;

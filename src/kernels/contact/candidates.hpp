@@ -8,7 +8,7 @@
 #include "kernels/contact/runs.hpp"
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/templates.hpp"
-#include "kernels/mpm/pages.hpp"
+#include "kernels/mpm/pages/pages.hpp"
 #include "kernels/mpm/points.hpp"
 
 // Which sand points may touch which body during one MPM step, or several: found once, frozen during the substeps.

@@ -5,8 +5,8 @@
 
 #include "kernels/contact/candidates.hpp"
 #include "kernels/contact/samples_kern.hpp"
-#include "kernels/dem/sdf_kern.hpp"
-#include "kernels/mpm/levels.hpp"
+#include "kernels/dem/contact/sdf_kern.hpp"
+#include "kernels/mpm/grid/levels.hpp"
 
 namespace tread::contact
 {

@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "kernels/contact/history_kern.hpp"
-#include "kernels/dem/select.hpp"
+#include "kernels/dem/pairs/select.hpp"
 
 // The steps of the history, the same on both backends; history.cpp and history.cu bring in for_each and instantiate.
 namespace tread::contact

@@ -3,7 +3,7 @@
 #include "backend/block_sum.cuh"
 #include "backend/cooperative.cuh"
 #include "kernels/contact/point_contact_kern.hpp"
-#include "kernels/dem/warp_lanes.cuh"
+#include "kernels/dem/contact/warp_lanes.cuh"
 
 // Substeps of one body that meets sand and nothing else. A thread keeps its point and what the two remember; every
 // block moves the body in its own memory, by the same sums in the same order as all others. So blocks wait for each

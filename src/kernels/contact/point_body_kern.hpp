@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "backend/vector.hpp"
-#include "kernels/dem/spring_kern.hpp"
+#include "kernels/dem/contact/spring_kern.hpp"
 
 // The contact law of one sand point against one rigid body. The point feels the force at its position x_p; friction
 // acts on the body at its surface, x_p - phi n, and slips past the surface's velocity there: a wheel rolls on its own

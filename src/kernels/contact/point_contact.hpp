@@ -5,7 +5,7 @@
 #include "kernels/contact/candidates.hpp"
 #include "kernels/contact/history.hpp"
 #include "kernels/contact/summary.hpp"
-#include "kernels/dem/outside.hpp"
+#include "kernels/dem/motion/outside.hpp"
 
 // Sand against rigid bodies during one MPM step: begin_step or begin_kept_step, N times substep, finish_step. During
 // the substeps each point in reach moves on a private copy of (x, v); only the accumulated impulse goes back to the

@@ -3,8 +3,8 @@
 #include "kernels/contact/history_kern.hpp"
 #include "kernels/contact/point_contact.hpp"
 #include "kernels/contact/samples_kern.hpp"
-#include "kernels/dem/move_impl.hpp"
-#include "kernels/dem/sdf_kern.hpp"
+#include "kernels/dem/contact/sdf_kern.hpp"
+#include "kernels/dem/motion/move_impl.hpp"
 
 // What a step of the sand-body contact does to one point, candidate, part or body.
 namespace tread::contact

@@ -2,7 +2,7 @@
 
 #include "backend/launch.cuh"
 #include "kernels/contact/runs.hpp"
-#include "kernels/dem/warp_lanes.cuh"
+#include "kernels/dem/contact/warp_lanes.cuh"
 
 namespace tread::contact
 {

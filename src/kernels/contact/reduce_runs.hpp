@@ -2,7 +2,7 @@
 
 #include "backend/launch.hpp"
 #include "kernels/contact/runs.hpp"
-#include "kernels/dem/body_field_kern.hpp"
+#include "kernels/dem/contact/body_field_kern.hpp"
 
 namespace tread::contact
 {

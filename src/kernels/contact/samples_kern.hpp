@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "kernels/contact/point_body_kern.hpp"
-#include "kernels/dem/sdf_kern.hpp"
+#include "kernels/dem/contact/sdf_kern.hpp"
 
 // Nine samples for a point on a body of a comparable size (the paper's section 2.4): 3x3 on a patch through the point's
 // centre, across the line to the body's centre. Each has the point's law and its own history, and counts for a ninth.

@@ -1,6 +1,6 @@
 #include "kernels/contact/substeps.hpp"
 
-#include "kernels/dem/body_contact.hpp"
+#include "kernels/dem/contact/body_contact.hpp"
 
 namespace tread::contact
 {

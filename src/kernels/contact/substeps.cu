@@ -3,7 +3,7 @@
 #include "kernels/contact/lone_body.cuh"
 #include "kernels/contact/point_contact_impl.hpp"
 #include "kernels/contact/reduce_runs.cuh"
-#include "kernels/dem/substeps.cuh"
+#include "kernels/dem/motion/substeps.cuh"
 
 namespace tread::contact
 {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/contact/point_contact.hpp"
-#include "kernels/dem/move.hpp"
+#include "kernels/dem/motion/move.hpp"
 
 namespace tread::contact
 {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "backend/counters.hpp"
-#include "kernels/mpm/page_key.hpp"
+#include "kernels/mpm/pages/page_key.hpp"
 #include "mpi_session.hpp"
 
 // When pages are dealt out anew.

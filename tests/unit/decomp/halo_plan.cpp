@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/mpm/page_key.hpp"
+#include "kernels/mpm/pages/page_key.hpp"
 #include "mpi_session.hpp"
 
 // What ranks send each other of the node pages that they share.

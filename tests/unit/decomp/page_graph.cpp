@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/mpm/page_key.hpp"
+#include "kernels/mpm/pages/page_key.hpp"
 #include "pages.hpp"
 
 namespace tread::decomp

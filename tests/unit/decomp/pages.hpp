@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "decomp/page_graph.hpp"
-#include "kernels/mpm/page_key.hpp"
+#include "kernels/mpm/pages/page_key.hpp"
 
 // Page sets of tests.
 namespace tread::test

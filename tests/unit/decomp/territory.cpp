@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "decomp/letters.hpp"
-#include "kernels/mpm/page_key.hpp"
+#include "kernels/mpm/pages/page_key.hpp"
 #include "mpi_session.hpp"
 
 // Whose a place is, and what ranks write to each other.

@@ -9,7 +9,7 @@
 
 #include "backend.hpp"
 #include "kernels/contact/substeps.hpp"
-#include "kernels/mpm/order.hpp"
+#include "kernels/mpm/pages/order.hpp"
 
 // A few bodies with analytic shapes and a few points, for the tests of the sand-body contact.
 namespace tread::test

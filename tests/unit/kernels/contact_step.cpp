@@ -7,7 +7,7 @@
 
 #include <omp.h>
 
-#include "kernels/dem/sdf_kern.hpp"
+#include "kernels/dem/contact/sdf_kern.hpp"
 
 // Whole contact steps: forces, balance, private points, history, summaries.
 namespace tread::test

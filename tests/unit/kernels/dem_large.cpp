@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "dem_scene.hpp"
-#include "kernels/dem/substeps.hpp"
+#include "kernels/dem/motion/substeps.hpp"
 
 // A body that is much larger than the others, and touches hundreds of them.
 namespace tread::test

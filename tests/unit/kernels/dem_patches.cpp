@@ -6,7 +6,7 @@
 
 #include "dem_scene.hpp"
 
-// Bodies that touch in several patches (kernels/dem/patches.hpp).
+// Bodies that touch in several patches (kernels/dem/contact/patches.hpp).
 namespace tread::test
 {
 namespace

@@ -4,7 +4,7 @@
 
 #include "base/random.hpp"
 #include "dem_scene.hpp"
-#include "kernels/dem/ray_shape.hpp"
+#include "kernels/dem/contact/ray_shape.hpp"
 #include "shape/flat_tree.hpp"
 #include "shape/template.hpp"
 

@@ -8,10 +8,10 @@
 
 #include "backend.hpp"
 #include "dem_shapes.hpp"
-#include "kernels/dem/body_contact.hpp"
-#include "kernels/dem/contact_limits.hpp"
-#include "kernels/dem/move.hpp"
-#include "kernels/dem/sums.hpp"
+#include "kernels/dem/contact/body_contact.hpp"
+#include "kernels/dem/contact/contact_limits.hpp"
+#include "kernels/dem/motion/move.hpp"
+#include "kernels/dem/motion/sums.hpp"
 
 // A few rigid bodies with analytic shapes and walls, for the tests of the body-body contact.
 namespace tread::test

@@ -6,7 +6,7 @@
 
 #include "base/random.hpp"
 #include "dem_scene.hpp"
-#include "kernels/dem/sdf_kern.hpp"
+#include "kernels/dem/contact/sdf_kern.hpp"
 #include "shape/sdf_grid.hpp"
 
 namespace tread::test

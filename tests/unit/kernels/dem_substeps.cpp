@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "dem_bumpy.hpp"
-#include "kernels/dem/substeps.hpp"
+#include "kernels/dem/motion/substeps.hpp"
 
 // Substeps that run without the host, in one launch where they are few bodies, are the same substeps.
 namespace tread::test

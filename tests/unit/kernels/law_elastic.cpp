@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "kernels/mpm/mid_step_kern.hpp"
+#include "kernels/mpm/laws/mid_step_kern.hpp"
 #include "law_support.hpp"
 
 // Objectivity, Hooke's law and its energy.

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "kernels/mpm/law_kern.hpp"
+#include "kernels/mpm/laws/law_kern.hpp"
 
 // What the tests of the laws share.
 namespace tread::test

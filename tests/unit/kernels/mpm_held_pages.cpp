@@ -5,10 +5,10 @@
 
 #include "backend.hpp"
 #include "base/random.hpp"
-#include "kernels/mpm/held_pages.hpp"
-#include "kernels/mpm/held_pages_kern.hpp"
-#include "kernels/mpm/order.hpp"
-#include "kernels/mpm/scatter.hpp"
+#include "kernels/mpm/grid/held_pages.hpp"
+#include "kernels/mpm/grid/held_pages_kern.hpp"
+#include "kernels/mpm/pages/order.hpp"
+#include "kernels/mpm/transfers/scatter.hpp"
 
 namespace
 {

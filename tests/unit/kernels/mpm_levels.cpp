@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "kernels/mpm/levels.hpp"
-#include "kernels/mpm/stencil_kern.hpp"
+#include "kernels/mpm/grid/levels.hpp"
+#include "kernels/mpm/transfers/stencil_kern.hpp"
 
 namespace
 {

@@ -4,11 +4,11 @@
 
 #include "backend.hpp"
 #include "base/random.hpp"
-#include "kernels/mpm/gather.hpp"
-#include "kernels/mpm/order.hpp"
-#include "kernels/mpm/relist.hpp"
-#include "kernels/mpm/scatter.hpp"
-#include "kernels/mpm/scatter_kern.hpp"
+#include "kernels/mpm/pages/order.hpp"
+#include "kernels/mpm/pages/relist.hpp"
+#include "kernels/mpm/transfers/gather.hpp"
+#include "kernels/mpm/transfers/scatter.hpp"
+#include "kernels/mpm/transfers/scatter_kern.hpp"
 
 namespace
 {

@@ -7,13 +7,13 @@
 
 #include "backend.hpp"
 #include "base/random.hpp"
-#include "kernels/mpm/gather.hpp"
-#include "kernels/mpm/grid.hpp"
-#include "kernels/mpm/order.hpp"
-#include "kernels/mpm/relist.hpp"
-#include "kernels/mpm/scatter.hpp"
-#include "kernels/mpm/seams.hpp"
-#include "kernels/mpm/seams_kern.hpp"
+#include "kernels/mpm/grid/grid.hpp"
+#include "kernels/mpm/grid/seams.hpp"
+#include "kernels/mpm/grid/seams_kern.hpp"
+#include "kernels/mpm/pages/order.hpp"
+#include "kernels/mpm/pages/relist.hpp"
+#include "kernels/mpm/transfers/gather.hpp"
+#include "kernels/mpm/transfers/scatter.hpp"
 
 namespace
 {

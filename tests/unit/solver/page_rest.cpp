@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/mpm/page_key.hpp"
+#include "kernels/mpm/pages/page_key.hpp"
 #include "solver/page_rest.hpp"
 
 // Which pages may sleep: sets of pages by hand.

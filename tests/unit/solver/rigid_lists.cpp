@@ -68,7 +68,7 @@ protected:
     }
 
     scene::Scene                       scene_ = test::load_text(balls);
-    solver::World                      world_ = solver::build_world(scene_);
+    world::World                       world_ = world::build_world(scene_);
     std::optional<solver::Rigid<Exec>> rigid_;
 };
 TYPED_TEST_SUITE(RigidLists, test::Backends, test::BackendNames);

@@ -8,9 +8,9 @@
 
 #include "base/errors.hpp"
 #include "scene_text.hpp"
-#include "solver/bed.hpp"
-#include "solver/rocks.hpp"
 #include "solver/simulation.hpp"
+#include "world/bed.hpp"
+#include "world/rocks.hpp"
 
 namespace
 {

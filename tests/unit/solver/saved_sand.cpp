@@ -9,9 +9,9 @@
 
 #include "base/errors.hpp"
 #include "scene_text.hpp"
-#include "solver/saved_bed.hpp"
-#include "solver/saved_sand.hpp"
 #include "solver/simulation.hpp"
+#include "world/saved_bed.hpp"
+#include "world/saved_sand.hpp"
 
 // Rocks in sand that one run settles and another starts with.
 namespace

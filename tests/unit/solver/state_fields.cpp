@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/dem/bodies.hpp"
-#include "kernels/mpm/pages.hpp"
+#include "kernels/mpm/pages/pages.hpp"
 #include "kernels/mpm/points.hpp"
 
 // Checkpoints and migration go by for_each_field: an array that it leaves out would be lost there.

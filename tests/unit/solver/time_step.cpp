@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "run/phases.hpp"
 #include "scene_text.hpp"
-#include "solver/materials.hpp"
-#include "solver/phases.hpp"
 #include "solver/time_step.hpp"
+#include "world/materials.hpp"
 
 namespace
 {

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "kernels/dem/contact/body_contact_impl.hpp"
+
+// The stiffness that a pair is about to gain: a flat face meets a wall with all its nodes in one substep, which the
+// stiffness of the last one cannot tell.
+namespace tread::dem
+{
+
+/// Sum of w p'(0) (N/m), the steepest, over a pair's listed nodes that are outside the other side and will be inside
+/// within `horizon` (s) if their motion goes on and nothing holds them against gravity but a lock, by the distance
+/// fields (rays tell nothing outside); 0 for exact spheres, whose first touch is known. However slow: a step too long
+/// for the stiffness multiplies what little energy there is.
+struct AnticipatePair
+{
+    BodiesView   bodies;
+    BodyLaw      law;
+    PairsView    pairs; ///< its nodes looked up
+    double       horizon;
+    Vec3<double> fall; ///< m/s, what weight adds to a free body's mean velocity
+    double*      entering;
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
+    {
+        const std::int32_t first = pairs.first_node[p], last = pairs.first_node[p + 1];
+        double             found = 0;
+        if (first < last)
+        {
+            const body_contact::PairSetting setting = body_contact::setting_of(pairs, law, bodies.count, pairs.key[p]);
+            const RelativeMotion            motion{setting.motion.velocity + falling(p), setting.motion.spin};
+            for (std::int32_t i = first + lanes.lane(); i < last; i += lanes.lanes())
+            {
+                found += entering_weight(motion, unpacked(pairs.found_node[i]));
+            }
+            found = setting.law.linear_slope * lanes.sum(found);
+        }
+        if (lanes.lane() == 0) { entering[p] = found; }
+    }
+
+private:
+    /// m/s, of the first body relative to the second.
+    TREAD_HD Vec3<double> falling(std::int64_t p) const
+    {
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        double             sides = 0;
+        if (bodies.locked[a] != lock_all) { sides += 1; }
+        if (b < bodies.count && bodies.locked[b] != lock_all) { sides -= 1; }
+        return sides * fall;
+    }
+
+    /// Of a node that comes inside; 0 of any other.
+    TREAD_HD double entering_weight(const RelativeMotion& motion, const NodeInField& node) const
+    {
+        if (node.overlap > 0) { return 0; }
+        const double way = -horizon * node.sign * node.gradient.dot(motion.at(node.place));
+        return node.overlap + way > 0 ? node.weight : 0.0;
+    }
+};
+
+} // namespace tread::dem

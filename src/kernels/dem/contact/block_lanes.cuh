@@ -1,0 +1,40 @@
+#pragma once
+
+#include "kernels/dem/contact/warp_lanes.cuh"
+
+namespace tread::dem
+{
+
+/// All lanes of a block of `threads` threads, which share one item (see OneLane). Every lane must come to every sum,
+/// which has a fixed order and the same bits in all of them.
+template<int threads>
+struct BlockLanes
+{
+    __device__ std::int32_t lane() const { return static_cast<std::int32_t>(threadIdx.x); }
+    __device__ std::int32_t lanes() const { return threads; }
+
+    __device__ double sum(double value) const
+    {
+        constexpr int               warps = threads / warp_size;
+        __shared__ double           of_warp[warps];
+        const GroupLanes<warp_size> warp;
+        const double                own = warp.sum(value);
+        __syncthreads(); // of_warp may still be read for the sum before
+        if (warp.lane() == 0) { of_warp[threadIdx.x / warp_size] = own; }
+        __syncthreads();
+        double sum = 0;
+        for (const double part : of_warp) { sum += part; }
+        return sum;
+    }
+};
+
+/// f(i, BlockLanes<threads>): an item a block.
+template<int threads, class F>
+struct ItemOfBlock
+{
+    F f;
+
+    __device__ void operator()(std::int64_t block) const { f(block, BlockLanes<threads>{}); }
+};
+
+} // namespace tread::dem

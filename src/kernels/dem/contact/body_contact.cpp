@@ -1,0 +1,25 @@
+#include "backend/launch.hpp"
+#include "kernels/dem/contact/body_contact_impl.hpp"
+#include "kernels/dem/contact/contact_nodes.hpp"
+
+namespace tread::dem
+{
+
+void evaluate_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+{
+    look_up_nodes(cpu, pairs, bodies, law);
+    by_narrow_phase(law,
+                    [&]<class Meet>(const Meet& meet)
+                    {
+                        const body_contact::AnswerPair<Meet> answer{meet, bodies.count, law, pairs.view(), dt};
+                        constexpr std::int64_t               worth_threads = 2048; // about a millisecond
+                        for_each_heavy(
+                            cpu, "body contacts", pairs.key.size(), [=](std::int64_t p) { answer(p, OneLane{}); },
+                            worth_threads);
+                    });
+    if (!pairs.resists_rolling) { return; }
+    for_each(cpu, "resistance to rolling", pairs.key.size(),
+             body_contact::ResistRolling{bodies.count, law, pairs.view(), dt});
+}
+
+} // namespace tread::dem

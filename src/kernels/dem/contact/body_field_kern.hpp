@@ -1,0 +1,216 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "kernels/dem/bodies.hpp"
+#include "kernels/dem/contact/contact_body.hpp"
+#include "kernels/dem/contact/sdf_kern.hpp"
+
+// Bodies and walls as fields, and the nodes of one body in the field of another. Everything stands relative to the
+// centre of a pair's first body, a, along the world's axes.
+namespace tread::dem
+{
+
+/// What a body looks like from the centre of body a.
+struct Instance
+{
+    const TemplateView* shape;
+    double              scale;
+    double              inverse_scale;
+    Mat3<double>        rotation; ///< body to world
+    Vec3<double>        centre;   ///< m
+};
+
+TREAD_HD Instance instance_of(const BodiesView& bodies, const TemplateView* templates, std::int64_t b,
+                              const Vec3<double>& origin)
+{
+    return {templates + bodies.shape[b], bodies.scale[b], 1.0 / bodies.scale[b],
+            bodies.orientation[b].toRotationMatrix(), bodies.position[b] - origin};
+}
+
+TREAD_HD Instance instance_of(const ContactBody& body, const TemplateView* templates, const Vec3<double>& origin)
+{
+    return {templates + body.shape, body.scale, 1.0 / body.scale, body.orientation.toRotationMatrix(),
+            body.position - origin};
+}
+
+/// A node at its place in the other side's field.
+struct NodeInField
+{
+    Vec3<double> place;    ///< m, where its force acts, relative to the centre of a
+    Vec3<double> gradient; ///< minus that of the overlap with the node's place
+    double       overlap;  ///< m; not positive: outside
+    double       weight;   ///< m2, its share of area
+    double       sign;     ///< +1 of a node of a, -1 of b
+};
+
+/// A node that was looked up, for the sums over a pair: rounded, but only after the overlap is known.
+struct alignas(16) FoundNode
+{
+    float place[3];
+    float overlap;
+    float gradient[3]; ///< times the sign
+    float weight;
+};
+
+TREAD_HD FoundNode packed(const NodeInField& node)
+{
+    FoundNode found;
+    for (int c = 0; c < 3; ++c)
+    {
+        found.place[c]    = static_cast<float>(node.place[c]);
+        found.gradient[c] = static_cast<float>(node.sign * node.gradient[c]);
+    }
+    found.overlap = static_cast<float>(node.overlap);
+    found.weight  = static_cast<float>(node.weight);
+    return found;
+}
+
+TREAD_HD NodeInField unpacked(const FoundNode& found)
+{
+    return {Vec3<double>(found.place[0], found.place[1], found.place[2]),
+            Vec3<double>(found.gradient[0], found.gradient[1], found.gradient[2]), found.overlap, found.weight, 1.0};
+}
+
+/// The distance field of a body.
+struct BodyField
+{
+    const Instance& body;
+
+    TREAD_HD double distance_from_centre(const Vec3<double>& y) const { return (y - body.centre).norm(); }
+    TREAD_HD double reach() const { return body.shape->bounding_radius * body.scale; }
+
+    /// m, on the field at places from which the inside is no further than r.
+    TREAD_HD double bound(double r) const
+    {
+        const double furthest = r + surface_uncertainty(*body.shape, body.scale);
+        return furthest + sdf_uncertainty(*body.shape, body.scale, furthest);
+    }
+
+    /// m, on the field at places that come inside when they move by at most `way`.
+    TREAD_HD double bound_of_node(double way) const { return approach_bound(*body.shape, body.scale, way); }
+
+    TREAD_HD SdfSample operator()(const Vec3<double>& y) const
+    {
+        const Vec3<double> local  = body.inverse_scale * (body.rotation.transpose() * (y - body.centre));
+        const SdfSample    sample = sample_template_sdf(*body.shape, local);
+        return {body.scale * sample.distance, body.rotation * sample.gradient};
+    }
+};
+
+/// The distance field of a wall.
+struct PlaneField
+{
+    Vec3<double> normal;
+    double       offset; ///< m, from the centre of body a
+
+    TREAD_HD double distance_from_centre(const Vec3<double>&) const { return 0; }
+    TREAD_HD double reach() const { return 0; }
+    TREAD_HD double bound(double r) const { return r; }
+    TREAD_HD double bound_of_node(double way) const { return way; }
+
+    TREAD_HD SdfSample operator()(const Vec3<double>& y) const { return {normal.dot(y) - offset, normal}; }
+};
+
+/// One body's nodes in the other side's field. Field: one of those above, or RayField.
+template<class Field>
+struct Side
+{
+    const Instance& owner;
+    Field           field;
+    double          share; ///< of a node's area: 1/2 where both sides have nodes, 1 against a plane
+    double          sign;  ///< +1 if the owner is body a, -1 if it is b
+
+    TREAD_HD Vec3<double> node(std::int32_t i) const
+    {
+        return owner.centre + owner.rotation * (owner.scale * owner.shape->node_positions[i]);
+    }
+
+    TREAD_HD double weight(std::int32_t i) const
+    {
+        return share * owner.scale * owner.scale * owner.shape->node_areas[i];
+    }
+
+    /// False only if no node of the cluster can come inside the other body when the two move by at most `way` together
+    /// (its distance has slope 1).
+    TREAD_HD bool near(std::int32_t cluster, double way) const
+    {
+        const Vec3<double> y = owner.centre + owner.rotation * (owner.scale * owner.shape->cluster_centres[cluster]);
+        const double       r = owner.scale * owner.shape->cluster_radii[cluster] + way;
+        if (field.distance_from_centre(y) > r + field.reach()) { return false; }
+        return field(y).distance <= field.bound(r);
+    }
+
+    TREAD_HD bool near_node(std::int32_t i, double way) const
+    {
+        return field(node(i)).distance <= field.bound_of_node(way);
+    }
+};
+
+/// A wall as the centre of body a sees it.
+TREAD_HD PlaneField field_of(const Plane& plane, const Vec3<double>& centre)
+{
+    return {plane.normal, plane.offset - plane.normal.dot(centre)};
+}
+
+/// What one thread does alone; the GPU deals the nodes of a pair to lanes instead.
+struct OneLane
+{
+    TREAD_HD std::int32_t lane() const { return 0; }
+    TREAD_HD std::int32_t lanes() const { return 1; }
+    TREAD_HD std::uint32_t vote(bool value) const { return value ? 1u : 0u; } ///< bit l = the value of lane l
+    TREAD_HD std::uint32_t share(std::uint32_t bits) const { return bits; }   ///< of the lane: every so many
+    TREAD_HD double        sum(double value) const { return value; }
+    TREAD_HD double        largest(double value) const { return value; }
+    TREAD_HD double        from(std::int32_t, double value) const { return value; } ///< of that lane
+};
+
+inline constexpr std::int32_t cluster_size = 32; ///< nodes, shape::SurfaceNodes
+
+template<class Field>
+TREAD_HD NodeInField in_field(const Side<Field>& side, std::int32_t i)
+{
+    const Vec3<double> place  = side.node(i);
+    const SdfSample    sample = side.field(place);
+    return {place, sample.gradient, -sample.distance, side.weight(i), side.sign};
+}
+
+/// The two bodies of a pair.
+struct Couple
+{
+    Instance body[2];
+};
+
+/// The two sides of a pair of bodies, as the list of nodes names their nodes. Meet: how bodies see each other.
+template<class Meet>
+struct TwoSides
+{
+    Meet          meet;
+    const Couple& couple;
+
+    TREAD_HD auto first() const { return meet.side(couple.body[0], couple.body[1], 1.0); }
+    TREAD_HD auto second() const { return meet.side(couple.body[1], couple.body[0], -1.0); }
+
+    TREAD_HD NodeInField operator()(std::int32_t node) const
+    {
+        const int owner = node < 0 ? 1 : 0;
+        return in_field(meet.side(couple.body[owner], couple.body[1 - owner], 1.0 - 2.0 * owner),
+                        owner == 1 ? ~node : node);
+    }
+};
+
+/// Two bodies see each other by their distance fields; with MeetByRays by rays.
+struct MeetByDistance
+{
+    /// Both bodies have nodes, each with half its area.
+    TREAD_HD Side<BodyField> side(const Instance& owner, const Instance& other, double sign) const
+    {
+        return {owner, {other}, 0.5, sign};
+    }
+
+    /// d2/dx2 of a node's energy over its area times p'(d): |gradient|^2 of a distance.
+    TREAD_HD static double stiffening(const NodeInField&) { return 1; }
+};
+
+} // namespace tread::dem

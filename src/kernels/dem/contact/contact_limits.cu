@@ -1,0 +1,35 @@
+#include "backend/launch.cuh"
+#include "kernels/dem/contact/contact_limits_impl.hpp"
+#include "kernels/dem/contact/lane_parts.cuh"
+
+namespace tread::dem
+{
+
+void expect_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
+                     const Vec3<double>& gravity, double dt, const SharedView& shared)
+{
+    constexpr int threads = 128;
+    const auto    run     = [&](const char* name, const auto& part)
+    { for_each_block<threads>(gpu, name, part.blocks, part.f); };
+    contact_limits::expect(
+        gpu, pairs, bodies, law, gravity, dt, shared,
+        [&](const char* name, const auto& item) { run(name, pair_part<threads, 1>(pairs.view(), item)); },
+        [&](const char* name, const auto& item) { run(name, body_part<threads, 1>(bodies.count, pairs, item)); });
+}
+
+void expect_shared_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const SharedView& shared)
+{
+    contact_limits::expect_of_all_ranks(gpu, pairs, shared);
+}
+
+double smallest_contact_time(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies)
+{
+    return contact_limits::contact_time(gpu, pairs, bodies);
+}
+
+const double* largest_overlap(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    return contact_limits::overlap(gpu, pairs, bodies, law);
+}
+
+} // namespace tread::dem

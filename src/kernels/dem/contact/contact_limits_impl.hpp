@@ -1,0 +1,175 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "backend/reduce.hpp"
+#include "kernels/dem/contact/approach_kern.hpp"
+#include "kernels/dem/contact/contact_limits.hpp"
+#include "kernels/dem/contact/contact_nodes.hpp"
+
+// The steps of contact_limits.hpp, the same on both backends; contact_limits.cpp and .cu bring in for_each.
+namespace tread::dem::contact_limits
+{
+
+struct ExpectContacts
+{
+    BodiesView    bodies;
+    BodyLaw       law;
+    PairsView     pairs;
+    const double* node_area;
+    const double* entering; ///< N/m, of the pairs
+    double*       expected;
+    SharedView    shared;
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
+    {
+        StiffnessShare sums{0, 0};
+        for (std::int64_t p = pairs.first[b] + lanes.lane(); p < pairs.first[b + 1]; p += lanes.lanes())
+        {
+            add(p, sums);
+        }
+        for (std::int64_t i = pairs.second[b] + lanes.lane(); i < pairs.second[b + 1]; i += lanes.lanes())
+        {
+            add(pairs.by_second[i], sums);
+        }
+        sums = {lanes.sum(sums.touches), lanes.sum(sums.approach)};
+        if (lanes.lane() != 0) { return; }
+        expected[b] = most_of(sums);
+        if (shared.is_shared(b)) { shared.stiffness[shared.place[b]] = sums; }
+    }
+
+    TREAD_HD static double most_of(const StiffnessShare& sums) { return std::fmax(sums.touches, sums.approach); }
+
+private:
+    TREAD_HD void add(std::int64_t p, StiffnessShare& sums) const
+    {
+        sums.touches += first_touch(p);
+        sums.approach += pairs.patch[p].stiffness + entering[p];
+    }
+
+    TREAD_HD double first_touch(std::int64_t p) const
+    {
+        if (pairs.patch[p].stiffness > 0) { return 0; }
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        const bool         wall = b >= bodies.count;
+        const PairLaw      pair = law_of(pairs, law, bodies.count, pairs.key[p]);
+        if (exact(a) && (wall || exact(b))) { return touch_of_spheres(pair, approach(a, b)); }
+        if (pairs.first_node[p] == pairs.first_node[p + 1]) { return 0; } // a spare row of a pair in several patches
+        return touch_of_nodes(pair, wall ? 2.0 * node_area[a] : std::fmax(node_area[a], node_area[b]));
+    }
+
+    /// m/s, of the first body towards the second or the wall.
+    TREAD_HD double approach(std::int64_t a, std::int64_t b) const
+    {
+        if (b >= bodies.count) { return -law.planes[b - bodies.count].normal.dot(bodies.velocity[a]); }
+        const Vec3<double> along = (bodies.position[b] - bodies.position[a]).normalized();
+        return along.dot(bodies.velocity[a] - bodies.velocity[b]);
+    }
+
+    /// Whether body b is an exact sphere.
+    TREAD_HD bool exact(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
+
+    /// Two nodes, of the coarser side; `area`: m2, of both.
+    TREAD_HD static double touch_of_nodes(const PairLaw& pair, double area)
+    {
+        return area * traction_at(pair, 0.0).slope;
+    }
+
+    /// At the end of the impact to come.
+    TREAD_HD static double touch_of_spheres(const PairLaw& pair, double approach)
+    {
+        const double overlap = hertz_impact_overlap(pair, std::fmax(approach, 0.0));
+        return hertz_stiffness(pair, std::fmax(overlap, pair.linear_overlap));
+    }
+};
+
+/// Of the bodies that several ranks move.
+struct ExpectTogether
+{
+    SharedView shared;
+    double*    expected;
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        expected[shared.body[i]] = ExpectContacts::most_of(stiffness_of(shared, i));
+    }
+};
+
+struct WriteFrequency
+{
+    BodiesView    bodies;
+    const double* expected;
+    double*       squared; ///< 1/s2
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const bool moves = bodies.is_owned(b) && bodies.locked[b] != lock_all;
+        squared[b]       = moves ? std::fmax(bodies.stiffness[b], expected[b]) / bodies.mass[b] : 0.0;
+    }
+};
+
+struct WriteOverlap
+{
+    BodiesView bodies;
+    BodyLaw    law;
+    PairsView  pairs;
+    double*    ratio;
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        double             radius = equivalent_radius(bodies, law.templates, a);
+        if (b < bodies.count) { radius = std::fmin(radius, equivalent_radius(bodies, law.templates, b)); }
+        ratio[p] = pairs.peak[p] / radius;
+    }
+};
+
+/// As for the pairs themselves, twice dt: a body may be set going within the step. `each_pair`(name, item function) and
+/// `each_body` run those with a backend's lanes.
+template<class Exec, class EachPair, class EachBody>
+void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, BodyLaw law, const Vec3<double>& gravity,
+            double dt, const SharedView& shared, EachPair each_pair, EachBody each_body)
+{
+    pairs.measure.resize(pairs.key.size());
+    law.rays = nullptr; // tell nothing outside
+    look_up_nodes(exec, pairs, bodies, law);
+    each_pair("anticipated contacts",
+              AnticipatePair{bodies, law, pairs.view(), 2 * dt, 0.5 * dt * gravity, pairs.measure.data()});
+    pairs.expected_stiffness.resize(bodies.count);
+    each_body("expected contacts", ExpectContacts{bodies, law, pairs.view(), pairs.node_area.data(),
+                                                  pairs.measure.data(), pairs.expected_stiffness.data(), shared});
+}
+
+template<class Exec>
+void expect_of_all_ranks(const Exec& exec, Pairs<Exec>& pairs, const SharedView& shared)
+{
+    for_each(exec, "expected contacts of shared bodies", shared.count,
+             ExpectTogether{shared, pairs.expected_stiffness.data()});
+}
+
+template<class Exec>
+double contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    pairs.measure.resize(bodies.count + 1);
+    double* largest = pairs.measure.data() + bodies.count;
+    for_each(exec, "contact frequencies", bodies.count,
+             WriteFrequency{bodies, pairs.expected_stiffness.data(), pairs.measure.data()});
+    largest_of_rows(exec, pairs.measure.data(), bodies.count, 1, largest);
+    const double squared = read(exec, largest);
+    return squared > 0 ? 1.0 / std::sqrt(squared) : 0.0;
+}
+
+template<class Exec>
+const double* overlap(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    const std::int64_t count = pairs.key.size();
+    pairs.measure.resize(count + 1);
+    for_each(exec, "overlap ratios", count, WriteOverlap{bodies, law, pairs.view(), pairs.measure.data()});
+    largest_of_rows(exec, pairs.measure.data(), count, 1, pairs.measure.data() + count);
+    return pairs.measure.data() + count;
+}
+
+} // namespace tread::dem::contact_limits

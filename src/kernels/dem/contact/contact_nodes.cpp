@@ -1,0 +1,56 @@
+#include "backend/launch.hpp"
+#include "kernels/dem/contact/contact_nodes_impl.hpp"
+
+namespace tread::dem
+{
+namespace
+{
+
+template<class Item>
+void for_each_pair(const Cpu& cpu, const char* name, std::int64_t pairs, const Item& item)
+{
+    constexpr std::int64_t worth_threads = 64;
+    for_each_heavy(
+        cpu, name, pairs, [=](std::int64_t p) { item(p, OneLane{}); }, worth_threads);
+}
+
+} // namespace
+
+void count_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    by_narrow_phase(law,
+                    [&]<class Meet>(const Meet& meet)
+                    {
+                        const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
+                        for_each_pair(cpu, "count pair nodes", pairs.key.size(),
+                                      contact_nodes::CountNodes<Meet>{walk, pairs.first_node.data()});
+                    });
+}
+
+void list_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    by_narrow_phase(law,
+                    [&]<class Meet>(const Meet& meet)
+                    {
+                        const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
+                        for_each_pair(
+                            cpu, "write pair nodes", pairs.key.size(),
+                            contact_nodes::WriteNodes<Meet>{walk, pairs.first_node.data(), pairs.node.data()});
+                    });
+}
+
+void look_up_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    if (pairs.node.size() == 0) { return; }
+    by_narrow_phase(law,
+                    [&]<class Meet>(const Meet& meet)
+                    {
+                        const contact_nodes::LookUp<Meet> look_up{meet, bodies.count, law, pairs.view()};
+                        constexpr std::int64_t            worth_threads = 128; // about a millisecond
+                        for_each_heavy(
+                            cpu, "nodes found", node_words(pairs.node.size()),
+                            [=](std::int64_t word) { look_up(word, OneLane{}); }, worth_threads);
+                    });
+}
+
+} // namespace tread::dem

@@ -1,0 +1,65 @@
+#include "kernels/dem/contact/contact_nodes_impl.hpp"
+#include "kernels/dem/contact/warp_lanes.cuh"
+#include "kernels/dem/pairs/select.hpp"
+
+namespace tread::dem
+{
+
+/// Lanes that share a pair: a cluster of nodes at a time.
+constexpr int node_lanes = 32;
+
+void count_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    by_narrow_phase(law,
+                    [&]<class Meet>(const Meet& meet)
+                    {
+                        const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
+                        for_each_group<node_lanes>(gpu, "count pair nodes", pairs.key.size(),
+                                                   contact_nodes::CountNodes<Meet>{walk, pairs.first_node.data()});
+                    });
+}
+
+void list_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    by_narrow_phase(law,
+                    [&]<class Meet>(const Meet& meet)
+                    {
+                        const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
+                        for_each_group<node_lanes>(
+                            gpu, "write pair nodes", pairs.key.size(),
+                            contact_nodes::WriteNodes<Meet>{walk, pairs.first_node.data(), pairs.node.data()});
+                    });
+}
+
+namespace
+{
+
+struct HasManyNodes
+{
+    PairsView pairs;
+
+    __device__ bool operator()(std::int64_t p) const { return has_many_nodes(pairs, p); }
+};
+
+} // namespace
+
+void list_pairs_of_many_nodes(const Gpu& gpu, Pairs<Gpu>& pairs)
+{
+    pairs.many.resize(0);
+    if (pairs.node.size() == 0) { return; }
+    select(gpu, "pairs of many nodes", pairs.key.size(), HasManyNodes{pairs.view()}, pairs.found, pairs.sort,
+           pairs.many);
+}
+
+void look_up_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    if (pairs.node.size() == 0) { return; }
+    by_narrow_phase(law,
+                    [&]<class Meet>(const Meet& meet)
+                    {
+                        const contact_nodes::LookUp<Meet> look_up{meet, bodies.count, law, pairs.view()};
+                        for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.node.size()), look_up);
+                    });
+}
+
+} // namespace tread::dem

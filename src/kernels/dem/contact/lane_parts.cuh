@@ -1,0 +1,77 @@
+#pragma once
+
+#include "backend/repeat.cuh"
+#include "kernels/dem/contact/block_lanes.cuh"
+#include "kernels/dem/contact/contact_nodes.hpp"
+#include "kernels/dem/contact/warp_lanes.cuh"
+
+// Which lanes take which item. What is much longer than the rest has a warp or a block, beside the others, which would
+// wait for it.
+namespace tread::dem
+{
+
+/// f(i, lanes) for i in [0, items).
+template<int threads, int lanes, class F>
+auto group_part(std::int64_t items, const F& f)
+{
+    const GroupsOfBlock<threads, lanes, F> block{f, items};
+    return Part{block.blocks(), block};
+}
+
+template<class F>
+struct OfListed
+{
+    F                   f;
+    const std::int32_t* list;
+
+    template<class Lanes>
+    __device__ void operator()(std::int64_t i, const Lanes& lanes) const
+    {
+        f(list[i], lanes);
+    }
+};
+
+template<class F>
+struct OfPairsWithFewNodes
+{
+    F         f;
+    PairsView pairs;
+
+    template<class Lanes>
+    __device__ void operator()(std::int64_t p, const Lanes& lanes) const
+    {
+        if (!has_many_nodes(pairs, p)) { f(p, lanes); }
+    }
+};
+
+/// f(p, lanes) for every pair.
+template<int threads, int lanes, class F>
+auto pair_part(const PairsView& pairs, const F& f)
+{
+    return beside(group_part<threads, warp_size>(pairs.many_count, OfListed<F>{f, pairs.many}),
+                  group_part<threads, lanes>(pairs.count, OfPairsWithFewNodes<F>{f, pairs}));
+}
+
+template<class F>
+struct OfSmallBodies
+{
+    F                   f;
+    const std::int32_t* is_large; ///< null where pairs were never looked for
+
+    template<class Lanes>
+    __device__ void operator()(std::int64_t b, const Lanes& lanes) const
+    {
+        if (is_large == nullptr || is_large[b] == 0) { f(b, lanes); }
+    }
+};
+
+/// f(b, lanes) for every body: a large one, a wheel in a bed of rocks, may have thousands of pairs.
+template<int threads, int lanes, class F>
+auto body_part(std::int64_t bodies, Pairs<Gpu>& pairs, const F& f)
+{
+    const ItemOfBlock<threads, OfListed<F>> of_large{{f, pairs.large.data()}};
+    return beside(Part{pairs.large.size(), of_large},
+                  group_part<threads, lanes>(bodies, OfSmallBodies<F>{f, pairs.is_large.data()}));
+}
+
+} // namespace tread::dem

@@ -1,0 +1,41 @@
+#include "kernels/dem/contact/lane_parts.cuh"
+#include "kernels/dem/motion/move_impl.hpp"
+
+namespace tread::dem
+{
+namespace
+{
+
+template<int lanes, class Move>
+void launch(const Gpu& gpu, const BodyStep<Gpu>& step, const Move& move)
+{
+    constexpr int threads = 128, blocks_an_sm = 4; // registers for so many
+    const auto    part = body_part<threads, lanes>(step.bodies.count, step.pairs, move);
+    for_each_block<threads, blocks_an_sm>(gpu, "move bodies", part.blocks, part.f);
+}
+
+} // namespace
+
+void share_wrenches(const Gpu& gpu, const BodyStep<Gpu>& step)
+{
+    constexpr int threads = 128;
+    moving::with_share(step,
+                       [&](const auto& share)
+                       {
+                           const auto part = group_part<threads, warp_size>(step.shared.count, share);
+                           for_each_block<threads>(gpu, "share wrenches", part.blocks, part.f);
+                       });
+}
+
+void move_bodies(const Gpu& gpu, const BodyStep<Gpu>& step)
+{
+    constexpr std::int64_t few = 10000; // do not fill the device: lanes gather side by side, one moves
+    moving::with_move(step,
+                      [&](const auto& move)
+                      {
+                          if (step.bodies.count < few) { launch<4>(gpu, step, move); }
+                          else { launch<1>(gpu, step, move); }
+                      });
+}
+
+} // namespace tread::dem

@@ -1,0 +1,326 @@
+#pragma once
+
+#include "kernels/dem/contact/body_contact_kern.hpp"
+#include "kernels/dem/motion/integrate_kern.hpp"
+#include "kernels/dem/motion/move.hpp"
+
+// The item functions of move.hpp; move.cpp and move.cu bring in the schedule.
+namespace tread::dem::moving
+{
+
+/// What the pairs do to one body.
+struct BodyShare
+{
+    ContactWrench contact;
+    Vec3<double>  wall_force;
+    double        friction;
+    double        restitution;
+
+    TREAD_HD static BodyShare zero() { return {ContactWrench::zero(), Vec3<double>::Zero(), 0, 0}; }
+};
+
+/// Of lanes that share a body.
+template<class Lanes>
+TREAD_HD void reduce(Vec3<double>& value, const Lanes& lanes)
+{
+    for (int c = 0; c < 3; ++c) { value[c] = lanes.sum(value[c]); }
+}
+
+template<class Lanes>
+TREAD_HD void reduce(ContactWrench& wrench, const Lanes& lanes)
+{
+    reduce(wrench.force, lanes);
+    reduce(wrench.torque, lanes);
+    wrench.stiffness = lanes.sum(wrench.stiffness);
+}
+
+template<class Lanes>
+TREAD_HD void reduce(BodyShare& share, const Lanes& lanes)
+{
+    reduce(share.contact, lanes);
+    reduce(share.wall_force, lanes);
+    share.friction    = lanes.sum(share.friction);
+    share.restitution = lanes.sum(share.restitution);
+}
+
+/// Adds the pairs of one body in the order of the list, those in which it comes first and those in which it comes
+/// second side by side: memory then answers both at a time.
+struct GatherPairs
+{
+    PairsView    pairs;
+    std::int64_t bodies; ///< how many
+
+    template<class Lanes>
+    TREAD_HD BodyShare operator()(std::int64_t b, const Lanes& lanes) const
+    {
+        BodyShare          share     = BodyShare::zero();
+        const std::int64_t first_end = pairs.first[b + 1], second_end = pairs.second[b + 1];
+        for (std::int64_t p = pairs.first[b] + lanes.lane(), i = pairs.second[b] + lanes.lane();
+             p < first_end || i < second_end; p += lanes.lanes(), i += lanes.lanes())
+        {
+            add_first(p < first_end, p, share);
+            add_second(i < second_end, i, share);
+        }
+        reduce(share, lanes);
+        return share;
+    }
+
+private:
+    // Zero is chosen where there is no pair, after row 0, which is always there, was read: no load waits for a branch.
+    TREAD_HD static double       chosen(bool there, double value) { return there ? value : 0.0; }
+    TREAD_HD static Vec3<double> chosen(bool there, const Vec3<double>& value)
+    {
+        return {chosen(there, value[0]), chosen(there, value[1]), chosen(there, value[2])};
+    }
+
+    TREAD_HD void add_first(bool there, std::int64_t pair, BodyShare& share) const
+    {
+        const std::int64_t p     = there ? pair : 0;
+        const bool         wall  = second_of(pairs.key[p]) >= bodies;
+        const Vec3<double> force = chosen(there, pairs.answers.force[p]);
+        share.contact.force += force;
+        share.contact.torque += chosen(there, pairs.answers.torque[p]);
+        share.contact.stiffness += chosen(there, pairs.answers.stiffness[p]);
+        share.friction += chosen(there, pairs.answers.friction[p]);
+        share.restitution += chosen(there, pairs.answers.restitution[p]);
+        share.wall_force += chosen(wall, force);
+    }
+
+    TREAD_HD void add_second(bool there, std::int64_t place, BodyShare& share) const
+    {
+        const std::int64_t i = there ? place : 0;
+        share.contact.force += chosen(there, pairs.answers.second_force[i]);
+        share.contact.torque += chosen(there, pairs.answers.second_torque[i]);
+        share.contact.stiffness += chosen(there, pairs.answers.second_stiffness[i]);
+    }
+};
+
+/// Nothing acts on bodies beside other bodies and walls.
+struct NothingOutside
+{
+    static constexpr bool acts = false;
+
+    template<class Lanes>
+    TREAD_HD ContactWrench operator()(std::int64_t, const Lanes&) const
+    {
+        return ContactWrench::zero();
+    }
+};
+
+/// Something may.
+struct SumOutside
+{
+    static constexpr bool acts = true;
+
+    OutsideWrenches wrenches;
+
+    template<class Lanes>
+    TREAD_HD ContactWrench operator()(std::int64_t b, const Lanes& lanes) const
+    {
+        ContactWrench      sum = ContactWrench::zero();
+        const std::int32_t run = wrenches.run == nullptr ? -1 : wrenches.run[b];
+        if (run < 0) { return sum; }
+        const std::int32_t end = wrenches.first[run + 1];
+        for (std::int32_t i = wrenches.first[run] + lanes.lane(); i < end; i += lanes.lanes())
+        {
+            sum = sum + wrenches.part[i];
+        }
+        reduce(sum, lanes);
+        return sum;
+    }
+};
+
+/// No local damping.
+struct Free
+{
+    TREAD_HD NoDamping operator()(const BodiesView&, std::int64_t) const { return {}; }
+};
+
+/// Local damping of the bodies that take part in it.
+struct Damped
+{
+    double alpha;
+
+    TREAD_HD LocalDamping operator()(const BodiesView& bodies, std::int64_t b) const
+    {
+        return {bodies.damped[b] != 0 ? alpha : 0.0};
+    }
+};
+
+/// One rank has all bodies.
+struct Alone
+{
+    static constexpr bool of_several = false;
+};
+
+/// Several ranks move bodies, some of them together.
+struct Together
+{
+    static constexpr bool of_several = true;
+
+    SharedView shared;
+};
+
+/// Gathers what acts on a body, books it, and moves the body. Of the lanes that share it the first one writes.
+/// Damping: Free or Damped; Outside: NothingOutside or SumOutside; Ranks: Alone or Together.
+template<class Damping, class Outside, class Ranks>
+struct Move
+{
+    BodiesView    bodies;
+    PairsView     pairs; ///< first = null: none were ever found
+    BodyTotal*    totals;
+    NamedImpulses named;
+    Vec3<double>  gravity; ///< m/s2
+    double        dt;      ///< s
+    Damping       damping;
+    Outside       outside;
+    Ranks         ranks;
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
+    {
+        if constexpr (Ranks::of_several)
+        {
+            if (!bodies.is_here(b)) { return; }
+        }
+        // Read before the sums, so that memory answers meanwhile.
+        ContactBody     shown = pairs.body != nullptr ? load(pairs.body + b) : contact_body(bodies, b);
+        BodyMotion      body  = motion_of(bodies, b, shown);
+        const BodyShare share = pairs.first != nullptr ? GatherPairs{pairs, bodies.count}(b, lanes) : BodyShare::zero();
+        const WrenchShare acting = of_all_ranks(b, {outside(b, lanes), share.contact});
+        if (lanes.lane() != 0) { return; }
+        const ContactWrench contact = acting.outside + acting.pairs;
+        book(b, share, contact);
+        BodyTotal        unbooked;
+        const double     weight = bodies.acting_weight(b, body.locked);
+        const MeanMotion mean =
+            integrate_body(body, contact, weight * gravity, damping(bodies, b), dt, *book_of(b, unbooked));
+        if (weight != 1) { book_hanging((weight - 1) * body.mass * gravity, mean, *book_of(b, unbooked)); }
+        if constexpr (Outside::acts) { book_outside(acting.outside, mean, *book_of(b, unbooked)); }
+        store_motion(bodies, b, body);
+        if (pairs.body != nullptr) { show(body, shown, pairs.body + b); }
+    }
+
+private:
+    TREAD_HD WrenchShare of_all_ranks(std::int64_t b, const WrenchShare& own) const
+    {
+        if constexpr (Ranks::of_several)
+        {
+            if (ranks.shared.is_shared(b)) { return wrench_of(ranks.shared, ranks.shared.place[b]); }
+        }
+        return own;
+    }
+
+    /// A guest's motion is booked by its owner. One call moves both: a compiler may round two in two ways.
+    TREAD_HD BodyTotal* book_of(std::int64_t b, BodyTotal& unbooked) const
+    {
+        if constexpr (Ranks::of_several)
+        {
+            if (!bodies.is_owned(b)) { return &unbooked; }
+        }
+        return totals + b;
+    }
+
+    TREAD_HD void book(std::int64_t b, const BodyShare& share, const ContactWrench& contact) const
+    {
+        bodies.force[b]     = contact.force;
+        bodies.torque[b]    = contact.torque;
+        bodies.stiffness[b] = contact.stiffness;
+        if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += dt * share.wall_force; }
+        if (share.friction != 0) { totals[b].friction += share.friction; }
+        if (share.restitution != 0) { totals[b].restitution += share.restitution; }
+        if (b < named.count && bodies.is_owned(b))
+        {
+            named.impulse[b].linear += dt * contact.force;
+            named.impulse[b].angular += dt * contact.torque;
+        }
+    }
+
+    TREAD_HD void book_outside(const ContactWrench& wrench, const MeanMotion& mean, BodyTotal& total) const
+    {
+        const double power = wrench.force.dot(mean.velocity) + wrench.torque.dot(mean.angular_velocity);
+        if (power != 0) { total.sand_work += dt * power; }
+    }
+
+    /// What holds a part of the weight does work on the body, as what holds a locked freedom does.
+    TREAD_HD void book_hanging(const Vec3<double>& force, const MeanMotion& mean, BodyTotal& total) const
+    {
+        total.holding_impulse += dt * force;
+        total.holding_work += dt * force.dot(mean.velocity);
+    }
+
+    /// To the contacts of the next substep.
+    TREAD_HD static void show(const BodyMotion& body, ContactBody& shown, ContactBody* record)
+    {
+        shown.position    = body.position;
+        shown.orientation = body.orientation;
+        shown.velocity    = body.velocity;
+        shown.spin        = body.angular_velocity;
+        store(record, shown);
+    }
+};
+
+/// This rank's share of what acts on a body that others move too.
+template<class Outside>
+struct ShareWrench
+{
+    PairsView    pairs;  ///< first = null: none were ever found
+    std::int64_t bodies; ///< how many
+    Outside      outside;
+    SharedView   shared;
+
+    template<class Lanes>
+    TREAD_HD void operator()(std::int64_t i, const Lanes& lanes) const
+    {
+        const std::int64_t b     = shared.body[i];
+        const BodyShare    share = pairs.first != nullptr ? GatherPairs{pairs, bodies}(b, lanes) : BodyShare::zero();
+        const WrenchShare  own{outside(b, lanes), share.contact};
+        if (lanes.lane() == 0) { shared.wrench[i] = own; }
+    }
+};
+
+/// Calls run with the Move that the motion and the ranks ask for, and `outside`.
+template<class Exec, class Outside, class Run>
+void with_damping(const BodyStep<Exec>& step, const Outside& outside, Run run)
+{
+    const auto with = [&]<class Damping, class Ranks>(const Damping& damping, const Ranks& ranks)
+    {
+        run(Move<Damping, Outside, Ranks>{step.bodies, step.pairs.view(), step.totals, step.named, step.motion.gravity,
+                                          step.motion.dt, damping, outside, ranks});
+    };
+    const auto among = [&](const auto& damping)
+    {
+        if (step.bodies.role == nullptr) { with(damping, Alone{}); }
+        else { with(damping, Together{step.shared}); }
+    };
+    if (step.motion.damping > 0) { among(Damped{step.motion.damping}); }
+    else { among(Free{}); }
+}
+
+/// Calls run with what acts from outside.
+template<class Exec, class Run>
+void with_outside(const BodyStep<Exec>& step, Run run)
+{
+    // Of several ranks one may have sand on a body, and another none: both move it by the same code.
+    if (step.motion.outside.run != nullptr || step.bodies.role != nullptr) { run(SumOutside{step.motion.outside}); }
+    else { run(NothingOutside{}); }
+}
+
+/// Calls run with the Move that the motion asks for.
+template<class Exec, class Run>
+void with_move(const BodyStep<Exec>& step, Run run)
+{
+    with_outside(step, [&](const auto& outside) { with_damping(step, outside, run); });
+}
+
+/// Calls run with the ShareWrench of the step.
+template<class Exec, class Run>
+void with_share(const BodyStep<Exec>& step, Run run)
+{
+    with_outside(step,
+                 [&]<class Outside>(const Outside& outside) {
+                     run(ShareWrench<Outside>{step.pairs.view(), step.bodies.count, outside, step.shared});
+                 });
+}
+
+} // namespace tread::dem::moving

@@ -1,0 +1,33 @@
+#include "kernels/dem/motion/substeps.cuh"
+
+#include "kernels/dem/contact/body_contact.hpp"
+
+namespace tread::dem
+{
+
+void run_substeps(const Gpu& gpu, const BodyStep<Gpu>& step, std::int64_t count)
+{
+    if (!worth_one_launch(step.pairs))
+    {
+        for (std::int64_t substep = 0; substep < count; ++substep)
+        {
+            evaluate_contacts(gpu, step.pairs, step.bodies, step.law, step.motion.dt);
+            move_bodies(gpu, step);
+        }
+        return;
+    }
+    by_narrow_phase(step.law,
+                    [&](const auto& meet)
+                    {
+                        moving::with_damping(step, moving::NothingOutside{},
+                                             [&](const auto& move)
+                                             {
+                                                 repeat<repeat_threads, repeat_blocks_an_sm>(
+                                                     gpu, "substeps of bodies", count,
+                                                     sequence(nodes_part(meet, step), answers_part(meet, step),
+                                                              move_part(move, step.pairs)));
+                                             });
+                    });
+}
+
+} // namespace tread::dem

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "kernels/dem/contact/body_contact_impl.hpp"
+#include "kernels/dem/contact/contact_nodes_impl.hpp"
+#include "kernels/dem/contact/lane_parts.cuh"
+#include "kernels/dem/motion/move_impl.hpp"
+#include "kernels/dem/motion/substeps.hpp"
+
+// The parts of a substep of bodies, for sequences that run on the device alone (backend/repeat.cuh).
+namespace tread::dem
+{
+
+inline constexpr int repeat_threads = 128, repeat_blocks_an_sm = 4;
+
+/// Fewer pairs than fill the device: waiting between launches would be most of a substep. Resistance to rolling has a
+/// launch of its own.
+inline bool worth_one_launch(Pairs<Gpu>& pairs)
+{
+    constexpr std::int64_t few = 50000;
+    return pairs.key.size() < few && !pairs.resists_rolling;
+}
+
+template<class Meet>
+auto nodes_part(const Meet& meet, const BodyStep<Gpu>& step)
+{
+    const std::int64_t nodes = step.pairs.node.size();
+    return group_part<repeat_threads, nodes_of_word>(
+        nodes > 0 ? node_words(nodes) : 0,
+        contact_nodes::LookUp<Meet>{meet, step.bodies.count, step.law, step.pairs.view()});
+}
+
+template<class Meet>
+auto answers_part(const Meet& meet, const BodyStep<Gpu>& step)
+{
+    constexpr int                        lanes = 4;
+    const body_contact::AnswerPair<Meet> answer{meet, step.bodies.count, step.law, step.pairs.view(), step.motion.dt};
+    return pair_part<repeat_threads, lanes>(answer.pairs, answer);
+}
+
+template<class Move>
+auto move_part(const Move& move, Pairs<Gpu>& pairs)
+{
+    constexpr int lanes = 4;
+    return body_part<repeat_threads, lanes>(move.bodies.count, pairs, move);
+}
+
+} // namespace tread::dem

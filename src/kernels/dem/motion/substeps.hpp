@@ -1,0 +1,13 @@
+#pragma once
+
+#include "kernels/dem/motion/move.hpp"
+
+namespace tread::dem
+{
+
+/// evaluate_contacts and move_bodies, `count` times, with motion.dt (s). The host has no part in them. Allocates
+/// nothing.
+void run_substeps(const Cpu&, const BodyStep<Cpu>& step, std::int64_t count);
+void run_substeps(const Gpu&, const BodyStep<Gpu>& step, std::int64_t count);
+
+} // namespace tread::dem

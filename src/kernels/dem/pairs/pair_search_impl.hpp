@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+
+#include "backend/reduce.hpp"
+#include "kernels/dem/pairs/pairs_kern.hpp"
+
+// The search for pairs whose bounding spheres and surfaces may meet, the same on both backends. Include after a
+// backend's for_each.
+namespace tread::dem::pair_steps
+{
+
+struct WriteCell
+{
+    BodiesView          bodies;
+    const std::int32_t* is_large;
+    double              cell_size;
+    std::uint64_t*      key;
+    std::int32_t*       body;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const Vec3<double>& x       = bodies.position[b];
+        const bool          gridded = is_large[b] == 0 && bodies.is_here(b);
+        key[b]                      = !gridded ? no_cell
+                                               : cell_key_of(cell_coordinate(x[0], cell_size), cell_coordinate(x[1], cell_size),
+                                                             cell_coordinate(x[2], cell_size));
+        body[b]                     = static_cast<std::int32_t>(b);
+    }
+};
+
+struct CountPairs
+{
+    PairSearch    search;
+    std::int32_t* found; ///< [bodies * parts + 1]
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        std::int32_t own = 0;
+        if (i < search.bodies.count * PairSearch::parts)
+        {
+            search(i / PairSearch::parts, i % PairSearch::parts, [&](std::uint64_t) { ++own; });
+        }
+        found[i] = own;
+    }
+};
+
+struct WritePairs
+{
+    PairSearch          search;
+    const std::int32_t* found; ///< [bodies * parts + 1], after the scan
+    std::uint64_t*      key;
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        std::int32_t place = found[i];
+        if (place == found[i + 1]) { return; }
+        search(i / PairSearch::parts, i % PairSearch::parts, [&](std::uint64_t pair) { key[place++] = pair; });
+    }
+};
+
+/// Bodies in the cells of a grid as wide as the widest pair; returns the width.
+template<class Exec>
+double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    largest_of_rows(exec, pairs.reach.data(), bodies.count, 1, pairs.measure.data());
+    const double cell_size = std::max(2.0 * read(exec, pairs.measure.data()), 1e-12);
+
+    pairs.cell_key.resize(bodies.count);
+    pairs.cell_body.resize(bodies.count);
+    for_each(exec, "body cells", bodies.count,
+             WriteCell{bodies, pairs.is_large.data(), cell_size, pairs.cell_key.data(), pairs.cell_body.data()});
+    sort_by_key(exec, pairs.cell_key, pairs.cell_body, pairs.sort);
+    return cell_size;
+}
+
+template<class Exec>
+void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double cell_size)
+{
+    const PairSearch   search{bodies,
+                            law,
+                            pairs.travel.data(),
+                            cell_size,
+                            pairs.cell_key.data(),
+                            pairs.cell_body.data(),
+                            pairs.large.data(),
+                            pairs.large.size(),
+                            pairs.is_large.data()};
+    const std::int64_t items = bodies.count * PairSearch::parts;
+    pairs.found.resize(items + 1);
+    for_each(exec, "count pairs", items + 1, CountPairs{search, pairs.found.data()});
+    pairs.key.resize(exclusive_scan(exec, pairs.found, pairs.sort));
+    for_each(exec, "write pairs", items, WritePairs{search, pairs.found.data(), pairs.key.data()});
+}
+
+} // namespace tread::dem::pair_steps

@@ -1,0 +1,17 @@
+#include "backend/launch.cuh"
+#include "kernels/dem/pairs/resume_list_impl.hpp"
+
+namespace tread::dem
+{
+
+template void classify_bodies(const Gpu&, Pairs<Gpu>&, const BodiesView&, const TemplateView*);
+template void stage_bodies(const Gpu&, Pairs<Gpu>&, const BodiesView&);
+template void begin_list(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&);
+template void share_speeds(const Gpu&, Pairs<Gpu>&, const BodiesView&, const SharedView&);
+template void want_travel(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double, const SharedView&);
+template void grant_travel(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double, double);
+template void list_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&);
+template void resume_list(const Gpu&, Pairs<Gpu>&, const BodiesView&);
+template void find_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double, double);
+
+} // namespace tread::dem

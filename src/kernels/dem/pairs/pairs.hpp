@@ -1,0 +1,210 @@
+#pragma once
+
+#include <cstdint>
+
+#include "backend/array.hpp"
+#include "backend/sort.hpp"
+#include "kernels/dem/bodies.hpp"
+#include "kernels/dem/contact/body_contact_kern.hpp"
+#include "kernels/dem/contact/contact_body.hpp"
+#include "kernels/dem/contact/pair_answers.hpp"
+#include "kernels/dem/contact/patches.hpp"
+#include "kernels/dem/contact/ray_kern.hpp"
+#include "kernels/dem/contact/rolling_kern.hpp"
+#include "kernels/dem/motion/shared.hpp"
+#include "kernels/dem/templates.hpp"
+
+// Which bodies may touch which, and which walls, and by which nodes: found for some steps to come, frozen in between.
+namespace tread::dem
+{
+
+/// The body-body law and its tables, in a backend's memory.
+struct BodyLaw
+{
+    const TemplateView* templates;
+    PairTable           pairs;
+    const Plane*        planes;
+    std::int32_t        plane_count;
+    ContactOptions      options;
+    const RayView*      rays = nullptr; ///< of the templates; null: bodies meet by their distance fields
+};
+
+/// The lowest bits of a key number the patches of a pair that touches in several (patches.hpp): 0 of any other.
+inline constexpr int patch_bits = 3;
+
+/// Bodies and walls that keys can tell apart.
+inline constexpr std::int64_t most_bodies = std::int64_t{1} << (32 - patch_bits);
+
+/// Key of a pair, a < b; the wall `plane` has b = bodies + plane, below most_bodies.
+TREAD_HD std::uint64_t pair_key(std::int64_t a, std::int64_t b)
+{
+    return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b) << patch_bits;
+}
+TREAD_HD std::int64_t first_of(std::uint64_t key) { return static_cast<std::int64_t>(key >> 32); }
+TREAD_HD std::int64_t second_of(std::uint64_t key)
+{
+    return static_cast<std::int64_t>((key & 0xffffffffu) >> patch_bits);
+}
+/// The key without the number of a patch.
+TREAD_HD std::uint64_t whole_pair(std::uint64_t key) { return key >> patch_bits << patch_bits; }
+TREAD_HD bool same_pair(std::uint64_t one, std::uint64_t other) { return one >> patch_bits == other >> patch_bits; }
+
+/// Bits of a word in PairsView::inside; words that hold so many nodes, and one more, which a run may read past its end.
+inline constexpr std::int32_t nodes_of_word = 32;
+inline std::int64_t           node_words(std::int64_t nodes) { return nodes / nodes_of_word + 2; }
+
+struct PairsView
+{
+    std::int64_t         count;
+    const std::uint64_t* key; ///< ascending
+    Patch*               patch;
+    double*              peak;      ///< m, largest overlap since the pairs were found
+    const std::int32_t*  first;     ///< [bodies + 1], the run of pairs whose first body is this one
+    const std::int32_t*  by_second; ///< pairs ordered by their second body
+    const std::int32_t*  second;    ///< [bodies + 1], the run in by_second of this body
+    Rolling*             rolling;   ///< null where no pair of materials has rolling friction
+    AnswersView          answers;   ///< of the last substep
+    ContactBody*         body;      ///< of every body
+
+    const double*       travel;     ///< m, of every body, that the list allows for
+    const std::int32_t* first_node; ///< [pairs + 1], the run of nodes that may touch, of each pair
+    const std::int32_t* node;       ///< i of the first body, ~i of the second
+    const std::int32_t* many;       ///< pairs of over many_nodes (contact_nodes.hpp)
+    std::int64_t        many_count;
+    const std::int32_t* pair_of_node;
+    std::int64_t        node_count;
+    FoundNode*          found_node; ///< of the last look
+    std::uint32_t*      inside;     ///< [node_words], bit i of all: node i was inside at the last look
+};
+
+/// Owner of what PairsView shows, and of the search's scratch.
+template<class Exec>
+struct Pairs
+{
+    explicit Pairs(const Exec& exec)
+        : key(exec, "pair keys")
+        , patch(exec, "pair patches")
+        , answers(exec)
+        , body(exec, "bodies in contact")
+        , peak(exec, "pair peak overlaps")
+        , first(exec, "pairs of first body")
+        , by_second(exec, "pairs by second body")
+        , second(exec, "pairs of second body")
+        , rolling(exec, "pair rolling moments")
+        , expected_stiffness(exec, "body expected stiffness")
+        , large(exec, "large bodies")
+        , is_large(exec, "large body marks")
+        , node_area(exec, "body node area")
+        , last_key(exec, "last pair keys")
+        , last_patch(exec, "last pair patches")
+        , travel(exec, "body travel")
+        , last_rolling(exec, "last pair rolling moments")
+        , reach(exec, "body reach")
+        , cell_key(exec, "body cells")
+        , cell_body(exec, "bodies by cell")
+        , found(exec, "pairs found")
+        , second_key(exec, "pair second bodies")
+        , measure(exec, "pair measures")
+        , first_node(exec, "nodes of pairs")
+        , node(exec, "pair nodes")
+        , pair_of_node(exec, "pairs of nodes")
+        , found_node(exec, "nodes found")
+        , inside(exec, "nodes inside")
+        , many(exec, "pairs of many nodes")
+        , sort(exec)
+        , patches(exec)
+    {
+    }
+
+    PairsView view()
+    {
+        return {key.size(),     key.data(),        patch.data(),  peak.data(),
+                first.data(),   by_second.data(),  second.data(), resists_rolling ? rolling.data() : nullptr,
+                answers.view(), body.data(),       travel.data(), first_node.data(),
+                node.data(),    many.data(),       many.size(),   pair_of_node.data(),
+                node.size(),    found_node.data(), inside.data()};
+    }
+
+    Array<Exec, std::uint64_t> key;
+    Array<Exec, Patch>         patch;
+    Answers<Exec>              answers;
+    Array<Exec, ContactBody>   body;
+    Array<Exec, double>        peak;
+    Array<Exec, std::int32_t>  first;
+    Array<Exec, std::int32_t>  by_second;
+    Array<Exec, std::int32_t>  second;
+    Array<Exec, Rolling>       rolling;            ///< empty unless resists_rolling
+    Array<Exec, double>        expected_stiffness; ///< N/m, of each body (contact_limits.hpp)
+
+    Array<Exec, std::int32_t> large;     ///< bodies that never enter the cell grid
+    Array<Exec, std::int32_t> is_large;  ///< of every body
+    Array<Exec, double>       node_area; ///< m2, mean of each body's nodes
+
+    Array<Exec, std::uint64_t> last_key;
+    Array<Exec, Patch>         last_patch;
+    Array<Exec, double>        travel;
+    Array<Exec, Rolling>       last_rolling;
+    Array<Exec, double>        reach;
+    Array<Exec, std::uint64_t> cell_key;
+    Array<Exec, std::int32_t>  cell_body;
+    Array<Exec, std::int32_t>  found;
+    Array<Exec, std::uint64_t> second_key;
+    Array<Exec, double>        measure;
+    Array<Exec, std::int32_t>  first_node;
+    Array<Exec, std::int32_t>  node;
+    Array<Exec, std::int32_t>  pair_of_node;
+    Array<Exec, FoundNode>     found_node;
+    Array<Exec, std::uint32_t> inside;
+    Array<Exec, std::int32_t>  many; ///< empty on the host, where one lane takes any pair
+    SortScratch<Exec>          sort;
+    Patches<Exec>              patches;
+    bool                       resists_rolling = false; ///< some pair of materials has rolling friction
+};
+
+/// Once, and again when bodies come, go or change places: sorts them by size. A body more than 4 times larger than the
+/// median is tested against all others instead of entering the cell grid, whose cells would be its size.
+template<class Exec>
+void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates);
+
+/// Copies what contacts ask of the bodies; again when anything but move_bodies has changed them. find_pairs does.
+template<class Exec>
+void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
+
+/// Every pair of bodies, and of body and wall, that may touch within the next dt (s, of the MPM step), and of each the
+/// nodes that may come inside the other side (contact_nodes.hpp): none is missed while no point of a body moves further
+/// than pairs.travel. Patches of pairs that stay in the list are kept. `substeps`: of such a step, for how long the
+/// list should last.
+template<class Exec>
+void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                double substeps = 1);
+
+/// find_pairs in parts, between which several ranks agree. First: what the present list remembers becomes that of the
+/// last list, and pairs.reach the speeds of bodies.
+template<class Exec>
+void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
+
+/// On several ranks: this rank's shares of shared.speed, which the others are to have.
+template<class Exec>
+void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared);
+
+/// Second: pairs.travel = what owned bodies would have beyond their own motion for a step more (in bounding radii), and
+/// pairs.measure its sum, which is to become that of all ranks.
+template<class Exec>
+void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                 const SharedView& shared);
+
+/// Third: pairs.travel of owned bodies. Guests have theirs from their owner.
+template<class Exec>
+void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                  double substeps);
+
+/// Last: the list, of the pairs that this rank answers.
+template<class Exec>
+void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
+
+/// Of a list that was loaded (pairs.key, patch, rolling, travel, first_node, node, and of patches place and several):
+/// all that list_pairs makes of these. Overlaps are as of a new list.
+template<class Exec>
+void resume_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
+
+} // namespace tread::dem

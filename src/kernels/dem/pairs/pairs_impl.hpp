@@ -1,0 +1,317 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "kernels/dem/contact/contact_nodes.hpp"
+#include "kernels/dem/pairs/pair_search_impl.hpp"
+#include "kernels/dem/pairs/travel_impl.hpp"
+
+// The steps of find_pairs, the same on both backends; pairs.cpp and pairs.cu bring in for_each and instantiate.
+namespace tread::dem
+{
+namespace pair_steps
+{
+
+/// What only the search needs and what only the substeps need are never there at the same time: each gives its memory
+/// back when the other begins, and takes no more than it wants.
+template<class... Arrays>
+void give_back(Arrays&... arrays)
+{
+    (arrays.fit(0), ...);
+}
+
+template<class Exec>
+void give_back(SortScratch<Exec>& scratch)
+{
+    give_back(scratch.bytes, scratch.keys, scratch.values);
+}
+
+template<class Exec>
+void give_back(Answers<Exec>& answers)
+{
+    give_back(answers.force, answers.torque, answers.stiffness, answers.energy, answers.friction, answers.restitution,
+              answers.place, answers.second_force, answers.second_torque, answers.second_stiffness);
+}
+
+struct MeasureBody
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    double*             radius;
+    double*             node_area;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const TemplateView& shape = templates[bodies.shape[b]];
+        const double        scale = bodies.scale[b];
+        double              area  = 0;
+        for (std::int32_t i = 0; i < shape.node_count; ++i) { area += shape.node_areas[i]; }
+        radius[b]    = scale * shape.bounding_radius;
+        node_area[b] = shape.node_count > 0 ? scale * scale * area / shape.node_count : 0.0;
+    }
+};
+
+struct Stage
+{
+    BodiesView   bodies;
+    ContactBody* body;
+
+    TREAD_HD void operator()(std::int64_t b) const { body[b] = contact_body(bodies, b); }
+};
+
+struct MarkPairs
+{
+    std::int64_t        count;
+    const std::int32_t* nodes;
+    std::int32_t*       kept; ///< [pairs + 1]
+
+    TREAD_HD void operator()(std::int64_t p) const { kept[p] = p < count && nodes[p] != 0 ? 1 : 0; }
+};
+
+struct KeepPairs
+{
+    std::int64_t         count;
+    const std::uint64_t* key;
+    const std::int32_t*  nodes; ///< of each pair; below 0: none, but kept
+    const std::int32_t*  place; ///< [pairs + 1], after the scan
+    std::uint64_t*       kept_key;
+    std::int32_t*        kept_nodes; ///< and a zero for the scan's end
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        if (p == count) { kept_nodes[place[p]] = 0; }
+        if (p == count || place[p] == place[p + 1]) { return; }
+        kept_key[place[p]]   = key[p];
+        kept_nodes[place[p]] = nodes[p] > 0 ? nodes[p] : 0;
+    }
+};
+
+/// What every pair of a new list starts with, and its place in the order by second body.
+struct Renew
+{
+    PairsView      pairs;
+    std::uint64_t* second_key;
+    std::int32_t*  by_second;
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        pairs.peak[p] = 0;
+        second_key[p] = static_cast<std::uint64_t>(second_of(pairs.key[p]));
+        by_second[p]  = static_cast<std::int32_t>(p);
+    }
+};
+
+/// Where each pair is in the order by second body.
+struct Place
+{
+    const std::int32_t* by_second;
+    std::int32_t*       place;
+
+    TREAD_HD void operator()(std::int64_t i) const { place[by_second[i]] = static_cast<std::int32_t>(i); }
+};
+
+struct ClearAnswers
+{
+    AnswersView answers;
+
+    TREAD_HD void operator()(std::int64_t p) const { answers.store(p, answers.place[p], no_response()); }
+};
+
+/// The patch of a pair that was in the last list.
+struct Recall
+{
+    PairsView            pairs;
+    std::int64_t         last_count;
+    const std::uint64_t* last_key;
+    const Patch*         last_patch;
+    const Rolling*       last_rolling;
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        const std::int64_t last = find_sorted(last_key, last_count, pairs.key[p]);
+        pairs.patch[p]          = last < 0 ? no_patch() : last_patch[last];
+        if (pairs.rolling != nullptr) { pairs.rolling[p] = last < 0 ? no_rolling() : last_rolling[last]; }
+    }
+};
+
+struct WriteRuns
+{
+    std::int64_t         count;
+    const std::uint64_t* key;
+    const std::uint64_t* second_key;
+    std::int32_t*        first;
+    std::int32_t*        second;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        first[b]  = static_cast<std::int32_t>(lower_bound(key, count, pair_key(b, 0)));
+        second[b] = static_cast<std::int32_t>(lower_bound(second_key, count, static_cast<std::uint64_t>(b)));
+    }
+};
+
+/// Of each node in the list, its pair.
+struct WritePairsOfNodes
+{
+    const std::int32_t* first_node; ///< [pairs + 1]
+    std::int32_t*       pair_of_node;
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        for (std::int32_t i = first_node[p]; i < first_node[p + 1]; ++i)
+        {
+            pair_of_node[i] = static_cast<std::int32_t>(p);
+        }
+    }
+};
+
+/// All that follows from the keys alone.
+template<class Exec>
+void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    const std::int64_t count = pairs.key.size();
+    give_back(pairs.by_second, pairs.peak, pairs.second_key);
+    pairs.by_second.resize(count);
+    pairs.peak.resize(count);
+    pairs.second_key.resize(count);
+    for_each(exec, "renew pairs", count, Renew{pairs.view(), pairs.second_key.data(), pairs.by_second.data()});
+    sort_by_key(exec, pairs.second_key, pairs.by_second, pairs.sort, bits_below(most_bodies));
+
+    pairs.first.resize(bodies.count + 1);
+    pairs.second.resize(bodies.count + 1);
+    for_each(exec, "pairs of bodies", bodies.count + 1,
+             WriteRuns{count, pairs.key.data(), pairs.second_key.data(), pairs.first.data(), pairs.second.data()});
+}
+
+/// Leaves out the pairs that no node can join, and orders the rest: bounding spheres meet far more often than surfaces.
+template<class Exec>
+void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    const std::int64_t count = pairs.key.size();
+    pairs.first_node.resize(count + 1);
+    count_contact_nodes(exec, pairs, bodies, law);
+    pairs.found.resize(count + 1);
+    for_each(exec, "mark pairs", count + 1, MarkPairs{count, pairs.first_node.data(), pairs.found.data()});
+    const std::int64_t kept = exclusive_scan(exec, pairs.found, pairs.sort);
+    pairs.second_key.resize(kept);
+    pairs.by_second.resize(kept + 1);
+    for_each(exec, "keep pairs", count + 1,
+             KeepPairs{count, pairs.key.data(), pairs.first_node.data(), pairs.found.data(), pairs.second_key.data(),
+                       pairs.by_second.data()});
+    pairs.key.swap(pairs.second_key);
+    pairs.first_node.swap(pairs.by_second);
+    give_back(pairs.second_key, pairs.by_second, pairs.found);
+    sort_by_key(exec, pairs.key, pairs.first_node, pairs.sort, 32 + bits_below(bodies.count)); // its last zero stays
+    pairs.node.resize(exclusive_scan(exec, pairs.first_node, pairs.sort));
+    list_contact_nodes(exec, pairs, bodies, law);
+}
+
+/// What the substeps had of a list.
+template<class Exec>
+void end_substeps(Pairs<Exec>& pairs)
+{
+    give_back(pairs.answers);
+    give_back(pairs.node, pairs.pair_of_node, pairs.found_node, pairs.inside, pairs.first_node);
+}
+
+/// What they need beside the list.
+template<class Exec>
+void begin_substeps(const Exec& exec, Pairs<Exec>& pairs)
+{
+    const std::int64_t count = pairs.key.size();
+    pairs.answers.resize(count);
+    pairs.pair_of_node.resize(pairs.node.size());
+    pairs.found_node.resize(pairs.node.size());
+    pairs.inside.resize(node_words(pairs.node.size()));
+    for_each(exec, "pair places", count, Place{pairs.by_second.data(), pairs.answers.place.data()});
+    for_each(exec, "clear answers", count, ClearAnswers{pairs.answers.view()});
+    for_each(exec, "pairs of nodes", count, WritePairsOfNodes{pairs.first_node.data(), pairs.pair_of_node.data()});
+}
+
+template<class Exec>
+void order_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    const std::int64_t count = pairs.key.size();
+    pairs.patch.resize(count);
+    if (pairs.resists_rolling) { pairs.rolling.resize(count); }
+    for_each(exec, "recall pairs", count,
+             Recall{pairs.view(), pairs.last_key.size(), pairs.last_key.data(), pairs.last_patch.data(),
+                    pairs.last_rolling.data()});
+    order_again(exec, pairs, bodies);
+}
+
+} // namespace pair_steps
+
+template<class Exec>
+void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates)
+{
+    pairs.reach.resize(bodies.count);
+    pairs.node_area.resize(bodies.count);
+    pairs.expected_stiffness.resize(bodies.count);
+    pairs.expected_stiffness.fill_zero();
+    for_each(exec, "body sizes", bodies.count,
+             pair_steps::MeasureBody{bodies, templates, pairs.reach.data(), pairs.node_area.data()});
+
+    const std::vector<double> radii  = pairs.reach.to_host();
+    std::vector<double>       sorted = radii;
+    const auto                middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    if (!sorted.empty()) { std::nth_element(sorted.begin(), middle, sorted.end()); }
+    constexpr double          much_larger = 4;
+    std::vector<std::int32_t> large, marks;
+    for (std::size_t b = 0; b < radii.size(); ++b)
+    {
+        marks.push_back(radii[b] > much_larger * *middle ? 1 : 0);
+        if (marks.back() != 0) { large.push_back(static_cast<std::int32_t>(b)); }
+    }
+    pairs.large.assign(large);
+    pairs.is_large.assign(marks);
+}
+
+template<class Exec>
+void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    pairs.body.resize(bodies.count);
+    for_each(exec, "stage bodies", bodies.count, pair_steps::Stage{bodies, pairs.body.data()});
+}
+
+template<class Exec>
+void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    pair_steps::end_substeps(pairs);
+    pairs.key.swap(pairs.last_key);
+    pairs.patch.swap(pairs.last_patch);
+    pairs.rolling.swap(pairs.last_rolling);
+    pairs.patches.place.swap(pairs.patches.last_place);
+    pair_steps::write_speeds(exec, pairs, bodies, law);
+}
+
+template<class Exec>
+void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    using namespace pair_steps;
+    stage_bodies(exec, pairs, bodies);
+    reach_again(exec, pairs, bodies, law);
+    give_back(pairs.by_second);
+    const double cell_size = fill_cells(exec, pairs, bodies);
+    search(exec, pairs, bodies, law, cell_size);
+    give_back(pairs.reach, pairs.cell_key, pairs.cell_body, pairs.found);
+    keep_pairs_with_nodes(exec, pairs, bodies, law);
+    order_pairs(exec, pairs, bodies);
+    if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }
+    list_pairs_of_many_nodes(exec, pairs);
+    give_back(pairs.last_key, pairs.last_patch, pairs.last_rolling, pairs.second_key, pairs.found);
+    give_back(pairs.sort);
+    begin_substeps(exec, pairs);
+}
+
+template<class Exec>
+void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                double substeps)
+{
+    begin_list(exec, pairs, bodies, law);
+    want_travel(exec, pairs, bodies, law, dt, {});
+    grant_travel(exec, pairs, bodies, law, dt, substeps);
+    list_pairs(exec, pairs, bodies, law);
+}
+
+} // namespace tread::dem

@@ -1,0 +1,209 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "kernels/dem/pairs/pairs.hpp"
+
+namespace tread::dem
+{
+
+/// What a list of pairs allows a body beyond its own motion, in bounding radii: a body at rest may be set going. At a
+/// step's start at least half of it must be left.
+inline constexpr double search_skin = 0.003, rest_reserve = 0.5 * search_skin;
+
+/// Steps of a body's motion that a list must have left at a step's start: the present one, and the next, whose contacts
+/// are expected (contact_limits.hpp).
+inline constexpr double steps_ahead = 2.1;
+
+/// m/s, that no point of a body with this bounding radius (m) exceeds.
+TREAD_HD double speed_of(const BodiesView& bodies, std::int64_t b, double radius)
+{
+    return bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius;
+}
+
+TREAD_HD double bounding_radius(const BodiesView& bodies, const TemplateView* templates, std::int64_t b)
+{
+    return templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
+}
+
+/// How far any point of a body may move until the pairs are found anew, in bounding radii.
+struct Travel
+{
+    double least; ///< what it will in the steps ahead, and the skin
+    double more;  ///< what it may in each step that a list lasts beyond the first
+};
+
+/// More than this nobody gets: cells of the search grid are as wide as the widest reach.
+inline constexpr double most_more = 0.2;
+
+/// Of a body with this speed among others with speeds up to `near` (m/s): it may soon be as fast.
+TREAD_HD Travel travel_of(double radius, double speed, double near, double dt)
+{
+    const double a_step = radius > 0 ? dt / radius : 0.0;
+    return {steps_ahead * a_step * speed + search_skin, std::fmin(a_step * near, most_more)};
+}
+
+/// Steps that a list should last beyond the first, where a step has so many substeps and bodies go `mean` (bounding
+/// radii) in one. With every radius that all go further a substep looks up more nodes, whose time is 1 / `worth` of a
+/// search's (53,000 rocks on an H200); so a step costs substeps mean steps / worth + 1 / (1 + steps) searches, which is
+/// least here. Nodes also take memory: no more than for `mean_more`.
+TREAD_HD double steps_to_last(double mean, double substeps)
+{
+    constexpr double worth = 1.5, most_steps = 60, mean_more = 0.01;
+    if (!(mean > 0)) { return most_steps; }
+    const double cheapest = std::sqrt(worth / (substeps * mean)) - 1;
+    return std::fmin(std::fmax(cheapest, 0.0), std::fmin(mean_more / mean, most_steps));
+}
+
+/// A body as the search sees it.
+struct Reach
+{
+    double bounding; ///< m, radius of the bounding sphere
+    double travel;   ///< m
+
+    TREAD_HD double total() const { return bounding + travel; }
+};
+
+TREAD_HD Reach reach_of(const BodiesView& bodies, const TemplateView* templates, const double* travel, std::int64_t b)
+{
+    return {bounding_radius(bodies, templates, b), travel[b]};
+}
+
+/// Whether the bounding spheres can meet.
+TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates, const double* travel, std::int64_t a,
+                        std::int64_t b)
+{
+    const double together =
+        reach_of(bodies, templates, travel, a).total() + reach_of(bodies, templates, travel, b).total();
+    return (bodies.position[a] - bodies.position[b]).squaredNorm() <= together * together;
+}
+
+/// Whether the surface of body b's template can come within the other's grown bounding sphere. What is inside the
+/// interpolated surface is within its uncertainty of the true one.
+TREAD_HD bool surface_near(const BodiesView& bodies, const TemplateView* templates, std::int64_t b,
+                           const Vec3<double>& centre, double reach)
+{
+    const TemplateView& shape    = templates[bodies.shape[b]];
+    const double        scale    = bodies.scale[b];
+    const double        furthest = reach + surface_uncertainty(shape, scale);
+    return sample_body_sdf(shape, scale, bodies.position[b], bodies.orientation[b], centre).distance <=
+           furthest + sdf_uncertainty(shape, scale, furthest);
+}
+
+/// Whether each body's surface can come within the other's bounding sphere: most pairs whose spheres meet fail here.
+TREAD_HD bool surfaces_near(const BodiesView& bodies, const TemplateView* templates, const double* travel,
+                            std::int64_t a, std::int64_t b)
+{
+    const Reach of_a = reach_of(bodies, templates, travel, a), of_b = reach_of(bodies, templates, travel, b);
+    return surface_near(bodies, templates, a, bodies.position[b], of_b.total() + of_a.travel) &&
+           surface_near(bodies, templates, b, bodies.position[a], of_a.total() + of_b.travel);
+}
+
+TREAD_HD bool may_touch_plane(const BodiesView& bodies, const TemplateView* templates, const double* travel,
+                              std::int64_t b, const Plane& plane)
+{
+    return plane.normal.dot(bodies.position[b]) - plane.offset <= reach_of(bodies, templates, travel, b).total();
+}
+
+/// Cells of the search grid: 21 bits an axis, x lowest, so that neighbours along x have consecutive keys.
+inline constexpr std::int32_t  cell_bias = 1 << 20;
+inline constexpr std::uint64_t no_cell   = ~std::uint64_t{0};
+
+/// Held to the range that has keys: a body may be anywhere.
+TREAD_HD std::int64_t cell_coordinate(double position, double size)
+{
+    const double cell = std::floor(position / size), limit = cell_bias - 2;
+    return static_cast<std::int64_t>(std::fmin(std::fmax(cell, -limit), limit)) + cell_bias;
+}
+
+TREAD_HD std::uint64_t cell_key_of(std::int64_t x, std::int64_t y, std::int64_t z)
+{
+    return static_cast<std::uint64_t>(z << 42 | y << 21 | x);
+}
+
+/// Of several ranks that one answers a pair, a < b, which owns this body of it: the second, but the small one beside a
+/// large, which may be near many ranks.
+TREAD_HD std::int64_t decider_of(const std::int32_t* is_large, std::int64_t a, std::int64_t b)
+{
+    return is_large[b] > is_large[a] ? a : b;
+}
+
+/// Finds the pairs of one body, each pair with one of its two bodies only. In parts, so that few bodies fill a device.
+struct PairSearch
+{
+    BodiesView           bodies;
+    BodyLaw              law;
+    const double*        travel;
+    double               cell_size; ///< m, at least twice the largest reach in the grid
+    const std::uint64_t* cell_key;  ///< ascending
+    const std::int32_t*  cell_body;
+    const std::int32_t*  large;
+    std::int64_t         large_count;
+    const std::int32_t*  is_large;
+
+    TREAD_HD bool is_sphere(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
+
+    TREAD_HD bool answered_here(std::int64_t a, std::int64_t b) const
+    {
+        return bodies.is_owned(decider_of(is_large, a, b)) && bodies.is_here(a) && bodies.is_here(b);
+    }
+
+    /// Exact spheres are as large as their bounding spheres.
+    TREAD_HD bool near(std::int64_t a, std::int64_t b) const
+    {
+        return may_touch(bodies, law.templates, travel, a, b) &&
+               ((is_sphere(a) && is_sphere(b)) || surfaces_near(bodies, law.templates, travel, a, b));
+    }
+
+    /// Parts of a body's search: rows of cells around its own, and what is in none.
+    static constexpr std::int64_t cell_rows = 9, parts = cell_rows + 1;
+
+    template<class Visit>
+    TREAD_HD void operator()(std::int64_t a, std::int64_t part, Visit visit) const
+    {
+        if (!bodies.is_here(a)) { return; }
+        if (part == cell_rows) { beside_cells(a, visit); }
+        else if (is_large[a] == 0) { in_row(a, part, visit); }
+    }
+
+private:
+    template<class Visit>
+    TREAD_HD void in_row(std::int64_t a, std::int64_t row, Visit visit) const
+    {
+        const Vec3<double>& position = bodies.position[a];
+        const std::int64_t  x        = cell_coordinate(position[0], cell_size),
+                           y         = cell_coordinate(position[1], cell_size) + row % 3 - 1,
+                           z         = cell_coordinate(position[2], cell_size) + row / 3 - 1;
+        const std::int64_t  gridded  = bodies.count - large_count;
+        const std::uint64_t last     = cell_key_of(x + 1, y, z);
+        for (std::int64_t i = lower_bound(cell_key, gridded, cell_key_of(x - 1, y, z));
+             i < gridded && cell_key[i] <= last; ++i)
+        {
+            const std::int64_t b = cell_body[i];
+            if (b > a && answered_here(a, b) && near(a, b)) { visit(pair_key(a, b)); }
+        }
+    }
+
+    /// Large bodies, and walls.
+    template<class Visit>
+    TREAD_HD void beside_cells(std::int64_t a, Visit visit) const
+    {
+        for (std::int64_t l = 0; l < large_count; ++l)
+        {
+            const std::int64_t b = large[l];
+            if (is_large[a] != 0 && b <= a) { continue; }
+            const std::int64_t first = a < b ? a : b, second = a < b ? b : a;
+            if (answered_here(first, second) && near(first, second)) { visit(pair_key(first, second)); }
+        }
+        for (std::int32_t p = 0; p < law.plane_count; ++p)
+        {
+            if (bodies.is_owned(a) && may_touch_plane(bodies, law.templates, travel, a, law.planes[p]))
+            {
+                visit(pair_key(a, bodies.count + p));
+            }
+        }
+    }
+};
+
+} // namespace tread::dem

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "kernels/dem/pairs/pairs_impl.hpp"
+
+// The steps of resume_list, the same on both backends; pairs.cpp and pairs.cu bring in for_each and instantiate.
+namespace tread::dem
+{
+
+template<class Exec>
+void resume_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    using namespace pair_steps;
+    stage_bodies(exec, pairs, bodies);
+    order_again(exec, pairs, bodies);
+    pairs.patches.group.resize(pairs.node.size());
+    pairs.patches.node.resize(pairs.node.size());
+    list_pairs_of_many_nodes(exec, pairs);
+    give_back(pairs.second_key);
+    give_back(pairs.sort);
+    begin_substeps(exec, pairs);
+}
+
+} // namespace tread::dem

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <limits>
+
+#include "backend/reduce.hpp"
+#include "kernels/dem/pairs/pairs_kern.hpp"
+#include "kernels/dem/pairs/strays.hpp"
+
+// The steps of strays.hpp, the same on both backends; strays.cpp and strays.cu bring in for_each.
+namespace tread::dem::stray_steps
+{
+
+/// A turn by the angle t moves no point further than 2 sin(t/2) of the bounding radius; a quaternion's vector part is
+/// sin(t/2) long.
+struct Measure
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    const Vec3<double>* position;
+    const Quat*         orientation;
+    const double*       travel;
+    double*             share;
+
+    TREAD_HD double radius(std::int64_t b) const { return bounding_radius(bodies, templates, b); }
+
+    TREAD_HD double moved(std::int64_t b) const
+    {
+        const double turned = (bodies.orientation[b] * orientation[b].conjugate()).vec().norm();
+        return (bodies.position[b] - position[b]).norm() + 2.0 * turned * radius(b);
+    }
+
+    TREAD_HD void keep(std::int64_t b, double way) const
+    {
+        if (!bodies.is_owned(b))
+        {
+            share[b] = 0;
+            return;
+        }
+        const double used = way / travel[b];
+        share[b]          = used >= 0 ? used : std::numeric_limits<double>::infinity();
+    }
+
+    TREAD_HD void operator()(std::int64_t b) const { keep(b, moved(b)); }
+};
+
+struct MeasureAhead
+{
+    Measure measure;
+    double  ahead;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const double way = ahead * speed_of(measure.bodies, b, measure.radius(b));
+        measure.keep(b, measure.moved(b) + steps_ahead * way + rest_reserve * measure.radius(b));
+    }
+};
+
+template<class Exec>
+void mark(const Exec& exec, Strays<Exec>& strays, const BodiesView& bodies)
+{
+    const auto count = static_cast<std::size_t>(bodies.count);
+    strays.position.resize(bodies.count);
+    strays.orientation.resize(bodies.count);
+    copy(exec, strays.position.data(), bodies.position, count * sizeof(Vec3<double>));
+    copy(exec, strays.orientation.data(), bodies.orientation, count * sizeof(Quat));
+}
+
+template<class Exec>
+Measure measure(Strays<Exec>& strays, const BodiesView& bodies, const TemplateView* templates, const double* travel)
+{
+    strays.share.resize(bodies.count + 1);
+    return {bodies, templates, strays.position.data(), strays.orientation.data(), travel, strays.share.data()};
+}
+
+template<class Exec, class Item>
+const double* largest(const Exec& exec, Strays<Exec>& strays, std::int64_t bodies, const Item& item)
+{
+    for_each(exec, "measure strays", bodies, item);
+    double* found = strays.share.data() + bodies;
+    largest_of_rows(exec, strays.share.data(), bodies, 1, found);
+    return found;
+}
+
+} // namespace tread::dem::stray_steps

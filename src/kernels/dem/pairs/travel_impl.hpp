@@ -1,0 +1,196 @@
+#pragma once
+
+#include "backend/reduce.hpp"
+#include "kernels/dem/pairs/pairs_kern.hpp"
+
+// How far each body may move until the pairs are found anew, the same on both backends. Include after a backend's
+// for_each.
+namespace tread::dem
+{
+namespace pair_steps
+{
+
+struct WriteSpeed
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    double*             speed; ///< m/s
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        speed[b] = bodies.is_here(b) ? speed_of(bodies, b, bounding_radius(bodies, templates, b)) : 0.0;
+    }
+};
+
+/// The last list, for who was near whom.
+struct LastPairs
+{
+    const std::uint64_t* key;
+    const std::int32_t*  first; ///< as PairsView's; null where there was no list
+    const std::int32_t*  by_second;
+    const std::int32_t*  second;
+};
+
+/// m/s, of the fastest body that was near this one in the last list. A large one has too many near it to ask.
+struct FastestNear
+{
+    std::int64_t        bodies; ///< how many
+    const std::int32_t* is_large;
+    LastPairs           last;
+    const double*       speed;
+
+    TREAD_HD double operator()(std::int64_t b) const
+    {
+        double fastest = speed[b];
+        if (last.first == nullptr || is_large[b] != 0) { return fastest; }
+        for (std::int32_t p = last.first[b]; p < last.first[b + 1]; ++p)
+        {
+            const std::int64_t other = second_of(last.key[p]);
+            if (other < bodies) { fastest = std::fmax(fastest, speed[other]); }
+        }
+        for (std::int32_t i = last.second[b]; i < last.second[b + 1]; ++i)
+        {
+            fastest = std::fmax(fastest, speed[first_of(last.key[last.by_second[i]])]);
+        }
+        return fastest;
+    }
+};
+
+/// This rank's share of the same.
+struct ShareFastestNear
+{
+    FastestNear near;
+    SharedView  shared;
+
+    TREAD_HD void operator()(std::int64_t i) const { shared.speed[i] = near(shared.body[i]); }
+};
+
+struct FastestNearOfAllRanks
+{
+    FastestNear near;
+    SharedView  shared;
+
+    TREAD_HD double operator()(std::int64_t b) const
+    {
+        return shared.is_shared(b) ? speed_of_all(shared, shared.place[b]) : near(b);
+    }
+};
+
+/// What an owned body would have of Travel::more. Near: FastestNear or FastestNearOfAllRanks.
+template<class Near>
+struct WriteMore
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    double              dt;
+    const double*       speed;
+    Near                near;
+    double*             more;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        more[b] =
+            bodies.is_owned(b) ? travel_of(bounding_radius(bodies, templates, b), speed[b], near(b), dt).more : 0.0;
+    }
+};
+
+template<class Near>
+WriteMore(BodiesView, const TemplateView*, double, const double*, Near, double*) -> WriteMore<Near>;
+
+struct WriteReach
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    const std::int32_t* is_large;
+    double              dt;
+    double              substeps;
+    const double*       sum;    ///< of `more`
+    double*             travel; ///< in: `more`
+    double*             reach;  ///< in: speed
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const double radius = bounding_radius(bodies, templates, b);
+        const double least  = travel_of(radius, reach[b], reach[b], dt).least;
+        const double steps  = steps_to_last(*sum / static_cast<double>(bodies.count), substeps);
+        travel[b]           = radius * (least + std::fmin(steps * travel[b], most_more));
+        reach[b]            = is_large[b] != 0 ? 0.0 : radius + travel[b];
+    }
+};
+
+/// Of bodies whose travel their owner has told.
+struct WriteReachAgain
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    const std::int32_t* is_large;
+    const double*       travel;
+    double*             reach;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const bool small = bodies.is_here(b) && is_large[b] == 0;
+        reach[b]         = small ? bounding_radius(bodies, templates, b) + travel[b] : 0.0;
+    }
+};
+
+template<class Exec>
+FastestNear fastest_near(Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    const LastPairs last{pairs.last_key.data(), pairs.first.data(), pairs.by_second.data(), pairs.second.data()};
+    return {bodies.count, pairs.is_large.data(), last, pairs.reach.data()};
+}
+
+/// Until grant_travel they stand in pairs.reach.
+template<class Exec>
+void write_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    pairs.travel.resize(bodies.count);
+    pairs.reach.resize(bodies.count);
+    pairs.measure.resize(1);
+    for_each(exec, "body speeds", bodies.count, WriteSpeed{bodies, law.templates, pairs.reach.data()});
+}
+
+/// On several ranks: guests have their travel from elsewhere.
+template<class Exec>
+void reach_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    if (bodies.role == nullptr) { return; }
+    for_each(exec, "reach of bodies here", bodies.count,
+             WriteReachAgain{bodies, law.templates, pairs.is_large.data(), pairs.travel.data(), pairs.reach.data()});
+}
+
+} // namespace pair_steps
+
+template<class Exec>
+void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared)
+{
+    for_each(exec, "share speeds", shared.count,
+             pair_steps::ShareFastestNear{pair_steps::fastest_near(pairs, bodies), shared});
+}
+
+template<class Exec>
+void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                 const SharedView& shared)
+{
+    using namespace pair_steps;
+    const auto write = [&](const auto& near)
+    {
+        for_each(exec, "body motion", bodies.count,
+                 WriteMore{bodies, law.templates, dt, pairs.reach.data(), near, pairs.travel.data()});
+    };
+    if (bodies.role == nullptr) { write(fastest_near(pairs, bodies)); }
+    else { write(FastestNearOfAllRanks{fastest_near(pairs, bodies), shared}); }
+    sum_rows(exec, pairs.travel.data(), bodies.count, 1, pairs.measure.data());
+}
+
+template<class Exec>
+void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                  double substeps)
+{
+    for_each(exec, "body reach", bodies.count,
+             pair_steps::WriteReach{bodies, law.templates, pairs.is_large.data(), dt, substeps, pairs.measure.data(),
+                                    pairs.travel.data(), pairs.reach.data()});
+}
+
+} // namespace tread::dem

@@ -1,0 +1,39 @@
+#include "kernels/mpm/grid/held_pages.hpp"
+
+#include "backend/launch.hpp"
+#include "kernels/mpm/grid/held_pages_impl.hpp"
+
+namespace tread::mpm
+{
+
+template<class Real>
+void hold_still(const Cpu& cpu, const PagesView& pages, const HeldPagesView& held, const Real* tiles,
+                const GridStep<Real>& step, Real* motion, double* tallies)
+{
+    const auto hold_page = [=](std::int64_t number)
+    {
+        double sum[grid_sums] = {};
+        for (int place = 0; place < page_cells; ++place)
+        {
+            hold_place(pages, held, number, place, tiles, step, motion, sum);
+        }
+        double* row = tallies + std::int64_t{held.page[number]} * tally_width(grid_sums);
+        for (int s = 0; s < grid_sums; ++s) { book_more(row, grid_sums, s, sum[s]); }
+        for (int c = 0; c < 3; ++c) { held.impulse[3 * number + c] += sum[grid_wall_impulse + c]; }
+    };
+    for_each_heavy(cpu, "hold still", held.count, hold_page);
+}
+
+void keep_largest_speeds(const Cpu& cpu, std::int64_t pages, const double* peaks, double* largest)
+{
+    for_each(cpu, "keep largest speeds", pages, KeepLargestSpeed{peaks, largest});
+}
+
+template void list_held_pages(const Cpu&, const PagesView&, const Array<Cpu, std::uint64_t>&, HeldPages<Cpu>&,
+                              SortScratch<Cpu>&);
+template void hold_still(const Cpu&, const PagesView&, const HeldPagesView&, const float*, const GridStep<float>&,
+                         float*, double*);
+template void hold_still(const Cpu&, const PagesView&, const HeldPagesView&, const double*, const GridStep<double>&,
+                         double*, double*);
+
+} // namespace tread::mpm

@@ -1,0 +1,62 @@
+#include "kernels/mpm/grid/held_pages.hpp"
+
+#include "backend/block_sum.cuh"
+#include "backend/launch.cuh"
+#include "kernels/mpm/grid/held_pages_impl.hpp"
+
+namespace tread::mpm
+{
+namespace
+{
+
+/// A block a held page, a thread a node.
+template<class Real>
+struct HoldPage
+{
+    PagesView      pages;
+    HeldPagesView  held;
+    const Real*    tiles;
+    GridStep<Real> step;
+    Real*          motion;
+    double*        tallies;
+
+    __device__ void operator()(std::int64_t number) const
+    {
+        __shared__ double shared[page_cells / warp_size * grid_sums];
+        Real              sum[grid_sums] = {};
+        hold_place(pages, held, number, static_cast<int>(threadIdx.x), tiles, step, motion, sum);
+        double* row     = tallies + std::int64_t{held.page[number]} * tally_width(grid_sums);
+        double* impulse = held.impulse + 3 * number;
+        block_sum<page_cells, grid_sums>(sum, shared,
+                                         [=](int s, double value)
+                                         {
+                                             book_more(row, grid_sums, s, value);
+                                             const int c = s - grid_wall_impulse;
+                                             if (c >= 0) { impulse[c] += value; }
+                                         });
+    }
+};
+
+} // namespace
+
+template<class Real>
+void hold_still(const Gpu& gpu, const PagesView& pages, const HeldPagesView& held, const Real* tiles,
+                const GridStep<Real>& step, Real* motion, double* tallies)
+{
+    for_each_block<page_cells>(gpu, "hold still", held.count,
+                               HoldPage<Real>{pages, held, tiles, step, motion, tallies});
+}
+
+void keep_largest_speeds(const Gpu& gpu, std::int64_t pages, const double* peaks, double* largest)
+{
+    for_each(gpu, "keep largest speeds", pages, KeepLargestSpeed{peaks, largest});
+}
+
+template void list_held_pages(const Gpu&, const PagesView&, const Array<Gpu, std::uint64_t>&, HeldPages<Gpu>&,
+                              SortScratch<Gpu>&);
+template void hold_still(const Gpu&, const PagesView&, const HeldPagesView&, const float*, const GridStep<float>&,
+                         float*, double*);
+template void hold_still(const Gpu&, const PagesView&, const HeldPagesView&, const double*, const GridStep<double>&,
+                         double*, double*);
+
+} // namespace tread::mpm

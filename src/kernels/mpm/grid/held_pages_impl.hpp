@@ -1,0 +1,70 @@
+#pragma once
+
+#include "kernels/mpm/grid/held_pages_kern.hpp"
+
+// list_held_pages, the same on both backends; held_pages.cpp and held_pages.cu bring in for_each and instantiate.
+namespace tread::mpm
+{
+
+/// Which of the pages whose points reach a node page sleep, by octant.
+struct SleepingAround
+{
+    PagesView            pages;
+    const std::uint64_t* asleep;
+    std::int64_t         asleep_count;
+
+    TREAD_HD unsigned operator()(std::int64_t node_page) const
+    {
+        const Index3 at       = page_coordinates(pages.node_page_key[node_page]);
+        unsigned     sleeping = 0;
+        for (int octant = 0; octant < octants; ++octant)
+        {
+            const Index3 page{at.x - (octant & 1), at.y - (octant >> 1 & 1), at.z - (octant >> 2)};
+            sleeping |= unsigned(find_sorted(asleep, asleep_count, page_key(page)) >= 0) << octant;
+        }
+        return sleeping;
+    }
+};
+
+struct MarkHeldPage
+{
+    SleepingAround around;
+    std::int32_t*  marks;
+
+    TREAD_HD void operator()(std::int64_t i) const { marks[i] = around(i) != 0; }
+};
+
+/// After the scan before[i] counts the held pages before i.
+struct WriteHeldPage
+{
+    SleepingAround      around;
+    const std::int32_t* before;
+    std::int32_t*       page;
+    std::uint8_t*       octants;
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        const unsigned sleeping = around(i);
+        if (sleeping == 0) { return; }
+        page[before[i]]    = static_cast<std::int32_t>(i);
+        octants[before[i]] = static_cast<std::uint8_t>(sleeping);
+    }
+};
+
+template<class Exec>
+void list_held_pages(const Exec& exec, const PagesView& pages, const Array<Exec, std::uint64_t>& asleep,
+                     HeldPages<Exec>& held, SortScratch<Exec>& scratch)
+{
+    const SleepingAround around{pages, asleep.data(), asleep.size()};
+    held.marks.resize(pages.node_pages);
+    for_each(exec, "mark held pages", pages.node_pages, MarkHeldPage{around, held.marks.data()});
+    const std::int64_t count = exclusive_scan(exec, held.marks, scratch);
+    held.page.resize(count);
+    held.octants.resize(count);
+    held.impulse.resize(3 * count);
+    held.impulse.fill_zero();
+    for_each(exec, "write held pages", pages.node_pages,
+             WriteHeldPage{around, held.marks.data(), held.page.data(), held.octants.data()});
+}
+
+} // namespace tread::mpm

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+
+#include "backend/array.hpp"
+#include "backend/sort.hpp"
+#include "kernels/mpm/grid/levels.hpp"
+#include "kernels/mpm/pages/page_list.hpp"
+#include "kernels/mpm/pages/shared_pages.hpp"
+
+// Where two levels of a refined grid meet. Nodes of level l whose splines reach beyond the level's box do not move by
+// themselves ("slave nodes"): they take the motion of the level below, as the sum of finer splines that a coarse spline
+// is (levels.hpp), and hand what points bring them to it by the same weights. The other nodes of the box are free, and
+// the coarse splines that lie within the box are then not needed. These are truncated hierarchical B-splines
+// (Giannelli, Juettler, Speleers 2012, Comput. Aided Geom. Des. 29:485): they sum to one, none is negative, so that
+// lumped masses are positive, and linear fields are kept exactly; mass, momentum and the work of all forces are the
+// same on both sides. Points need to know nothing of it: each sees 27 nodes of its level.
+namespace tread::mpm
+{
+
+/// Node pages with slave nodes, or with nodes that these depend on ("seam pages"). Where a page number is asked for, -1
+/// means none.
+template<class Exec, class Real>
+struct Seams
+{
+    explicit Seams(const Exec& exec)
+        : page(exec, "seam pages")
+        , number_of(exec, "seam pages of node pages")
+        , child(exec, "finer pages of seam pages")
+        , parent(exec, "coarser pages of seam pages")
+        , total(exec, "totals of seam pages")
+        , level_start(exec, "first pages of levels", most_levels + 2)
+    {
+    }
+
+    /// For update_grid: what points bring, of slave nodes nothing.
+    SharedPagesView<Real> view() const { return {number_of.data(), total.data()}; }
+
+    PageList point_pages(int level) const
+    {
+        const auto at = static_cast<std::size_t>(level);
+        return {first_page[at + 1] - first_page[at], nullptr, first_page[at]};
+    }
+
+    Array<Exec, std::int32_t> page;      ///< [seam pages], node page, ascending
+    Array<Exec, std::int32_t> number_of; ///< [node pages], its seam page
+    Array<Exec, std::int32_t> child;     ///< [seam pages][27], seam page of the next level, by direction from 2 page
+    Array<Exec, std::int32_t> parent;    ///< [seam pages][8], node page of the level below, at page/2 + octant
+    Array<Exec, Real>         total;     ///< [seam pages][node_channels][page_cells]
+
+    std::array<std::int64_t, most_levels + 2> first_page{}; ///< point pages of level l begin at [l]
+    Array<Exec, std::int64_t>                 level_start;  ///< the same on the device
+};
+
+/// Lists the seam pages and the levels of `pages`.
+template<class Exec, class Real>
+void list_seams(const Exec& exec, const PagesView& pages, const Refinement& refinement, Seams<Exec, Real>& seams,
+                SortScratch<Exec>& scratch);
+
+/// After P2G: writes the totals of the seam pages, with what slave nodes hand down.
+template<class Real>
+void hand_down(const Cpu&, const PagesView& pages, const Refinement& refinement, const Real* tiles,
+               Seams<Cpu, Real>& seams);
+template<class Real>
+void hand_down(const Gpu&, const PagesView& pages, const Refinement& refinement, const Real* tiles,
+               Seams<Gpu, Real>& seams);
+
+/// After update_grid and update_walls: writes the motion of the slave nodes.
+template<class Real>
+void follow_coarser(const Cpu&, const PagesView& pages, const Refinement& refinement, const Seams<Cpu, Real>& seams,
+                    Real* motion);
+template<class Real>
+void follow_coarser(const Gpu&, const PagesView& pages, const Refinement& refinement, const Seams<Gpu, Real>& seams,
+                    Real* motion);
+
+} // namespace tread::mpm

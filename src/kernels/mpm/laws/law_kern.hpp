@@ -1,0 +1,35 @@
+#pragma once
+
+#include "kernels/mpm/laws/elastic_law_kern.hpp"
+#include "kernels/mpm/laws/material_parameters.hpp"
+
+namespace tread::mpm
+{
+
+/// One step of a point's law. `stress` Pa, Kirchhoff, world axes; `gradient` 1/s, [i][j] = d v_i / d x_j, of the middle
+/// of the step; dt s. An elastic material hands `state` back as it came.
+template<class Real>
+TREAD_HD StressUpdate<Real> update_stress(const MaterialParameters<Real>& material, const Sym3<Real>& stress,
+                                          const PlasticState<Real>& state, const Mat3<Real>& gradient, Real dt)
+{
+    const Sym3<Real>   trial = trial_stress(material, stress, gradient, dt);
+    StressUpdate<Real> update{trial, state, Real(0)};
+    switch (material.law)
+    {
+    case LawKind::mohr_coulomb:
+        update = respond(material, material.mohr_coulomb, trial, state, dt);
+        break;
+    case LawKind::drucker_prager:
+        update = respond(material, material.drucker_prager, trial, state, dt);
+        break;
+    case LawKind::elastic:
+        return update;
+    }
+    const Sym3<Real> drop = trial - update.stress;
+    if (drop.squaredNorm() == 0) { return update; }
+    const Sym3<Real> turned = trial - elastic_stress(material, strain_increment(gradient, dt));
+    update.work_to_mean     = Real(-0.5) * elastic_product<Real>(material, drop, update.stress - turned);
+    return update;
+}
+
+} // namespace tread::mpm

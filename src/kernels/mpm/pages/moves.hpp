@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/mpm/pages/pages.hpp"
+
+namespace tread::mpm
+{
+
+/// What a step did to a point's place in the list, worst last.
+enum class Stir : std::int32_t
+{
+    none,      ///< same cell
+    moved,     ///< another cell of a page that is listed
+    rim,       ///< a cell beside a page that is not listed, or one of another level: order the points anew soon
+    lost,      ///< no listed page: the points must be ordered anew
+    not_finite ///< position, velocity or stress
+};
+
+/// Where a point is after a step, seen from its page.
+struct Move
+{
+    int  direction; ///< of the page
+    int  place;     ///< in that page
+    Stir stir;
+};
+
+/// How many points leave a page each way (0 for `own_page`); the last entry counts those that changed their cell.
+constexpr int stirred_points = directions;
+constexpr int move_counts    = directions + 1;
+
+/// Of all points, by their places in the list of before the step.
+struct MovesView
+{
+    std::uint16_t* to;         ///< [points], place in the page + 64 * direction
+    std::int32_t*  count;      ///< [point pages][move_counts]
+    std::int64_t*  stirred_in; ///< the last step in which a point changed its cell
+    std::int64_t   step;       ///< number of the step
+
+    TREAD_HD bool stirred() const { return *stirred_in == step; }
+};
+
+/// Whether a page beside a cell (`place` of `page`) is not listed.
+TREAD_HD bool at_rim(const PagesView& pages, std::int64_t page, int place)
+{
+    const int at[] = {place & 3, place >> 2 & 3, place >> 4};
+    int       step[3];
+    for (int c = 0; c < 3; ++c) { step[c] = at[c] == 0 ? -1 : at[c] == page_edge - 1 ? 1 : 0; }
+    for (int octant = 1; octant < 8; ++octant)
+    {
+        const int direction =
+            own_page + step[0] * (octant & 1) + 3 * step[1] * (octant >> 1 & 1) + 9 * step[2] * (octant >> 2);
+        if (pages.neighbour[page * directions + direction] < 0 && direction != own_page) { return true; }
+    }
+    return false;
+}
+
+/// Of a point of cell `before` that is at `position` now. One that has no listed page to go to stays in its own until
+/// all are ordered anew.
+TREAD_HD Move move_to(const PagesView& pages, std::int64_t page, Index3 before, const Vec3<double>& position)
+{
+    if (stays_in(before, position, pages)) { return {own_page, place_in_page(before), Stir::none}; }
+    const Index3 now  = cell_of(position, pages);
+    const Index3 from = page_of(before), to = page_of(now);
+    const int    x = to.x - from.x, y = to.y - from.y, z = to.z - from.z;
+    const Move   stay{own_page, place_in_page(before), Stir::lost};
+    if (x < -1 || x > 1 || y < -1 || y > 1 || z < -1 || z > 1) { return stay; }
+    const int          direction = own_page + x + 3 * y + 9 * z;
+    const std::int32_t reached   = pages.neighbour[page * directions + direction];
+    if (reached < 0) { return stay; }
+    const bool soon =
+        pages.replaced.contains(now) || !pages.own.contains(now) || at_rim(pages, reached, place_in_page(now));
+    return {direction, place_in_page(now), soon ? Stir::rim : Stir::moved};
+}
+
+TREAD_HD std::uint16_t packed(const Move& move)
+{
+    return static_cast<std::uint16_t>(move.place + page_cells * move.direction);
+}
+
+} // namespace tread::mpm

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "kernels/mpm/pages/moves.hpp"
+#include "kernels/mpm/pages/pages.hpp"
+
+namespace tread::mpm
+{
+
+/// The lists before and after.
+struct Relisting
+{
+    PagesView           old;
+    MovesView           moves;
+    const std::int32_t* first_point;      ///< new, [point_pages + 1]
+    std::int32_t*       cell_first_point; ///< new
+    std::int32_t*       point_at;         ///< new
+    std::uint8_t*       place_at;         ///< new
+};
+
+/// How many come to `page` from its neighbour in a direction; their own direction is the opposite.
+TREAD_HD std::int32_t arrivals(const PagesView& pages, const MovesView& moves, std::int64_t page, int direction)
+{
+    const std::int32_t from = pages.neighbour[page * directions + direction];
+    if (from < 0 || direction == own_page) { return 0; }
+    return moves.count[std::int64_t(from) * move_counts + directions - 1 - direction];
+}
+
+/// Points in a page after the moves.
+TREAD_HD std::int32_t count_after(const PagesView& pages, const MovesView& moves, std::int64_t page)
+{
+    std::int32_t points = pages.first_point[page + 1] - pages.first_point[page];
+    for (int d = 0; d < directions; ++d)
+    {
+        points += arrivals(pages, moves, page, d) - moves.count[page * move_counts + d];
+    }
+    return points;
+}
+
+struct CountAfter
+{
+    PagesView     pages;
+    MovesView     moves;
+    std::int32_t* count; ///< [point_pages + 1], the last is 0
+
+    TREAD_HD void operator()(std::int64_t page) const
+    {
+        if (!moves.stirred()) { return; }
+        count[page] = page < pages.point_pages ? count_after(pages, moves, page) : 0;
+    }
+};
+
+/// No point of the page changed its cell, and none came: the list is the old one.
+TREAD_HD bool unchanged(const PagesView& pages, const MovesView& moves, std::int64_t page)
+{
+    std::int32_t changes = moves.count[page * move_counts + stirred_points];
+    for (int d = 0; d < directions; ++d) { changes += arrivals(pages, moves, page, d); }
+    return changes == 0;
+}
+
+} // namespace tread::mpm

@@ -1,0 +1,302 @@
+#include "kernels/mpm/transfers/gather.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <cuda_pipeline.h>
+
+#include "backend/block_sum.cuh"
+#include "backend/launch.cuh"
+#include "backend/pack.hpp"
+#include "kernels/mpm/transfers/gather_kern.hpp"
+
+namespace tread::mpm
+{
+namespace
+{
+
+/// Registers for so many threads on a multiprocessor: with more of them the kernel spills what it keeps of a point.
+template<class Moment>
+constexpr int threads_an_sm = std::is_same_v<Moment, WithMoment> ? 384 : 512;
+
+/// Fewer pages than this leave multiprocessors idle unless each page has many threads.
+constexpr std::int64_t few_pages = 1024;
+
+/// Pages with fewer points than this on average have one warp, which waits for no other.
+constexpr std::int64_t full_page = 128;
+
+/// Where shared memory keeps channel 0 of tile node (x, y, z): with this pitch the 16 cells of a layer, each at the
+/// same one of its nodes, touch all banks with two channels each.
+constexpr int gather_row  = 40;
+constexpr int gather_size = gather_row * tile_edge * tile_edge;
+
+__device__ int gather_slot(int x, int y, int z) { return motion_channels * x + gather_row * (y + tile_edge * z); }
+
+/// Two channels of a node.
+template<class Real>
+using Pair = Pack<Real, 2>;
+
+/// Two channels of a row of tile nodes.
+template<class Real>
+struct RowPair
+{
+    Pack<Real, page_edge>             low[2];
+    Pack<Real, tile_edge - page_edge> high[2];
+};
+
+/// Brings the motion of a page's tile into shared memory: all loads of a thread first, then its stores.
+template<int threads, class Real>
+__device__ void load_tile(const Real* motion, const std::int32_t* node_page, Real* tile)
+{
+    constexpr int pairs = motion_channels / 2, items = pairs * tile_edge * tile_edge;
+    constexpr int turns = (items + threads - 1) / threads;
+    RowPair<Real> part[turns];
+    const auto    for_each_turn = [](auto visit)
+    {
+#pragma unroll
+        for (int turn = 0; turn < turns; ++turn)
+        {
+            const int item = static_cast<int>(threadIdx.x) + turn * threads;
+            if (item < items) { visit(turn, item % pairs * 2, item / pairs % tile_edge, item / (pairs * tile_edge)); }
+        }
+    };
+    for_each_turn(
+        [&](int turn, int channel, int y, int z)
+        {
+            const std::int32_t* page = node_page + (y / page_edge << 1 | z / page_edge << 2);
+            const int   place        = channel * page_cells + page_edge * (y % page_edge + page_edge * (z % page_edge));
+            const Real* low          = motion + std::int64_t(page[0]) * motion_channels * page_cells + place;
+            const Real* high         = motion + std::int64_t(page[1]) * motion_channels * page_cells + place;
+            for (int c = 0; c < 2; ++c)
+            {
+                part[turn].low[c]  = *reinterpret_cast<const Pack<Real, page_edge>*>(low + c * page_cells);
+                part[turn].high[c] = *reinterpret_cast<const Pack<Real, tile_edge - page_edge>*>(high + c * page_cells);
+            }
+        });
+    for_each_turn(
+        [&](int turn, int channel, int y, int z)
+        {
+            Real* row = tile + gather_slot(0, y, z) + channel;
+            for (int x = 0; x < tile_edge; ++x)
+            {
+                *reinterpret_cast<Pair<Real>*>(row + motion_channels * x) =
+                    x < page_edge
+                        ? Pair<Real>{{part[turn].low[0].at[x], part[turn].low[1].at[x]}}
+                        : Pair<Real>{{part[turn].high[0].at[x - page_edge], part[turn].high[1].at[x - page_edge]}};
+            }
+        });
+}
+
+/// The motion of a stencil's nodes, from shared memory.
+template<class Real>
+struct NodesOfTile
+{
+    const Real* lowest;
+
+    __device__ NodeMotion<std::array<Real, 3>> operator()(int a, int b, int c) const
+    {
+        const auto*      node = reinterpret_cast<const Pair<Real>*>(lowest + gather_slot(a, b, c));
+        const Pair<Real> low = node[0], middle = node[1], high = node[2];
+        return {{{low.at[0], low.at[1], middle.at[0]}}, {{middle.at[1], high.at[0], high.at[1]}}};
+    }
+};
+
+/// Where points wait for their threads: what read_point reads, on its way from device memory while the point before is
+/// updated. A thread uses its own column alone.
+template<int threads, class Real>
+class Waiting
+{
+public:
+    __device__ void fetch(const PointsView<Real>& points, std::int64_t i)
+    {
+        const int t = static_cast<int>(threadIdx.x);
+        for (int c = 0; c < 3; ++c)
+        {
+            bring(position_[c][t], points.position, c, i);
+            bring(velocity_[c][t], points.velocity, c, i);
+        }
+        for (int c = 0; c < 6; ++c) { bring(stress_[c][t], points.stress, c, i); }
+        bring(mass_[t], points.mass, i);
+        bring(volume_[t], points.volume, i);
+        bring(volume_ratio_[t], points.volume_ratio, i);
+        if (points.plastic_shear != nullptr)
+        {
+            bring(plastic_shear_[t], points.plastic_shear, i);
+            bring(volume_gap_[t], points.volume_gap, i);
+        }
+    }
+
+    __device__ PointState<Real> take(const PointsView<Real>& points, std::uint8_t material) const
+    {
+        const int        t       = static_cast<int>(threadIdx.x);
+        const bool       plastic = points.plastic_shear != nullptr;
+        PointState<Real> point;
+        for (int c = 0; c < 3; ++c)
+        {
+            point.position[c] = position_[c][t];
+            point.velocity[c] = velocity_[c][t];
+        }
+        for (int c = 0; c < 6; ++c) { point.stress[c] = stress_[c][t]; }
+        point.mass          = mass_[t];
+        point.volume        = volume_[t];
+        point.volume_ratio  = volume_ratio_[t];
+        point.plastic_shear = plastic ? plastic_shear_[t] : Real(0);
+        point.volume_gap    = plastic ? volume_gap_[t] : Real(0);
+        point.material      = material;
+        return point;
+    }
+
+private:
+    template<class T>
+    __device__ static void bring(T& to, const T* from, std::int64_t i)
+    {
+        __pipeline_memcpy_async(&to, from + i, sizeof(T));
+    }
+
+    template<class T, int components>
+    __device__ static void bring(T& to, const Planes<T, components>& from, int component, std::int64_t i)
+    {
+        __pipeline_memcpy_async(&to, from.data + component * from.stride + i, sizeof(T));
+    }
+
+    double position_[3][threads];
+    Real   velocity_[3][threads], stress_[6][threads];
+    Real   mass_[threads], volume_[threads], volume_ratio_[threads], plastic_shear_[threads], volume_gap_[threads];
+};
+
+/// One point of the list.
+struct Listed
+{
+    std::int32_t point;
+    std::uint8_t place;
+};
+
+/// One block a page: its tile in shared memory, its points dealt to the threads in order.
+template<int threads, class Real, class Moment>
+struct GatherPage
+{
+    PointsView<Real> points;
+    PagesView        pages;
+    PageList         list;
+    const Real*      motion;
+    GatherStep<Real> step;
+    MovesView        moves;
+    double*          tallies;
+    double*          peaks;
+
+    __device__ void operator()(std::int64_t block) const
+    {
+        const std::int64_t page = list.at(block);
+        const std::int64_t end  = pages.first_point[page + 1];
+        std::int64_t       at   = pages.first_point[page];
+        if (at == end)
+        {
+            clear(page);
+            return;
+        }
+        __shared__ alignas(16) Real tile[gather_size];
+        __shared__ Waiting<threads, Real> waiting;
+        __shared__ double                 shared_sums[threads / 32 * point_sums];
+        __shared__ double                 shared_peaks[threads / 32 * point_peaks];
+        __shared__ std::int32_t count[move_counts];
+        if (threadIdx.x < move_counts) { count[threadIdx.x] = 0; }
+        double*      row    = tallies + page * tally_width(point_sums);
+        double*      most   = peaks + page * point_peaks;
+        const double booked = threadIdx.x < point_sums ? row[threadIdx.x] : 0;
+        const double before = threadIdx.x < point_peaks ? most[threadIdx.x] : 0;
+        at += threadIdx.x;
+        Listed       next     = listed(at, end);
+        std::uint8_t material = fetch(next, at < end, waiting);
+        Listed       later    = listed(at + threads, end);
+        load_tile<threads>(motion, pages.node_page_of + 8 * page, tile);
+        __syncthreads();
+        Real         sum[point_sums] = {}, peak[point_peaks] = {}; // of a few points
+        const Index3 low     = page_coordinates(pages.point_page_key[page]);
+        const Real   spacing = static_cast<Real>(pages.spacing);
+        for (; at < end; at += threads)
+        {
+            __pipeline_wait_prior(0);
+            const PointState<Real> point    = waiting.take(points, material);
+            const Listed           now      = next;
+            next                            = later;
+            material                        = fetch(next, at + threads < end, waiting);
+            later                           = listed(at + 2 * threads, end);
+            const Index3            cell    = node_at(low, now.place);
+            const auto              stencil = stencil_above<Real>(cell, point.position, pages.inverse_spacing, pages);
+            const NodesOfTile<Real> nodes{tile + gather_slot(cell.x & 3, cell.y & 3, cell.z & 3)};
+            const auto              seen = see(stencil, spacing, nodes, Moment{});
+            const Move move = update_point(points, now.point, point, seen, stencil.base, pages, page, step, sum, peak);
+            moves.to[at]    = packed(move);
+            if (move.stir != Stir::none) { count_move(move, count); }
+        }
+        block_sum<threads, point_sums>(sum, shared_sums,
+                                       [=](int s, double value)
+                                       {
+                                           row[s]              = booked + value;
+                                           row[point_sums + s] = value;
+                                       });
+        block_largest<threads, point_peaks>(peak, shared_peaks,
+                                            [=](int p, double value) { most[p] = fmax(before, value); });
+        if (threadIdx.x < move_counts) { moves.count[page * move_counts + threadIdx.x] = count[threadIdx.x]; }
+        if (threadIdx.x == 0 && count[stirred_points] > 0) { *moves.stirred_in = moves.step; }
+    }
+
+    __device__ Listed listed(std::int64_t at, std::int64_t end) const
+    {
+        if (at >= end) { return {}; }
+        return {pages.point_at[at], pages.place_at[at]};
+    }
+
+    /// Gives the point's material.
+    __device__ std::uint8_t fetch(const Listed& next, bool any, Waiting<threads, Real>& waiting) const
+    {
+        if (!any) { return 0; }
+        waiting.fetch(points, next.point);
+        __pipeline_commit();
+        return points.material[next.point];
+    }
+
+    /// Nothing happens on a page without points.
+    __device__ void clear(std::int64_t page) const
+    {
+        if (threadIdx.x < point_sums) { tallies[page * tally_width(point_sums) + point_sums + threadIdx.x] = 0; }
+        if (threadIdx.x < move_counts) { moves.count[page * move_counts + threadIdx.x] = 0; }
+    }
+
+    /// Integers: the order of the additions changes nothing.
+    __device__ static void count_move(const Move& move, std::int32_t* count)
+    {
+        atomicAdd(count + stirred_points, 1);
+        if (move.direction != own_page) { atomicAdd(count + move.direction, 1); }
+    }
+};
+
+} // namespace
+
+template<class Real>
+void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
+            const Real* motion, const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks)
+{
+    const auto launch = [&](auto threads, auto moment)
+    {
+        for_each_block<threads, std::max(1, threads_an_sm<decltype(moment)> / threads)>(
+            gpu, "gather", list.count,
+            GatherPage<threads, Real, decltype(moment)>{points, pages, list, motion, step, moves, tallies, peaks});
+    };
+    const auto with_threads = [&](auto threads)
+    {
+        if (points.affine.data != nullptr) { launch(threads, WithMoment{}); }
+        else { launch(threads, WithoutMoment{}); }
+    };
+    constexpr int many_threads = sizeof(Real) == 4 ? 256 : 128;
+    if (list.count < few_pages) { with_threads(std::integral_constant<int, many_threads>{}); }
+    else if (points.count < full_page * pages.point_pages) { with_threads(std::integral_constant<int, warp_size>{}); }
+    else { with_threads(std::integral_constant<int, 64>{}); }
+}
+
+template void gather(const Gpu&, const PointsView<float>&, const PagesView&, const PageList&, const float*,
+                     const GatherStep<float>&, const MovesView&, double*, double*);
+template void gather(const Gpu&, const PointsView<double>&, const PagesView&, const PageList&, const double*,
+                     const GatherStep<double>&, const MovesView&, double*, double*);
+
+} // namespace tread::mpm

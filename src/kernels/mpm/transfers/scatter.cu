@@ -1,0 +1,45 @@
+#include "kernels/mpm/transfers/scatter.hpp"
+
+#include "kernels/mpm/transfers/scatter_full_page.cuh"
+#include "kernels/mpm/transfers/scatter_sparse_page.cuh"
+
+namespace tread::mpm
+{
+namespace
+{
+
+/// Pages with fewer points than this on average are sparse.
+constexpr std::int64_t full_page = 128;
+
+} // namespace
+
+template<class Real>
+void scatter(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list, Real* tiles)
+{
+    const auto launch = [&](auto load)
+    {
+        using Brings = decltype(load);
+        if (points.count < full_page * pages.point_pages)
+        {
+            for_each_block<warp_size>(gpu, "scatter", list.count,
+                                      ScatterSparsePage<Real, Brings>{points, pages, list, tiles});
+        }
+        else
+        {
+            for_each_block<scatter_threads, 8>(gpu, "scatter", list.count,
+                                               ScatterPage<Real, Brings>{points, pages, list, tiles});
+        }
+    };
+    const auto with_force = [&](auto force)
+    {
+        if (points.affine.data != nullptr) { launch(Load<force, true>{}); }
+        else { launch(Load<force, false>{}); }
+    };
+    if (points.contact_force.data != nullptr) { with_force(std::true_type{}); }
+    else { with_force(std::false_type{}); }
+}
+
+template void scatter(const Gpu&, const PointsView<float>&, const PagesView&, const PageList&, float*);
+template void scatter(const Gpu&, const PointsView<double>&, const PagesView&, const PageList&, double*);
+
+} // namespace tread::mpm

@@ -1,0 +1,226 @@
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "io/checkpoint_file.hpp"
+#include "io/checkpoints.hpp"
+#include "io/files.hpp"
+#include "run/driver.hpp"
+#include "scene/resolved.hpp"
+#include "solver/state_file.hpp"
+#include "world/world_measures.hpp"
+
+// A run into a checkpoint, and out of it.
+namespace tread::run
+{
+namespace
+{
+
+/// io::PhaseReport as doubles; its name is the scene's.
+struct PhaseRow
+{
+    double start, time, end, settled, unbalanced, packing_fraction; ///< settled: below 0 = it was not to
+};
+
+PhaseRow row_of(const io::PhaseReport& report)
+{
+    const double settled = !report.settled ? -1.0 : *report.settled ? 1.0 : 0.0;
+    return {
+        report.start, report.time,       static_cast<double>(end_kind(report.end)),
+        settled,      report.unbalanced, report.packing_fraction.value_or(std::numeric_limits<double>::quiet_NaN())};
+}
+
+io::PhaseReport report_of(const std::string& name, const PhaseRow& row)
+{
+    const char*     end = name_of(static_cast<EndKind>(row.end));
+    io::PhaseReport report{name, row.start, row.time, end, std::nullopt, row.unbalanced, std::nullopt};
+    if (row.settled >= 0) { report.settled = row.settled > 0; }
+    if (!std::isnan(row.packing_fraction)) { report.packing_fraction = row.packing_fraction; }
+    return report;
+}
+
+/// Whether a loaded row can be one that was saved.
+bool is_report(const PhaseRow& row)
+{
+    const double kind = row.end;
+    return std::isfinite(row.start) && std::isfinite(row.time) && std::isfinite(row.unbalanced) &&
+           !std::isinf(row.packing_fraction) && kind >= 0 && kind <= static_cast<double>(EndKind::end_of_bed) &&
+           kind == std::floor(kind) && (row.settled == -1 || row.settled == 0 || row.settled == 1);
+}
+
+constexpr double latest     = 1e9;                ///< s of simulated time: some thirty years
+constexpr double most_steps = 9007199254740992.0; ///< 2^53: doubles hold them exactly
+
+constexpr const char* exact_word = "exact";
+
+} // namespace
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::write_checkpoint()
+{
+    const io::Checkpoints there(directory_.checkpoints());
+    const std::string     path  = there.path(steps_);
+    const double          start = wall_clock();
+    const auto            write = [&]
+    {
+        if (snapshots_) { snapshots_->finish(); }
+        io::CheckpointWriter writer(communicator_, path, state_bytes());
+        writer.number("step", steps_);
+        io::write_provenance(writer.file(), options_.provenance, communicator_.broadcast(io::utc_now()));
+        const solver::Fidelity fidelity =
+            simulation_.saves_exactly() ? solver::Fidelity::exact : solver::Fidelity::physical;
+        writer.text("fidelity", fidelity == solver::Fidelity::exact ? exact_word : "physical");
+        writer.text("scene", scene::resolved_toml(scene_));
+        solver::StateFile file(communicator_, writer, fidelity);
+        transfer(file);
+        const std::int64_t bytes = writer.finish();
+        checkpoints_.newest      = directory_.within(path);
+        checkpoints_.bytes += bytes;
+        ++checkpoints_.written;
+        on_root(communicator_, [&] { there.settle(path, static_cast<int>(scene_.checkpoint.keep)); });
+        return bytes;
+    };
+    std::int64_t bytes = 0;
+    clock_.run_timed(stage::checkpoints, [&] { bytes = write(); });
+    const double seconds = wall_clock() - start;
+    checkpoints_.seconds += seconds;
+    interruptions_->written(time_, steps_, seconds);
+    log_.info(fmt::format("checkpoint at {:.6g} s, step {}: {}, {:.3g} MB in {:.3g} s", time_, steps_,
+                          checkpoints_.newest, static_cast<double>(bytes) / 1e6, seconds));
+}
+
+/// A checkpoint that is refused leaves the directory as the run found it. What is wrong may be so on one rank alone.
+template<class Exec, class Real>
+void Driver<Exec, Real>::resume()
+{
+    try
+    {
+        load_checkpoint();
+    }
+    catch (...)
+    {
+        recorder_.reset();
+        if (communicator_.rank() == 0) { directory_.undo(); }
+        throw;
+    }
+    ++restarts_;
+    rows_          = multiples(time_, scene_.output.every);
+    snapshots_due_ = multiples(time_, scene_.output.snapshots_every);
+    on_root(communicator_, [&] { io::Checkpoints(directory_.checkpoints()).remove_after(steps_); });
+    said_ = standing();
+    if (time_ >= phases_.latest_end() - 5e-10) { pass_on(); } // the scene has made it shorter since
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::load_checkpoint()
+{
+    std::unique_ptr<io::CheckpointReader> reader;
+    on_every_rank(communicator_, [&] { reader = std::make_unique<io::CheckpointReader>(options_.checkpoint); });
+    int  ranks = 0;
+    bool exact = false;
+    on_every_rank(communicator_,
+                  [&]
+                  {
+                      ranks = static_cast<int>(reader->first_rows("simulation/pace").size()) - 1;
+                      exact = reader->text("fidelity") == exact_word && ranks == communicator_.size();
+                  });
+    solver::StateFile file(communicator_, *reader, exact ? solver::Fidelity::exact : solver::Fidelity::physical);
+    transfer(file);
+    checkpoints_.newest = directory_.within(options_.checkpoint);
+    checkpoints_.bytes += static_cast<std::int64_t>(std::filesystem::file_size(options_.checkpoint)); // it did not know
+    ++checkpoints_.written;
+    log_.info(fmt::format("goes on from {} at {:.6g} s, step {}, in phase '{}'{}", options_.checkpoint, time_, steps_,
+                          phases_.phase().name,
+                          exact ? "" : fmt::format(" (written by {} rank(s): the same to rounding)", ranks)));
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::transfer(solver::StateFile& file)
+{
+    require_same_world(file);
+    simulation_.transfer(file);
+    phases_.transfer(file);
+    clock_.transfer(file);
+    double wall = wall_before_ + wall_clock() - wall_start_;
+    file.numbers("run/steps", accept::number(time_, 0, latest), accept::number(steps_, 0, most_steps), substeps_,
+                 accept::number(step_.dt, 0, accept::largest), step_.substeps, warned_, wall, restarts_);
+    surface_.transfer(file);
+    file.numbers("run/checkpoints", checkpoints_.written, checkpoints_.bytes, checkpoints_.seconds);
+    file.text("limit", step_.limit);
+    if (file.loads()) { wall_before_ = wall; }
+    std::vector<PhaseRow> ended;
+    for (const io::PhaseReport& report : ended_) { ended.push_back(row_of(report)); }
+    const auto all_that_ended = [&](const std::vector<PhaseRow>& rows)
+    { return rows.size() == phases_.index() ? accept::Verdict{} : accept::rows(phases_.index())(rows); };
+    file.common("run/phases", ended, accept::all(all_that_ended, accept::each("the report of a phase", is_report)));
+    ended_.clear();
+    for (std::size_t p = 0; p < ended.size(); ++p) { ended_.push_back(report_of(scene_.phases[p].name, ended[p])); }
+    transfer_files(file);
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::require_same_world(solver::StateFile& file) const
+{
+    const std::vector<double> here  = world::measures(world_);
+    std::vector<double>       there = here;
+    file.common("run/world", there, accept::all(accept::rows(here.size()), accept::finite()));
+    if (world::are_same(here, there)) { return; }
+    throw InputError(
+        fmt::format("{}: the scene builds other points or bodies than when this was written: a file that it "
+                    "names (mesh, heights, bed) has changed since",
+                    options_.checkpoint));
+}
+
+/// The time series goes along as a file: whatever becomes of it later, the rows up to here are safe, and those behind
+/// are gone when the run goes on from here. Nothing is replaced before all that was loaded is known to be sound.
+template<class Exec, class Real>
+void Driver<Exec, Real>::transfer_files(solver::StateFile& file)
+{
+    std::vector<double> times = snapshots_ ? snapshots_->times() : std::vector<double>{};
+    file.common("run/snapshots", times, accept::all(accept::finite(), accept::ascending()));
+    std::vector<std::uint8_t> bytes;
+    const auto                read = [&]
+    {
+        recorder_->flush();
+        const std::string text = io::read_file(directory_.time_series());
+        bytes.assign(text.begin(), text.end());
+    };
+    if (!file.loads()) { on_root(communicator_, read); }
+    file.common("run/timeseries", bytes, accept::anything());
+    if (!file.loads()) { return; }
+    const auto restore = [&]
+    {
+        const std::string received = directory_.time_series() + ".received.tmp";
+        io::write_atomically(received, std::string(bytes.begin(), bytes.end()));
+        try
+        {
+            io::require_series(received, series_tables(scene_, communicator_.size()), options_.checkpoint);
+        }
+        catch (...)
+        {
+            std::filesystem::remove(received);
+            throw;
+        }
+        io::rename_file(received, directory_.time_series());
+        recorder_.emplace(directory_, scene_, world_, communicator_.size(), options_.provenance,
+                          io::SeriesFile::continued);
+    };
+    on_root(communicator_, restore);
+    if (snapshots_) { snapshots_->resume(times); }
+}
+
+template void Driver<Cpu, float>::write_checkpoint();
+template void Driver<Cpu, double>::write_checkpoint();
+template void Driver<Cpu, float>::resume();
+template void Driver<Cpu, double>::resume();
+#ifdef TREAD_WITH_CUDA
+template void Driver<Gpu, float>::write_checkpoint();
+template void Driver<Gpu, double>::write_checkpoint();
+template void Driver<Gpu, float>::resume();
+template void Driver<Gpu, double>::resume();
+#endif
+
+} // namespace tread::run

@@ -1,0 +1,309 @@
+#include "run/estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <unordered_set>
+
+#include <fmt/format.h>
+
+#include "base/bytes_text.hpp"
+#include "base/errors.hpp"
+#include "base/saturated.hpp"
+#include "kernels/dem/contact/ray_kern.hpp"
+#include "kernels/mpm/grid/wall_kern.hpp"
+#include "kernels/mpm/pages/census.hpp"
+#include "kernels/mpm/pages/moves.hpp"
+#include "kernels/mpm/pages/pages.hpp"
+#include "kernels/mpm/transfers/gather.hpp"
+#include "solver/pace_limits.hpp"
+#include "solver/sand_guard.hpp"
+
+namespace tread::run
+{
+namespace
+{
+
+using mpm::Index3;
+
+std::int64_t bytes_of_real(const scene::Scene& scene)
+{
+    return scene.numerics.precision == scene::Precision::single_ ? 4 : 8;
+}
+
+/// Of a point's fields (kernels/mpm/points.hpp).
+std::int64_t field_bytes(const scene::Scene& scene, const solver::Plan& plan)
+{
+    const std::int64_t real   = bytes_of_real(scene);
+    std::int64_t       fields = 2 * 3 * 8 + (3 + 6 + 3) * real + 4 + 1;
+    if (plan.affine) { fields += 9 * real; }
+    if (plan.plasticity) { fields += 3 * real; }
+    if (plan.coupling) { fields += 9 * real; }
+    if (scene.numerics.volume_strain == scene::VolumeStrain::cell_average) { fields += 6 * real; }
+    return fields;
+}
+
+/// Fields, a point's place in the lists, and its share of the ordering's scratch.
+std::int64_t bytes_per_point(const scene::Scene& scene, const solver::Plan& plan)
+{
+    constexpr std::int64_t lists = 4 + 1 + 2, keys = 8 + 4, sort = 16;
+    return field_bytes(scene, plan) + lists + keys + sort;
+}
+
+/// What a point more takes when all fall asleep at one look (solver/sand_sleep.cpp): a place among those that sleep, of
+/// which there is an eighth to spare, the row that brings it there, and the list of those that go.
+std::int64_t sleep_bytes_per_point(const scene::Scene& scene, const solver::Plan& plan)
+{
+    constexpr std::int64_t list   = 4 + 4 + 8 + 4;
+    const std::int64_t     fields = field_bytes(scene, plan);
+    return plan.sleep ? fields + fields / 8 + fields + list : 0;
+}
+
+struct PageCounts
+{
+    std::int64_t holding; ///< points
+    std::int64_t points;  ///< point pages: those and their neighbours within reach
+    std::int64_t nodes;
+    std::int64_t walls; ///< node pages of which walls may hold nodes
+};
+
+/// Pages within a cell's reach, as order_points lists them: along each axis its own and that beyond the nearer face.
+template<class Add>
+void add_reached(mpm::Index3 cell, const mpm::GridGeometry& geometry, const Add& add)
+{
+    const auto   nearer  = [](std::int32_t at) { return (at & 3) < mpm::page_edge / 2 ? -1 : 1; };
+    const Index3 page    = mpm::page_of(cell);
+    const auto   lattice = mpm::level_lattice(geometry.lattice(), mpm::level_of(page));
+    const double edge = mpm::page_edge * lattice.spacing, shift = lattice.node_shift * lattice.spacing;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+        const Index3 reached{page.x + (corner & 1) * nearer(cell.x), page.y + (corner >> 1 & 1) * nearer(cell.y),
+                             page.z + (corner >> 2) * nearer(cell.z)};
+        const double corner_at[] = {reached.x * edge + shift, reached.y * edge + shift, reached.z * edge + shift};
+        const double margin      = 3 * geometry.spacing;
+        bool         kept        = true;
+        for (int c = 0; c < 3; ++c)
+        {
+            kept = kept && corner_at[c] + edge >= -margin && (c == 2 || corner_at[c] <= geometry.size[c] + margin);
+        }
+        if (kept || corner == 0) { add(mpm::page_key(reached)); }
+    }
+}
+
+PageCounts count_pages(const world::World& world)
+{
+    std::unordered_set<std::uint64_t> holding, points, nodes;
+    std::uint64_t                     last = mpm::no_page; // points stand cell by cell along x
+    for (const Vec3<double>& x : world.points.position)
+    {
+        const Index3 cell = mpm::finest_cell(world.geometry.lattice(), world.geometry.refinement, x);
+        if (mpm::cell_key(cell) == last) { continue; }
+        last = mpm::cell_key(cell);
+        holding.insert(mpm::page_key(mpm::page_of(cell)));
+        add_reached(cell, world.geometry, [&](std::uint64_t key) { points.insert(key); });
+    }
+    for (const std::uint64_t key : points)
+    {
+        const Index3 page = mpm::page_coordinates(key);
+        for (int octant = 0; octant < 8; ++octant)
+        {
+            nodes.insert(mpm::page_key({page.x + (octant & 1), page.y + (octant >> 1 & 1), page.z + (octant >> 2)}));
+        }
+    }
+    const auto held = [&](std::uint64_t key)
+    { return mpm::has_held_nodes(world.grid_walls, mpm::page_coordinates(key)); };
+    return {static_cast<std::int64_t>(holding.size()), static_cast<std::int64_t>(points.size()),
+            static_cast<std::int64_t>(nodes.size()), std::count_if(nodes.begin(), nodes.end(), held)};
+}
+
+/// Tiles, lists and sums of the pages (kernels/mpm/pages/pages.hpp, solver/sand.cpp), and the keys they are found by.
+std::int64_t page_bytes(const scene::Scene& scene, const PageCounts& pages)
+{
+    const std::int64_t real       = bytes_of_real(scene);
+    const bool         means      = scene.numerics.volume_strain == scene::VolumeStrain::cell_average;
+    const std::int64_t point_page = mpm::node_channels * mpm::tile_nodes * real + (means ? mpm::page_cells * real : 0) +
+                                    2 * 4 * (mpm::page_cells + 1) + 8 + 4 * (mpm::directions + mpm::move_counts + 8) +
+                                    8 * (std::int64_t{mpm::tally_width(mpm::point_sums)} +
+                                         std::int64_t{mpm::point_peaks} + std::int64_t{mpm::census_count});
+    const std::int64_t node_page = mpm::motion_channels * mpm::page_cells * real +
+                                   8 * (std::int64_t{mpm::tally_width(mpm::grid_sums)} + 1) + 4 * 8 + 4;
+    const std::int64_t wall_page = 4 * (1 + mpm::directions) + 4 * mpm::page_cells * real;
+    const std::int64_t found     = std::max(mpm::directions * pages.holding, 8 * pages.points);
+    return pages.points * point_page + pages.nodes * node_page + pages.walls * wall_page + found * (8 + 4);
+}
+
+/// Of a point in a snapshot (io/snapshot_points.cpp): position, displacement, velocity, stress, material, id, rank, and
+/// what makes a cell of it.
+std::int64_t snapshot_bytes_per_point(const solver::Plan& plan)
+{
+    return 24 + 12 + 12 + 24 + 4 + 4 + 4 + (plan.plasticity ? 8 : 0) + 8 + 8 + 1;
+}
+
+/// Of the copy that a snapshot is made of (solver/point_copy.hpp), and of its rows.
+std::int64_t snapshot_memory_per_point(const scene::Scene& scene, const solver::Plan& plan)
+{
+    const std::int64_t real = bytes_of_real(scene);
+    return 2 * 24 + 10 * real + 4 + 1 + (plan.plasticity ? 2 * real : 0) + snapshot_bytes_per_point(plan) + 2 * 24;
+}
+
+/// What changes of a point (solver/sand_state.cpp), its id and its place in the lists.
+std::int64_t checkpoint_bytes_per_point(const scene::Scene& scene, const solver::Plan& plan)
+{
+    const std::int64_t real = bytes_of_real(scene);
+    return 24 + 10 * real + 4 + 4 + 1 + (plan.affine ? 9 * real : 0) + (plan.plasticity ? 3 * real : 0) +
+           (plan.coupling ? 9 * real : 0);
+}
+
+/// The lists of pages in a checkpoint (kernels/mpm/pages/pages.hpp).
+std::int64_t checkpoint_page_bytes(const PageCounts& pages)
+{
+    constexpr std::int64_t point_page = 8 + 4 + 4 * mpm::page_cells + 4 * mpm::directions + 8 * 4,
+                           node_page  = 8 + 8 * 4;
+    return pages.points * point_page + pages.nodes * node_page;
+}
+
+std::int64_t template_bytes(const world::World& world)
+{
+    std::int64_t bytes = 0;
+    for (const auto& form : world.templates)
+    {
+        bytes += static_cast<std::int64_t>(form.sdf.bytes() + 32 * form.nodes.positions.size());
+    }
+    return bytes;
+}
+
+/// The mesh for rays: a triangle, at most one box for it, and 32 bytes a node.
+std::int64_t ray_bytes(const world::World& world)
+{
+    std::int64_t bytes = 0;
+    for (const auto& form : world.templates)
+    {
+        bytes +=
+            static_cast<std::int64_t>((sizeof(dem::RayTriangle) + sizeof(dem::RayBox)) * form.mesh.triangles.size() +
+                                      32 * form.nodes.positions.size());
+    }
+    return bytes;
+}
+
+/// s, the least sqrt(m / sum K) of rocks that lie on each other, C R sqrt(density / E): in settled piles of irregular
+/// rocks C is 0.89 to 0.92 from 1e7 to 1e10 Pa, and with a tenth and ten times the linear_overlap 0.54 and 1.5 to 1.7
+/// (docs/studies, "The substep that contacts allow"). 0 without rocks.
+double resting_contact(const scene::Scene& scene, const world::World& world)
+{
+    constexpr double pile = 0.9, usual_overlap = 1e-3;
+    double           least = 0;
+    for (auto b = static_cast<std::size_t>(world.bodies.named); b < world.bodies.size(); ++b)
+    {
+        const double radius  = world.bodies.radius[b];
+        const double density = world.bodies.mass[b] / (4.0 / 3 * std::numbers::pi * std::pow(radius, 3));
+        const auto&  stone   = scene.materials[static_cast<std::size_t>(world.bodies.material[b])];
+        if (!std::isfinite(stone.young)) { continue; }
+        const double time = radius * std::sqrt(density / stone.young);
+        least             = least == 0 ? time : std::min(least, time);
+    }
+    return pile * least * std::pow(scene.numerics.linear_overlap / usual_overlap, 0.25);
+}
+
+/// Measured at the worst moment, a bed's fall (docs/performance.md, "Bodies on the H200"): 1.94 to 2.7 kB where bodies
+/// meet each other.
+std::int64_t bytes_per_body(const solver::Plan& plan) { return plan.body_contact ? 2200 : 700; }
+
+/// Columns of doubles (run/recorder.cpp) that grow by 1024 rows (io/h5.cpp), and what names them.
+double time_series_bytes(double rows, std::int64_t named)
+{
+    constexpr double of_scene = 8 * (15 + 6 + 2 + 4), of_body = 8 * 20, growth = 1024, names_of_table = 12000;
+    const double     taken = std::ceil(rows / growth) * growth, bodies = static_cast<double>(named);
+    return taken * (of_scene + bodies * of_body) + (5 + bodies) * names_of_table;
+}
+
+double longest_time(const scene::Scene& scene)
+{
+    double time = 0;
+    for (const scene::Phase& phase : scene.phases)
+    {
+        time += phase.until == scene::StopRule::duration ? phase.duration : phase.max_duration;
+    }
+    return time;
+}
+
+/// The first step of a run that chooses its own.
+solver::TimeStep automatic_step(scene::TimeOptions options, const solver::PaceLimits& limits)
+{
+    options.dt.reset();
+    return solver::choose_step(options, limits, {}, 0);
+}
+
+DiskUse disk_use(const scene::Scene& scene, const world::World& world, const solver::Plan& plan,
+                 const PageCounts& pages)
+{
+    constexpr std::int64_t of_file = 30000, snapshot_of_body = 116, checkpoint_of_body = 2500;
+    const auto             points   = static_cast<std::int64_t>(world.points.size());
+    const auto             bodies   = static_cast<std::int64_t>(world.bodies.size());
+    const double           time     = longest_time(scene);
+    const std::int64_t     snapshot = points * snapshot_bytes_per_point(plan) + bodies * snapshot_of_body + 2 * of_file;
+    const double           snapshots =
+        plan.snapshots ? (2 + std::floor(time / scene.output.snapshots_every)) * static_cast<double>(snapshot) : 0;
+    const double       series = time_series_bytes(2 + std::floor(time / scene.output.every), world.bodies.named);
+    const std::int64_t state  = points * checkpoint_bytes_per_point(scene, plan) + checkpoint_page_bytes(pages) +
+                               bodies * checkpoint_of_body + of_file;
+    const double checkpoints = (static_cast<double>(scene.checkpoint.keep) + 1) * (static_cast<double>(state) + series);
+    const double least = static_cast<double>(plan.snapshots ? snapshot : 0) + time_series_bytes(1, world.bodies.named);
+    return {saturated(snapshots), saturated(series), saturated(checkpoints), saturated(least),
+            saturated(snapshots + series + checkpoints)};
+}
+
+} // namespace
+
+void require_room(const char* memory, std::int64_t wanted, std::int64_t free)
+{
+    if (0.9 * static_cast<double>(wanted) <= static_cast<double>(free)) { return; }
+    throw EnvironmentError(
+        fmt::format("out of {} memory: the scene wants about {}, {} is free: fewer points, a coarser "
+                    "grid, or a machine with more memory",
+                    memory, bytes_text(wanted), bytes_text(free)));
+}
+
+void require_disk(const std::string& directory, std::int64_t wanted, std::int64_t free)
+{
+    if (wanted <= free) { return; }
+    throw EnvironmentError(
+        fmt::format("{}: the disk is too full: the first snapshot and rows take about {}, and {} would "
+                    "be free",
+                    directory, bytes_text(wanted), bytes_text(free)));
+}
+
+Estimate estimate(const scene::Scene& scene, const world::World& world, const solver::Plan& plan)
+{
+    const auto       points = static_cast<std::int64_t>(world.points.size());
+    const auto       bodies = static_cast<std::int64_t>(world.bodies.size());
+    const PageCounts pages  = plan.sand ? count_pages(world) : PageCounts{};
+    Estimate         wants{};
+    wants.time         = longest_time(scene);
+    wants.memory_bytes = bodies * bytes_per_body(plan) + template_bytes(world) + (plan.rays ? ray_bytes(world) : 0);
+    if (plan.sand)
+    {
+        const std::int64_t of_point = bytes_per_point(scene, plan) + sleep_bytes_per_point(scene, plan);
+        const std::int64_t sand     = points * of_point + page_bytes(scene, pages);
+        wants.memory_bytes += sand;
+        wants.bytes_a_point = static_cast<double>(sand) / static_cast<double>(points);
+    }
+    wants.snapshot_bytes            = plan.snapshots ? points * snapshot_memory_per_point(scene, plan) : 0;
+    wants.disk                      = disk_use(scene, world, plan, pages);
+    const solver::PaceLimits limits = solver::pace_limits(scene, world, plan);
+    const solver::TimeStep   first  = solver::choose_step(scene.time, limits, {}, 0);
+    wants.dt                        = first.dt;
+    wants.limit                     = first.limit;
+    wants.automatic                 = automatic_step(scene.time, limits).dt;
+    wants.hopeless = limits.wave_speed > 0 ? solver::SandGuard::hopeless_courant * limits.spacing / limits.wave_speed
+                                           : std::numeric_limits<double>::infinity();
+    solver::Pace resting;
+    resting.shortest_contact     = resting_contact(scene, world);
+    const solver::TimeStep later = solver::choose_step(scene.time, limits, resting, 0);
+    wants.resting_dt             = later.dt;
+    wants.substeps               = static_cast<double>(later.substeps);
+    wants.steps                  = std::ceil(wants.time / later.dt);
+    return wants;
+}
+
+} // namespace tread::run

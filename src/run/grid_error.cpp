@@ -1,0 +1,119 @@
+#include "run/grid_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/contacts.hpp"
+#include "shape/template.hpp"
+
+namespace tread::run
+{
+namespace
+{
+
+constexpr double least_friction_angle = 5; ///< degrees, of soils that count as frictional
+
+ErrorLaw worse(const ErrorLaw& one, const ErrorLaw& other) { return one.factor >= other.factor ? one : other; }
+
+ErrorLaws laws_on(SoilKind soil)
+{
+    ErrorLaws worst{{0, 1}, {0, 1}, {0, 1}};
+    for (const MeasuredConvergence& row : measured_convergence)
+    {
+        if (row.soil != soil) { continue; }
+        worst = {worse(worst.pull, row.laws.pull), worse(worst.torque, row.laws.torque),
+                 worse(worst.sinkage, row.laws.sinkage)};
+    }
+    return worst;
+}
+
+/// Material of the terrain that has most points, of those that are granular; none: nullptr.
+const scene::Material* soil_of(const scene::Scene& scene, const world::World& world)
+{
+    std::vector<std::size_t> points(scene.materials.size(), 0);
+    for (const std::uint8_t material : world.points.material) { ++points[material]; }
+    const scene::Material* soil = nullptr;
+    std::size_t            most = 0;
+    for (std::size_t m = 0; m < points.size(); ++m)
+    {
+        if (points[m] <= most || !scene::is_granular(scene.materials[m].model)) { continue; }
+        most = points[m];
+        soil = &scene.materials[m];
+    }
+    return soil;
+}
+
+/// m, of the wheel as large as it is in the scene.
+double grouser_height(const scene::Scene& scene, const world::World& world, std::size_t body)
+{
+    const scene::Shape shape = shape::find_shape(scene, scene.bodies[body].shape);
+    const auto*        wheel = std::get_if<scene::WheelGenerator>(&shape.source);
+    return wheel != nullptr && wheel->grousers > 0 ? world.bodies.scale[body] * wheel->grouser_height : 0;
+}
+
+} // namespace
+
+double ErrorLaw::at(double cells) const { return factor / std::pow(cells, order); }
+
+double ErrorLaw::cells_for(double error) const { return std::pow(factor / error, 1 / order); }
+
+double share_of_friction(SoilKind soil, double friction)
+{
+    const FrictionShare* below = nullptr;
+    for (const FrictionShare& row : friction_shares)
+    {
+        if (row.soil != soil) { continue; }
+        if (friction <= row.friction)
+        {
+            if (below == nullptr) { return row.share; }
+            const double between = (friction - below->friction) / (row.friction - below->friction);
+            return below->share + between * (row.share - below->share);
+        }
+        below = &row;
+    }
+    return below->share;
+}
+
+std::optional<DrivenWheel> driven_wheel(const scene::Scene& scene, const world::World& world, const solver::Plan& plan)
+{
+    const scene::Material*     soil = plan.coupling ? soil_of(scene, world) : nullptr;
+    std::optional<std::size_t> body;
+    for (const scene::Phase& phase : scene.phases)
+    {
+        for (std::size_t b = 0; phase.drive && b < scene.bodies.size(); ++b)
+        {
+            if (scene.bodies[b].name == phase.drive->body) { body = b; }
+        }
+    }
+    if (soil == nullptr || !body) { return std::nullopt; }
+    const auto&    wheel    = scene.materials[static_cast<std::size_t>(world.bodies.material[*body])];
+    const double   friction = scene::contact_of(scene, wheel.family, soil->family).friction;
+    const SoilKind kind = soil->friction_angle_deg < least_friction_angle ? SoilKind::cohesive : SoilKind::frictional;
+    ErrorLaws      laws = laws_on(kind);
+    laws.pull.factor *= share_of_friction(kind, friction);
+    return DrivenWheel{world.bodies.mass[*body] * Vec3<double>(scene.domain.gravity.data()).norm(), laws,
+                       grouser_height(scene, world, *body)};
+}
+
+std::optional<io::GridError> grid_error(const std::optional<DrivenWheel>& wheel, double contact_cells)
+{
+    if (!wheel || contact_cells <= 0) { return std::nullopt; }
+    const ErrorLaws& laws = wheel->laws;
+    return io::GridError{wheel->load, laws.pull.at(contact_cells), laws.torque.at(contact_cells),
+                         laws.sinkage.at(contact_cells)};
+}
+
+std::vector<io::Figure> grid_error_figures(const io::GridError& error)
+{
+    return {{"pull_error", error.pull, resolved_error, marginal_error},
+            {"torque_error", error.torque, resolved_error, marginal_error},
+            {"sinkage_error", error.sinkage, resolved_error, marginal_error}};
+}
+
+std::optional<io::Figure> grouser_figure(const std::optional<DrivenWheel>& wheel, double spacing)
+{
+    if (!wheel || wheel->grouser_height <= 0) { return std::nullopt; }
+    return io::Figure{"grouser_cells", wheel->grouser_height / spacing, resolved_grouser, marginal_grouser};
+}
+
+} // namespace tread::run

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "io/grid_error.hpp"
+#include "io/resolution.hpp"
+#include "solver/plan.hpp"
+#include "world/world.hpp"
+
+// The error that the grid's spacing leaves in the answers of a driven wheel, from measured convergence.
+namespace tread::run
+{
+
+/// error = factor / cells^order, where cells is the run's `contact_cells`.
+struct ErrorLaw
+{
+    double factor;
+    double order;
+
+    double at(double cells) const;
+    double cells_for(double error) const; ///< from which on the error is at most that
+};
+
+/// Laws of a driven wheel's answers: pull over the load, torque and sinkage relative.
+struct ErrorLaws
+{
+    ErrorLaw pull;
+    ErrorLaw torque;
+    ErrorLaw sinkage;
+};
+
+enum class SoilKind
+{
+    frictional,
+    cohesive ///< friction angle under 5 degrees
+};
+
+/// One measured ladder of spacings.
+struct MeasuredConvergence
+{
+    const char* scene;
+    SoilKind    soil;
+    ErrorLaws   laws;
+};
+
+/// Convergence of driven drums of radius 0.245 m and width 0.2 m under 1000 N at slip 0.4 with a friction of 0.8
+/// between wheel and soil, at spacings of 20, 12.5, (10,) 7.5 and 5 mm (grousers and clay: without 5): least-squares
+/// fits of answer = limit + slope / cells^order. Answers and scenes stand in docs/verdict.md;
+/// `postprocess/grid_error.py` prints these rows from runs.
+inline constexpr std::array<MeasuredConvergence, 3> measured_convergence = {{
+    {"smooth drum on sand", SoilKind::frictional, {{2.0, 1}, {7.6, 2}, {2.9, 1}}},
+    {"drum with 24 grousers on sand", SoilKind::frictional, {{1.3, 1}, {7.1, 2}, {2.0, 1}}},
+    {"smooth drum on clay", SoilKind::cohesive, {{1.8, 1}, {26, 2}, {0.94, 1}}},
+}};
+
+/// Slope of the pull over the spacing at a friction between wheel and soil, over that at 0.8.
+struct FrictionShare
+{
+    SoilKind soil;
+    double   friction;
+    double   share;
+};
+
+/// Measured in plane strain (5000 N a metre of width), spacings of 20 to 7.5 mm; magnitudes.
+inline constexpr std::array<FrictionShare, 7> friction_shares = {{
+    {SoilKind::frictional, 0.4, 0.22},
+    {SoilKind::frictional, 0.6, 0.74},
+    {SoilKind::frictional, 0.8, 1.0},
+    {SoilKind::cohesive, 0.0, 0.14},
+    {SoilKind::cohesive, 0.1, 0.30},
+    {SoilKind::cohesive, 0.3, 0.60},
+    {SoilKind::cohesive, 0.8, 1.0},
+}};
+
+/// Share by linear interpolation; that of the nearest friction beyond the measured ones.
+double share_of_friction(SoilKind soil, double friction);
+
+/// The last driven wheel of a scene on granular sand.
+struct DrivenWheel
+{
+    double    load; ///< N
+    ErrorLaws laws;
+    double    grouser_height = 0; ///< m; 0: no grousers, or a mesh, of which nobody knows
+};
+
+/// Laws for the last wheel that the scene drives: of each answer the largest factor measured on its kind of soil.
+/// Nothing for scenes without a driven wheel or on elastic ground, where no convergence was measured.
+std::optional<DrivenWheel> driven_wheel(const scene::Scene& scene, const world::World& world, const solver::Plan& plan);
+
+/// Nothing without a driven wheel, or if none touched sand (contact_cells = 0).
+std::optional<io::GridError> grid_error(const std::optional<DrivenWheel>& wheel, double contact_cells);
+
+/// The figures pull_error, torque_error and sinkage_error of the verdict.
+std::vector<io::Figure> grid_error_figures(const io::GridError& error);
+
+/// The figure grouser_cells of the verdict: height of grousers in cells of `spacing` (m). Nothing without grousers.
+std::optional<io::Figure> grouser_figure(const std::optional<DrivenWheel>& wheel, double spacing);
+
+/// Bounds of grouser_cells. 24 grousers of 20 mm raised the pull of the drum on sand by 10 N with cells of 20 mm, by
+/// 64, 65 to 75, 49, 51 and 46 N with cells of 12.5, 10, 7.5, 6.25 and 5 mm (docs/verdict.md).
+inline constexpr double resolved_grouser = 2.5;
+inline constexpr double marginal_grouser = 1.5;
+
+/// Bounds of all three figures.
+inline constexpr double resolved_error = 0.05;
+inline constexpr double marginal_error = 0.2;
+
+} // namespace tread::run

@@ -1,0 +1,67 @@
+#include "run/on_ranks.hpp"
+
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <limits>
+#include <string>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "io/h5.hpp"
+
+namespace tread::run
+{
+namespace
+{
+
+/// How long a rank that has failed waits for the others to fail, too, before it ends them.
+constexpr double patience = 10; // s
+
+/// This process alone; the launcher then ends the others. They may say first what they wait for.
+[[noreturn]] void end_hanging_rank(const std::string& name, const std::string& complaint)
+{
+    constexpr std::chrono::seconds for_others{5};
+    std::cerr << fmt::format("tread: error: {}: {}; --hang-timeout allows for more", name, complaint) << std::endl;
+    std::this_thread::sleep_for(for_others);
+    std::_Exit(static_cast<int>(ExitCode::environment));
+}
+
+} // namespace
+
+ExitCode on_ranks(const std::function<ExitCode(const Communicator&)>& command)
+{
+    io::h5::begin();
+    const MpiSession    session;
+    const Communicator& world = session.world();
+    ExitCode            code  = ExitCode::finished;
+    try
+    {
+        code = command(world);
+        world.all_arrive(std::numeric_limits<double>::infinity());
+    }
+    catch (const std::exception& error)
+    {
+        code = code_of(error);
+        if (!world.all_arrive(patience))
+        {
+            std::cerr << "tread: error: rank " << world.rank() << " on " << host_name() << ": " << text_of(error)
+                      << std::endl;
+            world.abort(code);
+        }
+        if (world.rank() == 0) { std::cerr << "tread: error: " << text_of(error) << std::endl; }
+    }
+    return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
+}
+
+std::unique_ptr<Watchdog> watch_ranks(const Communicator& world, double timeout)
+{
+    if (world.size() == 1) { return nullptr; }
+    const std::string name = fmt::format("rank {} on {}", world.rank(), host_name());
+    return std::make_unique<Watchdog>(world.waits(), std::chrono::duration<double>(timeout),
+                                      [name](const std::string& complaint) { end_hanging_rank(name, complaint); });
+}
+
+} // namespace tread::run

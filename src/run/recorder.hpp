@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "decomp/balance.hpp"
+#include "io/run_directory.hpp"
+#include "io/snapshot.hpp"
+#include "io/time_series.hpp"
+#include "solver/body_row.hpp"
+#include "solver/ledger.hpp"
+#include "world/world.hpp"
+
+namespace tread::run
+{
+
+/// The tables of timeseries.h5.
+std::vector<io::SeriesTable> series_tables(const scene::Scene& scene, int ranks);
+
+/// timeseries.h5 of a run: /wheel/<name>, /energy, /balance, /phases, and on several ranks /ranks.
+class Recorder
+{
+public:
+    Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const world::World& world, int ranks,
+             const io::Provenance& provenance, io::SeriesFile file = io::SeriesFile::anew);
+
+    /// All rows are in the file; until then they wait in memory.
+    void flush() { series_.flush(); }
+
+    void begin_phase(std::size_t index, double time);
+
+    /// A row of /ranks, of a run on several ranks.
+    void write_ranks(double time, const decomp::BalanceRow& balance);
+
+    void write(double time, const std::vector<solver::BodyRow>& bodies, const solver::EnergyRow& energy,
+               const solver::BalanceRow& balance);
+
+private:
+    const scene::Scene& scene_;
+    std::vector<double> rolling_radii_;
+    io::TimeSeries      series_;
+};
+
+} // namespace tread::run

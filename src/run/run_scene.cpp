@@ -1,0 +1,353 @@
+#include "run/run_scene.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include "backend/memory.hpp"
+#include "base/process_age.hpp"
+#include "base/signals.hpp"
+#include "base/version.hpp"
+#include "decomp/single_rank.hpp"
+#include "io/checkpoint_file.hpp"
+#include "io/files.hpp"
+#include "io/progress.hpp"
+#include "run/agreement.hpp"
+#include "run/answers.hpp"
+#include "run/drive_room.hpp"
+#include "run/driver.hpp"
+#include "run/estimate.hpp"
+#include "run/left_out.hpp"
+#include "run/plausibility.hpp"
+#include "run/rank_devices.hpp"
+#include "run/threads.hpp"
+#include "scene/input_files.hpp"
+#include "scene/resolved.hpp"
+#include "solver/page_loads.hpp"
+#include "world/bed.hpp"
+#ifdef TREAD_WITH_CUDA
+#include "backend/device.hpp"
+#endif
+
+namespace tread::run
+{
+namespace
+{
+
+/// How long a rank that has failed waits for the others to fail, too.
+constexpr double patience = 10; // s
+
+enum class Backend
+{
+    cpu,
+    cuda
+};
+
+#ifdef TREAD_WITH_CUDA
+Backend choose_backend(BackendChoice choice)
+{
+    if (choice == BackendChoice::cpu) { return Backend::cpu; }
+    if (device_count() > 0) { return Backend::cuda; }
+    if (choice == BackendChoice::automatic) { return Backend::cpu; }
+    throw EnvironmentError("--backend cuda: this machine has no CUDA device that this process can use");
+}
+#else
+Backend choose_backend(BackendChoice choice)
+{
+    if (choice != BackendChoice::cuda) { return Backend::cpu; }
+    throw EnvironmentError(
+        "--backend cuda: this build has no GPU backend (no CUDA compiler was found when it was made)");
+}
+#endif
+
+const char* name_of(Backend backend) { return backend == Backend::cpu ? "cpu" : "cuda"; }
+
+/// What this rank computes on, once all ranks are about to run the same.
+Backend agreed_backend(const Communicator& communicator, const scene::Scene& scene, const RunOptions& options)
+{
+    Backend           backend = Backend::cpu;
+    std::vector<Fact> facts;
+    on_every_rank(communicator,
+                  [&]
+                  {
+                      backend = choose_backend(options.backend);
+                      if (communicator.size() > 1) { facts = facts_of_run(scene, options, name_of(backend)); }
+                  });
+    require_agreement(communicator, scene::resolved_toml(scene), facts);
+    return backend;
+}
+
+void say_plan(Log& log, const scene::Scene& scene, const world::World& world, const std::vector<solver::Stage>& stages)
+{
+    log.info(fmt::format("{} points, {} bodies ({} rocks)", world.points.size(), world.bodies.size(),
+                         static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named));
+    for (const auto& form : world.templates)
+    {
+        for (const std::string& remark : form.remarks) { log.info(fmt::format("shape '{}': {}", form.name, remark)); }
+        for (const std::string& warning : form.warnings)
+        {
+            log.warning(fmt::format("shape '{}': {}", form.name, warning));
+        }
+    }
+    for (const solver::Stage& stage : stages)
+    {
+        if (stage.on) { continue; }
+        log.info(fmt::format("left out: {} - {}{}", stage.name, stage.why, price_text(stage, scene, world)));
+    }
+}
+
+/// What every run of either backend shares.
+struct Job
+{
+    const Communicator&        communicator;
+    Log&                       log;
+    const scene::Scene&        scene;
+    const world::World&        world;
+    std::vector<DriveRoom>     rooms; ///< of the driven bodies
+    solver::Plan               plan;
+    Estimate                   wants;
+    const RunOptions&          options;
+    std::vector<solver::Stage> stages;
+    RestartPlan                restart;
+    io::NewRun                 place;
+    io::RunDirectory           directory; ///< there once the run has begun
+    DriverOptions              driver;
+    io::Summary                summary;
+};
+
+/// Nothing on one rank.
+template<class Exec>
+std::optional<decomp::Decomposition<Exec>> decompose(const Exec& exec, Job& job)
+{
+    std::optional<decomp::Decomposition<Exec>> decomposition;
+    if (job.communicator.size() == 1) { return decomposition; }
+    decomposition.emplace(job.communicator, exec, job.options.decomposition);
+    job.log.info(fmt::format("transport: {}", decomposition->transport.description()));
+    job.log.info(fmt::format("partition: {}", solver::share_out(*decomposition, job.world)));
+    return decomposition;
+}
+
+/// What several ranks cannot do yet.
+void require_ranks_can(const Communicator& communicator, const scene::Scene& scene)
+{
+    if (scene.numerics.volume_strain == scene::VolumeStrain::cell_average)
+    {
+        decomp::require_single_rank(communicator, "scenes with volume_strain = \"cell-average\" run");
+    }
+    if (!scene.grid.refine.empty()) { decomp::require_single_rank(communicator, "scenes with [grid] refine run"); }
+    if (scene.sleep.distance) { decomp::require_single_rank(communicator, "scenes with sleep.distance run"); }
+}
+
+template<class Exec, class Real>
+ExitCode run_on(const Exec& exec, Job& job)
+{
+    std::optional<decomp::Decomposition<Exec>> decomposition = decompose(exec, job);
+    solver::Simulation<Exec, Real>             simulation(exec, job.scene, job.world, job.plan,
+                                              decomposition ? &*decomposition : nullptr);
+    Driver<Exec, Real> driver(job.communicator, job.log, job.scene, job.world, job.directory, job.plan, simulation,
+                              job.rooms, job.driver);
+    try
+    {
+        const std::optional<std::string> interruption = driver.run();
+        job.summary.reason                            = interruption ? "stopped by " + *interruption : "all phases ran";
+        if (interruption)
+        {
+            job.summary.status    = io::RunStatus::stopped;
+            job.summary.exit_code = ExitCode::stopped_early;
+        }
+    }
+    catch (const NumericalError& error)
+    {
+        if (!job.communicator.all_arrive(patience)) { throw; } // it befell this rank alone
+        job.log.warning(error.what());
+        job.summary.status    = io::RunStatus::failed;
+        job.summary.exit_code = error.code();
+        job.summary.reason    = error.what();
+    }
+    if (job.driver.watchdog != nullptr) { job.driver.watchdog->end_steps(); }
+    driver.report(job.summary, job.stages);
+    return job.summary.exit_code;
+}
+
+template<class Exec>
+ExitCode run_precision(const Exec& exec, Job& job)
+{
+    return job.scene.numerics.precision == scene::Precision::single_ ? run_on<Exec, float>(exec, job)
+                                                                     : run_on<Exec, double>(exec, job);
+}
+
+void say_start(Job& job)
+{
+    Log& log = job.log;
+    log.info(fmt::format("tread {} ({}): {}", version, commit(), job.scene.title));
+    log.info(fmt::format("backend {}, {} rank(s), {} thread(s), {} precision", job.summary.backend, job.summary.ranks,
+                         job.summary.threads,
+                         job.scene.numerics.precision == scene::Precision::single_ ? "single" : "double"));
+    job.summary.bed = world::describe_bed(job.scene, job.world);
+    say_plan(log, job.scene, job.world, job.stages);
+    for (const Warning& warning : plausibility(job.scene, job.world, job.wants, job.rooms))
+    {
+        job.summary.warnings.push_back(text_of(warning));
+        log.warning(job.summary.warnings.back());
+    }
+    for (const std::string& line : world::bed_lines(job.summary.bed)) { log.info(line); }
+    for (const std::string& note : drive_notes(job.scene, job.world, job.rooms)) { log.info(note); }
+}
+
+/// EnvironmentError, on all ranks, where the backend's memory or the disk is too small.
+void require_rooms(const Job& job, const char* memory, std::int64_t wanted, std::int64_t free)
+{
+    on_every_rank(job.communicator, [&] { require_room(memory, wanted, free); });
+    if (job.restart.existing == io::Existing::resume) { return; }
+    on_root(job.communicator,
+            [&]
+            {
+                require_disk(job.directory.path(), job.wants.disk.least,
+                             io::free_space(job.directory.path()) + job.directory.bytes_to_remove());
+            });
+}
+
+/// What might refuse the run has had its say: from here on it changes files.
+void begin(Job& job)
+{
+    const bool goes_on = job.restart.existing == io::Existing::resume;
+    job.directory      = io::RunDirectory::create(job.communicator, job.place, job.restart.lock);
+    job.log.open(job.directory.log(), goes_on ? LogFile::continued : LogFile::anew);
+    say_start(job);
+    for (const std::string& remark : job.restart.remarks) { job.log.warning(remark); }
+}
+
+ExitCode run_backend(Backend backend, Job& job)
+{
+    Counters           counters;
+    const std::int64_t wanted = job.wants.memory_bytes / job.communicator.size();
+    counters.expect(wanted);
+    ExitCode code = ExitCode::finished;
+    if (backend == Backend::cpu)
+    {
+        const Cpu cpu{&counters};
+        require_rooms(job, "host", wanted, free_bytes(cpu));
+        begin(job);
+        code                        = run_precision(cpu, job);
+        job.summary.peak_host_bytes = counters.peak_bytes();
+    }
+#ifdef TREAD_WITH_CUDA
+    else
+    {
+        const int    number = device_of_rank(job.communicator, job.options.gpus);
+        const Device device(number, counters);
+        require_rooms(job, "device", wanted, free_bytes(device.gpu()));
+        begin(job);
+        for (const std::string& name : say_devices(job.communicator, job.log, number))
+        {
+            job.summary.devices.push_back(name);
+        }
+        job.driver.provenance.devices = job.summary.devices;
+        code                          = run_precision(device.gpu(), job);
+        job.summary.peak_device_bytes = counters.peak_bytes();
+    }
+#endif
+    return code;
+}
+
+/// The last lines of a log. On rank 0, which has the time series.
+void say_answers(Job& job)
+{
+    io::Summary& summary = job.summary;
+    summary.answers      = make_answers(job.scene, job.directory.time_series(), summary.phases.size());
+    if (summary.grid_error)
+    {
+        add_grid_error(job.scene, *summary.grid_error, summary.answers);
+        job.log.info("grid error: " + io::grid_error_line(*summary.grid_error, last_drive(job.scene, summary.answers)));
+    }
+    for (const std::string& line : answer_lines(summary.answers)) { job.log.info(line); }
+}
+
+/// UTC; a run that goes on began when the first part of it did.
+std::string start_of(const Communicator& communicator, const std::string& checkpoint)
+{
+    std::string start;
+    on_root(communicator,
+            [&] { start = checkpoint.empty() ? io::utc_now() : io::CheckpointReader(checkpoint).text("start"); });
+    return communicator.broadcast(start);
+}
+
+/// What the run reads and must leave as it is. A run that goes on was started from elsewhere than its own files, but
+/// may take its own scene.toml for the scene.
+std::vector<io::NeededFile> needed_files(const scene::Scene& scene, const RunOptions& options,
+                                         const RestartPlan& restart)
+{
+    std::vector<io::NeededFile> needed;
+    for (const scene::InputFile& file : scene::input_files(scene)) { needed.push_back({file.path, file.key}); }
+    if (restart.existing == io::Existing::resume) { return needed; }
+    if (!options.scene_file.empty()) { needed.push_back({options.scene_file, "the scene"}); }
+    if (!restart.checkpoint.empty()) { needed.push_back({restart.checkpoint, "--restart"}); }
+    return needed;
+}
+
+} // namespace
+
+ExitCode run_scene(const Communicator& communicator, Log& log, Watchdog* watchdog, const scene::Scene& scene,
+             const RunOptions& options)
+{
+    const double      wall_start = wall_clock() - process_age();
+    const SignalWatch signals;
+    const Backend     backend = agreed_backend(communicator, scene, options);
+    const int         threads = choose_threads(communicator, options.threads);
+    omp_set_num_threads(threads);
+    RestartPlan restart = plan_restart(communicator, scene, options.restart, options.output, options.existing);
+    if (restart.finished)
+    {
+        log.info(fmt::format("{}: the run is finished; nothing is left to do", options.output));
+        return ExitCode::finished;
+    }
+    const io::NewRun place{options.output, restart.existing, scene::resolved_toml(scene),
+                           needed_files(scene, options, restart)};
+    io::RunDirectory::require_free(communicator, place);
+    const world::World world = world::build_world(scene);
+    const solver::Plan plan  = solver::make_plan(scene, world);
+    require_ranks_can(communicator, scene);
+    const std::string start = start_of(communicator, restart.checkpoint);
+
+    Job job{communicator,
+            log,
+            scene,
+            world,
+            drive_rooms(scene, world),
+            plan,
+            estimate(scene, world, plan),
+            options,
+            solver::stages(scene, plan, communicator.size()),
+            std::move(restart),
+            place,
+            io::RunDirectory::at(options.output),
+            {},
+            {}};
+    job.summary.scene_hash = scene::scene_hash(scene);
+    job.summary.backend    = name_of(backend);
+    job.summary.ranks      = communicator.size();
+    job.summary.threads    = threads;
+    job.summary.bodies     = static_cast<std::int64_t>(world.bodies.size());
+    job.summary.start      = start;
+    job.driver             = {{job.summary.scene_hash, job.summary.backend, {}, communicator.size(), job.summary.start},
+                              job.restart.checkpoint,
+                              wall_start,
+                              options.walltime_limit,
+                              watchdog};
+    const ExitCode code    = run_backend(backend, job);
+    log.info(fmt::format("\n{}", io::timing_table(job.summary.stages, job.summary.wall_s)));
+    log.info(fmt::format("errors: mass {:.3g}, momentum {:.3g}, energy {:.3g}", job.summary.errors.mass,
+                         job.summary.errors.momentum, job.summary.errors.energy));
+    log.info("resolution: " + io::verdict_line(job.summary));
+    if (code != ExitCode::finished) { log.info(job.summary.reason); }
+    on_root(communicator, [&] { say_answers(job); });
+    on_root(communicator, [&] { io::write_summary(job.directory.summary(), job.summary); });
+    return code;
+}
+
+} // namespace tread::run

@@ -1,0 +1,22 @@
+#include "run/threads.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <thread>
+
+#include <omp.h>
+
+namespace tread::run
+{
+
+int choose_threads(const Communicator& communicator, int asked)
+{
+    // Before any return: a launcher may have set OMP_NUM_THREADS on some machines only, and all ranks make this call.
+    const int ranks_here = communicator.local_size();
+    if (asked > 0) { return asked; }
+    if (std::getenv("OMP_NUM_THREADS") != nullptr) { return omp_get_max_threads(); }
+    const int cores = static_cast<int>(std::thread::hardware_concurrency());
+    return std::max(1, cores / ranks_here);
+}
+
+} // namespace tread::run

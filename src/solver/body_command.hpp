@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace tread::solver
+{
+
+/// What a phase asks of one named body at one time.
+struct BodyCommand
+{
+    std::uint32_t         locked = 0; ///< bits of dem::LockedFreedom
+    std::optional<double> spin;       ///< rad/s about the axle
+    std::optional<double> forward;    ///< m/s along x
+
+    std::optional<std::array<double, 3>> lowering = {}; ///< m/s, of a body that is lowered
+
+    double weight = 1; ///< the share of its weight that acts
+
+    bool operator==(const BodyCommand&) const = default;
+};
+
+} // namespace tread::solver

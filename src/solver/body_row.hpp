@@ -1,0 +1,21 @@
+#pragma once
+
+#include "backend/vector.hpp"
+
+namespace tread::solver
+{
+
+/// One named body at one time. Force and torque are those of all contacts, mean since the last row.
+struct BodyRow
+{
+    Vec3<double> position;         ///< m
+    Vec3<double> velocity;         ///< m/s
+    Vec3<double> angular_velocity; ///< rad/s
+    Vec3<double> force;            ///< N
+    Vec3<double> torque;           ///< N m, about the centre of mass
+    Vec3<double> axle;             ///< unit, world
+    double       lowest;           ///< m, height of the lowest point
+    double       surface = 0;      ///< m, height of the terrain under it before bodies came (SurfaceMap)
+};
+
+} // namespace tread::solver

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/contact/point_body_kern.hpp"
+#include "world/world.hpp"
+
+namespace tread::world
+{
+
+/// Which bodies sand samples at nine places, and how far its contacts reach.
+struct PointReach
+{
+    contact::RadiusRule rule;
+    double              sampled_below; ///< m, equivalent radius of a body under which sand samples it; 0 = never
+
+    double radius(double volume) const { return contact::point_radius(volume, rule); }
+
+    /// m, how near a body must come to a point of that radius to matter.
+    double search(double radius) const;
+};
+
+/// Equivalent radius of a body, m, under which sand samples it at nine places; 0 = never.
+double sampled_below(const scene::Scene& scene, const HostPoints& points);
+
+PointReach make_point_reach(const scene::Scene& scene, const HostPoints& points);
+
+/// The place of a point that is nearest to a body: its centre, or one of its samples.
+struct NearestPlace
+{
+    double       distance; ///< m, signed distance of the body's surface
+    Vec3<double> at;
+};
+
+NearestPlace nearest_place(const World& world, const PointReach& reach, std::size_t body, const Vec3<double>& x,
+                           double radius);
+
+/// For each point of sand a body of [first, last) that it lies in or within its contact radius of (phi < r_p), itself
+/// or one of its samples; -1 where there is none. Sand that starts in such contact would fly.
+std::vector<std::int32_t> covering_bodies(const scene::Scene& scene, const World& world, std::size_t first,
+                                          std::size_t last);
+
+} // namespace tread::world

@@ -1,0 +1,207 @@
+#include "world/make_room.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "scene/lines.hpp"
+#include "world/grading.hpp"
+#include "world/layers.hpp"
+#include "world/push_out.hpp"
+
+namespace tread::world
+{
+namespace
+{
+
+/// A point within the contact radius of a rock.
+struct Touch
+{
+    std::size_t body;
+    double      distance; ///< m, of the point's centre from the surface
+    std::size_t point;
+
+    bool operator<(const Touch& other) const
+    {
+        return std::tie(body, distance, point) < std::tie(other.body, other.distance, other.point);
+    }
+};
+
+/// Index of each body's [[rocks]] table; -1 for named bodies.
+std::vector<std::int32_t> tables_of(const HostBodies& bodies)
+{
+    std::vector<std::int32_t> table(static_cast<std::size_t>(bodies.named), -1);
+    for (std::size_t rocks = 0; rocks < bodies.rocks_end.size(); ++rocks)
+    {
+        table.resize(bodies.rocks_end[rocks], static_cast<std::int32_t>(rocks));
+    }
+    return table;
+}
+
+/// Whether rocks and points come from one saved bed.
+bool settled_together(const scene::Rocks& rocks, const scene::Terrain& terrain)
+{
+    return !rocks.from.empty() && rocks.from == terrain.from;
+}
+
+/// All contacts of points with rocks, by rock, the deepest first.
+std::vector<Touch> find_touches(const scene::Scene& scene, const World& world, const BodyGrid& grid,
+                                const PointReach& reach)
+{
+    const HostPoints&  points = world.points;
+    const auto         table  = tables_of(world.bodies);
+    std::vector<Touch> touches;
+#pragma omp parallel
+    {
+        std::vector<Touch> mine;
+#pragma omp for schedule(static)
+        for (std::size_t i = 0; i < points.size(); ++i)
+        {
+            const Vec3<double>& x      = points.position[i];
+            const double        radius = reach.radius(points.volume[i]);
+            const auto&         own    = scene.terrain[static_cast<std::size_t>(points.terrain[i])];
+            grid.any_near(x, reach.search(radius),
+                          [&](std::size_t body)
+                          {
+                              const auto rocks = table[body];
+                              if (rocks < 0 || settled_together(scene.rocks[static_cast<std::size_t>(rocks)], own) ||
+                                  nearest_place(world, reach, body, x, radius).distance >= radius)
+                              {
+                                  return false;
+                              }
+                              mine.push_back({body, distance(world, body, x), i});
+                              return false;
+                          });
+        }
+#pragma omp critical
+        touches.insert(touches.end(), mine.begin(), mine.end());
+    }
+    std::sort(touches.begin(), touches.end());
+    // The grid may show a body twice.
+    const auto same = [](const Touch& a, const Touch& b) { return a.body == b.body && a.point == b.point; };
+    touches.erase(std::unique(touches.begin(), touches.end(), same), touches.end());
+    return touches;
+}
+
+void refuse_sand_in_the_way(const scene::Scene& scene, const World& world, const std::vector<Touch>& touches)
+{
+    const auto                            table = tables_of(world.bodies);
+    std::vector<std::vector<std::size_t>> points(scene.rocks.size());
+    for (const Touch& touch : touches) { points[static_cast<std::size_t>(table[touch.body])].push_back(touch.point); }
+    for (std::size_t rocks = 0; rocks < points.size(); ++rocks)
+    {
+        auto& own = points[rocks];
+        if (own.empty() || takes_sand(scene.rocks[rocks].placement)) { continue; }
+        std::sort(own.begin(), own.end());
+        const auto count = std::unique(own.begin(), own.end()) - own.begin();
+        throw InputError(scene::line_of(scene, fmt::format("rocks[{}]", rocks)) +
+                         fmt::format("[[rocks]] {} of shape '{}': {} points of sand stand where rocks are placed; use "
+                                     "placement = \"replace\" or another region",
+                                     rocks, scene.rocks[rocks].shape, count));
+    }
+}
+
+/// Rocks row by row, a grid cell each: what one leaves of a point's volume goes to the next, which is near.
+std::vector<std::size_t> in_rows(const World& world)
+{
+    std::vector<std::size_t> order;
+    for (auto body = static_cast<std::size_t>(world.bodies.named); body < world.bodies.size(); ++body)
+    {
+        order.push_back(body);
+    }
+    const auto row = [&](std::size_t body)
+    {
+        const Vec3<double> x = world.bodies.position[body] / world.geometry.spacing;
+        return std::tuple(std::floor(x[2]), std::floor(x[1]), x[0]);
+    };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return row(a) < row(b); });
+    return order;
+}
+
+/// 0 for the points that go: of each rock those deepest in it, up to the volume of the rock that stands in sand.
+std::vector<std::uint8_t> keep_all_but_rock_volume(const World& world, const std::vector<Touch>& touches,
+                                                   const std::vector<double>& in_sand)
+{
+    const HostPoints&         points = world.points;
+    std::vector<std::uint8_t> kept(points.size(), 1);
+    double                    due = 0; // m3
+    for (const std::size_t body : in_rows(world))
+    {
+        due += in_sand[body] * sphere_volume(2 * world.bodies.radius[body]);
+        auto touch = std::lower_bound(touches.begin(), touches.end(), body,
+                                      [](const Touch& one, std::size_t b) { return one.body < b; });
+        for (; touch != touches.end() && touch->body == body; ++touch)
+        {
+            const double volume = points.volume[touch->point];
+            if (due < 0.5 * volume) { break; }
+            if (kept[touch->point] == 0) { continue; }
+            kept[touch->point] = 0;
+            due -= volume;
+        }
+    }
+    return kept;
+}
+
+/// Pushes the points that stay off the bodies; those that find no place are not kept.
+void push_off(const Surroundings& near, const std::vector<Touch>& touches, std::vector<std::uint8_t>& kept,
+              HostPoints& points)
+{
+    std::vector<std::size_t> touching;
+    for (const Touch& touch : touches)
+    {
+        if (kept[touch.point] != 0) { touching.push_back(touch.point); }
+    }
+    std::sort(touching.begin(), touching.end());
+    touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+    std::vector<Vec3<double>> place(touching.size());
+#pragma omp parallel for schedule(dynamic, 64)
+    for (std::size_t i = 0; i < touching.size(); ++i)
+    {
+        const auto found = free_place(near, touching[i]);
+        if (found) { place[i] = *found; }
+        else { kept[touching[i]] = 0; }
+    }
+    for (std::size_t i = 0; i < touching.size(); ++i)
+    {
+        if (kept[touching[i]] != 0) { points.position[touching[i]] = place[i]; }
+    }
+}
+
+/// Tables whose rocks make room for themselves.
+bool makes_room(const scene::Scene& scene, const scene::Rocks& rocks)
+{
+    return takes_sand(rocks.placement) &&
+           std::none_of(scene.terrain.begin(), scene.terrain.end(),
+                        [&](const scene::Terrain& terrain) { return settled_together(rocks, terrain); });
+}
+
+} // namespace
+
+void make_room(const scene::Scene& scene, World& world)
+{
+    if (world.points.size() == 0 || scene.rocks.empty()) { return; }
+    BodyGrid grid(world);
+    for (std::size_t body = 0; body < world.bodies.size(); ++body) { grid.add(body); }
+    const PointReach reach   = make_point_reach(scene, world.points);
+    const auto       touches = find_touches(scene, world, grid, reach);
+    refuse_sand_in_the_way(scene, world, touches);
+    const SandMap      sand(scene, world.points);
+    const auto         in_sand = shares_in_sand(world, sand);
+    std::vector<Layer> layers;
+    for (std::size_t table = 0; table < scene.rocks.size(); ++table)
+    {
+        if (!makes_room(scene, scene.rocks[table])) { continue; }
+        Layer layer = find_layer(scene, table, world, in_sand);
+        if (layer.sand > 0) { layers.push_back(std::move(layer)); }
+    }
+    if (layers.empty() && touches.empty()) { return; }
+    auto kept = keep_all_but_rock_volume(world, touches, in_sand);
+    push_off({world, grid, reach, sand, world.geometry.spacing}, touches, kept, world.points);
+    for (const Layer& layer : layers) { world.layers.push_back(shares_of(layer, world.points, kept)); }
+    keep_points(world.points, kept);
+}
+
+} // namespace tread::world

@@ -1,0 +1,139 @@
+#include "world/on_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "kernels/contact/samples_kern.hpp"
+#include "world/body_grid.hpp"
+#include "world/cover.hpp"
+#include "world/materials.hpp"
+
+namespace tread::world
+{
+namespace
+{
+
+constexpr double closest = 1e-4; ///< of the body's bounding radius: where its descent ends above what it meets
+
+/// A point of sand, and from how far (m) on the body touches it.
+struct Grain
+{
+    Vec3<double> position;
+    double       reach;
+};
+
+/// What may stand in the way of a body that comes down.
+struct Ground
+{
+    std::vector<Grain>       grains;
+    std::vector<std::size_t> rocks;
+    double                   top    = -std::numeric_limits<double>::infinity(); ///< m
+    double                   bottom = std::numeric_limits<double>::infinity();
+};
+
+bool is_under(const World& world, std::size_t body, const Vec3<double>& x, double reach)
+{
+    const Vec3<double> offset = x - world.bodies.position[body];
+    return std::hypot(offset[0], offset[1]) < bounding_radius(world, body) + reach;
+}
+
+void count(Ground& ground, double height, double reach)
+{
+    ground.top    = std::max(ground.top, height + reach);
+    ground.bottom = std::min(ground.bottom, height - reach);
+}
+
+Ground ground_under(const scene::Scene& scene, const World& world, std::size_t body)
+{
+    const auto&  form    = world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
+    const bool   sampled = world.bodies.scale[body] * form.equivalent_radius < sampled_below(scene, world.points);
+    const double share   = sampled ? 1 + contact::patch_reach : 1.0; // samples stand beside their point
+    const auto   rule    = radius_rule(scene.numerics.point_radius);
+    Ground       ground;
+    for (std::size_t i = 0; i < world.points.size(); ++i)
+    {
+        const Grain grain{world.points.position[i], share * contact::point_radius(world.points.volume[i], rule)};
+        if (!is_under(world, body, grain.position, grain.reach)) { continue; }
+        ground.grains.push_back(grain);
+        count(ground, grain.position[2], grain.reach);
+    }
+    for (auto rock = static_cast<std::size_t>(world.bodies.named); rock < world.bodies.size(); ++rock)
+    {
+        const double radius = bounding_radius(world, rock);
+        if (!is_under(world, body, world.bodies.position[rock], radius)) { continue; }
+        ground.rocks.push_back(rock);
+        count(ground, world.bodies.position[rock][2], radius);
+    }
+    return ground;
+}
+
+/// Least distance (m) of the surface nodes of `one` from the surface of `other`, or `known` if that is less.
+double nodes_off(const World& world, std::size_t one, std::size_t other, double known)
+{
+    const HostBodies&  bodies = world.bodies;
+    const auto&        form   = world.templates[static_cast<std::size_t>(bodies.shape[one])];
+    const Mat3<double> turn   = bodies.scale[one] * bodies.orientation[one].toRotationMatrix();
+    const double       radius = bounding_radius(world, other);
+    for (const Vec3<double>& node : form.nodes.positions)
+    {
+        const Vec3<double> x = bodies.position[one] + turn * node;
+        if ((x - bodies.position[other]).norm() - radius < known)
+        {
+            known = std::min(known, distance(world, other, x));
+        }
+    }
+    return known;
+}
+
+/// Least distance (m) of a body from what is under it; at most `most`.
+double clearance(const World& world, std::size_t body, const Ground& ground, double most)
+{
+    const Vec3<double>& centre = world.bodies.position[body];
+    const double        radius = bounding_radius(world, body);
+    double              least  = most;
+    for (const Grain& grain : ground.grains)
+    {
+        if ((grain.position - centre).norm() - radius - grain.reach >= least) { continue; }
+        least = std::min(least, distance(world, body, grain.position) - grain.reach);
+    }
+    for (const std::size_t rock : ground.rocks)
+    {
+        const double apart = (world.bodies.position[rock] - centre).norm() - radius - bounding_radius(world, rock);
+        if (apart >= least) { continue; }
+        least = nodes_off(world, body, rock, least);
+        least = nodes_off(world, rock, body, least);
+    }
+    return least;
+}
+
+} // namespace
+
+/// A body may go down by its distance from all else. Away from surfaces the stored distance may be too large by a share
+/// of a cell, or of a brick of cells, so that half of it is taken at most.
+void stand_on_surface(const scene::Scene& scene, std::size_t body, double gap, World& world)
+{
+    const double radius = bounding_radius(world, body), near = closest * radius;
+    const Ground ground = ground_under(scene, world, body);
+    double&      height = world.bodies.position[body][2];
+    height              = ground.top + radius;
+    while (!ground.grains.empty() || !ground.rocks.empty())
+    {
+        const double free = clearance(world, body, ground, radius);
+        if (free < near)
+        {
+            height += gap;
+            return;
+        }
+        height -= 0.5 * free;
+        if (height < ground.bottom - radius) { break; }
+    }
+    throw InputError(fmt::format("[[body]] '{}': its position is \"on surface\", and neither sand nor a rock lies "
+                                 "under it",
+                                 scene.bodies[body].name));
+}
+
+} // namespace tread::world
