@@ -1,6 +1,6 @@
 #pragma once
 
-#include "backend/fetched.hpp"
+#include "backend/async_readback.hpp"
 
 namespace tread
 {
@@ -18,7 +18,7 @@ public:
     }
 
     /// Asks for what will be in `from` when the backend gets there.
-    void fetch(const Array<Exec, T>& from)
+    void request(const Array<Exec, T>& from)
     {
         values_.resize(from.size());
         start_copy_to_host(exec_, values_.data(), from.data(), static_cast<std::size_t>(from.size()) * sizeof(T));

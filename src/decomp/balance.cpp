@@ -127,7 +127,7 @@ bool Balance<Exec>::is_due(std::int64_t step) const
 
 /// What was not worth it is looked at again when twice as many steps have gone by.
 template<class Exec>
-bool Balance<Exec>::deal_out(const PageLoads& own, std::int64_t step)
+bool Balance<Exec>::repartition(const PageLoads& own, std::int64_t step)
 {
     const AllPages   pages = gather_pages(decomposition_.communicator, own);
     PartitionOptions options;

@@ -55,12 +55,12 @@ class Balance
 public:
     Balance(Decomposition<Exec>& decomposition, double threshold);
 
-    /// Whether deal_out() is worth a call before step number `step`. The same on all ranks, without a message.
+    /// Whether repartition() is worth a call before step number `step`. The same on all ranks, without a message.
     bool is_due(std::int64_t step) const;
 
     /// All pages that have load get owners anew, where that saves more than it costs; returns whether they did: what is
     /// on them has to follow before anybody asks for an owner again. `own`: of this rank.
-    bool deal_out(const PageLoads& own, std::int64_t step);
+    bool repartition(const PageLoads& own, std::int64_t step);
 
     /// After points or bodies may have changed their rank: what this one has now, and how many points of all did.
     void note(double load, std::int64_t points_moved);

@@ -10,7 +10,7 @@ namespace tread::decomp
 {
 
 /// So many rows for a rank, or from one.
-struct Leg
+struct Route
 {
     int          rank;
     std::int64_t rows;
@@ -34,14 +34,14 @@ public:
     void plan(const std::vector<std::vector<std::int32_t>>& rows_to);
 
     /// As before where both sides know already what comes; not collective. `rows`: first those for the first rank of
-    /// `to`, which ascend, and so on. The way back of an exchange `there` has legs there.from() and there.to().
-    void plan(const std::vector<std::int32_t>& rows, std::vector<Leg> to, std::vector<Leg> from);
+    /// `to`, which ascend, and so on. The way back of an exchange `there` has routes there.from() and there.to().
+    void plan(const std::vector<std::int32_t>& rows, std::vector<Route> to, std::vector<Route> from);
 
     /// Ranks ascend.
-    const std::vector<Leg>& to() const { return to_; }
-    const std::vector<Leg>& from() const { return from_; }
-    std::int64_t            sent() const { return rows_.size(); }
-    std::int64_t            received() const { return received_; }
+    const std::vector<Route>& to() const { return to_; }
+    const std::vector<Route>& from() const { return from_; }
+    std::int64_t              sent() const { return rows_.size(); }
+    std::int64_t              received() const { return received_; }
 
     /// Packs the rows and starts to send them. The arrays may change once it has returned, as far as kernels go that
     /// are launched after it.
@@ -55,19 +55,19 @@ public:
     void finish(const Columns& columns, const Array<Exec, std::int32_t>& rows);
 
     /// Instead of finish(), where the columns are one array of rows: these rows as they have arrived, until begin().
-    const std::byte* arrive();
+    const std::byte* finish();
 
 private:
     void finish(const Columns& columns, const std::int32_t* index, std::int64_t first);
 
     Transport<Exec>*          transport_;
     Exec                      exec_;
-    Mail<Exec>                mail_;
+    Messages<Exec>            messages_;
     Array<Exec, std::int32_t> rows_;
-    std::vector<Leg>          to_;
-    std::vector<Leg>          from_;
-    Parcels                   out_;
-    Parcels                   in_;
+    std::vector<Route>        to_;
+    std::vector<Route>        from_;
+    MessageRanges             out_;
+    MessageRanges             in_;
     std::int64_t              received_ = 0;
     const std::uint32_t*      arriving_ = nullptr;
 };

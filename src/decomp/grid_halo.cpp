@@ -45,11 +45,11 @@ std::vector<std::int32_t> picked(const std::vector<std::int32_t>& places, const 
 template<class Exec, class Real>
 GridHalo<Exec, Real>::GridHalo(Decomposition<Exec>& decomposition)
     : decomposition_(decomposition)
-    , lane_(decomposition.transport.exec())
+    , stream_(decomposition.transport.exec())
     , shared_(decomposition.transport.exec())
     , border_(decomposition.transport.exec(), "border pages")
     , interior_(decomposition.transport.exec(), "interior pages")
-    , exchange_(decomposition.transport, lane_.exec(), "grid halo messages")
+    , exchange_(decomposition.transport, stream_.exec(), "grid halo messages")
 {
 }
 
@@ -79,7 +79,7 @@ void GridHalo<Exec, Real>::plan(mpm::Pages<Exec>& pages, const mpm::GridWalls& w
     shared_.booked_elsewhere.assign(picked(places, halo.booked_elsewhere));
 
     std::vector<std::int32_t> rows;
-    std::vector<Leg>          to, from;
+    std::vector<Route>        to, from;
     for (std::size_t rank = 0; rank < halo.send.size(); ++rank)
     {
         const auto& send = halo.send[rank];
@@ -115,8 +115,8 @@ void GridHalo<Exec, Real>::list_border(const mpm::Pages<Exec>& pages, const std:
 template<class Exec, class Real>
 void GridHalo<Exec, Real>::begin(const mpm::PointsView<Real>& points, const mpm::PagesView& pages, Real* tiles)
 {
-    const Exec& exec = lane_.exec();
-    lane_.fork();
+    const Exec& exec = stream_.exec();
+    stream_.fork();
     mpm::scatter(exec, points, pages, {border_.size(), border_.data()}, tiles);
     mpm::sum_own_parts(exec, pages, tiles, shared_);
     Columns columns;
@@ -127,9 +127,9 @@ void GridHalo<Exec, Real>::begin(const mpm::PointsView<Real>& points, const mpm:
 template<class Exec, class Real>
 void GridHalo<Exec, Real>::finish()
 {
-    const auto* arrived = reinterpret_cast<const Real*>(exchange_.arrive());
-    mpm::add_parts(lane_.exec(), arrived, shared_);
-    lane_.join();
+    const auto* arrived = reinterpret_cast<const Real*>(exchange_.finish());
+    mpm::add_parts(stream_.exec(), arrived, shared_);
+    stream_.join();
 }
 
 template<class Exec, class Real>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "backend/second_lane.hpp"
+#include "backend/secondary_stream.hpp"
 #include "decomp/decomposition.hpp"
 #include "decomp/exchange.hpp"
 #include "decomp/halo_plan.hpp"
@@ -43,7 +43,7 @@ private:
     void list_border(const mpm::Pages<Exec>& pages, const std::vector<std::int32_t>& shared_number);
 
     Decomposition<Exec>&         decomposition_;
-    SecondLane<Exec>             lane_;
+    SecondaryStream<Exec>        stream_;
     mpm::SharedPages<Exec, Real> shared_;
     Array<Exec, std::int32_t>    border_;   ///< point pages
     Array<Exec, std::int32_t>    interior_; ///< the others

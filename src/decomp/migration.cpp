@@ -63,7 +63,7 @@ Migration<Exec, Real>::Migration(Decomposition<Exec>& decomposition)
     , leaving_(decomposition.transport.exec())
     , exchange_(decomposition.transport, "migration messages")
     , ids_(decomposition.transport.exec(), "ids of leaving points")
-    , departed_(static_cast<std::size_t>(decomposition.ranks()))
+    , migrated_out_(static_cast<std::size_t>(decomposition.ranks()))
 {
 }
 
@@ -94,7 +94,7 @@ std::int64_t Migration<Exec, Real>::run(mpm::Points<Exec, Real>& points, const m
     const std::vector<std::int32_t>        row     = leaving_.row.to_host();
     std::vector<std::vector<std::int32_t>> rows_to(static_cast<std::size_t>(communicator.size()));
     for (std::size_t i = 0; i < row.size(); ++i) { rows_to[static_cast<std::size_t>(owner[i])].push_back(row[i]); }
-    note_departed(points, owner);
+    note_migrated_out(points, owner);
     exchange_.plan(rows_to);
     exchange_.begin(point_columns(points));
     mpm::remove_leaving(exec, points, leaving_, scratch);
@@ -106,15 +106,18 @@ std::int64_t Migration<Exec, Real>::run(mpm::Points<Exec, Real>& points, const m
 }
 
 template<class Exec, class Real>
-void Migration<Exec, Real>::note_departed(mpm::Points<Exec, Real>& points, const std::vector<std::int32_t>& owner)
+void Migration<Exec, Real>::note_migrated_out(mpm::Points<Exec, Real>& points, const std::vector<std::int32_t>& owner)
 {
     ids_.resize(leaving_.row.size());
     pack_rows(decomposition_.transport.exec(), columns(points.id.data()), leaving_.row.data(), leaving_.row.size(),
               ids_.data());
     const std::vector<std::uint32_t> ids = ids_.to_host();
-    for (auto& of_rank : departed_) { of_rank.clear(); }
-    for (std::size_t i = 0; i < ids.size(); ++i) { departed_[static_cast<std::size_t>(owner[i])].push_back(ids[i]); }
-    for (auto& of_rank : departed_) { std::sort(of_rank.begin(), of_rank.end()); }
+    for (auto& of_rank : migrated_out_) { of_rank.clear(); }
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+        migrated_out_[static_cast<std::size_t>(owner[i])].push_back(ids[i]);
+    }
+    for (auto& of_rank : migrated_out_) { std::sort(of_rank.begin(), of_rank.end()); }
 }
 
 /// All ranks say which pages without an owner have how many of their points, and come to the same answer.

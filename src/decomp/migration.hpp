@@ -25,18 +25,18 @@ public:
                      mpm::OrderScratch<Exec, Real>& scratch);
 
     /// Ids of the points that went to each rank in the last run, ascending: what belongs to them can follow.
-    const std::vector<std::vector<std::uint32_t>>& departed() const { return departed_; }
+    const std::vector<std::vector<std::uint32_t>>& migrated_out() const { return migrated_out_; }
 
 private:
     void adopt_pages();
-    void note_departed(mpm::Points<Exec, Real>& points, const std::vector<std::int32_t>& owner);
+    void note_migrated_out(mpm::Points<Exec, Real>& points, const std::vector<std::int32_t>& owner);
 
     Decomposition<Exec>& decomposition_;
     mpm::Leaving<Exec>   leaving_;
     Exchange<Exec>       exchange_;
 
     Array<Exec, std::uint32_t>              ids_;
-    std::vector<std::vector<std::uint32_t>> departed_;
+    std::vector<std::vector<std::uint32_t>> migrated_out_;
 };
 
 } // namespace tread::decomp

@@ -89,20 +89,21 @@ Nccl::Nccl(const Communicator& communicator)
 
 Nccl::~Nccl() { library_->destroy(native_); }
 
-void Nccl::exchange(const Gpu& gpu, const Parcels& out, const std::byte* from, const Parcels& in, std::byte* to)
+void Nccl::exchange(const Gpu& gpu, const MessageRanges& out, const std::byte* from, const MessageRanges& in,
+                    std::byte* to)
 {
     const NcclLibrary& nccl = *library_;
     nccl.check(nccl.group_start(), "group start");
-    for (const Parcel& parcel : in)
+    for (const MessageRange& range : in)
     {
-        nccl.check(nccl.receive(to + parcel.first, static_cast<std::size_t>(parcel.bytes), type_uint8, parcel.rank,
+        nccl.check(nccl.receive(to + range.first, static_cast<std::size_t>(range.bytes), type_uint8, range.rank,
                                 native_, gpu.stream),
                    "receive");
     }
-    for (const Parcel& parcel : out)
+    for (const MessageRange& range : out)
     {
-        nccl.check(nccl.send(from + parcel.first, static_cast<std::size_t>(parcel.bytes), type_uint8, parcel.rank,
-                             native_, gpu.stream),
+        nccl.check(nccl.send(from + range.first, static_cast<std::size_t>(range.bytes), type_uint8, range.rank, native_,
+                             gpu.stream),
                    "send");
     }
     nccl.check(nccl.group_end(), "group end");

@@ -5,7 +5,7 @@
 
 #include "backend/execution.hpp"
 #include "base/communicator.hpp"
-#include "decomp/parcel.hpp"
+#include "decomp/message_range.hpp"
 
 // NCCL, if this machine has it: opened when a run asks for it, so that no build needs it.
 namespace tread::decomp
@@ -24,7 +24,8 @@ public:
     Nccl& operator=(const Nccl&) = delete;
 
     /// Sends and receives on the device's stream, after what was launched before and before what is launched later.
-    void exchange(const Gpu& gpu, const Parcels& out, const std::byte* from, const Parcels& in, std::byte* to);
+    void exchange(const Gpu& gpu, const MessageRanges& out, const std::byte* from, const MessageRanges& in,
+                  std::byte* to);
 
 private:
     std::unique_ptr<NcclLibrary> library_;

@@ -73,20 +73,23 @@ bool runs_at_once(const Gpu&) { return false; }
 
 /// Calls f(first byte, bytes) for pieces that MPI can count; they arrive in the order in which they are sent.
 template<class F>
-void for_each_piece(const Parcel& parcel, F f)
+void for_each_piece(const MessageRange& range, F f)
 {
-    for (std::int64_t done = 0; done < parcel.bytes; done += most_bytes_a_message)
+    for (std::int64_t done = 0; done < range.bytes; done += most_bytes_a_message)
     {
-        f(parcel.first + done, static_cast<int>(std::min(most_bytes_a_message, parcel.bytes - done)));
+        f(range.first + done, static_cast<int>(std::min(most_bytes_a_message, range.bytes - done)));
     }
 }
 
 /// Only GPUs have it.
-void exchange_by_nccl(Transport<Cpu>&, const Cpu&, const Parcels&, const std::byte*, const Parcels&, std::byte*) {}
+void exchange_by_nccl(Transport<Cpu>&, const Cpu&, const MessageRanges&, const std::byte*, const MessageRanges&,
+                      std::byte*)
+{
+}
 
 #ifdef TREAD_WITH_CUDA
-void exchange_by_nccl(Transport<Gpu>& transport, const Gpu& gpu, const Parcels& out, const std::byte* from,
-                      const Parcels& in, std::byte* to)
+void exchange_by_nccl(Transport<Gpu>& transport, const Gpu& gpu, const MessageRanges& out, const std::byte* from,
+                      const MessageRanges& in, std::byte* to)
 {
     transport.nccl().exchange(gpu, out, from, in, to);
 }
@@ -113,7 +116,7 @@ int Transport<Exec>::open_channel()
 }
 
 template<class Exec>
-Mail<Exec>::Mail(Transport<Exec>& transport, const Exec& exec, const char* name)
+Messages<Exec>::Messages(Transport<Exec>& transport, const Exec& exec, const char* name)
     : transport_(&transport)
     , exec_(exec)
     , outgoing_(exec, name, transport.carrier())
@@ -124,7 +127,7 @@ Mail<Exec>::Mail(Transport<Exec>& transport, const Exec& exec, const char* name)
 }
 
 template<class Exec>
-void Mail<Exec>::depart(const Parcels& out, const Parcels& in)
+void Messages<Exec>::start(const MessageRanges& out, const MessageRanges& in)
 {
     turn_ = (turn_ + 1) % turns;
     requests_.clear();
@@ -142,45 +145,45 @@ void Mail<Exec>::depart(const Parcels& out, const Parcels& in)
 }
 
 template<class Exec>
-void Mail<Exec>::post()
+void Messages<Exec>::post()
 {
     // What is to go must be written, and what came last must have been read.
     synchronize(exec_);
-    for (const Parcel& parcel : coming_) { post_receive(parcel); }
-    for (const Parcel& parcel : leaving_) { post_send(parcel); }
+    for (const MessageRange& range : coming_) { post_receive(range); }
+    for (const MessageRange& range : leaving_) { post_send(range); }
     coming_.clear();
     leaving_.clear();
 }
 
 template<class Exec>
-void Mail<Exec>::post_receive(const Parcel& parcel)
+void Messages<Exec>::post_receive(const MessageRange& range)
 {
     const auto receive = [&](std::int64_t first, int bytes)
     {
-        check_mpi(MPI_Irecv(incoming_.data() + first, bytes, MPI_BYTE, parcel.rank, channel_ * turns + turn_,
+        check_mpi(MPI_Irecv(incoming_.data() + first, bytes, MPI_BYTE, range.rank, channel_ * turns + turn_,
                             transport_->communicator().native(), &requests_.emplace_back()),
                   "receive");
-        partners_.push_back(parcel.rank);
-        expected_.push_back({parcel.rank, first, bytes});
+        partners_.push_back(range.rank);
+        expected_.push_back({range.rank, first, bytes});
     };
-    for_each_piece(parcel, receive);
+    for_each_piece(range, receive);
 }
 
 template<class Exec>
-void Mail<Exec>::post_send(const Parcel& parcel)
+void Messages<Exec>::post_send(const MessageRange& range)
 {
     const auto send = [&](std::int64_t first, int bytes)
     {
-        check_mpi(MPI_Isend(outgoing_.data() + first, bytes, MPI_BYTE, parcel.rank, channel_ * turns + turn_,
+        check_mpi(MPI_Isend(outgoing_.data() + first, bytes, MPI_BYTE, range.rank, channel_ * turns + turn_,
                             transport_->communicator().native(), &requests_.emplace_back()),
                   "send");
-        partners_.push_back(parcel.rank);
+        partners_.push_back(range.rank);
     };
-    for_each_piece(parcel, send);
+    for_each_piece(range, send);
 }
 
 template<class Exec>
-void Mail<Exec>::wait_for_all()
+void Messages<Exec>::wait_for_all()
 {
     std::sort(partners_.begin(), partners_.end());
     partners_.erase(std::unique(partners_.begin(), partners_.end()), partners_.end());
@@ -189,7 +192,7 @@ void Mail<Exec>::wait_for_all()
 }
 
 template<class Exec>
-void Mail<Exec>::arrive()
+void Messages<Exec>::finish()
 {
     if (!leaving_.empty() || !coming_.empty()) { post(); }
     if (requests_.empty()) { return; }
@@ -207,10 +210,10 @@ void Mail<Exec>::arrive()
 }
 
 template class Transport<Cpu>;
-template class Mail<Cpu>;
+template class Messages<Cpu>;
 #ifdef TREAD_WITH_CUDA
 template class Transport<Gpu>;
-template class Mail<Gpu>;
+template class Messages<Gpu>;
 #endif
 
 } // namespace tread::decomp

@@ -11,8 +11,8 @@
 #include "backend/array.hpp"
 #include "base/communicator.hpp"
 #include "decomp/message_buffer.hpp"
+#include "decomp/message_range.hpp"
 #include "decomp/nccl.hpp"
-#include "decomp/parcel.hpp"
 
 namespace tread::decomp
 {
@@ -58,11 +58,11 @@ private:
 /// Messages of one kind between this rank and others: one set may be under way at a time. Nothing is allocated once
 /// buffers are large enough.
 template<class Exec>
-class Mail
+class Messages
 {
 public:
     /// `exec`: where the kernels run that write and read the messages, and NCCL.
-    Mail(Transport<Exec>& transport, const Exec& exec, const char* name);
+    Messages(Transport<Exec>& transport, const Exec& exec, const char* name);
 
     /// Memory for what goes out, and for what comes in, which kernels of the backend write and read. `bytes` at least;
     /// nothing may be under way.
@@ -74,16 +74,16 @@ public:
 
     /// Starts sending what kernels that were launched before have written to the outgoing buffer; from a GPU through
     /// MPI, which would have to wait for them here, in arrive().
-    void depart(const Parcels& out, const Parcels& in);
+    void start(const MessageRanges& out, const MessageRanges& in);
 
     /// When it returns, kernels may read the incoming buffer and write the outgoing one. EnvironmentError when MPI
     /// reports one or another rank sent less than was to come.
-    void arrive();
+    void finish();
 
 private:
     void post();
-    void post_receive(const Parcel& parcel);
-    void post_send(const Parcel& parcel);
+    void post_receive(const MessageRange& range);
+    void post_send(const MessageRange& range);
     void wait_for_all();
 
     Transport<Exec>*         transport_;
@@ -92,9 +92,9 @@ private:
     MessageBuffer<Exec>      incoming_;
     std::vector<MPI_Request> requests_;
     std::vector<MPI_Status>  states_;
-    Parcels                  leaving_;  ///< not yet posted
-    Parcels                  coming_;   ///< the same
-    Parcels                  expected_; ///< of the first requests
+    MessageRanges            leaving_;  ///< not yet posted
+    MessageRanges            coming_;   ///< the same
+    MessageRanges            expected_; ///< of the first requests
     std::vector<int>         partners_; ///< of all of them
     const char*              name_;     ///< for a watchdog
     int                      channel_;

@@ -133,7 +133,10 @@ std::string check_scene(const Communicator& communicator, const scene::Scene& sc
     std::string        text  = warning_lines(scene, world, wants, rooms);
     text += fmt::format("{}\nscene {}\n\n", scene.title, scene::scene_hash(scene));
     text += cost_lines(scene, world, plan, wants) + gravity_line(scene);
-    for (const world::Footing& footing : world::footings(scene, world)) { text += footing_lines(scene, world, plan, footing); }
+    for (const world::Footing& footing : world::footings(scene, world))
+    {
+        text += footing_lines(scene, world, plan, footing);
+    }
     text += body_lines(scene, world);
     for (const std::string& note : drive_notes(scene, world, rooms)) { text += note + "\n"; }
     for (const std::string& line : world::bed_lines(world::describe_bed(scene, world))) { text += line + "\n"; }

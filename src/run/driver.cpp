@@ -86,7 +86,7 @@ std::optional<std::string> Driver<Exec, Real>::carry_on()
     else { resume(); }
     interruptions_.emplace(scene_.checkpoint, options_.walltime_limit, options_.wall_start, time_, steps_);
     interruptions_->expect(state_bytes());
-    simulation_.ask_within_steps([this] { return interruptions_->look_within_step(communicator_); });
+    simulation_.set_stop_check([this] { return interruptions_->look_within_step(communicator_); });
     while (!phases_.finished())
     {
         const Interruption asked = look_outside();

@@ -18,7 +18,7 @@ namespace
 {
 
 /// How long a rank that has failed waits for the others to fail, too, before it ends them.
-constexpr double patience = 10; // s
+constexpr double agreement_timeout = 10; // s
 
 /// This process alone; the launcher then ends the others. They may say first what they wait for.
 [[noreturn]] void end_hanging_rank(const std::string& name, const std::string& complaint)
@@ -45,7 +45,7 @@ ExitCode on_ranks(const std::function<ExitCode(const Communicator&)>& command)
     catch (const std::exception& error)
     {
         code = code_of(error);
-        if (!world.all_arrive(patience))
+        if (!world.all_arrive(agreement_timeout))
         {
             std::cerr << "tread: error: rank " << world.rank() << " on " << host_name() << ": " << text_of(error)
                       << std::endl;

@@ -40,7 +40,7 @@ namespace
 {
 
 /// How long a rank that has failed waits for the others to fail, too.
-constexpr double patience = 10; // s
+constexpr double agreement_timeout = 10; // s
 
 enum class Backend
 {
@@ -163,7 +163,7 @@ ExitCode run_on(const Exec& exec, Job& job)
     }
     catch (const NumericalError& error)
     {
-        if (!job.communicator.all_arrive(patience)) { throw; } // it befell this rank alone
+        if (!job.communicator.all_arrive(agreement_timeout)) { throw; } // it befell this rank alone
         job.log.warning(error.what());
         job.summary.status    = io::RunStatus::failed;
         job.summary.exit_code = error.code();
@@ -293,7 +293,7 @@ std::vector<io::NeededFile> needed_files(const scene::Scene& scene, const RunOpt
 } // namespace
 
 ExitCode run_scene(const Communicator& communicator, Log& log, Watchdog* watchdog, const scene::Scene& scene,
-             const RunOptions& options)
+                   const RunOptions& options)
 {
     const double      wall_start = wall_clock() - process_age();
     const SignalWatch signals;

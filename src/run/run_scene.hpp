@@ -52,6 +52,6 @@ struct RunOptions
 /// first step.
 /// `watchdog`, on several ranks, hears of every step.
 ExitCode run_scene(const Communicator& communicator, Log& log, Watchdog* watchdog, const scene::Scene& scene,
-             const RunOptions& options);
+                   const RunOptions& options);
 
 } // namespace tread::run

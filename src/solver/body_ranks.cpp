@@ -5,7 +5,7 @@
 
 #include "base/errors.hpp"
 #include "decomp/combine.hpp"
-#include "decomp/letters.hpp"
+#include "decomp/messages.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
 #include "solver/page_loads.hpp"
 
@@ -20,7 +20,7 @@ constexpr std::int32_t alone = -1; ///< place of a body that no two ranks move
 /// that its contacts remember. What it may meet is known to its rank from as much further off.
 constexpr double owner_slack = 0.25;
 
-/// A body's words in a letter: body, owner, number of holders, holders.
+/// A body's words in a message: body, owner, number of holders, holders.
 void write_words(std::vector<std::int32_t>& words, std::int32_t body, std::int32_t owner,
                  const std::vector<std::int32_t>& holders)
 {
@@ -28,14 +28,14 @@ void write_words(std::vector<std::int32_t>& words, std::int32_t body, std::int32
     words.insert(words.end(), holders.begin(), holders.end());
 }
 
-std::vector<decomp::Leg> legs_of(const std::vector<std::vector<std::int32_t>>& lists)
+std::vector<decomp::Route> routes_of(const std::vector<std::vector<std::int32_t>>& lists)
 {
-    std::vector<decomp::Leg> legs;
+    std::vector<decomp::Route> routes;
     for (std::size_t r = 0; r < lists.size(); ++r)
     {
-        if (!lists[r].empty()) { legs.push_back({static_cast<int>(r), static_cast<std::int64_t>(lists[r].size())}); }
+        if (!lists[r].empty()) { routes.push_back({static_cast<int>(r), static_cast<std::int64_t>(lists[r].size())}); }
     }
-    return legs;
+    return routes;
 }
 
 std::vector<std::int32_t> joined(const std::vector<std::vector<std::int32_t>>& lists)
@@ -74,7 +74,7 @@ BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const wor
     {
         const auto& form = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
         bounding_radius_.push_back(form.bounding_radius * world.bodies.scale[b]);
-        role_[b] = territory_->owner_of(world.bodies.position[b]) == here ? dem::role_owner : dem::role_none;
+        role_[b] = ownership_->owner_of(world.bodies.position[b]) == here ? dem::role_owner : dem::role_none;
     }
     bodies.role.assign(role_);
     plan_sharing({});
@@ -83,7 +83,7 @@ BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const wor
 template<class Exec>
 void BodyRanks<Exec>::look_at_pages()
 {
-    territory_.emplace(lattice_, decomposition_.owners.keys(), decomposition_.owners.ranks());
+    ownership_.emplace(lattice_, decomposition_.owners.keys(), decomposition_.owners.ranks());
     pages_known_ = decomposition_.owners.changes();
     inside_.assign(role_.size(), decomp::Surroundings{});
 }
@@ -121,7 +121,7 @@ void BodyRanks<Exec>::sum_wanted_travel(dem::Pairs<Exec>& pairs) const
 }
 
 template<class Exec>
-void BodyRanks<Exec>::deal(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
+void BodyRanks<Exec>::assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
 {
     if (pages_have_changed()) { look_at_pages(); }
     const std::vector<Holding> decided = decide(bodies, pairs);
@@ -144,8 +144,8 @@ std::int32_t BodyRanks<Exec>::next_owner(std::size_t body, const Vec3<double>& p
 {
     const std::int32_t              own   = communicator_.rank();
     const double                    slack = std::min(owner_slack * lattice_.spacing, bounding_radius_[body]);
-    const std::vector<std::int32_t> near  = territory_->owners_near(place, slack);
-    return std::find(near.begin(), near.end(), own) != near.end() ? own : territory_->owner_of(place);
+    const std::vector<std::int32_t> near  = ownership_->owners_near(place, slack);
+    return std::find(near.begin(), near.end(), own) != near.end() ? own : ownership_->owner_of(place);
 }
 
 /// Whether all around the page of one of this rank's bodies is this rank's. Most bodies are where they were when last
@@ -154,7 +154,7 @@ template<class Exec>
 bool BodyRanks<Exec>::is_inside(std::size_t body, const decomp::Surroundings& around)
 {
     if (inside_[body] == around) { return true; }
-    if (!territory_->is_within(around, communicator_.rank())) { return false; }
+    if (!ownership_->is_within(around, communicator_.rank())) { return false; }
     inside_[body] = around;
     return true;
 }
@@ -163,8 +163,8 @@ bool BodyRanks<Exec>::is_inside(std::size_t body, const decomp::Surroundings& ar
 template<class Exec>
 auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs) -> std::vector<Holding>
 {
-    position_.fetch(bodies.position);
-    travel_.fetch(pairs.travel);
+    position_.request(bodies.position);
+    travel_.request(pairs.travel);
     if (is_large_.empty()) { is_large_ = pairs.is_large.to_host(); }
     synchronize(exec_);
 
@@ -184,8 +184,8 @@ auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<E
         if (role_[b] != dem::role_owner) { continue; }
         const Vec3<double>& place = position_.data()[b];
         const double        reach = reach_of(b) + std::max(met[is_large_[b] != 0 ? 0 : 1] + slack, sand_reach_);
-        if (is_inside(b, territory_->surroundings(place, reach))) { continue; }
-        std::vector<std::int32_t> holders = territory_->owners_near(place, reach);
+        if (is_inside(b, ownership_->surroundings(place, reach))) { continue; }
+        std::vector<std::int32_t> holders = ownership_->owners_near(place, reach);
         if (holders.size() == 1 && holders.front() == communicator_.rank()) { continue; }
         decided.push_back({static_cast<std::int32_t>(b), next_owner(b, place), std::move(holders)});
     }
@@ -227,7 +227,7 @@ void BodyRanks<Exec>::send_states(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& p
                                   const Lists& arriving)
 {
     arriving_.assign(joined(arriving));
-    states_.plan(joined(leaving), legs_of(leaving), legs_of(arriving));
+    states_.plan(joined(leaving), routes_of(leaving), routes_of(arriving));
     const dem::BodiesView view = bodies.view();
     const decomp::Columns columns =
         decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.force, view.torque,
@@ -267,7 +267,7 @@ bool BodyRanks<Exec>::take_roles(dem::Bodies<Exec>& bodies, const std::vector<Ho
     return sums[2] > 0;
 }
 
-/// Both sides of a leg list the bodies that they share in the same order.
+/// Both sides of a route list the bodies that they share in the same order.
 template<class Exec>
 void BodyRanks<Exec>::plan_sharing(const std::vector<Holding>& held)
 {
@@ -306,7 +306,7 @@ void BodyRanks<Exec>::plan_sharing(const std::vector<Holding>& held)
 
     const auto prepare = [&](auto& shares)
     {
-        shares.exchange.plan(joined(rows), legs_of(rows), legs_of(rows));
+        shares.exchange.plan(joined(rows), routes_of(rows), routes_of(rows));
         shares.rows.resize(shared_body_.size() + shares.exchange.received());
     };
     prepare(wrench_);
@@ -342,7 +342,7 @@ void BodyRanks<Exec>::collect(dem::Bodies<Exec>& bodies)
     arriving[rank()].clear();
     leaving[rank()].clear();
     arriving_.assign(joined(arriving));
-    states_.plan(joined(leaving), legs_of(leaving), legs_of(arriving));
+    states_.plan(joined(leaving), routes_of(leaving), routes_of(arriving));
     const dem::BodiesView view = bodies.view();
     const decomp::Columns columns =
         decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity);
@@ -362,7 +362,7 @@ void BodyRanks<Exec>::add_loads(const dem::Bodies<Exec>& bodies, decomp::PageLoa
     const std::vector<Vec3<double>> position = bodies.position.to_host();
     for (std::size_t b = 0; b < role_.size(); ++b)
     {
-        if (role_[b] == dem::role_owner) { loads[territory_->page_of(position[b])] += body_load; }
+        if (role_[b] == dem::role_owner) { loads[ownership_->page_of(position[b])] += body_load; }
     }
 }
 

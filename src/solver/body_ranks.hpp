@@ -9,7 +9,7 @@
 #include "decomp/combine.hpp"
 #include "decomp/decomposition.hpp"
 #include "decomp/exchange.hpp"
-#include "decomp/territory.hpp"
+#include "decomp/page_ownership.hpp"
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/motion/shared.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
@@ -46,12 +46,12 @@ public:
         decomp::combine(communicator_, reinterpret_cast<double*>(&row), sizeof(Row) / sizeof(double), 0);
     }
 
-    /// Between dem::want_travel and dem::grant_travel: what all ranks' bodies want.
+    /// Between dem::request_displacement and dem::allow_displacement: what all ranks' bodies want.
     void sum_wanted_travel(dem::Pairs<Exec>& pairs) const;
 
-    /// Between dem::grant_travel and dem::list_pairs: bodies go to the rank that they have moved to, with what their
-    /// contacts remember, and guests to where they may be met.
-    void deal(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs);
+    /// Between dem::allow_displacement and dem::list_pairs: bodies go to the rank that they have moved to, with what
+    /// their contacts remember, and guests to where they may be met.
+    void assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs);
 
     /// Where no rank shares a body with another, nothing is ever sent. Not collective: of those that share some.
     void exchange_wrenches() { pass_on(wrench_); }
@@ -119,24 +119,24 @@ private:
     decomp::PageLattice          lattice_;
     Exec                         exec_;
 
-    double                            sand_reach_;
-    std::int64_t                      pages_known_ = 0; ///< changes of the map of pages that the territory has
-    std::optional<decomp::Territory>  territory_;
-    std::vector<double>               bounding_radius_; ///< m, by body
-    std::vector<std::int32_t>         role_;            ///< by body
-    std::vector<decomp::Surroundings> inside_;          ///< by body: where it was last seen inside this rank's pages
-    std::vector<std::int32_t>         is_large_;        ///< by body, of Pairs; empty before the first deal()
-    FetchedArray<Exec, Vec3<double>>  position_;        ///< m
-    FetchedArray<Exec, double>        travel_;          ///< m
-    decomp::Exchange<Exec>            states_;
-    Array<Exec, std::int32_t>         arriving_;
-    Array<Exec, std::int32_t>         shared_body_;
-    Array<Exec, std::int32_t>         shared_place_;
-    Array<Exec, std::int32_t>         shared_first_;
-    Array<Exec, std::int32_t>         shared_row_;
-    Shares<dem::WrenchShare>          wrench_;
-    Shares<dem::StiffnessShare>       stiffness_;
-    Shares<double>                    speed_;
+    double                               sand_reach_;
+    std::int64_t                         pages_known_ = 0; ///< changes of the map of pages that the ownership has
+    std::optional<decomp::PageOwnership> ownership_;
+    std::vector<double>                  bounding_radius_; ///< m, by body
+    std::vector<std::int32_t>            role_;            ///< by body
+    std::vector<decomp::Surroundings>    inside_;          ///< by body: where it was last seen inside this rank's pages
+    std::vector<std::int32_t>            is_large_;        ///< by body, of Pairs; empty before the first deal()
+    FetchedArray<Exec, Vec3<double>>     position_;        ///< m
+    FetchedArray<Exec, double>           travel_;          ///< m
+    decomp::Exchange<Exec>               states_;
+    Array<Exec, std::int32_t>            arriving_;
+    Array<Exec, std::int32_t>            shared_body_;
+    Array<Exec, std::int32_t>            shared_place_;
+    Array<Exec, std::int32_t>            shared_first_;
+    Array<Exec, std::int32_t>            shared_row_;
+    Shares<dem::WrenchShare>             wrench_;
+    Shares<dem::StiffnessShare>          stiffness_;
+    Shares<double>                       speed_;
 };
 
 } // namespace tread::solver

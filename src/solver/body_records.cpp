@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <map>
 
-#include "decomp/letters.hpp"
+#include "decomp/messages.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
 #include "solver/body_ranks.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "backend/vector.hpp"
 #include "io/summary.hpp"
-#include "solver/sand.hpp"
+#include "solver/mpm_solver.hpp"
 
 namespace tread::solver
 {

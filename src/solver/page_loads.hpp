@@ -5,7 +5,7 @@
 #include "base/communicator.hpp"
 #include "decomp/decomposition.hpp"
 #include "decomp/page_graph.hpp"
-#include "decomp/territory.hpp"
+#include "decomp/page_ownership.hpp"
 #include "world/world.hpp"
 
 namespace tread::solver

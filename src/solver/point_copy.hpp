@@ -1,6 +1,6 @@
 #pragma once
 
-#include "backend/fetched.hpp"
+#include "backend/async_readback.hpp"
 #include "io/snapshot.hpp"
 #include "kernels/mpm/points.hpp"
 
@@ -34,7 +34,7 @@ private:
     };
 
     template<class T>
-    void fetch(const Exec& exec, Array<Host, T>& to, const Array<Exec, T>& from, int components, const Part& part);
+    void request(const Exec& exec, Array<Host, T>& to, const Array<Exec, T>& from, int components, const Part& part);
 
     Counters                   host_; ///< on a GPU: what is here is none of the device's memory
     std::int64_t               count_ = 0;

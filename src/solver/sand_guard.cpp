@@ -22,11 +22,11 @@ void SandGuard::allow(const TimeStep& step, double time) const
 
 void SandGuard::check(const SandReport& sand, const TimeStep& step, double time) const
 {
-    if (sand.stir() == mpm::Stir::not_finite)
+    if (sand.cell_change() == mpm::CellChange::not_finite)
     {
         fail("a point of the sand has a velocity or stress that is not a number", step, time);
     }
-    if (sand.stir() == mpm::Stir::lost && sand.steps > 1)
+    if (sand.cell_change() == mpm::CellChange::lost && sand.steps > 1)
     {
         fail(fmt::format("a point of the sand has gone more than a cell in {} steps", sand.steps), step, time);
     }

@@ -11,8 +11,8 @@ namespace tread::solver
 {
 
 /// A report as the backend tells it: tallies of the grid, tallies of the points, peaks of the points.
-inline constexpr int sums_told = mpm::tally_width(mpm::grid_sums) + mpm::tally_width(mpm::point_sums);
-using ReportTotals             = std::array<double, sums_told + mpm::point_peaks>;
+inline constexpr int report_sums = mpm::tally_width(mpm::grid_sums) + mpm::tally_width(mpm::point_sums);
+using ReportTotals               = std::array<double, report_sums + mpm::point_peaks>;
 
 /// What the sand holds.
 struct SandCensus
@@ -52,7 +52,10 @@ struct SandReport
     double       peaks[mpm::point_peaks]      = {}; ///< by mpm::PointPeak
     double       largest_speed                = 0;  ///< m/s, of a point
 
-    mpm::Stir stir() const { return static_cast<mpm::Stir>(static_cast<int>(peaks[mpm::peak_stir])); }
+    mpm::CellChange cell_change() const
+    {
+        return static_cast<mpm::CellChange>(static_cast<int>(peaks[mpm::peak_cell_change]));
+    }
 
     /// W, of weight and stress on the points' velocity after the last step.
     double power() const;

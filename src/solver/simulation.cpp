@@ -87,16 +87,16 @@ void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, d
 template<class Exec, class Real>
 TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& clock)
 {
-    if (rigid_) { heed_commands(step); }
+    if (rigid_) { apply_commands(step); }
     if (unmeasured_ > 0 && step.dt != last_.dt) { measure(); } // the books take steps of one length together
     if (sand_) { guard_->allow(step, time); }
     if (sand_ || balance_)
     {
-        clock.run(exec_, stage::order, [&] { arrange(); });
+        clock.run(exec_, stage::order, [&] { sort_and_migrate(); });
     }
     if (sand_ && unmeasured_ == 0 && sand_->sleep_is_due(pace_.largest_speed, damping_))
     {
-        clock.run(exec_, stage::sleep, [&] { look_who_sleeps(); });
+        clock.run(exec_, stage::sleep, [&] { update_sleeping_pages(); });
     }
     if (unmeasured_ == 0) { find_contacts(step, clock); }
     if (plan_.body_contact) { step.substeps = substeps_of(scene_.time, step.dt, limits_, pace_); }
@@ -133,38 +133,38 @@ TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& cl
 /// Lists points; on several ranks, all goes to the rank that owns its page: points, and what contacts remember of them,
 /// here, bodies when their pairs are found next.
 template<class Exec, class Real>
-void Simulation<Exec, Real>::arrange()
+void Simulation<Exec, Real>::sort_and_migrate()
 {
-    if (balance_ && unmeasured_ == 0 && balance_->is_due(steps_)) { deal_out_pages(); }
+    if (balance_ && unmeasured_ == 0 && balance_->is_due(steps_)) { repartition_pages(); }
     if (sand_) { sand_->order(); }
     const std::int64_t moved = sand_ ? sand_->migrated() : 0;
-    if (coupling_ && moved > 0) { coupling_->send_after(sand_->departed()); }
-    if (!balance_ || version() == arranged_) { return; }
-    arranged_           = version();
+    if (coupling_ && moved > 0) { coupling_->send_records_after(sand_->migrated_out()); }
+    if (!balance_ || layout_version() == balanced_version_) { return; }
+    balanced_version_   = layout_version();
     const double points = sand_ ? static_cast<double>(sand_->count()) : 0, bodies = rigid_ ? rigid_->load() : 0;
     balance_->note(points + bodies, moved);
 }
 
 template<class Exec, class Real>
-void Simulation<Exec, Real>::deal_out_pages()
+void Simulation<Exec, Real>::repartition_pages()
 {
     decomp::PageLoads loads;
     if (sand_) { sand_->add_loads(loads); }
     if (rigid_) { rigid_->add_loads(loads); }
-    if (balance_->deal_out(loads, steps_) && sand_) { sand_->follow_owners(); }
+    if (balance_->repartition(loads, steps_) && sand_) { sand_->follow_owners(); }
 }
 
 template<class Exec, class Real>
-void Simulation<Exec, Real>::look_who_sleeps()
+void Simulation<Exec, Real>::update_sleeping_pages()
 {
     std::vector<BodyReach> bodies;
     if (rigid_) { bodies = body_reaches(exec_, rigid_->view(), world_); }
-    sand_->look_who_sleeps(bodies, damping_);
+    sand_->update_sleeping_pages(bodies, damping_);
 }
 
 /// A body that a command makes faster than anything was has lists for this step alone, which is as short as that wants.
 template<class Exec, class Real>
-void Simulation<Exec, Real>::heed_commands(TimeStep& step)
+void Simulation<Exec, Real>::apply_commands(TimeStep& step)
 {
     const double commanded = rigid_->take_commanded_speed();
     if (commanded <= pace_.largest_speed) { return; }
@@ -188,8 +188,9 @@ void Simulation<Exec, Real>::find_contacts(const TimeStep& step, StageClock& clo
     if (coupling_)
     {
         clock.run(exec_, stage::candidates,
-                  [&] {
-                      coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(), version(), span,
+                  [&]
+                  {
+                      coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(), layout_version(), span,
                                                  pace_.largest_speed);
                   });
     }
@@ -205,7 +206,10 @@ void Simulation<Exec, Real>::choose_measuring()
     const double travel = pace_.largest_speed * last_.dt;
     measure_every_      = static_cast<std::int64_t>(
         std::clamp(unseen_travel * scene_.grid.finest() / travel, 1.0, static_cast<double>(most_unmeasured)));
-    if (rigid_) { measure_every_ = std::min(measure_every_, rigid_->unwatched_steps(last_.dt, pace_.largest_speed)); }
+    if (rigid_)
+    {
+        measure_every_ = std::min(measure_every_, rigid_->steps_without_check(last_.dt, pace_.largest_speed));
+    }
 }
 
 template<class Exec, class Real>
@@ -214,8 +218,8 @@ void Simulation<Exec, Real>::measure()
     const TimeStep&    step  = last_;
     const double       time  = last_time_;
     const std::int64_t steps = std::exchange(unmeasured_, 0);
-    if (rigid_) { rigid_->ask_report(); }
-    if (coupling_) { coupling_->ask_measure(); }
+    if (rigid_) { rigid_->request_report(); }
+    if (coupling_) { coupling_->request_measure(); }
     const SandReport  sand  = sand_ ? sand_->report() : SandReport{};
     const RigidReport rigid = rigid_ ? rigid_->report(time) : RigidReport{};
     if (guard_) { guard_->check(sand, step, time); }
@@ -256,7 +260,7 @@ template<class Exec, class Real>
 Census Simulation<Exec, Real>::census()
 {
     if (unmeasured_ > 0) { measure(); }
-    arrange();
+    sort_and_migrate();
     Census now;
     if (sand_) { now.sand = sand_->census(); }
     if (rigid_) { now.rigid = rigid_->census(); }

@@ -9,12 +9,12 @@
 #include "io/snapshot.hpp"
 #include "solver/body_command.hpp"
 #include "solver/body_row.hpp"
-#include "solver/coupling.hpp"
+#include "solver/dem_solver.hpp"
 #include "solver/extremes.hpp"
 #include "solver/ledger.hpp"
+#include "solver/mpm_solver.hpp"
 #include "solver/plan.hpp"
-#include "solver/rigid.hpp"
-#include "solver/sand.hpp"
+#include "solver/sand_body_coupling.hpp"
 #include "solver/sand_guard.hpp"
 #include "solver/stage_clock.hpp"
 #include "solver/time_step.hpp"
@@ -55,7 +55,7 @@ public:
     const decomp::BalanceRow* balance() const { return balance_ ? &balance_->row() : nullptr; }
 
     /// The scene must have sand.
-    Sand<Exec, Real>& sand() { return *sand_; }
+    MpmSolver<Exec, Real>& sand() { return *sand_; }
 
     /// Mean share of the points that slept so far; nothing where none may.
     std::optional<double> mean_asleep() const { return sand_ ? sand_->mean_asleep() : std::nullopt; }
@@ -68,7 +68,7 @@ public:
 
     /// Within a step of many substeps `why` is asked from time to time, by all ranks together: what it returns stops
     /// the run there (StoppedInStep).
-    void ask_within_steps(std::function<std::optional<std::string>()> why) { why_stop_ = std::move(why); }
+    void set_stop_check(std::function<std::optional<std::string>()> why) { why_stop_ = std::move(why); }
 
     /// One MPM step of `step.dt`, or a shorter one where a command has made a body too fast for it, with its contact
     /// substeps (docs/theory.md#coupling). NumericalError, with what, where and
@@ -118,10 +118,10 @@ public:
 
 private:
     void transfer_balance(StateFile& file);
-    void arrange();
-    void look_who_sleeps();
-    void deal_out_pages();
-    void heed_commands(TimeStep& step);
+    void sort_and_migrate();
+    void update_sleeping_pages();
+    void repartition_pages();
+    void apply_commands(TimeStep& step);
     void find_contacts(const TimeStep& step, StageClock& clock);
     void substeps(const TimeStep& step, double time, StageClock& clock);
     void coupled_substep(double dt, StageClock& clock);
@@ -133,7 +133,10 @@ private:
     void choose_measuring();
 
     /// Which points, in which places of memory, and which bodies are on this rank stays while this does.
-    std::int64_t version() const { return (sand_ ? sand_->orders() : 0) + (rigid_ ? rigid_->deals() : 0); }
+    std::int64_t layout_version() const
+    {
+        return (sand_ ? sand_->reorder_count() : 0) + (rigid_ ? rigid_->partition_version() : 0);
+    }
 
     Exec                                 exec_;
     decomp::Decomposition<Exec>*         decomposition_;
@@ -147,18 +150,18 @@ private:
     double                               weight_; ///< N, of sand and rocks
     double                               unbalanced_ = 1;
     double                               damping_    = 0;
-    TimeStep                             last_;              ///< step, and
-    double                               last_time_     = 0; ///< s, when it began
-    std::int64_t                         unmeasured_    = 0; ///< steps since the last measuring
-    std::int64_t                         measure_every_ = 1; ///< steps
-    std::int64_t                         steps_         = 0; ///< taken
-    std::int64_t                         arranged_      = 0; ///< version() that the balance has noted
-    std::optional<decomp::Balance<Exec>> balance_;           ///< only on several ranks
+    TimeStep                             last_;                 ///< step, and
+    double                               last_time_        = 0; ///< s, when it began
+    std::int64_t                         unmeasured_       = 0; ///< steps since the last measuring
+    std::int64_t                         measure_every_    = 1; ///< steps
+    std::int64_t                         steps_            = 0; ///< taken
+    std::int64_t                         balanced_version_ = 0; ///< layout_version() that the balance has noted
+    std::optional<decomp::Balance<Exec>> balance_;              ///< only on several ranks
 
     std::function<std::optional<std::string>()> why_stop_; ///< empty: nobody asks
-    std::optional<Sand<Exec, Real>>             sand_;
-    std::optional<Rigid<Exec>>                  rigid_;
-    std::optional<Coupling<Exec, Real>>         coupling_;
+    std::optional<MpmSolver<Exec, Real>>        sand_;
+    std::optional<DemSolver<Exec>>              rigid_;
+    std::optional<SandBodyCoupling<Exec, Real>> coupling_;
     std::optional<Ledger>                       ledger_;
     std::optional<SandGuard>                    guard_;
 };

@@ -44,7 +44,7 @@ void Simulation<Exec, Real>::transfer_balance(StateFile& file)
     { return loads.empty() ? accept::Verdict{} : accept::rows(ranks)(loads); };
     file.common("ranks/loads", state.row.loads, accept::all(none_or_all, accept::not_negative()));
     file.numbers("ranks/balance", state.row.imbalance, state.row.repartitions, state.row.points_moved,
-                 state.partitioned, state.not_before, steps_, arranged_);
+                 state.partitioned, state.not_before, steps_, balanced_version_);
     if (file.loads()) { balance_->resume(std::move(state)); }
 }
 

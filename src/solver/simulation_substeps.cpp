@@ -19,14 +19,14 @@ void Simulation<Exec, Real>::substeps(const TimeStep& step, double time, StageCl
 {
     const double dt    = step.dt / static_cast<double>(step.substeps);
     const auto   batch = plan_.body_contact
-                             ? rigid_->unwatched_substeps(step, pace_.largest_speed, pace_.shortest_contact)
+                             ? rigid_->substeps_without_check(step, pace_.largest_speed, pace_.shortest_contact)
                              : step.substeps;
     for (std::int64_t done = 0; done < step.substeps; done += batch)
     {
         const std::int64_t next = std::min(step.substeps - done, batch);
         if (done > 0)
         {
-            clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs_if_strayed(step, batch, done, time); });
+            clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs_if_displaced(step, batch, done, time); });
         }
         run_batch(dt, done, next, clock);
     }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "physics/rock_rest.hpp"
-#include "solver/rigid.hpp"
+#include "solver/dem_solver.hpp"
 
 // Prints docs/studies/contact_step.csv: the largest substep with which a settled pile that nothing damps keeps its
 // energy, beside what the stiffness of its contacts and Hertz's law tell.
@@ -62,7 +62,7 @@ public:
     {
     }
 
-    solver::Rigid<Cpu>& rigid() { return rigid_; }
+    solver::DemSolver<Cpu>& rigid() { return rigid_; }
 
     void advance(double dt, double damping)
     {
@@ -81,7 +81,7 @@ public:
     }
 
 private:
-    solver::Rigid<Cpu> rigid_;
+    solver::DemSolver<Cpu> rigid_;
 };
 
 /// What a pile is left with; time in s.

@@ -11,7 +11,7 @@
 
 #include "run/phases.hpp"
 #include "scene/load.hpp"
-#include "solver/rigid.hpp"
+#include "solver/dem_solver.hpp"
 
 namespace tread::bench
 {
@@ -145,12 +145,12 @@ private:
         dt_                          = contact > 0 ? share_of_contact * contact : free_flight;
     }
 
-    Exec                exec_;
-    const scene::Scene& scene_;
-    solver::Rigid<Exec> rigid_;
-    run::PhaseClock     phases_;
-    int                 substeps_;
-    double              dt_ = 0;
+    Exec                    exec_;
+    const scene::Scene&     scene_;
+    solver::DemSolver<Exec> rigid_;
+    run::PhaseClock         phases_;
+    int                     substeps_;
+    double                  dt_ = 0;
 };
 
 template<class Exec>

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "sand_bed.hpp"
-#include "solver/sand.hpp"
+#include "solver/mpm_solver.hpp"
 #include "timed.hpp"
 #include "world/materials.hpp"
 
@@ -85,11 +85,11 @@ private:
     /// As solver::Simulation does where sand moves half a cell in as many steps.
     static constexpr int report_every = 8;
 
-    Exec                     exec_;
-    solver::Sand<Exec, Real> sand_;
-    int                      ranks_;
-    double                   dt_;
-    int                      unreported_ = 0;
+    Exec                          exec_;
+    solver::MpmSolver<Exec, Real> sand_;
+    int                           ranks_;
+    double                        dt_;
+    int                           unreported_ = 0;
 };
 
 } // namespace tread::bench

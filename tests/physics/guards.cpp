@@ -6,7 +6,7 @@
 
 #include "base/errors.hpp"
 #include "harness.hpp"
-#include "solver/rigid.hpp"
+#include "solver/dem_solver.hpp"
 
 // What stops a run of bodies that has gone wrong, and what must not be missed by one that has not.
 namespace
@@ -116,7 +116,7 @@ TYPED_TEST(Guards, NotANumberIsNamedAtOnce)
     const Vec3<double> lost(0, std::numeric_limits<double>::quiet_NaN(), 0);
     for (auto array : {&dem::BodiesView::velocity, &dem::BodiesView::angular_velocity, &dem::BodiesView::position})
     {
-        solver::Rigid<TypeParam> rigid(exec, scene, world, make_plan(scene, world));
+        solver::DemSolver<TypeParam> rigid(exec, scene, world, make_plan(scene, world));
         rigid.command(std::vector<solver::BodyCommand>(2));
         rigid.find_pairs(1e-3);
         copy_from_host(exec, rigid.view().*array + 1, &lost, sizeof(lost));
@@ -136,12 +136,12 @@ TYPED_TEST(Guards, BodyBeyondItsSearchStopsTheRunByName)
     const TypeParam   exec  = this->exec();
     const std::string balls = ball("first", 0.1, 1, "[1.0, 0.5, 0.5]", "[0.0, 0.0, 0.0]") +
                               ball("second", 0.1, 1, "[2.0, 0.5, 0.5]", "[0.0, 0.0, 0.0]");
-    const scene::Scene       scene = test::load_text(text(0.01, 1e-3, 1, balls));
-    const world::World       world = world::build_world(scene);
-    solver::Rigid<TypeParam> rigid(exec, scene, world, make_plan(scene, world));
+    const scene::Scene           scene = test::load_text(text(0.01, 1e-3, 1, balls));
+    const world::World           world = world::build_world(scene);
+    solver::DemSolver<TypeParam> rigid(exec, scene, world, make_plan(scene, world));
     rigid.command(std::vector<solver::BodyCommand>(2));
     rigid.find_pairs(1e-3);
-    ASSERT_EQ(rigid.unwatched_substeps({1e-3, 10, ""}, 0, 0), 10) << "nothing moves: nobody watches";
+    ASSERT_EQ(rigid.substeps_without_check({1e-3, 10, ""}, 0, 0), 10) << "nothing moves: nobody watches";
     const Vec3<double> thrown(0, 5, 0); // 5 mm in the step; 1 % of 50 mm are allowed
     copy_from_host(exec, rigid.view().velocity + 1, &thrown, sizeof(thrown));
     rigid.stage();

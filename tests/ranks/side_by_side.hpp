@@ -107,7 +107,7 @@ public:
     /// The rank of a place.
     std::int32_t owner_of(const Vec3<double>& place) const
     {
-        return decomp::Territory(lattice(), decomposition_.owners.keys(), decomposition_.owners.ranks())
+        return decomp::PageOwnership(lattice(), decomposition_.owners.keys(), decomposition_.owners.ranks())
             .owner_of(place);
     }
 

@@ -11,7 +11,7 @@
 #include "../physics/rock_scenes.hpp"
 #include "../statistics.hpp"
 #include "../unit/kernels/dem_ray_shapes.hpp"
-#include "kernels/dem/pairs/strays.hpp"
+#include "kernels/dem/pairs/displacement_tracker.hpp"
 #include "shape/sdf_grid.hpp"
 
 // The slope at which irregular rocks lie, against that of spheres of their volume.
@@ -118,7 +118,7 @@ public:
     Run(const Exec& exec, const Grains& grains, int floor, const test::SolidNumbers& numbers)
         : exec_(exec)
         , scene_(exec, {test::exact_sphere(), grains.shape}, with_floor(grains.solids, floor), numbers)
-        , strays_(exec)
+        , displacements_(exec)
     {
     }
 
@@ -144,11 +144,11 @@ private:
         const dem::BodiesView bodies = scene_.bodies.view();
         const dem::BodyLaw    law    = scene_.law();
         double* const         travel = scene_.pairs.travel.data();
-        if (!listed_ ||
-            read(exec_, largest_stray_ahead(exec_, strays_, bodies, law.templates, travel, block * dt_)) > 1)
+        if (!listed_ || read(exec_, largest_displacement_ahead(exec_, displacements_, bodies, law.templates, travel,
+                                                               block * dt_)) > 1)
         {
             scene_.find(block * dt_);
-            mark_places(exec_, strays_, bodies);
+            mark_places(exec_, displacements_, bodies);
             listed_ = true;
         }
         expect_contacts(exec_, scene_.pairs, bodies, law, scene_.numbers.gravity, dt_);
@@ -162,11 +162,11 @@ private:
         move_bodies(exec_, scene_.step(dt_, damping));
     }
 
-    Exec                   exec_;
-    test::SolidScene<Exec> scene_;
-    dem::Strays<Exec>      strays_;
-    double                 dt_     = 2e-5; ///< s
-    bool                   listed_ = false;
+    Exec                           exec_;
+    test::SolidScene<Exec>         scene_;
+    dem::DisplacementTracker<Exec> displacements_;
+    double                         dt_     = 2e-5; ///< s
+    bool                           listed_ = false;
 };
 
 test::SolidNumbers numbers()

@@ -73,7 +73,7 @@ TEST(Balance, DealsOutWhatOneRankHasTooMuchOf)
     EXPECT_EQ(balance.is_due(1000), ranks > 1);
     if (ranks == 1) { return; }
 
-    ASSERT_TRUE(balance.deal_out(own, 1000));
+    ASSERT_TRUE(balance.repartition(own, 1000));
     EXPECT_EQ(balance.row().repartitions, 1);
     EXPECT_FALSE(balance.is_due(1010)) << "that was just done";
     std::vector<double> loads(static_cast<std::size_t>(ranks), 0.0);
@@ -92,7 +92,7 @@ TEST(Balance, WaitsTwiceAsLongWhereItWasNotWorthIt)
     if (test::world().rank() == 0) { own[mpm::page_key({0, 0, 0})] = 3200; }
     balance.note(sum_of(own), 0);
     ASSERT_TRUE(balance.is_due(1000));
-    EXPECT_FALSE(balance.deal_out(own, 1000));
+    EXPECT_FALSE(balance.repartition(own, 1000));
     EXPECT_FALSE(balance.is_due(1999));
     EXPECT_TRUE(balance.is_due(2000));
     EXPECT_EQ(balance.row().repartitions, 0);

@@ -263,7 +263,7 @@ TYPED_TEST(Exchanges, NoticeThatLessCameThanWasPlanned)
     Array<TypeParam, Pair>    from = this->pairs();
     Array<TypeParam, Pair>    to(this->exec(), "arrived", 2);
     std::vector<std::int32_t> rows;
-    std::vector<Leg>          out, in;
+    std::vector<Route>        out, in;
     if (this->rank() == 0)
     {
         rows = {5};

@@ -220,12 +220,12 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
     motion.assign(uniform);
     Array<TypeParam, std::uint16_t> to(this->exec(), "to", count);
     Array<TypeParam, std::int32_t>  counts(this->exec(), "counts", page_count * move_counts);
-    Array<TypeParam, std::int64_t>  stirred_in(this->exec(), "stirred in", 1);
-    stirred_in.assign({-1});
+    Array<TypeParam, std::int64_t>  changed_in(this->exec(), "stirred in", 1);
+    changed_in.assign({-1});
 
     for (int step = 0; step < 6; ++step) // 1.7 spacings: within the pages that are listed
     {
-        const MovesView moves{to.data(), counts.data(), stirred_in.data(), step};
+        const MovesView moves{to.data(), counts.data(), changed_in.data(), step};
         sums.fill_zero();
         peaks.fill_zero();
         const PagesView view = pages.view(this->spacing, 0.5);
@@ -235,10 +235,10 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
         const auto rows  = peaks.to_host();
         for (std::size_t row = 0; row < rows.size(); row += point_peaks)
         {
-            worst = std::max(worst, rows[row + peak_stir]);
+            worst = std::max(worst, rows[row + peak_cell_change]);
         }
-        ASSERT_GE(worst, static_cast<double>(Stir::moved)) << "step " << step;
-        ASSERT_LE(worst, static_cast<double>(Stir::rim)) << "step " << step;
+        ASSERT_GE(worst, static_cast<double>(CellChange::moved)) << "step " << step;
+        ASSERT_LE(worst, static_cast<double>(CellChange::rim)) << "step " << step;
         relist_points(this->exec(), pages, moves, scratch, room);
         this->expect_listed(points, pages, count);
     }

@@ -43,7 +43,7 @@ struct RefinedCube
         , materials(exec, "materials")
         , to(exec, "to", count)
         , counts(exec, "counts")
-        , stirred_in(exec, "stirred in", 1)
+        , changed_in(exec, "stirred in", 1)
     {
         const std::int32_t one = level_offset(1) * page_edge, two = level_offset(2) * page_edge;
         geometry.refinement.levels = 2;
@@ -62,7 +62,7 @@ struct RefinedCube
         peaks.resize(pages.point_page_key.size() * point_peaks);
         peaks.fill_zero();
         counts.resize(pages.point_page_key.size() * move_counts);
-        stirred_in.assign({-1});
+        changed_in.assign({-1});
         materials.assign({make_material(make_elasticity<double>(1e6, 0.3, 1600))});
         list_seams(exec, view(), geometry.refinement, seams, scratch.sort);
     }
@@ -114,7 +114,7 @@ struct RefinedCube
     /// APIC: points take the velocity and its gradient that they see.
     void take_from_nodes(double dt)
     {
-        const MovesView moves{to.data(), counts.data(), stirred_in.data(), 0};
+        const MovesView moves{to.data(), counts.data(), changed_in.data(), 0};
         for_each_level(
             [&](const PagesView& level, const PageList& list)
             {
@@ -145,7 +145,7 @@ struct RefinedCube
     Array<Exec, MaterialParameters<double>> materials;
     Array<Exec, std::uint16_t>              to;
     Array<Exec, std::int32_t>               counts;
-    Array<Exec, std::int64_t>               stirred_in;
+    Array<Exec, std::int64_t>               changed_in;
 };
 
 template<class Exec>

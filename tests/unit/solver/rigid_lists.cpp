@@ -6,7 +6,7 @@
 
 #include "backend.hpp"
 #include "scene_text.hpp"
-#include "solver/rigid.hpp"
+#include "solver/dem_solver.hpp"
 
 // How long a list of pairs lasts, counted in searches.
 namespace
@@ -67,9 +67,9 @@ protected:
         return found == this->counters.launches().end() ? 0 : found->second;
     }
 
-    scene::Scene                       scene_ = test::load_text(balls);
-    world::World                       world_ = world::build_world(scene_);
-    std::optional<solver::Rigid<Exec>> rigid_;
+    scene::Scene                           scene_ = test::load_text(balls);
+    world::World                           world_ = world::build_world(scene_);
+    std::optional<solver::DemSolver<Exec>> rigid_;
 };
 TYPED_TEST_SUITE(RigidLists, test::Backends, test::BackendNames);
 
@@ -82,12 +82,12 @@ TYPED_TEST(RigidLists, LookIsHeededABatchLater)
     ASSERT_EQ(this->searches(), 1);
     this->throw_ball(5);
     const solver::TimeStep ten{step, 10, ""};
-    ASSERT_EQ(rigid.unwatched_substeps(ten, 5, 0), 1);
+    ASSERT_EQ(rigid.substeps_without_check(ten, 5, 0), 1);
     this->run(1);
-    rigid.find_pairs_if_strayed(ten, 1, 1, 0);
+    rigid.find_pairs_if_displaced(ten, 1, 1, 0);
     EXPECT_EQ(this->searches(), 1) << "nobody has looked before";
     this->run(1);
-    rigid.find_pairs_if_strayed(ten, 1, 2, 0);
+    rigid.find_pairs_if_displaced(ten, 1, 2, 0);
     EXPECT_EQ(this->searches(), 2);
 }
 
@@ -100,7 +100,7 @@ TYPED_TEST(RigidLists, ListServesTwoSteps)
     this->throw_ball(speed);
     rigid.find_pairs(step);
     ASSERT_EQ(this->searches(), 1);
-    ASSERT_LT(rigid.unwatched_substeps({step, 10, ""}, speed, 0), 10) << "looked at within";
+    ASSERT_LT(rigid.substeps_without_check({step, 10, ""}, speed, 0), 10) << "looked at within";
     this->run(10);
     rigid.find_pairs(step);
     EXPECT_EQ(this->searches(), 1);

@@ -140,7 +140,7 @@ TEST(SandGuard, SaysWhatWhereAndWhichLimit)
         }
     }
     SandReport lost;
-    lost.peaks[mpm::peak_stir] = static_cast<double>(mpm::Stir::not_finite);
+    lost.peaks[mpm::peak_cell_change] = static_cast<double>(mpm::CellChange::not_finite);
     EXPECT_THROW(guard.check(lost, {1e-4, 1, ""}, 0), NumericalError);
 }
 

@@ -134,7 +134,7 @@ struct RowRecords
 
 /// Deals a pair's nodes to its rows, and to these what its rows remembered so far, shared by the stiffness of nodes: to
 /// each what the nodes nearest to it had (a split keeps energy, two that come together lose what they differ by).
-struct DealNodes
+struct AssignNodes
 {
     BodiesView          bodies;
     BodyLaw             law;

@@ -53,7 +53,7 @@ struct CountRows
 /// The list of pairs with the rows in the place of their pair.
 struct WriteRows
 {
-    DealNodes           deal;
+    AssignNodes         assign;
     LastRows            last;
     const std::int32_t* first; ///< [pairs + 1], after the scan
 
@@ -67,7 +67,7 @@ struct WriteRows
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
     {
-        const PairsView& pairs = deal.pairs;
+        const PairsView& pairs = assign.pairs;
         if (p == pairs.count)
         {
             if (lanes.lane() == 0) { first_node[first[p]] = pairs.first_node[p]; }
@@ -82,7 +82,7 @@ private:
     template<class Lanes>
     TREAD_HD void keep(std::int64_t p, const Lanes& lanes) const
     {
-        const PairsView&   pairs = deal.pairs;
+        const PairsView&   pairs = assign.pairs;
         const std::int32_t at    = first[p];
         for (std::int32_t i = pairs.first_node[p] + lanes.lane(); i < pairs.first_node[p + 1]; i += lanes.lanes())
         {
@@ -99,15 +99,15 @@ private:
     template<class Lanes>
     TREAD_HD void divide(std::int64_t p, int rows, const Lanes& lanes) const
     {
-        const PairsView&   pairs = deal.pairs;
+        const PairsView&   pairs = assign.pairs;
         const std::int32_t at    = first[p];
         for (int g = lanes.lane(); g < rows; g += lanes.lanes())
         {
             key[at + g] = pairs.key[p] + static_cast<std::uint64_t>(g);
         }
         const RowRecords to{rows, patch + at, rolling == nullptr ? nullptr : rolling + at, place + at};
-        deal(pairs.key[p], {pairs.first_node[p], pairs.first_node[p + 1]}, last.of(pairs.key[p]), to, node,
-             first_node + at, lanes);
+        assign(pairs.key[p], {pairs.first_node[p], pairs.first_node[p + 1]}, last.of(pairs.key[p]), to, node,
+               first_node + at, lanes);
     }
 };
 
@@ -158,7 +158,7 @@ struct GroupAgain
 /// Deals them to the rows.
 struct DealAgain
 {
-    DealNodes           deal;
+    AssignNodes         assign;
     const std::int32_t* several;
     Vec3<double>*       place;
     std::int32_t*       first_node; ///< as the list's
@@ -169,14 +169,14 @@ struct DealAgain
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t i, const Lanes& lanes) const
     {
-        const PairsView&   pairs = deal.pairs;
+        const PairsView&   pairs = assign.pairs;
         const std::int64_t p     = several[i];
         const int          rows  = rows_of(pairs, p);
         if (rows == 1) { return; }
         const NodeRun    nodes{first_node[p], first_node[p + rows]};
         const RowRecords own{rows, pairs.patch + p, pairs.rolling == nullptr ? nullptr : pairs.rolling + p, place + p};
         std::int32_t     starts[most + 1];
-        deal(pairs.key[p], nodes, own, own, scratch, starts, lanes);
+        assign(pairs.key[p], nodes, own, own, scratch, starts, lanes);
         if (lanes.lane() != 0) { return; }
         starts[rows] = nodes.end;
         for (int g = 0; g < rows; ++g)
@@ -271,7 +271,7 @@ void regroup(Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, R
 {
     Patches<Exec>& patches = pairs.patches;
     if (patches.several.size() == 0 || patches.place.size() == 0) { return; }
-    run("deal pair nodes again", patches.several.size(),
+    run("assign pair nodes again", patches.several.size(),
         DealAgain{{bodies, law, pairs.view(), patches.group.data()},
                   patches.several.data(),
                   patches.place.data(),

@@ -8,8 +8,9 @@ template void classify_bodies(const Cpu&, Pairs<Cpu>&, const BodiesView&, const 
 template void stage_bodies(const Cpu&, Pairs<Cpu>&, const BodiesView&);
 template void begin_list(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&);
 template void share_speeds(const Cpu&, Pairs<Cpu>&, const BodiesView&, const SharedView&);
-template void want_travel(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, const SharedView&);
-template void grant_travel(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double);
+template void request_displacement(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double,
+                                   const SharedView&);
+template void allow_displacement(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double);
 template void list_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&);
 template void resume_list(const Cpu&, Pairs<Cpu>&, const BodiesView&);
 template void find_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double);

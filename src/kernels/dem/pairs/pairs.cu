@@ -8,8 +8,9 @@ template void classify_bodies(const Gpu&, Pairs<Gpu>&, const BodiesView&, const 
 template void stage_bodies(const Gpu&, Pairs<Gpu>&, const BodiesView&);
 template void begin_list(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&);
 template void share_speeds(const Gpu&, Pairs<Gpu>&, const BodiesView&, const SharedView&);
-template void want_travel(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double, const SharedView&);
-template void grant_travel(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double, double);
+template void request_displacement(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double,
+                                   const SharedView&);
+template void allow_displacement(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double, double);
 template void list_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&);
 template void resume_list(const Gpu&, Pairs<Gpu>&, const BodiesView&);
 template void find_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double, double);

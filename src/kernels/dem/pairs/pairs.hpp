@@ -190,13 +190,13 @@ void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 /// Second: pairs.travel = what owned bodies would have beyond their own motion for a step more (in bounding radii), and
 /// pairs.measure its sum, which is to become that of all ranks.
 template<class Exec>
-void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
-                 const SharedView& shared);
+void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                          const SharedView& shared);
 
 /// Third: pairs.travel of owned bodies. Guests have theirs from their owner.
 template<class Exec>
-void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
-                  double substeps);
+void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                        double substeps);
 
 /// Last: the list, of the pairs that this rank answers.
 template<class Exec>

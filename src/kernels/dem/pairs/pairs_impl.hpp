@@ -16,22 +16,23 @@ namespace pair_steps
 /// What only the search needs and what only the substeps need are never there at the same time: each gives its memory
 /// back when the other begins, and takes no more than it wants.
 template<class... Arrays>
-void give_back(Arrays&... arrays)
+void release_memory(Arrays&... arrays)
 {
     (arrays.fit(0), ...);
 }
 
 template<class Exec>
-void give_back(SortScratch<Exec>& scratch)
+void release_memory(SortScratch<Exec>& scratch)
 {
-    give_back(scratch.bytes, scratch.keys, scratch.values);
+    release_memory(scratch.bytes, scratch.keys, scratch.values);
 }
 
 template<class Exec>
-void give_back(Answers<Exec>& answers)
+void release_memory(Answers<Exec>& answers)
 {
-    give_back(answers.force, answers.torque, answers.stiffness, answers.energy, answers.friction, answers.restitution,
-              answers.place, answers.second_force, answers.second_torque, answers.second_stiffness);
+    release_memory(answers.force, answers.torque, answers.stiffness, answers.energy, answers.friction,
+                   answers.restitution, answers.place, answers.second_force, answers.second_torque,
+                   answers.second_stiffness);
 }
 
 struct MeasureBody
@@ -170,7 +171,7 @@ template<class Exec>
 void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     const std::int64_t count = pairs.key.size();
-    give_back(pairs.by_second, pairs.peak, pairs.second_key);
+    release_memory(pairs.by_second, pairs.peak, pairs.second_key);
     pairs.by_second.resize(count);
     pairs.peak.resize(count);
     pairs.second_key.resize(count);
@@ -200,7 +201,7 @@ void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesVie
                        pairs.by_second.data()});
     pairs.key.swap(pairs.second_key);
     pairs.first_node.swap(pairs.by_second);
-    give_back(pairs.second_key, pairs.by_second, pairs.found);
+    release_memory(pairs.second_key, pairs.by_second, pairs.found);
     sort_by_key(exec, pairs.key, pairs.first_node, pairs.sort, 32 + bits_below(bodies.count)); // its last zero stays
     pairs.node.resize(exclusive_scan(exec, pairs.first_node, pairs.sort));
     list_contact_nodes(exec, pairs, bodies, law);
@@ -210,8 +211,8 @@ void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesVie
 template<class Exec>
 void end_substeps(Pairs<Exec>& pairs)
 {
-    give_back(pairs.answers);
-    give_back(pairs.node, pairs.pair_of_node, pairs.found_node, pairs.inside, pairs.first_node);
+    release_memory(pairs.answers);
+    release_memory(pairs.node, pairs.pair_of_node, pairs.found_node, pairs.inside, pairs.first_node);
 }
 
 /// What they need beside the list.
@@ -291,16 +292,16 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     using namespace pair_steps;
     stage_bodies(exec, pairs, bodies);
     reach_again(exec, pairs, bodies, law);
-    give_back(pairs.by_second);
+    release_memory(pairs.by_second);
     const double cell_size = fill_cells(exec, pairs, bodies);
     search(exec, pairs, bodies, law, cell_size);
-    give_back(pairs.reach, pairs.cell_key, pairs.cell_body, pairs.found);
+    release_memory(pairs.reach, pairs.cell_key, pairs.cell_body, pairs.found);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
     if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }
     list_pairs_of_many_nodes(exec, pairs);
-    give_back(pairs.last_key, pairs.last_patch, pairs.last_rolling, pairs.second_key, pairs.found);
-    give_back(pairs.sort);
+    release_memory(pairs.last_key, pairs.last_patch, pairs.last_rolling, pairs.second_key, pairs.found);
+    release_memory(pairs.sort);
     begin_substeps(exec, pairs);
 }
 
@@ -309,8 +310,8 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
                 double substeps)
 {
     begin_list(exec, pairs, bodies, law);
-    want_travel(exec, pairs, bodies, law, dt, {});
-    grant_travel(exec, pairs, bodies, law, dt, substeps);
+    request_displacement(exec, pairs, bodies, law, dt, {});
+    allow_displacement(exec, pairs, bodies, law, dt, substeps);
     list_pairs(exec, pairs, bodies, law);
 }
 

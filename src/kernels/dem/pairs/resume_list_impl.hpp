@@ -15,8 +15,8 @@ void resume_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
     pairs.patches.group.resize(pairs.node.size());
     pairs.patches.node.resize(pairs.node.size());
     list_pairs_of_many_nodes(exec, pairs);
-    give_back(pairs.second_key);
-    give_back(pairs.sort);
+    release_memory(pairs.second_key);
+    release_memory(pairs.sort);
     begin_substeps(exec, pairs);
 }
 

@@ -141,7 +141,7 @@ FastestNear fastest_near(Pairs<Exec>& pairs, const BodiesView& bodies)
     return {bodies.count, pairs.is_large.data(), last, pairs.reach.data()};
 }
 
-/// Until grant_travel they stand in pairs.reach.
+/// Until allow_displacement they stand in pairs.reach.
 template<class Exec>
 void write_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
@@ -170,8 +170,8 @@ void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 }
 
 template<class Exec>
-void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
-                 const SharedView& shared)
+void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                          const SharedView& shared)
 {
     using namespace pair_steps;
     const auto write = [&](const auto& near)
@@ -185,8 +185,8 @@ void want_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
 }
 
 template<class Exec>
-void grant_travel(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
-                  double substeps)
+void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
+                        double substeps)
 {
     for_each(exec, "body reach", bodies.count,
              pair_steps::WriteReach{bodies, law.templates, pairs.is_large.data(), dt, substeps, pairs.measure.data(),

@@ -8,7 +8,7 @@ namespace tread::mpm
 {
 
 /// What a step did to a point's place in the list, worst last.
-enum class Stir : std::int32_t
+enum class CellChange : std::int32_t
 {
     none,      ///< same cell
     moved,     ///< another cell of a page that is listed
@@ -20,13 +20,13 @@ enum class Stir : std::int32_t
 /// Where a point is after a step, seen from its page.
 struct Move
 {
-    int  direction; ///< of the page
-    int  place;     ///< in that page
-    Stir stir;
+    int        direction; ///< of the page
+    int        place;     ///< in that page
+    CellChange cell_change;
 };
 
 /// How many points leave a page each way (0 for `own_page`); the last entry counts those that changed their cell.
-constexpr int stirred_points = directions;
+constexpr int changed_points = directions;
 constexpr int move_counts    = directions + 1;
 
 /// Of all points, by their places in the list of before the step.
@@ -34,10 +34,10 @@ struct MovesView
 {
     std::uint16_t* to;         ///< [points], place in the page + 64 * direction
     std::int32_t*  count;      ///< [point pages][move_counts]
-    std::int64_t*  stirred_in; ///< the last step in which a point changed its cell
+    std::int64_t*  changed_in; ///< the last step in which a point changed its cell
     std::int64_t   step;       ///< number of the step
 
-    TREAD_HD bool stirred() const { return *stirred_in == step; }
+    TREAD_HD bool any_changed_cell() const { return *changed_in == step; }
 };
 
 /// Whether a page beside a cell (`place` of `page`) is not listed.
@@ -59,18 +59,18 @@ TREAD_HD bool at_rim(const PagesView& pages, std::int64_t page, int place)
 /// all are ordered anew.
 TREAD_HD Move move_to(const PagesView& pages, std::int64_t page, Index3 before, const Vec3<double>& position)
 {
-    if (stays_in(before, position, pages)) { return {own_page, place_in_page(before), Stir::none}; }
+    if (stays_in(before, position, pages)) { return {own_page, place_in_page(before), CellChange::none}; }
     const Index3 now  = cell_of(position, pages);
     const Index3 from = page_of(before), to = page_of(now);
     const int    x = to.x - from.x, y = to.y - from.y, z = to.z - from.z;
-    const Move   stay{own_page, place_in_page(before), Stir::lost};
+    const Move   stay{own_page, place_in_page(before), CellChange::lost};
     if (x < -1 || x > 1 || y < -1 || y > 1 || z < -1 || z > 1) { return stay; }
     const int          direction = own_page + x + 3 * y + 9 * z;
     const std::int32_t reached   = pages.neighbour[page * directions + direction];
     if (reached < 0) { return stay; }
     const bool soon =
         pages.replaced.contains(now) || !pages.own.contains(now) || at_rim(pages, reached, place_in_page(now));
-    return {direction, place_in_page(now), soon ? Stir::rim : Stir::moved};
+    return {direction, place_in_page(now), soon ? CellChange::rim : CellChange::moved};
 }
 
 TREAD_HD std::uint16_t packed(const Move& move)

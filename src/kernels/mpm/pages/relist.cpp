@@ -68,7 +68,7 @@ void relist_page(const Relisting& job, std::int64_t page)
 
 } // namespace
 
-bool may_have_stirred(const Cpu&, const MovesView& moves) { return moves.stirred(); }
+bool may_have_changed_cells(const Cpu&, const MovesView& moves) { return moves.any_changed_cell(); }
 
 void start_pages(const Cpu& cpu, const PagesView& old, const MovesView& moves, RelistScratch<Cpu>& scratch)
 {

@@ -21,10 +21,10 @@ struct RelistPages
         __shared__ std::int32_t next[relist_warps][page_cells];
         const int               warp = static_cast<int>(threadIdx.x) / 32;
         const std::int64_t      page = block * relist_warps + warp;
-        if (page >= job.old.point_pages || !job.moves.stirred()) { return; }
+        if (page >= job.old.point_pages || !job.moves.any_changed_cell()) { return; }
         const bool     arrive  = lane() < directions && arrivals(job.old, job.moves, page, lane()) > 0;
         const unsigned sources = __ballot_sync(all_lanes, arrive);
-        if (sources == 0 && job.moves.count[page * move_counts + stirred_points] == 0) { copy_list(page); }
+        if (sources == 0 && job.moves.count[page * move_counts + changed_points] == 0) { copy_list(page); }
         else { relist(page, sources, next[warp]); }
     }
 
@@ -135,7 +135,7 @@ struct StartFewPages
     {
         using Scan = cub::BlockScan<std::int32_t, start_threads>;
         __shared__ typename Scan::TempStorage storage;
-        if (!moves.stirred()) { return; }
+        if (!moves.any_changed_cell()) { return; }
         std::int32_t before = 0;
         for (std::int64_t first = 0; first <= pages.point_pages; first += start_threads)
         {
@@ -163,7 +163,7 @@ void start_pages(const Gpu& gpu, const PagesView& old, const MovesView& moves, R
     scan_in_place(gpu, scratch.first_point, scratch.sort);
 }
 
-bool may_have_stirred(const Gpu&, const MovesView&) { return true; }
+bool may_have_changed_cells(const Gpu&, const MovesView&) { return true; }
 
 void relist_pages(const Gpu& gpu, const Relisting& job)
 {

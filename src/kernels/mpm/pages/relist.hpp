@@ -26,8 +26,8 @@ struct RelistScratch
 /// Lists every point in the cell that it moved to; no point moves in memory. In a cell those that stayed in the page
 /// come first, then those from neighbours by direction, each in the order of the old list.
 /// Does nothing where no point changed its cell; the host does not ask. Pre: `moves` is of the present list and no
-/// point is lost (Stir). Post: every point is listed in the range of its cell. `room`: for the new list, any array that
-/// others use between the calls.
+/// point is lost (CellChange). Post: every point is listed in the range of its cell. `room`: for the new list, any
+/// array that others use between the calls.
 template<class Exec>
 void relist_points(const Exec& exec, Pages<Exec>& pages, const MovesView& moves, RelistScratch<Exec>& scratch,
                    Array<Exec, std::uint64_t>& room);

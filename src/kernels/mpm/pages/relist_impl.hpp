@@ -11,8 +11,8 @@ namespace tread::mpm
 {
 
 /// Whether points may have changed their cells, as far as the host knows without waiting.
-bool may_have_stirred(const Cpu& cpu, const MovesView& moves);
-bool may_have_stirred(const Gpu& gpu, const MovesView& moves);
+bool may_have_changed_cells(const Cpu& cpu, const MovesView& moves);
+bool may_have_changed_cells(const Gpu& gpu, const MovesView& moves);
 
 /// Writes first_point: the points before each page and, last, all, after the moves.
 void start_pages(const Cpu& cpu, const PagesView& old, const MovesView& moves, RelistScratch<Cpu>& scratch);
@@ -43,7 +43,7 @@ struct TakeOver
 
     TREAD_HD void operator()(std::int64_t first) const
     {
-        if (!moves.stirred()) { return; }
+        if (!moves.any_changed_cell()) { return; }
         for (std::int64_t i = first; i < items; i += take_over_stride) { take_over(i); }
     }
 
@@ -64,7 +64,7 @@ template<class Exec>
 void relist_points(const Exec& exec, Pages<Exec>& pages, const MovesView& moves, RelistScratch<Exec>& scratch,
                    Array<Exec, std::uint64_t>& room)
 {
-    if (!may_have_stirred(exec, moves)) { return; }
+    if (!may_have_changed_cells(exec, moves)) { return; }
     const PagesView    old   = pages.view(1, 0);
     const std::int64_t count = old.point_pages;
     scratch.first_point.resize(count + 1);

@@ -44,7 +44,7 @@ struct CountAfter
 
     TREAD_HD void operator()(std::int64_t page) const
     {
-        if (!moves.stirred()) { return; }
+        if (!moves.any_changed_cell()) { return; }
         count[page] = page < pages.point_pages ? count_after(pages, moves, page) : 0;
     }
 };
@@ -52,7 +52,7 @@ struct CountAfter
 /// No point of the page changed its cell, and none came: the list is the old one.
 TREAD_HD bool unchanged(const PagesView& pages, const MovesView& moves, std::int64_t page)
 {
-    std::int32_t changes = moves.count[page * move_counts + stirred_points];
+    std::int32_t changes = moves.count[page * move_counts + changed_points];
     for (int d = 0; d < directions; ++d) { changes += arrivals(pages, moves, page, d); }
     return changes == 0;
 }

@@ -58,12 +58,12 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
         const Move move = update_point(points, i, point, seen, stencil.base, pages, page, step, sums, peaks);
         moves.to[at]    = packed(move);
         count[move.direction] += move.direction != own_page;
-        count[stirred_points] += move.stir != Stir::none;
+        count[changed_points] += move.cell_change != CellChange::none;
     }
-    if (count[stirred_points] > 0)
+    if (count[changed_points] > 0)
     {
 #pragma omp atomic write
-        *moves.stirred_in = moves.step;
+        *moves.changed_in = moves.step;
     }
     for (int s = 0; s < point_sums; ++s) { book(tally, point_sums, s, sums[s]); }
 }

@@ -227,7 +227,7 @@ struct GatherPage
             const auto              seen = see(stencil, spacing, nodes, Moment{});
             const Move move = update_point(points, now.point, point, seen, stencil.base, pages, page, step, sum, peak);
             moves.to[at]    = packed(move);
-            if (move.stir != Stir::none) { count_move(move, count); }
+            if (move.cell_change != CellChange::none) { count_move(move, count); }
         }
         block_sum<threads, point_sums>(sum, shared_sums,
                                        [=](int s, double value)
@@ -238,7 +238,7 @@ struct GatherPage
         block_largest<threads, point_peaks>(peak, shared_peaks,
                                             [=](int p, double value) { most[p] = fmax(before, value); });
         if (threadIdx.x < move_counts) { moves.count[page * move_counts + threadIdx.x] = count[threadIdx.x]; }
-        if (threadIdx.x == 0 && count[stirred_points] > 0) { *moves.stirred_in = moves.step; }
+        if (threadIdx.x == 0 && count[changed_points] > 0) { *moves.changed_in = moves.step; }
     }
 
     __device__ Listed listed(std::int64_t at, std::int64_t end) const
@@ -266,7 +266,7 @@ struct GatherPage
     /// Integers: the order of the additions changes nothing.
     __device__ static void count_move(const Move& move, std::int32_t* count)
     {
-        atomicAdd(count + stirred_points, 1);
+        atomicAdd(count + changed_points, 1);
         if (move.direction != own_page) { atomicAdd(count + move.direction, 1); }
     }
 };

@@ -38,7 +38,7 @@ enum PointSum : int
 enum PointPeak : int
 {
     peak_speed_squared, ///< m2/s2
-    peak_stir,          ///< the largest Stir of a point
+    peak_cell_change,   ///< the largest CellChange of a point
     point_peaks
 };
 

@@ -257,9 +257,9 @@ TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const
     sums[point_kinetic] += Sum(Real(0.5) * point.mass * speed_squared);
     const bool finite = std::isfinite(checked);
     const Move move =
-        finite ? move_to(pages, page, cell, position) : Move{own_page, place_in_page(cell), Stir::not_finite};
+        finite ? move_to(pages, page, cell, position) : Move{own_page, place_in_page(cell), CellChange::not_finite};
     peaks[peak_speed_squared] = std::fmax(peaks[peak_speed_squared], finite ? Sum(speed_squared) : Sum(0));
-    peaks[peak_stir]          = std::fmax(peaks[peak_stir], static_cast<Sum>(move.stir));
+    peaks[peak_cell_change]   = std::fmax(peaks[peak_cell_change], static_cast<Sum>(move.cell_change));
     return move;
 }
 

@@ -1,20 +1,20 @@
 #include <algorithm>
 
-#include "solver/sand.hpp"
+#include "solver/mpm_solver.hpp"
 
 // Where the sand is, for the host.
 namespace tread::solver
 {
 
 template<class Exec, class Real>
-std::vector<const mpm::Points<Exec, Real>*> Sand<Exec, Real>::all_points() const
+std::vector<const mpm::Points<Exec, Real>*> MpmSolver<Exec, Real>::all_points() const
 {
     if (!sleep_) { return {&points_}; }
     return {&points_, &sleep_->points()};
 }
 
 template<class Exec, class Real>
-std::vector<Vec3<double>> Sand<Exec, Real>::positions() const
+std::vector<Vec3<double>> MpmSolver<Exec, Real>::positions() const
 {
     std::vector<Vec3<double>> out;
     for (const mpm::Points<Exec, Real>* points : all_points())
@@ -30,7 +30,7 @@ std::vector<Vec3<double>> Sand<Exec, Real>::positions() const
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::add_to(world::TerrainBins& bins) const
+void MpmSolver<Exec, Real>::add_to(world::TerrainBins& bins) const
 {
     constexpr double loosest = 1.5; // of the initial volume: what is looser floats, and is no larger for that
     for (const mpm::Points<Exec, Real>* points : all_points())
@@ -46,19 +46,19 @@ void Sand<Exec, Real>::add_to(world::TerrainBins& bins) const
     }
 }
 
-template std::vector<const mpm::Points<Cpu, float>*>  Sand<Cpu, float>::all_points() const;
-template std::vector<Vec3<double>>                    Sand<Cpu, float>::positions() const;
-template void                                         Sand<Cpu, float>::add_to(world::TerrainBins&) const;
-template std::vector<const mpm::Points<Cpu, double>*> Sand<Cpu, double>::all_points() const;
-template std::vector<Vec3<double>>                    Sand<Cpu, double>::positions() const;
-template void                                         Sand<Cpu, double>::add_to(world::TerrainBins&) const;
+template std::vector<const mpm::Points<Cpu, float>*>  MpmSolver<Cpu, float>::all_points() const;
+template std::vector<Vec3<double>>                    MpmSolver<Cpu, float>::positions() const;
+template void                                         MpmSolver<Cpu, float>::add_to(world::TerrainBins&) const;
+template std::vector<const mpm::Points<Cpu, double>*> MpmSolver<Cpu, double>::all_points() const;
+template std::vector<Vec3<double>>                    MpmSolver<Cpu, double>::positions() const;
+template void                                         MpmSolver<Cpu, double>::add_to(world::TerrainBins&) const;
 #ifdef TREAD_WITH_CUDA
-template std::vector<const mpm::Points<Gpu, float>*>  Sand<Gpu, float>::all_points() const;
-template std::vector<Vec3<double>>                    Sand<Gpu, float>::positions() const;
-template void                                         Sand<Gpu, float>::add_to(world::TerrainBins&) const;
-template std::vector<const mpm::Points<Gpu, double>*> Sand<Gpu, double>::all_points() const;
-template std::vector<Vec3<double>>                    Sand<Gpu, double>::positions() const;
-template void                                         Sand<Gpu, double>::add_to(world::TerrainBins&) const;
+template std::vector<const mpm::Points<Gpu, float>*>  MpmSolver<Gpu, float>::all_points() const;
+template std::vector<Vec3<double>>                    MpmSolver<Gpu, float>::positions() const;
+template void                                         MpmSolver<Gpu, float>::add_to(world::TerrainBins&) const;
+template std::vector<const mpm::Points<Gpu, double>*> MpmSolver<Gpu, double>::all_points() const;
+template std::vector<Vec3<double>>                    MpmSolver<Gpu, double>::positions() const;
+template void                                         MpmSolver<Gpu, double>::add_to(world::TerrainBins&) const;
 #endif
 
 } // namespace tread::solver

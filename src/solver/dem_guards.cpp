@@ -5,7 +5,7 @@
 
 #include "base/errors.hpp"
 #include "kernels/dem/contact/contact_limits.hpp"
-#include "solver/rigid.hpp"
+#include "solver/dem_solver.hpp"
 
 // What stops a run of bodies, by name, instead of letting it go on wrong.
 namespace tread::solver
@@ -20,7 +20,7 @@ constexpr double longest_leap    = 1;   ///< of the smallest radius, in a subste
 
 /// The largest overlap over radius, dem::largest_overlap's, if the law can carry it.
 template<class Exec>
-double Rigid<Exec>::guard(double time, double ratio)
+double DemSolver<Exec>::guard(double time, double ratio)
 {
     if (ratio <= deepest_overlap) { return ratio; }
     const std::uint64_t key  = dem::deepest_pair(pairs_, ratio);
@@ -33,7 +33,7 @@ double Rigid<Exec>::guard(double time, double ratio)
 
 /// A body whose velocity or force is not a number has lost its way; the first of them is named.
 template<class Exec>
-void Rigid<Exec>::require_finite(double time)
+void DemSolver<Exec>::require_finite(double time)
 {
     const std::vector<Vec3<double>> position = bodies_.position.to_host(), velocity = bodies_.velocity.to_host(),
                                     spin = bodies_.angular_velocity.to_host(), force = bodies_.force.to_host(),
@@ -53,11 +53,11 @@ void Rigid<Exec>::require_finite(double time)
 
 /// After a step in which nobody watched: a body may have met one that the list of pairs does not have.
 template<class Exec>
-void Rigid<Exec>::require_listed(double time, double largest)
+void DemSolver<Exec>::require_listed(double time, double largest)
 {
     if (largest <= 1) { return; }
     if (std::isinf(largest)) { require_finite(time); }
-    const std::vector<double> shares = strays_.share.to_host();
+    const std::vector<double> shares = displacements_.share.to_host();
     const auto                body   = std::find(shares.begin(), shares.end(), largest) - shares.begin();
     throw NumericalError(fmt::format("t = {:.6g} s: body {} moved {:.3g} times as far in a step as the search for its "
                                      "contacts allowed (at most 1): a smaller dt",
@@ -66,7 +66,7 @@ void Rigid<Exec>::require_listed(double time, double largest)
 
 /// A body that leaps over the smallest one in a substep leaps over its contact.
 template<class Exec>
-void Rigid<Exec>::require_resolved(double time, double speed)
+void DemSolver<Exec>::require_resolved(double time, double speed)
 {
     const double leap = speed * substep_;
     if (leap <= longest_leap * smallest_radius_) { return; }
@@ -79,7 +79,7 @@ void Rigid<Exec>::require_resolved(double time, double speed)
 
 /// The rank that has the stiffest body names it.
 template<class Exec>
-void Rigid<Exec>::refuse_substeps(const TimeStep& step, const Pace& pace, double time)
+void DemSolver<Exec>::refuse_substeps(const TimeStep& step, const Pace& pace, double time)
 {
     const std::string start = fmt::format(
         "t = {:.6g} s: a step of {:.4g} s would take {:.3g} contact substeps, over the {} that a step may have", time,
@@ -104,17 +104,17 @@ void Rigid<Exec>::refuse_substeps(const TimeStep& step, const Pace& pace, double
                     start, pace.largest_speed, smallest_radius_));
 }
 
-template double Rigid<Cpu>::guard(double, double);
-template void   Rigid<Cpu>::require_finite(double);
-template void   Rigid<Cpu>::require_listed(double, double);
-template void   Rigid<Cpu>::require_resolved(double, double);
-template void   Rigid<Cpu>::refuse_substeps(const TimeStep&, const Pace&, double);
+template double DemSolver<Cpu>::guard(double, double);
+template void   DemSolver<Cpu>::require_finite(double);
+template void   DemSolver<Cpu>::require_listed(double, double);
+template void   DemSolver<Cpu>::require_resolved(double, double);
+template void   DemSolver<Cpu>::refuse_substeps(const TimeStep&, const Pace&, double);
 #ifdef TREAD_WITH_CUDA
-template double Rigid<Gpu>::guard(double, double);
-template void   Rigid<Gpu>::require_finite(double);
-template void   Rigid<Gpu>::require_listed(double, double);
-template void   Rigid<Gpu>::require_resolved(double, double);
-template void   Rigid<Gpu>::refuse_substeps(const TimeStep&, const Pace&, double);
+template double DemSolver<Gpu>::guard(double, double);
+template void   DemSolver<Gpu>::require_finite(double);
+template void   DemSolver<Gpu>::require_listed(double, double);
+template void   DemSolver<Gpu>::require_resolved(double, double);
+template void   DemSolver<Gpu>::refuse_substeps(const TimeStep&, const Pace&, double);
 #endif
 
 } // namespace tread::solver

@@ -16,17 +16,17 @@ inline Pinned host_side(const Gpu& gpu) { return {gpu.counters}; }
 
 /// A value of a backend's memory on its way to the host: several that are asked for together cost one wait.
 template<class Exec, class T>
-class Fetched
+class AsyncReadback
 {
 public:
-    Fetched(const Exec& exec, const char* name)
+    AsyncReadback(const Exec& exec, const char* name)
         : exec_(exec)
         , value_(host_side(exec), name, 1)
     {
     }
 
     /// Asks for what will be at `from` when the backend gets there.
-    void fetch(const T* from) { start_copy_to_host(exec_, value_.data(), from, sizeof(T)); }
+    void request(const T* from) { start_copy_to_host(exec_, value_.data(), from, sizeof(T)); }
 
     /// What was asked for last; after synchronize(exec).
     const T& get() const { return *value_.data(); }

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/rigid.hpp"
+#include "solver/dem_solver.hpp"
 #include "solver/state_file.hpp"
 
 // The bodies into a checkpoint, and out of it.
@@ -148,7 +148,7 @@ auto accepted_nodes(const world::World& world, const std::vector<std::uint64_t>&
 } // namespace
 
 template<class Exec>
-void Rigid<Exec>::transfer_bodies(StateFile& file)
+void DemSolver<Exec>::transfer_bodies(StateFile& file)
 {
     bodies_.for_each_field(
         [&](std::string_view name, auto& array)
@@ -160,11 +160,12 @@ void Rigid<Exec>::transfer_bodies(StateFile& file)
 }
 
 template<class Exec>
-void Rigid<Exec>::transfer(StateFile& file)
+void DemSolver<Exec>::transfer(StateFile& file)
 {
     if (!file.loads() && ranks_) { ranks_->collect(bodies_); }
     transfer_bodies(file);
-    file.numbers("bodies/steps", deals_, watched_, commanded_speed_, overlap_, mean_time_, substep_, command_work_);
+    file.numbers("bodies/steps", partition_version_, checked_within_step_, commanded_speed_, overlap_, mean_time_,
+                 substep_, command_work_);
     file.doubles("bodies/command_impulse", command_impulse_);
     transfer_commands(file);
     transfer_means(file);
@@ -179,7 +180,7 @@ void Rigid<Exec>::transfer(StateFile& file)
 }
 
 template<class Exec>
-void Rigid<Exec>::transfer_commands(StateFile& file)
+void DemSolver<Exec>::transfer_commands(StateFile& file)
 {
     std::vector<CommandRow>   commands;
     std::vector<std::int32_t> released(released_.begin(), released_.end());
@@ -194,7 +195,7 @@ void Rigid<Exec>::transfer_commands(StateFile& file)
 
 /// Ranks add up what each of them has seen.
 template<class Exec>
-void Rigid<Exec>::transfer_means(StateFile& file)
+void DemSolver<Exec>::transfer_means(StateFile& file)
 {
     std::vector<dem::ContactImpulse> impulses     = impulses_.to_host();
     const auto                       named        = static_cast<std::size_t>(named_);
@@ -218,7 +219,7 @@ void Rigid<Exec>::transfer_means(StateFile& file)
 
 /// What the listed pairs remember: as the last list of one rank, or of the pairs that this rank is to answer.
 template<class Exec>
-void Rigid<Exec>::transfer_contacts(StateFile& file)
+void DemSolver<Exec>::transfer_contacts(StateFile& file)
 {
     std::vector<std::uint64_t> keys    = pairs_.key.to_host();
     std::vector<dem::Patch>    patches = pairs_.patch.to_host();
@@ -257,7 +258,7 @@ void Rigid<Exec>::transfer_contacts(StateFile& file)
 }
 
 template<class Exec>
-void Rigid<Exec>::transfer_lists(StateFile& file)
+void DemSolver<Exec>::transfer_lists(StateFile& file)
 {
     const auto count = static_cast<std::size_t>(bodies_.position.size());
     file.numbers("pairs/listed", listed_);
@@ -277,8 +278,8 @@ void Rigid<Exec>::transfer_lists(StateFile& file)
     file.own("pairs/node", pairs_.node, accept::all(accept::rows(nodes), accepted_nodes(world_, keys, first)));
     file.own("pairs/several_first", pairs_.patches.several,
              accept::all(accept::ascending(), accept::index(keys.size())));
-    file.own("bodies/position_at_search", strays_.position, of_each(count, accept::finite()));
-    file.own("bodies/orientation_at_search", strays_.orientation, of_each(count, accept::unit_quaternions()));
+    file.own("bodies/position_at_search", displacements_.position, of_each(count, accept::finite()));
+    file.own("bodies/orientation_at_search", displacements_.orientation, of_each(count, accept::unit_quaternions()));
     file.own("bodies/totals", totals_, accept::all(accept::rows(count), accept::finite()));
     file.doubles("bodies/taken", taken_);
     if (!file.loads() || !listed_) { return; }
@@ -287,9 +288,9 @@ void Rigid<Exec>::transfer_lists(StateFile& file)
     pairs_.peak.assign(peaks);
 }
 
-template void Rigid<Cpu>::transfer(StateFile&);
+template void DemSolver<Cpu>::transfer(StateFile&);
 #ifdef TREAD_WITH_CUDA
-template void Rigid<Gpu>::transfer(StateFile&);
+template void DemSolver<Gpu>::transfer(StateFile&);
 #endif
 
 } // namespace tread::solver

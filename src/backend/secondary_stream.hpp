@@ -10,13 +10,13 @@ namespace tread
 /// Room for work beside a backend's other work ("the first lane"). On a GPU: a second stream, whose blocks start before
 /// those of the first that wait for room. A CPU does one thing after the other, so that both lanes are one.
 template<class Exec>
-class SecondLane;
+class SecondaryStream;
 
 template<>
-class SecondLane<Cpu>
+class SecondaryStream<Cpu>
 {
 public:
-    explicit SecondLane(const Cpu& first)
+    explicit SecondaryStream(const Cpu& first)
         : cpu_(first)
     {
     }
@@ -35,14 +35,14 @@ private:
 
 #ifdef TREAD_WITH_CUDA
 template<>
-class SecondLane<Gpu>
+class SecondaryStream<Gpu>
 {
 public:
     /// EnvironmentError when the device has no more streams.
-    explicit SecondLane(const Gpu& first);
-    ~SecondLane();
-    SecondLane(const SecondLane&)            = delete;
-    SecondLane& operator=(const SecondLane&) = delete;
+    explicit SecondaryStream(const Gpu& first);
+    ~SecondaryStream();
+    SecondaryStream(const SecondaryStream&)            = delete;
+    SecondaryStream& operator=(const SecondaryStream&) = delete;
 
     const Gpu& exec() const { return second_; }
     void       fork();

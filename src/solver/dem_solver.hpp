@@ -5,15 +5,15 @@
 #include <utility>
 #include <vector>
 
-#include "backend/fetched.hpp"
-#include "backend/moment.hpp"
+#include "backend/async_readback.hpp"
+#include "backend/event.hpp"
 #include "io/snapshot.hpp"
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/motion/impulses.hpp"
 #include "kernels/dem/motion/move.hpp"
 #include "kernels/dem/motion/totals.hpp"
+#include "kernels/dem/pairs/displacement_tracker.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
-#include "kernels/dem/pairs/strays.hpp"
 #include "solver/body_command.hpp"
 #include "solver/body_ranks.hpp"
 #include "solver/body_row.hpp"
@@ -38,13 +38,13 @@ struct ContactCount
 
 /// The rigid bodies of a scene on one backend: their state, their pairs, and the calls of a substep.
 template<class Exec>
-class Rigid
+class DemSolver
 {
 public:
     /// `decomposition`: who owns which page; null on one rank. With it every call is collective, and what comes back is
     /// of all bodies.
-    Rigid(const Exec& exec, const scene::Scene& scene, const world::World& world, const Plan& plan,
-          decomp::Decomposition<Exec>* decomposition = nullptr);
+    DemSolver(const Exec& exec, const scene::Scene& scene, const world::World& world, const Plan& plan,
+              decomp::Decomposition<Exec>* decomposition = nullptr);
 
     dem::BodiesView          view() { return bodies_.view(); }
     const dem::TemplateView* templates() const { return templates_.views(); }
@@ -71,23 +71,23 @@ public:
 
     /// Before the substeps of a step, when the fastest of anything goes at `speed` (m/s) and the shortest sqrt(m / sum
     /// K) of a body is `contact_time` (s; 0 = no contact): the batch, of how many substeps may be asked for together.
-    /// Fewer than all: find_pairs_if_strayed is due in between.
-    std::int64_t unwatched_substeps(const TimeStep& step, double speed, double contact_time);
+    /// Fewer than all: find_pairs_if_displaced is due in between.
+    std::int64_t substeps_without_check(const TimeStep& step, double speed, double contact_time);
 
     /// Between two batches, when so many substeps are done of a step that began at `time` (s): finds the pairs anew if
     /// the look from before the last batch says that a body may go too far in the next; if not, asks for another look,
     /// for the next two. So the backend has a batch to work on while an answer travels.
-    void find_pairs_if_strayed(const TimeStep& step, std::int64_t batch, std::int64_t done, double time);
+    void find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time);
 
     /// After how many steps of dt (s) the list of pairs should be looked at again: one, unless find_pairs allowed for
     /// more of them without a watch.
-    std::int64_t unwatched_steps(double dt, double speed) const;
+    std::int64_t steps_without_check(double dt, double speed) const;
 
     /// m/s, the largest that commands have given since the last call, on any rank.
     double take_commanded_speed() { return of_all(std::exchange(commanded_speed_, 0.0)); }
 
     /// How often bodies were dealt to the ranks: which of them are here stays while this does. 0 on one rank.
-    std::int64_t deals() const { return deals_; }
+    std::int64_t partition_version() const { return partition_version_; }
 
     /// Predicted work of the bodies that this rank owns, in points, on several ranks; added to the pages that they are
     /// on.
@@ -118,7 +118,7 @@ public:
     RigidReport report(double time);
 
     /// Asks for the report already, so that one wait serves others' too.
-    void ask_report();
+    void request_report();
 
     /// Of the pairs of the last step that touch.
     std::vector<world::ContactRecord> contacts() const;
@@ -156,9 +156,9 @@ private:
     void          restore_contacts();
     void          list_pairs_anew(double dt);
     bool          list_holds(double dt);
-    const double* largest_stray_ahead(double ahead);
-    void          look_ahead(double ahead);
-    bool          has_strayed();
+    const double* largest_displacement_ahead(double ahead);
+    void          request_lookahead(double ahead);
+    bool          is_displaced_too_far();
     void          find_pairs_within(const TimeStep& step, double time);
     void          check(RigidReport& report, double sum_of_speeds, double time);
     void          add_up(RigidReport& report) const;
@@ -205,31 +205,31 @@ private:
     Array<Exec, double>                           bounding_radii_;
     Array<Exec, double>                           sums_;     ///< ReportSums
     std::optional<Array<Exec, dem::BodyActivity>> activity_; ///< of the report that was asked for
-    Fetched<Exec, ReportSums>                     told_;
-    Fetched<Exec, double>                         told_stray_;
-    Fetched<Exec, double>                         told_overlap_;
-    Fetched<Exec, double>                         told_look_;
-    Moment<Exec>                                  look_done_;
-    dem::Strays<Exec>                             strays_;
-    double                                        smallest_radius_ = 0;     ///< m, of the bounding spheres
-    bool                                          listed_          = false; ///< pairs were found
-    std::int64_t                                  deals_           = 0;
-    double                                        span_            = 0; ///< s, that pairs were last found for
-    bool                                          watched_ = false;     ///< of the present step: not only at its end
-    bool                                          looking_ = false;     ///< a look was asked for, and nobody heeded it
-    double                                        commanded_speed_ = 0; ///< m/s, the largest that commands gave
-    double                                        overlap_ = 0; ///< largest over radius, before the list was found anew
-    dem::BodyLaw                                  law_{};
-    std::vector<bool>                             released_;      ///< named bodies that were free once
-    std::vector<std::optional<BodyCommand>>       commanded_;     ///< of the named bodies, the last
-    double                                        heaviest_  = 1; ///< largest share of a weight that acts
-    double                                        mean_time_ = 0; ///< s, since begin_mean()
-    std::vector<Vec3<double>>                     kept_impulses_; ///< N s, of the named bodies, until begin_mean()
-    double                                        substep_         = 0; ///< s, the last
-    double                                        command_work_    = 0; ///< J, of commands since the last report
-    Vec3<double>                                  command_impulse_ = Vec3<double>::Zero();
-    dem::BodyTotal                                taken_{}; ///< totals at the last report
-    std::optional<BodyRanks<Exec>>                ranks_;
+    AsyncReadback<Exec, ReportSums>               readback_;
+    AsyncReadback<Exec, double>                   displacement_readback_;
+    AsyncReadback<Exec, double>                   overlap_readback_;
+    AsyncReadback<Exec, double>                   lookahead_readback_;
+    Event<Exec>                                   lookahead_done_;
+    dem::DisplacementTracker<Exec>                displacements_;
+    double                                        smallest_radius_   = 0;     ///< m, of the bounding spheres
+    bool                                          listed_            = false; ///< pairs were found
+    std::int64_t                                  partition_version_ = 0;
+    double                                        span_              = 0; ///< s, that pairs were last found for
+    bool                                    checked_within_step_ = false; ///< of the present step: not only at its end
+    bool                                    lookahead_pending_ = false; ///< a look was asked for, and nobody heeded it
+    double                                  commanded_speed_   = 0;     ///< m/s, the largest that commands gave
+    double                                  overlap_ = 0; ///< largest over radius, before the list was found anew
+    dem::BodyLaw                            law_{};
+    std::vector<bool>                       released_;            ///< named bodies that were free once
+    std::vector<std::optional<BodyCommand>> commanded_;           ///< of the named bodies, the last
+    double                                  heaviest_  = 1;       ///< largest share of a weight that acts
+    double                                  mean_time_ = 0;       ///< s, since begin_mean()
+    std::vector<Vec3<double>>               kept_impulses_;       ///< N s, of the named bodies, until begin_mean()
+    double                                  substep_         = 0; ///< s, the last
+    double                                  command_work_    = 0; ///< J, of commands since the last report
+    Vec3<double>                            command_impulse_ = Vec3<double>::Zero();
+    dem::BodyTotal                          taken_{}; ///< totals at the last report
+    std::optional<BodyRanks<Exec>>          ranks_;
 };
 
 } // namespace tread::solver

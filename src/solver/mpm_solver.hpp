@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "backend/fetched.hpp"
+#include "backend/async_readback.hpp"
 #include "backend/reduce.hpp"
 #include "decomp/balance.hpp"
 #include "kernels/mpm/grid/grid.hpp"
@@ -32,12 +32,12 @@ class StateFile;
 /// The sand of a scene on one backend: points, pages, grid and the four calls of an MPM step. With a decomposition a
 /// rank holds the points of the pages that it owns, every call is collective, and reports are of all ranks.
 template<class Exec, class Real>
-class Sand
+class MpmSolver
 {
 public:
     /// `decomposition`: who owns which page; null on one rank. A world whose points have ids has only this rank's.
-    Sand(const Exec& exec, const scene::Scene& scene, const world::World& world, mpm::PointFields fields,
-         decomp::Decomposition<Exec>* decomposition = nullptr);
+    MpmSolver(const Exec& exec, const scene::Scene& scene, const world::World& world, mpm::PointFields fields,
+              decomp::Decomposition<Exec>* decomposition = nullptr);
 
     /// Of this rank.
     std::int64_t count() const { return points_.count + (sleep_ ? sleep_->points().count : 0); }
@@ -56,7 +56,7 @@ public:
     /// After order(), where sand may sleep: whether to look which of it does before a step with this damping, as
     /// nothing is faster than `speed` (m/s); and the look. With damping none sleeps.
     bool sleep_is_due(double speed, double damping) const { return sleep_ && sleep_->is_due(speed, damping); }
-    void look_who_sleeps(const std::vector<BodyReach>& bodies, double damping);
+    void update_sleeping_pages(const std::vector<BodyReach>& bodies, double damping);
 
     /// Mean share of the points that slept so far; nothing where none may.
     std::optional<double> mean_asleep() const;
@@ -69,10 +69,10 @@ public:
     void add_loads(decomp::PageLoads& loads) const;
 
     /// How often points were moved in memory: what is known of them by their place holds while this stays.
-    std::int64_t orders() const { return orders_; }
+    std::int64_t reorder_count() const { return reorder_count_; }
     /// Points that changed their rank in the last order(), of all ranks; and of this one, by rank that they went to.
     std::int64_t                                   migrated() const { return migrated_; }
-    const std::vector<std::vector<std::uint32_t>>& departed() const { return ranks_->migration().departed(); }
+    const std::vector<std::vector<std::uint32_t>>& migrated_out() const { return ranks_->migration().migrated_out(); }
 
     /// 4. P2G. On several ranks it begins with what they bring to the nodes that they share.
     void scatter();
@@ -87,11 +87,11 @@ public:
     void gather(double dt);
 
     /// Of the steps since the last report; waits for them. Due before a point can have run ahead of the listed pages: a
-    /// report of several steps whose stir() is Stir::lost comes too late.
+    /// report of several steps whose cell_change() is CellChange::lost comes too late.
     SandReport report();
 
     /// Asks for the report already, so that one wait serves others' too.
-    void ask_report();
+    void request_report();
 
     /// Of the present state; waits for it. What has left the domain counts as it was when it left.
     SandCensus census();
@@ -142,7 +142,7 @@ private:
     mpm::RelistScratch<Exec>                   relist_scratch_;
     Array<Exec, std::uint16_t>                 moves_to_;
     Array<Exec, std::int32_t>                  move_counts_;
-    Array<Exec, std::int64_t>                  stirred_in_;
+    Array<Exec, std::int64_t>                  changed_in_;
     mpm::WallPages<Exec, Real>                 wall_pages_;
     std::optional<SandRanks<Exec, Real>>       ranks_; ///< only on several ranks
     std::optional<SandSleep<Exec, Real>>       sleep_; ///< only if the scene has sleep.distance
@@ -155,22 +155,22 @@ private:
     Array<Exec, double>                        census_rows_;
     Array<Exec, double>                        totals_; ///< of a census, or ReportTotals
     Array<Exec, double>                        sums_scratch_;
-    Fetched<Exec, ReportTotals>                told_;
+    AsyncReadback<Exec, ReportTotals>          readback_;
     Array<Exec, mpm::MaterialParameters<Real>> materials_;
     double                                     pic_rate_;
     bool                                       cell_means_; ///< of volumetric strain, and of pressure
     Array<Exec, Real>                          cell_divergence_;
     Array<Exec, Real>                          shared_stress_;
     std::array<double, mpm::census_count>      left_{}; ///< census of what has left the domain, of all ranks
-    double                                     mass_     = 0;
-    std::int64_t                               step_     = 0;               ///< number of the last one
-    std::int64_t                               steps_    = 0;               ///< since the last report
-    bool                                       asked_    = false;           ///< for the next
-    mpm::Stir                                  stir_     = mpm::Stir::lost; ///< in those before it
-    bool                                       listed_   = false;           ///< since the last step
-    int                                        relists_  = 0;               ///< since they were last ordered in memory
-    std::int64_t                               orders_   = 0;
-    std::int64_t                               migrated_ = 0; ///< in the last order()
+    double                                     mass_          = 0;
+    std::int64_t                               step_          = 0;                     ///< number of the last one
+    std::int64_t                               steps_         = 0;                     ///< since the last report
+    bool                                       requested_     = false;                 ///< for the next
+    mpm::CellChange                            cell_change_   = mpm::CellChange::lost; ///< in those before it
+    bool                                       listed_        = false;                 ///< since the last step
+    int                                        relists_       = 0; ///< since they were last ordered in memory
+    std::int64_t                               reorder_count_ = 0;
+    std::int64_t                               migrated_      = 0; ///< in the last order()
 };
 
 } // namespace tread::solver

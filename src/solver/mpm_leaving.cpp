@@ -1,7 +1,7 @@
 #include <numeric>
 
 #include "decomp/combine.hpp"
-#include "solver/sand.hpp"
+#include "solver/mpm_solver.hpp"
 
 // Sand that leaves the domain, in the books.
 namespace tread::solver
@@ -9,7 +9,7 @@ namespace tread::solver
 
 /// `left` points of this rank stand behind the others: listed as those of one page, they are counted as a page is.
 template<class Exec, class Real>
-void Sand<Exec, Real>::keep_account_of(std::int64_t left)
+void MpmSolver<Exec, Real>::keep_account_of(std::int64_t left)
 {
     double row[mpm::census_count] = {};
     if (left > 0)
@@ -32,11 +32,11 @@ void Sand<Exec, Real>::keep_account_of(std::int64_t left)
     mass_ -= row[mpm::census_mass];
 }
 
-template void Sand<Cpu, float>::keep_account_of(std::int64_t);
-template void Sand<Cpu, double>::keep_account_of(std::int64_t);
+template void MpmSolver<Cpu, float>::keep_account_of(std::int64_t);
+template void MpmSolver<Cpu, double>::keep_account_of(std::int64_t);
 #ifdef TREAD_WITH_CUDA
-template void Sand<Gpu, float>::keep_account_of(std::int64_t);
-template void Sand<Gpu, double>::keep_account_of(std::int64_t);
+template void MpmSolver<Gpu, float>::keep_account_of(std::int64_t);
+template void MpmSolver<Gpu, double>::keep_account_of(std::int64_t);
 #endif
 
 } // namespace tread::solver

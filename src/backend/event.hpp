@@ -10,13 +10,13 @@ namespace tread
 /// A moment in a backend's work. The host can wait until it is reached while the backend goes on with what it was given
 /// since. A CPU has done all that it was given.
 template<class Exec>
-class Moment;
+class Event;
 
 template<>
-class Moment<Cpu>
+class Event<Cpu>
 {
 public:
-    explicit Moment(const Cpu&) {}
+    explicit Event(const Cpu&) {}
 
     /// From now on the moment is the end of all that the backend has been given.
     void mark() {}
@@ -27,14 +27,14 @@ public:
 
 #ifdef TREAD_WITH_CUDA
 template<>
-class Moment<Gpu>
+class Event<Gpu>
 {
 public:
     /// EnvironmentError when the device has no room for it.
-    explicit Moment(const Gpu& gpu);
-    ~Moment();
-    Moment(const Moment&)            = delete;
-    Moment& operator=(const Moment&) = delete;
+    explicit Event(const Gpu& gpu);
+    ~Event();
+    Event(const Event&)            = delete;
+    Event& operator=(const Event&) = delete;
 
     void mark();
     void wait() const;

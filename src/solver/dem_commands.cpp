@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "solver/rigid.hpp"
+#include "solver/dem_solver.hpp"
 
 // What named bodies are told: to be held, lowered, driven or free, and how much of their weight acts.
 namespace tread::solver
@@ -18,7 +18,7 @@ std::uint32_t flags_of(const BodyCommand& command)
 } // namespace
 
 template<class Exec>
-void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
+void DemSolver<Exec>::command(const std::vector<BodyCommand>& commands)
 {
     bool changed = false;
     heaviest_    = 1;
@@ -35,8 +35,8 @@ void Rigid<Exec>::command(const std::vector<BodyCommand>& commands)
 
 /// The velocity that the present command gives to a body that moves so (the last command is `before`).
 template<class Exec>
-Vec3<double> Rigid<Exec>::commanded_velocity(std::size_t body, const std::optional<BodyCommand>& before,
-                                             Vec3<double> velocity)
+Vec3<double> DemSolver<Exec>::commanded_velocity(std::size_t body, const std::optional<BodyCommand>& before,
+                                                 Vec3<double> velocity)
 {
     const BodyCommand& command = *commanded_[body];
     if (command.lowering)
@@ -61,7 +61,7 @@ Vec3<double> Rigid<Exec>::commanded_velocity(std::size_t body, const std::option
 
 /// As the present command has it; whether that changes anything. The books get what it took.
 template<class Exec>
-bool Rigid<Exec>::set_motion(std::size_t b, const std::optional<BodyCommand>& before)
+bool DemSolver<Exec>::set_motion(std::size_t b, const std::optional<BodyCommand>& before)
 {
     const BodyCommand&  command         = *commanded_[b];
     const std::uint32_t flags           = flags_of(command);
@@ -95,9 +95,9 @@ bool Rigid<Exec>::set_motion(std::size_t b, const std::optional<BodyCommand>& be
     return true;
 }
 
-template void Rigid<Cpu>::command(const std::vector<BodyCommand>&);
+template void DemSolver<Cpu>::command(const std::vector<BodyCommand>&);
 #ifdef TREAD_WITH_CUDA
-template void Rigid<Gpu>::command(const std::vector<BodyCommand>&);
+template void DemSolver<Gpu>::command(const std::vector<BodyCommand>&);
 #endif
 
 } // namespace tread::solver

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "backend/fetched.hpp"
+#include "backend/async_readback.hpp"
 #include "decomp/decomposition.hpp"
 #include "kernels/contact/substeps.hpp"
 #include "world/world.hpp"
@@ -20,15 +20,16 @@ struct ContactPartners
 
 /// Contact of the sand with the bodies of a scene, on one backend.
 template<class Exec, class Real>
-class Coupling
+class SandBodyCoupling
 {
 public:
-    Coupling(const Exec& exec, const scene::Scene& scene, const world::World& world, const dem::TemplateView* templates,
-             dem::PairTable pairs, decomp::Decomposition<Exec>* decomposition = nullptr);
+    SandBodyCoupling(const Exec& exec, const scene::Scene& scene, const world::World& world,
+                     const dem::TemplateView* templates, dem::PairTable pairs,
+                     decomp::Decomposition<Exec>* decomposition = nullptr);
 
     /// Collective, on several ranks: what contacts remember of points goes to the ranks that these (by id, ascending,
     /// of each rank) have gone to.
-    void send_after(const std::vector<std::vector<std::uint32_t>>& departed);
+    void send_records_after(const std::vector<std::vector<std::uint32_t>>& migrated_out);
 
     /// 2. Candidates of the next steps, of `span` (s) in all: found anew if the last ones may not hold. `version` says
     /// which points, in which places of memory, and which bodies are here. No point or body is faster than `speed`
@@ -58,7 +59,7 @@ public:
     void measure();
 
     /// Asks for that already, so that one wait serves others' too.
-    void ask_measure();
+    void request_measure();
 
     /// As last measured (dissipated: since the time before that).
     const contact::Summary& summary() const { return summary_; }
@@ -76,19 +77,19 @@ private:
     void transfer_candidates(StateFile& file, const dem::BodiesView& bodies, const ContactPartners& partners);
     void transfer_slots(StateFile& file, const ContactPartners& partners);
 
-    Exec                            exec_;
-    contact::PointContact<Exec>     contact_;
-    contact::PointBodyLaw           law_;
-    double                          largest_radius_;
-    double                          skin_;            ///< m
-    double                          used_    = 0;     ///< m of it, since the search
-    std::int64_t                    version_ = 0;     ///< at the search; 0 = none yet
-    bool                            begun_   = false; ///< by the search
-    std::int64_t                    named_;           ///< bodies, the first ones, whose contacts are counted apart
-    contact::Summary                summary_ = contact::Summary::zero();
-    Fetched<Exec, contact::Summary> told_;
-    bool                            asked_ = false; ///< for the next summary
-    const Communicator*             communicator_;  ///< null on one rank
+    Exec                                  exec_;
+    contact::PointContact<Exec>           contact_;
+    contact::PointBodyLaw                 law_;
+    double                                largest_radius_;
+    double                                skin_;            ///< m
+    double                                used_    = 0;     ///< m of it, since the search
+    std::int64_t                          version_ = 0;     ///< at the search; 0 = none yet
+    bool                                  begun_   = false; ///< by the search
+    std::int64_t                          named_; ///< bodies, the first ones, whose contacts are counted apart
+    contact::Summary                      summary_ = contact::Summary::zero();
+    AsyncReadback<Exec, contact::Summary> readback_;
+    bool                                  requested_ = false; ///< for the next summary
+    const Communicator*                   communicator_;      ///< null on one rank
 };
 
 } // namespace tread::solver

@@ -1,5 +1,5 @@
 #include "backend/cuda_check.cuh"
-#include "backend/second_lane.hpp"
+#include "backend/secondary_stream.hpp"
 
 namespace tread
 {
@@ -14,7 +14,7 @@ void let_wait(CUstream_st* later, CUstream_st* earlier, CUevent_st* reached)
 
 } // namespace
 
-SecondLane<Gpu>::SecondLane(const Gpu& first)
+SecondaryStream<Gpu>::SecondaryStream(const Gpu& first)
     : first_(first)
     , second_{nullptr, first.counters}
 {
@@ -24,14 +24,14 @@ SecondLane<Gpu>::SecondLane(const Gpu& first)
     check_cuda(cudaEventCreateWithFlags(&reached_, cudaEventDisableTiming), "mark in a stream");
 }
 
-SecondLane<Gpu>::~SecondLane()
+SecondaryStream<Gpu>::~SecondaryStream()
 {
     cudaEventDestroy(reached_);
     cudaStreamDestroy(second_.stream);
 }
 
-void SecondLane<Gpu>::fork() { let_wait(second_.stream, first_.stream, reached_); }
+void SecondaryStream<Gpu>::fork() { let_wait(second_.stream, first_.stream, reached_); }
 
-void SecondLane<Gpu>::join() { let_wait(first_.stream, second_.stream, reached_); }
+void SecondaryStream<Gpu>::join() { let_wait(first_.stream, second_.stream, reached_); }
 
 } // namespace tread

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "solver/mpm_solver.hpp"
 #include "solver/page_bounds.hpp"
-#include "solver/sand.hpp"
 #include "solver/state_file.hpp"
 
 // The sand into a checkpoint, and out of it.
@@ -61,13 +61,13 @@ auto accepted_plane(std::string_view name, double lowest, double highest, std::v
 
 /// Points that are listed need nothing of the last step any more but what they are.
 template<class Exec, class Real>
-void Sand<Exec, Real>::transfer(StateFile& file, const world::HostPoints& built)
+void MpmSolver<Exec, Real>::transfer(StateFile& file, const world::HostPoints& built)
 {
     if (!file.loads()) { order(); }
     std::vector<bool> seen(built.size(), false);
     transfer_points(file, points_, "points", seen);
     if (file.loads()) { restore_lasting(points_, built); }
-    file.numbers("sand/steps", step_, relists_, orders_, mass_);
+    file.numbers("sand/steps", step_, relists_, reorder_count_, mass_);
     file.doubles("sand/left", left_);
     if (file.exact()) { transfer_lists(file, built, seen); }
     if (!file.loads()) { return; }
@@ -82,7 +82,7 @@ void Sand<Exec, Real>::transfer(StateFile& file, const world::HostPoints& built)
 
 /// What an exact state has beside the points. `seen`: ids.
 template<class Exec, class Real>
-void Sand<Exec, Real>::transfer_lists(StateFile& file, const world::HostPoints& built, std::vector<bool>& seen)
+void MpmSolver<Exec, Real>::transfer_lists(StateFile& file, const world::HostPoints& built, std::vector<bool>& seen)
 {
     PageBounds bounds(points_.count);
     pages_.for_each_field(
@@ -97,8 +97,8 @@ void Sand<Exec, Real>::transfer_lists(StateFile& file, const world::HostPoints& 
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder,
-                                       std::vector<bool>& seen)
+void MpmSolver<Exec, Real>::transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder,
+                                            std::vector<bool>& seen)
 {
     const double     beyond = outside * geometry_.spacing;
     StateFile::Share rows{0, points.count, points.count};
@@ -122,7 +122,7 @@ void Sand<Exec, Real>::transfer_points(StateFile& file, mpm::Points<Exec, Real>&
 
 /// By the ids, which are places in what was built.
 template<class Exec, class Real>
-void Sand<Exec, Real>::restore_lasting(mpm::Points<Exec, Real>& points, const world::HostPoints& built)
+void MpmSolver<Exec, Real>::restore_lasting(mpm::Points<Exec, Real>& points, const world::HostPoints& built)
 {
     const std::vector<std::uint32_t> id      = points.id.to_host();
     const auto                       count   = static_cast<std::size_t>(points.count);
@@ -145,18 +145,18 @@ void Sand<Exec, Real>::restore_lasting(mpm::Points<Exec, Real>& points, const wo
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::resume_lists()
+void MpmSolver<Exec, Real>::resume_lists()
 {
     if (ranks_) { ranks_->resume(pages_, walls_); }
     make_room();
-    stirred_in_.fill_zero();
+    changed_in_.fill_zero();
 }
 
-template void Sand<Cpu, float>::transfer(StateFile&, const world::HostPoints&);
-template void Sand<Cpu, double>::transfer(StateFile&, const world::HostPoints&);
+template void MpmSolver<Cpu, float>::transfer(StateFile&, const world::HostPoints&);
+template void MpmSolver<Cpu, double>::transfer(StateFile&, const world::HostPoints&);
 #ifdef TREAD_WITH_CUDA
-template void Sand<Gpu, float>::transfer(StateFile&, const world::HostPoints&);
-template void Sand<Gpu, double>::transfer(StateFile&, const world::HostPoints&);
+template void MpmSolver<Gpu, float>::transfer(StateFile&, const world::HostPoints&);
+template void MpmSolver<Gpu, double>::transfer(StateFile&, const world::HostPoints&);
 #endif
 
 } // namespace tread::solver

@@ -1,4 +1,4 @@
-#include "solver/rigid.hpp"
+#include "solver/dem_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,8 +49,8 @@ std::vector<double> bounding_radii(const world::World& world)
 } // namespace
 
 template<class Exec>
-Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const world::World& world, const Plan& plan,
-                   decomp::Decomposition<Exec>* decomposition)
+DemSolver<Exec>::DemSolver(const Exec& exec, const scene::Scene& scene, const world::World& world, const Plan& plan,
+                           decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
     , scene_(scene)
     , world_(world)
@@ -67,12 +67,12 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const world::Wor
     , impulses_(exec, "contact impulses")
     , bounding_radii_(exec, "body bounding radii")
     , sums_(exec, "body sums", sizeof(ReportSums) / sizeof(double))
-    , told_(exec, "body sums told")
-    , told_stray_(exec, "body travel told")
-    , told_overlap_(exec, "body overlap told")
-    , told_look_(exec, "body travel ahead told")
-    , look_done_(exec)
-    , strays_(exec)
+    , readback_(exec, "body sums told")
+    , displacement_readback_(exec, "body travel told")
+    , overlap_readback_(exec, "body overlap told")
+    , lookahead_readback_(exec, "body travel ahead told")
+    , lookahead_done_(exec)
+    , displacements_(exec)
     , released_(static_cast<std::size_t>(named_), false)
     , commanded_(static_cast<std::size_t>(named_))
     , kept_impulses_(static_cast<std::size_t>(named_), Vec3<double>::Zero())
@@ -117,7 +117,7 @@ Rigid<Exec>::Rigid(const Exec& exec, const scene::Scene& scene, const world::Wor
 }
 
 template<class Exec>
-void Rigid<Exec>::upload(const world::World& world)
+void DemSolver<Exec>::upload(const world::World& world)
 {
     const world::HostBodies&   host = world.bodies;
     const std::size_t          n    = host.size();
@@ -156,14 +156,14 @@ void Rigid<Exec>::upload(const world::World& world)
 }
 
 template<class Exec>
-std::string Rigid<Exec>::name(std::int64_t body) const
+std::string DemSolver<Exec>::name(std::int64_t body) const
 {
     return body < named_ ? "'" + scene_.bodies[static_cast<std::size_t>(body)].name + "'"
                          : fmt::format("rock {}", body - named_);
 }
 
 template<class Exec>
-void Rigid<Exec>::find_pairs(double dt)
+void DemSolver<Exec>::find_pairs(double dt)
 {
     if (list_holds(dt)) { stage(); } // commands change bodies too
     else { list_pairs_anew(dt); }
@@ -175,11 +175,11 @@ void Rigid<Exec>::find_pairs(double dt)
 
 /// Nothing is changed before all ranks know that the list holds for all.
 template<class Exec>
-bool Rigid<Exec>::list_holds(double dt)
+bool DemSolver<Exec>::list_holds(double dt)
 {
     const bool   known = listed_ && !(ranks_ && ranks_->pages_have_changed());
-    const double ahead = watched_ ? watched_share * dt : dt;
-    if (!known || of_all(read(exec_, largest_stray_ahead(ahead))) > 1) { return false; }
+    const double ahead = checked_within_step_ ? watched_share * dt : dt;
+    if (!known || of_all(read(exec_, largest_displacement_ahead(ahead))) > 1) { return false; }
     if (!pairs_.patches.wanted) { return true; }
     if (of_all(dem::patch_rows_suffice(exec_, pairs_, bodies_.view(), law_) ? 0 : 1) > 0) { return false; }
     dem::regroup_patches(exec_, pairs_, bodies_.view(), law_);
@@ -187,13 +187,14 @@ bool Rigid<Exec>::list_holds(double dt)
 }
 
 template<class Exec>
-const double* Rigid<Exec>::largest_stray_ahead(double ahead)
+const double* DemSolver<Exec>::largest_displacement_ahead(double ahead)
 {
-    return dem::largest_stray_ahead(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data(), ahead);
+    return dem::largest_displacement_ahead(exec_, displacements_, bodies_.view(), law_.templates, pairs_.travel.data(),
+                                           ahead);
 }
 
 template<class Exec>
-void Rigid<Exec>::list_pairs_anew(double dt)
+void DemSolver<Exec>::list_pairs_anew(double dt)
 {
     dem::begin_list(exec_, pairs_, bodies_.view(), law_);
     if (shares())
@@ -201,36 +202,36 @@ void Rigid<Exec>::list_pairs_anew(double dt)
         dem::share_speeds(exec_, pairs_, bodies_.view(), shared());
         ranks_->exchange_speeds();
     }
-    dem::want_travel(exec_, pairs_, bodies_.view(), law_, dt, shared());
+    dem::request_displacement(exec_, pairs_, bodies_.view(), law_, dt, shared());
     if (ranks_) { ranks_->sum_wanted_travel(pairs_); }
-    dem::grant_travel(exec_, pairs_, bodies_.view(), law_, dt, substep_ > 0 ? dt / substep_ : 1);
+    dem::allow_displacement(exec_, pairs_, bodies_.view(), law_, dt, substep_ > 0 ? dt / substep_ : 1);
     if (ranks_)
     {
-        ranks_->deal(bodies_, pairs_);
-        ++deals_;
+        ranks_->assign_owners(bodies_, pairs_);
+        ++partition_version_;
     }
     dem::list_pairs(exec_, pairs_, bodies_.view(), law_);
-    dem::mark_places(exec_, strays_, bodies_.view());
+    dem::mark_places(exec_, displacements_, bodies_.view());
     listed_ = true;
 }
 
 template<class Exec>
-std::int64_t Rigid<Exec>::unwatched_substeps(const TimeStep& step, double speed, double contact_time)
+std::int64_t DemSolver<Exec>::substeps_without_check(const TimeStep& step, double speed, double contact_time)
 {
-    looking_            = false;
+    lookahead_pending_  = false;
     const auto   number = static_cast<double>(step.substeps);
     const double dt = step.dt / number, reserve = dem::rest_reserve * smallest_radius_,
-                 fall   = heaviest_ * gravity_.norm() * step.dt;
-    const double unseen = reserve / (dt * (hit_twice * speed + fall)); // substeps
-    watched_            = number > unseen;
-    if (!watched_) { return step.substeps; }
+                 fall    = heaviest_ * gravity_.norm() * step.dt;
+    const double unseen  = reserve / (dt * (hit_twice * speed + fall)); // substeps
+    checked_within_step_ = number > unseen;
+    if (!checked_within_step_) { return step.substeps; }
     const double soon  = std::min(contact_time / dt, reserve / (dt * (hit_soon * speed + fall)));
     const double batch = std::max(unseen, soon) / static_cast<double>(batches_ahead);
     return static_cast<std::int64_t>(std::clamp(batch, 1.0, number));
 }
 
 template<class Exec>
-std::int64_t Rigid<Exec>::unwatched_steps(double dt, double speed) const
+std::int64_t DemSolver<Exec>::steps_without_check(double dt, double speed) const
 {
     if (!contacts_) { return std::numeric_limits<std::int64_t>::max(); }
     // Speed and fall of n steps: n dt (4 v + g n dt) <= reserve.
@@ -241,33 +242,33 @@ std::int64_t Rigid<Exec>::unwatched_steps(double dt, double speed) const
 }
 
 template<class Exec>
-void Rigid<Exec>::find_pairs_if_strayed(const TimeStep& step, std::int64_t batch, std::int64_t done, double time)
+void DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time)
 {
     const double dt = step.dt / static_cast<double>(step.substeps);
-    if (has_strayed()) { find_pairs_within(step, time + dt * static_cast<double>(done)); }
-    else { look_ahead(dt * static_cast<double>(std::min(batches_ahead * batch, step.substeps - done))); }
+    if (is_displaced_too_far()) { find_pairs_within(step, time + dt * static_cast<double>(done)); }
+    else { request_lookahead(dt * static_cast<double>(std::min(batches_ahead * batch, step.substeps - done))); }
 }
 
 template<class Exec>
-void Rigid<Exec>::look_ahead(double ahead)
+void DemSolver<Exec>::request_lookahead(double ahead)
 {
-    told_look_.fetch(largest_stray_ahead(ahead));
-    look_done_.mark();
-    looking_ = true;
+    lookahead_readback_.request(largest_displacement_ahead(ahead));
+    lookahead_done_.mark();
+    lookahead_pending_ = true;
 }
 
 /// False also where nobody looked: a list that was found since then holds for two batches.
 template<class Exec>
-bool Rigid<Exec>::has_strayed()
+bool DemSolver<Exec>::is_displaced_too_far()
 {
-    if (!std::exchange(looking_, false)) { return false; }
-    look_done_.wait();
-    return of_all(told_look_.get()) > 1;
+    if (!std::exchange(lookahead_pending_, false)) { return false; }
+    lookahead_done_.wait();
+    return of_all(lookahead_readback_.get()) > 1;
 }
 
 /// For as long as a whole step, so that the list may serve the next.
 template<class Exec>
-void Rigid<Exec>::find_pairs_within(const TimeStep& step, double time)
+void DemSolver<Exec>::find_pairs_within(const TimeStep& step, double time)
 {
     together(
         [&]
@@ -280,14 +281,14 @@ void Rigid<Exec>::find_pairs_within(const TimeStep& step, double time)
 }
 
 template<class Exec>
-double Rigid<Exec>::shortest_contact()
+double DemSolver<Exec>::shortest_contact()
 {
     const double here = dem::smallest_contact_time(exec_, pairs_, bodies_.view());
     return ranks_ ? ranks_->shortest(here) : here;
 }
 
 template<class Exec>
-ContactCount Rigid<Exec>::count_contacts()
+ContactCount DemSolver<Exec>::count_contacts()
 {
     const std::vector<double> stiffness = pairs_.answers.stiffness.to_host();
     const auto live = std::count_if(stiffness.begin(), stiffness.end(), [](double value) { return value > 0; });
@@ -295,13 +296,13 @@ ContactCount Rigid<Exec>::count_contacts()
 }
 
 template<class Exec>
-void Rigid<Exec>::contact(double dt)
+void DemSolver<Exec>::contact(double dt)
 {
     dem::evaluate_contacts(exec_, pairs_, bodies_.view(), law_, dt);
 }
 
 template<class Exec>
-void Rigid<Exec>::move(double dt, double damping, const dem::OutsideWrenches& outside)
+void DemSolver<Exec>::move(double dt, double damping, const dem::OutsideWrenches& outside)
 {
     dem::BodyStep<Exec> step = body_step(dt, damping);
     step.motion.outside      = outside;
@@ -315,7 +316,7 @@ void Rigid<Exec>::move(double dt, double damping, const dem::OutsideWrenches& ou
 }
 
 template<class Exec>
-void Rigid<Exec>::run(double dt, double damping, std::int64_t count)
+void DemSolver<Exec>::run(double dt, double damping, std::int64_t count)
 {
     if (shares())
     {
@@ -331,21 +332,21 @@ void Rigid<Exec>::run(double dt, double damping, std::int64_t count)
 }
 
 template<class Exec>
-dem::BodyStep<Exec> Rigid<Exec>::body_step(double dt, double damping)
+dem::BodyStep<Exec> DemSolver<Exec>::body_step(double dt, double damping)
 {
     return {pairs_, bodies_.view(), law_, totals_.data(), named_impulses(), {gravity_, damping, dt}, shared()};
 }
 
 template<class Exec>
-void Rigid<Exec>::count_substeps(double dt, std::int64_t count)
+void DemSolver<Exec>::count_substeps(double dt, std::int64_t count)
 {
     mean_time_ += static_cast<double>(count) * dt;
     substep_ = dt;
 }
 
-template class Rigid<Cpu>;
+template class DemSolver<Cpu>;
 #ifdef TREAD_WITH_CUDA
-template class Rigid<Gpu>;
+template class DemSolver<Gpu>;
 #endif
 
 } // namespace tread::solver

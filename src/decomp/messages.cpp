@@ -1,4 +1,4 @@
-#include "decomp/letters.hpp"
+#include "decomp/messages.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -29,26 +29,26 @@ int checked(std::int64_t bytes)
 
 } // namespace
 
-std::vector<Letter> exchange_letters(const Communicator& communicator, const std::vector<Letter>& letters)
+std::vector<Message> exchange_messages(const Communicator& communicator, const std::vector<Message>& messages)
 {
     std::vector<std::int64_t> sent;
-    Letter                    out;
-    for (const Letter& letter : letters)
+    Message                   out;
+    for (const Message& message : messages)
     {
-        sent.push_back(static_cast<std::int64_t>(letter.size()));
-        out.insert(out.end(), letter.begin(), letter.end());
+        sent.push_back(static_cast<std::int64_t>(message.size()));
+        out.insert(out.end(), message.begin(), message.end());
     }
     checked(static_cast<std::int64_t>(out.size()));
     std::vector<int> to, from;
     for (const std::int64_t bytes : sent) { to.push_back(checked(bytes)); }
     for (const std::int64_t bytes : communicator.all_to_all(sent)) { from.push_back(checked(bytes)); }
     const std::vector<int> to_place = places_of(to), from_place = places_of(from);
-    Letter                 in(static_cast<std::size_t>(from_place.back()));
+    Message                in(static_cast<std::size_t>(from_place.back()));
     const Waiting          wait(communicator.waits(), "all-to-all");
     check_mpi(MPI_Alltoallv(out.data(), to.data(), to_place.data(), MPI_BYTE, in.data(), from.data(), from_place.data(),
                             MPI_BYTE, communicator.native()),
-              "all-to-all of letters");
-    std::vector<Letter> found;
+              "all-to-all of messages");
+    std::vector<Message> found;
     for (std::size_t r = 0; r < from.size(); ++r)
     {
         found.emplace_back(in.begin() + from_place[r], in.begin() + from_place[r + 1]);

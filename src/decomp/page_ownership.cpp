@@ -1,4 +1,4 @@
-#include "decomp/territory.hpp"
+#include "decomp/page_ownership.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ bool reaches(const PageLattice& lattice, const Vec3<double>& centre, double radi
 
 } // namespace
 
-Territory::Territory(const PageLattice& lattice, const std::vector<std::uint64_t>& key, const PageRanks& rank)
+PageOwnership::PageOwnership(const PageLattice& lattice, const std::vector<std::uint64_t>& key, const PageRanks& rank)
     : lattice_(lattice)
     , key_(key)
     , rank_(rank)
@@ -74,13 +74,13 @@ Territory::Territory(const PageLattice& lattice, const std::vector<std::uint64_t
     keep_each_once(all_);
 }
 
-std::size_t Territory::last_up_to(std::uint64_t page_key) const
+std::size_t PageOwnership::last_up_to(std::uint64_t page_key) const
 {
     const auto after = std::upper_bound(key_.begin(), key_.end(), page_key);
     return after == key_.begin() ? 0 : static_cast<std::size_t>(after - key_.begin()) - 1;
 }
 
-std::int32_t Territory::nearest_owner(std::uint64_t page_key) const
+std::int32_t PageOwnership::nearest_owner(std::uint64_t page_key) const
 {
     const mpm::Index3 page     = mpm::page_coordinates(page_key);
     std::int64_t      shortest = std::numeric_limits<std::int64_t>::max();
@@ -98,7 +98,7 @@ std::int32_t Territory::nearest_owner(std::uint64_t page_key) const
     return rank_[nearest];
 }
 
-std::int32_t Territory::owner_of(std::uint64_t page_key)
+std::int32_t PageOwnership::owner_of(std::uint64_t page_key)
 {
     const std::size_t at = last_up_to(page_key);
     if (key_[at] == page_key) { return rank_[at]; }
@@ -107,11 +107,14 @@ std::int32_t Territory::owner_of(std::uint64_t page_key)
     return unseen->second;
 }
 
-std::uint64_t Territory::page_of(const Vec3<double>& place) const { return mpm::page_key(page_at(lattice_, place)); }
+std::uint64_t PageOwnership::page_of(const Vec3<double>& place) const
+{
+    return mpm::page_key(page_at(lattice_, place));
+}
 
-std::int32_t Territory::owner_of(const Vec3<double>& place) { return owner_of(page_of(place)); }
+std::int32_t PageOwnership::owner_of(const Vec3<double>& place) { return owner_of(page_of(place)); }
 
-auto Territory::find_others(const mpm::Index3& page, std::int32_t reach) -> OwnedPages
+auto PageOwnership::find_others(const mpm::Index3& page, std::int32_t reach) -> OwnedPages
 {
     const std::int32_t own = owner_of(mpm::page_key(page));
     OwnedPages         others;
@@ -124,26 +127,26 @@ auto Territory::find_others(const mpm::Index3& page, std::int32_t reach) -> Owne
     return others;
 }
 
-auto Territory::others_near(std::uint64_t page_key, std::int32_t reach) -> const OwnedPages&
+auto PageOwnership::others_near(std::uint64_t page_key, std::int32_t reach) -> const OwnedPages&
 {
     const auto [at, is_new] = others_[reach].try_emplace(page_key);
     if (is_new) { at->second = find_others(mpm::page_coordinates(page_key), reach); }
     return at->second;
 }
 
-Surroundings Territory::surroundings(const Vec3<double>& centre, double radius) const
+Surroundings PageOwnership::surroundings(const Vec3<double>& centre, double radius) const
 {
     const double pages = std::ceil(radius / (lattice_.spacing * mpm::page_edge));
     return {page_of(centre), static_cast<std::int32_t>(std::min<double>(pages, most_reach + 1))};
 }
 
-bool Territory::is_within(const Surroundings& around, std::int32_t rank)
+bool PageOwnership::is_within(const Surroundings& around, std::int32_t rank)
 {
     return around.reach <= most_reach && owner_of(around.page) == rank &&
            others_near(around.page, around.reach).empty();
 }
 
-std::vector<std::int32_t> Territory::owners_near(const Vec3<double>& centre, double radius)
+std::vector<std::int32_t> PageOwnership::owners_near(const Vec3<double>& centre, double radius)
 {
     const Surroundings around = surroundings(centre, radius);
     if (around.reach > most_reach) { return all_; }

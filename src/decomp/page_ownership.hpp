@@ -32,11 +32,11 @@ struct Surroundings
 /// A page that no partition has seen, above the sand or beside it, belongs to the rank of the nearest page up to two
 /// away that one has, or else to that of the page before it by key (before all, of the first). The same on every rank,
 /// as long as it is made of the same partition.
-class Territory
+class PageOwnership
 {
 public:
     /// `key` ascending, each once, at least one, and the rank of each.
-    Territory(const PageLattice& lattice, const std::vector<std::uint64_t>& key, const PageRanks& rank);
+    PageOwnership(const PageLattice& lattice, const std::vector<std::uint64_t>& key, const PageRanks& rank);
 
     std::uint64_t page_of(const Vec3<double>& place) const;
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "decomp/letters.hpp"
-#include "solver/rigid.hpp"
+#include "decomp/messages.hpp"
+#include "solver/dem_solver.hpp"
 
 // What contacts remember, out of a run and back into another.
 namespace tread::solver
@@ -9,7 +9,7 @@ namespace tread::solver
 
 /// As the search's last list: what it finds again keeps its record.
 template<class Exec>
-void Rigid<Exec>::restore_contacts()
+void DemSolver<Exec>::restore_contacts()
 {
     if (world_.contacts.empty()) { return; }
     std::vector<std::uint64_t> keys;
@@ -39,7 +39,7 @@ void Rigid<Exec>::restore_contacts()
 }
 
 template<class Exec>
-std::vector<world::ContactRecord> Rigid<Exec>::contacts() const
+std::vector<world::ContactRecord> DemSolver<Exec>::contacts() const
 {
     const std::vector<std::uint64_t>  keys    = pairs_.key.to_host();
     const std::vector<dem::Patch>     patches = pairs_.patch.to_host();
@@ -62,11 +62,11 @@ std::vector<world::ContactRecord> Rigid<Exec>::contacts() const
     return all;
 }
 
-template void                              Rigid<Cpu>::restore_contacts();
-template std::vector<world::ContactRecord> Rigid<Cpu>::contacts() const;
+template void                              DemSolver<Cpu>::restore_contacts();
+template std::vector<world::ContactRecord> DemSolver<Cpu>::contacts() const;
 #ifdef TREAD_WITH_CUDA
-template void                              Rigid<Gpu>::restore_contacts();
-template std::vector<world::ContactRecord> Rigid<Gpu>::contacts() const;
+template void                              DemSolver<Gpu>::restore_contacts();
+template std::vector<world::ContactRecord> DemSolver<Gpu>::contacts() const;
 #endif
 
 } // namespace tread::solver

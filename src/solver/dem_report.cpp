@@ -9,7 +9,7 @@
 #include "decomp/combine.hpp"
 #include "kernels/dem/contact/contact_limits.hpp"
 #include "kernels/dem/motion/sums.hpp"
-#include "solver/rigid.hpp"
+#include "solver/dem_solver.hpp"
 
 // What bodies tell: to the books, the recorder and snapshots.
 namespace tread::solver
@@ -43,12 +43,12 @@ double depth_below_centre(const shape::ShapeTemplate& form, const Quat& orientat
 } // namespace
 
 template<class Exec>
-RigidReport Rigid<Exec>::report(double time)
+RigidReport DemSolver<Exec>::report(double time)
 {
-    if (!activity_) { ask_report(); }
+    if (!activity_) { request_report(); }
     synchronize(exec_);
     RigidReport      report;
-    const ReportSums sums = told_.get();
+    const ReportSums sums = readback_.get();
     take(sums.total, report);
     report.largest_speed = sums.most.speed;
     report.net_force     = sums.all.net_force;
@@ -61,7 +61,7 @@ RigidReport Rigid<Exec>::report(double time)
 }
 
 template<class Exec>
-void Rigid<Exec>::ask_report()
+void DemSolver<Exec>::request_report()
 {
     auto& activity = activity_.emplace(exec_, "body activity", bodies_.position.size());
     dem::measure_activity(exec_, bodies_.view(), bounding_radii_.data(), gravity_, activity.data());
@@ -72,18 +72,19 @@ void Rigid<Exec>::ask_report()
     largest_of_rows(exec_, values, activity.size(), width, most);
     sum_rows(exec_, values, activity.size(), width, most + width);
     sum_rows(exec_, totals, totals_.size(), dem::body_total_width, most + 2 * width);
-    told_.fetch(reinterpret_cast<const ReportSums*>(most));
+    readback_.request(reinterpret_cast<const ReportSums*>(most));
     if (!contacts_) { return; }
-    if (!watched_)
+    if (!checked_within_step_)
     {
-        told_stray_.fetch(dem::largest_stray(exec_, strays_, bodies_.view(), law_.templates, pairs_.travel.data()));
+        displacement_readback_.request(
+            dem::largest_displacement(exec_, displacements_, bodies_.view(), law_.templates, pairs_.travel.data()));
     }
-    told_overlap_.fetch(dem::largest_overlap(exec_, pairs_, bodies_.view(), law_));
+    overlap_readback_.request(dem::largest_overlap(exec_, pairs_, bodies_.view(), law_));
 }
 
 /// Of this rank's bodies. The largest speed hides one that is not a number, their sum does not.
 template<class Exec>
-void Rigid<Exec>::check(RigidReport& report, double sum_of_speeds, double time)
+void DemSolver<Exec>::check(RigidReport& report, double sum_of_speeds, double time)
 {
     if (!std::isfinite(report.net_force) || !std::isfinite(sum_of_speeds))
     {
@@ -92,19 +93,19 @@ void Rigid<Exec>::check(RigidReport& report, double sum_of_speeds, double time)
     }
     if (!contacts_) { return; }
     require_resolved(time, report.largest_speed);
-    if (!watched_) { require_listed(time, told_stray_.get()); }
-    report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time, told_overlap_.get()));
+    if (!checked_within_step_) { require_listed(time, displacement_readback_.get()); }
+    report.overlap = std::max(std::exchange(overlap_, 0.0), guard(time, overlap_readback_.get()));
 }
 
 template<class Exec>
-void Rigid<Exec>::add_up(RigidReport& report) const
+void DemSolver<Exec>::add_up(RigidReport& report) const
 {
     decomp::combine(ranks_->communicator(), reinterpret_cast<double*>(&report), rigid_report_sums, rigid_report_peaks);
 }
 
 /// What has been added to the totals since the last report.
 template<class Exec>
-void Rigid<Exec>::take(const dem::BodyTotal& now, RigidReport& report)
+void DemSolver<Exec>::take(const dem::BodyTotal& now, RigidReport& report)
 {
     report.wall_impulse    = now.wall_impulse - taken_.wall_impulse;
     report.damping_impulse = now.damping_impulse - taken_.damping_impulse;
@@ -122,7 +123,7 @@ void Rigid<Exec>::take(const dem::BodyTotal& now, RigidReport& report)
 }
 
 template<class Exec>
-RigidCensus Rigid<Exec>::census()
+RigidCensus DemSolver<Exec>::census()
 {
     const dem::BodySums sums = dem::sum_bodies(exec_, pairs_, bodies_.view(), totals_, gravity_);
     RigidCensus         now{0, sums.kinetic, sums.contact, sums.potential, sums.momentum};
@@ -132,7 +133,7 @@ RigidCensus Rigid<Exec>::census()
 }
 
 template<class Exec>
-std::vector<BodyRow> Rigid<Exec>::named_bodies()
+std::vector<BodyRow> DemSolver<Exec>::named_bodies()
 {
     if (ranks_) { ranks_->collect(bodies_); }
     std::vector<BodyRow>            bodies;
@@ -154,7 +155,7 @@ std::vector<BodyRow> Rigid<Exec>::named_bodies()
 
 /// Of all ranks, since begin_mean().
 template<class Exec>
-std::vector<dem::ContactImpulse> Rigid<Exec>::summed_impulses() const
+std::vector<dem::ContactImpulse> DemSolver<Exec>::summed_impulses() const
 {
     std::vector<dem::ContactImpulse> impulses = impulses_.to_host();
     if (ranks_)
@@ -165,7 +166,7 @@ std::vector<dem::ContactImpulse> Rigid<Exec>::summed_impulses() const
 }
 
 template<class Exec>
-Vec3<double> Rigid<Exec>::place(std::size_t body) const
+Vec3<double> DemSolver<Exec>::place(std::size_t body) const
 {
     const bool   here = !ranks_ || ranks_->owns(static_cast<std::int64_t>(body));
     Vec3<double> at   = here ? read(exec_, bodies_.position.data() + body) : Vec3<double>(Vec3<double>::Zero());
@@ -174,14 +175,14 @@ Vec3<double> Rigid<Exec>::place(std::size_t body) const
 }
 
 template<class Exec>
-double Rigid<Exec>::carried(std::size_t body) const
+double DemSolver<Exec>::carried(std::size_t body) const
 {
     const Vec3<double> impulse = kept_impulses_[body] + summed_impulses()[body].linear;
     return -impulse.dot(gravity_) / (world_.bodies.mass[body] * gravity_.squaredNorm());
 }
 
 template<class Exec>
-void Rigid<Exec>::begin_mean()
+void DemSolver<Exec>::begin_mean()
 {
     const std::vector<dem::ContactImpulse> impulses = summed_impulses();
     for (std::size_t b = 0; b < impulses.size(); ++b) { kept_impulses_[b] += impulses[b].linear; }
@@ -190,7 +191,7 @@ void Rigid<Exec>::begin_mean()
 }
 
 template<class Exec>
-io::BodyFields Rigid<Exec>::fields()
+io::BodyFields DemSolver<Exec>::fields()
 {
     if (ranks_) { ranks_->collect(bodies_); }
     io::BodyFields fields;
@@ -206,23 +207,23 @@ io::BodyFields Rigid<Exec>::fields()
     return fields;
 }
 
-template RigidReport          Rigid<Cpu>::report(double);
-template void                 Rigid<Cpu>::ask_report();
-template RigidCensus          Rigid<Cpu>::census();
-template std::vector<BodyRow> Rigid<Cpu>::named_bodies();
-template Vec3<double>         Rigid<Cpu>::place(std::size_t) const;
-template double               Rigid<Cpu>::carried(std::size_t) const;
-template void                 Rigid<Cpu>::begin_mean();
-template io::BodyFields       Rigid<Cpu>::fields();
+template RigidReport          DemSolver<Cpu>::report(double);
+template void                 DemSolver<Cpu>::request_report();
+template RigidCensus          DemSolver<Cpu>::census();
+template std::vector<BodyRow> DemSolver<Cpu>::named_bodies();
+template Vec3<double>         DemSolver<Cpu>::place(std::size_t) const;
+template double               DemSolver<Cpu>::carried(std::size_t) const;
+template void                 DemSolver<Cpu>::begin_mean();
+template io::BodyFields       DemSolver<Cpu>::fields();
 #ifdef TREAD_WITH_CUDA
-template RigidReport          Rigid<Gpu>::report(double);
-template void                 Rigid<Gpu>::ask_report();
-template RigidCensus          Rigid<Gpu>::census();
-template std::vector<BodyRow> Rigid<Gpu>::named_bodies();
-template Vec3<double>         Rigid<Gpu>::place(std::size_t) const;
-template double               Rigid<Gpu>::carried(std::size_t) const;
-template void                 Rigid<Gpu>::begin_mean();
-template io::BodyFields       Rigid<Gpu>::fields();
+template RigidReport          DemSolver<Gpu>::report(double);
+template void                 DemSolver<Gpu>::request_report();
+template RigidCensus          DemSolver<Gpu>::census();
+template std::vector<BodyRow> DemSolver<Gpu>::named_bodies();
+template Vec3<double>         DemSolver<Gpu>::place(std::size_t) const;
+template double               DemSolver<Gpu>::carried(std::size_t) const;
+template void                 DemSolver<Gpu>::begin_mean();
+template io::BodyFields       DemSolver<Gpu>::fields();
 #endif
 
 } // namespace tread::solver

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "decomp/combine.hpp"
-#include "solver/sand.hpp"
+#include "solver/mpm_solver.hpp"
 
 // What a measuring of the sand tells: sums and peaks of the steps, and the census.
 namespace tread::solver
@@ -21,13 +21,13 @@ const double* take(const double* from, int count, double* to)
 } // namespace
 
 template<class Exec, class Real>
-SandReport Sand<Exec, Real>::report()
+SandReport MpmSolver<Exec, Real>::report()
 {
-    if (!asked_) { ask_report(); }
-    asked_ = false;
+    if (!requested_) { request_report(); }
+    requested_ = false;
     synchronize(exec_);
-    ReportTotals told = told_.get();
-    if (ranks_) { decomp::combine(ranks_->communicator(), told.data(), sums_told, mpm::point_peaks); }
+    ReportTotals told = readback_.get();
+    if (ranks_) { decomp::combine(ranks_->communicator(), told.data(), report_sums, mpm::point_peaks); }
     SandReport    report;
     const double* from = told.data();
     for (double* to : {report.grid, report.last_grid}) { from = take(from, mpm::grid_sums, to); }
@@ -37,7 +37,7 @@ SandReport Sand<Exec, Real>::report()
     report.last_points[mpm::point_strain] += left_[mpm::census_strain];
     report.largest_speed = std::sqrt(report.peaks[mpm::peak_speed_squared]);
     report.steps         = std::exchange(steps_, 0);
-    stir_                = report.stir();
+    cell_change_         = report.cell_change();
     if (sleep_)
     {
         report.last_points[mpm::point_strain] += sleep_->census().strain;
@@ -48,7 +48,7 @@ SandReport Sand<Exec, Real>::report()
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::ask_report()
+void MpmSolver<Exec, Real>::request_report()
 {
     const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
     constexpr int      grid_width = mpm::tally_width(mpm::grid_sums), point_width = mpm::tally_width(mpm::point_sums);
@@ -59,14 +59,14 @@ void Sand<Exec, Real>::ask_report()
     sum_rows(exec_, grid_rows_.data(), node_pages, grid_width, grid, sums_scratch_);
     sum_rows(exec_, point_rows_.data(), point_pages, point_width, points, sums_scratch_);
     largest_of_rows(exec_, peak_rows_.data(), point_pages, mpm::point_peaks, peaks);
-    told_.fetch(reinterpret_cast<const ReportTotals*>(grid));
+    readback_.request(reinterpret_cast<const ReportTotals*>(grid));
     if (sleep_) { sleep_->note(peak_rows_.data()); }
     clear_tallies();
-    asked_ = true;
+    requested_ = true;
 }
 
 template<class Exec, class Real>
-SandCensus Sand<Exec, Real>::census()
+SandCensus MpmSolver<Exec, Real>::census()
 {
     order();
     const std::int64_t point_pages = pages_.point_page_key.size();
@@ -82,19 +82,19 @@ SandCensus Sand<Exec, Real>::census()
     return census + census_of(left_.data());
 }
 
-template SandReport Sand<Cpu, float>::report();
-template SandReport Sand<Cpu, double>::report();
-template void       Sand<Cpu, float>::ask_report();
-template void       Sand<Cpu, double>::ask_report();
-template SandCensus Sand<Cpu, float>::census();
-template SandCensus Sand<Cpu, double>::census();
+template SandReport MpmSolver<Cpu, float>::report();
+template SandReport MpmSolver<Cpu, double>::report();
+template void       MpmSolver<Cpu, float>::request_report();
+template void       MpmSolver<Cpu, double>::request_report();
+template SandCensus MpmSolver<Cpu, float>::census();
+template SandCensus MpmSolver<Cpu, double>::census();
 #ifdef TREAD_WITH_CUDA
-template SandReport Sand<Gpu, float>::report();
-template SandReport Sand<Gpu, double>::report();
-template void       Sand<Gpu, float>::ask_report();
-template void       Sand<Gpu, double>::ask_report();
-template SandCensus Sand<Gpu, float>::census();
-template SandCensus Sand<Gpu, double>::census();
+template SandReport MpmSolver<Gpu, float>::report();
+template SandReport MpmSolver<Gpu, double>::report();
+template void       MpmSolver<Gpu, float>::request_report();
+template void       MpmSolver<Gpu, double>::request_report();
+template SandCensus MpmSolver<Gpu, float>::census();
+template SandCensus MpmSolver<Gpu, double>::census();
 #endif
 
 } // namespace tread::solver

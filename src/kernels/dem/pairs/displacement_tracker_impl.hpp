@@ -3,11 +3,11 @@
 #include <limits>
 
 #include "backend/reduce.hpp"
+#include "kernels/dem/pairs/displacement_tracker.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
-#include "kernels/dem/pairs/strays.hpp"
 
-// The steps of strays.hpp, the same on both backends; strays.cpp and strays.cu bring in for_each.
-namespace tread::dem::stray_steps
+// The steps of displacement_tracker.hpp, the same on both backends; displacement_tracker.cpp and .cu bring in for_each.
+namespace tread::dem::displacement_steps
 {
 
 /// A turn by the angle t moves no point further than 2 sin(t/2) of the bounding radius; a quaternion's vector part is
@@ -56,29 +56,30 @@ struct MeasureAhead
 };
 
 template<class Exec>
-void mark(const Exec& exec, Strays<Exec>& strays, const BodiesView& bodies)
+void mark(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies)
 {
     const auto count = static_cast<std::size_t>(bodies.count);
-    strays.position.resize(bodies.count);
-    strays.orientation.resize(bodies.count);
-    copy(exec, strays.position.data(), bodies.position, count * sizeof(Vec3<double>));
-    copy(exec, strays.orientation.data(), bodies.orientation, count * sizeof(Quat));
+    tracker.position.resize(bodies.count);
+    tracker.orientation.resize(bodies.count);
+    copy(exec, tracker.position.data(), bodies.position, count * sizeof(Vec3<double>));
+    copy(exec, tracker.orientation.data(), bodies.orientation, count * sizeof(Quat));
 }
 
 template<class Exec>
-Measure measure(Strays<Exec>& strays, const BodiesView& bodies, const TemplateView* templates, const double* travel)
+Measure measure(DisplacementTracker<Exec>& tracker, const BodiesView& bodies, const TemplateView* templates,
+                const double* travel)
 {
-    strays.share.resize(bodies.count + 1);
-    return {bodies, templates, strays.position.data(), strays.orientation.data(), travel, strays.share.data()};
+    tracker.share.resize(bodies.count + 1);
+    return {bodies, templates, tracker.position.data(), tracker.orientation.data(), travel, tracker.share.data()};
 }
 
 template<class Exec, class Item>
-const double* largest(const Exec& exec, Strays<Exec>& strays, std::int64_t bodies, const Item& item)
+const double* largest(const Exec& exec, DisplacementTracker<Exec>& tracker, std::int64_t bodies, const Item& item)
 {
-    for_each(exec, "measure strays", bodies, item);
-    double* found = strays.share.data() + bodies;
-    largest_of_rows(exec, strays.share.data(), bodies, 1, found);
+    for_each(exec, "measure displacements", bodies, item);
+    double* found = tracker.share.data() + bodies;
+    largest_of_rows(exec, tracker.share.data(), bodies, 1, found);
     return found;
 }
 
-} // namespace tread::dem::stray_steps
+} // namespace tread::dem::displacement_steps

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/coupling.hpp"
+#include "solver/sand_body_coupling.hpp"
 #include "solver/state_file.hpp"
 
 // What sand-body contacts remember, into a checkpoint and out of it.
@@ -10,7 +10,8 @@ namespace tread::solver
 {
 
 template<class Exec, class Real>
-void Coupling<Exec, Real>::transfer(StateFile& file, const dem::BodiesView& bodies, const ContactPartners& partners)
+void SandBodyCoupling<Exec, Real>::transfer(StateFile& file, const dem::BodiesView& bodies,
+                                            const ContactPartners& partners)
 {
     const double nobody = -1, last = static_cast<double>(partners.bodies) - 1;
     const auto   body = [&](std::int32_t& value) { return accept::number(value, nobody, last); };
@@ -37,7 +38,7 @@ void Coupling<Exec, Real>::transfer(StateFile& file, const dem::BodiesView& bodi
 
 /// Where pairs have their records by them, the table has none.
 template<class Exec, class Real>
-std::vector<contact::HistoryRecord> Coupling<Exec, Real>::remembered()
+std::vector<contact::HistoryRecord> SandBodyCoupling<Exec, Real>::remembered()
 {
     if (contact_.tangential.size() == 0) { return contact::read_out(contact_.history); }
     contact::keep_history(exec_, contact_);
@@ -47,8 +48,8 @@ std::vector<contact::HistoryRecord> Coupling<Exec, Real>::remembered()
 }
 
 template<class Exec, class Real>
-void Coupling<Exec, Real>::transfer_records(StateFile& file, std::vector<contact::HistoryRecord>& records,
-                                            const ContactPartners& partners)
+void SandBodyCoupling<Exec, Real>::transfer_records(StateFile& file, std::vector<contact::HistoryRecord>& records,
+                                                    const ContactPartners& partners)
 {
     std::vector<std::uint64_t>       keys;
     std::vector<contact::Tangential> tangential;
@@ -70,8 +71,8 @@ void Coupling<Exec, Real>::transfer_records(StateFile& file, std::vector<contact
 /// Pairs that are listed have a place for what they remember whether they do or not; the search that follows files it
 /// under the ids of the points that the last step has copied.
 template<class Exec, class Real>
-void Coupling<Exec, Real>::transfer_candidates(StateFile& file, const dem::BodiesView& bodies,
-                                               const ContactPartners& partners)
+void SandBodyCoupling<Exec, Real>::transfer_candidates(StateFile& file, const dem::BodiesView& bodies,
+                                                       const ContactPartners& partners)
 {
     std::vector<std::int32_t> body  = contact_.candidates.body.to_host();
     std::vector<std::int32_t> point = contact_.candidates.point.to_host();
@@ -88,7 +89,7 @@ void Coupling<Exec, Real>::transfer_candidates(StateFile& file, const dem::Bodie
 
 /// Before they are loaded, there is a slot for each that the candidates want.
 template<class Exec, class Real>
-void Coupling<Exec, Real>::transfer_slots(StateFile& file, const ContactPartners& partners)
+void SandBodyCoupling<Exec, Real>::transfer_slots(StateFile& file, const ContactPartners& partners)
 {
     std::vector<contact::Tangential> tangential = contact_.tangential.to_host();
     std::vector<std::uint32_t>       ids        = contact_.id.to_host();
@@ -100,11 +101,11 @@ void Coupling<Exec, Real>::transfer_slots(StateFile& file, const ContactPartners
     contact_.id.assign(ids);
 }
 
-template void Coupling<Cpu, float>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
-template void Coupling<Cpu, double>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
+template void SandBodyCoupling<Cpu, float>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
+template void SandBodyCoupling<Cpu, double>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
 #ifdef TREAD_WITH_CUDA
-template void Coupling<Gpu, float>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
-template void Coupling<Gpu, double>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
+template void SandBodyCoupling<Gpu, float>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
+template void SandBodyCoupling<Gpu, double>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
 #endif
 
 } // namespace tread::solver

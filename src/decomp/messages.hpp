@@ -11,25 +11,25 @@
 namespace tread::decomp
 {
 
-using Letter = std::vector<std::byte>;
+using Message = std::vector<std::byte>;
 
-/// Collective: letters[r] goes to rank r; returns what every rank had for this one.
-std::vector<Letter> exchange_letters(const Communicator& communicator, const std::vector<Letter>& letters);
+/// Collective: messages[r] goes to rank r; returns what every rank had for this one.
+std::vector<Message> exchange_messages(const Communicator& communicator, const std::vector<Message>& messages);
 
 template<class T>
-void write(Letter& letter, const T* values, std::size_t count)
+void write(Message& message, const T* values, std::size_t count)
 {
     static_assert(std::is_trivially_destructible_v<T>);
     const auto* bytes = reinterpret_cast<const std::byte*>(values);
-    letter.insert(letter.end(), bytes, bytes + count * sizeof(T));
+    message.insert(message.end(), bytes, bytes + count * sizeof(T));
 }
 
-/// All of a letter that holds values of one type.
+/// All of a message that holds values of one type.
 template<class T>
-std::vector<T> read_all(const Letter& letter)
+std::vector<T> read_all(const Message& message)
 {
-    std::vector<T> values(letter.size() / sizeof(T));
-    if (!values.empty()) { std::memcpy(static_cast<void*>(values.data()), letter.data(), letter.size()); }
+    std::vector<T> values(message.size() / sizeof(T));
+    if (!values.empty()) { std::memcpy(static_cast<void*>(values.data()), message.data(), message.size()); }
     return values;
 }
 
@@ -37,10 +37,10 @@ std::vector<T> read_all(const Letter& letter)
 template<class T>
 std::vector<std::vector<T>> exchange_values(const Communicator& communicator, const std::vector<std::vector<T>>& values)
 {
-    std::vector<Letter> letters(values.size());
-    for (std::size_t r = 0; r < values.size(); ++r) { write(letters[r], values[r].data(), values[r].size()); }
+    std::vector<Message> messages(values.size());
+    for (std::size_t r = 0; r < values.size(); ++r) { write(messages[r], values[r].data(), values[r].size()); }
     std::vector<std::vector<T>> found;
-    for (const Letter& letter : exchange_letters(communicator, letters)) { found.push_back(read_all<T>(letter)); }
+    for (const Message& message : exchange_messages(communicator, messages)) { found.push_back(read_all<T>(message)); }
     return found;
 }
 

@@ -1,4 +1,4 @@
-#include "solver/sand.hpp"
+#include "solver/mpm_solver.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -69,8 +69,8 @@ world::HostPoints own_points(const world::World& world, const decomp::Decomposit
 } // namespace
 
 template<class Exec, class Real>
-Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const world::World& world, mpm::PointFields fields,
-                       decomp::Decomposition<Exec>* decomposition)
+MpmSolver<Exec, Real>::MpmSolver(const Exec& exec, const scene::Scene& scene, const world::World& world,
+                                 mpm::PointFields fields, decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
     , geometry_(world.geometry)
     , walls_(world.grid_walls)
@@ -83,7 +83,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const world:
     , relist_scratch_(exec)
     , moves_to_(exec, "point moves")
     , move_counts_(exec, "page moves")
-    , stirred_in_(exec, "last step with moves", 1)
+    , changed_in_(exec, "last step with moves", 1)
     , wall_pages_(exec)
     , tiles_(exec, "tiles")
     , motion_(exec, "grid motion")
@@ -93,7 +93,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const world:
     , census_rows_(exec, "point census")
     , totals_(exec, "sand totals", totals_size)
     , sums_scratch_(exec, "sand sums scratch")
-    , told_(exec, "sand sums told")
+    , readback_(exec, "sand sums told")
     , materials_(exec, "materials")
     , pic_rate_(world::pic_rate(scene, world.points))
     , cell_means_(scene.numerics.volume_strain == scene::VolumeStrain::cell_average)
@@ -101,7 +101,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const world:
     , shared_stress_(exec, "point stress of cell pressure")
 {
     materials_.assign(law_parameters<Real>(scene));
-    stirred_in_.fill_zero();
+    changed_in_.fill_zero();
     if (decomposition != nullptr) { ranks_.emplace(*decomposition); }
     if (scene.sleep.distance) { sleep_.emplace(exec, scene, world, fields); }
     if (geometry_.refinement.levels > 0) { seams_.emplace(exec); }
@@ -111,7 +111,7 @@ Sand<Exec, Real>::Sand(const Exec& exec, const scene::Scene& scene, const world:
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::upload(const world::HostPoints& host, mpm::PointFields fields)
+void MpmSolver<Exec, Real>::upload(const world::HostPoints& host, mpm::PointFields fields)
 {
     const auto n = host.size();
     points_.allocate(static_cast<std::int64_t>(n), fields);
@@ -130,7 +130,7 @@ void Sand<Exec, Real>::upload(const world::HostPoints& host, mpm::PointFields fi
 }
 
 template<class Exec, class Real>
-mpm::PagesView Sand<Exec, Real>::pages() const
+mpm::PagesView MpmSolver<Exec, Real>::pages() const
 {
     return pages_.view(geometry_.lattice(), geometry_.refinement.levels);
 }
@@ -138,7 +138,7 @@ mpm::PagesView Sand<Exec, Real>::pages() const
 /// Calls launch(pages, list) with the lattice and the point pages of each level of the grid.
 template<class Exec, class Real>
 template<class Launch>
-void Sand<Exec, Real>::for_each_level(const Launch& launch)
+void MpmSolver<Exec, Real>::for_each_level(const Launch& launch)
 {
     if (!seams_)
     {
@@ -152,7 +152,7 @@ void Sand<Exec, Real>::for_each_level(const Launch& launch)
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::order()
+void MpmSolver<Exec, Real>::order()
 {
     if (listed_) { return; } // and what moved then is still to be told
     migrated_ = 0;
@@ -162,8 +162,8 @@ void Sand<Exec, Real>::order()
         list_anew();
         return;
     }
-    if (stir_ == mpm::Stir::none) { return; }
-    if (stir_ != mpm::Stir::moved)
+    if (cell_change_ == mpm::CellChange::none) { return; }
+    if (cell_change_ != mpm::CellChange::moved)
     {
         order_in_memory();
         return;
@@ -172,11 +172,11 @@ void Sand<Exec, Real>::order()
     if (relists_ < relists_an_order) { return; }
     mpm::renew_order(exec_, points_, pages_, order_scratch_);
     relists_ = 0;
-    ++orders_;
+    ++reorder_count_;
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::look_who_sleeps(const std::vector<BodyReach>& bodies, double damping)
+void MpmSolver<Exec, Real>::update_sleeping_pages(const std::vector<BodyReach>& bodies, double damping)
 {
     if (sleep_->look(points_, pages_, geometry_, bodies, materials_.data(), order_scratch_, damping))
     {
@@ -185,21 +185,21 @@ void Sand<Exec, Real>::look_who_sleeps(const std::vector<BodyReach>& bodies, dou
 }
 
 template<class Exec, class Real>
-std::optional<double> Sand<Exec, Real>::mean_asleep() const
+std::optional<double> MpmSolver<Exec, Real>::mean_asleep() const
 {
     if (!sleep_) { return {}; }
     return count() > 0 ? sleep_->mean_count() / static_cast<double>(count()) : 0;
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::follow_owners()
+void MpmSolver<Exec, Real>::follow_owners()
 {
-    listed_ = false;
-    stir_   = mpm::Stir::lost;
+    listed_      = false;
+    cell_change_ = mpm::CellChange::lost;
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::add_loads(decomp::PageLoads& loads) const
+void MpmSolver<Exec, Real>::add_loads(decomp::PageLoads& loads) const
 {
     const std::vector<std::uint64_t> page  = pages_.point_page_key.to_host();
     const std::vector<std::int32_t>  first = pages_.first_point.to_host();
@@ -210,14 +210,14 @@ void Sand<Exec, Real>::add_loads(decomp::PageLoads& loads) const
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::list_anew()
+void MpmSolver<Exec, Real>::list_anew()
 {
     mpm::relist_points(exec_, pages_, moves(), relist_scratch_, order_scratch_.keys);
     ++relists_;
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::order_in_memory()
+void MpmSolver<Exec, Real>::order_in_memory()
 {
     if (sleep_) { sleep_->leave_pages(); }
     std::int64_t left = 0;
@@ -229,14 +229,14 @@ void Sand<Exec, Real>::order_in_memory()
     else { left = mpm::order_points(exec_, points_, pages_, geometry_, order_scratch_); }
     keep_account_of(left);
     relists_ = 0;
-    ++orders_;
+    ++reorder_count_;
     make_room();
     if (sleep_) { sleep_->enter_pages(pages_, pages(), order_scratch_.sort); }
 }
 
 /// For what steps write of the points and pages that there are.
 template<class Exec, class Real>
-void Sand<Exec, Real>::make_room()
+void MpmSolver<Exec, Real>::make_room()
 {
     const std::int64_t point_pages = pages_.point_page_key.size(), node_pages = pages_.node_page_key.size();
     tiles_.resize(point_pages * mpm::node_channels * mpm::tile_nodes);
@@ -257,7 +257,7 @@ void Sand<Exec, Real>::make_room()
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::clear_tallies()
+void MpmSolver<Exec, Real>::clear_tallies()
 {
     grid_rows_.fill_zero();
     point_rows_.fill_zero();
@@ -265,13 +265,13 @@ void Sand<Exec, Real>::clear_tallies()
 }
 
 template<class Exec, class Real>
-mpm::MovesView Sand<Exec, Real>::moves()
+mpm::MovesView MpmSolver<Exec, Real>::moves()
 {
-    return {moves_to_.data(), move_counts_.data(), stirred_in_.data(), step_};
+    return {moves_to_.data(), move_counts_.data(), changed_in_.data(), step_};
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::scatter()
+void MpmSolver<Exec, Real>::scatter()
 {
     mpm::PointsView<Real> points = points_.view();
     if (cell_means_)
@@ -292,7 +292,7 @@ void Sand<Exec, Real>::scatter()
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::update_grid(double dt, double damping)
+void MpmSolver<Exec, Real>::update_grid(double dt, double damping)
 {
     const mpm::GridStep<Real> step{static_cast<Real>(dt), gravity_, static_cast<Real>(damping), mass_floor_, walls_};
     const mpm::SharedPagesView<Real> shared = ranks_   ? ranks_->halo().view()
@@ -306,7 +306,7 @@ void Sand<Exec, Real>::update_grid(double dt, double damping)
 }
 
 template<class Exec, class Real>
-void Sand<Exec, Real>::gather(double dt)
+void MpmSolver<Exec, Real>::gather(double dt)
 {
     ++step_;
     if (cell_means_)
@@ -331,11 +331,11 @@ void Sand<Exec, Real>::gather(double dt)
     ++steps_;
 }
 
-template class Sand<Cpu, float>;
-template class Sand<Cpu, double>;
+template class MpmSolver<Cpu, float>;
+template class MpmSolver<Cpu, double>;
 #ifdef TREAD_WITH_CUDA
-template class Sand<Gpu, float>;
-template class Sand<Gpu, double>;
+template class MpmSolver<Gpu, float>;
+template class MpmSolver<Gpu, double>;
 #endif
 
 } // namespace tread::solver

@@ -8,13 +8,13 @@ namespace tread::decomp
 {
 
 /// Bytes in a row of a buffer that go to a rank, or come from it.
-struct Parcel
+struct MessageRange
 {
     int          rank;
     std::int64_t first;
     std::int64_t bytes;
 };
 
-using Parcels = std::vector<Parcel>;
+using MessageRanges = std::vector<MessageRange>;
 
 } // namespace tread::decomp

@@ -1,4 +1,4 @@
-#include "solver/coupling.hpp"
+#include "solver/sand_body_coupling.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
-#include "decomp/letters.hpp"
+#include "decomp/messages.hpp"
 #include "world/cover.hpp"
 #include "world/materials.hpp"
 
@@ -38,9 +38,9 @@ double met_limit(const world::World& world, double limit)
 } // namespace
 
 template<class Exec, class Real>
-Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, const world::World& world,
-                               const dem::TemplateView* templates, dem::PairTable pairs,
-                               decomp::Decomposition<Exec>* decomposition)
+SandBodyCoupling<Exec, Real>::SandBodyCoupling(const Exec& exec, const scene::Scene& scene, const world::World& world,
+                                               const dem::TemplateView* templates, dem::PairTable pairs,
+                                               decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
     , contact_(exec)
     , law_{templates,
@@ -52,7 +52,7 @@ Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, cons
     , largest_radius_(largest_point_radius(world, law_.radius))
     , skin_(skin_share * largest_radius_)
     , named_(world.bodies.named)
-    , told_(exec, "contact summary told")
+    , readback_(exec, "contact summary told")
     , communicator_(decomposition == nullptr ? nullptr : &decomposition->communicator)
 {
     constexpr std::size_t most = std::size_t{1} << contact::history_body_bits;
@@ -64,13 +64,13 @@ Coupling<Exec, Real>::Coupling(const Exec& exec, const scene::Scene& scene, cons
 }
 
 template<class Exec, class Real>
-void Coupling<Exec, Real>::send_after(const std::vector<std::vector<std::uint32_t>>& departed)
+void SandBodyCoupling<Exec, Real>::send_records_after(const std::vector<std::vector<std::uint32_t>>& migrated_out)
 {
     contact::keep_history(exec_, contact_);
     contact_.tangential.resize(0); // the table has it, until the search that follows
     std::vector<std::vector<contact::HistoryRecord>> leaving;
-    leaving.reserve(departed.size());
-    for (const auto& ids : departed) { leaving.push_back(contact::records_of(exec_, contact_.history, ids)); }
+    leaving.reserve(migrated_out.size());
+    for (const auto& ids : migrated_out) { leaving.push_back(contact::records_of(exec_, contact_.history, ids)); }
     std::vector<contact::HistoryRecord> arriving;
     for (const auto& records : decomp::exchange_values(*communicator_, leaving))
     {
@@ -80,9 +80,9 @@ void Coupling<Exec, Real>::send_after(const std::vector<std::vector<std::uint32_
 }
 
 template<class Exec, class Real>
-void Coupling<Exec, Real>::find_candidates(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
-                                           const dem::BodiesView& bodies, std::int64_t version, double span,
-                                           double speed)
+void SandBodyCoupling<Exec, Real>::find_candidates(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
+                                                   const dem::BodiesView& bodies, std::int64_t version, double span,
+                                                   double speed)
 {
     const double nearer = 2 * span * 2 * speed; // a body and a point, each up to twice as fast
     if (version != version_ || used_ + nearer > skin_)
@@ -98,37 +98,37 @@ void Coupling<Exec, Real>::find_candidates(const mpm::PointsView<Real>& points, 
 }
 
 template<class Exec, class Real>
-void Coupling<Exec, Real>::begin_step(const mpm::PointsView<Real>& points)
+void SandBodyCoupling<Exec, Real>::begin_step(const mpm::PointsView<Real>& points)
 {
     if (!std::exchange(begun_, false)) { contact::begin_kept_step(exec_, contact_, points, law_); }
 }
 
 template<class Exec, class Real>
-void Coupling<Exec, Real>::substep(const dem::BodiesView& bodies, double dt)
+void SandBodyCoupling<Exec, Real>::substep(const dem::BodiesView& bodies, double dt)
 {
     contact::substep(exec_, contact_, bodies, law_, dt);
 }
 
 template<class Exec, class Real>
-void Coupling<Exec, Real>::run_substeps(dem::BodyStep<Exec> step, std::int64_t count)
+void SandBodyCoupling<Exec, Real>::run_substeps(dem::BodyStep<Exec> step, std::int64_t count)
 {
     step.motion.outside = contact_.wrenches();
     contact::run_substeps(exec_, contact_, law_, step, count);
 }
 
 template<class Exec, class Real>
-void Coupling<Exec, Real>::finish_step(const mpm::PointsView<Real>& points, double dt)
+void SandBodyCoupling<Exec, Real>::finish_step(const mpm::PointsView<Real>& points, double dt)
 {
     contact::finish_step(exec_, contact_, points, dt);
 }
 
 template<class Exec, class Real>
-void Coupling<Exec, Real>::measure()
+void SandBodyCoupling<Exec, Real>::measure()
 {
-    if (!asked_) { ask_measure(); }
-    asked_ = false;
+    if (!requested_) { request_measure(); }
+    requested_ = false;
     synchronize(exec_);
-    summary_ = any_near() ? told_.get() : contact::Summary::zero();
+    summary_ = any_near() ? readback_.get() : contact::Summary::zero();
     if (communicator_ == nullptr) { return; }
     const auto of_ranks = decomp::gather_values<contact::Summary>(*communicator_, {summary_});
     summary_            = contact::Summary::zero();
@@ -136,17 +136,17 @@ void Coupling<Exec, Real>::measure()
 }
 
 template<class Exec, class Real>
-void Coupling<Exec, Real>::ask_measure()
+void SandBodyCoupling<Exec, Real>::request_measure()
 {
-    if (any_near()) { told_.fetch(contact::summarise(exec_, contact_, named_)); }
-    asked_ = true;
+    if (any_near()) { readback_.request(contact::summarise(exec_, contact_, named_)); }
+    requested_ = true;
 }
 
-template class Coupling<Cpu, float>;
-template class Coupling<Cpu, double>;
+template class SandBodyCoupling<Cpu, float>;
+template class SandBodyCoupling<Cpu, double>;
 #ifdef TREAD_WITH_CUDA
-template class Coupling<Gpu, float>;
-template class Coupling<Gpu, double>;
+template class SandBodyCoupling<Gpu, float>;
+template class SandBodyCoupling<Gpu, double>;
 #endif
 
 } // namespace tread::solver
