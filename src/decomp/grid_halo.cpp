@@ -113,12 +113,9 @@ void GridHalo<Exec, Real>::list_border(const mpm::Pages<Exec>& pages, const std:
 }
 
 template<class Exec, class Real>
-void GridHalo<Exec, Real>::begin(const mpm::PointsView<Real>& points, const mpm::PagesView& pages, Real* tiles)
+void GridHalo<Exec, Real>::send(const mpm::PagesView& pages, const Real* tiles)
 {
-    const Exec& exec = stream_.exec();
-    stream_.fork();
-    mpm::scatter(exec, points, pages, {border_.size(), border_.data()}, tiles);
-    mpm::sum_own_parts(exec, pages, tiles, shared_);
+    mpm::sum_own_parts(stream_.exec(), pages, tiles, shared_);
     Columns columns;
     columns.add(rows(shared_.own.data(), mpm::node_page_values));
     exchange_.begin(columns);

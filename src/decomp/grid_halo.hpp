@@ -7,7 +7,6 @@
 #include "kernels/mpm/grid/walls.hpp"
 #include "kernels/mpm/pages/order.hpp"
 #include "kernels/mpm/pages/shared_pages.hpp"
-#include "kernels/mpm/transfers/scatter.hpp"
 
 namespace tread::decomp
 {
@@ -23,8 +22,15 @@ public:
     /// After the point pages have changed: finds what is shared, and lists what walls hold together with it as well.
     void plan(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls);
 
-    /// P2G of the border pages, on a lane of its own; sends what they bring.
-    void begin(const mpm::PointsView<Real>& points, const mpm::PagesView& pages, Real* tiles);
+    /// Runs P2G of the border pages, `scatter(exec, list)`, on a stream of its own, and sends what they bring to
+    /// `tiles`.
+    template<class Scatter>
+    void begin(const mpm::PagesView& pages, const Real* tiles, const Scatter& scatter)
+    {
+        stream_.fork();
+        scatter(stream_.exec(), mpm::PageList{border_.size(), border_.data()});
+        send(pages, tiles);
+    }
 
     /// The other pages, whose P2G needs no begin() nor finish() to be over.
     mpm::PageList interior() const { return {interior_.size(), interior_.data()}; }
@@ -40,6 +46,7 @@ public:
     std::int64_t pages() const { return shared_.page.size(); }
 
 private:
+    void send(const mpm::PagesView& pages, const Real* tiles);
     void list_border(const mpm::Pages<Exec>& pages, const std::vector<std::int32_t>& shared_number);
 
     Decomposition<Exec>&         decomposition_;

@@ -282,8 +282,10 @@ void MpmSolver<Exec, Real>::scatter()
     }
     if (ranks_)
     {
-        ranks_->halo().begin(points, pages(), tiles_.data());
-        mpm::scatter(exec_, points, pages(), ranks_->halo().interior(), tiles_.data());
+        const auto scatter_pages = [&](const Exec& exec, const mpm::PageList& list)
+        { mpm::scatter(exec, points, pages(), list, tiles_.data()); };
+        ranks_->halo().begin(pages(), tiles_.data(), scatter_pages);
+        scatter_pages(exec_, ranks_->halo().interior());
         return;
     }
     for_each_level([&](const mpm::PagesView& pages, const mpm::PageList& list)

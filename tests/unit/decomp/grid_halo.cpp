@@ -4,6 +4,7 @@
 
 #include "backend.hpp"
 #include "base/random.hpp"
+#include "kernels/mpm/transfers/scatter.hpp"
 #include "mpi_session.hpp"
 
 // What ranks bring to the nodes that they share: border pages first, the others while it travels, against all pages
@@ -102,7 +103,9 @@ TYPED_TEST(GridHalos, GiveTheBitsOfAnExchangeAfterAllPages)
     const std::vector<std::uint64_t> keys     = pages.node_page_key.to_host();
     for (int step = 0; step < 3; ++step) // as in a run: messages and lists serve many steps
     {
-        halo.begin(points.view(), view, parted.data());
+        halo.begin(view, parted.data(),
+                   [&](const TypeParam& exec, const mpm::PageList& border)
+                   { mpm::scatter(exec, points.view(), view, border, parted.data()); });
         mpm::scatter(this->exec(), points.view(), view, halo.interior(), parted.data());
         halo.finish();
         EXPECT_EQ(parted.to_host(), whole.to_host()) << "every page is scattered, once";
