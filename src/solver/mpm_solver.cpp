@@ -93,7 +93,7 @@ MpmSolver<Exec, Real>::MpmSolver(const Exec& exec, const scene::Scene& scene, co
     , census_rows_(exec, "point census")
     , totals_(exec, "sand totals", totals_size)
     , sums_scratch_(exec, "sand sums scratch")
-    , readback_(exec, "sand sums told")
+    , readback_(exec, "sand sums on the host")
     , materials_(exec, "materials")
     , pic_rate_(world::pic_rate(scene, world.points))
     , cell_means_(scene.numerics.volume_strain == scene::VolumeStrain::cell_average)

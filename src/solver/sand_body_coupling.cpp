@@ -52,7 +52,7 @@ SandBodyCoupling<Exec, Real>::SandBodyCoupling(const Exec& exec, const scene::Sc
     , largest_radius_(largest_point_radius(world, law_.radius))
     , skin_(skin_share * largest_radius_)
     , named_(world.bodies.named)
-    , readback_(exec, "contact summary told")
+    , readback_(exec, "contact summary on the host")
     , communicator_(decomposition == nullptr ? nullptr : &decomposition->communicator)
 {
     constexpr std::size_t most = std::size_t{1} << contact::history_body_bits;

@@ -165,7 +165,8 @@ TYPED_TEST(BodyPairs, LeaveNothingOfTheSearchBehind)
     const std::int64_t held = this->counters.current_bytes();
     scene.find(step);
     EXPECT_EQ(this->counters.current_bytes(), held);
-    for (const char* name : {"body reach", "body cells", "bodies by cell", "pairs found", "sort scratch"})
+    for (const char* name : {"body reach", "body speeds", "body travel a step more", "body cells", "bodies by cell",
+                             "pairs found", "sort scratch"})
     {
         EXPECT_EQ(this->counters.bytes().find(name)->second, 0) << name;
     }

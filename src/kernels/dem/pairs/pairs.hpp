@@ -100,6 +100,8 @@ struct Pairs
         , travel(exec, "body travel")
         , last_rolling(exec, "last pair rolling moments")
         , reach(exec, "body reach")
+        , speed(exec, "body speeds")
+        , more_travel(exec, "body travel a step more")
         , cell_key(exec, "body cells")
         , cell_body(exec, "bodies by cell")
         , found(exec, "pairs found")
@@ -142,9 +144,11 @@ struct Pairs
 
     Array<Exec, std::uint64_t> last_key;
     Array<Exec, Patch>         last_patch;
-    Array<Exec, double>        travel;
+    Array<Exec, double>        travel; ///< m, of each body: how far it may move until the pairs are found anew
     Array<Exec, Rolling>       last_rolling;
-    Array<Exec, double>        reach;
+    Array<Exec, double>        reach; ///< m, of each body: its bounding radius and travel; 0 = not in the cell grid
+    Array<Exec, double>        speed; ///< m/s, of each body's fastest point, when the search began
+    Array<Exec, double>        more_travel; ///< bounding radii, of each owned body: what a step more would need
     Array<Exec, std::uint64_t> cell_key;
     Array<Exec, std::int32_t>  cell_body;
     Array<Exec, std::int32_t>  found;
@@ -178,8 +182,8 @@ template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                 double substeps = 1);
 
-/// find_pairs in parts, between which several ranks agree. First: what the present list remembers becomes that of the
-/// last list, and pairs.reach the speeds of bodies.
+/// find_pairs in parts, between which several ranks agree. First: the present list becomes the last one, and
+/// pairs.speed is measured.
 template<class Exec>
 void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
@@ -187,13 +191,12 @@ void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 template<class Exec>
 void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared);
 
-/// Second: pairs.travel = what owned bodies would have beyond their own motion for a step more (in bounding radii), and
-/// pairs.measure its sum, which is to become that of all ranks.
+/// Second: pairs.more_travel, and its sum in pairs.measure, which the caller replaces by that of all ranks.
 template<class Exec>
 void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                           const SharedView& shared);
 
-/// Third: pairs.travel of owned bodies. Guests have theirs from their owner.
+/// Third: pairs.travel of owned bodies. The owners send that of guests.
 template<class Exec>
 void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                         double substeps);

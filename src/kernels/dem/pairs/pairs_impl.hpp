@@ -246,14 +246,14 @@ void order_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 template<class Exec>
 void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates)
 {
-    pairs.reach.resize(bodies.count);
+    pairs.measure.resize(bodies.count);
     pairs.node_area.resize(bodies.count);
     pairs.expected_stiffness.resize(bodies.count);
     pairs.expected_stiffness.fill_zero();
     for_each(exec, "body sizes", bodies.count,
-             pair_steps::MeasureBody{bodies, templates, pairs.reach.data(), pairs.node_area.data()});
+             pair_steps::MeasureBody{bodies, templates, pairs.measure.data(), pairs.node_area.data()});
 
-    const std::vector<double> radii  = pairs.reach.to_host();
+    const std::vector<double> radii  = pairs.measure.to_host();
     std::vector<double>       sorted = radii;
     const auto                middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     if (!sorted.empty()) { std::nth_element(sorted.begin(), middle, sorted.end()); }
@@ -295,7 +295,7 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     release_memory(pairs.by_second);
     const double cell_size = fill_cells(exec, pairs, bodies);
     search(exec, pairs, bodies, law, cell_size);
-    release_memory(pairs.reach, pairs.cell_key, pairs.cell_body, pairs.found);
+    release_memory(pairs.reach, pairs.speed, pairs.more_travel, pairs.cell_key, pairs.cell_body, pairs.found);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
     if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }

@@ -104,16 +104,18 @@ struct WriteReach
     const std::int32_t* is_large;
     double              dt;
     double              substeps;
-    const double*       sum;    ///< of `more`
-    double*             travel; ///< in: `more`
-    double*             reach;  ///< in: speed
+    const double*       speed;
+    const double*       more;
+    const double*       sum; ///< of `more`
+    double*             travel;
+    double*             reach;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
         const double radius = bounding_radius(bodies, templates, b);
-        const double least  = travel_of(radius, reach[b], reach[b], dt).least;
+        const double least  = travel_of(radius, speed[b], speed[b], dt).least;
         const double steps  = steps_to_last(*sum / static_cast<double>(bodies.count), substeps);
-        travel[b]           = radius * (least + std::fmin(steps * travel[b], most_more));
+        travel[b]           = radius * (least + std::fmin(steps * more[b], most_more));
         reach[b]            = is_large[b] != 0 ? 0.0 : radius + travel[b];
     }
 };
@@ -138,17 +140,18 @@ template<class Exec>
 FastestNear fastest_near(Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     const LastPairs last{pairs.last_key.data(), pairs.first.data(), pairs.by_second.data(), pairs.second.data()};
-    return {bodies.count, pairs.is_large.data(), last, pairs.reach.data()};
+    return {bodies.count, pairs.is_large.data(), last, pairs.speed.data()};
 }
 
-/// Until allow_displacement they stand in pairs.reach.
 template<class Exec>
 void write_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     pairs.travel.resize(bodies.count);
     pairs.reach.resize(bodies.count);
+    pairs.speed.resize(bodies.count);
+    pairs.more_travel.resize(bodies.count);
     pairs.measure.resize(1);
-    for_each(exec, "body speeds", bodies.count, WriteSpeed{bodies, law.templates, pairs.reach.data()});
+    for_each(exec, "body speeds", bodies.count, WriteSpeed{bodies, law.templates, pairs.speed.data()});
 }
 
 /// On several ranks: guests have their travel from elsewhere.
@@ -177,11 +180,11 @@ void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView
     const auto write = [&](const auto& near)
     {
         for_each(exec, "body motion", bodies.count,
-                 WriteMore{bodies, law.templates, dt, pairs.reach.data(), near, pairs.travel.data()});
+                 WriteMore{bodies, law.templates, dt, pairs.speed.data(), near, pairs.more_travel.data()});
     };
     if (bodies.role == nullptr) { write(fastest_near(pairs, bodies)); }
     else { write(FastestNearOfAllRanks{fastest_near(pairs, bodies), shared}); }
-    sum_rows(exec, pairs.travel.data(), bodies.count, 1, pairs.measure.data());
+    sum_rows(exec, pairs.more_travel.data(), bodies.count, 1, pairs.measure.data());
 }
 
 template<class Exec>
@@ -189,8 +192,9 @@ void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& 
                         double substeps)
 {
     for_each(exec, "body reach", bodies.count,
-             pair_steps::WriteReach{bodies, law.templates, pairs.is_large.data(), dt, substeps, pairs.measure.data(),
-                                    pairs.travel.data(), pairs.reach.data()});
+             pair_steps::WriteReach{bodies, law.templates, pairs.is_large.data(), dt, substeps, pairs.speed.data(),
+                                    pairs.more_travel.data(), pairs.measure.data(), pairs.travel.data(),
+                                    pairs.reach.data()});
 }
 
 } // namespace tread::dem
