@@ -65,7 +65,7 @@ class SlurmCampaignTest(CampaignTest):
         program = self.program_of(which)
         os.kill(program, signal.SIGSTOP)
         try:
-            slurm_session.wait_until(lambda: is_pending(program, signal.SIGUSR2), 150, "the time limit was on the host")
+            slurm_session.wait_until(lambda: is_pending(program, signal.SIGUSR2), 150, "the time limit was told")
         finally:
             os.kill(program, signal.SIGCONT)
 
