@@ -29,14 +29,17 @@ constexpr double agreement_timeout = 10; // s
     std::_Exit(static_cast<int>(ExitCode::environment));
 }
 
-} // namespace
-
-ExitCode on_ranks(const std::function<ExitCode(const Communicator&)>& command)
+/// Ends all ranks: this one alone has failed.
+[[noreturn]] void abort_ranks(const Communicator& world, const std::exception& error)
 {
-    io::h5::begin();
-    const MpiSession    session;
-    const Communicator& world = session.world();
-    ExitCode            code  = ExitCode::finished;
+    std::cerr << "tread: error: rank " << world.rank() << " on " << host_name() << ": " << text_of(error) << std::endl;
+    world.abort(code_of(error));
+}
+
+/// The command, on all ranks, and the worst of their exit codes. Throws what fails while ranks agree how to end.
+ExitCode run_together(const Communicator& world, const std::function<ExitCode(const Communicator&)>& command)
+{
+    ExitCode code = ExitCode::finished;
     try
     {
         code = command(world);
@@ -45,15 +48,26 @@ ExitCode on_ranks(const std::function<ExitCode(const Communicator&)>& command)
     catch (const std::exception& error)
     {
         code = code_of(error);
-        if (!world.all_arrive(agreement_timeout))
-        {
-            std::cerr << "tread: error: rank " << world.rank() << " on " << host_name() << ": " << text_of(error)
-                      << std::endl;
-            world.abort(code);
-        }
+        if (!world.all_arrive(agreement_timeout)) { abort_ranks(world, error); }
         if (world.rank() == 0) { std::cerr << "tread: error: " << text_of(error) << std::endl; }
     }
     return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
+}
+
+} // namespace
+
+ExitCode on_ranks(const std::function<ExitCode(const Communicator&)>& command)
+{
+    io::h5::begin();
+    const MpiSession session;
+    try
+    {
+        return run_together(session.world(), command);
+    }
+    catch (const std::exception& error)
+    {
+        abort_ranks(session.world(), error); // the others may wait for this rank, and MPI's own end would wait for them
+    }
 }
 
 std::unique_ptr<Watchdog> watch_ranks(const Communicator& world, double timeout)
