@@ -6,6 +6,7 @@
 #include "decomp/halo_plan.hpp"
 #include "kernels/mpm/grid/walls.hpp"
 #include "kernels/mpm/pages/order.hpp"
+#include "kernels/mpm/pages/page_list.hpp"
 #include "kernels/mpm/pages/shared_pages.hpp"
 
 namespace tread::decomp

@@ -33,7 +33,7 @@ struct DriveRoom
     {
         double low_x, high_x, low_y, high_y, floor; ///< m
     };
-    std::optional<world::Ground> ground;
+    std::optional<Ground> ground;
 };
 
 /// Computes the room of every body that a phase drives.

@@ -100,7 +100,7 @@ MpmSolver<Exec, Real>::MpmSolver(const Exec& exec, const scene::Scene& scene, co
     , cell_divergence_(exec, "cell divergence")
     , shared_stress_(exec, "point stress of cell pressure")
 {
-    materials_.assign(law_parameters<Real>(scene));
+    materials_.assign(world::law_parameters<Real>(scene));
     changed_in_.fill_zero();
     if (decomposition != nullptr) { ranks_.emplace(*decomposition); }
     if (scene.sleep.distance) { sleep_.emplace(exec, scene, world, fields); }

@@ -34,7 +34,7 @@ private:
     };
 
     template<class T>
-    void request(const Exec& exec, Array<Host, T>& to, const Array<Exec, T>& from, int components, const Part& part);
+    void fetch(const Exec& exec, Array<Host, T>& to, const Array<Exec, T>& from, int components, const Part& part);
 
     Counters                   host_; ///< on a GPU: what is here is none of the device's memory
     std::int64_t               count_ = 0;
