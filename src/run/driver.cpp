@@ -9,6 +9,7 @@
 
 #include "io/checkpoints.hpp"
 #include "io/progress.hpp"
+#include "run/resolution_figures.hpp"
 
 namespace tread::run
 {
@@ -202,7 +203,7 @@ void Driver<Exec, Real>::write_row()
         on_root(communicator_, on_file);
         simulation_.begin_mean();
     };
-    clock_.run(simulation_.exec(), stage::output, write);
+    clock_.run(simulation_.exec(), solver::stage::output, write);
     last_row_ = steps_;
 }
 
@@ -229,7 +230,7 @@ void Driver<Exec, Real>::write_snapshot()
 {
     if (!snapshots_) { return; }
     last_snapshot_ = steps_;
-    clock_.run(simulation_.exec(), stage::snapshots, [&] { snapshots_->write(time_, simulation_); });
+    clock_.run(simulation_.exec(), solver::stage::snapshots, [&] { snapshots_->write(time_, simulation_); });
 }
 
 template<class Exec, class Real>

@@ -10,6 +10,8 @@
 #include "run/checkpoint_clock.hpp"
 #include "run/drive_room.hpp"
 #include "run/drive_watch.hpp"
+#include "run/phases.hpp"
+#include "run/recorder.hpp"
 #include "run/snapshots.hpp"
 #include "run/surface.hpp"
 #include "solver/simulation.hpp"

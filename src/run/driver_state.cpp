@@ -84,7 +84,7 @@ void Driver<Exec, Real>::write_checkpoint()
         return bytes;
     };
     std::int64_t bytes = 0;
-    clock_.run_timed(stage::checkpoints, [&] { bytes = write(); });
+    clock_.run_timed(solver::stage::checkpoints, [&] { bytes = write(); });
     const double seconds = wall_clock() - start;
     checkpoints_.seconds += seconds;
     interruptions_->written(time_, steps_, seconds);
@@ -145,17 +145,20 @@ void Driver<Exec, Real>::transfer(solver::StateFile& file)
     phases_.transfer(file);
     clock_.transfer(file);
     double wall = wall_before_ + wall_clock() - wall_start_;
-    file.numbers("run/steps", accept::number(time_, 0, latest), accept::number(steps_, 0, most_steps), substeps_,
-                 accept::number(step_.dt, 0, accept::largest), step_.substeps, warned_, wall, restarts_);
+    file.numbers("run/steps", solver::accept::number(time_, 0, latest), solver::accept::number(steps_, 0, most_steps),
+                 substeps_, solver::accept::number(step_.dt, 0, solver::accept::largest), step_.substeps, warned_, wall,
+                 restarts_);
     surface_.transfer(file);
     file.numbers("run/checkpoints", checkpoints_.written, checkpoints_.bytes, checkpoints_.seconds);
     file.text("limit", step_.limit);
     if (file.loads()) { wall_before_ = wall; }
     std::vector<PhaseRow> ended;
     for (const io::PhaseReport& report : ended_) { ended.push_back(row_of(report)); }
-    const auto all_that_ended = [&](const std::vector<PhaseRow>& rows)
-    { return rows.size() == phases_.index() ? accept::Verdict{} : accept::rows(phases_.index())(rows); };
-    file.common("run/phases", ended, accept::all(all_that_ended, accept::each("the report of a phase", is_report)));
+    const auto all_that_ended = [&](const std::vector<PhaseRow>& rows) {
+        return rows.size() == phases_.index() ? solver::accept::Verdict{} : solver::accept::rows(phases_.index())(rows);
+    };
+    file.common("run/phases", ended,
+                solver::accept::all(all_that_ended, solver::accept::each("the report of a phase", is_report)));
     ended_.clear();
     for (std::size_t p = 0; p < ended.size(); ++p) { ended_.push_back(report_of(scene_.phases[p].name, ended[p])); }
     transfer_files(file);
@@ -166,7 +169,7 @@ void Driver<Exec, Real>::require_same_world(solver::StateFile& file) const
 {
     const std::vector<double> here  = world::measures(world_);
     std::vector<double>       there = here;
-    file.common("run/world", there, accept::all(accept::rows(here.size()), accept::finite()));
+    file.common("run/world", there, solver::accept::all(solver::accept::rows(here.size()), solver::accept::finite()));
     if (world::are_same(here, there)) { return; }
     throw InputError(
         fmt::format("{}: the scene builds other points or bodies than when this was written: a file that it "
@@ -180,7 +183,7 @@ template<class Exec, class Real>
 void Driver<Exec, Real>::transfer_files(solver::StateFile& file)
 {
     std::vector<double> times = snapshots_ ? snapshots_->times() : std::vector<double>{};
-    file.common("run/snapshots", times, accept::all(accept::finite(), accept::ascending()));
+    file.common("run/snapshots", times, solver::accept::all(solver::accept::finite(), solver::accept::ascending()));
     std::vector<std::uint8_t> bytes;
     const auto                read = [&]
     {
@@ -189,7 +192,7 @@ void Driver<Exec, Real>::transfer_files(solver::StateFile& file)
         bytes.assign(text.begin(), text.end());
     };
     if (!file.loads()) { on_root(communicator_, read); }
-    file.common("run/timeseries", bytes, accept::anything());
+    file.common("run/timeseries", bytes, solver::accept::anything());
     if (!file.loads()) { return; }
     const auto restore = [&]
     {

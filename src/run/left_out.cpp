@@ -37,19 +37,19 @@ std::vector<Price> prices(const scene::Scene& scene, const world::World& world)
     const Item   body   = {"body", static_cast<std::int64_t>(world.bodies.size())};
     const Item   near   = {"point near a body", 0};
     const Item   moving = {"point and body", point.count + body.count};
-    return {{stage::order, point, 35, 20},
-            {stage::sleep, point, 133 + 51 * real, 4, "look"},
-            {stage::pairs, body, 700, 100},
-            {stage::candidates, point, 9 * real, 1},
-            {stage::sand_contact, near, 300, 100},
-            {stage::body_contact, body, 700, 1000},
-            {stage::integrate, body, 630, 100},
-            {stage::scatter, point, 20 * real, 54},
-            {stage::grid, point, 4 * real, 24},
-            {stage::gather, point, 48 + 12 * real, 143},
-            {stage::plasticity, point, 3 * real, 150},
-            {stage::damping, moving, 0, 1},
-            {stage::snapshots, point, 210 + 12 * real, 40, "snapshot"}};
+    return {{solver::stage::order, point, 35, 20},
+            {solver::stage::sleep, point, 133 + 51 * real, 4, "look"},
+            {solver::stage::pairs, body, 700, 100},
+            {solver::stage::candidates, point, 9 * real, 1},
+            {solver::stage::sand_contact, near, 300, 100},
+            {solver::stage::body_contact, body, 700, 1000},
+            {solver::stage::integrate, body, 630, 100},
+            {solver::stage::scatter, point, 20 * real, 54},
+            {solver::stage::grid, point, 4 * real, 24},
+            {solver::stage::gather, point, 48 + 12 * real, 143},
+            {solver::stage::plasticity, point, 3 * real, 150},
+            {solver::stage::damping, moving, 0, 1},
+            {solver::stage::snapshots, point, 210 + 12 * real, 40, "snapshot"}};
 }
 
 } // namespace

@@ -163,12 +163,14 @@ solver::BodyCommand PhaseClock::lower() const
 void PhaseClock::transfer(solver::StateFile& file)
 {
     const auto last = static_cast<double>(scene_.phases.size()) - 1;
-    file.numbers("phases/now", accept::number(index_, 0, last), start_,
-                 accept::number(still_since_, -accept::largest, std::numeric_limits<double>::infinity()),
-                 accept::number(ending_.kind, 0, static_cast<double>(EndKind::end_of_bed)), ending_.after,
-                 ending_.unbalanced);
+    file.numbers(
+        "phases/now", solver::accept::number(index_, 0, last), start_,
+        solver::accept::number(still_since_, -solver::accept::largest, std::numeric_limits<double>::infinity()),
+        solver::accept::number(ending_.kind, 0, static_cast<double>(EndKind::end_of_bed)), ending_.after,
+        ending_.unbalanced);
     file.numbers("phases/carried", carried_.last, carried_.carried, carried_.share);
-    file.common("phases/start_spins", start_spins_, accept::all(accept::rows(start_spins_.size()), accept::finite()));
+    file.common("phases/start_spins", start_spins_,
+                solver::accept::all(solver::accept::rows(start_spins_.size()), solver::accept::finite()));
 }
 
 solver::BodyCommand PhaseClock::command(std::size_t body, double time) const

@@ -153,8 +153,10 @@ double SurfaceMap::under(std::size_t body, const solver::BodyRow& row) const
 
 void SurfaceMap::transfer(solver::StateFile& file)
 {
-    file.common("surface/height", height_, accept::all(accept::rows(height_.size()), accept::finite_or_none()));
-    file.common("surface/pressed", pressed_, accept::all(accept::rows(height_.size()), accept::within(0, 1)));
+    file.common("surface/height", height_,
+                solver::accept::all(solver::accept::rows(height_.size()), solver::accept::finite_or_none()));
+    file.common("surface/pressed", pressed_,
+                solver::accept::all(solver::accept::rows(height_.size()), solver::accept::within(0, 1)));
 }
 
 } // namespace tread::run
