@@ -29,7 +29,7 @@ public:
         : exec_(exec)
         , scene_(scene)
         , rigid_(exec, scene, world, solver::make_plan(scene, world))
-        , phases_(scene, run::rolling_radii(scene, world))
+        , phases_(scene, tread::run::rolling_radii(scene, world))
         , substeps_(substeps)
     {
         command();
@@ -60,7 +60,7 @@ public:
             if (number % look_every != 0) { continue; }
             const double out_of_balance = rigid_.report(at).net_force / weight;
             if (!(out_of_balance <= at_rest)) { still_since = at; }
-            if (at - still_since >= run::PhaseClock::equilibrium_hold) { break; }
+            if (at - still_since >= tread::run::PhaseClock::equilibrium_hold) { break; }
         }
         return {at, rigid_.report(at).net_force / weight};
     }
@@ -148,7 +148,7 @@ private:
     Exec                    exec_;
     const scene::Scene&     scene_;
     solver::DemSolver<Exec> rigid_;
-    run::PhaseClock         phases_;
+    tread::run::PhaseClock  phases_;
     int                     substeps_;
     double                  dt_ = 0;
 };

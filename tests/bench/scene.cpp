@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "run/phases.hpp"
 #include "scene/load.hpp"
 #include "solver/page_loads.hpp"
 #include "solver/simulation.hpp"
@@ -28,7 +29,7 @@ public:
         , scene_(scene)
         , plan_(solver::make_plan(scene, world))
         , simulation_(exec, scene, world, plan_, decomposition)
-        , phases_(scene, run::rolling_radii(scene, world))
+        , phases_(scene, tread::run::rolling_radii(scene, world))
     {
     }
 
@@ -77,7 +78,7 @@ private:
     const scene::Scene&            scene_;
     solver::Plan                   plan_;
     solver::Simulation<Exec, Real> simulation_;
-    run::PhaseClock                phases_;
+    tread::run::PhaseClock         phases_;
     solver::StageClock             clock_;
     solver::TimeStep               step_;
     double                         time_     = 0; ///< s

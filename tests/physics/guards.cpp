@@ -116,7 +116,7 @@ TYPED_TEST(Guards, NotANumberIsNamedAtOnce)
     const Vec3<double> lost(0, std::numeric_limits<double>::quiet_NaN(), 0);
     for (auto array : {&dem::BodiesView::velocity, &dem::BodiesView::angular_velocity, &dem::BodiesView::position})
     {
-        solver::DemSolver<TypeParam> rigid(exec, scene, world, make_plan(scene, world));
+        solver::DemSolver<TypeParam> rigid(exec, scene, world, solver::make_plan(scene, world));
         rigid.command(std::vector<solver::BodyCommand>(2));
         rigid.find_pairs(1e-3);
         copy_from_host(exec, rigid.view().*array + 1, &lost, sizeof(lost));
@@ -138,7 +138,7 @@ TYPED_TEST(Guards, BodyBeyondItsSearchStopsTheRunByName)
                               ball("second", 0.1, 1, "[2.0, 0.5, 0.5]", "[0.0, 0.0, 0.0]");
     const scene::Scene           scene = test::load_text(text(0.01, 1e-3, 1, balls));
     const world::World           world = world::build_world(scene);
-    solver::DemSolver<TypeParam> rigid(exec, scene, world, make_plan(scene, world));
+    solver::DemSolver<TypeParam> rigid(exec, scene, world, solver::make_plan(scene, world));
     rigid.command(std::vector<solver::BodyCommand>(2));
     rigid.find_pairs(1e-3);
     ASSERT_EQ(rigid.substeps_without_check({1e-3, 10, ""}, 0, 0), 10) << "nothing moves: nobody watches";

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backend.hpp"
+#include "run/phases.hpp"
 #include "scene_text.hpp"
 #include "solver/simulation.hpp"
 
@@ -36,7 +37,7 @@ public:
         : scene_(std::move(scene))
         , world_(std::move(world))
         , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_), decomposition)
-        , phases_(scene_, run::rolling_radii(scene_, world_))
+        , phases_(scene_, tread::run::rolling_radii(scene_, world_))
     {
     }
 
@@ -47,7 +48,7 @@ public:
     double              dt() const { return step_.dt; }
 
     /// How the last phase that ran ended.
-    const run::PhaseEnd& phase_end() const { return phases_.ending(); }
+    const tread::run::PhaseEnd& phase_end() const { return phases_.ending(); }
 
     /// Before every step, adjust(commands) may ask of the named bodies what no phase can.
     void steer(std::function<void(std::vector<solver::BodyCommand>&)> adjust) { adjust_ = std::move(adjust); }
@@ -89,13 +90,13 @@ public:
     }
 
 private:
-    scene::Scene       scene_;
-    world::World       world_;
-    Simulation         simulation_;
-    run::PhaseClock    phases_;
-    solver::StageClock clock_;
-    solver::TimeStep   step_;
-    double             time_ = 0;
+    scene::Scene           scene_;
+    world::World           world_;
+    Simulation             simulation_;
+    tread::run::PhaseClock phases_;
+    solver::StageClock     clock_;
+    solver::TimeStep       step_;
+    double                 time_ = 0;
 
     std::function<void(std::vector<solver::BodyCommand>&)> adjust_;
 };

@@ -50,9 +50,9 @@ TYPED_TEST(Lowering, EndsWhenTheSandCarriesTheShareAndTheBooksClose)
         solver::Ledger& ledger = run.simulation().ledger();
         ledger.energy(run.simulation().census());
         ledger.balance(run.simulation().census());
-        const double         unaccounted = std::abs(ledger.errors().energy);
-        const run::PhaseEnd& end         = run.phase_end();
-        EXPECT_EQ(end.kind, run::EndKind::lowered);
+        const double                unaccounted = std::abs(ledger.errors().energy);
+        const tread::run::PhaseEnd& end         = run.phase_end();
+        EXPECT_EQ(end.kind, tread::run::EndKind::lowered);
         const double lag = 0.05;
         test::report("share of the weight that the sand carries", end.carried, share, lag * share,
                      "the load grows by less between two looks");

@@ -6,6 +6,7 @@
 #include "harness.hpp"
 #include "io/h5.hpp"
 #include "mpi_session.hpp"
+#include "run/phases.hpp"
 #include "solver/state_file.hpp"
 #include "temporary_directory.hpp"
 #include "thrown_roller.hpp"
@@ -37,7 +38,7 @@ public:
         : scene_(test::load_text(text))
         , world_(world::build_world(scene_))
         , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_))
-        , phases_(scene_, run::rolling_radii(scene_, world_))
+        , phases_(scene_, tread::run::rolling_radii(scene_, world_))
     {
     }
 
@@ -135,7 +136,7 @@ private:
     scene::Scene                     scene_;
     world::World                     world_;
     solver::Simulation<Exec, double> simulation_;
-    run::PhaseClock                  phases_;
+    tread::run::PhaseClock           phases_;
     solver::StageClock               clock_;
     solver::TimeStep                 step_;
     double                           time_ = 0;

@@ -11,7 +11,7 @@ namespace
 using namespace tread;
 
 template<class Exec>
-class MpmSolver : public test::BackendTest<Exec>
+class Sand : public test::BackendTest<Exec>
 {
 };
 TYPED_TEST_SUITE(Sand, test::Backends, test::BackendNames);

@@ -50,7 +50,7 @@ const std::string heap  = "region = { box = [[0.0, 0.0, 0.0], [0.8, 0.05, 0.4]] 
                           "height = \"0.25 - 0.36*abs(x - 0.4)\""; // 20 degrees
 
 template<class Exec>
-run::PhaseEnd settle(const Exec& exec, const std::string& text)
+tread::run::PhaseEnd settle(const Exec& exec, const std::string& text)
 {
     test::Experiment<Exec, float> experiment(exec, text);
     experiment.run();
@@ -64,28 +64,29 @@ constexpr double cycle = 0.0276;
 /// is off.
 TYPED_TEST(Settling, LevelBedSettlesAtOnce)
 {
-    const run::PhaseEnd end  = settle(this->exec(), bed_text(level, 2));
-    const double        most = run::PhaseClock::equilibrium_hold + 2 * cycle;
-    test::report("settled after, s", end.after, run::PhaseClock::equilibrium_hold,
-                 most - run::PhaseClock::equilibrium_hold, "the time that equilibrium must hold, and two cycles");
-    EXPECT_EQ(end.kind, run::EndKind::settled);
+    const tread::run::PhaseEnd end  = settle(this->exec(), bed_text(level, 2));
+    const double               most = tread::run::PhaseClock::equilibrium_hold + 2 * cycle;
+    test::report("settled after, s", end.after, tread::run::PhaseClock::equilibrium_hold,
+                 most - tread::run::PhaseClock::equilibrium_hold,
+                 "the time that equilibrium must hold, and two cycles");
+    EXPECT_EQ(end.kind, tread::run::EndKind::settled);
     EXPECT_LT(end.after, most);
 }
 
 /// A heap of 20 degrees starts with a first guess only; it takes cycles to settle, and says so if it is not given them.
 TYPED_TEST(Settling, HeapSettlesSlowlyOrSaysThatItDidNot)
 {
-    const run::PhaseEnd end   = settle(this->exec(), bed_text(heap, 2));
-    const double        least = run::PhaseClock::equilibrium_hold + cycle;
+    const tread::run::PhaseEnd end   = settle(this->exec(), bed_text(heap, 2));
+    const double               least = tread::run::PhaseClock::equilibrium_hold + cycle;
     test::report("settled after, s", end.after, 0.5, 0.5, "some cycles of 28 ms, each leaving 0.54");
-    EXPECT_EQ(end.kind, run::EndKind::settled);
+    EXPECT_EQ(end.kind, tread::run::EndKind::settled);
     EXPECT_GT(end.after, least);
-    EXPECT_LE(end.unbalanced, run::PhaseClock::equilibrium_ratio);
+    EXPECT_LE(end.unbalanced, tread::run::PhaseClock::equilibrium_ratio);
 
-    const run::PhaseEnd cut = settle(this->exec(), bed_text(heap, 0.02));
-    EXPECT_EQ(cut.kind, run::EndKind::unsettled);
+    const tread::run::PhaseEnd cut = settle(this->exec(), bed_text(heap, 0.02));
+    EXPECT_EQ(cut.kind, tread::run::EndKind::unsettled);
     EXPECT_NEAR(cut.after, 0.02, 1e-9);
-    EXPECT_GT(cut.unbalanced, run::PhaseClock::equilibrium_ratio);
+    EXPECT_GT(cut.unbalanced, tread::run::PhaseClock::equilibrium_ratio);
     EXPECT_NE(describe(cut).find("NOT settled"), std::string::npos);
 }
 

@@ -32,7 +32,7 @@ public:
             decomp::TransportChoice transport = decomp::TransportChoice::automatic)
         : scene_(load_text(text))
         , world_(world::build_world(scene_))
-        , phases_(scene_, run::rolling_radii(scene_, world_))
+        , phases_(scene_, tread::run::rolling_radii(scene_, world_))
     {
         if (ranks == Ranks::all) { decompose(exec, owner_of, transport); }
         simulation_ = std::make_unique<solver::Simulation<Exec, Real>>(
@@ -104,7 +104,7 @@ private:
 
     scene::Scene                                    scene_;
     world::World                                    world_;
-    run::PhaseClock                                 phases_;
+    tread::run::PhaseClock                                 phases_;
     std::unique_ptr<decomp::Decomposition<Exec>>    decomposition_;
     std::unique_ptr<solver::Simulation<Exec, Real>> simulation_;
     solver::StageClock                              clock_;

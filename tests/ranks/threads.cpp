@@ -73,15 +73,15 @@ TEST_F(ThreadsTest, ranks_of_a_machine_are_counted)
 TEST_F(ThreadsTest, cores_are_shared_with_the_ranks_of_the_machine_alone)
 {
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    EXPECT_EQ(run::choose_threads(world(), 0), is_last() ? cores : std::max(1, cores / (world().size() - 1)));
+    EXPECT_EQ(tread::run::choose_threads(world(), 0), is_last() ? cores : std::max(1, cores / (world().size() - 1)));
 }
 
 TEST_F(ThreadsTest, what_is_asked_for_comes_first)
 {
-    EXPECT_EQ(run::choose_threads(world(), 7), 7);
+    EXPECT_EQ(tread::run::choose_threads(world(), 7), 7);
     // Set on one machine only: nobody waits for the others.
     if (is_last()) { setenv("OMP_NUM_THREADS", "3", 1); }
-    const int threads = run::choose_threads(world(), 0);
+    const int threads = tread::run::choose_threads(world(), 0);
     EXPECT_TRUE(!is_last() || threads == omp_get_max_threads());
     unsetenv("OMP_NUM_THREADS");
 }

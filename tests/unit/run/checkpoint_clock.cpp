@@ -5,7 +5,7 @@
 #include "mpi_session.hpp"
 
 // Limits are hours away or over, so that no answer depends on how fast this machine is.
-namespace tread::solver
+namespace tread::run
 {
 namespace
 {
@@ -83,4 +83,4 @@ TEST(CheckpointClock, WallTimeIsDueAtOnceWhenItsIntervalIsOver)
 }
 
 } // namespace
-} // namespace tread::solver
+} // namespace tread::run

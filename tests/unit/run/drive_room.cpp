@@ -6,7 +6,7 @@
 
 #include "scene_text.hpp"
 
-namespace tread::solver
+namespace tread::run
 {
 namespace
 {
@@ -33,7 +33,7 @@ struct Built
 {
     explicit Built(const std::string& text)
         : scene(test::load_text(text))
-        , world(build_world(scene))
+        , world(world::build_world(scene))
         , rooms(drive_rooms(scene, world))
     {
     }
@@ -41,7 +41,7 @@ struct Built
     std::vector<std::string> warnings() const { return drive_warnings(scene, world, rooms); }
 
     scene::Scene           scene;
-    World                  world;
+    world::World           world;
     std::vector<DriveRoom> rooms;
 };
 
@@ -154,4 +154,4 @@ TEST(DriveRoom, ComputesTheLeastDistanceToTheEdges)
 }
 
 } // namespace
-} // namespace tread::solver
+} // namespace tread::run

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tread::solver
+namespace tread::run
 {
 namespace
 {
@@ -101,4 +101,4 @@ TEST(DriveWatch, ReadsWhereASpeedIsNoNumber)
 }
 
 } // namespace
-} // namespace tread::solver
+} // namespace tread::run

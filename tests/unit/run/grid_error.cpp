@@ -15,7 +15,7 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::run;
 
 const std::string drive_text = R"(
 [[phase]]
@@ -39,15 +39,15 @@ struct Driven
         : scene(test::load_text(test::roller_text + "[[contact]]\nbetween = [\"steel\", \"sand\"]\nfriction = 0.8\n" +
                                     phase,
                                 with_coarse_shape(overrides)))
-        , world(build_world(scene))
-        , plan(make_plan(scene, world))
+        , world(world::build_world(scene))
+        , plan(solver::make_plan(scene, world))
         , wheel(driven_wheel(scene, world, plan))
     {
     }
 
     scene::Scene               scene;
-    World                      world;
-    Plan                       plan;
+    world::World               world;
+    solver::Plan               plan;
     std::optional<DrivenWheel> wheel;
 };
 
@@ -76,11 +76,11 @@ TEST(GridError, ADrumOfTwentyCellsIsNotResolved)
 
 TEST(GridError, StandsAmongTheFiguresOfARun)
 {
-    const Driven     run;
-    const PaceLimits limits = pace_limits(run.scene, run.world, run.plan);
-    contact::Summary touch  = contact::Summary::zero();
+    const Driven             run;
+    const solver::PaceLimits limits = solver::pace_limits(run.scene, run.world, run.plan);
+    contact::Summary         touch  = contact::Summary::zero();
     touch.live = touch.live_named = 4 * 64;
-    Extremes extremes;
+    solver::Extremes extremes;
     extremes.note({1e-3, 1, ""}, 1, limits, {}, touch);
     const auto figure = [&](const char* name, const std::optional<DrivenWheel>& wheel) -> std::optional<io::Figure>
     {
@@ -158,8 +158,8 @@ TEST(Grousers, GrowWithTheBody)
 /// A patch of many cells is not enough where the grousers are smaller than a cell.
 TEST(Grousers, DecideThePredictionWhereTheyAreCoarser)
 {
-    Driven      run(with_grousers);
-    const Patch patch{0.01, 4, 4, true};
+    Driven             run(with_grousers);
+    const world::Patch patch{0.01, 4, 4, true};
     run.world.geometry.spacing = 0.01;
     const Prediction seen      = predict(patch, run.world, run.plan, run.wheel);
     EXPECT_EQ(seen.verdict, io::Verdict::marginal);
@@ -169,8 +169,8 @@ TEST(Grousers, DecideThePredictionWhereTheyAreCoarser)
 /// The spacing that a prediction names has the verdict that it promises.
 TEST(Prediction, NamesTheSpacingOfTheNextVerdict)
 {
-    Driven      run;
-    const Patch patch{0.01, 0.4, 0.4, true}; // 8 cells
+    Driven             run;
+    const world::Patch patch{0.01, 0.4, 0.4, true}; // 8 cells
     for (const io::Verdict better : {io::Verdict::marginal, io::Verdict::resolved})
     {
         const Prediction seen = predict(patch, run.world, run.plan, run.wheel);

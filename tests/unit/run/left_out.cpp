@@ -15,22 +15,21 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
 using namespace tread::test;
 
 /// Of five steps from the start.
 Part used_by(const std::string& text)
 {
-    const scene::Scene       scene = test::load_text(text);
-    const World              world = build_world(scene);
-    Counters                 counters;
-    Simulation<Cpu, float>   simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
-    StageClock               clock;
-    std::vector<BodyCommand> commands(scene.bodies.size());
-    TimeStep                 step;
+    const scene::Scene               scene = test::load_text(text);
+    const world::World               world = world::build_world(scene);
+    Counters                         counters;
+    solver::Simulation<Cpu, float>   simulation(Cpu{&counters}, scene, world, solver::make_plan(scene, world));
+    solver::StageClock               clock;
+    std::vector<solver::BodyCommand> commands(scene.bodies.size());
+    solver::TimeStep                 step;
     for (int i = 0; i < 5; ++i)
     {
-        step = choose_step(scene.time, simulation.limits(), simulation.pace(), step.dt);
+        step = solver::choose_step(scene.time, simulation.limits(), simulation.pace(), step.dt);
         simulation.command(commands, 0);
         simulation.step(step, 0, clock);
     }

@@ -16,7 +16,7 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::run;
 using namespace tread::test;
 
 struct RunUse
@@ -40,8 +40,8 @@ Names names_in(const std::string& directory)
 RunUse use_of_run(const std::string& text, const std::vector<std::string>& overrides)
 {
     const scene::Scene       scene = load_text(text, overrides);
-    const World              world = build_world(scene);
-    const Plan               plan  = make_plan(scene, world);
+    const world::World       world = world::build_world(scene);
+    const solver::Plan       plan  = solver::make_plan(scene, world);
     const TemporaryDirectory folder;
     Counters                 counters;
     Log                      log(test::world(), Terminal::silent);
@@ -49,13 +49,13 @@ RunUse use_of_run(const std::string& text, const std::vector<std::string>& overr
     {
         const auto directory =
             io::RunDirectory::create(test::world(), {folder.path("run"), io::Existing::refuse, "# a scene\n", {}});
-        Simulation<Cpu, float> simulation(Cpu{&counters}, scene, world, plan);
-        Driver<Cpu, float>     driver(test::world(), log, scene, world, directory, plan, simulation,
-                                      drive_rooms(scene, world), {});
+        solver::Simulation<Cpu, float> simulation(Cpu{&counters}, scene, world, plan);
+        Driver<Cpu, float>             driver(test::world(), log, scene, world, directory, plan, simulation,
+                                              drive_rooms(scene, world), {});
         EXPECT_FALSE(driver.run());
     }
     RunUse use{used_of(counters), mpi_calls(), names_in(folder.path("run")), {}};
-    for (const Stage& stage : stages(scene, plan, 1))
+    for (const solver::Stage& stage : solver::stages(scene, plan, 1))
     {
         if (!stage.on) { use.stages_left_out.insert(stage.name); }
     }
@@ -84,7 +84,7 @@ TEST(LeftOut, ARunWithoutOutput)
     expect_equal(use.part, soil);
     expect_equal(use.calls, {}, "MPI call");
     expect_equal(use.files, {"scene.toml", "timeseries.h5", ".lock", "checkpoints"}, "file");
-    EXPECT_TRUE(use.stages_left_out.count(stage::snapshots));
+    EXPECT_TRUE(use.stages_left_out.count(solver::stage::snapshots));
 }
 
 TEST(LeftOut, ARunWithSnapshots)
@@ -94,7 +94,7 @@ TEST(LeftOut, ARunWithSnapshots)
     expect_equal(use.part, soil + snapshots);
     expect_equal(use.calls, {}, "MPI call");
     EXPECT_TRUE(use.files.count("snapshots"));
-    EXPECT_FALSE(use.stages_left_out.count(stage::snapshots));
+    EXPECT_FALSE(use.stages_left_out.count(solver::stage::snapshots));
 }
 
 } // namespace

@@ -15,7 +15,7 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::run;
 using test::load_text;
 
 /// What the first steps of a scene took and left behind.
@@ -29,14 +29,14 @@ struct Trial
 template<class Real>
 Trial first_steps(const scene::Scene& scene, Counters& counters, int count = 3)
 {
-    const World                    world = build_world(scene);
-    Simulation<Cpu, Real>          simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
-    StageClock                     clock;
-    TimeStep                       step;
-    const std::vector<BodyCommand> commands(scene.bodies.size());
+    const world::World                     world = world::build_world(scene);
+    solver::Simulation<Cpu, Real>          simulation(Cpu{&counters}, scene, world, solver::make_plan(scene, world));
+    solver::StageClock                     clock;
+    solver::TimeStep                       step;
+    const std::vector<solver::BodyCommand> commands(scene.bodies.size());
     for (int i = 0; i < count; ++i)
     {
-        step = choose_step(scene.time, simulation.limits(), simulation.pace(), step.dt);
+        step = solver::choose_step(scene.time, simulation.limits(), simulation.pace(), step.dt);
         simulation.command(commands, 0);
         simulation.step(step, 0, clock);
     }
@@ -49,10 +49,10 @@ template<class Real>
 void expect_true_estimate(const std::string& text, const std::vector<std::string>& overrides = {})
 {
     const scene::Scene scene = load_text(text, overrides);
-    const World        world = build_world(scene);
+    const world::World world = world::build_world(scene);
     Counters           counters;
-    const double       wanted = static_cast<double>(estimate(scene, world, make_plan(scene, world)).memory_bytes);
-    const double       used   = static_cast<double>(first_steps<Real>(scene, counters).peak);
+    const double wanted = static_cast<double>(estimate(scene, world, solver::make_plan(scene, world)).memory_bytes);
+    const double used   = static_cast<double>(first_steps<Real>(scene, counters).peak);
     std::cout << "[ memory   ] estimate over use: " << wanted / used << '\n';
     EXPECT_NEAR(wanted / used, 1, 0.1);
 }
@@ -74,9 +74,9 @@ TEST(Memory, EstimateHasRoomForAllSandToSleep)
 {
     const scene::Scene scene =
         load_text(finer(test::sand_text) + "[sleep]\ndistance = 0.1\nspeed = 1.0\nrest = 1e-4\n");
-    const World  world = build_world(scene);
-    Counters     counters;
-    const double wanted = static_cast<double>(estimate(scene, world, make_plan(scene, world)).memory_bytes);
+    const world::World world = world::build_world(scene);
+    Counters           counters;
+    const double wanted = static_cast<double>(estimate(scene, world, solver::make_plan(scene, world)).memory_bytes);
     first_steps<float>(scene, counters, 40); // looks are taken where steps are measured
     ASSERT_TRUE(counters.bytes().count("leaving points"));
     const double used = static_cast<double>(counters.peak_bytes());

@@ -8,7 +8,7 @@
 #include "kernels/dem/bodies.hpp"
 #include "scene_text.hpp"
 
-namespace tread::solver
+namespace tread::run
 {
 namespace
 {
@@ -28,7 +28,7 @@ TEST(Lowering, PrescribesTheVelocityAlongATiltedGravity)
     const scene::Scene scene = test::load_text(lowered_text("[3.0, 0.0, -4.0]", half));
     const PhaseClock   clock(scene, {0.1});
     EXPECT_EQ(clock.lowered(), std::size_t{0});
-    const BodyCommand command = clock.command(0, 0.1);
+    const solver::BodyCommand command = clock.command(0, 0.1);
     EXPECT_EQ(command.locked, std::uint32_t(dem::lock_all));
     EXPECT_EQ(command.spin, 0.0);
     ASSERT_TRUE(command.lowering);
@@ -97,4 +97,4 @@ weight   = { body = "roller", from = 0.2, to = 1.5, ramp = 0.5 }
 }
 
 } // namespace
-} // namespace tread::solver
+} // namespace tread::run

@@ -12,15 +12,15 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::run;
 
 struct Rolled
 {
     explicit Rolled(const std::string& text)
         : scene(test::load_text(text))
-        , world(build_world(scene))
-        , plan(make_plan(scene, world))
-        , limits(pace_limits(scene, world, plan))
+        , world(world::build_world(scene))
+        , plan(solver::make_plan(scene, world))
+        , limits(solver::pace_limits(scene, world, plan))
     {
     }
 
@@ -33,11 +33,11 @@ struct Rolled
         return std::nullopt;
     }
 
-    scene::Scene scene;
-    World        world;
-    Plan         plan;
-    PaceLimits   limits;
-    Extremes     extremes;
+    scene::Scene       scene;
+    world::World       world;
+    solver::Plan       plan;
+    solver::PaceLimits limits;
+    solver::Extremes   extremes;
 };
 
 contact::Summary touching(std::int64_t points, double overlap)
@@ -52,7 +52,7 @@ TEST(Extremes, KeepTheWorstStep)
 {
     Rolled       run(test::roller_text);
     const double automatic = run.limits.courant * run.limits.spacing / run.limits.wave_speed;
-    Pace         pace;
+    solver::Pace pace;
     pace.stiffest_point = 0.5 / (automatic * automatic);
     run.extremes.note({automatic, 1, ""}, 1, run.limits, pace, touching(16, 0.2));
     EXPECT_NEAR(run.figure("margin_wave")->value, 1, 1e-12);
@@ -83,10 +83,10 @@ TEST(Extremes, MeasureTheContactPatchOfASlab)
 {
     Rolled       run(test::roller_text);
     const double spacing = run.world.geometry.spacing;
-    EXPECT_NEAR(patch_side(9 * spacing * spacing, run.world), 3 * spacing, 1e-12);
+    EXPECT_NEAR(world::patch_side(9 * spacing * spacing, run.world), 3 * spacing, 1e-12);
     run.world.geometry.size[1] = 2 * spacing;
-    EXPECT_NEAR(patch_side(26 * spacing * spacing, run.world), 13 * spacing, 1e-12);
-    EXPECT_EQ(patch_side(0, run.world), 0);
+    EXPECT_NEAR(world::patch_side(26 * spacing * spacing, run.world), 13 * spacing, 1e-12);
+    EXPECT_EQ(world::patch_side(0, run.world), 0);
     // 8 points a cell are two across it: a strip of 2 x 13 cells.
     run.extremes.note({1e-3, 1, ""}, 1, run.limits, {}, touching(4 * 26, 0));
     EXPECT_NEAR(run.figure("contact_cells")->value, 13, 1e-12);

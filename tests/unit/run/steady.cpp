@@ -10,7 +10,7 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::run;
 
 struct Sample
 {

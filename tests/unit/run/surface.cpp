@@ -16,19 +16,19 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::run;
 
 constexpr double cell = 0.01, spacing = 0.005; // m; eight points a cell
 
 /// 20 by 20 cells.
-ColumnLattice plan(double width = cell, double bin = cell)
+world::ColumnLattice plan(double width = cell, double bin = cell)
 {
     const auto count = static_cast<std::int64_t>(std::lround(0.2 / width));
     return {{count, count}, {width, width}, bin};
 }
 
 /// Points of a lattice `apart` (m) under a height, shifted against the cells.
-void fill(TerrainBins& bins, const std::function<double(double, double)>& height, double apart,
+void fill(world::TerrainBins& bins, const std::function<double(double, double)>& height, double apart,
           const Vec3<double>& shift)
 {
     for (double x = shift[0] - apart; x < 0.2 + apart; x += apart)
@@ -42,7 +42,7 @@ void fill(TerrainBins& bins, const std::function<double(double, double)>& height
 
 /// Away from the sides, where the lattice ends within a column.
 template<class Look>
-void for_each_inner(const ColumnLattice& lattice, const std::vector<double>& heights, const Look& look)
+void for_each_inner(const world::ColumnLattice& lattice, const std::vector<double>& heights, const Look& look)
 {
     for (std::int64_t j = 1; j + 1 < lattice.count[1]; ++j)
     {
@@ -54,7 +54,7 @@ void for_each_inner(const ColumnLattice& lattice, const std::vector<double>& hei
     }
 }
 
-double mean_of(const ColumnLattice& lattice, const std::vector<double>& heights)
+double mean_of(const world::ColumnLattice& lattice, const std::vector<double>& heights)
 {
     double sum = 0, count = 0;
     for_each_inner(lattice, heights,
@@ -76,7 +76,7 @@ TEST(Surface, OfALevelBedIsExactForAnyLattice)
     {
         const double       apart = spacing * random.uniform(0.6, 1.2);
         const Vec3<double> shift(apart * random.uniform(), apart * random.uniform(), apart * random.uniform(0.5, 1.5));
-        TerrainBins        bins(plan());
+        world::TerrainBins bins(plan());
         fill(
             bins, [](double, double) { return 0.12; }, apart, shift);
         const double layers = std::ceil((0.12 - shift[2]) / apart), top = shift[2] + (layers - 0.5) * apart;
@@ -93,8 +93,8 @@ TEST(Surface, OfASlopeIsThatUnderEachColumn)
 {
     for (const double slope : {0.1, 0.36, 0.7, 1.0})
     {
-        const auto  height = [&](double x, double /*y*/) { return 0.08 + slope * x; };
-        TerrainBins bins(plan());
+        const auto         height = [&](double x, double /*y*/) { return 0.08 + slope * x; };
+        world::TerrainBins bins(plan());
         fill(bins, height, spacing, {0.3 * spacing, 0.1 * spacing, 0.5 * spacing});
         double worst = 0;
         for_each_inner(plan(), bins.surface(),
@@ -110,8 +110,8 @@ TEST(Surface, OfASlopeIsThatUnderEachColumn)
 /// high.
 TEST(Surface, DoesNotStandOnWhatFloats)
 {
-    const ColumnLattice lattice = plan();
-    TerrainBins         bins(lattice);
+    const world::ColumnLattice lattice = plan();
+    world::TerrainBins         bins(lattice);
     fill(bins, [](double, double) { return 0.2; }, spacing, {0.5 * spacing, 0.5 * spacing, 0.5 * spacing});
     Random    random(7);
     const int floating = 40 * 40 * 40 / 100;
@@ -127,7 +127,7 @@ TEST(Surface, DoesNotStandOnWhatFloats)
 
 TEST(Surface, OfALonePointIsNone)
 {
-    TerrainBins bins(plan());
+    world::TerrainBins bins(plan());
     bins.add_cube({0.1, 0.1, 0.1}, spacing * spacing * spacing);
     for (const double height : bins.surface()) { EXPECT_TRUE(std::isnan(height)); }
 }
@@ -136,9 +136,9 @@ TEST(Surface, OfALonePointIsNone)
 /// layers would reach at the packing of those below, half a gap above their tops.
 TEST(Surface, OfABedOfRocksStandsAtTheUppermostLayer)
 {
-    constexpr double    radius = 0.0095, apart = 0.02;
-    const ColumnLattice lattice = plan(0.04, 0.01);
-    TerrainBins         bins(lattice);
+    constexpr double           radius = 0.0095, apart = 0.02;
+    const world::ColumnLattice lattice = plan(0.04, 0.01);
+    world::TerrainBins         bins(lattice);
     for (int i = 0; i < 10; ++i)
     {
         for (int j = 0; j < 10; ++j)
@@ -158,10 +158,10 @@ TEST(Surface, OfABedOfRocksStandsAtTheUppermostLayer)
 /// Rocks in sand that leaves room for them: as high as the sand alone.
 TEST(Surface, OfAMixtureIsThatOfItsSand)
 {
-    constexpr double          radius  = 0.01;
-    const ColumnLattice       lattice = plan(0.04, 0.01);
-    TerrainBins               bins(lattice);
-    std::vector<Vec3<double>> rocks;
+    constexpr double           radius  = 0.01;
+    const world::ColumnLattice lattice = plan(0.04, 0.01);
+    world::TerrainBins         bins(lattice);
+    std::vector<Vec3<double>>  rocks;
     for (int i = 0; i < 5; ++i)
     {
         for (int j = 0; j < 5; ++j)
@@ -195,11 +195,11 @@ TEST(Surface, WithoutTerrainIsTheFloorOfTheDomain)
     std::string text = test::roller_text;
     text.erase(text.find("[[terrain]]"), text.find("[[phase]]") - text.find("[[terrain]]"));
     const scene::Scene scene = test::load_text(text);
-    const World        world = build_world(scene);
+    const world::World world = world::build_world(scene);
     Counters           counters;
 
-    Simulation<Cpu, double> simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
-    SurfaceMap              map(scene, world);
+    solver::Simulation<Cpu, double> simulation(Cpu{&counters}, scene, world, solver::make_plan(scene, world));
+    SurfaceMap                      map(scene, world);
     map.renew(simulation.surface_heights(map.lattice()));
     EXPECT_EQ(map.under(0, simulation.named_bodies()[0]), 0);
 }
@@ -209,8 +209,8 @@ struct OnASlope
 {
     OnASlope()
         : scene(test::load_text(text()))
-        , world(build_world(scene))
-        , simulation(Cpu{&counters}, scene, world, make_plan(scene, world))
+        , world(world::build_world(scene))
+        , simulation(Cpu{&counters}, scene, world, solver::make_plan(scene, world))
         , map(scene, world)
     {
         map.renew(simulation.surface_heights(map.lattice()));
@@ -225,19 +225,19 @@ struct OnASlope
         return text;
     }
 
-    BodyRow roller_at(double x, double y, double lowest)
+    solver::BodyRow roller_at(double x, double y, double lowest)
     {
-        BodyRow row  = simulation.named_bodies()[0];
-        row.position = {x, y, lowest + 0.1};
-        row.lowest   = lowest;
+        solver::BodyRow row = simulation.named_bodies()[0];
+        row.position        = {x, y, lowest + 0.1};
+        row.lowest          = lowest;
         return row;
     }
 
-    Counters                counters;
-    scene::Scene            scene;
-    World                   world;
-    Simulation<Cpu, double> simulation;
-    SurfaceMap              map;
+    Counters                        counters;
+    scene::Scene                    scene;
+    world::World                    world;
+    solver::Simulation<Cpu, double> simulation;
+    SurfaceMap                      map;
 };
 
 /// Not the bed's median: where the wheel stands. Tolerance: half a point spacing, by which points stand in steps.
@@ -260,8 +260,8 @@ TEST(Surface, UnderAWheelIsThatOfTheSlopeThere)
 /// Of the roller itself: 0.1 m over the grousers, which do not stand out.
 TEST(Surface, TheLowestPointOfAWheelIsThatOfItsRim)
 {
-    OnASlope      setup;
-    const BodyRow roller = setup.simulation.named_bodies()[0];
+    OnASlope              setup;
+    const solver::BodyRow roller = setup.simulation.named_bodies()[0];
     EXPECT_NEAR(roller.position[2] - roller.lowest, 0.1, 1e-12);
 }
 
@@ -280,14 +280,14 @@ diameter = 0.1
 position = [0.2, 0.2, 0.4]
 )";
     const scene::Scene scene = test::load_text(text);
-    const World        world = build_world(scene);
+    const world::World world = world::build_world(scene);
     Counters           counters;
 
-    Simulation<Cpu, double> simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
-    const auto&             form = world.templates[static_cast<std::size_t>(world.bodies.shape[0])];
-    const auto              z    = [](const Vec3<double>& one, const Vec3<double>& other) { return one[2] < other[2]; };
-    const Vec3<double>      deepest = *std::min_element(form.mesh.vertices.begin(), form.mesh.vertices.end(), z);
-    const BodyRow           stone   = simulation.named_bodies()[0];
+    solver::Simulation<Cpu, double> simulation(Cpu{&counters}, scene, world, solver::make_plan(scene, world));
+    const auto&                     form = world.templates[static_cast<std::size_t>(world.bodies.shape[0])];
+    const auto            z = [](const Vec3<double>& one, const Vec3<double>& other) { return one[2] < other[2]; };
+    const Vec3<double>    deepest = *std::min_element(form.mesh.vertices.begin(), form.mesh.vertices.end(), z);
+    const solver::BodyRow stone   = simulation.named_bodies()[0];
     EXPECT_NEAR(stone.lowest, 0.4 + world.bodies.scale[0] * deepest[2], 1e-12);
     EXPECT_GT(stone.lowest, 0.4 - world.bodies.scale[0] * form.bounding_radius + 1e-3) << "this shape tells them apart";
 }
@@ -295,9 +295,9 @@ position = [0.2, 0.2, 0.4]
 /// Columns that a body has pressed on stay as they were; others follow the bed.
 TEST(Surface, KeepsItsHeightWhereABodyHasPressed)
 {
-    OnASlope      setup;
-    const BodyRow deep = setup.roller_at(0.1, 0.2, 0.1), above = setup.roller_at(0.3, 0.2, 0.5);
-    const double  before = setup.map.under(0, deep);
+    OnASlope              setup;
+    const solver::BodyRow deep = setup.roller_at(0.1, 0.2, 0.1), above = setup.roller_at(0.3, 0.2, 0.5);
+    const double          before = setup.map.under(0, deep);
     setup.map.press({deep});
     setup.map.press({above});
     setup.map.renew(std::vector<double>(static_cast<std::size_t>(setup.map.lattice().size()), 0.05));

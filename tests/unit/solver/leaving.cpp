@@ -26,7 +26,7 @@ std::string thrown_out()
 TEST(Leaving, BooksKeepWhatHasLeft)
 {
     const scene::Scene        scene = test::load_text(thrown_out());
-    const World               world = build_world(scene);
+    const world::World        world = world::build_world(scene);
     Counters                  counters;
     Simulation<Cpu, double>   simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
     const std::vector<Census> start{simulation.census()};

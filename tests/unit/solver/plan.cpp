@@ -16,7 +16,7 @@ using test::load_text;
 TEST(Plan, SaysWhyAStageIsLeftOut)
 {
     const scene::Scene scene = load_text(test::sand_text);
-    const World        world = build_world(scene);
+    const world::World world = world::build_world(scene);
     for (const Stage& stage : stages(scene, make_plan(scene, world), 1))
     {
         EXPECT_FALSE(stage.why.empty()) << stage.name;

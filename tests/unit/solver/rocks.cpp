@@ -48,10 +48,10 @@ placement = "rain"
 }
 
 /// The nearest that a surface node of one body comes to another body, m; every pair is asked.
-double nearest_node(const World& world)
+double nearest_node(const world::World& world)
 {
-    const HostBodies& bodies  = world.bodies;
-    double            nearest = 1;
+    const world::HostBodies& bodies  = world.bodies;
+    double                   nearest = 1;
     for (std::size_t a = 0; a < bodies.size(); ++a)
     {
         const auto& form = world.templates[static_cast<std::size_t>(bodies.shape[a])];
@@ -76,14 +76,14 @@ double nearest_node(const World& world)
     return nearest;
 }
 
-void expect_inside(const World& world, const Space& space)
+void expect_inside(const world::World& world, const world::Space& space)
 {
-    const HostBodies& bodies = world.bodies;
+    const world::HostBodies& bodies = world.bodies;
     for (std::size_t b = 0; b < bodies.size(); ++b)
     {
         for (const auto& node : world.templates[static_cast<std::size_t>(bodies.shape[b])].nodes.positions)
         {
-            ASSERT_TRUE(contains(space, bodies.position[b] + bodies.orientation[b] * (bodies.scale[b] * node)));
+            ASSERT_TRUE(world::contains(space, bodies.position[b] + bodies.orientation[b] * (bodies.scale[b] * node)));
         }
     }
 }
@@ -92,17 +92,17 @@ void expect_inside(const World& world, const Space& space)
 /// theirs would fill 0.23 (R_b/R)^3, here over the 0.38 at which random spheres jam (Torquato 2002, section 12).
 TEST(Rocks, IrregularOnesPackDenserThanTheirBoundingSpheres)
 {
-    const auto   scene   = load_text(rocks_scene("solid_fraction = 0.24\ndiameter = 0.012\n"));
-    const World  world   = build_world(scene);
-    const auto   bed     = describe_bed(scene, world).rocks.at(0);
-    const auto&  form    = world.templates.at(0);
-    const double spheres = bed.solid_fraction * std::pow(2 * form.bounding_radius / volume_diameter(form), 3);
+    const auto         scene = load_text(rocks_scene("solid_fraction = 0.24\ndiameter = 0.012\n"));
+    const world::World world = world::build_world(scene);
+    const auto         bed   = world::describe_bed(scene, world).rocks.at(0);
+    const auto&        form  = world.templates.at(0);
+    const double spheres = bed.solid_fraction * std::pow(2 * form.bounding_radius / world::volume_diameter(form), 3);
     std::cout << bed.count << " rocks, solid fraction " << bed.solid_fraction << " (expected 0.24 to half a rock), of "
               << "their bounding spheres " << spheres << "; nearest node " << nearest_node(world) << " m\n";
-    EXPECT_NEAR(bed.solid_fraction, 0.24, 0.5 * sphere_volume(0.012) / 4e-3);
+    EXPECT_NEAR(bed.solid_fraction, 0.24, 0.5 * world::sphere_volume(0.012) / 4e-3);
     EXPECT_GT(spheres, 0.4);
     EXPECT_GE(nearest_node(world), 0.01 * 0.006 * (1 - 1e-9)) << "the clearance that placement promises";
-    expect_inside(world, rocks_space(scene, 0));
+    expect_inside(world, world::rocks_space(scene, 0));
 }
 
 TEST(Rocks, GradedOnesNeitherOverlapNorLeaveTheirHill)
@@ -110,31 +110,31 @@ TEST(Rocks, GradedOnesNeitherOverlapNorLeaveTheirHill)
     const auto scene = load_text(
         rocks_scene("count = 300\ndiameter = { distribution = \"power-law\", exponent = 3, low = 0.006, high = "
                     "0.03 }\nheight = \"0.05 + 0.02*sin(10*pi*x)\"\nfloor = \"0.05*y\"\n"));
-    const World world = build_world(scene);
-    const auto  bed   = describe_bed(scene, world).rocks.at(0);
+    const world::World world = world::build_world(scene);
+    const auto         bed   = world::describe_bed(scene, world).rocks.at(0);
     std::cout << "diameters " << bed.smallest_diameter << " to " << bed.largest_diameter << " m, nearest node "
               << nearest_node(world) << " m, at least " << 0.01 * 0.003 << '\n';
     EXPECT_EQ(bed.count, 300);
     EXPECT_GE(bed.smallest_diameter, 0.006);
     EXPECT_LE(bed.largest_diameter, 0.03);
     EXPECT_GE(nearest_node(world), 0.01 * 0.003 * (1 - 1e-9));
-    expect_inside(world, rocks_space(scene, 0));
+    expect_inside(world, world::rocks_space(scene, 0));
 }
 
 /// On a lattice as wide as the bounding spheres 0.2 x 0.2 x 0.1 m takes fewer rocks than asked for.
 TEST(Rocks, LatticesAreNarrowedUntilAllRocksFit)
 {
-    const auto   text  = rocks_scene("count = 900\ndiameter = 0.012\nplacement = \"grid\"\n");
-    const auto   at    = text.find("placement = \"rain\"\n");
-    const auto   scene = load_text(std::string(text).erase(at, 19));
-    const World  world = build_world(scene);
-    const double width = 2 * world.bodies.scale[0] * world.templates[0].bounding_radius;
-    const auto   fits  = [&](double length) { return std::floor(length / width); };
+    const auto         text  = rocks_scene("count = 900\ndiameter = 0.012\nplacement = \"grid\"\n");
+    const auto         at    = text.find("placement = \"rain\"\n");
+    const auto         scene = load_text(std::string(text).erase(at, 19));
+    const world::World world = world::build_world(scene);
+    const double       width = 2 * world.bodies.scale[0] * world.templates[0].bounding_radius;
+    const auto         fits  = [&](double length) { return std::floor(length / width); };
     std::cout << "lattice of bounding spheres: " << fits(0.2) * fits(0.2) * fits(0.1) << " rocks, placed "
               << world.bodies.size() << ", nearest node " << nearest_node(world) << " m\n";
     EXPECT_LT(fits(0.2) * fits(0.2) * fits(0.1), 900);
     EXPECT_GE(nearest_node(world), 0.01 * 0.006 * (1 - 1e-9));
-    expect_inside(world, rocks_space(scene, 0));
+    expect_inside(world, world::rocks_space(scene, 0));
 }
 
 /// Points 25 mm apart with a contact radius of 15.5 mm, and 100 rocks of 10 mm, each on a point: of every thirty points
@@ -144,12 +144,12 @@ TEST(Rocks, StandWherePointsStood)
     std::string text = test::sand_text + test::rocks_text;
     text.replace(text.find("count    = 8\ndiameter = 0.06"), 28,
                  "count = 100\ndiameter = 0.01\nplacement = \"points\"");
-    const World                      sand  = build_world(load_text(test::sand_text));
-    const World                      world = build_world(load_text(text));
+    const world::World               sand  = world::build_world(load_text(test::sand_text));
+    const world::World               world = world::build_world(load_text(text));
     const std::vector<Vec3<double>>& sites = sand.points.position;
     ASSERT_EQ(world.bodies.size(), 100u);
     EXPECT_EQ(static_cast<double>(sites.size() - world.points.size()),
-              std::round(100 * sphere_volume(0.01) / sand.points.volume[0]));
+              std::round(100 * world::sphere_volume(0.01) / sand.points.volume[0]));
     for (const Vec3<double>& x : world.bodies.position)
     {
         EXPECT_EQ(std::count(sites.begin(), sites.end(), x), 1);
@@ -167,15 +167,15 @@ TEST(Rocks, TheirBedIsAsHighAsItsUppermostLayer)
         std::string text = rocks_scene(fmt::format("count = {}\ndiameter = 0.012\nplacement = \"grid\"\n", count));
         return load_text(text.erase(text.find("placement = \"rain\"\n"), 19));
     };
-    const World             alone = build_world(scene_of(1));
+    const world::World      alone = world::build_world(scene_of(1));
     const double            width = 2 * alone.bodies.scale[0] * alone.templates[0].bounding_radius;
     const auto              side  = static_cast<long>(std::floor(0.2 / width));
     const auto              scene = scene_of(2 * side * side);
-    const World             world = build_world(scene);
+    const world::World      world = world::build_world(scene);
     Counters                counters;
     Simulation<Cpu, double> simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
     double                  highest = 0;
-    for (const double height : simulation.surface_heights(column_lattice(scene, world)))
+    for (const double height : simulation.surface_heights(world::column_lattice(scene, world)))
     {
         if (!std::isnan(height)) { highest = std::max(highest, height); }
     }
@@ -186,7 +186,7 @@ TEST(Rocks, AJamSaysHowFullTheRegionIs)
 {
     try
     {
-        build_world(load_text(rocks_scene("solid_fraction = 0.7\ndiameter = 0.03\n")));
+        world::build_world(load_text(rocks_scene("solid_fraction = 0.7\ndiameter = 0.03\n")));
         FAIL() << "random rocks cannot fill 0.7";
     }
     catch (const InputError& error)
@@ -203,9 +203,9 @@ TEST(Rocks, DoNotDependOnTheNumberOfThreads)
     const auto scene   = load_text(test::sand_text + test::rocks_text);
     const int  threads = omp_get_max_threads();
     omp_set_num_threads(1);
-    const World one = build_world(scene);
+    const world::World one = world::build_world(scene);
     omp_set_num_threads(3);
-    const World three = build_world(scene);
+    const world::World three = world::build_world(scene);
     omp_set_num_threads(threads);
     EXPECT_EQ(one.bodies.position, three.bodies.position);
     EXPECT_EQ(one.points.position, three.points.position);
@@ -215,7 +215,7 @@ TEST(Rocks, DoNotDependOnTheNumberOfThreads)
 /// A wheel is asked by its surface as well: rocks stand in a ring about a pole, not outside its bounding sphere.
 TEST(Rocks, ABodyOfASizeIsScaled)
 {
-    const auto  scene = load_text(rocks_scene("count = 1\ndiameter = 0.012\n") + R"(
+    const auto         scene = load_text(rocks_scene("count = 1\ndiameter = 0.012\n") + R"(
 [[body]]
 name     = "boulder"
 shape    = "clast"
@@ -224,9 +224,9 @@ diameter = 0.04
 density  = 3000.0
 position = [0.1, 0.1, 0.05]
 )");
-    const World world = build_world(scene);
+    const world::World world = world::build_world(scene);
     EXPECT_DOUBLE_EQ(world.bodies.radius.at(0), 0.02);
-    EXPECT_NEAR(world.bodies.mass.at(0), 3000 * sphere_volume(0.04), 1e-12);
+    EXPECT_NEAR(world.bodies.mass.at(0), 3000 * world::sphere_volume(0.04), 1e-12);
     EXPECT_GT(nearest_node(world), 0);
 }
 

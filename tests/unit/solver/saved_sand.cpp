@@ -41,12 +41,12 @@ class SavedSand : public ::testing::Test
 protected:
     SavedSand()
         : scene(load_text(test::sand_text + test::rocks_text))
-        , world(build_world(scene))
+        , world(world::build_world(scene))
     {
         Simulation<Cpu, double> simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
         rest       = run(simulation, scene, 0.5, 0.3);
-        bed        = make_bed(scene, world, simulation.body_fields(), simulation.contacts());
-        bed.points = saved_points(Communicator(MPI_COMM_SELF), scene, world, simulation.point_fields());
+        bed        = world::make_bed(scene, world, simulation.body_fields(), simulation.contacts());
+        bed.points = world::saved_points(Communicator(MPI_COMM_SELF), scene, world, simulation.point_fields());
         io::write_bed(path, bed);
     }
 
@@ -93,7 +93,7 @@ protected:
     {
         try
         {
-            build_world(load_text(text));
+            world::build_world(load_text(text));
         }
         catch (const InputError& error)
         {
@@ -105,7 +105,7 @@ protected:
     test::TemporaryDirectory folder;
     std::string              path = folder.path("bed.h5");
     scene::Scene             scene;
-    World                    world;
+    world::World             world;
     Counters                 counters;
     io::BedFile              bed;
     Rest                     rest;
@@ -113,7 +113,7 @@ protected:
 
 TEST_F(SavedSand, ComesBackAsItWas)
 {
-    const World loaded = build_world(load_text(loading(path)));
+    const world::World loaded = world::build_world(load_text(loading(path)));
     ASSERT_EQ(loaded.points.size(), world.points.size());
     ASSERT_EQ(loaded.bodies.size(), world.bodies.size());
     double worst = 0;
@@ -141,7 +141,7 @@ TEST_F(SavedSand, ComesBackAsItWas)
 TEST_F(SavedSand, StaysAtRest)
 {
     const scene::Scene      other = load_text(loading(path));
-    const World             again = build_world(other);
+    const world::World      again = world::build_world(other);
     Simulation<Cpu, double> simulation(Cpu{&counters}, other, again, make_plan(other, again));
     const Rest              kept = run(simulation, other, 0.2, 0);
     std::cout << "loaded bed, 0.2 s without damping: kinetic energy at most " << kept.kinetic << " J, moved at most "

@@ -23,7 +23,7 @@ TEST(Seam, FinerPointsOnCoarserOnesRestUnderTheirWeight)
                  "[[terrain]]\nmaterial = \"sand\"\nspacing = 0.0125\nregion = { box = [[0.0, 0.0, 0.1], [0.4, 0.4, "
                  "0.2]] }\n[[phase]]");
     const scene::Scene      scene = test::load_text(text);
-    const World             world = build_world(scene);
+    const world::World      world = world::build_world(scene);
     Counters                counters;
     Simulation<Cpu, double> simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
     StageClock              clock;

@@ -10,7 +10,7 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::world;
 
 scene::Material soil(double friction, double cohesion, double density)
 {

@@ -12,7 +12,7 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::world;
 using test::load_text;
 
 std::string layers(const std::string& lower_height, const std::string& velocity = "[0, 0, 0]")

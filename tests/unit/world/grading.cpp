@@ -11,7 +11,7 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::world;
 
 /// Mean and mean square of a distribution, by 5e4 draws, against closed forms. The mean of n draws is off by a standard
 /// normal number of sigma/sqrt(n); 4 of them happen once in 16,000 tests, and the seed is fixed.

@@ -19,7 +19,7 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::world;
 using test::load_text;
 
 /// 23 % of rocks of 5 cm among points 12.5 mm apart, in the upper 10 cm of the bed; `table` ends the [[rocks]] table.

@@ -9,7 +9,7 @@
 #include "world/materials.hpp"
 #include "world/world.hpp"
 
-namespace tread::solver
+namespace tread::world
 {
 namespace
 {
@@ -101,4 +101,4 @@ TEST(OnSurface, WantsSomethingToStandOn)
 }
 
 } // namespace
-} // namespace tread::solver
+} // namespace tread::world

@@ -11,7 +11,7 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::world;
 
 const scene::PlanExtent unit_plan{{{0, 0}, {1, 1}}};
 

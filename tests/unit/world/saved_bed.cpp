@@ -14,7 +14,7 @@
 #include "world/packing.hpp"
 #include "world/saved_bed.hpp"
 
-namespace tread::solver
+namespace tread::world
 {
 namespace
 {
@@ -207,4 +207,4 @@ TEST(Packing, FractionUnderTheVisibleSurface)
 }
 
 } // namespace
-} // namespace tread::solver
+} // namespace tread::world

@@ -13,7 +13,7 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::world;
 using test::load_text;
 
 constexpr double pi = std::numbers::pi;

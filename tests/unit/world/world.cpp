@@ -15,7 +15,7 @@ namespace
 {
 
 using namespace tread;
-using namespace tread::solver;
+using namespace tread::world;
 using test::load_text;
 
 TEST(World, ReplacedRocksOverlapNeitherSandNorEachOther)

@@ -4,7 +4,7 @@
 
 #include "scene_text.hpp"
 
-namespace tread::solver
+namespace tread::world
 {
 namespace
 {
@@ -38,4 +38,4 @@ TEST(WorldMeasures, TellAPointARockAndAShapeFromAnother)
 }
 
 } // namespace
-} // namespace tread::solver
+} // namespace tread::world

@@ -88,9 +88,9 @@ TEST(TimeStep, LastStepsOfAPhaseAreNeverTiny)
 
 TEST(DampingRatio, IsTheOneOfTheRestitution)
 {
-    EXPECT_NEAR(damping_ratio(0.5), 0.255, 5e-4); // prototypes 1
-    EXPECT_EQ(damping_ratio(1.0), 0);
-    EXPECT_GT(damping_ratio(0.1), damping_ratio(0.9));
+    EXPECT_NEAR(world::damping_ratio(0.5), 0.255, 5e-4); // prototypes 1
+    EXPECT_EQ(world::damping_ratio(1.0), 0);
+    EXPECT_GT(world::damping_ratio(0.1), world::damping_ratio(0.9));
 }
 
 const std::string drive_text = test::roller_text + R"(
@@ -106,7 +106,7 @@ TEST(Phases, DriveRampsTheSpinAndLocksWhatItPrescribes)
     text.replace(text.find("lock     ="), 45, "lock     = [\"y\"]\n");
     text.replace(text.find("name     = \"rest\""), 17, "name     = \"rest\"\nhold = [\"roller\"]");
     const scene::Scene scene = test::load_text(text);
-    PhaseClock         clock(scene, {0.1});
+    run::PhaseClock    clock(scene, {0.1});
     EXPECT_EQ(clock.command(0, 0).locked, dem::lock_all);
     EXPECT_FALSE(clock.over(0.04, 0));
     EXPECT_TRUE(clock.over(0.05, 0));
@@ -124,17 +124,17 @@ TEST(Phases, EquilibriumMustLast)
     const auto         at   = text.find("duration = 0.05");
     const scene::Scene scene =
         test::load_text(std::string(text).replace(at, 15, "until = \"equilibrium\"\nmax_duration = 1.0"));
-    PhaseClock clock(scene, {});
+    run::PhaseClock clock(scene, {});
     EXPECT_FALSE(clock.over(0.10, 0.001));
     EXPECT_FALSE(clock.over(0.12, 0.5)); // a break: the wait starts again
     EXPECT_FALSE(clock.over(0.14, 0.001));
     EXPECT_FALSE(clock.over(0.18, 0.001));
     EXPECT_TRUE(clock.over(0.195, 0.001));
-    EXPECT_EQ(clock.ending().kind, EndKind::settled);
+    EXPECT_EQ(clock.ending().kind, run::EndKind::settled);
     EXPECT_DOUBLE_EQ(clock.ending().after, 0.195);
-    EXPECT_EQ(describe(clock.ending()), "settled after 0.195 s (unbalanced force 0.001 of the weight)");
+    EXPECT_EQ(run::describe(clock.ending()), "settled after 0.195 s (unbalanced force 0.001 of the weight)");
     EXPECT_TRUE(clock.over(1.0, 0.5));
-    EXPECT_EQ(clock.ending().kind, EndKind::unsettled);
+    EXPECT_EQ(clock.ending().kind, run::EndKind::unsettled);
     EXPECT_EQ(clock.ending().unbalanced, 0.5);
 }
 
