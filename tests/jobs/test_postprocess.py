@@ -33,7 +33,8 @@ class PostprocessTest(unittest.TestCase):
         cls.directory.cleanup()
 
     def command(self, name, *options):
-        program = [sys.executable, str(ROOT / "postprocess" / name), *map(str, options)]
+        room = "studies" if (ROOT / "studies" / name).is_file() else "postprocess"
+        program = [sys.executable, str(ROOT / room / name), *map(str, options)]
         return subprocess.run(program, capture_output=True, text=True, timeout=240, check=False)
 
     def picture(self, name, *options):

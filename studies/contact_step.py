@@ -12,6 +12,8 @@ from pathlib import Path
 
 from matplotlib.lines import Line2D
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "postprocess"))
+
 from tread_post import RunError
 from tread_post.rows import read_rows
 from tread_post.style import figure_grid, finish, write

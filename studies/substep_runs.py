@@ -13,6 +13,8 @@ import tempfile
 import tomllib
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "postprocess"))
+
 from tread_post import RunError
 from tread_post.study import STOPPED, processor_time, run_scene, write_table
 

@@ -17,6 +17,8 @@ from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "postprocess"))
+
 from tread_post import Run, RunError
 from tread_post.answers import last_drive
 from tread_post.rows import write_rows

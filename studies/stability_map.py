@@ -14,6 +14,8 @@ from pathlib import Path
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "postprocess"))
+
 from tread_post import RunError
 from tread_post.rows import read_rows
 from tread_post.style import figure_grid, write

@@ -14,6 +14,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import LogLocator
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "postprocess"))
+
 from tread_post import RunError
 from tread_post.rows import read_rows
 from tread_post.style import figure_grid, finish, legend_below, write
