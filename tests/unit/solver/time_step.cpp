@@ -88,7 +88,7 @@ TEST(TimeStep, LastStepsOfAPhaseAreNeverTiny)
 
 TEST(DampingRatio, IsTheOneOfTheRestitution)
 {
-    EXPECT_NEAR(damping_ratio(0.5), 0.255, 5e-4); // prototypes 1
+    EXPECT_NEAR(damping_ratio(0.5), 0.255, 5e-4); // docs/verification.md#restitution
     EXPECT_EQ(damping_ratio(1.0), 0);
     EXPECT_GT(damping_ratio(0.1), damping_ratio(0.9));
 }
