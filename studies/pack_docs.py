@@ -19,7 +19,7 @@ import numpy as np
 from PIL import Image
 
 BITS, PLACE_BITS = 10, 17  # of the mantissa: relative errors of 5e-4, and of 4e-6 for places and sinkage
-WHOLE = ("head_on", "wheel_drop_substeps")  # runs whose tables show four digits
+FINER = ("head_on", "wheel_drop_substeps")  # runs whose tables show four to five digits: 17 bits everywhere
 WITH_ENERGY = ("head_on",)  # runs whose figures show energies and momentum
 COLOURS, LARGEST = 64, 130_000  # of a picture, and its bytes
 
@@ -54,8 +54,8 @@ def pack_run(path):
                     target[key] = target[seen[values.tobytes()]]
                     return
                 seen[values.tobytes()] = key
-            elif column != "index" and not name.startswith(WHOLE):
-                values = rounded(values, PLACE_BITS if column in ("position", "sinkage") else BITS)
+            elif column != "index":
+                values = rounded(values, PLACE_BITS if column in ("position", "sinkage") or name.startswith(FINER) else BITS)
             options = {"chunks": values.shape, "compression": "gzip", "compression_opts": 9, "shuffle": True} if values.size > 64 else {}
             target.create_dataset(key, data=values, **options).attrs.update(item.attrs)
 
