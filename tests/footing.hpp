@@ -11,8 +11,8 @@
 #include "temporary_directory.hpp"
 #include "unit/shape/meshes.hpp"
 
-// Strip footing in plane strain (verification C4): half of the problem beside a plane of symmetry at x = 0, one cell
-// thick in y. The footing is a rigid body so heavy that no load slows it.
+// Strip footing in plane strain (docs/verification.md#strip-footing): half of the problem beside a plane of symmetry at
+// x = 0, one cell thick in y. The footing is a rigid body so heavy that no load slows it.
 namespace tread::test
 {
 

@@ -5,6 +5,7 @@ import io
 import math
 from dataclasses import dataclass
 
+from tread_post.rows import open_text
 from tread_post.run import RunError
 
 # Between the settings and these stands nothing; what is before them is a setting.
@@ -81,7 +82,8 @@ def study_text(comments, keys, rows):
 def read_study(path):
     """RunError where the file is no table of a study."""
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        with open_text(path) as file:
+            lines = file.read().splitlines()
         comments = [line[2:] for line in lines if line.startswith("#")]
         reader = csv.DictReader(line for line in lines if not line.startswith("#"))
         keys = [name for name in reader.fieldnames or () if name != "variant" and name not in COLUMNS]

@@ -178,7 +178,7 @@ double largest_stable(const Cpu& cpu, Pile pile, double time)
     return stable;
 }
 
-/// s, of Rayleigh's wave over a sphere (verification A10).
+/// s, of Rayleigh's wave over a sphere (docs/theory.md#substeps).
 double rayleigh_time(const scene::Material& stone)
 {
     const double shear = stone.young / (2 * (1 + poisson));

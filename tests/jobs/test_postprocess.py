@@ -33,7 +33,8 @@ class PostprocessTest(unittest.TestCase):
         cls.directory.cleanup()
 
     def command(self, name, *options):
-        program = [sys.executable, str(ROOT / "postprocess" / name), *map(str, options)]
+        room = "studies" if (ROOT / "studies" / name).is_file() else "postprocess"
+        program = [sys.executable, str(ROOT / room / name), *map(str, options)]
         return subprocess.run(program, capture_output=True, text=True, timeout=240, check=False)
 
     def picture(self, name, *options):
@@ -166,6 +167,26 @@ class PostprocessTest(unittest.TestCase):
         self.assertEqual(done.stdout.strip(), str(output))
         # Letters alone are at most 16 greys.
         self.assertGreater(colours_of(output), 24, "a picture of something")
+
+    def test_the_front_lists_every_command_and_runs_one(self):
+        listed = self.command("post.py", "--help")
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        for path in (ROOT / "postprocess").glob("*.py"):
+            if path.name != "post.py":
+                self.assertRegex(listed.stdout, rf"(?m)^  {path.stem} +\w.*\.$")
+        direct, through = self.command("thin.py", "--help"), self.command("post.py", "thin", "--help")
+        self.assertEqual((through.returncode, through.stdout), (0, direct.stdout))
+        unknown = self.command("post.py", "thinn")
+        self.assertEqual(unknown.returncode, 2)
+        self.assertIn("no command 'thinn'", unknown.stderr)
+
+    def test_packed_tables_are_read_as_they_are(self):
+        sys.path.insert(0, str(ROOT / "postprocess"))
+        from tread_post.study_table import read_study
+        kept = sorted((ROOT / "docs" / "studies").glob("study_*.csv.gz"))
+        self.assertTrue(kept)
+        for path in kept:
+            self.assertGreater(len(read_study(path).rows), 0, path)
 
     def test_errors_name_what_is_wrong(self):
         absent = self.run_path.parent / "absent.stl"

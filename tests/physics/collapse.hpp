@@ -9,7 +9,8 @@
 
 #include "harness.hpp"
 
-// A column of sand, one cell thick, that collapses over a rough floor and comes to rest (verification C5).
+// A column of sand, one cell thick, that collapses over a rough floor and comes to rest
+// (docs/verification.md#column-collapse).
 namespace tread::test
 {
 
@@ -107,12 +108,13 @@ inline void check_deposit(const CollapseSetup& setup, const Deposit& left)
     const std::string at       = fmt::format(" at aspect {}, {} cells", setup.aspect, setup.cells);
     const double      expected = expected_run_out(setup.aspect);
     report("run-out of 99 % of the mass over the width" + at, left.run_out, expected, collapse_tolerance * expected,
-           "C5: 15 %, the scatter between two laboratories");
+           "docs/verification.md#column-collapse: 15 %, the scatter between two laboratories");
     EXPECT_NEAR(left.run_out, expected, collapse_tolerance * expected);
     const HeightRange height = expected_height(setup.aspect);
     const double      middle = 0.5 * (height.low + height.high);
     report("height at the wall over the width" + at, left.height, middle,
-           middle - (1 - collapse_tolerance) * height.low, "C5: 15 % about what both found");
+           middle - (1 - collapse_tolerance) * height.low,
+           "docs/verification.md#column-collapse: 15 % about what both found");
     EXPECT_GT(left.height, (1 - collapse_tolerance) * height.low);
     EXPECT_LT(left.height, (1 + collapse_tolerance) * height.high);
 }

@@ -22,7 +22,7 @@ TYPED_TEST_SUITE(Columns, test::Backends, test::BackendNames);
 constexpr double gravity = 9.81, density = 1800, height = 0.1, young = 1e6;
 constexpr double base_stress = density * gravity * height;
 
-/// verification C2, mpm.md 6: 0.1 m high; x and y one cell wide.
+/// docs/verification.md#geostatic-column: 0.1 m high; x and y one cell wide.
 std::string column_text(double spacing, const std::string& law, const std::string& walls)
 {
     return fmt::format(R"(
@@ -124,7 +124,8 @@ TYPED_TEST(Columns, HydrostaticOnSlipAndFixedFloors)
             errors[level]             = std::max(beside, inner);
             test::report("stress beside the floor, error over base" + at, beside, 0, quarter,
                          "a quarter cell's weight");
-            test::report("stress in the middle, error over base" + at, inner, 0, 0.01, "C2: 1 % of the base");
+            test::report("stress in the middle, error over base" + at, inner, 0, 0.01,
+                         "docs/verification.md#geostatic-column: 1 % of the base");
             test::report("stress under the surface, error over base" + at, surface, 0, 2 * quarter,
                          "half a cell's weight");
             test::report("floor reaction over weight" + at, column.reaction / column.weight, 1, 1e-3, "at rest");
@@ -158,9 +159,9 @@ TYPED_TEST(Columns, HydrostaticWithLinearSplines)
     }
 }
 
-/// verification C2: K = nu / (1 - nu) if that is over Ka; sand yields, and K = Ka, if not. The last twentieth of the
-/// load comes on in the run; what overshoots, sqrt((1 - 0.7) / (1 + 0.7)) of it, comes off elastically again, so that a
-/// plastic K keeps (1 - K0 / Ka) of that: 0.5 %.
+/// docs/verification.md#geostatic-column: K = nu / (1 - nu) if that is over Ka; sand yields, and K = Ka, if not. The
+/// last twentieth of the load comes on in the run; what overshoots, sqrt((1 - 0.7) / (1 + 0.7)) of it, comes off
+/// elastically again, so that a plastic K keeps (1 - K0 / Ka) of that: 0.5 %.
 TYPED_TEST(Columns, GeostaticElasticAndPlastic)
 {
     const double active = 1.0 / 3.0; // 30 degrees
@@ -182,9 +183,12 @@ TYPED_TEST(Columns, GeostaticElasticAndPlastic)
             }
             const std::string at    = fmt::format(" (nu {}, {} cells)", poisson, std::lround(height / spacing));
             const double      inner = worst(column, 2 * spacing, height - 2 * spacing);
-            test::report("vertical stress, error over base" + at, inner, 0, 0.01, "C2: 1 % of the base");
-            test::report("K, relative error" + at, ratio_error, 0, 0.01, "C2: 1 %; 0.5 % of it from the overshoot");
-            test::report("stress from point to point" + at, own_line, 0, 0.02, "C2: checkerboard under 2 %");
+            test::report("vertical stress, error over base" + at, inner, 0, 0.01,
+                         "docs/verification.md#geostatic-column: 1 % of the base");
+            test::report("K, relative error" + at, ratio_error, 0, 0.01,
+                         "docs/verification.md#geostatic-column: 1 %; 0.5 % of it from the overshoot");
+            test::report("stress from point to point" + at, own_line, 0, 0.02,
+                         "docs/verification.md#geostatic-column: checkerboard under 2 %");
             test::report("floor reaction over weight" + at, column.reaction / column.weight, 1, 1e-3, "at rest");
             EXPECT_LT(inner, 0.01);
             EXPECT_LT(ratio_error, 0.01);
@@ -226,7 +230,8 @@ duration = 0.09
                        damping);
 }
 
-/// verification C8: in its first mode all of a bar swings alike, so that Cundall's law for one mass holds for it.
+/// docs/verification.md#local-damping: in its first mode all of a bar swings alike, so that Cundall's law for one mass
+/// holds for it.
 TYPED_TEST(Columns, LocalDampingFollowsCundallsLaw)
 {
     constexpr double            damping = 0.3;
@@ -263,7 +268,8 @@ TYPED_TEST(Columns, LocalDampingFollowsCundallsLaw)
     EXPECT_NEAR(ratio, expected, 0.02 * expected);
 }
 
-/// verification C8: what falls freely under local damping falls with g (1 - alpha), which is why it is off then.
+/// docs/verification.md#local-damping: what falls freely under local damping falls with g (1 - alpha), which is why it
+/// is off then.
 TYPED_TEST(Columns, FreeFallUnderLocalDamping)
 {
     test::Experiment<TypeParam> fall(this->exec(), R"(
@@ -294,7 +300,8 @@ duration = 0.2
     const solver::Census end   = fall.simulation().census();
     const double         speed = -end.sand.momentum[2] / end.sand.mass, expected = 0.7 * 9.81 * fall.time();
     const double         tolerance = 2 * 9.81 * 0.3 * 1e-3; // the first steps start from rest, where the law is silent
-    test::report("speed in m/s", speed, expected, tolerance, "C8: g (1 - alpha) t; the first step starts from rest");
+    test::report("speed in m/s", speed, expected, tolerance,
+                 "docs/verification.md#local-damping: g (1 - alpha) t; the first step starts from rest");
     EXPECT_NEAR(speed, expected, tolerance);
     EXPECT_EQ(this->counters.launches().count("update walls"), 0) << "no walls, no launch";
 }

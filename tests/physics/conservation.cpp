@@ -69,12 +69,12 @@ precision = "double"
         run.run();
         const double error = run.simulation().ledger().balance(run.simulation().census()).impulse_error;
         test::report(fmt::format("impulse error over weight x time, {}", transfer), error, 0, 1e-10,
-                     "fp64 rounding (verification D4)");
+                     "fp64 rounding (verification docs/verification.md#momentum-balance)");
         EXPECT_LT(error, 1e-10);
     }
 }
 
-/// verification E8: x + v t, z + w t - g t (t + dt) / 2, which is symplectic Euler's own parabola.
+/// docs/verification.md#free-flight: x + v t, z + w t - g t (t + dt) / 2, which is symplectic Euler's own parabola.
 TYPED_TEST(Conservation, LonePointFliesAParabola)
 {
     for (const char* transfer : {"flip", "apic", "aflip"})

@@ -16,7 +16,8 @@ TYPED_TEST_SUITE(Coupling, test::Backends, test::BackendNames);
 
 using test::roller_text;
 
-/// verification D3, D4: at rest the contact carries the weight; impulses balance to rounding in fp64.
+/// docs/verification.md#body-at-rest-on-sand, #momentum-balance: at rest the contact carries the weight; impulses
+/// balance to rounding in fp64.
 TYPED_TEST(Coupling, SandCarriesTheWeightOfARoller)
 {
     std::string text = roller_text;
@@ -33,10 +34,12 @@ TYPED_TEST(Coupling, SandCarriesTheWeightOfARoller)
             }
         });
     const double force = rest.simulation().named_bodies().at(0).force[2], weight = 4.0 * 9.81;
-    test::report("mean contact force in N", force, weight, 0.01 * weight, "1 % of the weight, time mean (D3)");
+    test::report("mean contact force in N", force, weight, 0.01 * weight,
+                 "1 % of the weight, time mean (docs/verification.md#body-at-rest-on-sand)");
     EXPECT_NEAR(force, weight, 0.01 * weight);
     const double error = rest.simulation().ledger().balance(rest.simulation().census()).impulse_error;
-    test::report("impulse error over weight x time", error, 0, 1e-10, "fp64 rounding (D4)");
+    test::report("impulse error over weight x time", error, 0, 1e-10,
+                 "fp64 rounding (docs/verification.md#momentum-balance)");
     EXPECT_LT(error, 1e-10);
 }
 
@@ -53,7 +56,7 @@ TYPED_TEST(Coupling, SubstepsDoNotChangeTheImpact)
     };
     const double one = depth("1"), twenty = depth("20");
     test::report("fall after 0.05 s, N = 20 over N = 1", twenty / one, 1, 0.01,
-                 "prototypes 2: N changes depth by at most 0.6 % at fixed dt");
+                 "docs/verification.md#points-during-the-substeps: N changes depth by at most 0.6 % at fixed dt");
     EXPECT_NEAR(twenty / one, 1, 0.01);
 }
 

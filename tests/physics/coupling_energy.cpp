@@ -75,7 +75,8 @@ TYPED_TEST(CouplingEnergy, BooksOfADroppedBallClose)
         test::report("unaccounted over the largest energy, " + time, error, 0, test::closes, "design 7");
         EXPECT_LT(error, test::closes);
         const double impulse = drop.simulation().ledger().balance(drop.simulation().census()).impulse_error;
-        test::report("impulse error over weight x time, " + time, impulse, 0, 1e-10, "fp64 rounding (D4)");
+        test::report("impulse error over weight x time, " + time, impulse, 0, 1e-10,
+                     "fp64 rounding (docs/verification.md#momentum-balance)");
         EXPECT_LT(impulse, 1e-10);
     }
 }

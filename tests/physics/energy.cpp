@@ -70,7 +70,8 @@ TYPED_TEST(SandEnergy, BooksOfAnImpactClose)
 }
 
 /// A run that gains energy must show it: the same column, elastic, with one point a cell at a Courant number of 0.96,
-/// where such sand is destroyed (verification E: from 0.82 on), carried on without the guard that would stop it.
+/// where such sand is destroyed (docs/verification.md#stability-limits: from 0.82 on), carried on without the guard
+/// that would stop it.
 TYPED_TEST(SandEnergy, BooksOfAnUnstableRunDoNotClose)
 {
     constexpr double            dt = 1.65e-3;

@@ -46,8 +46,8 @@ test::Footing frictional(int cells, double dilation, double cohesion)
     return footing;
 }
 
-/// verification C4 (i): q = (2 + pi) c of Prandtl, and it stays there; with every point's own volumetric strain it is
-/// more, and rises.
+/// docs/verification.md#strip-footing (i): q = (2 + pi) c of Prandtl, and it stays there; with every point's own
+/// volumetric strain it is more, and rises.
 TYPED_TEST(FootingPhysics, UndrainedClayCarriesPrandtlsLoadWithCellAverages)
 {
     const double plateau = 0.02;
@@ -60,7 +60,8 @@ TYPED_TEST(FootingPhysics, UndrainedClayCarriesPrandtlsLoadWithCellAverages)
     };
     const auto   coarse = push(3, "cell-average"), fine = push(5, "cell-average"), locked = push(5, "point");
     const double load = test::last_quarter(fine) / prandtl;
-    test::report("load over (2 + pi) c at B/10", load, 1.1, 0.1, "C4: 5-10 % at B/20, so 10-20 % at B/10");
+    test::report("load over (2 + pi) c at B/10", load, 1.1, 0.1,
+                 "docs/verification.md#strip-footing: 5-10 % at B/20, so 10-20 % at B/10");
     EXPECT_NEAR(load, 1.1, 0.1);
     const double limit = test::at_infinitely_many(3, test::last_quarter(coarse) / prandtl, 5, load);
     test::report("from B/6 and B/10, at B/infinity", limit, 1, extrapolated, "second order, settlement, waves");

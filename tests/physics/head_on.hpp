@@ -9,7 +9,8 @@
 
 #include "harness.hpp"
 
-// Head-on collision of a rigid sphere with an elastic one of points (the paper's 3.1, verification A1b).
+// Head-on collision of a rigid sphere with an elastic one of points (the paper's 3.1,
+// docs/verification.md#head-on-collision).
 namespace tread::test
 {
 
@@ -61,14 +62,15 @@ HeadOn collide(const Exec& exec, const std::string& scene, std::vector<std::stri
     return found;
 }
 
-/// Bands of verification A1b; the limit is Hertz's law for a rigid and an elastic sphere (24.61 ms, 10.02 kN).
+/// Bands of docs/verification.md#head-on-collision; the limit is Hertz's law for a rigid and an elastic sphere (24.61
+/// ms, 10.02 kN).
 inline void expect_catalogue(const HeadOn& found, const std::string& with, double rounding)
 {
-    report("duration in ms" + with, found.duration * 1e3, 24.5, 1, "A1b");
-    report("largest force in kN" + with, found.force / 1e3, 10.15, 0.65, "A1b");
-    report("final speed of the body" + with, -found.body, 0.98, 0.02, "A1b");
-    report("final speed of the points" + with, found.points, 0.98, 0.02, "A1b");
-    report("energy" + with, found.energy, 0, 0.05, "A1b");
+    report("duration in ms" + with, found.duration * 1e3, 24.5, 1, "docs/verification.md#head-on-collision");
+    report("largest force in kN" + with, found.force / 1e3, 10.15, 0.65, "docs/verification.md#head-on-collision");
+    report("final speed of the body" + with, -found.body, 0.98, 0.02, "docs/verification.md#head-on-collision");
+    report("final speed of the points" + with, found.points, 0.98, 0.02, "docs/verification.md#head-on-collision");
+    report("energy" + with, found.energy, 0, 0.05, "docs/verification.md#head-on-collision");
     report("momentum" + with, found.momentum, 0, rounding, "rounding of every step");
     EXPECT_NEAR(found.duration, 24.5e-3, 1e-3);
     EXPECT_NEAR(found.force, 10.15e3, 0.65e3);

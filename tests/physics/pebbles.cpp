@@ -96,8 +96,10 @@ TYPED_TEST(Pebbles, RestsInTheHollowWithItsWeight)
         const auto   pebble = rest.simulation().named_bodies().at(0);
         const double weight = pebble_mass * 9.81;
         const auto   label  = fmt::format("refine_below = {}: ", refine_below);
-        test::report(label + "mean contact force in N", pebble.force[2], weight, 0.01 * weight,
-                     fmt::format("1 % of the weight, time mean (D3); centre at {:.5f} m", pebble.position[2]));
+        test::report(
+            label + "mean contact force in N", pebble.force[2], weight, 0.01 * weight,
+            fmt::format("1 % of the weight, time mean (docs/verification.md#body-at-rest-on-sand); centre at {:.5f} m",
+                        pebble.position[2]));
         EXPECT_NEAR(pebble.force[2], weight, 0.01 * weight);
         const double torque = pebble.torque.norm() / (weight * point_radius);
         test::report(label + "torque over weight x radius", torque, 0, 0.01, "1 % as the force, which has that arm");
@@ -121,7 +123,8 @@ TYPED_TEST(Pebbles, BooksOfAThrownRockClose)
             const auto   census  = thrown.simulation().census();
             auto&        ledger  = thrown.simulation().ledger();
             const double impulse = ledger.balance(census).impulse_error;
-            test::report("impulse error over weight x time", impulse, 0, 1e-10, "fp64 rounding (D4)");
+            test::report("impulse error over weight x time", impulse, 0, 1e-10,
+                         "fp64 rounding (docs/verification.md#momentum-balance)");
             EXPECT_LT(impulse, 1e-10);
             const double thrown_energy = 0.5 * pebble_mass * (0.25 + 0.04 + 1.0);
             EXPECT_GT(ledger.energy(census).friction, 0.1 * thrown_energy) << "it never slid";

@@ -101,9 +101,10 @@ void expect_rest(const Exec& exec, const std::string& text, double damped, doubl
         spin = std::max(spin, Vec3<double>(end.spin[i], end.spin[i + 1], end.spin[i + 2]).norm());
     }
     const double longest = 1e-2 * free / 2, rise = (energy_most - energy_start) / unit;
-    report("kinetic energy over N m g R", most_kinetic / unit, 0, 1e-8, "issue; prototypes 1.3");
+    report("kinetic energy over N m g R", most_kinetic / unit, 0, 1e-8, "docs/verification.md#rocks-at-rest");
     report("longest way over R", way, 0, longest, fmt::format("1e-2 in 2 s, here {} s", free));
-    report("largest spin in rad/s", spin, 0, 1e-2, "turns by 1e-2 R in a second; prototypes 1.2 left 0.03 to 5");
+    report("largest spin in rad/s", spin, 0, 1e-2,
+           "turns by 1e-2 R in a second; docs/verification.md#rocks-at-rest left 0.03 to 5");
     report("rise of the energy over N m g R", rise, 0, 1e-8, "no more than the kinetic energy at rest");
     EXPECT_LT(most_kinetic / unit, 1e-8);
     EXPECT_LT(way, longest);

@@ -118,8 +118,9 @@ restitution = 0.8
     const double         force  = std::pow(1 + 0.1 / radius, 0.2);
     test::report("speed after over that of the plane", mesh.speed / analytic.speed, 1, 0.02,
                  "restitution is of the law, not of the stiffness; a node in or out of the patch");
-    test::report("F_max over that of the plane", mesh.force / analytic.force, force, 0.05,
-                 "some ten nodes in the patch: 1 to 3 % off Hertz each (dem.md 1.5)");
+    test::report(
+        "F_max over that of the plane", mesh.force / analytic.force, force, 0.05,
+        "some ten nodes in the patch: 1 to 3 % off Hertz each (docs/verification.md#nodes-and-the-contact-force)");
     EXPECT_GT(analytic.speed, 0.6);
     EXPECT_NEAR(mesh.speed / analytic.speed, 1, 0.02);
     EXPECT_NEAR(mesh.force / analytic.force, force, 0.05);
@@ -150,7 +151,8 @@ lock = ["y", "roll", "yaw"]
            test::phase("slide", 0, 0.4);
 }
 
-/// verification A4 with the wheel's own inertia: v_f = v0 / (1 + I/(m R^2)), reached after v_f I/(m R^2) / (mu g).
+/// docs/verification.md#sliding-to-rolling with the wheel's own inertia: v_f = v0 / (1 + I/(m R^2)), reached after v_f
+/// I/(m R^2) / (mu g).
 TYPED_TEST(RocksImpact, WheelRollsAsItsOwnInertiaSays)
 {
     constexpr double            speed = 0.5, radius = 0.2;

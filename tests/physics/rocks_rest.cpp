@@ -4,7 +4,8 @@
 
 #include "rock_rest.hpp"
 
-// Rocks that lie on a plane, on a slope and on each other, damped and then left alone (prototypes 1).
+// Rocks that lie on a plane, on a slope and on each other, damped and then left alone
+// (docs/verification.md#rocks-at-rest).
 namespace
 {
 

@@ -16,7 +16,8 @@ class Sand : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(Sand, test::Backends, test::BackendNames);
 
-/// verification E8, C7: a block in free flight keeps its shape, has no stress, and falls as a stone does.
+/// docs/verification.md#free-flight, #rotation-and-translation: a block in free flight keeps its shape, has no stress,
+/// and falls as a stone does.
 TYPED_TEST(Sand, BlockInFreeFlightIsAStone)
 {
     const std::string           text = R"(
@@ -133,7 +134,7 @@ duration = 0.4
     return {2 * crossing / (crossings - 0.5), energy / start};
 }
 
-/// verification C1: fixed-free bar, T = 4 L / c, ten periods. Energy goes with the square of the amplitude.
+/// docs/verification.md#bar: fixed-free bar, T = 4 L / c, ten periods. Energy goes with the square of the amplitude.
 TYPED_TEST(Sand, BarVibratesAtItsPeriodAndKeepsItsEnergy)
 {
     struct Case
@@ -144,20 +145,26 @@ TYPED_TEST(Sand, BarVibratesAtItsPeriodAndKeepsItsEnergy)
         const char* why;
     };
     for (const Case& c :
-         {Case{{20, 5e-5, ""}, 0.02, "20 cells, Courant 0.1, default transfer", "C1: amplitude within 1 %"},
-          Case{{20, 2e-4, ""}, 0.08, "20 cells, Courant 0.4, default transfer", "C1: amplitude within 4 %"},
+         {Case{{20, 5e-5, ""},
+               0.02,
+               "20 cells, Courant 0.1, default transfer",
+               "docs/verification.md#bar: amplitude within 1 %"},
+          Case{{20, 2e-4, ""},
+               0.08,
+               "20 cells, Courant 0.4, default transfer",
+               "docs/verification.md#bar: amplitude within 4 %"},
           Case{{40, 2.5e-5, "pic_rate = 0.0"}, 0.01, "40 cells, Courant 0.1, no filter", "half of C1 at 20 cells"}})
     {
         const Vibration vibration = vibrate(this->exec(), c.bar);
         test::report(fmt::format("period in s, {}", c.what), vibration.period, 0.04, 4e-4,
-                     "C1: 1 % at 20 cells; each end stands within a quarter cell");
+                     "docs/verification.md#bar: 1 % at 20 cells; each end stands within a quarter cell");
         EXPECT_NEAR(vibration.period, 0.04, 4e-4);
         test::report(fmt::format("energy after ten periods, {}", c.what), vibration.energy, 1, c.energy, c.why);
         EXPECT_NEAR(vibration.energy, 1, c.energy);
     }
 }
 
-/// verification C2: a bed at rest under its own weight stays at rest with sigma_v = rho g depth.
+/// docs/verification.md#geostatic-column: a bed at rest under its own weight stays at rest with sigma_v = rho g depth.
 TYPED_TEST(Sand, BedAtRestStaysAtRest)
 {
     test::Experiment<TypeParam> bed(this->exec(), test::sand_text + "\n");
@@ -172,7 +179,8 @@ TYPED_TEST(Sand, BedAtRestStaysAtRest)
     EXPECT_LT(std::abs(sag), tolerance);
     EXPECT_EQ(end.sand.mass, start.sand.mass);
     const double error = bed.simulation().ledger().balance(end).impulse_error;
-    test::report("impulse error over weight x time", error, 0, 1e-10, "fp64 rounding (verification D4)");
+    test::report("impulse error over weight x time", error, 0, 1e-10,
+                 "fp64 rounding (verification docs/verification.md#momentum-balance)");
     EXPECT_LT(error, 1e-10);
 }
 

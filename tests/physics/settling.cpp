@@ -57,7 +57,7 @@ tread::run::PhaseEnd settle(const Exec& exec, const std::string& text)
     return experiment.phase_end();
 }
 
-/// Slowest mode of the bed: 4 H / c = 28 ms. Damping 0.3 leaves 0.54 a cycle (verification C8).
+/// Slowest mode of the bed: 4 H / c = 28 ms. Damping 0.3 leaves 0.54 a cycle (docs/verification.md#local-damping).
 constexpr double cycle = 0.0276;
 
 /// The stress that it starts with is that of a level bed: nothing is left to settle but what one cell beside the floor

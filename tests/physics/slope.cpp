@@ -6,7 +6,7 @@
 
 #include "harness.hpp"
 
-// A long layer of sand on a rough slope; its middle does not know of its ends (verification C6).
+// A long layer of sand on a rough slope; its middle does not know of its ends (docs/verification.md#layer-on-a-slope).
 namespace
 {
 
@@ -94,7 +94,8 @@ TYPED_TEST(Slope, LayerStaysBelowItsAngle)
     };
     slope.run(look);
     const double creep = (middle(slope).way - before.way) / 0.1 / thickness, most = 1e-3;
-    test::report("creep in thicknesses a second at 22 degrees", creep, 0, most, "C6");
+    test::report("creep in thicknesses a second at 22 degrees", creep, 0, most,
+                 "docs/verification.md#layer-on-a-slope");
     EXPECT_LT(std::abs(creep), most);
 }
 
@@ -120,7 +121,7 @@ TYPED_TEST(Slope, LayerAcceleratesAboveItsAngle)
     const double most     = gravity * (std::sin(angle) - std::cos(angle) * std::sin(phi));
     const double measured = (middle(slope).speed - early.speed) / (slope.time() - since);
     test::report("acceleration at 35 degrees in m/s2", measured, 0.5 * (least + most), 0.5 * (most - least),
-                 "C6: between Davis and tan phi");
+                 "docs/verification.md#layer-on-a-slope: between Davis and tan phi");
     EXPECT_GT(measured, least);
     EXPECT_LT(measured, most);
 }

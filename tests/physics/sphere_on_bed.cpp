@@ -15,8 +15,9 @@ TYPED_TEST_SUITE(SphereOnBed, test::Backends, test::BackendNames);
 
 constexpr double mm = 1e-3;
 
-/// prototypes 2: a point that recoils freely in the substeps lets go of its tangential spring in every step, and a
-/// sphere that friction should hold creeps at 41 mm/s. Held up by the grid's acceleration, it stays as with N = 1.
+/// docs/verification.md#points-during-the-substeps: a point that recoils freely in the substeps lets go of its
+/// tangential spring in every step, and a sphere that friction should hold creeps at 41 mm/s. Held up by the grid's
+/// acceleration, it stays as with N = 1.
 TYPED_TEST(SphereOnBed, FrictionHoldsItAgainstASidewaysForce)
 {
     test::SphereOnBed bed;
@@ -25,7 +26,8 @@ TYPED_TEST(SphereOnBed, FrictionHoldsItAgainstASidewaysForce)
     bed.settling         = 0.1;
     bed.free             = 0.06;
     const auto supported = test::watch_sphere(this->exec(), bed);
-    test::report("creep at 0.15 W, supported, mm/s", supported.creep / mm, 0, 0.2, "0.1 in prototypes 2, and a swing");
+    test::report("creep at 0.15 W, supported, mm/s", supported.creep / mm, 0, 0.2,
+                 "0.1 in docs/verification.md#points-during-the-substeps, and a swing");
     EXPECT_LT(std::abs(supported.creep), 0.2 * mm);
     test::report("what friction holds, over W", supported.pull, 0.15, 0.0015, "1 %: at rest");
     EXPECT_NEAR(supported.pull, 0.15, 0.0015);
@@ -33,7 +35,8 @@ TYPED_TEST(SphereOnBed, FrictionHoldsItAgainstASidewaysForce)
     bed.motion           = "ballistic";
     bed.settling         = 0.05;
     const auto ballistic = test::watch_sphere(this->exec(), bed);
-    test::report("the same, ballistic, mm/s", ballistic.creep / mm, 41, 20, "at least half of prototypes 2's");
+    test::report("the same, ballistic, mm/s", ballistic.creep / mm, 41, 20,
+                 "at least half of docs/verification.md#points-during-the-substeps");
     EXPECT_GT(ballistic.creep, 20 * mm);
 }
 
@@ -51,13 +54,13 @@ TYPED_TEST(SphereOnBed, DragIsThatOfOneSubstep)
     };
     const double one = drag(1), many = drag(20);
     test::report("drag at 0.1 m/s over W, N = 1", one, 0.3, 0.006, "2 % of mu W, the sphere's swing");
-    test::report("drag, N = 20 over N = 1", many / one, 1, 0.02, "prototypes 2");
+    test::report("drag, N = 20 over N = 1", many / one, 1, 0.02, "docs/verification.md#points-during-the-substeps");
     EXPECT_NEAR(one, 0.3, 0.006);
     EXPECT_NEAR(many / one, 1, 0.02);
 }
 
-/// verification D3: the contact of a wheel at rest carries its weight, in every step, for any count of substeps. On
-/// sand, which comes to rest slowly: tests/slow.
+/// docs/verification.md#body-at-rest-on-sand: the contact of a wheel at rest carries its weight, in every step, for any
+/// count of substeps. On sand, which comes to rest slowly: tests/slow.
 TYPED_TEST(SphereOnBed, BedCarriesAWheelWhateverTheSubsteps)
 {
     test::SphereOnBed bed;
@@ -69,9 +72,10 @@ TYPED_TEST(SphereOnBed, BedCarriesAWheelWhateverTheSubsteps)
     test::expect_weight_carried(this->exec(), bed);
 }
 
-/// verification E 6: without friction no torque about the axle of a body of revolution but by the field, a lattice
-/// (there is no analytic one), between whose nodes the gradient points past the axle by as much as h/R: 1.2 degrees at
-/// 80 cells (verification B). It does so to either side, so that nothing is left of it as the body turns.
+/// docs/verification.md#torque-without-friction: without friction no torque about the axle of a body of revolution but
+/// by the field, a lattice (there is no analytic one), between whose nodes the gradient points past the axle by as much
+/// as h/R: 1.2 degrees at 80 cells (docs/verification.md#distance-fields). It does so to either side, so that nothing
+/// is left of it as the body turns.
 TYPED_TEST(SphereOnBed, FrictionlessBodyOfRevolutionFeelsNoTorque)
 {
     const auto turn = [&](const std::string& form, int cells)
@@ -87,10 +91,11 @@ TYPED_TEST(SphereOnBed, FrictionlessBodyOfRevolutionFeelsNoTorque)
         const auto body = test::watch_sphere(this->exec(), bed);
         const auto what = fmt::format("torque over W r, {} cells, {}", cells, form.substr(0, 15));
         const auto most = 1.2 * std::numbers::pi / 180 * 80 / cells;
-        test::report(what + ", mean", body.torque, 0, 5e-3, "E 6");
+        test::report(what + ", mean", body.torque, 0, 5e-3, "docs/verification.md#torque-without-friction");
         EXPECT_LT(std::abs(body.torque), 5e-3);
         if (form == test::drum) { return; } // its facets are felt in single steps
-        test::report(what + ", largest of a step", body.most_torque, 0, most, "B: the largest error of the normals");
+        test::report(what + ", largest of a step", body.most_torque, 0, most,
+                     "docs/verification.md#distance-fields: the largest error of the normals");
         EXPECT_LT(body.most_torque, most);
     };
     turn("kind = \"sphere\"", 96);

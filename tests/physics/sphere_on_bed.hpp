@@ -10,7 +10,9 @@
 #include "harness.hpp"
 #include "kernels/dem/bodies.hpp"
 
-// A rigid sphere or wheel on a bed: pressed sideways, drawn along, at rest (prototypes 2, verification D2 and D3).
+// A rigid sphere or wheel on a bed: pressed sideways, drawn along, at rest
+// (docs/verification.md#points-during-the-substeps, docs/verification.md#sphere-on-an-elastic-bed and
+// #body-at-rest-on-sand).
 namespace tread::test
 {
 
@@ -216,7 +218,7 @@ Watched watch_sphere(
 inline const std::string drum =
     "kind = \"wheel\", radius = 0.1, width = 0.12, wall_thickness = 0.03, grousers = 0, grouser_height = 0.0";
 
-/// verification D3 and D4, for 1, 10, 100 and 200 substeps.
+/// docs/verification.md#body-at-rest-on-sand and #momentum-balance, for 1, 10, 100 and 200 substeps.
 template<class Exec>
 void expect_weight_carried(const Exec& exec, SphereOnBed bed)
 {
@@ -226,14 +228,16 @@ void expect_weight_carried(const Exec& exec, SphereOnBed bed)
         bed.substeps       = substeps;
         const Watched body = watch_sphere(exec, bed);
         const auto    with = fmt::format(", N = {}", substeps);
-        report("mean force over W" + with, body.lift, 1, 0.01, "D3");
-        report("its steps' deviation" + with, body.jitter, 0, 1e-3, "D3");
-        report("impulse error over weight x time" + with, body.impulse, 0, 1e-10, "fp64 rounding (D4)");
+        report("mean force over W" + with, body.lift, 1, 0.01, "docs/verification.md#body-at-rest-on-sand");
+        report("its steps' deviation" + with, body.jitter, 0, 1e-3, "docs/verification.md#body-at-rest-on-sand");
+        report("impulse error over weight x time" + with, body.impulse, 0, 1e-10,
+               "fp64 rounding (docs/verification.md#momentum-balance)");
         EXPECT_NEAR(body.lift, 1, 0.01);
         EXPECT_LT(body.jitter, 1e-3);
         EXPECT_LT(body.impulse, 1e-10);
         if (substeps == 1) { first = body.height; }
-        report("depth over that of N = 1" + with, body.height / first, 1, 0.006, "prototypes 2");
+        report("depth over that of N = 1" + with, body.height / first, 1, 0.006,
+               "docs/verification.md#points-during-the-substeps");
         EXPECT_NEAR(body.height / first, 1, 0.006);
     }
 }

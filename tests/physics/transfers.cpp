@@ -66,8 +66,8 @@ void set_off(test::Experiment<Exec>& run, Velocity velocity)
     points.stress.fill_zero();
 }
 
-/// verification C1 with free ends, which need no wall: a bar of 20 cells in its first mode, T = 2 L / c = 0.02 s, ten
-/// periods at Courant 0.1.
+/// docs/verification.md#bar with free ends, which need no wall: a bar of 20 cells in its first mode, T = 2 L / c = 0.02
+/// s, ten periods at Courant 0.1.
 TYPED_TEST(Transfers, FreeBarKeepsPeriodAndEnergy)
 {
     struct Case
@@ -76,8 +76,9 @@ TYPED_TEST(Transfers, FreeBarKeepsPeriodAndEnergy)
         double      least; ///< of the energy after ten periods
         const char* why;
     };
-    for (const Case& c : {Case{"transfer = \"flip\"\npic_rate = 0.0", 0.98, "C1: amplitude decay below 1 %"},
-                          Case{"transfer = \"aflip\"\npic_rate = 0.0", 0.98, "C1, as FLIP"}})
+    for (const Case& c :
+         {Case{"transfer = \"flip\"\npic_rate = 0.0", 0.98, "docs/verification.md#bar: amplitude decay below 1 %"},
+          Case{"transfer = \"aflip\"\npic_rate = 0.0", 0.98, "docs/verification.md#bar, as FLIP"}})
     {
         const double                dt = 0x1p-14;
         test::Experiment<TypeParam> bar(this->exec(),
@@ -107,7 +108,7 @@ TYPED_TEST(Transfers, FreeBarKeepsPeriodAndEnergy)
         const solver::Census end    = bar.simulation().census();
         const double         energy = (end.sand.kinetic + end.sand.strain) / start;
         const std::string    name   = std::string(c.transfer).substr(11, 6);
-        test::report("period in s, " + name, period, 0.02, 2e-4, "C1: 1 % at 20 cells");
+        test::report("period in s, " + name, period, 0.02, 2e-4, "docs/verification.md#bar: 1 % at 20 cells");
         test::report("energy after ten periods, " + name, energy, 1, 1 - c.least, c.why);
         EXPECT_NEAR(period, 0.02, 2e-4);
         EXPECT_GT(energy, c.least);
@@ -133,8 +134,8 @@ double spin(test::Experiment<Exec>& run, double spacing)
     return total;
 }
 
-/// verification C7: an elastic block spins freely at 10 rad/s. APIC keeps its angular momentum for ever, FLIP over the
-/// grid's step only; what it loses between is printed.
+/// docs/verification.md#rotation-and-translation: an elastic block spins freely at 10 rad/s. APIC keeps its angular
+/// momentum for ever, FLIP over the grid's step only; what it loses between is printed.
 TYPED_TEST(Transfers, SpinningBlockKeepsItsAngularMomentum)
 {
     struct Case
@@ -143,9 +144,11 @@ TYPED_TEST(Transfers, SpinningBlockKeepsItsAngularMomentum)
         double      tolerance;
         const char* why;
     };
-    for (const Case& c : {Case{"apic\"", 1e-11, "rounding of 1280 steps (C7: 1e-12 a step)"},
-                          Case{"flip\"\npic_rate = 0.0", HUGE_VAL, "the figure alone: C7 sets no bound"},
-                          Case{"aflip\"", 0.01, "1 % a turn: a rover's wheel turns once in 10 s, its sand does not"}})
+    for (const Case& c :
+         {Case{"apic\"", 1e-11, "rounding of 1280 steps (docs/verification.md#rotation-and-translation: 1e-12 a step)"},
+          Case{"flip\"\npic_rate = 0.0", HUGE_VAL,
+               "the figure alone: docs/verification.md#rotation-and-translation sets no bound"},
+          Case{"aflip\"", 0.01, "1 % a turn: a rover's wheel turns once in 10 s, its sand does not"}})
     {
         const double      dt = 0x1p-11;
         const std::string text =
@@ -166,12 +169,13 @@ TYPED_TEST(Transfers, SpinningBlockKeepsItsAngularMomentum)
         if (std::isfinite(c.tolerance)) { EXPECT_NEAR(turn, 0, c.tolerance); }
         EXPECT_LT(energy, 1.001);
         if (name == "aflip") { continue; }
-        test::report("change of angular momentum in the first step, " + name, first, 0, 1e-12, "C7");
+        test::report("change of angular momentum in the first step, " + name, first, 0, 1e-12,
+                     "docs/verification.md#rotation-and-translation");
         EXPECT_NEAR(first, 0, 1e-12);
     }
 }
 
-/// verification C7: 10 m/s through ten cells, without a strain.
+/// docs/verification.md#rotation-and-translation: 10 m/s through ten cells, without a strain.
 TYPED_TEST(Transfers, TranslationMakesNoStress)
 {
     for (const char* transfer : {"flip", "apic", "aflip"})

@@ -82,7 +82,7 @@ Vec3<double> acceleration(const Exec& exec, double degrees, const std::string& w
     return (late.velocity - early.velocity) / (late.time - early.time);
 }
 
-/// verification A5, C6: a block that slides has a = g (sin - mu cos).
+/// docs/verification.md#block-on-an-incline, #layer-on-a-slope: a block that slides has a = g (sin - mu cos).
 TYPED_TEST(WallsOfSand, BlockSlidesByCoulombsLaw)
 {
     for (const double degrees : {20.0, 30.0, 45.0})
@@ -91,7 +91,7 @@ TYPED_TEST(WallsOfSand, BlockSlidesByCoulombsLaw)
         const double expected = gravity * (std::sin(angle) - 0.3 * std::cos(angle));
         const double measured = acceleration(this->exec(), degrees, "bottom = \"frictional\", friction = 0.3", 0.5)[0];
         test::report(fmt::format("acceleration at {} degrees in m/s2", degrees), measured, expected, 0.01 * expected,
-                     "C6: 1 %");
+                     "docs/verification.md#layer-on-a-slope: 1 %");
         EXPECT_NEAR(measured, expected, 0.01 * expected);
     }
 }
@@ -111,7 +111,8 @@ TYPED_TEST(WallsOfSand, FrictionIsInTheLedger)
                  "force 1 %, and its foot shears back by up to a cell's strain");
     EXPECT_NEAR(row.friction, work, 0.03 * work);
     const double error = slide.simulation().ledger().balance(now).impulse_error;
-    test::report("impulse error over weight x time", error, 0, 1e-10, "fp64 rounding (verification D4)");
+    test::report("impulse error over weight x time", error, 0, 1e-10,
+                 "fp64 rounding (verification docs/verification.md#momentum-balance)");
     EXPECT_LT(error, 1e-10);
 }
 
@@ -122,7 +123,8 @@ double top_shear(double degrees)
     return 1800 * gravity * std::sin(degrees * std::numbers::pi / 180) * 0.2 * 0.2 / (2 * 1e6 / (2 * 1.2));
 }
 
-/// verification A5: under atan 0.3 = 16.7 degrees it stays, but for the shear that its own weight gives it.
+/// docs/verification.md#block-on-an-incline: under atan 0.3 = 16.7 degrees it stays, but for the shear that its own
+/// weight gives it.
 TYPED_TEST(WallsOfSand, BlockSticksBelowTheAngleOfFriction)
 {
     test::Experiment<TypeParam> stick(this->exec(), block_text(10, "bottom = \"frictional\", friction = 0.3", 1.0));

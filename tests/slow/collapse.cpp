@@ -45,8 +45,9 @@ void expect_run_out(const Exec& exec, const ExpectedRunOut& expected)
         at, fronts[0], fronts[1], fronts[2], front.order, front.limit, last[0], last[1], last[2]);
 }
 
-/// verification C5. The laboratories' run-outs (expected_run_out, right to 15 %) are met at some 20 cells a width, but
-/// the run-out grows on: without spacing it is 23, 25 and 15 % too long, which is this model's known error here.
+/// docs/verification.md#column-collapse. The laboratories' run-outs (expected_run_out, right to 15 %) are met at some
+/// 20 cells a width, but the run-out grows on: without spacing it is 23, 25 and 15 % too long, which is this model's
+/// known error here.
 TYPED_TEST(Collapse, RunOutAtThreeAspectRatios)
 {
     const std::string why = "as found; other spacings give other orders (docs/accuracy.md)";

@@ -6,7 +6,7 @@
 
 #include "order.hpp"
 
-// Footings too large for the quick tests (verification C4): finer grids, and sand without cohesion.
+// Footings too large for the quick tests (docs/verification.md#strip-footing): finer grids, and sand without cohesion.
 namespace
 {
 
@@ -41,7 +41,8 @@ TYPED_TEST(FootingSlow, UndrainedClayConvergesToPrandtlWithCellAverages)
         footing.cells = cells;
         over[at++]    = push(this->exec(), "clay", footing) / prandtl - 1;
     }
-    test::report("over-prediction at B/20", over[2], 0.075, 0.025, "C4: 5-10 % acceptable");
+    test::report("over-prediction at B/20", over[2], 0.075, 0.025,
+                 "docs/verification.md#strip-footing: 5-10 % acceptable");
     EXPECT_NEAR(over[2], 0.075, 0.025);
     const auto fit = test::expect_order("over-prediction in h / B", {1.0 / 6, 1.0 / 10, 1.0 / 20}, over,
                                         {0.7, 1.3, "an edge known to a cell; a load off by 0.5 % moves it by 0.2"});
@@ -125,9 +126,10 @@ TYPED_TEST(FootingSlow, DrySandWithEitherVolumeStrain)
                      fmt::format("known error of the edge, to 5 %: {:+.0f} % of associated flow's",
                                  100 * load[1] / associated - 100));
         EXPECT_NEAR(load[1], expected.at_ten_cells, 0.05 * expected.at_ten_cells);
-        test::report(of + "without spacing, lowest allowed " + std::to_string(davis), limit, 0.5 * (davis + associated),
-                     0.5 * (associated - davis),
-                     "C4: the band from Davis to associated, of two spacings and first order");
+        test::report(
+            of + "without spacing, lowest allowed " + std::to_string(davis), limit, 0.5 * (davis + associated),
+            0.5 * (associated - davis),
+            "docs/verification.md#strip-footing: the band from Davis to associated, of two spacings and first order");
         EXPECT_GT(limit, davis);
         EXPECT_LT(limit, associated);
     }

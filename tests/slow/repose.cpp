@@ -109,8 +109,8 @@ double slope_of(const std::vector<Vec3<double>>& places, double low_y, double hi
 }
 
 /// A scene that runs as the solver does: pairs are kept until a body has moved too far, substeps follow the contacts.
-/// They are 0.4 sqrt(m / sum K), twice the solver's and a third of what is unstable (docs/studies/README.md): a slump
-/// loses nearly all of its energy.
+/// They are 0.4 sqrt(m / sum K), twice the solver's and a third of what is unstable (docs/studies/contact_substep.md):
+/// a slump loses nearly all of its energy.
 template<class Exec>
 class Run
 {

@@ -1,6 +1,7 @@
 #include "../physics/rock_rest.hpp"
 
-// Piles of a hundred rocks of each kind and of all kinds (prototypes 1): damped, then left alone for 2 s.
+// Piles of a hundred rocks of each kind and of all kinds (docs/verification.md#rocks-at-rest): damped, then left alone
+// for 2 s.
 namespace
 {
 

@@ -15,7 +15,7 @@ TYPED_TEST_SUITE(SlowSphereOnBed, test::Backends, test::BackendNames);
 
 constexpr double mm = 1e-3;
 
-/// verification D3 on sand, which comes to rest slowly.
+/// docs/verification.md#body-at-rest-on-sand on sand, which comes to rest slowly.
 TYPED_TEST(SlowSphereOnBed, SandCarriesAWheelWhateverTheSubsteps)
 {
     test::SphereOnBed bed;
@@ -124,14 +124,14 @@ Approach approach(const Exec& exec, int cells, int points_per_cell)
     return found;
 }
 
-/// verification D2: 10 % with cells of a third of a. At 1 point a cell the bed is stiffer by its known half cell (a
-/// body acts as if 0.6 cells wider on every side: docs/accuracy.md, strip footings), which goes with the cells; with 8
-/// it is not.
+/// docs/verification.md#sphere-on-an-elastic-bed: 10 % with cells of a third of a. At 1 point a cell the bed is stiffer
+/// by its known half cell (a body acts as if 0.6 cells wider on every side: docs/accuracy.md, strip footings), which
+/// goes with the cells; with 8 it is not.
 TYPED_TEST(SlowSphereOnBed, SinksIntoAnElasticBedAsHertzSays)
 {
     const Approach eight = approach(this->exec(), 40, 8);
     test::report("approach in mm, 8 a cell, cells of a/2", eight.measured / mm, eight.expected / mm,
-                 0.1 * eight.expected / mm, "D2");
+                 0.1 * eight.expected / mm, "docs/verification.md#sphere-on-an-elastic-bed");
     EXPECT_NEAR(eight.measured, eight.expected, 0.1 * eight.expected);
 
     const Approach half = approach(this->exec(), 40, 1), third = approach(this->exec(), 60, 1);

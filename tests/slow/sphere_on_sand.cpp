@@ -5,7 +5,7 @@
 
 #include "../physics/harness.hpp"
 
-// A sphere dropped on sand (verification D1).
+// A sphere dropped on sand (docs/verification.md#sphere-dropped-on-sand).
 namespace
 {
 
@@ -92,10 +92,11 @@ void fall(const Exec& exec, Drop& drop)
         });
 }
 
-/// Of verification D1: the depth goes with the cube root of the whole fall, the faster the ball comes the sooner it
-/// stops, and its depth is between 0.7 of the shallower law and 1.3 of the deeper one. With 6 cells a diameter all four
-/// depths miss the lower bound, most from no height: the ball acts as if wider by 0.6 cells on every side
-/// (docs/accuracy.md, where finer cells are deeper). That error is expected to 5 % of the bound, deeper or less deep.
+/// Of docs/verification.md#sphere-dropped-on-sand: the depth goes with the cube root of the whole fall, the faster the
+/// ball comes the sooner it stops, and its depth is between 0.7 of the shallower law and 1.3 of the deeper one. With 6
+/// cells a diameter all four depths miss the lower bound, most from no height: the ball acts as if wider by 0.6 cells
+/// on every side (docs/accuracy.md, where finer cells are deeper). That error is expected to 5 % of the bound, deeper
+/// or less deep.
 TYPED_TEST(SphereOnSand, DepthGoesWithTheCubeRootOfTheFall)
 {
     std::vector<Drop> drops{{0, 21.7 * mm, 32.7 * mm, 0.443},
@@ -117,7 +118,7 @@ TYPED_TEST(SphereOnSand, DepthGoesWithTheCubeRootOfTheFall)
     for (std::size_t i = 1; i < drops.size(); ++i) { EXPECT_LT(drops[i].stopped, drops[i - 1].stopped); }
     const auto   whole = [](const Drop& drop) { return drop.height + drop.depth; };
     const double power = std::log(drops[3].depth / drops[0].depth) / std::log(whole(drops[3]) / whole(drops[0]));
-    test::report("power of fall and depth", power, 1.0 / 3, 0.07, "D1");
+    test::report("power of fall and depth", power, 1.0 / 3, 0.07, "docs/verification.md#sphere-dropped-on-sand");
     EXPECT_NEAR(power, 1.0 / 3, 0.07);
 }
 

@@ -3,7 +3,7 @@
 
   tests/stability/run_matrix.py --tread build/bin/tread --steps 100000 --jobs 16 --output stability.csv
 
-Needs Debian's python3-h5py and python3-numpy. postprocess/stability_map.py draws the table.
+Needs Debian's python3-h5py and python3-numpy. studies/stability_map.py draws the table.
 """
 
 import argparse

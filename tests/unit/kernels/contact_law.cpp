@@ -86,7 +86,7 @@ double shear(Tangential& tangential, double overlap, double distance)
     return after.energy - normal - before + after.dissipated;
 }
 
-TEST(PointBodyLaw, RatchetGivesBackHalfOfWhatItStored) // verification A9
+TEST(PointBodyLaw, RatchetGivesBackHalfOfWhatItStored) // docs/verification.md#closed-cycles-of-friction
 {
     const double loaded = 4e-4, unloaded = 1e-4, distance = 1e-6;
     Tangential   tangential = no_tangential();
@@ -101,7 +101,7 @@ TEST(PointBodyLaw, RatchetGivesBackHalfOfWhatItStored) // verification A9
     EXPECT_NEAR(tangential.force[0], 0, 1e-12);
 }
 
-TEST(PointBodyLaw, NoClosedCycleGainsEnergy) // verification A9
+TEST(PointBodyLaw, NoClosedCycleGainsEnergy) // docs/verification.md#closed-cycles-of-friction
 {
     std::mt19937                           random(7);
     std::uniform_real_distribution<double> share(0, 1);
@@ -137,7 +137,8 @@ TEST(PointBodyLaw, NoClosedCycleGainsEnergy) // verification A9
     EXPECT_GT(heat, 0);
 }
 
-TEST(PointBodyLaw, HistoryTurnsWithTheContact) // verification A9: whole system at 10 rad/s
+TEST(PointBodyLaw,
+     HistoryTurnsWithTheContact) // docs/verification.md#closed-cycles-of-friction: whole system at 10 rad/s
 {
     const Vec3<double> axis  = Vec3<double>(0.3, 1.0, 0).normalized();
     const double       omega = 10, dt = 1e-4;
@@ -150,7 +151,8 @@ TEST(PointBodyLaw, HistoryTurnsWithTheContact) // verification A9: whole system 
         update_tangential(tangential, normal, Vec3<double>::Zero(), 1.0, 1e9, dt);
     }
     const Vec3<double> expected = Eigen::AngleAxisd(omega * dt * steps, axis) * start;
-    std::printf("[ measured ] length %.15f of 1, direction off by %.2e; tolerance 1e-6 of verification A9\n",
+    std::printf("[ measured ] length %.15f of 1, direction off by %.2e; tolerance 1e-6 of "
+                "docs/verification.md#closed-cycles-of-friction\n",
                 tangential.force.norm() / start.norm(), (tangential.force - expected).norm() / start.norm());
     EXPECT_NEAR(tangential.force.norm() / start.norm(), 1.0, 1e-6);
     EXPECT_LE((tangential.force - expected).norm(), 1e-6 * start.norm());

@@ -29,7 +29,7 @@ Vec3<double> sum(const std::vector<Vec3<double>>& values)
     return total;
 }
 
-TYPED_TEST(ContactStep, ActionIsReactionForAnyNumberOfSubsteps) // verification D4
+TYPED_TEST(ContactStep, ActionIsReactionForAnyNumberOfSubsteps) // docs/verification.md#momentum-balance
 {
     for (const int substeps : {1, 10, 100})
     {

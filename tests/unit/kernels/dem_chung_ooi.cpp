@@ -4,8 +4,9 @@
 
 #include "dem_mindlin.hpp"
 
-// The impacts of Chung and Ooi (2011, Granular Matter 13:643) with exact spheres: verification A2; their second is
-// among the tests of the spheres. Walls are rigid, as where their Young's modulus is a thousand times the ball's.
+// The impacts of Chung and Ooi (2011, Granular Matter 13:643) with exact spheres:
+// docs/verification.md#impacts-of-chung-and-ooi; their second is among the tests of the spheres. Walls are rigid, as
+// where their Young's modulus is a thousand times the ball's.
 namespace tread::test
 {
 namespace
@@ -68,7 +69,7 @@ TYPED_TEST(ChungOoi, Test3RestitutionIsTheOneAskedFor)
             expect_close("restitution", found.normal / thrown.normal, wanted, of_the_step);
         }
     }
-    // dem.md section 3, e = 1, in N and m
+    // docs/verification.md#impacts-of-chung-and-ooi, e = 1, in N and m
     for (const auto& [material, force, approach] :
          {std::tuple(aluminium_oxide, 615.4, 8.089e-6), std::tuple(cast_iron, 506.8, 17.19e-6)})
     {
@@ -163,9 +164,9 @@ TYPED_TEST(ChungOoi, Test5GrossSlipIsALine)
     }
 }
 
-/// The curve of Maw, Barber and Fawcett at nu = 0.3 (verification A3) by the catalogue's integrator, which the one here
-/// repeats; R omega' of the kernels is within 5 % of it from x = 2 on. Before, the rule of unloading counts (test 4).
-/// Finite elements (Wu) have the micro-slip that neither has.
+/// The curve of Maw, Barber and Fawcett at nu = 0.3 (docs/verification.md#oblique-impact) by an integrator that keeps
+/// the force, which the one here repeats; R omega' of the kernels is within 5 % of it from x = 2 on. Before, the rule
+/// of unloading counts (test 4). Finite elements (Wu) have the micro-slip that neither has.
 TYPED_TEST(ChungOoi, Test5GripIsThatOfMindlinWithoutMicroSlip)
 {
     for (const auto& [x, listed] :

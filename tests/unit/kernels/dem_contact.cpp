@@ -19,7 +19,7 @@ TYPED_TEST_SUITE(BodyContact, Backends, BackendNames);
 
 constexpr double radius = 0.2, density = 2000, speed = 1;
 
-/// Two spheres of verification A1 at 1 m/s each way along a direction, just apart.
+/// Two spheres of docs/verification.md#hertz-impact at 1 m/s each way along a direction, just apart.
 std::vector<Solid> head_on(const Vec3<double>& direction)
 {
     const Vec3<double> n     = direction.normalized();
@@ -143,7 +143,8 @@ TYPED_TEST(BodyContact, RestitutionIsTheOneAskedFor)
     const Vec3<double>          direction(0.3, -0.5, 0.8);
     typename TestFixture::Scene scene(this->exec(), {unit_sphere(3, 40)}, head_on(direction), numbers);
     const Collision             found = collide(scene, direction);
-    std::printf("restitution %.3f, expected %.3f, tolerance 0.07 (prototypes 1.5: shapes and counts spread 0.54-0.61 "
+    std::printf("restitution %.3f, expected %.3f, tolerance 0.07 (docs/verification.md#restitution: shapes and counts "
+                "spread 0.54-0.61 "
                 "about 0.558), ledger %+.1e\n",
                 found.rebound, wanted, found.ledger - 1);
     EXPECT_NEAR(found.rebound / speed, wanted, 0.07);

@@ -139,7 +139,8 @@ struct Bench
 
 TEST(Patch, NoClosedCycleOfLoadAndShearMakesEnergy)
 {
-    // verification A9: shear at high stiffness, unload to half of it, shear back until the force is gone
+    // docs/verification.md#closed-cycles-of-friction: shear at high stiffness, unload to half of it, shear back until
+    // the force is gone
     const Vec3<double> up(0, 0, 1), sideways(1, 0, 0);
     Bench              bench;
     double             put_in = 0;
@@ -159,7 +160,9 @@ TEST(Patch, NoClosedCycleOfLoadAndShearMakesEnergy)
         bench.patch.tangential = Vec3<double>::Zero();
     }
     const double stored = 100 * 0.5 * bench.law.shear_ratio * 2000 * 5e-4 * 5e-4;
-    std::printf("kept %.6f of the energy put in, expected 0.5 (A9), tolerance 1e-9\n", put_in / stored);
+    std::printf("kept %.6f of the energy put in, expected 0.5 (docs/verification.md#closed-cycles-of-friction), "
+                "tolerance 1e-9\n",
+                put_in / stored);
     EXPECT_NEAR(put_in / stored, 0.5, 1e-9);
 }
 

@@ -45,7 +45,7 @@ Impact follow(Scene& scene, double dt, int steps, Approach approach)
     return impact;
 }
 
-/// Of Hertz without damping: verification A1.
+/// Of Hertz without damping: docs/verification.md#hertz-impact.
 inline Impact hertz_impact(double effective_young, double radius, double reduced_mass, double speed)
 {
     const double k = 4.0 / 3.0 * effective_young * std::sqrt(radius);

@@ -42,8 +42,8 @@ TYPED_TEST(Impact, RestitutionHoldsForFlatFacesAndSpheres)
     constexpr double wanted = 0.5, radius = 0.1;
     const auto       expect = [&](const char* what, double found)
     {
-        std::printf("restitution of %s %.3f, expected %.3f, tolerance 0.07 (issue; prototypes 1.5)\n", what, found,
-                    wanted);
+        std::printf("restitution of %s %.3f, expected %.3f, tolerance 0.07 (docs/verification.md#restitution)\n", what,
+                    found, wanted);
         EXPECT_NEAR(found, wanted, 0.07) << what;
     };
     SolidNumbers numbers;

@@ -16,7 +16,7 @@ class RigidBody : public DemTest<Exec>
 };
 TYPED_TEST_SUITE(RigidBody, Backends, BackendNames);
 
-/// The box of verification A6.
+/// The box of docs/verification.md#torque-free-box.
 Solid asymmetric_box()
 {
     Solid box;
@@ -34,10 +34,11 @@ Quat some_orientation() { return Quat(Eigen::AngleAxisd(0.7, Vec3<double>(1, 2, 
 
 TYPED_TEST(RigidBody, TorqueFreeBoxFlipsOnTimeAndKeepsItsMomentum)
 {
-    constexpr double dt = 1e-4, length = 10, expected_interval = 1.378374; // 2 K(k)/lambda, verification A6
-    Solid            box = asymmetric_box();
-    box.orientation      = some_orientation();
-    box.spin             = box.orientation * Vec3<double>(1, 10, 0);
+    constexpr double dt = 1e-4, length = 10,
+                     expected_interval = 1.378374; // 2 K(k)/lambda, docs/verification.md#torque-free-box
+    Solid box                          = asymmetric_box();
+    box.orientation                    = some_orientation();
+    box.spin                           = box.orientation * Vec3<double>(1, 10, 0);
     typename TestFixture::Scene scene(this->exec(), any_shape(), {box}, {});
     const dem::BodySums         start = scene.sums();
 
@@ -55,8 +56,9 @@ TYPED_TEST(RigidBody, TorqueFreeBoxFlipsOnTimeAndKeepsItsMomentum)
     const double        drift        = end.kinetic / start.kinetic - 1;
     const double        turned       = (end.spin - start.spin).norm() / start.spin.norm();
     const double        length_error = std::abs(read(this->exec(), scene.bodies.orientation.data()).norm() - 1);
-    std::printf("energy drift %.2e, momentum error %.2e (tolerance 1e-6, verification A6), |q| - 1 %.1e\n", drift,
-                turned, length_error);
+    std::printf("energy drift %.2e, momentum error %.2e (tolerance 1e-6, verification "
+                "docs/verification.md#torque-free-box), |q| - 1 %.1e\n",
+                drift, turned, length_error);
     EXPECT_NEAR(start.kinetic, 0.422083333, 1e-8);
     EXPECT_LT(std::abs(drift), 1e-6);
     EXPECT_LT(turned, 1e-6);

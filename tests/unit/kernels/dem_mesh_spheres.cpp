@@ -19,7 +19,8 @@ class MeshSpheres : public DemTest<Exec>
 };
 TYPED_TEST_SUITE(MeshSpheres, Backends, BackendNames);
 
-constexpr double radius = 0.1, mass = 10, speed = 1; // m, kg, m/s of approach: dem.md 1.5
+constexpr double radius = 0.1, mass = 10,
+                 speed = 1; // m, kg, m/s of approach: docs/verification.md#nodes-and-the-contact-force
 
 Quat random_turn(Random& random)
 {

@@ -12,7 +12,8 @@ namespace tread::test
 /// What becomes of the tangential force where the contact lets go and its stiffness falls.
 enum class Unloading
 {
-    keeps,   ///< it stays: what the catalogue's integrator does; a closed cycle may make energy (verification A9)
+    keeps,   ///< it stays: what most codes do; a closed cycle may make energy
+             ///< (docs/verification.md#closed-cycles-of-friction)
     shrinks, ///< with the stiffness: what the kernels do
 };
 

@@ -6,7 +6,8 @@
 #include "base/random.hpp"
 #include "dem_scene.hpp"
 
-// What a patch remembers must neither make energy in cycles nor lag behind bodies that turn together (verification A9).
+// What a patch remembers must neither make energy in cycles nor lag behind bodies that turn together
+// (docs/verification.md#closed-cycles-of-friction).
 namespace tread::test
 {
 namespace
@@ -128,7 +129,8 @@ TYPED_TEST(Ratchet, FrictionTurnsWithTwoBodiesThatTurnTogether)
     }
     // turned by the smallest rotation of the normal, then about it: the two do not commute, (omega dt)^2/2 a step
     const double lag = 0.5 * rate * rate * dt * dt * steps;
-    std::printf("length of the friction force changes by %.1e, tolerance 1e-6 (A9); it lags by %.1e rad, tolerance "
+    std::printf("length of the friction force changes by %.1e, tolerance 1e-6 "
+                "(docs/verification.md#closed-cycles-of-friction); it lags by %.1e rad, tolerance "
                 "%.1e (order of turns in a step)\n",
                 longest, askew, lag);
     EXPECT_LT(longest, 1e-6);

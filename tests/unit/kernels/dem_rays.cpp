@@ -188,7 +188,7 @@ double exact_largest_force(double speed, double linear_overlap)
 
 TYPED_TEST(RayContact, HeadOnSpheresApproachHertzWithTheirNodes)
 {
-    constexpr double hertz = 7593.4; // F_max, verification A1
+    constexpr double hertz = 7593.4; // F_max, docs/verification.md#hertz-impact
     constexpr int    turns = 12;
     const double     limit = exact_largest_force(1, 1e-3);
     // Rays leave at a slant: what is off Hertz's paraboloids is proportional to the overlap, which is 11 % of R here

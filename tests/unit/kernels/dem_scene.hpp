@@ -49,7 +49,7 @@ inline dem::PairProperties properties(double young, double poisson, double sides
     return {young / (1 - poisson * poisson) / sides, shear / (2 - poisson) / sides, friction, zeta};
 }
 
-/// zeta of a restitution (prototypes 1; beyond 1 the same equation's other branch), by bisection.
+/// zeta of a restitution (docs/verification.md#restitution; beyond 1 the same equation's other branch), by bisection.
 inline double damping_ratio(double restitution)
 {
     double low = 0, high = 3.9;

@@ -5,7 +5,8 @@
 
 #include "dem_impact.hpp"
 
-// Exact spheres against the closed forms of verification A; A2 and A3 are in dem_chung_ooi.cpp.
+// Exact spheres against the closed forms of docs/verification.md#contact-of-bodies; the impacts of Chung and Ooi are in
+// dem_chung_ooi.cpp.
 namespace tread::test
 {
 namespace

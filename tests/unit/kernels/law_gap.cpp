@@ -69,7 +69,7 @@ TEST(VolumeGap, CohesiveSandPaysForOpeningAndGainsNothing)
     const double apex = 600 / std::tan(15 * std::numbers::pi / 180), bulk = element.material.bulk_modulus;
     for (int i = 0; i < 100; ++i) { element.strain(diagonal(1e-4, 1e-4, 1e-4)); }
     expect_law("tension at the apex, Pa", element.stress[0], apex, 1e-9 * apex,
-               "c cot phi; 2239 Pa of verification C3");
+               "c cot phi; 2239 Pa of verification docs/verification.md#yield-surface");
     EXPECT_NEAR(apex, 2239, 0.5);
     expect_law("log volume opened", element.state.volume_gap, 0.03 - apex / bulk, 1e-13, rounding);
     const double opening = element.plastic_work;

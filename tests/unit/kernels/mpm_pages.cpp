@@ -30,7 +30,8 @@ TEST(PageKey, RoundTripsAndOrdersNegativeCoordinates)
     EXPECT_LT(cell_key({262143 * 4, 262143 * 4, 262143 * 4}), no_page);
 }
 
-/// Sum of weights 1, of slopes 0, first moment at the point: to the rounding of the type (verification C7).
+/// Sum of weights 1, of slopes 0, first moment at the point: to the rounding of the type
+/// (docs/verification.md#rotation-and-translation).
 template<class Real>
 void expect_partition_of_unity(double shift, double tolerance)
 {

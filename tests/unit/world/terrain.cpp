@@ -49,7 +49,8 @@ double total(const std::vector<double>& values)
     return sum;
 }
 
-/// The audit of the paper's head-on spheres (verification F): R = 0.2 m, h = 0.01 m, centre on a node of the grid.
+/// The audit of the paper's head-on spheres (docs/verification.md#head-on-collision): R = 0.2 m, h = 0.01 m, centre on
+/// a node of the grid.
 TEST(Terrain, SpheresHaveThePapersPoints)
 {
     const std::string sphere =

@@ -142,8 +142,8 @@ TEST(World, TheBedHasTheMassOfItsBox)
     EXPECT_NEAR(mass, 1600 * 0.4 * 0.4 * 0.2, 1e-9);
 }
 
-/// verification C2: sigma_h = max(K0, Ka) sigma_v; here K0 = 0.4286 > Ka = 1/3. Exact on a lattice: the stress of a
-/// point is the weight above its centre.
+/// docs/verification.md#geostatic-column: sigma_h = max(K0, Ka) sigma_v; here K0 = 0.4286 > Ka = 1/3. Exact on a
+/// lattice: the stress of a point is the weight above its centre.
 TEST(World, TheBedStartsGeostatic)
 {
     const World world = build_world(load_text(test::sand_text));

@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+"""Packs what docs/ keeps: runs as small time series, tables by gzip, pictures with few colours.
+
+    studies/pack_docs.py runs docs/paper/runs       # time series: rounded, equal columns of time once, no energies
+    studies/pack_docs.py tables docs/studies        # CSV of more than 6 kB
+    studies/pack_docs.py pictures docs              # PNG
+
+`postprocess/paper.py all` gives the same tables from packed runs; run it after packing and look at `git diff docs/paper.md`.
+Needs Debian's python3-h5py, python3-numpy and python3-pil.
+"""
+
+import argparse
+import gzip
+import io
+from pathlib import Path
+
+import h5py
+import numpy as np
+from PIL import Image
+
+BITS, PLACE_BITS = 10, 17  # of the mantissa: relative errors of 5e-4, and of 4e-6 for places and sinkage
+FINER = ("head_on", "wheel_drop_substeps")  # runs whose tables show four to five digits: 17 bits everywhere
+WITH_ENERGY = ("head_on",)  # runs whose figures show energies and momentum
+COLOURS, LARGEST = 64, 130_000  # of a picture, and its bytes
+
+
+def rounded(values, bits):
+    """The values with a mantissa of `bits` bits, so that they compress."""
+    dropped = 23 - bits
+    if dropped <= 0 or values.dtype != np.float32:
+        return values
+    whole = np.ascontiguousarray(values).view(np.uint32).astype(np.uint64)
+    near = (((whole + (1 << (dropped - 1))) >> dropped) << dropped).astype(np.uint32).view(np.float32)
+    return np.where(np.isfinite(values), near, values)
+
+
+def pack_run(path):
+    """Rewrites a timeseries.h5 in place."""
+    name = path.parent.name
+    packed = path.with_suffix(".packed")
+    seen = {}
+    with h5py.File(path, "r") as source, h5py.File(packed, "w", libver=("v110", "v110")) as target:
+        target.attrs.update(source.attrs)
+
+        def copy(key, item):
+            if key.split("/")[0] in ("energy", "balance") and not name.startswith(WITH_ENERGY):
+                return
+            if isinstance(item, h5py.Group):
+                target.require_group(key).attrs.update(item.attrs)
+                return
+            values, column = item[:], key.rpartition("/")[2]
+            if column == "time":
+                if values.tobytes() in seen:
+                    target[key] = target[seen[values.tobytes()]]
+                    return
+                seen[values.tobytes()] = key
+            elif column != "index":
+                values = rounded(values, PLACE_BITS if column in ("position", "sinkage") or name.startswith(FINER) else BITS)
+            options = {"chunks": values.shape, "compression": "gzip", "compression_opts": 9, "shuffle": True} if values.size > 64 else {}
+            target.create_dataset(key, data=values, **options).attrs.update(item.attrs)
+
+        source.visititems(copy)
+    packed.replace(path)
+
+
+def pack_table(path):
+    """Replaces FILE.csv with FILE.csv.gz, without a date, so that equal tables give equal files."""
+    if path.stat().st_size > 6000:
+        Path(f"{path}.gz").write_bytes(gzip.compress(path.read_bytes(), 9, mtime=0))
+        path.unlink()
+
+
+def pack_picture(path):
+    """Rewrites a PNG with COLOURS colours, and smaller where it is still over LARGEST."""
+    image, scale = Image.open(path).convert("RGB"), 1.0
+    while True:
+        size = (round(scale * image.width), round(scale * image.height))
+        few = image.resize(size, Image.Resampling.LANCZOS).quantize(COLOURS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+        data = io.BytesIO()
+        few.save(data, format="png", optimize=True)
+        if len(data.getvalue()) <= LARGEST or scale < 0.5:
+            break
+        scale *= 0.93
+    if len(data.getvalue()) < 0.97 * path.stat().st_size:
+        path.write_bytes(data.getvalue())
+
+
+KINDS = {"runs": ("timeseries.h5", pack_run), "tables": ("*.csv", pack_table), "pictures": ("*.png", pack_picture)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("kind", choices=KINDS)
+    parser.add_argument("folder", type=Path)
+    options = parser.parse_args()
+    pattern, pack = KINDS[options.kind]
+    for path in sorted(options.folder.rglob(pattern)):
+        pack(path)
+
+
+if __name__ == "__main__":
+    main()
