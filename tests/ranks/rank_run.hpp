@@ -8,6 +8,7 @@
 #include "backend.hpp"
 #include "mpi_session.hpp"
 #include "scene_text.hpp"
+#include "run/phases.hpp"
 #include "solver/page_loads.hpp"
 #include "solver/simulation.hpp"
 

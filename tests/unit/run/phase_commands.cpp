@@ -26,7 +26,7 @@ TEST(Phases, DriveRampsTheSpinAndLocksWhatItPrescribes)
     EXPECT_FALSE(clock.over(0.04, 0));
     EXPECT_TRUE(clock.over(0.05, 0));
     clock.advance(0.05, {0.0});
-    const BodyCommand half = clock.command(0, 0.05 + 0.25);
+    const solver::BodyCommand half = clock.command(0, 0.05 + 0.25);
     EXPECT_DOUBLE_EQ(half.spin.value(), 1.0);
     EXPECT_DOUBLE_EQ(half.forward.value(), 0.075);
     EXPECT_EQ(half.locked, std::uint32_t(dem::lock_x | dem::lock_y | dem::lock_roll | dem::lock_pitch | dem::lock_yaw));
