@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "backend/instantiate.hpp"
 #include "decomp/halo_plan.hpp"
 #include "decomp/partition.hpp"
 
@@ -154,9 +155,8 @@ void Balance<Exec>::note(double load, std::int64_t points_moved)
     state_.row.points_moved += points_moved;
 }
 
-template class Balance<Cpu>;
-#ifdef TREAD_WITH_CUDA
-template class Balance<Gpu>;
-#endif
+#define TREAD_INSTANTIATE(Exec) template class Balance<Exec>
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::decomp

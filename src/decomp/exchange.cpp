@@ -1,4 +1,5 @@
 #include "decomp/exchange.hpp"
+#include "backend/instantiate.hpp"
 
 #include <utility>
 
@@ -121,9 +122,8 @@ void Exchange<Exec>::finish(const Columns& columns, const std::int32_t* index, s
     unpack_rows(exec_, arriving_, received_, columns, index, first);
 }
 
-template class Exchange<Cpu>;
-#ifdef TREAD_WITH_CUDA
-template class Exchange<Gpu>;
-#endif
+#define TREAD_INSTANTIATE(Exec) template class Exchange<Exec>
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::decomp

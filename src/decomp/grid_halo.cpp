@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "backend/instantiate.hpp"
 #include "kernels/mpm/grid/wall_kern.hpp"
 
 namespace tread::decomp
@@ -135,11 +136,8 @@ void GridHalo<Exec, Real>::clear_booked_elsewhere(int width, double* tallies)
     mpm::clear_booked_elsewhere(decomposition_.transport.exec(), shared_, width, tallies);
 }
 
-template class GridHalo<Cpu, float>;
-template class GridHalo<Cpu, double>;
-#ifdef TREAD_WITH_CUDA
-template class GridHalo<Gpu, float>;
-template class GridHalo<Gpu, double>;
-#endif
+#define TREAD_INSTANTIATE(Exec, Real) template class GridHalo<Exec, Real>
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::decomp

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/instantiate.hpp"
 #include "decomp/point_columns.hpp"
 
 namespace tread::decomp
@@ -160,11 +161,8 @@ void Migration<Exec, Real>::adopt_pages()
     decomposition_.owners.add(keys, ranks);
 }
 
-template class Migration<Cpu, float>;
-template class Migration<Cpu, double>;
-#ifdef TREAD_WITH_CUDA
-template class Migration<Gpu, float>;
-template class Migration<Gpu, double>;
-#endif
+#define TREAD_INSTANTIATE(Exec, Real) template class Migration<Exec, Real>
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::decomp

@@ -1,4 +1,5 @@
 #include "decomp/page_map.hpp"
+#include "backend/instantiate.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -57,9 +58,8 @@ mpm::PageOwnersView PageMap<Exec>::view() const
     return {device_key_.size(), device_key_.data(), device_rank_.data()};
 }
 
-template class PageMap<Cpu>;
-#ifdef TREAD_WITH_CUDA
-template class PageMap<Gpu>;
-#endif
+#define TREAD_INSTANTIATE(Exec) template class PageMap<Exec>
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::decomp

@@ -1,4 +1,5 @@
 #include "decomp/transport.hpp"
+#include "backend/instantiate.hpp"
 
 #include <algorithm>
 
@@ -209,11 +210,10 @@ void Messages<Exec>::finish()
     requests_.clear();
 }
 
-template class Transport<Cpu>;
-template class Messages<Cpu>;
-#ifdef TREAD_WITH_CUDA
-template class Transport<Gpu>;
-template class Messages<Gpu>;
-#endif
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template class Transport<Exec>;                                                                                    \
+    template class Messages<Exec>
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::decomp

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/instantiate.hpp"
 #include "io/checkpoints.hpp"
 #include "io/progress.hpp"
 #include "run/resolution_figures.hpp"
@@ -279,11 +280,8 @@ void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<solver::
     if (plan_.coupling) { summary.grid_error = grid_error(wheel, contact_cells(simulation_.extremes(), world_)); }
 }
 
-template class Driver<Cpu, float>;
-template class Driver<Cpu, double>;
-#ifdef TREAD_WITH_CUDA
-template class Driver<Gpu, float>;
-template class Driver<Gpu, double>;
-#endif
+#define TREAD_INSTANTIATE(Exec, Real) template class Driver<Exec, Real>
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::run

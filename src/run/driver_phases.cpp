@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/instantiate.hpp"
 #include "base/errors.hpp"
 #include "run/driver.hpp"
 #include "world/packing.hpp"
@@ -124,15 +125,10 @@ void Driver<Exec, Real>::write_bed()
                           bed.contacts.stiffness.size(), bed.points.volume.size(), directory_.bed()));
 }
 
-template void Driver<Cpu, float>::pass_on();
-template void Driver<Cpu, double>::pass_on();
-template void Driver<Cpu, float>::begin_phase();
-template void Driver<Cpu, double>::begin_phase();
-#ifdef TREAD_WITH_CUDA
-template void Driver<Gpu, float>::pass_on();
-template void Driver<Gpu, double>::pass_on();
-template void Driver<Gpu, float>::begin_phase();
-template void Driver<Gpu, double>::begin_phase();
-#endif
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void Driver<Exec, Real>::pass_on();                                                                       \
+    template void Driver<Exec, Real>::begin_phase()
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::run

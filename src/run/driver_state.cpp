@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/instantiate.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/checkpoints.hpp"
 #include "io/files.hpp"
@@ -215,15 +216,10 @@ void Driver<Exec, Real>::transfer_files(solver::StateFile& file)
     if (snapshots_) { snapshots_->resume(times); }
 }
 
-template void Driver<Cpu, float>::write_checkpoint();
-template void Driver<Cpu, double>::write_checkpoint();
-template void Driver<Cpu, float>::resume();
-template void Driver<Cpu, double>::resume();
-#ifdef TREAD_WITH_CUDA
-template void Driver<Gpu, float>::write_checkpoint();
-template void Driver<Gpu, double>::write_checkpoint();
-template void Driver<Gpu, float>::resume();
-template void Driver<Gpu, double>::resume();
-#endif
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void Driver<Exec, Real>::write_checkpoint();                                                              \
+    template void Driver<Exec, Real>::resume()
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::run

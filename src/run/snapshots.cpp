@@ -1,4 +1,5 @@
 #include "run/snapshots.hpp"
+#include "backend/instantiate.hpp"
 
 #include <chrono>
 #include <utility>
@@ -51,11 +52,8 @@ void Snapshots<Exec, Real>::resume(std::vector<double> times)
     files_.resume(std::move(times));
 }
 
-template class Snapshots<Cpu, float>;
-template class Snapshots<Cpu, double>;
-#ifdef TREAD_WITH_CUDA
-template class Snapshots<Gpu, float>;
-template class Snapshots<Gpu, double>;
-#endif
+#define TREAD_INSTANTIATE(Exec, Real) template class Snapshots<Exec, Real>
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::run

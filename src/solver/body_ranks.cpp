@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "backend/instantiate.hpp"
 #include "base/errors.hpp"
 #include "decomp/combine.hpp"
 #include "decomp/messages.hpp"
@@ -373,9 +374,8 @@ std::int64_t BodyRanks<Exec>::decider(const std::vector<std::int32_t>& is_large,
     return b < static_cast<std::int64_t>(role_.size()) ? dem::decider_of(is_large.data(), a, b) : a;
 }
 
-template class BodyRanks<Cpu>;
-#ifdef TREAD_WITH_CUDA
-template class BodyRanks<Gpu>;
-#endif
+#define TREAD_INSTANTIATE(Exec) template class BodyRanks<Exec>
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

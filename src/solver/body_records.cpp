@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "backend/instantiate.hpp"
 #include "decomp/messages.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
 #include "solver/body_ranks.hpp"
@@ -84,9 +85,9 @@ void BodyRanks<Exec>::hand_over_records(dem::Pairs<Exec>& pairs, const std::vect
     if (have_places) { put_places_back(kept, pairs); }
 }
 
-template void BodyRanks<Cpu>::hand_over_records(dem::Pairs<Cpu>&, const std::vector<Holding>&);
-#ifdef TREAD_WITH_CUDA
-template void BodyRanks<Gpu>::hand_over_records(dem::Pairs<Gpu>&, const std::vector<Holding>&);
-#endif
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void BodyRanks<Exec>::hand_over_records(dem::Pairs<Exec>&, const std::vector<Holding>&)
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "backend/instantiate.hpp"
 #include "solver/dem_solver.hpp"
 
 // What named bodies are told: to be held, lowered, driven or free, and how much of their weight acts.
@@ -95,9 +96,8 @@ bool DemSolver<Exec>::set_motion(std::size_t b, const std::optional<BodyCommand>
     return true;
 }
 
-template void DemSolver<Cpu>::command(const std::vector<BodyCommand>&);
-#ifdef TREAD_WITH_CUDA
-template void DemSolver<Gpu>::command(const std::vector<BodyCommand>&);
-#endif
+#define TREAD_INSTANTIATE(Exec) template void DemSolver<Exec>::command(const std::vector<BodyCommand>&)
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

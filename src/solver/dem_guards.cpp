@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/instantiate.hpp"
 #include "base/errors.hpp"
 #include "kernels/dem/contact/contact_limits.hpp"
 #include "solver/dem_solver.hpp"
@@ -104,17 +105,13 @@ void DemSolver<Exec>::refuse_substeps(const TimeStep& step, const Pace& pace, do
                     start, pace.largest_speed, smallest_radius_));
 }
 
-template double DemSolver<Cpu>::guard(double, double);
-template void   DemSolver<Cpu>::require_finite(double);
-template void   DemSolver<Cpu>::require_listed(double, double);
-template void   DemSolver<Cpu>::require_resolved(double, double);
-template void   DemSolver<Cpu>::refuse_substeps(const TimeStep&, const Pace&, double);
-#ifdef TREAD_WITH_CUDA
-template double DemSolver<Gpu>::guard(double, double);
-template void   DemSolver<Gpu>::require_finite(double);
-template void   DemSolver<Gpu>::require_listed(double, double);
-template void   DemSolver<Gpu>::require_resolved(double, double);
-template void   DemSolver<Gpu>::refuse_substeps(const TimeStep&, const Pace&, double);
-#endif
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template double DemSolver<Exec>::guard(double, double);                                                            \
+    template void   DemSolver<Exec>::require_finite(double);                                                           \
+    template void   DemSolver<Exec>::require_listed(double, double);                                                   \
+    template void   DemSolver<Exec>::require_resolved(double, double);                                                 \
+    template void   DemSolver<Exec>::refuse_substeps(const TimeStep&, const Pace&, double)
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "backend/instantiate.hpp"
 #include "decomp/messages.hpp"
 #include "solver/dem_solver.hpp"
 
@@ -62,11 +63,10 @@ std::vector<world::ContactRecord> DemSolver<Exec>::contacts() const
     return all;
 }
 
-template void                              DemSolver<Cpu>::restore_contacts();
-template std::vector<world::ContactRecord> DemSolver<Cpu>::contacts() const;
-#ifdef TREAD_WITH_CUDA
-template void                              DemSolver<Gpu>::restore_contacts();
-template std::vector<world::ContactRecord> DemSolver<Gpu>::contacts() const;
-#endif
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void                              DemSolver<Exec>::restore_contacts();                                    \
+    template std::vector<world::ContactRecord> DemSolver<Exec>::contacts() const
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/instantiate.hpp"
 #include "backend/reduce.hpp"
 #include "base/errors.hpp"
 #include "decomp/combine.hpp"
@@ -207,23 +208,16 @@ io::BodyFields DemSolver<Exec>::fields()
     return fields;
 }
 
-template RigidReport          DemSolver<Cpu>::report(double);
-template void                 DemSolver<Cpu>::request_report();
-template RigidCensus          DemSolver<Cpu>::census();
-template std::vector<BodyRow> DemSolver<Cpu>::named_bodies();
-template Vec3<double>         DemSolver<Cpu>::place(std::size_t) const;
-template double               DemSolver<Cpu>::carried(std::size_t) const;
-template void                 DemSolver<Cpu>::begin_mean();
-template io::BodyFields       DemSolver<Cpu>::fields();
-#ifdef TREAD_WITH_CUDA
-template RigidReport          DemSolver<Gpu>::report(double);
-template void                 DemSolver<Gpu>::request_report();
-template RigidCensus          DemSolver<Gpu>::census();
-template std::vector<BodyRow> DemSolver<Gpu>::named_bodies();
-template Vec3<double>         DemSolver<Gpu>::place(std::size_t) const;
-template double               DemSolver<Gpu>::carried(std::size_t) const;
-template void                 DemSolver<Gpu>::begin_mean();
-template io::BodyFields       DemSolver<Gpu>::fields();
-#endif
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template RigidReport          DemSolver<Exec>::report(double);                                                     \
+    template void                 DemSolver<Exec>::request_report();                                                   \
+    template RigidCensus          DemSolver<Exec>::census();                                                           \
+    template std::vector<BodyRow> DemSolver<Exec>::named_bodies();                                                     \
+    template Vec3<double>         DemSolver<Exec>::place(std::size_t) const;                                           \
+    template double               DemSolver<Exec>::carried(std::size_t) const;                                         \
+    template void                 DemSolver<Exec>::begin_mean();                                                       \
+    template io::BodyFields       DemSolver<Exec>::fields()
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/instantiate.hpp"
 #include "base/errors.hpp"
 #include "kernels/dem/contact/body_contact.hpp"
 #include "kernels/dem/contact/contact_limits.hpp"
@@ -344,9 +345,8 @@ void DemSolver<Exec>::count_substeps(double dt, std::int64_t count)
     substep_ = dt;
 }
 
-template class DemSolver<Cpu>;
-#ifdef TREAD_WITH_CUDA
-template class DemSolver<Gpu>;
-#endif
+#define TREAD_INSTANTIATE(Exec) template class DemSolver<Exec>
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

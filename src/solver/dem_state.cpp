@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/instantiate.hpp"
 #include "solver/dem_solver.hpp"
 #include "solver/state_file.hpp"
 
@@ -288,9 +289,8 @@ void DemSolver<Exec>::transfer_lists(StateFile& file)
     pairs_.peak.assign(peaks);
 }
 
-template void DemSolver<Cpu>::transfer(StateFile&);
-#ifdef TREAD_WITH_CUDA
-template void DemSolver<Gpu>::transfer(StateFile&);
-#endif
+#define TREAD_INSTANTIATE(Exec) template void DemSolver<Exec>::transfer(StateFile&)
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

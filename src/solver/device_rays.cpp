@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "backend/instantiate.hpp"
 #include "shape/flat_tree.hpp"
 
 namespace tread::solver
@@ -65,9 +66,8 @@ DeviceRays<Exec>::DeviceRays(const Exec& exec, const std::vector<shape::ShapeTem
     views_.assign(views);
 }
 
-template class DeviceRays<Cpu>;
-#ifdef TREAD_WITH_CUDA
-template class DeviceRays<Gpu>;
-#endif
+#define TREAD_INSTANTIATE(Exec) template class DeviceRays<Exec>
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "backend/instantiate.hpp"
 #include "kernels/dem/contact/sdf_kern.hpp"
 #include "shape/sdf_grid.hpp"
 
@@ -106,9 +107,8 @@ DeviceTemplates<Exec>::DeviceTemplates(const Exec& exec, const std::vector<shape
     concave_ = std::any_of(views.begin(), views.end(), [](const auto& view) { return view.concave; });
 }
 
-template class DeviceTemplates<Cpu>;
-#ifdef TREAD_WITH_CUDA
-template class DeviceTemplates<Gpu>;
-#endif
+#define TREAD_INSTANTIATE(Exec) template class DeviceTemplates<Exec>
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -1,5 +1,6 @@
 #include <numeric>
 
+#include "backend/instantiate.hpp"
 #include "decomp/combine.hpp"
 #include "solver/mpm_solver.hpp"
 
@@ -32,11 +33,8 @@ void MpmSolver<Exec, Real>::keep_account_of(std::int64_t left)
     mass_ -= row[mpm::census_mass];
 }
 
-template void MpmSolver<Cpu, float>::keep_account_of(std::int64_t);
-template void MpmSolver<Cpu, double>::keep_account_of(std::int64_t);
-#ifdef TREAD_WITH_CUDA
-template void MpmSolver<Gpu, float>::keep_account_of(std::int64_t);
-template void MpmSolver<Gpu, double>::keep_account_of(std::int64_t);
-#endif
+#define TREAD_INSTANTIATE(Exec, Real) template void MpmSolver<Exec, Real>::keep_account_of(std::int64_t)
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "backend/instantiate.hpp"
 #include "decomp/combine.hpp"
 #include "solver/mpm_solver.hpp"
 
@@ -82,19 +83,11 @@ SandCensus MpmSolver<Exec, Real>::census()
     return census + census_of(left_.data());
 }
 
-template SandReport MpmSolver<Cpu, float>::report();
-template SandReport MpmSolver<Cpu, double>::report();
-template void       MpmSolver<Cpu, float>::request_report();
-template void       MpmSolver<Cpu, double>::request_report();
-template SandCensus MpmSolver<Cpu, float>::census();
-template SandCensus MpmSolver<Cpu, double>::census();
-#ifdef TREAD_WITH_CUDA
-template SandReport MpmSolver<Gpu, float>::report();
-template SandReport MpmSolver<Gpu, double>::report();
-template void       MpmSolver<Gpu, float>::request_report();
-template void       MpmSolver<Gpu, double>::request_report();
-template SandCensus MpmSolver<Gpu, float>::census();
-template SandCensus MpmSolver<Gpu, double>::census();
-#endif
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template SandReport MpmSolver<Exec, Real>::report();                                                               \
+    template void       MpmSolver<Exec, Real>::request_report();                                                       \
+    template SandCensus MpmSolver<Exec, Real>::census()
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

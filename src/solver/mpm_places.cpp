@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "backend/instantiate.hpp"
 #include "solver/mpm_solver.hpp"
 
 // Where the sand is, for the host.
@@ -46,19 +47,11 @@ void MpmSolver<Exec, Real>::add_to(world::TerrainBins& bins) const
     }
 }
 
-template std::vector<const mpm::Points<Cpu, float>*>  MpmSolver<Cpu, float>::all_points() const;
-template std::vector<Vec3<double>>                    MpmSolver<Cpu, float>::positions() const;
-template void                                         MpmSolver<Cpu, float>::add_to(world::TerrainBins&) const;
-template std::vector<const mpm::Points<Cpu, double>*> MpmSolver<Cpu, double>::all_points() const;
-template std::vector<Vec3<double>>                    MpmSolver<Cpu, double>::positions() const;
-template void                                         MpmSolver<Cpu, double>::add_to(world::TerrainBins&) const;
-#ifdef TREAD_WITH_CUDA
-template std::vector<const mpm::Points<Gpu, float>*>  MpmSolver<Gpu, float>::all_points() const;
-template std::vector<Vec3<double>>                    MpmSolver<Gpu, float>::positions() const;
-template void                                         MpmSolver<Gpu, float>::add_to(world::TerrainBins&) const;
-template std::vector<const mpm::Points<Gpu, double>*> MpmSolver<Gpu, double>::all_points() const;
-template std::vector<Vec3<double>>                    MpmSolver<Gpu, double>::positions() const;
-template void                                         MpmSolver<Gpu, double>::add_to(world::TerrainBins&) const;
-#endif
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template std::vector<const mpm::Points<Exec, Real>*> MpmSolver<Exec, Real>::all_points() const;                    \
+    template std::vector<Vec3<double>>                   MpmSolver<Exec, Real>::positions() const;                     \
+    template void                                        MpmSolver<Exec, Real>::add_to(world::TerrainBins&) const
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "backend/instantiate.hpp"
 #include "world/materials.hpp"
 
 namespace tread::solver
@@ -333,11 +334,8 @@ void MpmSolver<Exec, Real>::gather(double dt)
     ++steps_;
 }
 
-template class MpmSolver<Cpu, float>;
-template class MpmSolver<Cpu, double>;
-#ifdef TREAD_WITH_CUDA
-template class MpmSolver<Gpu, float>;
-template class MpmSolver<Gpu, double>;
-#endif
+#define TREAD_INSTANTIATE(Exec, Real) template class MpmSolver<Exec, Real>
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

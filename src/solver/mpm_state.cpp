@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/instantiate.hpp"
 #include "solver/mpm_solver.hpp"
 #include "solver/page_bounds.hpp"
 #include "solver/state_file.hpp"
@@ -152,11 +153,9 @@ void MpmSolver<Exec, Real>::resume_lists()
     changed_in_.fill_zero();
 }
 
-template void MpmSolver<Cpu, float>::transfer(StateFile&, const world::HostPoints&);
-template void MpmSolver<Cpu, double>::transfer(StateFile&, const world::HostPoints&);
-#ifdef TREAD_WITH_CUDA
-template void MpmSolver<Gpu, float>::transfer(StateFile&, const world::HostPoints&);
-template void MpmSolver<Gpu, double>::transfer(StateFile&, const world::HostPoints&);
-#endif
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void MpmSolver<Exec, Real>::transfer(StateFile&, const world::HostPoints&)
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "backend/instantiate.hpp"
 #include "solver/state_file.hpp"
 
 namespace tread::solver
@@ -147,9 +148,8 @@ void PageWatch<Exec>::transfer(StateFile& file, mpm::HeldPages<Exec>& held)
     for (std::size_t i = 0; i < load.size(); ++i) { held_.at(held_key[i]).load = load[i]; }
 }
 
-template class PageWatch<Cpu>;
-#ifdef TREAD_WITH_CUDA
-template class PageWatch<Gpu>;
-#endif
+#define TREAD_INSTANTIATE(Exec) template class PageWatch<Exec>
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -1,4 +1,5 @@
 #include "solver/point_copy.hpp"
+#include "backend/instantiate.hpp"
 
 namespace tread::solver
 {
@@ -100,11 +101,8 @@ io::PointFields PointCopy<Exec, Real>::rows() const
     return fields;
 }
 
-template class PointCopy<Cpu, float>;
-template class PointCopy<Cpu, double>;
-#ifdef TREAD_WITH_CUDA
-template class PointCopy<Gpu, float>;
-template class PointCopy<Gpu, double>;
-#endif
+#define TREAD_INSTANTIATE(Exec, Real) template class PointCopy<Exec, Real>
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/instantiate.hpp"
 #include "base/errors.hpp"
 #include "decomp/messages.hpp"
 #include "world/cover.hpp"
@@ -142,11 +143,8 @@ void SandBodyCoupling<Exec, Real>::request_measure()
     requested_ = true;
 }
 
-template class SandBodyCoupling<Cpu, float>;
-template class SandBodyCoupling<Cpu, double>;
-#ifdef TREAD_WITH_CUDA
-template class SandBodyCoupling<Gpu, float>;
-template class SandBodyCoupling<Gpu, double>;
-#endif
+#define TREAD_INSTANTIATE(Exec, Real) template class SandBodyCoupling<Exec, Real>
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/instantiate.hpp"
 #include "solver/sand_body_coupling.hpp"
 #include "solver/state_file.hpp"
 
@@ -101,11 +102,9 @@ void SandBodyCoupling<Exec, Real>::transfer_slots(StateFile& file, const Contact
     contact_.id.assign(ids);
 }
 
-template void SandBodyCoupling<Cpu, float>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
-template void SandBodyCoupling<Cpu, double>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
-#ifdef TREAD_WITH_CUDA
-template void SandBodyCoupling<Gpu, float>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
-template void SandBodyCoupling<Gpu, double>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);
-#endif
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void SandBodyCoupling<Exec, Real>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&)
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

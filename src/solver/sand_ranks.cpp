@@ -1,5 +1,6 @@
 #include "solver/sand_ranks.hpp"
 
+#include "backend/instantiate.hpp"
 #include "solver/state_file.hpp"
 
 namespace tread::solver
@@ -35,11 +36,8 @@ void SandRanks<Exec, Real>::transfer(StateFile& file)
     if (file.loads()) { decomposition_.owners.assign(keys, ranks); }
 }
 
-template class SandRanks<Cpu, float>;
-template class SandRanks<Cpu, double>;
-#ifdef TREAD_WITH_CUDA
-template class SandRanks<Gpu, float>;
-template class SandRanks<Gpu, double>;
-#endif
+#define TREAD_INSTANTIATE(Exec, Real) template class SandRanks<Exec, Real>
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "backend/instantiate.hpp"
 #include "backend/reduce.hpp"
 #include "decomp/point_columns.hpp"
 #include "kernels/mpm/pages/census.hpp"
@@ -204,11 +205,8 @@ void SandSleep<Exec, Real>::transfer(StateFile& file, const mpm::Pages<Exec>& pa
     watch_.transfer(file, held_);
 }
 
-template class SandSleep<Cpu, float>;
-template class SandSleep<Cpu, double>;
-#ifdef TREAD_WITH_CUDA
-template class SandSleep<Gpu, float>;
-template class SandSleep<Gpu, double>;
-#endif
+#define TREAD_INSTANTIATE(Exec, Real) template class SandSleep<Exec, Real>
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "backend/instantiate.hpp"
 #include "base/errors.hpp"
 #include "solver/body_reaches.hpp"
 #include "solver/pace_limits.hpp"
@@ -323,11 +324,8 @@ std::vector<double> Simulation<Exec, Real>::surface_heights(const world::ColumnL
     return bins.surface();
 }
 
-template class Simulation<Cpu, float>;
-template class Simulation<Cpu, double>;
-#ifdef TREAD_WITH_CUDA
-template class Simulation<Gpu, float>;
-template class Simulation<Gpu, double>;
-#endif
+#define TREAD_INSTANTIATE(Exec, Real) template class Simulation<Exec, Real>
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "backend/instantiate.hpp"
 #include "solver/simulation.hpp"
 #include "solver/state_file.hpp"
 
@@ -48,11 +49,8 @@ void Simulation<Exec, Real>::transfer_balance(StateFile& file)
     if (file.loads()) { balance_->resume(std::move(state)); }
 }
 
-template void Simulation<Cpu, float>::transfer(StateFile&);
-template void Simulation<Cpu, double>::transfer(StateFile&);
-#ifdef TREAD_WITH_CUDA
-template void Simulation<Gpu, float>::transfer(StateFile&);
-template void Simulation<Gpu, double>::transfer(StateFile&);
-#endif
+#define TREAD_INSTANTIATE(Exec, Real) template void Simulation<Exec, Real>::transfer(StateFile&)
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "backend/instantiate.hpp"
 #include "base/errors.hpp"
 #include "solver/simulation.hpp"
 
@@ -95,11 +96,9 @@ void Simulation<Exec, Real>::coupled_substep(double dt, StageClock& clock)
               [&] { rigid_->move(dt, damping_, coupling_ ? coupling_->wrenches() : dem::OutsideWrenches{}); });
 }
 
-template void Simulation<Cpu, float>::substeps(const TimeStep&, double, StageClock&);
-template void Simulation<Cpu, double>::substeps(const TimeStep&, double, StageClock&);
-#ifdef TREAD_WITH_CUDA
-template void Simulation<Gpu, float>::substeps(const TimeStep&, double, StageClock&);
-template void Simulation<Gpu, double>::substeps(const TimeStep&, double, StageClock&);
-#endif
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void Simulation<Exec, Real>::substeps(const TimeStep&, double, StageClock&)
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::solver

@@ -7,8 +7,8 @@
 
 #include "backend.hpp"
 #include "mpi_session.hpp"
-#include "scene_text.hpp"
 #include "run/phases.hpp"
+#include "scene_text.hpp"
 #include "solver/page_loads.hpp"
 #include "solver/simulation.hpp"
 
@@ -105,7 +105,7 @@ private:
 
     scene::Scene                                    scene_;
     world::World                                    world_;
-    tread::run::PhaseClock                                 phases_;
+    tread::run::PhaseClock                          phases_;
     std::unique_ptr<decomp::Decomposition<Exec>>    decomposition_;
     std::unique_ptr<solver::Simulation<Exec, Real>> simulation_;
     solver::StageClock                              clock_;
