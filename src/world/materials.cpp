@@ -97,16 +97,26 @@ double hertz_factor(scene::HertzFactor factor)
 
 double active_stress(const scene::Material& material, double vertical)
 {
-    if (material.model == scene::MaterialModel::drucker_prager)
+    switch (material.model)
+    {
+    case scene::MaterialModel::drucker_prager:
     {
         // sqrt(J2) = (v - h) / sqrt 3 meets the cone k + eta (v + 2 h) / 3.
         const auto   cone = mpm::make_drucker_prager<double>(strength(material), cone_fit(material.drucker_prager_fit));
         const double third = cone.slope / 3, root = 1 / std::numbers::sqrt3;
         return ((root - third) * vertical - cone.limit) / (root + 2 * third);
     }
-    const double sine   = std::sin(material.friction_angle_deg * std::numbers::pi / 180);
-    const double active = (1 - sine) / (1 + sine);
-    return active * vertical - 2 * material.cohesion * std::sqrt(active);
+    case scene::MaterialModel::mohr_coulomb:
+    {
+        const double sine   = std::sin(material.friction_angle_deg * std::numbers::pi / 180);
+        const double active = (1 - sine) / (1 + sine);
+        return active * vertical - 2 * material.cohesion * std::sqrt(active);
+    }
+    case scene::MaterialModel::elastic:
+    case scene::MaterialModel::rigid:
+        break;
+    }
+    return 0;
 }
 
 template<class Real>
