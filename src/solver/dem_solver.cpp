@@ -27,8 +27,7 @@ constexpr double hit_twice = 4; ///< speed of a light body hit by one that was i
 /// hit_soon v t.
 constexpr double hit_soon = 0.5;
 
-constexpr std::int64_t batches_ahead =
-    2; ///< of substeps, covered by a check: the first is launched before its readback
+constexpr std::int64_t batches_ahead = 2; ///< batches of substeps covered by a check, as its readback takes one
 
 /// Share of a step over which displacements are extrapolated at its start, if the list is also checked within the
 /// step.
