@@ -130,7 +130,8 @@ void Driver<Exec, Real>::load_checkpoint()
     solver::StateFile file(communicator_, *reader, exact ? solver::Fidelity::exact : solver::Fidelity::physical);
     transfer(file);
     checkpoints_.newest = directory_.within(options_.checkpoint);
-    checkpoints_.bytes += static_cast<std::int64_t>(std::filesystem::file_size(options_.checkpoint)); // not in its sum
+    // The sum saved in a checkpoint does not include that file.
+    checkpoints_.bytes += static_cast<std::int64_t>(std::filesystem::file_size(options_.checkpoint));
     ++checkpoints_.written;
     log_.info(fmt::format("goes on from {} at {:.6g} s, step {}, in phase '{}'{}", options_.checkpoint, time_, steps_,
                           phases_.phase().name,
