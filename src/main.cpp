@@ -62,7 +62,7 @@ enum class Report
 struct SdfArguments
 {
     std::string                mesh;  ///< file, built-in shape, or scene
-    std::optional<std::string> shape; ///< in the scene
+    std::optional<std::string> shape; ///< name of a shape in the scene
     std::optional<int>         cells;
     double                     unit   = 1.0;
     bool                       repair = false;

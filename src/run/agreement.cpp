@@ -19,7 +19,7 @@ namespace tread::run
 namespace
 {
 
-constexpr std::size_t most_lines = 20; ///< of a message, per rank
+constexpr std::size_t most_lines = 20; ///< lines of a message per rank
 
 /// Size and checksum of a file, as read by this rank.
 std::string contents(const Communicator& alone, const std::string& path)

@@ -17,7 +17,7 @@ namespace
 constexpr double infinity      = std::numeric_limits<double>::infinity();
 constexpr double margin_cells  = 2;
 constexpr double margin_share  = 0.05; ///< margin over the body's reach
-constexpr double deepest_below = 0.1;  ///< of the reach, below the terrain's floor: contact with a wall penetrates less
+constexpr double deepest_below = 0.1;  ///< depth below the terrain's floor over the reach: walls are penetrated less
 constexpr int    path_parts    = 4000; ///< intervals of a drive that are examined in turn
 
 /// Half extents of a body that turns about its axle.

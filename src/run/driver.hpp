@@ -108,7 +108,7 @@ private:
     solver::Simulation<Exec, Real>&      simulation_;
     DriverOptions                        options_;
     PhaseClock                           phases_;
-    std::vector<DriveRoom>               rooms_; ///< of the driven bodies
+    std::vector<DriveRoom>               rooms_; ///< one for each driven body
     DriveWatch                           drive_watch_;
     std::optional<Recorder>              recorder_;  ///< on rank 0
     std::optional<Snapshots<Exec, Real>> snapshots_; ///< only if the scene wants snapshots

@@ -39,10 +39,9 @@ bool deserves_warning(EndKind kind);
 /// How a phase ended.
 struct PhaseEnd
 {
-    EndKind kind = EndKind::running;
-    double  after =
-        0; ///< s since the phase began; of a settled one, includes the time for which equilibrium had to hold
-    double unbalanced = 0; ///< unbalanced force over the weight, at the end
+    EndKind kind  = EndKind::running;
+    double  after = 0; ///< s since the phase began; if settled, includes the time for which equilibrium had to hold
+    double  unbalanced = 0; ///< unbalanced force over the weight, at the end
 
     std::string body    = {}; ///< body that was lowered
     double      carried = 0;  ///< share of its weight that contacts carry at the end

@@ -15,7 +15,7 @@ namespace
 struct Bounds
 {
     double cells;   ///< across the patch
-    double error;   ///< of pull, torque and sinkage
+    double error;   ///< error of pull, torque and sinkage
     double grouser; ///< cells over its height
 };
 

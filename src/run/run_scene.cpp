@@ -108,7 +108,7 @@ struct Job
     Log&                       log;
     const scene::Scene&        scene;
     const world::World&        world;
-    std::vector<DriveRoom>     rooms; ///< of the driven bodies
+    std::vector<DriveRoom>     rooms; ///< one for each driven body
     solver::Plan               plan;
     Estimate                   wants;
     const RunOptions&          options;

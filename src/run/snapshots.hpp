@@ -38,8 +38,7 @@ private:
     solver::PointCopy<Exec, Real> points_;
     io::BodyFields                bodies_;
     io::SnapshotWriter            files_;
-    std::future<void>
-        under_way_; ///< declared last, so that its destructor waits for the thread before other members are destroyed
+    std::future<void>             under_way_; ///< last: its destructor must wait before others run
 };
 
 } // namespace tread::run

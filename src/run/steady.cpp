@@ -14,7 +14,7 @@ namespace
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::size_t most_batches   = 100;  ///< batches into which a series is divided
-constexpr double      shortest_share = 0.4;  ///< of the series, left after the transient
+constexpr double      shortest_share = 0.4;  ///< least share of the series after the transient
 constexpr double      significant    = 3;    ///< trend over its own uncertainty
 constexpr double      notable        = 0.05; ///< trend over the mean or the deviation
 constexpr std::size_t independent    = 8;    ///< parts whose means are assumed independent

@@ -29,8 +29,7 @@ struct Moments
 {
     double mean;
     double deviation; ///< standard deviation
-    double
-        error; ///< standard error of the mean, from the means of eight consecutive parts; NaN for fewer than 8 values
+    double error; ///< standard error of the mean, from the means of eight parts in turn; NaN for fewer than 8 values
 };
 
 Moments moments(const std::vector<double>& values);

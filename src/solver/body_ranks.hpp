@@ -125,20 +125,19 @@ private:
     std::optional<decomp::PageOwnership> ownership_;
     std::vector<double>                  bounding_radius_; ///< m, by body
     std::vector<std::int32_t>            role_;            ///< by body
-    std::vector<decomp::Surroundings>
-                              inside_;   ///< by body: where its surroundings were last found inside this rank's pages
-    std::vector<std::int32_t> is_large_; ///< by body, copied from Pairs; empty before the first assign_owners()
-    FetchedArray<Exec, Vec3<double>> position_; ///< m
-    FetchedArray<Exec, double>       travel_;   ///< m
-    decomp::Exchange<Exec>           states_;
-    Array<Exec, std::int32_t>        arriving_;
-    Array<Exec, std::int32_t>        shared_body_;
-    Array<Exec, std::int32_t>        shared_place_;
-    Array<Exec, std::int32_t>        shared_first_;
-    Array<Exec, std::int32_t>        shared_row_;
-    Shares<dem::WrenchShare>         wrench_;
-    Shares<dem::StiffnessShare>      stiffness_;
-    Shares<double>                   speed_;
+    std::vector<decomp::Surroundings>    inside_;          ///< by body: last surroundings inside this rank's pages
+    std::vector<std::int32_t>            is_large_;        ///< by body, from Pairs; empty before assign_owners()
+    FetchedArray<Exec, Vec3<double>>     position_;        ///< m
+    FetchedArray<Exec, double>           travel_;          ///< m
+    decomp::Exchange<Exec>               states_;
+    Array<Exec, std::int32_t>            arriving_;
+    Array<Exec, std::int32_t>            shared_body_;
+    Array<Exec, std::int32_t>            shared_place_;
+    Array<Exec, std::int32_t>            shared_first_;
+    Array<Exec, std::int32_t>            shared_row_;
+    Shares<dem::WrenchShare>             wrench_;
+    Shares<dem::StiffnessShare>          stiffness_;
+    Shares<double>                       speed_;
 };
 
 } // namespace tread::solver

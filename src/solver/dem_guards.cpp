@@ -13,8 +13,8 @@ namespace tread::solver
 namespace
 {
 
-constexpr double deepest_overlap = 0.5; ///< of a radius: beyond it a contact's direction is undefined
-constexpr double longest_leap    = 1;   ///< of the smallest radius, in a substep
+constexpr double deepest_overlap = 0.5; ///< overlap over radius: beyond it a contact's direction is undefined
+constexpr double longest_leap    = 1;   ///< displacement in a substep over the smallest radius
 
 } // namespace
 

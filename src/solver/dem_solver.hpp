@@ -201,7 +201,7 @@ private:
     Array<Exec, dem::PairProperties>              properties_;
     Array<Exec, dem::Plane>                       planes_;
     dem::BodyTotals<Exec>                         totals_;
-    Array<Exec, dem::ContactImpulse>              impulses_; ///< of the named bodies, since begin_mean()
+    Array<Exec, dem::ContactImpulse>              impulses_; ///< impulses of the named bodies since begin_mean()
     Array<Exec, double>                           bounding_radii_;
     Array<Exec, double>                           sums_;     ///< ReportSums
     std::optional<Array<Exec, dem::BodyActivity>> activity_; ///< activity for the requested report
@@ -215,12 +215,12 @@ private:
     bool                                          listed_            = false; ///< whether pairs were found
     std::int64_t                                  partition_version_ = 0;
     double                                        span_              = 0; ///< s, span of the last search for pairs
-    bool              checked_within_step_ = false; ///< the pair list is also checked within the present step
-    bool              lookahead_pending_   = false; ///< a check was requested and its result not used yet
-    double            commanded_speed_     = 0;     ///< m/s, largest speed set by commands
-    double            overlap_             = 0;     ///< largest overlap over radius before the list was rebuilt
-    dem::BodyLaw      law_{};
-    std::vector<bool> released_;                                  ///< named bodies that have been free before
+    bool                                    checked_within_step_ = false; ///< the list is also checked within the step
+    bool                                    lookahead_pending_   = false; ///< a check was requested and not used yet
+    double                                  commanded_speed_     = 0;     ///< m/s, largest speed set by commands
+    double                                  overlap_ = 0; ///< largest over radius, before the list was rebuilt
+    dem::BodyLaw                            law_{};
+    std::vector<bool>                       released_;            ///< named bodies that have been free before
     std::vector<std::optional<BodyCommand>> commanded_;           ///< last command of each named body
     double                                  heaviest_  = 1;       ///< largest share of a body's weight that acts
     double                                  mean_time_ = 0;       ///< s, since begin_mean()

@@ -165,15 +165,15 @@ private:
     Array<Exec, Real>                          cell_divergence_;
     Array<Exec, Real>                          shared_stress_;
     std::array<double, mpm::census_count>      left_{}; ///< census of points that have left the domain, of all ranks
-    double                                     mass_      = 0;
-    std::int64_t                               step_      = 0;     ///< number of the last step
-    std::int64_t                               steps_     = 0;     ///< steps since the last report
-    bool                                       requested_ = false; ///< the next report was requested
-    mpm::CellChange cell_change_   = mpm::CellChange::lost;        ///< cell changes in the steps before the last report
-    bool            listed_        = false;                        ///< points were listed since the last step
-    int             relists_       = 0;                            ///< relistings since the last sort in memory
-    std::int64_t    reorder_count_ = 0;
-    std::int64_t    migrated_      = 0; ///< points that changed rank in the last order()
+    double                                     mass_          = 0;
+    std::int64_t                               step_          = 0;     ///< number of the last step
+    std::int64_t                               steps_         = 0;     ///< steps since the last report
+    bool                                       requested_     = false; ///< the next report was requested
+    mpm::CellChange                            cell_change_   = mpm::CellChange::lost; ///< up to the last report
+    bool                                       listed_        = false; ///< points were listed since the last step
+    int                                        relists_       = 0;     ///< relistings since the last sort in memory
+    std::int64_t                               reorder_count_ = 0;
+    std::int64_t                               migrated_      = 0; ///< points that changed rank in the last order()
 };
 
 } // namespace tread::solver

@@ -70,7 +70,7 @@ private:
 
     Exec                          exec_;
     Array<Exec, double>           speeds_; ///< [point pages], m2/s2
-    std::vector<std::uint64_t>    keys_;   ///< of the point pages
+    std::vector<std::uint64_t>    keys_;   ///< keys of the point pages
     std::vector<std::uint64_t>    held_keys_;
     std::map<std::uint64_t, Rest> rest_;
     std::map<std::uint64_t, Held> held_;

@@ -86,8 +86,8 @@ private:
     double                      used_    = 0;     ///< m, part of the skin that is used up since the search
     std::int64_t                version_ = 0;     ///< layout version at the search; 0 = none yet
     bool                        begun_   = false; ///< the search has begun the step
-    std::int64_t     named_; ///< number of named bodies (the first ones), whose contacts are counted separately
-    contact::Summary summary_ = contact::Summary::zero();
+    std::int64_t                named_; ///< number of named bodies (the first ones), which are counted separately
+    contact::Summary            summary_ = contact::Summary::zero();
     AsyncReadback<Exec, contact::Summary> readback_;
     bool                                  requested_ = false; ///< the next summary was requested
     const Communicator*                   communicator_;      ///< null on one rank

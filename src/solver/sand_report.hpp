@@ -46,7 +46,7 @@ struct SandReport
 {
     std::int64_t steps                        = 0;
     double       grid[mpm::grid_sums]         = {}; ///< by mpm::GridSum, over all these steps
-    double       last_grid[mpm::grid_sums]    = {}; ///< of the last step
+    double       last_grid[mpm::grid_sums]    = {}; ///< sums of the last step
     double       points[mpm::point_sums]      = {}; ///< by mpm::PointSum
     double       last_points[mpm::point_sums] = {};
     double       peaks[mpm::point_peaks]      = {}; ///< by mpm::PointPeak

@@ -18,8 +18,8 @@ namespace
 {
 
 constexpr double longest_substep =
-    0.8; ///< of sqrt(m / sum K): beyond it a contact gains energy (docs/theory.md#time-step)
-constexpr double unseen_travel  = 0.5; ///< of a spacing: displacement of sand after which it is measured again
+    0.8; ///< dt/N over sqrt(m / sum K): beyond it a contact gains energy (docs/theory.md#time-step)
+constexpr double unseen_travel  = 0.5; ///< displacement of sand, in spacings, after which it is measured again
 constexpr double least_gradient = 0.5; ///< |grad phi| in contact below which a point is past the medial axis
 
 Vec3<double> vector(const scene::Vector3& v) { return {v[0], v[1], v[2]}; }

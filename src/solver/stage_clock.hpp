@@ -64,7 +64,7 @@ private:
     {
         std::int64_t calls   = 0;
         std::int64_t timed   = 0;
-        double       seconds = 0; ///< of the timed calls
+        double       seconds = 0; ///< time of the timed calls
 
         double scaled() const
         {

@@ -13,10 +13,10 @@ namespace tread::solver
 namespace
 {
 
-constexpr double contact_warning    = 0.4; ///< of sqrt(m / sum K), docs/theory.md#time-step
+constexpr double contact_warning    = 0.4; ///< dt/N over sqrt(m / sum K), docs/theory.md#time-step
 constexpr double point_contact_warn = 2.0;
-constexpr double unseen_fall        = dem::rest_reserve; ///< of a body's radius: reserve of the pair list
-constexpr double overlap_warning    = 0.1;               ///< of a radius: the head-on case itself reaches 0.11
+constexpr double unseen_fall        = dem::rest_reserve; ///< reserve of the pair list over a body's radius
+constexpr double overlap_warning    = 0.1;               ///< overlap over radius: the head-on case itself reaches 0.11
 constexpr double growth             = 1.05;
 constexpr double substeps_alone     = 10; ///< substeps a step where no sand sets the step
 

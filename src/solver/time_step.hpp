@@ -36,8 +36,8 @@ struct TimeStep
     std::string  limit; ///< name of the bound that sets the step
 };
 
-inline constexpr double point_contact_bound = 0.5; ///< on k dt^2 / m_p, docs/theory.md#time-step
-inline constexpr double travel_bound        = 0.3; ///< of the spacing, or of the smallest body
+inline constexpr double point_contact_bound = 0.5; ///< bound on k dt^2 / m_p, docs/theory.md#time-step
+inline constexpr double travel_bound        = 0.3; ///< v dt over the spacing, or v dt/N over the smallest body
 
 /// Chooses the step within the limits c_p dt/h <= courant, v dt <= 0.3 h, k dt^2/m_p <= 0.5 at the stiffest sand-body
 /// contact, dt/N <= contact_share sqrt(m / sum K), v dt/N <= 0.3 of the smallest body. It grows by at most 5 % a step.

@@ -16,7 +16,7 @@ namespace tread::world
 namespace
 {
 
-constexpr double deepest_at_start = 0.1; ///< of the smaller radius: overlap that contacts carry without a warning
+constexpr double deepest_at_start = 0.1; ///< overlap over the smaller radius that causes no warning
 
 double body_scale(const scene::Body& body, const shape::ShapeTemplate& form)
 {

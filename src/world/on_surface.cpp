@@ -17,7 +17,7 @@ namespace tread::world
 namespace
 {
 
-constexpr double closest = 1e-4; ///< of the body's bounding radius: distance from the ground at which the descent ends
+constexpr double closest = 1e-4; ///< gap at which the descent ends, over the body's bounding radius
 
 /// A sand point, and its contact distance (m) from a body.
 struct Grain

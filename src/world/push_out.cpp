@@ -15,7 +15,7 @@ constexpr int    sweeps = 24; ///< per descent, each moving off the body with th
 constexpr int    starts = 64; ///< descents, from places around the point
 constexpr double beyond_contact =
     1.0001;                            ///< factor on the missing distance: the gradient of an interpolant is not exact
-constexpr double off_the_walls = 0.25; ///< of a point's side, least distance from the domain's faces
+constexpr double off_the_walls = 0.25; ///< least distance from the domain's faces, in point sides
 
 /// The deepest contact of a point at x with a body.
 struct Deepest

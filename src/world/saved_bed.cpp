@@ -15,7 +15,7 @@ namespace tread::world
 namespace
 {
 
-constexpr double deepest_in_wall = 0.1; ///< of a radius: settled rocks overlap a wall by far less
+constexpr double deepest_in_wall = 0.1; ///< overlap over radius: settled rocks overlap a wall by far less
 
 /// 0 to 5, the wall's number in io::BedContacts.
 int wall_number(const dem::Plane& plane)
