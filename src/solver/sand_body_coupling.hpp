@@ -78,16 +78,16 @@ private:
     void transfer_candidates(StateFile& file, const dem::BodiesView& bodies, const ContactPartners& partners);
     void transfer_slots(StateFile& file, const ContactPartners& partners);
 
-    Exec                        exec_;
-    contact::PointContact<Exec> contact_;
-    contact::PointBodyLaw       law_;
-    double                      largest_radius_;
-    double                      skin_;            ///< m
-    double                      used_    = 0;     ///< m, part of the skin that is used up since the search
-    std::int64_t                version_ = 0;     ///< layout version at the search; 0 = none yet
-    bool                        begun_   = false; ///< the search has begun the step
-    std::int64_t                named_; ///< number of named bodies (the first ones), which are counted separately
-    contact::Summary            summary_ = contact::Summary::zero();
+    Exec                                  exec_;
+    contact::PointContact<Exec>           contact_;
+    contact::PointBodyLaw                 law_;
+    double                                largest_radius_;
+    double                                skin_;            ///< m
+    double                                used_    = 0;     ///< m, part of the skin that is used up since the search
+    std::int64_t                          version_ = 0;     ///< layout version at the search; 0 = none yet
+    bool                                  begun_   = false; ///< the search has begun the step
+    std::int64_t                          named_; ///< named bodies come first; their contacts are counted apart
+    contact::Summary                      summary_ = contact::Summary::zero();
     AsyncReadback<Exec, contact::Summary> readback_;
     bool                                  requested_ = false; ///< the next summary was requested
     const Communicator*                   communicator_;      ///< null on one rank

@@ -11,11 +11,10 @@ namespace tread::world
 namespace
 {
 
-constexpr int    sweeps = 24; ///< per descent, each moving off the body with the deepest contact
-constexpr int    starts = 64; ///< descents, from places around the point
-constexpr double beyond_contact =
-    1.0001;                            ///< factor on the missing distance: the gradient of an interpolant is not exact
-constexpr double off_the_walls = 0.25; ///< least distance from the domain's faces, in point sides
+constexpr int    sweeps         = 24;     ///< per descent, each moving off the body with the deepest contact
+constexpr int    starts         = 64;     ///< descents, from places around the point
+constexpr double beyond_contact = 1.0001; ///< push over the missing distance, as gradients are inexact
+constexpr double off_the_walls  = 0.25;   ///< least distance from the domain's faces, in point sides
 
 /// The deepest contact of a point at x with a body.
 struct Deepest

@@ -27,8 +27,7 @@ struct HostPoints
     std::vector<std::int32_t> terrain;  ///< index of the [[terrain]] table that created the point
     std::vector<Vec3<double>> velocity; ///< m/s; empty if all points are at rest
 
-    std::vector<double>
-        plastic_shear; ///< initial plastic shear of the points of a saved bed; empty without such points
+    std::vector<double> plastic_shear; ///< initial, of the points of a saved bed; empty without such points
 
     /// Ids in the scene, if these points are one rank's own. Empty: all points of the scene, in their order.
     std::vector<std::uint32_t> id;
