@@ -27,7 +27,7 @@
 #include "shape/report.hpp"
 #include "shape/template.hpp"
 
-// The command line: what the user typed, to one call of the room that does it.
+// Command line: parses the user's arguments and calls the room that handles them.
 namespace
 {
 
@@ -61,8 +61,8 @@ enum class Report
 
 struct SdfArguments
 {
-    std::string                mesh;  ///< file, name of a built-in shape, or scene
-    std::optional<std::string> shape; ///< of the scene
+    std::string                mesh;  ///< file, built-in shape, or scene
+    std::optional<std::string> shape; ///< name of a shape in the scene
     std::optional<int>         cells;
     double                     unit   = 1.0;
     bool                       repair = false;
@@ -104,10 +104,10 @@ ExitCode check(const CheckArguments& arguments)
 struct AskedShape
 {
     scene::Shape shape;
-    std::string  directory; ///< that its files are relative to
+    std::string  directory; ///< base of relative file names
 };
 
-/// A shape of the scene, a rock of one of its families, or a built-in.
+/// Finds a shape of the scene, a member of one of its rock families, or a built-in shape.
 scene::Shape named_shape(const scene::Scene& scene, const std::string& name)
 {
     for (const scene::Shape& family : scene.shapes)
@@ -120,7 +120,7 @@ scene::Shape named_shape(const scene::Scene& scene, const std::string& name)
     return shape::find_shape(scene, name);
 }
 
-/// The shape of a scene that is asked for, or its only one.
+/// The requested shape of a scene, or its only one.
 AskedShape shape_in_scene(const SdfArguments& arguments)
 {
     const scene::Scene scene = scene::load_scene(arguments.mesh, {});
@@ -136,7 +136,7 @@ AskedShape shape_in_scene(const SdfArguments& arguments)
 AskedShape mesh_or_builtin(const SdfArguments& arguments)
 {
     if (arguments.shape) { throw InputError("--shape NAME is for a SCENE.toml"); }
-    // A mesh file has an extension, a name has none.
+    // A mesh file has an extension, a built-in name has none.
     if (std::filesystem::path(arguments.mesh).extension().empty())
     {
         return {shape::find_shape({}, arguments.mesh), "."};
@@ -147,7 +147,7 @@ AskedShape mesh_or_builtin(const SdfArguments& arguments)
     return {shape, "."};
 }
 
-/// A family is too many for one grid: its forms alone.
+/// A family has several grids: lists its forms only.
 ExitCode sdf_of_family(const SdfArguments& arguments, const scene::Shape& family)
 {
     if (arguments.stl || arguments.report != Report::none)
@@ -185,7 +185,7 @@ ExitCode info(const std::string& path)
     return ExitCode::finished;
 }
 
-/// An option that takes one of the words of `table`.
+/// Adds an option that accepts one of the words of `table`.
 template<class T>
 void add_word_option(CLI::App& command, const std::string& name, T& value, const std::map<std::string, T>& table,
                      const std::string& meaning)
@@ -205,7 +205,7 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments)
         ->allow_extra_args(false);
 }
 
-/// s, of "HH:MM:SS", as an option has it.
+/// Converts an option's "HH:MM:SS" to s.
 double seconds_of(const std::string& option, const std::string& text)
 {
     unsigned   hours = 0, minutes = 0, seconds = 0;
@@ -305,7 +305,7 @@ void add_sdf_options(CLI::App& command, SdfArguments& arguments)
     command.add_option("--write-stl", arguments.stl, "Write the surface, centred, in metres")->type_name("FILE");
 }
 
-/// One subcommand is required; CLI::ParseError for --help, --version and everything that is not understood.
+/// Requires one subcommand; throws CLI::ParseError for --help, --version and invalid arguments.
 ExitCode dispatch(CLI::App& app, int argc, char** argv)
 {
     RunArguments   run_arguments;
@@ -324,7 +324,7 @@ ExitCode dispatch(CLI::App& app, int argc, char** argv)
         ->check(CLI::Range(1, 4096));
     add_sdf_options(*sdf_command, sdf_arguments);
     info_command->add_option("file", info_path, "timeseries.h5, a snapshot ...")->type_name("FILE.h5")->required();
-    // Its options are the script's, help included.
+    // Its options, help included, are those of the script.
     CLI::App* study_command =
         app.add_subcommand("study", "Error against run time of a scene's variants: docs/study.md");
     study_command->set_help_flag();

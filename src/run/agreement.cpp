@@ -19,9 +19,9 @@ namespace tread::run
 namespace
 {
 
-constexpr std::size_t most_lines = 20; ///< of a message, a rank
+constexpr std::size_t most_lines = 20; ///< lines of a message per rank
 
-/// Size and checksum of a file, as this rank sees it.
+/// Size and checksum of a file, as read by this rank.
 std::string contents(const Communicator& alone, const std::string& path)
 {
     std::error_code error;
@@ -61,7 +61,7 @@ const char* word_of(decomp::TransportChoice transport)
     return "host";
 }
 
-constexpr char separator = '\0'; ///< no path and no option has one
+constexpr char separator = '\0'; ///< occurs in no path and no option
 
 std::string text_of(const std::vector<Fact>& facts)
 {

@@ -7,27 +7,28 @@
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
 
-// Several ranks compute one problem: that they are about to is found out before anything is computed or written.
+// Checks, before anything is computed or written, that all ranks are about to compute the same problem.
 namespace tread::run
 {
 
-/// Something that all ranks must have in common.
+/// A name and value that must agree on all ranks.
 struct Fact
 {
     std::string name;
     std::string value;
 };
 
-/// Collective: load_scene on every rank. Where it fails on some ranks alone, the error names one of them and its host.
+/// Collective: calls load_scene on every rank. If it fails on some ranks only, the error names one of them and its
+/// host.
 scene::Scene load_on_every_rank(const Communicator& communicator, const std::string& path,
                                 const std::vector<std::string>& overrides);
 
-/// What this rank is about to run, besides the scene: program, backend, options that decide what ranks do together,
-/// size and checksum of every file that the scene names. EnvironmentError when one of these cannot be read.
+/// Lists what this rank is about to run, besides the scene: program, backend, options that decide what ranks do
+/// together, size and checksum of every file that the scene names. EnvironmentError when one of these cannot be read.
 std::vector<Fact> facts_of_run(const scene::Scene& scene, const RunOptions& options, const std::string& backend);
 
-/// Collective. EnvironmentError when a rank's scene, as resolved_toml writes it, or facts are not those of rank 0: it
-/// names every such rank with its host, and what it has and rank 0 has not. Facts go by their place in the list.
+/// Collective. Throws EnvironmentError when a rank's scene, as resolved_toml writes it, or its facts differ from rank
+/// 0's: the message names every such rank with its host and the differences. Facts are compared by index.
 void require_agreement(const Communicator& communicator, const std::string& scene, const std::vector<Fact>& facts);
 
 } // namespace tread::run

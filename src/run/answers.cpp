@@ -15,16 +15,16 @@ namespace tread::run
 namespace
 {
 
-constexpr double rounding = 1e-9; ///< s, of times
+constexpr double rounding = 1e-9; ///< s, tolerance of times
 
-/// Rows of a body's history: what they say is the mean since the row before.
+/// Time series of a body: each row is the mean since the row before.
 struct History
 {
     std::vector<double> time, sinkage, slip, power; ///< [n]
     std::vector<double> force, torque;              ///< [n][3]
 };
 
-/// A phase in the time series.
+/// A phase's interval in the time series.
 struct Span
 {
     std::size_t phase;
@@ -59,7 +59,7 @@ bool holds(const scene::Phase& phase, const std::string& body)
     return std::find(phase.hold.begin(), phase.hold.end(), body) != phase.hold.end();
 }
 
-/// Selects the phases that a body's answers are made of.
+/// Selects the phases for which a body's answers are computed.
 std::vector<Span> spans_of(const std::string& body, const scene::Scene& scene, const std::vector<Span>& spans)
 {
     std::vector<Span>   found;
@@ -74,13 +74,13 @@ std::vector<Span> spans_of(const std::string& body, const scene::Scene& scene, c
     return found;
 }
 
-/// Numbers of the rows whose means are all of the time from `from` to `to`.
+/// Indices of the rows whose averaging interval lies within `from` to `to`.
 std::vector<std::size_t> rows_within(const std::vector<double>& time, double from, double to)
 {
     std::vector<std::size_t> rows;
     for (std::size_t i = 1; i < time.size(); ++i)
     {
-        // A row at the time of the one before it is a mean over nothing.
+        // A row at the time of the one before it averages over nothing.
         const bool within = time[i - 1] >= from - rounding && time[i] <= to + rounding;
         if (within && time[i] - time[i - 1] > rounding) { rows.push_back(i); }
     }
@@ -96,7 +96,7 @@ std::vector<double> pick(const std::vector<double>& values, const std::vector<st
     return picked;
 }
 
-/// The names of a driven wheel's quantities in summary.json; `decides`: whether it must be steady for all to be.
+/// A quantity in summary.json, and its values; `decides`: the answers are steady only if this quantity is.
 struct Series
 {
     const char*         name;
@@ -105,7 +105,7 @@ struct Series
     std::vector<double> values;
 };
 
-/// The first are pull and load.
+/// The first two are pull and load.
 std::vector<Series> driven_series(const History& history, const std::vector<std::size_t>& rows, double direction)
 {
     return {{"pull", "N", true, pick(history.force, rows, direction, 3, 0)},
@@ -128,7 +128,8 @@ double median(std::vector<double> times)
     return times.size() % 2 == 1 ? times[half] : 0.5 * (times[half - 1] + times[half]);
 }
 
-/// All means are over the same rows: from where the last of what decides is steady, or the last half.
+/// Common averaging interval of all quantities: from where the last of the deciding ones becomes steady, or the last
+/// half.
 SteadyPart common_part(const std::vector<double>& time, const std::vector<Series>& series)
 {
     SteadyPart common{time.front(), true};
@@ -160,7 +161,7 @@ io::PhaseAnswers answers_of(const std::vector<double>& time, const std::vector<S
     return answers;
 }
 
-/// Behind the pull, its share of the mean load.
+/// Inserts the share of the mean load behind the pull.
 void add_share(std::vector<io::Answer>& quantities)
 {
     const io::Answer pull = quantities[0];
@@ -169,7 +170,7 @@ void add_share(std::vector<io::Answer>& quantities)
                                                pull.standard_error / load, std::nullopt});
 }
 
-/// Removes quantities that are not defined: a wheel that does not turn has no slip, one without load no share of it.
+/// Removes undefined quantities: a wheel that does not turn has no slip, one without load no share of it.
 void leave_out_unknown(std::vector<io::Answer>& quantities)
 {
     std::erase_if(quantities, [](const io::Answer& answer) { return !std::isfinite(answer.mean); });
@@ -195,7 +196,7 @@ std::string line_of(const std::string& body, const io::PhaseAnswers& phase)
     return phase.ended ? line : line + " (the phase did not end)";
 }
 
-/// The answers of the last wheel that the scene drives; null without one.
+/// Answers of the last wheel that the scene drives; null without one.
 template<class Answers>
 auto* last_driven(const scene::Scene& scene, Answers& answers)
 {
@@ -210,14 +211,14 @@ auto* last_driven(const scene::Scene& scene, Answers& answers)
     return found;
 }
 
-/// Whether these answers are of a phase that drives the body.
+/// Whether these answers belong to a phase that drives the body.
 bool is_drive(const scene::Scene& scene, const std::string& body, const io::PhaseAnswers& answers)
 {
     return std::any_of(scene.phases.begin(), scene.phases.end(),
                        [&](const scene::Phase& phase) { return phase.name == answers.phase && drives(phase, body); });
 }
 
-/// Returns the mean of a quantity, NaN where the answers leave it out.
+/// Returns the mean of a quantity, NaN where the answers lack it.
 double mean_of(const io::PhaseAnswers& phase, const std::string& name)
 {
     const auto found = std::find_if(phase.quantities.begin(), phase.quantities.end(),

@@ -55,7 +55,7 @@ std::string shape_lines(const world::World& world)
     return text;
 }
 
-/// Heights that the scene leaves to the bed.
+/// Lists body heights that the scene leaves to be computed from the bed.
 std::string body_lines(const scene::Scene& scene, const world::World& world)
 {
     std::string text;
@@ -75,7 +75,7 @@ std::string resting_text(const solver::Plan& plan, const Estimate& wants)
                        wants.substeps);
 }
 
-/// Points, time, memory and disk: what a run costs.
+/// Cost of a run: points, time, memory and disk.
 std::string cost_lines(const scene::Scene& scene, const world::World& world, const solver::Plan& plan,
                        const Estimate& wants)
 {
@@ -99,7 +99,7 @@ std::string cost_lines(const scene::Scene& scene, const world::World& world, con
     return text;
 }
 
-/// Gravity and the slope that its direction stands for.
+/// Gravity, and the slope that corresponds to its direction.
 std::string gravity_line(const scene::Scene& scene)
 {
     const auto&  g     = scene.domain.gravity;

@@ -8,8 +8,8 @@
 namespace tread::run
 {
 
-/// What `tread check` prints: warnings, cost, slope, what each named body stands on and how well the grid resolves it,
-/// the bed, shapes, how the scene falls to so many ranks, and the stages of a step with reasons.
+/// Returns the output of `tread check`: warnings, cost, slope, ground and grid resolution of each named body, the bed,
+/// shapes, the partition over `ranks`, and the stages of a step with reasons.
 std::string check_scene(const Communicator& communicator, const scene::Scene& scene, int ranks);
 
 } // namespace tread::run

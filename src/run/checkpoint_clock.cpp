@@ -13,9 +13,9 @@ namespace tread::run
 namespace
 {
 
-constexpr double least_margin = 1; ///< s before the limit: a summary, and what ends a process, take time too
+constexpr double least_margin = 1; ///< s before the limit, for writing the summary and ending the process
 
-/// The greatest of all ranks is done.
+/// Requested actions; the largest over all ranks applies.
 enum Wish : std::int64_t
 {
     go_on,

@@ -16,11 +16,11 @@ namespace
 
 constexpr double infinity      = std::numeric_limits<double>::infinity();
 constexpr double margin_cells  = 2;
-constexpr double margin_share  = 0.05; ///< of the body's reach
-constexpr double deepest_below = 0.1;  ///< of the reach, under the terrain's floor: contact with a wall is less deep
-constexpr int    path_parts    = 4000; ///< of a drive, looked at one after the other
+constexpr double margin_share  = 0.05; ///< margin over the body's reach
+constexpr double deepest_below = 0.1;  ///< depth below the terrain's floor over the reach: walls are penetrated less
+constexpr int    path_parts    = 4000; ///< intervals of a drive that are examined in turn
 
-/// Half the extents of a body that turns about its axle.
+/// Half extents of a body that turns about its axle.
 struct Rim
 {
     double reach; ///< m
@@ -39,7 +39,7 @@ Rim rim_of(const world::World& world, std::size_t body)
     return rim;
 }
 
-/// Calls visit(centre, half its size) for each point of sand and each rock.
+/// Calls visit(centre, half size) for each point of sand and each rock.
 template<class Visit>
 void for_each_piece(const world::World& world, Visit visit)
 {
@@ -53,7 +53,7 @@ void for_each_piece(const world::World& world, Visit visit)
     }
 }
 
-/// Which parts of the domain's length have terrain within a body's width.
+/// Parts of the domain's length that have terrain within a body's width.
 struct Strip
 {
     double            part; ///< m
@@ -64,8 +64,8 @@ struct Strip
         return std::clamp(static_cast<long>(std::floor(x / part)), 0L, static_cast<long>(covered.size()) - 1);
     }
 
-    /// The far end (m) of the terrain from x on, towards high x if `step` is 1, low x if -1; gaps of up to `gap` (m)
-    /// do not count. x itself if there is none.
+    /// Returns the far end (m) of the terrain from x on, towards high x if `step` is 1, low x if -1, ignoring gaps of
+    /// up to `gap` (m); x itself if there is no terrain.
     double edge(double x, long step, double gap) const
     {
         double end = x;
@@ -100,13 +100,13 @@ std::optional<DriveRoom::Ground> ground_of(const world::World& world, const Vec3
     return ground;
 }
 
-/// Towards high x for direction 1, low x for -1.
+/// End of the path towards high x for direction 1, low x for -1.
 WayEnd way_end(const scene::Scene& scene, const std::optional<DriveRoom::Ground>& ground, double keep, double direction)
 {
     const double wall     = direction > 0 ? scene.domain.size[0] : 0;
     const bool   has_wall = scene.domain.walls.x != scene::WallKind::open;
     const double edge     = !ground ? direction * infinity : direction > 0 ? ground->high_x : ground->low_x;
-    // Sand that reaches the wall has no edge: its points stand half their distance off.
+    // Sand that reaches the wall has no free edge: its points lie half their spacing from it.
     const bool before = direction * (wall - edge) > (has_wall ? scene.grid.spacing : 0);
     if (ground && (before || !has_wall))
     {
@@ -133,11 +133,11 @@ double direction_of(const scene::Drive& drive)
 
 const WayEnd& end_ahead(const DriveRoom& room, double direction) { return direction > 0 ? room.front : room.back; }
 
-/// How a drive moves the axle from x (m) on, turning at `spin` (rad/s) at first.
+/// Motion of the axle in a drive from x (m) on, with initial angular velocity `spin` (rad/s).
 struct Path
 {
     const scene::Drive& drive;
-    double              radius; ///< m, rolling
+    double              radius; ///< m, rolling radius
     double              spin;
     double              x;
 
@@ -148,8 +148,8 @@ struct Path
     }
 };
 
-/// s, after which the path gets to `end` (m) in the direction of the drive; nothing if not within `duration`. x becomes
-/// where it then is.
+/// Time (s) at which the path reaches `end` (m) in the direction of the drive; empty if not within `duration`. Updates
+/// x to the position then.
 std::optional<double> time_to(Path& path, double end, double duration)
 {
     const double direction = direction_of(path.drive), step = duration / path_parts;
@@ -166,7 +166,7 @@ double longest(const scene::Phase& phase)
     return phase.until == scene::StopRule::duration ? phase.duration : phase.max_duration;
 }
 
-/// Three digits, rounded down.
+/// Rounds down to three digits.
 double rounded_down(double time)
 {
     if (!(time > 0)) { return 0; }
@@ -174,7 +174,7 @@ double rounded_down(double time)
     return unit * std::floor(time / unit);
 }
 
-/// The named body that stands nearest in the way from `from` to `to` (m), and where the axle meets it.
+/// The nearest named body on the way from `from` to `to` (m), and the axle's position at contact.
 std::optional<std::pair<std::string, double>> obstacle(const scene::Scene& scene, const world::World& world,
                                                        const DriveRoom& room, double from, double to)
 {

@@ -5,12 +5,12 @@
 namespace tread::run
 {
 
-/// Decides when the places of driven bodies are read next: not before one of them can have gone the distance that was
-/// left to the nearest limit. Reading a place waits for the device and is a collective call.
+/// Decides when the positions of driven bodies are read next: not before one of them can have travelled the distance
+/// left to the nearest limit. Reading a position synchronises the device and is a collective call.
 class DriveWatch
 {
 public:
-    /// Records that at `time` (s) no body was faster than `speed` (m/s), when that is measured.
+    /// Records the largest speed (m/s) of the bodies when it is measured, at `time` (s).
     void note_speed(double time, double speed)
     {
         const double span = time - time_;
@@ -24,11 +24,11 @@ public:
     /// Records the distance (m) to the nearest limit.
     void set_distance_left(double left) { left_ = left; }
 
-    /// Makes a reading due: in a new phase other limits count.
+    /// Makes a reading due: a new phase has other limits.
     void reset() { left_ = 0; }
 
 private:
-    static constexpr double reserve = 2; ///< bodies may be faster between two measurements than at both
+    static constexpr double reserve = 2; ///< factor: bodies may be faster between two measurements than at both
 
     double left_  = 0; ///< m
     double time_  = 0; ///< s

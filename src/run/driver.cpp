@@ -56,7 +56,7 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     on_root(communicator, [&] { io::Checkpoints(directory_.checkpoints()).prepare(); });
 }
 
-/// However it ends, what is in the time series is in its file.
+/// However it ends, all rows of the time series are in the file.
 template<class Exec, class Real>
 std::optional<std::string> Driver<Exec, Real>::run()
 {
@@ -83,7 +83,7 @@ std::optional<std::string> Driver<Exec, Real>::run()
 template<class Exec, class Real>
 std::optional<std::string> Driver<Exec, Real>::carry_on()
 {
-    if (options_.watchdog != nullptr) { options_.watchdog->begin_steps(); } // what is written before them counts
+    if (options_.watchdog != nullptr) { options_.watchdog->begin_steps(); } // output before the first step counts too
     if (options_.checkpoint.empty()) { start(); }
     else { resume(); }
     interruptions_.emplace(scene_.checkpoint, options_.walltime_limit, options_.wall_start, time_, steps_);
@@ -98,13 +98,13 @@ std::optional<std::string> Driver<Exec, Real>::carry_on()
         write_due();
         pass_on();
     }
-    // What was due at the last step is there already.
+    // Skip what the last step has already written.
     if (last_row_ < steps_) { write_row(); }
     if (last_snapshot_ < steps_) { write_snapshot(); }
     return {};
 }
 
-/// Roughly, of a checkpoint: with the time series, on rank 0.
+/// Estimates the size of a checkpoint, on rank 0 with the time series.
 template<class Exec, class Real>
 std::int64_t Driver<Exec, Real>::state_bytes() const
 {
@@ -125,7 +125,7 @@ void Driver<Exec, Real>::start()
     write_snapshot();
 }
 
-/// Only what was measured can be saved: that is after a few steps at most.
+/// Only a measured state can be saved; that takes a few steps at most.
 template<class Exec, class Real>
 Interruption Driver<Exec, Real>::look_outside()
 {
@@ -167,8 +167,8 @@ void Driver<Exec, Real>::warn_once(const solver::TimeStep& step)
 template<class Exec, class Real>
 void Driver<Exec, Real>::write_due()
 {
-    // The first step at or past each time. A row asks for what is measured, and waits for that: measured on its
-    // account, it would change the steps that follow.
+    // Write at the first step at or past each time. A row needs a measured state and waits for the next measurement:
+    // measuring for its sake would change the steps that follow.
     const std::int64_t rows      = multiples(time_, scene_.output.every);
     const std::int64_t snapshots = multiples(time_, scene_.output.snapshots_every);
     if (rows > rows_ && simulation_.measured())
@@ -208,7 +208,7 @@ void Driver<Exec, Real>::write_row()
     last_row_ = steps_;
 }
 
-/// Rows wait while a snapshot is being written; one that failed is said here.
+/// Rows wait while a snapshot is being written; an error of that snapshot is thrown here.
 template<class Exec, class Real>
 bool Driver<Exec, Real>::files_are_free()
 {
@@ -218,7 +218,7 @@ bool Driver<Exec, Real>::files_are_free()
     return true;
 }
 
-/// Snapshots are all there, and so are rows that waited for one.
+/// Waits for all snapshots, and writes the rows that waited for them.
 template<class Exec, class Real>
 void Driver<Exec, Real>::finish_files()
 {

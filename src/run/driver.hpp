@@ -24,43 +24,43 @@ class StateFile;
 namespace tread::run
 {
 
-/// When a run has to end before its phases do, and what it goes on from.
+/// Restart point and limits of a run.
 struct DriverOptions
 {
     io::Provenance provenance;
-    std::string    checkpoint;               ///< to go on from; empty = from the start
+    std::string    checkpoint;               ///< checkpoint to continue from; empty = from the start
     double         wall_start     = 0;       ///< wall_clock() of the process's start
     double         walltime_limit = 0;       ///< s since then; 0 = none
-    Watchdog*      watchdog       = nullptr; ///< to tell of steps; none on one rank
+    Watchdog*      watchdog       = nullptr; ///< watchdog to notify of steps; none on one rank
 };
 
-/// How many multiples of `every` (s; 0: none) have gone by at `time`; half a nanosecond forgives the rounding of a sum
-/// of steps.
+/// Number of multiples of `every` (s; 0: none) up to `time`; a tolerance of half a nanosecond covers the rounding of a
+/// sum of steps.
 inline std::int64_t multiples(double time, double every)
 {
     return every > 0 ? static_cast<std::int64_t>(std::floor((time + 5e-10) / every)) : 0;
 }
 
-/// Carries a simulation through the phases of its scene, and writes what the scene asks for. Collective: all ranks take
-/// the same steps; rank 0 writes what is not written together.
+/// Runs a simulation through the phases of its scene, and writes the requested output. Collective: all ranks take the
+/// same steps; rank 0 writes what is not written in parallel.
 template<class Exec, class Real>
 class Driver
 {
 public:
-    /// `rooms`: of drive_rooms.
+    /// `rooms`: from drive_rooms.
     Driver(const Communicator& communicator, Log& log, const scene::Scene& scene, const world::World& world,
            const io::RunDirectory& directory, const solver::Plan& plan, solver::Simulation<Exec, Real>& simulation,
            std::vector<DriveRoom> rooms, const DriverOptions& options);
 
-    /// All phases: nothing comes back. Or, when a signal or the wall-time limit ended it after a checkpoint, why.
-    /// NumericalError when the run has to stop; what happened until then is in report().
+    /// Runs all phases and returns nothing; or, when a signal or the wall-time limit ended the run after a checkpoint,
+    /// the reason. NumericalError when the run has to stop; report() then has the results so far.
     std::optional<std::string> run();
 
-    /// Steps, substeps, times, errors and stages so far.
+    /// Fills in steps, substeps, times, errors and stages so far.
     void report(io::Summary& summary, const std::vector<solver::Stage>& stages) const;
 
 private:
-    /// Where a run stood when it last said so.
+    /// State of a run at its last progress message.
     struct Said
     {
         double       wall; ///< wall_clock()
@@ -108,24 +108,24 @@ private:
     solver::Simulation<Exec, Real>&      simulation_;
     DriverOptions                        options_;
     PhaseClock                           phases_;
-    std::vector<DriveRoom>               rooms_; ///< of the driven bodies
+    std::vector<DriveRoom>               rooms_; ///< one for each driven body
     DriveWatch                           drive_watch_;
     std::optional<Recorder>              recorder_;  ///< on rank 0
     std::optional<Snapshots<Exec, Real>> snapshots_; ///< only if the scene wants snapshots
     solver::StageClock                   clock_;
     std::vector<io::PhaseReport>         ended_;
-    SurfaceMap                           surface_; ///< that sinkage counts from
+    SurfaceMap                           surface_; ///< reference for sinkage
     solver::TimeStep                     step_;
     double                               time_          = 0;
     std::int64_t                         steps_         = 0;
     std::int64_t                         substeps_      = 0;
-    std::int64_t                         rows_          = 0; ///< time-series rows that were due so far
+    std::int64_t                         rows_          = 0; ///< number of time-series rows due so far
     std::int64_t                         snapshots_due_ = 0;
     std::int64_t                         last_row_      = -1; ///< step of the last row that was written
-    std::int64_t                         last_snapshot_ = -1; ///< the same of snapshots
+    std::int64_t                         last_snapshot_ = -1; ///< step of the last snapshot
     bool                                 warned_        = false;
     double                               wall_start_;
-    double                               wall_before_ = 0; ///< s, of the runs that this one goes on from
+    double                               wall_before_ = 0; ///< s, wall time of the runs that this one continues
     Said                                 said_;
     io::CheckpointReport                 checkpoints_;
     std::int64_t                         restarts_ = 0;

@@ -10,11 +10,11 @@
 #include "world/saved_bed.hpp"
 #include "world/saved_sand.hpp"
 
-// A run from phase to phase.
+// Phase transitions of a run.
 namespace tread::run
 {
 
-/// To the next phase, if this one is over, and past those that would go on where this one had to end.
+/// Advances to the next phase if this one is over, and skips phases that would continue beyond the end of the bed.
 template<class Exec, class Real>
 void Driver<Exec, Real>::pass_on()
 {
@@ -44,8 +44,8 @@ bool Driver<Exec, Real>::phase_is_over()
     return is_at_end_of_bed() || phases_.over(time_, simulation_.unbalanced());
 }
 
-/// Whether the drive is at the end of the bed. Checks on the way that the driven bodies are on the terrain. Reads their
-/// places only when one of them can have got to one of these limits.
+/// Whether the drive is at the end of the bed. Also checks that the driven bodies are on the terrain. Reads their
+/// positions only when one of them can have reached one of these limits.
 template<class Exec, class Real>
 bool Driver<Exec, Real>::is_at_end_of_bed()
 {
@@ -69,7 +69,7 @@ bool Driver<Exec, Real>::is_at_end_of_bed()
     return end != nullptr;
 }
 
-/// NumericalError where a driven body has rolled off the terrain: its answers would mean nothing.
+/// Throws NumericalError where a driven body has rolled off the terrain: its answers would be meaningless.
 template<class Exec, class Real>
 void Driver<Exec, Real>::require_on_terrain(const DriveRoom& room, const Vec3<double>& axle) const
 {

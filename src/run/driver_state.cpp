@@ -14,16 +14,16 @@
 #include "solver/state_file.hpp"
 #include "world/world_measures.hpp"
 
-// A run into a checkpoint, and out of it.
+// Saves a run to a checkpoint, and restarts from it.
 namespace tread::run
 {
 namespace
 {
 
-/// io::PhaseReport as doubles; its name is the scene's.
+/// io::PhaseReport as doubles; the name is taken from the scene.
 struct PhaseRow
 {
-    double start, time, end, settled, unbalanced, packing_fraction; ///< settled: below 0 = it was not to
+    double start, time, end, settled, unbalanced, packing_fraction; ///< settled < 0: equilibrium was not requested
 };
 
 PhaseRow row_of(const io::PhaseReport& report)
@@ -43,7 +43,7 @@ io::PhaseReport report_of(const std::string& name, const PhaseRow& row)
     return report;
 }
 
-/// Whether a loaded row can be one that was saved.
+/// Whether a loaded row is valid.
 bool is_report(const PhaseRow& row)
 {
     const double kind = row.end;
@@ -93,7 +93,7 @@ void Driver<Exec, Real>::write_checkpoint()
                           checkpoints_.newest, static_cast<double>(bytes) / 1e6, seconds));
 }
 
-/// A checkpoint that is refused leaves the directory as the run found it. What is wrong may be so on one rank alone.
+/// If the checkpoint is refused, restores the directory. The error may be on one rank only.
 template<class Exec, class Real>
 void Driver<Exec, Real>::resume()
 {
@@ -112,7 +112,7 @@ void Driver<Exec, Real>::resume()
     snapshots_due_ = multiples(time_, scene_.output.snapshots_every);
     on_root(communicator_, [&] { io::Checkpoints(directory_.checkpoints()).remove_after(steps_); });
     said_ = standing();
-    if (time_ >= phases_.latest_end() - 5e-10) { pass_on(); } // the scene has made it shorter since
+    if (time_ >= phases_.latest_end() - 5e-10) { pass_on(); } // the scene may have shortened the phase
 }
 
 template<class Exec, class Real>
@@ -131,7 +131,8 @@ void Driver<Exec, Real>::load_checkpoint()
     solver::StateFile file(communicator_, *reader, exact ? solver::Fidelity::exact : solver::Fidelity::physical);
     transfer(file);
     checkpoints_.newest = directory_.within(options_.checkpoint);
-    checkpoints_.bytes += static_cast<std::int64_t>(std::filesystem::file_size(options_.checkpoint)); // it did not know
+    // The sum saved in a checkpoint does not include that file.
+    checkpoints_.bytes += static_cast<std::int64_t>(std::filesystem::file_size(options_.checkpoint));
     ++checkpoints_.written;
     log_.info(fmt::format("goes on from {} at {:.6g} s, step {}, in phase '{}'{}", options_.checkpoint, time_, steps_,
                           phases_.phase().name,
@@ -178,8 +179,8 @@ void Driver<Exec, Real>::require_same_world(solver::StateFile& file) const
                     options_.checkpoint));
 }
 
-/// The time series goes along as a file: whatever becomes of it later, the rows up to here are safe, and those behind
-/// are gone when the run goes on from here. Nothing is replaced before all that was loaded is known to be sound.
+/// Saves the time series as a file in the checkpoint: rows up to here are safe whatever happens to it later, and later
+/// ones are dropped on restart. Replaces nothing before all loaded data is checked.
 template<class Exec, class Real>
 void Driver<Exec, Real>::transfer_files(solver::StateFile& file)
 {

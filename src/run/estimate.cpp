@@ -32,7 +32,7 @@ std::int64_t bytes_of_real(const scene::Scene& scene)
     return scene.numerics.precision == scene::Precision::single_ ? 4 : 8;
 }
 
-/// Of a point's fields (kernels/mpm/points.hpp).
+/// Bytes of a point's fields (kernels/mpm/points.hpp).
 std::int64_t field_bytes(const scene::Scene& scene, const solver::Plan& plan)
 {
     const std::int64_t real   = bytes_of_real(scene);
@@ -44,15 +44,15 @@ std::int64_t field_bytes(const scene::Scene& scene, const solver::Plan& plan)
     return fields;
 }
 
-/// Fields, a point's place in the lists, and its share of the ordering's scratch.
+/// Bytes of a point: fields, place in the lists, and share of the sort's scratch memory.
 std::int64_t bytes_per_point(const scene::Scene& scene, const solver::Plan& plan)
 {
     constexpr std::int64_t lists = 4 + 1 + 2, keys = 8 + 4, sort = 16;
     return field_bytes(scene, plan) + lists + keys + sort;
 }
 
-/// What a point more takes when all fall asleep at one look (solver/sand_sleep.cpp): a place among those that sleep, of
-/// which there is an eighth to spare, the row that brings it there, and the list of those that go.
+/// Extra bytes of a point when all fall asleep at one check (solver/sand_sleep.cpp): a place among the sleeping
+/// points, which have an eighth to spare, the packed row that moves it there, and the list of moved points.
 std::int64_t sleep_bytes_per_point(const scene::Scene& scene, const solver::Plan& plan)
 {
     constexpr std::int64_t list   = 4 + 4 + 8 + 4;
@@ -62,13 +62,14 @@ std::int64_t sleep_bytes_per_point(const scene::Scene& scene, const solver::Plan
 
 struct PageCounts
 {
-    std::int64_t holding; ///< points
-    std::int64_t points;  ///< point pages: those and their neighbours within reach
+    std::int64_t holding; ///< pages that hold points
+    std::int64_t points;  ///< point pages: those, and neighbours within reach
     std::int64_t nodes;
-    std::int64_t walls; ///< node pages of which walls may hold nodes
+    std::int64_t walls; ///< node pages with nodes that walls may hold
 };
 
-/// Pages within a cell's reach, as order_points lists them: along each axis its own and that beyond the nearer face.
+/// Adds the pages within a cell's reach, as order_points lists them: along each axis its own and the one beyond the
+/// nearer face.
 template<class Add>
 void add_reached(mpm::Index3 cell, const mpm::GridGeometry& geometry, const Add& add)
 {
@@ -94,7 +95,7 @@ void add_reached(mpm::Index3 cell, const mpm::GridGeometry& geometry, const Add&
 PageCounts count_pages(const world::World& world)
 {
     std::unordered_set<std::uint64_t> holding, points, nodes;
-    std::uint64_t                     last = mpm::no_page; // points stand cell by cell along x
+    std::uint64_t                     last = mpm::no_page; // points are stored cell by cell along x
     for (const Vec3<double>& x : world.points.position)
     {
         const Index3 cell = mpm::finest_cell(world.geometry.lattice(), world.geometry.refinement, x);
@@ -117,7 +118,8 @@ PageCounts count_pages(const world::World& world)
             static_cast<std::int64_t>(nodes.size()), std::count_if(nodes.begin(), nodes.end(), held)};
 }
 
-/// Tiles, lists and sums of the pages (kernels/mpm/pages/pages.hpp, solver/sand.cpp), and the keys they are found by.
+/// Bytes of tiles, lists and sums of the pages (kernels/mpm/pages/pages.hpp, solver/mpm_solver.cpp), and of their
+/// keys.
 std::int64_t page_bytes(const scene::Scene& scene, const PageCounts& pages)
 {
     const std::int64_t real       = bytes_of_real(scene);
@@ -133,21 +135,21 @@ std::int64_t page_bytes(const scene::Scene& scene, const PageCounts& pages)
     return pages.points * point_page + pages.nodes * node_page + pages.walls * wall_page + found * (8 + 4);
 }
 
-/// Of a point in a snapshot (io/snapshot_points.cpp): position, displacement, velocity, stress, material, id, rank, and
-/// what makes a cell of it.
+/// Bytes of a point in a snapshot (io/snapshot_points.cpp): position, displacement, velocity, stress, material, id,
+/// rank, and its cell.
 std::int64_t snapshot_bytes_per_point(const solver::Plan& plan)
 {
     return 24 + 12 + 12 + 24 + 4 + 4 + 4 + (plan.plasticity ? 8 : 0) + 8 + 8 + 1;
 }
 
-/// Of the copy that a snapshot is made of (solver/point_copy.hpp), and of its rows.
+/// Bytes of a point in the copy for a snapshot (solver/point_copy.hpp), and in its rows.
 std::int64_t snapshot_memory_per_point(const scene::Scene& scene, const solver::Plan& plan)
 {
     const std::int64_t real = bytes_of_real(scene);
     return 2 * 24 + 10 * real + 4 + 1 + (plan.plasticity ? 2 * real : 0) + snapshot_bytes_per_point(plan) + 2 * 24;
 }
 
-/// What changes of a point (solver/sand_state.cpp), its id and its place in the lists.
+/// Bytes of a point's variable fields (solver/mpm_state.cpp), its id and its place in the lists.
 std::int64_t checkpoint_bytes_per_point(const scene::Scene& scene, const solver::Plan& plan)
 {
     const std::int64_t real = bytes_of_real(scene);
@@ -155,7 +157,7 @@ std::int64_t checkpoint_bytes_per_point(const scene::Scene& scene, const solver:
            (plan.coupling ? 9 * real : 0);
 }
 
-/// The lists of pages in a checkpoint (kernels/mpm/pages/pages.hpp).
+/// Bytes of the page lists in a checkpoint (kernels/mpm/pages/pages.hpp).
 std::int64_t checkpoint_page_bytes(const PageCounts& pages)
 {
     constexpr std::int64_t point_page = 8 + 4 + 4 * mpm::page_cells + 4 * mpm::directions + 8 * 4,
@@ -173,7 +175,7 @@ std::int64_t template_bytes(const world::World& world)
     return bytes;
 }
 
-/// The mesh for rays: a triangle, at most one box for it, and 32 bytes a node.
+/// Bytes of the mesh for rays: triangles, at most one box for each, and 32 bytes a node.
 std::int64_t ray_bytes(const world::World& world)
 {
     std::int64_t bytes = 0;
@@ -186,7 +188,7 @@ std::int64_t ray_bytes(const world::World& world)
     return bytes;
 }
 
-/// s, the least sqrt(m / sum K) of rocks that lie on each other, C R sqrt(density / E): in settled piles of irregular
+/// s, least sqrt(m / sum K) of rocks that lie on each other, C R sqrt(density / E): in settled piles of irregular
 /// rocks C is 0.89 to 0.92 from 1e7 to 1e10 Pa, and with a tenth and ten times the linear_overlap 0.54 and 1.5 to 1.7
 /// (docs/studies, "The substep that contacts allow"). 0 without rocks.
 double resting_contact(const scene::Scene& scene, const world::World& world)
@@ -205,11 +207,11 @@ double resting_contact(const scene::Scene& scene, const world::World& world)
     return pile * least * std::pow(scene.numerics.linear_overlap / usual_overlap, 0.25);
 }
 
-/// Measured at the worst moment, a bed's fall (docs/performance.md, "Bodies on the H200"): 1.94 to 2.7 kB where bodies
-/// meet each other.
+/// Measured at the peak, during the fall of a bed (docs/performance.md, "Bodies on the H200"): 1.94 to 2.7 kB for
+/// bodies in contact with each other.
 std::int64_t bytes_per_body(const solver::Plan& plan) { return plan.body_contact ? 2200 : 700; }
 
-/// Columns of doubles (run/recorder.cpp) that grow by 1024 rows (io/h5.cpp), and what names them.
+/// Bytes of the columns of doubles (run/recorder.cpp), which grow by 1024 rows (io/h5.cpp), and of their names.
 double time_series_bytes(double rows, std::int64_t named)
 {
     constexpr double of_scene = 8 * (15 + 6 + 2 + 4), of_body = 8 * 20, growth = 1024, names_of_table = 12000;
@@ -227,7 +229,7 @@ double longest_time(const scene::Scene& scene)
     return time;
 }
 
-/// The first step of a run that chooses its own.
+/// First step of a run with automatic steps.
 solver::TimeStep automatic_step(scene::TimeOptions options, const solver::PaceLimits& limits)
 {
     options.dt.reset();

@@ -11,7 +11,7 @@ namespace tread::run
 namespace
 {
 
-constexpr double least_friction_angle = 5; ///< degrees, of soils that count as frictional
+constexpr double least_friction_angle = 5; ///< degrees, least friction angle of frictional soils
 
 ErrorLaw worse(const ErrorLaw& one, const ErrorLaw& other) { return one.factor >= other.factor ? one : other; }
 
@@ -27,7 +27,7 @@ ErrorLaws laws_on(SoilKind soil)
     return worst;
 }
 
-/// Material of the terrain that has most points, of those that are granular; none: nullptr.
+/// Granular material of the terrain with most points; none: nullptr.
 const scene::Material* soil_of(const scene::Scene& scene, const world::World& world)
 {
     std::vector<std::size_t> points(scene.materials.size(), 0);
@@ -43,7 +43,7 @@ const scene::Material* soil_of(const scene::Scene& scene, const world::World& wo
     return soil;
 }
 
-/// m, of the wheel as large as it is in the scene.
+/// m, at the wheel's size in the scene.
 double grouser_height(const scene::Scene& scene, const world::World& world, std::size_t body)
 {
     const scene::Shape shape = shape::find_shape(scene, scene.bodies[body].shape);

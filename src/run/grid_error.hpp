@@ -9,7 +9,7 @@
 #include "solver/plan.hpp"
 #include "world/world.hpp"
 
-// The error that the grid's spacing leaves in the answers of a driven wheel, from measured convergence.
+// Discretisation error of a driven wheel's answers, from measured grid convergence.
 namespace tread::run
 {
 
@@ -20,10 +20,10 @@ struct ErrorLaw
     double order;
 
     double at(double cells) const;
-    double cells_for(double error) const; ///< from which on the error is at most that
+    double cells_for(double error) const; ///< least number of cells at which the error is at most that
 };
 
-/// Laws of a driven wheel's answers: pull over the load, torque and sinkage relative.
+/// Error laws of a driven wheel's answers: pull over the load, torque and sinkage relative.
 struct ErrorLaws
 {
     ErrorLaw pull;
@@ -37,7 +37,7 @@ enum class SoilKind
     cohesive ///< friction angle under 5 degrees
 };
 
-/// One measured ladder of spacings.
+/// One measured convergence series.
 struct MeasuredConvergence
 {
     const char* scene;
@@ -47,7 +47,7 @@ struct MeasuredConvergence
 
 /// Convergence of driven drums of radius 0.245 m and width 0.2 m under 1000 N at slip 0.4 with a friction of 0.8
 /// between wheel and soil, at spacings of 20, 12.5, (10,) 7.5 and 5 mm (grousers and clay: without 5): least-squares
-/// fits of answer = limit + slope / cells^order. Answers and scenes stand in docs/verdict.md;
+/// fits of answer = limit + slope / cells^order. Answers and scenes are in docs/verdict.md;
 /// `postprocess/grid_error.py` prints these rows from runs.
 inline constexpr std::array<MeasuredConvergence, 3> measured_convergence = {{
     {"smooth drum on sand", SoilKind::frictional, {{2.0, 1}, {7.6, 2}, {2.9, 1}}},
@@ -55,7 +55,7 @@ inline constexpr std::array<MeasuredConvergence, 3> measured_convergence = {{
     {"smooth drum on clay", SoilKind::cohesive, {{1.8, 1}, {26, 2}, {0.94, 1}}},
 }};
 
-/// Slope of the pull over the spacing at a friction between wheel and soil, over that at 0.8.
+/// Slope of the pull over the spacing at a friction between wheel and soil, relative to that at 0.8.
 struct FrictionShare
 {
     SoilKind soil;
@@ -74,7 +74,7 @@ inline constexpr std::array<FrictionShare, 7> friction_shares = {{
     {SoilKind::cohesive, 0.8, 1.0},
 }};
 
-/// Share by linear interpolation; that of the nearest friction beyond the measured ones.
+/// Interpolates the share linearly; constant beyond the measured frictions.
 double share_of_friction(SoilKind soil, double friction);
 
 /// The last driven wheel of a scene on granular sand.
@@ -82,20 +82,20 @@ struct DrivenWheel
 {
     double    load; ///< N
     ErrorLaws laws;
-    double    grouser_height = 0; ///< m; 0: no grousers, or a mesh, of which nobody knows
+    double    grouser_height = 0; ///< m; 0: no grousers, or a mesh, whose grousers are unknown
 };
 
-/// Laws for the last wheel that the scene drives: of each answer the largest factor measured on its kind of soil.
-/// Nothing for scenes without a driven wheel or on elastic ground, where no convergence was measured.
+/// Laws for the last wheel that the scene drives: for each answer the largest factor measured on its kind of soil.
+/// Empty for scenes without a driven wheel or on elastic ground, where no convergence was measured.
 std::optional<DrivenWheel> driven_wheel(const scene::Scene& scene, const world::World& world, const solver::Plan& plan);
 
-/// Nothing without a driven wheel, or if none touched sand (contact_cells = 0).
+/// Grid error; empty without a driven wheel, or if none touched sand (contact_cells = 0).
 std::optional<io::GridError> grid_error(const std::optional<DrivenWheel>& wheel, double contact_cells);
 
-/// The figures pull_error, torque_error and sinkage_error of the verdict.
+/// Figures pull_error, torque_error and sinkage_error of the verdict.
 std::vector<io::Figure> grid_error_figures(const io::GridError& error);
 
-/// The figure grouser_cells of the verdict: height of grousers in cells of `spacing` (m). Nothing without grousers.
+/// Figure grouser_cells of the verdict: height of grousers in cells of `spacing` (m). Empty without grousers.
 std::optional<io::Figure> grouser_figure(const std::optional<DrivenWheel>& wheel, double spacing);
 
 /// Bounds of grouser_cells. 24 grousers of 20 mm raised the pull of the drum on sand by 10 N with cells of 20 mm, by

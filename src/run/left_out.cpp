@@ -12,18 +12,18 @@ namespace tread::run
 namespace
 {
 
-/// What a stage works on.
+/// Kind of item that a stage works on.
 struct Item
 {
     const char*  name;
-    std::int64_t count; ///< that the scene has
+    std::int64_t count; ///< number in the scene
 };
 
-/// Of one item: bytes, and nanoseconds of one core each time, for bodies a substep (docs/performance.md, "What a stage
-/// costs").
+/// Cost of one item: bytes, and nanoseconds on one core per execution, for bodies per substep (docs/performance.md,
+/// "What a stage costs").
 struct Price
 {
-    std::string name; ///< of the stage
+    std::string name; ///< name of the stage
     Item        item;
     double      bytes;
     double      nanoseconds;

@@ -17,10 +17,10 @@ namespace tread::run
 namespace
 {
 
-/// How long a rank that has failed waits for the others to fail, too, before it ends them.
+/// Time for which a failed rank waits for the others to fail as well, before it aborts the job.
 constexpr double agreement_timeout = 10; // s
 
-/// This process alone; the launcher then ends the others. They may say first what they wait for.
+/// Ends this process alone; the launcher then ends the others, which may first report what they wait for.
 [[noreturn]] void end_hanging_rank(const std::string& name, const std::string& complaint)
 {
     constexpr std::chrono::seconds for_others{5};
@@ -29,14 +29,14 @@ constexpr double agreement_timeout = 10; // s
     std::_Exit(static_cast<int>(ExitCode::environment));
 }
 
-/// Ends all ranks: this one alone has failed.
+/// Ends all ranks, since only this one has failed.
 [[noreturn]] void abort_ranks(const Communicator& world, const std::exception& error)
 {
     std::cerr << "tread: error: rank " << world.rank() << " on " << host_name() << ": " << text_of(error) << std::endl;
     world.abort(code_of(error));
 }
 
-/// The command, on all ranks, and the worst of their exit codes. Throws what fails while ranks agree how to end.
+/// Runs the command on all ranks; returns the worst of their exit codes. Throws errors of the final agreement.
 ExitCode run_together(const Communicator& world, const std::function<ExitCode(const Communicator&)>& command)
 {
     ExitCode code = ExitCode::finished;
@@ -66,7 +66,7 @@ ExitCode on_ranks(const std::function<ExitCode(const Communicator&)>& command)
     }
     catch (const std::exception& error)
     {
-        abort_ranks(session.world(), error); // the others may wait for this rank, and MPI's own end would wait for them
+        abort_ranks(session.world(), error); // other ranks may wait for this one, and MPI_Finalize would wait for them
     }
 }
 

@@ -10,12 +10,12 @@
 namespace tread::run
 {
 
-/// Runs a command between the start and the end of HDF5 and MPI; what it returns, or the exit code of its error, is
-/// that of all ranks. Rank 0 reports an error that all ranks have; an error of one rank alone is reported by that
-/// rank and ends the job.
+/// Runs a command between the start and the end of HDF5 and MPI; all ranks return its result or the exit code of its
+/// error. Rank 0 reports an error that all ranks have; an error of one rank alone is reported by that rank and ends
+/// the job.
 ExitCode on_ranks(const std::function<ExitCode(const Communicator&)>& command);
 
-/// Ends the job, with exit code 4, when a rank waits for so many seconds; each rank that does says so. None on one
+/// Ends the job, with exit code 4, when a rank waits longer than `timeout` (s); each such rank reports it. Null on one
 /// rank.
 std::unique_ptr<Watchdog> watch_ranks(const Communicator& world, double timeout);
 

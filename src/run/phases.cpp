@@ -106,7 +106,7 @@ double PhaseClock::latest_end() const
 bool PhaseClock::over(double time, double unbalanced)
 {
     const scene::Phase& now = phase();
-    // Half a nanosecond forgives the rounding of a sum of steps.
+    // A tolerance of half a nanosecond covers the rounding of a sum of steps.
     const bool late = time >= latest_end() - 5e-10;
     ending_         = {EndKind::running, time - start_, unbalanced};
     if (now.until == scene::StopRule::duration)
@@ -152,7 +152,7 @@ std::optional<std::size_t> PhaseClock::lowered() const
     return static_cast<std::size_t>(at - scene_.bodies.begin());
 }
 
-/// Along gravity, which may have any direction.
+/// Lowers along gravity, which may have any direction.
 solver::BodyCommand PhaseClock::lower() const
 {
     const scene::Vector3& g    = scene_.domain.gravity;

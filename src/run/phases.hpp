@@ -21,60 +21,59 @@ namespace tread::run
 enum class EndKind
 {
     running,
-    duration,  ///< ran for as long as it was to
+    duration,  ///< ran for its whole duration
     settled,   ///< in equilibrium
-    unsettled, ///< was to reach equilibrium, and did not within its max_duration
-    lowered,   ///< the ground carries what was to be lowered
-    unlowered, ///< it did not within the phase's max_duration
-    end_of_bed ///< the driven body got to where the bed ends
+    unsettled, ///< did not reach equilibrium within its max_duration
+    lowered,   ///< the ground carries the lowered body
+    unlowered, ///< it does not within the phase's max_duration
+    end_of_bed ///< the driven body reached the end of the bed
 };
 
-/// In summary.json: "duration", "not settled".
+/// Name in summary.json: "duration", "not settled".
 const char* name_of(EndKind kind);
 EndKind     end_kind(const std::string& name);
 
-/// Whether the phase did not reach what it was for, or was cut short.
+/// Whether the phase missed its goal, or was cut short.
 bool deserves_warning(EndKind kind);
 
 /// How a phase ended.
 struct PhaseEnd
 {
-    EndKind kind       = EndKind::running;
-    double  after      = 0; ///< s, since the phase began; of a settled one, with the time that equilibrium had to hold
-    double  unbalanced = 0; ///< force that is out of balance over the weight, at the end
+    EndKind kind  = EndKind::running;
+    double  after = 0; ///< s since the phase began; if settled, includes the time for which equilibrium had to hold
+    double  unbalanced = 0; ///< unbalanced force over the weight, at the end
 
-    std::string body    = {}; ///< that was lowered
+    std::string body    = {}; ///< body that was lowered
     double      carried = 0;  ///< share of its weight that contacts carry at the end
-    std::string place   = {}; ///< that a drive got to
+    std::string place   = {}; ///< end that a drive reached
 };
 
-/// For the log: "settled after ..."
+/// Describes the end for the log: "settled after ..."
 std::string describe(const PhaseEnd& end);
 
-/// The share of a body's weight that contacts carry: a mean over the recent past, in which what lies d back counts
-/// exp(-d / span).
+/// Share of a body's weight that contacts carry: an exponential mean, in which a value d ago has weight exp(-d /
+/// span).
 struct CarriedShare
 {
-    /// The integral (s) over time of that share until `time`, from any start on.
+    /// Adds the integral (s) of that share over time until `time`, counted from any start.
     void note(double time, double integral);
 
-    /// Contacts come and go: points of sand touch one after the other, and the touch sends waves through the bed, of
-    /// some 10 ms to its floor and back. A mean over that much follows the load of sinking into sand to some percent (a
-    /// wheel that sinks 40 mm under its weight is lowered in 0.8 s at 0.05 m/s), and on hard ground, which
-    /// takes the whole load within less, what is stored in the contact when the mean has reached the weight throws the
-    /// body up by no more than speed times span: 0.5 mm.
+    /// Contacts are intermittent: sand points touch one after the other, and each touch sends waves through the bed,
+    /// of some 10 ms to its floor and back. A mean over that time follows the load during sinking into sand to some
+    /// percent. Hard ground takes the whole load within less; the energy stored in the contact when the mean reaches
+    /// the weight then throws the body up by at most speed times span: 0.5 mm at 0.05 m/s.
     static constexpr double span = 0.01; ///< s
 
-    double last    = -1; ///< s, when it was last noted; negative = never
-    double carried = 0;  ///< s, then
+    double last    = -1; ///< s, time of the last note(); negative = never
+    double carried = 0;  ///< s, integral at that time
     double share   = 0;
 };
 
-/// Which phase runs, since when, and what it asks for. Times in s of simulated time.
+/// The running phase, its start, and its commands. Times in s of simulated time.
 class PhaseClock
 {
 public:
-    /// `rolling_radii`: of the named bodies, m.
+    /// `rolling_radii`: m, of the named bodies.
     PhaseClock(const scene::Scene& scene, std::vector<double> rolling_radii);
 
     const scene::Phase& phase() const { return scene_.phases[index_]; }
@@ -82,36 +81,36 @@ public:
     double              start() const { return start_; }
     bool                finished() const { return index_ == scene_.phases.size(); }
 
-    /// Simulated time at which the phase ends at the latest.
+    /// Latest simulated time at which the phase ends.
     double latest_end() const;
 
-    /// True when the phase is over at `time`; `unbalanced` = the share of the weight that is out of balance.
-    /// Equilibrium wants it under equilibrium_ratio during equilibrium_hold of the phase's time without a break.
-    /// Lowering wants what weigh() was told.
+    /// Whether the phase is over at `time`; `unbalanced` = unbalanced force over the weight. Equilibrium requires it
+    /// below equilibrium_ratio for equilibrium_hold of the phase's time without a break. Lowering uses the values of
+    /// weigh().
     bool over(double time, double unbalanced);
 
-    /// The named body that the present phase lowers.
+    /// Index of the named body that the present phase lowers.
     std::optional<std::size_t> lowered() const;
 
-    /// Of lowered(): the integral (s) over time of the share of its weight that contacts carried until `time`.
+    /// Adds, for lowered(), the integral (s) over time of the share of its weight that contacts carried until `time`.
     void weigh(double time, double carried) { carried_.note(time, carried); }
 
-    /// The phase is over at `time` because its drive got to `place`.
+    /// Ends the phase at `time` because its drive reached `place`.
     void end_of_bed(double time, double unbalanced, const std::string& place);
 
-    /// Enters the next phase; `spins` = the named bodies' present angular velocity about their axle, rad/s.
+    /// Enters the next phase; `spins`: rad/s, present angular velocities of the named bodies about their axles.
     void advance(double time, std::vector<double> spins);
 
-    /// What the present phase asks of named body `body` at `time`.
+    /// Command of the present phase to named body `body` at `time`.
     solver::BodyCommand command(std::size_t body, double time) const;
 
-    /// Of the phase that over() was last asked about.
+    /// End of the phase for which over() was last called.
     const PhaseEnd& ending() const { return ending_; }
 
     static constexpr double equilibrium_ratio = 1e-2;
     static constexpr double equilibrium_hold  = 0.05; ///< s
 
-    /// Into a checkpoint, or out of it.
+    /// Saves to a checkpoint, or loads from it.
     void transfer(solver::StateFile& file);
 
 private:
@@ -129,14 +128,14 @@ private:
     PhaseEnd            ending_;
 };
 
-/// Bits of dem::LockedFreedom for the words x y z roll pitch yaw.
+/// Converts the words x y z roll pitch yaw to bits of dem::LockedFreedom.
 std::uint32_t locked_freedoms(const std::vector<std::string>& words);
 
-/// Radius (m) that slip is measured with: the body's rolling_radius, or the wheel's over its grousers. `scale` is that
-/// of the body.
+/// Radius (m) on which slip is based: the body's rolling_radius, or the wheel's including its grousers. `scale`: the
+/// body's.
 double rolling_radius(const scene::Body& body, const shape::ShapeTemplate& form, double scale);
 
-/// Of all named bodies.
+/// Rolling radii (m) of all named bodies.
 std::vector<double> rolling_radii(const scene::Scene& scene, const world::World& world);
 
 } // namespace tread::run

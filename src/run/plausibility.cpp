@@ -18,7 +18,7 @@ namespace
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// `value` times the power of a thousand in `factors` that comes nearest to `usual`.
+/// `value` times the power of a thousand in `factors` that brings it nearest to `usual`.
 template<std::size_t n>
 double meant(double value, const std::array<double, n>& factors, double usual)
 {
@@ -46,7 +46,7 @@ void check_gravity(const scene::Scene& scene, Warnings& warnings)
     }
 }
 
-/// A cohesionless bed that is inclined by more than its friction angle slides away.
+/// A cohesionless bed with a slope above its friction angle slides.
 void check_slope(const scene::Scene& scene, const scene::Material& soil, Warnings& warnings)
 {
     const auto&  g     = scene.domain.gravity;
@@ -84,7 +84,7 @@ void check_modulus(const scene::Material& soil, const std::string& table, Warnin
 
 void check_angles(const scene::Material& soil, const std::string& table, Warnings& warnings)
 {
-    // No soil has a friction angle of 0.1 to 2 degrees, and no two decimals of a dilation angle are known; 0 is meant.
+    // No soil has a friction angle of 0.1 to 2 degrees, and dilation angles are not known to two decimals; 0 is meant.
     constexpr double least_friction = 2, least_dilation = 0.5;
     const auto       radians = [&](const char* key, double value, double least)
     {

@@ -15,14 +15,14 @@ namespace tread::run
 namespace
 {
 
-/// A named body with what it stands on, for the checks below.
+/// A named body and its ground, for the checks below.
 struct Placed
 {
     const scene::Scene&   scene;
     const world::World&   world;
     const scene::Body&    body;
     const world::Footing& footing;
-    std::string           table; ///< its name for scene::line_of
+    std::string           table; ///< name for scene::line_of
 
     std::string                 name() const { return fmt::format("[[body]] '{}'", body.name); }
     double                      mass() const { return world.bodies.mass[footing.body]; }
@@ -45,7 +45,7 @@ std::string plan_text(const world::HostPoints& points)
     return fmt::format("x {:.3g} to {:.3g} m, y {:.3g} to {:.3g} m", low[0], high[0], low[1], high[1]);
 }
 
-/// A wheel, or any body that a phase drives, that has no sand below it.
+/// Warns of a wheel, or any body that a phase drives, without sand below it.
 void check_place(const Placed& placed, Warnings& warnings)
 {
     const world::Footing& footing = placed.footing;
@@ -57,9 +57,9 @@ void check_place(const Placed& placed, Warnings& warnings)
                                            placed.name(), at[0], at[1], plan_text(placed.world.points)));
 }
 
-/// Bed that has to lie beside a body, m. At a free edge half its width. Beside a wall a quarter of it, or less where
-/// the body sinks little: what sinks pushes the sand beside it up along a plane that rises at 45 degrees less half the
-/// friction angle, and a wall beyond that wedge changes nothing.
+/// Bed width required beside a body, m. At a free edge half its width. Beside a wall a quarter of it, or less where
+/// the body sinks little: sinkage pushes the sand beside it up along a plane that rises at 45 degrees minus half the
+/// friction angle, and a wall beyond that wedge has no effect.
 double wanted_beside(const Placed& placed)
 {
     const world::Footing& footing = placed.footing;
@@ -70,7 +70,7 @@ double wanted_beside(const Placed& placed)
     return std::min(0.25 * footing.width, std::max(wedge, placed.scene.grid.spacing));
 }
 
-/// A wheel that fills its bed from wall to wall is a plane-strain experiment and meant.
+/// A wheel that fills its bed from wall to wall is an intended plane-strain experiment.
 void check_beside(const Placed& placed, Warnings& warnings)
 {
     const world::Footing& footing = placed.footing;
@@ -84,8 +84,8 @@ void check_beside(const Placed& placed, Warnings& warnings)
                              placed.name(), beside, footing.width, 0.5 * footing.width));
 }
 
-/// Under half the breadth of the patch the floor carries over 80 % of the pressure above it (Boussinesq's strip: 82 %),
-/// so that the wheel stands on the floor more than on the sand.
+/// Where the bed is thinner than half the breadth of the patch, the floor carries over 80 % of the pressure above it
+/// (Boussinesq's strip: 82 %), so that the wheel rests on the floor more than on the sand.
 void check_depth(const Placed& placed, Warnings& warnings)
 {
     const world::Footing& footing = placed.footing;
@@ -99,8 +99,8 @@ void check_depth(const Placed& placed, Warnings& warnings)
                              placed.name(), depth, breadth, footing.width));
 }
 
-/// Mean density of the body's box against the bed's. Wheels of solid metal and of empty rims lie within a factor of
-/// twenty of sand; 300 catches what is off by 1e3.
+/// Compares the mean density in the body's box with the bed's. Wheels of solid metal and of empty rims are within a
+/// factor of twenty of sand; 300 detects errors by 1e3.
 void check_weight(const Placed& placed, Warnings& warnings)
 {
     constexpr double      far     = 300;
@@ -128,13 +128,13 @@ void check_weight(const Placed& placed, Warnings& warnings)
 
 void check_density(const Placed& placed, Warnings& warnings)
 {
-    constexpr double least = 0.5, most = 30; // g/cm3: rover wheels may be given the density that makes their load
+    constexpr double least = 0.5, most = 30; // g/cm3: a rover wheel's density may be chosen to give its load
     if (!placed.body.density || *placed.body.density < least || *placed.body.density > most) { return; }
     warnings.add(placed.table, fmt::format("{}: density = {:.4g} kg/m3; {:.4g} seems meant (given in g/cm3?)",
                                            placed.name(), *placed.body.density, 1000 * *placed.body.density));
 }
 
-/// Between drum and grousers lies some 15 % of the radius.
+/// The distance between drum and grouser tips is some 15 % of the radius.
 void check_rolling_radius(const Placed& placed, Warnings& warnings)
 {
     constexpr double far = 1.25;
@@ -146,7 +146,7 @@ void check_rolling_radius(const Placed& placed, Warnings& warnings)
                              placed.name(), *placed.body.rolling_radius, ratio, placed.footing.radius));
 }
 
-/// A drop of more than a metre and four radii.
+/// Warns of a drop of more than a metre and four radii.
 void check_gap(const Placed& placed, Warnings& warnings)
 {
     const world::Footing& footing = placed.footing;
@@ -161,14 +161,14 @@ void check_gap(const Placed& placed, Warnings& warnings)
 
 void check_size(const Placed& placed, Warnings& warnings)
 {
-    constexpr double least = 0.01, most = 3; // m, radius of what is driven
+    constexpr double least = 0.01, most = 3; // m, radius of driven bodies
     const double     radius = placed.footing.radius;
     if (!placed.footing.driven || (radius >= least && radius <= most)) { return; }
     warnings.add(placed.table, fmt::format("{}: a driven wheel of {:.4g} m radius; {:.4g} m seems meant (given in mm?)",
                                            placed.name(), radius, radius > most ? 1e-3 * radius : 1e3 * radius));
 }
 
-/// Speed of the rim against what rovers and test rigs do (under 1 m/s).
+/// Compares the speed of the rim with those of rovers and test rigs (under 1 m/s).
 void check_spin(const Placed& placed, Warnings& warnings)
 {
     constexpr double most = 10; // m/s
@@ -184,7 +184,7 @@ void check_spin(const Placed& placed, Warnings& warnings)
     }
 }
 
-/// A patch of less than a cell is a point to the grid.
+/// Warns of a patch smaller than a cell, which the grid cannot resolve.
 void check_cells(const Placed& placed, Warnings& warnings)
 {
     const auto& patch = placed.footing.patch;

@@ -15,11 +15,11 @@ namespace
 struct Bounds
 {
     double cells;   ///< across the patch
-    double error;   ///< of pull, torque and sinkage
+    double error;   ///< error of pull, torque and sinkage
     double grouser; ///< cells over its height
 };
 
-/// The largest spacing of cells (m) that keeps the bounds on a contact patch as long as `side` (m).
+/// Largest grid spacing (m) that satisfies the bounds for a contact patch with sides `side` (m).
 double coarsest(const Bounds& bounds, double side, const std::optional<DrivenWheel>& wheel)
 {
     if (!wheel) { return side / bounds.cells; }

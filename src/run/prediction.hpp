@@ -10,20 +10,22 @@
 namespace tread::run
 {
 
-/// What the verdict will say of the contact of a body at rest, before the run.
+/// Predicted resolution verdict of the contact of a body at rest.
 struct Prediction
 {
     double      cells;   ///< contact_cells of the patch
-    double      points;  ///< across the patch
-    io::Verdict verdict; ///< of contact_cells, grouser_cells and the grid errors
-    double      next;    ///< m, finest spacing at which it is one better; the present one if it is resolved
+    double      points;  ///< points across the patch
+    io::Verdict verdict; ///< verdict on contact_cells, grouser_cells and the grid errors
+    double      next; ///< m, largest spacing of the finest level with the next better verdict; the present one if it is
+                      ///< resolved
 };
 
-/// `wheel`: of the scene, if this body is the one that it is about.
+/// `wheel`: the scene's driven wheel, if this body is that wheel.
 Prediction predict(const world::Patch& patch, const world::World& world, const solver::Plan& plan,
                    const std::optional<DrivenWheel>& wheel);
 
-/// Lines of `tread check` on a body: load, pressure, gap, bed, patch, cells, and the spacing of the next verdict.
+/// Returns the lines of `tread check` on a body: load, pressure, gap, bed, patch, cells, and the spacing for the next
+/// verdict.
 std::string footing_lines(const scene::Scene& scene, const world::World& world, const solver::Plan& plan,
                           const world::Footing& footing);
 

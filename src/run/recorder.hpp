@@ -23,12 +23,12 @@ public:
     Recorder(const io::RunDirectory& directory, const scene::Scene& scene, const world::World& world, int ranks,
              const io::Provenance& provenance, io::SeriesFile file = io::SeriesFile::anew);
 
-    /// All rows are in the file; until then they wait in memory.
+    /// Writes all buffered rows to the file.
     void flush() { series_.flush(); }
 
     void begin_phase(std::size_t index, double time);
 
-    /// A row of /ranks, of a run on several ranks.
+    /// Writes a row of /ranks, in a run on several ranks.
     void write_ranks(double time, const decomp::BalanceRow& balance);
 
     void write(double time, const std::vector<solver::BodyRow>& bodies, const solver::EnergyRow& energy,

@@ -8,7 +8,7 @@ namespace tread::run
 namespace
 {
 
-/// Automatic steps over those taken: 1 where the run takes what the code would, below it where steps are longer.
+/// Automatic step over the step taken: 1 for automatic steps, less where steps are longer.
 double margin(double automatic, double taken) { return taken > 0 ? automatic / taken : 1e9; }
 
 void add_books(std::vector<io::Figure>& figures, const io::ErrorReport& errors)

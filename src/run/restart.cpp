@@ -28,7 +28,7 @@ namespace
 
 constexpr double most_phases = 1e6;
 
-/// `source`: whose scene `stored` is.
+/// `source`: origin of the scene `stored`.
 void require_same_scene(const std::string& stored, const scene::Scene& scene, std::size_t phase,
                         const std::string& source)
 {
@@ -74,7 +74,7 @@ bool lies_in(const std::string& file, const std::string& directory)
     return fs::equivalent(fs::path(file).parent_path().empty() ? "." : fs::path(file).parent_path(), directory, none);
 }
 
-/// As rank 0 sees the directory.
+/// Lists the checkpoints as seen by rank 0.
 std::vector<std::string> newest_first(const Communicator& communicator, const io::RunDirectory& directory)
 {
     std::string paths;
@@ -96,8 +96,8 @@ bool as_rank_0_has_it(const Communicator& communicator, bool value)
     return communicator.maximum(communicator.rank() == 0 && value ? 1 : 0) > 0;
 }
 
-/// Why a checkpoint of a run's own directory cannot be used, or nothing. One under another's name would count as newer
-/// or older than it is, and go when it should stay.
+/// Reason why a checkpoint of a run's own directory cannot be used, or empty. A checkpoint renamed to another's name
+/// would be ordered wrongly, and deleted when it should be kept.
 std::optional<std::string> damage_of(const Communicator& communicator, const std::string& path)
 {
     if (auto damage = io::damage_of(communicator, path)) { return damage; }
@@ -113,7 +113,7 @@ std::optional<std::string> damage_of(const Communicator& communicator, const std
     return found.empty() ? std::nullopt : std::optional<std::string>(found);
 }
 
-/// The newest that is usable goes into the plan.
+/// Puts the newest usable checkpoint into the plan.
 void choose(const Communicator& communicator, const io::RunDirectory& directory, RestartPlan& plan)
 {
     const std::vector<std::string> there = newest_first(communicator, directory);

@@ -11,11 +11,11 @@
 namespace tread::run
 {
 
-/// Whether a run goes on with what an earlier one has left.
+/// Whether and from where a run continues an earlier one.
 enum class RestartMode
 {
     none,
-    automatic, ///< from the newest usable checkpoint of the run's directory; from the start if there is none
+    automatic, ///< from the newest usable checkpoint in the run directory; from the start if there is none
     file
 };
 
@@ -25,20 +25,20 @@ struct RestartOptions
     std::string file;
 };
 
-/// What comes of it.
+/// How to start the run.
 struct RestartPlan
 {
-    bool                     finished = false; ///< nothing is left to do
-    std::string              checkpoint;       ///< to go on from; empty = from the start
+    bool                     finished = false; ///< nothing is left to compute
+    std::string              checkpoint;       ///< checkpoint to continue from; empty = from the start
     io::Existing             existing = io::Existing::refuse;
-    std::vector<std::string> remarks; ///< for the log: what was passed over, and why
+    std::vector<std::string> remarks; ///< for the log: checkpoints that were skipped, and why
 
-    std::optional<io::DirectoryLock> lock; ///< of the directory, if it was a run's
+    std::optional<io::DirectoryLock> lock; ///< lock of the directory, if it already held a run
 };
 
-/// Collective. InputError when the scene is another than the one to go on with (every difference is named), when
-/// --overwrite contradicts; EnvironmentError when checkpoints are there and none is usable, or another process is at
-/// work in the directory.
+/// Collective. Throws InputError when the scene differs from the one to continue (every difference is named), or when
+/// --overwrite contradicts the restart; EnvironmentError when checkpoints exist and none is usable, or another process
+/// is using the directory.
 RestartPlan plan_restart(const Communicator& communicator, const scene::Scene& scene, const RestartOptions& options,
                          const std::string& output, io::Existing existing);
 

@@ -39,7 +39,7 @@ namespace tread::run
 namespace
 {
 
-/// How long a rank that has failed waits for the others to fail, too.
+/// Time for which a failed rank waits for the others to fail as well.
 constexpr double agreement_timeout = 10; // s
 
 enum class Backend
@@ -67,7 +67,7 @@ Backend choose_backend(BackendChoice choice)
 
 const char* name_of(Backend backend) { return backend == Backend::cpu ? "cpu" : "cuda"; }
 
-/// What this rank computes on, once all ranks are about to run the same.
+/// Chooses this rank's backend, once all ranks agree on the run.
 Backend agreed_backend(const Communicator& communicator, const scene::Scene& scene, const RunOptions& options)
 {
     Backend           backend = Backend::cpu;
@@ -101,26 +101,26 @@ void say_plan(Log& log, const scene::Scene& scene, const world::World& world, co
     }
 }
 
-/// What every run of either backend shares.
+/// Data of a run that does not depend on the backend.
 struct Job
 {
     const Communicator&        communicator;
     Log&                       log;
     const scene::Scene&        scene;
     const world::World&        world;
-    std::vector<DriveRoom>     rooms; ///< of the driven bodies
+    std::vector<DriveRoom>     rooms; ///< one for each driven body
     solver::Plan               plan;
     Estimate                   wants;
     const RunOptions&          options;
     std::vector<solver::Stage> stages;
     RestartPlan                restart;
     io::NewRun                 place;
-    io::RunDirectory           directory; ///< there once the run has begun
+    io::RunDirectory           directory; ///< exists once the run has begun
     DriverOptions              driver;
     io::Summary                summary;
 };
 
-/// Nothing on one rank.
+/// Empty on one rank.
 template<class Exec>
 std::optional<decomp::Decomposition<Exec>> decompose(const Exec& exec, Job& job)
 {
@@ -132,7 +132,7 @@ std::optional<decomp::Decomposition<Exec>> decompose(const Exec& exec, Job& job)
     return decomposition;
 }
 
-/// What several ranks cannot do yet.
+/// Refuses features that several ranks do not support yet.
 void require_ranks_can(const Communicator& communicator, const scene::Scene& scene)
 {
     if (scene.numerics.volume_strain == scene::VolumeStrain::cell_average)
@@ -163,7 +163,7 @@ ExitCode run_on(const Exec& exec, Job& job)
     }
     catch (const NumericalError& error)
     {
-        if (!job.communicator.all_arrive(agreement_timeout)) { throw; } // it befell this rank alone
+        if (!job.communicator.all_arrive(agreement_timeout)) { throw; } // only this rank failed
         job.log.warning(error.what());
         job.summary.status    = io::RunStatus::failed;
         job.summary.exit_code = error.code();
@@ -199,7 +199,7 @@ void say_start(Job& job)
     for (const std::string& note : drive_notes(job.scene, job.world, job.rooms)) { log.info(note); }
 }
 
-/// EnvironmentError, on all ranks, where the backend's memory or the disk is too small.
+/// Throws EnvironmentError, on all ranks, where the backend's memory or the disk is too small.
 void require_rooms(const Job& job, const char* memory, std::int64_t wanted, std::int64_t free)
 {
     on_every_rank(job.communicator, [&] { require_room(memory, wanted, free); });
@@ -212,7 +212,7 @@ void require_rooms(const Job& job, const char* memory, std::int64_t wanted, std:
             });
 }
 
-/// What might refuse the run has had its say: from here on it changes files.
+/// All checks that may refuse the run are done: from here on files change.
 void begin(Job& job)
 {
     const bool goes_on = job.restart.existing == io::Existing::resume;
@@ -255,7 +255,7 @@ ExitCode run_backend(Backend backend, Job& job)
     return code;
 }
 
-/// The last lines of a log. On rank 0, which has the time series.
+/// Logs the answers. On rank 0, which has the time series.
 void say_answers(Job& job)
 {
     io::Summary& summary = job.summary;
@@ -268,7 +268,7 @@ void say_answers(Job& job)
     for (const std::string& line : answer_lines(summary.answers)) { job.log.info(line); }
 }
 
-/// UTC; a run that goes on began when the first part of it did.
+/// UTC; for a restarted run, the start of its first part.
 std::string start_of(const Communicator& communicator, const std::string& checkpoint)
 {
     std::string start;
@@ -277,8 +277,8 @@ std::string start_of(const Communicator& communicator, const std::string& checkp
     return communicator.broadcast(start);
 }
 
-/// What the run reads and must leave as it is. A run that goes on was started from elsewhere than its own files, but
-/// may take its own scene.toml for the scene.
+/// Files that the run reads and must not overwrite. A run that resumes keeps its own files: its scene.toml may be the
+/// scene.
 std::vector<io::NeededFile> needed_files(const scene::Scene& scene, const RunOptions& options,
                                          const RestartPlan& restart)
 {

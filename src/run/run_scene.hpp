@@ -16,7 +16,7 @@ namespace tread::run
 
 enum class BackendChoice
 {
-    automatic, ///< a GPU if this build and this machine have one
+    automatic, ///< a GPU if the build and the machine have one
     cpu,
     cuda
 };
@@ -31,26 +31,25 @@ enum class GpuSharing
 struct RunOptions
 {
     std::string   output;     ///< the run directory
-    std::string   scene_file; ///< that the scene was read from; empty = none
+    std::string   scene_file; ///< file of the scene; empty = none
     io::Existing  existing = io::Existing::refuse;
     BackendChoice backend  = BackendChoice::automatic;
-    int           threads  = 0; ///< OpenMP threads; 0 = OMP_NUM_THREADS, or the cores over the local ranks
+    int           threads  = 0; ///< OpenMP threads; 0 = OMP_NUM_THREADS, or the machine's cores divided by its ranks
     GpuSharing    gpus     = GpuSharing::refused;
 
     RestartOptions restart;
     double         walltime_limit = 0; ///< s since the start of the process; 0 = none
 
-    decomp::DecompositionOptions decomposition; ///< of a run on several ranks
+    decomp::DecompositionOptions decomposition; ///< for runs on several ranks
 };
 
-/// Runs a scene from its first phase to its last. All that can refuse it is looked at before the run directory is made
-/// or anything in it removed: geometry, memory, disk, device, and whether the scene reads what would be replaced.
-/// Writes scene.toml, log.txt, timeseries.h5, snapshots and summary.json; a run that is stopped by a NumericalError, a
-/// signal or the wall-time limit leaves a summary that says so, and its exit code comes back. Goes on with an earlier
-/// run if options.restart says so; with one that is finished nothing is left to do. Collective; on several ranks every
-/// rank computes with the pages that are its own. Throws InputError and EnvironmentError for what is found before the
-/// first step.
-/// `watchdog`, on several ranks, hears of every step.
+/// Runs a scene from its first phase to its last. Everything that can refuse it is checked before the run directory is
+/// created or anything in it removed: geometry, memory, disk, device, and whether the scene reads files that would be
+/// replaced. Writes scene.toml, log.txt, timeseries.h5, snapshots and summary.json; a run stopped by a NumericalError,
+/// a signal or the wall-time limit leaves a summary that says so, and its exit code is returned. Continues an earlier
+/// run if options.restart says so; if that is finished, nothing is done. Collective: each rank computes with the pages
+/// that it owns. Throws InputError and EnvironmentError for errors found before the first step.
+/// `watchdog`, on several ranks, is notified of every step.
 ExitCode run_scene(const Communicator& communicator, Log& log, Watchdog* watchdog, const scene::Scene& scene,
                    const RunOptions& options);
 

@@ -13,11 +13,11 @@ namespace
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::size_t most_batches   = 100;  ///< in which a series is judged
-constexpr double      shortest_share = 0.4;  ///< of the series, that remains after the transient
-constexpr double      significant    = 3;    ///< a trend over its own uncertainty
-constexpr double      notable        = 0.05; ///< a trend over the mean or the deviation
-constexpr std::size_t independent    = 8;    ///< parts whose means are taken to be independent
+constexpr std::size_t most_batches   = 100;  ///< batches into which a series is divided
+constexpr double      shortest_share = 0.4;  ///< least share of the series after the transient
+constexpr double      significant    = 3;    ///< trend over its own uncertainty
+constexpr double      notable        = 0.05; ///< trend over the mean or the deviation
+constexpr std::size_t independent    = 8;    ///< parts whose means are assumed independent
 
 using Values = std::span<const double>;
 
@@ -34,7 +34,7 @@ double variance(Values values)
     return sum / static_cast<double>(values.size());
 }
 
-/// Of `independent` parts in turn, the first ones longer by one value where they do not come out even.
+/// Means of `independent` consecutive parts; the first ones have one value more where the number is not divisible.
 std::vector<double> part_means(Values values)
 {
     const std::size_t   shortest = values.size() / independent, longer = values.size() % independent;
@@ -58,7 +58,7 @@ std::vector<double> batch_means(Values values, std::size_t size)
     return means;
 }
 
-/// Number of values that belong to the transient.
+/// Number of values in the transient.
 std::size_t transient(Values values)
 {
     const std::size_t         size  = std::max<std::size_t>(1, values.size() / most_batches);
@@ -77,8 +77,7 @@ std::size_t transient(Values values)
     return found * size;
 }
 
-/// Whether a line through the means of the parts rises or falls by more than it may by chance, and by an amount that
-/// matters.
+/// Whether a line through the means of the parts has a slope that is significant and large enough to matter.
 bool has_trend(Values time, Values values)
 {
     const std::vector<double> times = part_means(time), means = part_means(values);

@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr double none           = std::numeric_limits<double>::quiet_NaN();
-constexpr int    most_samples   = 64; ///< of a footprint, along each side
+constexpr int    most_samples   = 64; ///< along each side of a footprint
 constexpr int    fewest_samples = 4;
 
 int samples_along(double side, double column)
@@ -20,7 +20,7 @@ int samples_along(double side, double column)
     return std::clamp(static_cast<int>(2 * side / column), fewest_samples, most_samples);
 }
 
-/// From -0.5 to 0.5 of a side, in the middle of its parts.
+/// Position of the middle of a sample, from -0.5 to 0.5 of a side.
 double sample_place(int sample, int count) { return (sample + 0.5) / count - 0.5; }
 
 /// Unit vector along x where the axle stands upright.
@@ -61,7 +61,7 @@ void SurfaceMap::renew(const std::vector<double>& heights)
     }
 }
 
-/// First and last column along an axis.
+/// First and last column along an axis within `reach` of `place`.
 std::pair<std::int64_t, std::int64_t> SurfaceMap::columns_within(std::size_t axis, double place, double reach) const
 {
     const double last = static_cast<double>(lattice_.count[axis] - 1), width = lattice_.width[axis];
@@ -90,7 +90,7 @@ void SurfaceMap::press(const std::vector<solver::BodyRow>& bodies)
     }
 }
 
-/// Bilinear between the middles of columns, of those that have terrain; NaN where none of the four has.
+/// Interpolates bilinearly between the middles of columns with terrain; NaN where none of the four has.
 double SurfaceMap::at(double x, double y) const
 {
     const double u = x / lattice_.width[0] - 0.5, v = y / lattice_.width[1] - 0.5;

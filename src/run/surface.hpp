@@ -13,19 +13,19 @@ class StateFile;
 namespace tread::run
 {
 
-/// The plan of a named body where it may press on terrain.
+/// Projection onto the plan of the part of a named body that may press on terrain.
 struct Footprint
 {
-    double length; ///< m, across the axle: a wheel's radius (its chord where it sinks in by an eighth of that)
-    double width;  ///< m, along the axle: a wheel's width; else as long
+    double length; ///< m, across the axle: a wheel's radius (its chord at a sinkage of an eighth of that)
+    double width;  ///< m, along the axle: a wheel's width; else equal to the length
     double reach;  ///< m, bounding radius
 };
 
-/// Of each named body.
+/// Footprints of the named bodies.
 std::vector<Footprint> footprints(const world::World& world);
 
-/// Height of the terrain's surface over the plan, as it was before bodies came: what sinkage counts from. z is the axis
-/// along which terrain is stacked, whatever way gravity points. The same on all ranks.
+/// Height of the terrain's surface over the plan before bodies pressed on it: the reference for sinkage. z is the axis
+/// along which terrain is stacked, whatever the direction of gravity. The same on all ranks.
 class SurfaceMap
 {
 public:
@@ -33,17 +33,17 @@ public:
 
     const world::ColumnLattice& lattice() const { return lattice_; }
 
-    /// Takes present heights (TerrainBins::surface) where no body has pressed so far.
+    /// Updates the heights (TerrainBins::surface) of columns on which no body has pressed.
     void renew(const std::vector<double>& heights);
 
-    /// Columns within a body's reach and above its lowest point keep their height from now on.
+    /// Freezes the height of columns within a body's reach and above its lowest point.
     void press(const std::vector<solver::BodyRow>& bodies);
 
-    /// m, mean over the footprint of named body `body`: the heights of columns, interpolated; where there is no terrain
-    /// under it, of the nearest column that has some; without any 0, the floor of the domain.
+    /// m, mean height over the footprint of named body `body`, interpolated between columns; where there is no terrain
+    /// under it, the height of the nearest column with terrain; without any terrain 0, the floor of the domain.
     double under(std::size_t body, const solver::BodyRow& row) const;
 
-    /// Into a checkpoint, or out of it.
+    /// Saves to a checkpoint, or loads from it.
     void transfer(solver::StateFile& file);
 
 private:

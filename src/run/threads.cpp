@@ -11,7 +11,7 @@ namespace tread::run
 
 int choose_threads(const Communicator& communicator, int asked)
 {
-    // Before any return: a launcher may have set OMP_NUM_THREADS on some machines only, and all ranks make this call.
+    // Must precede any return: a launcher may set OMP_NUM_THREADS on some machines only, and the call is collective.
     const int ranks_here = communicator.local_size();
     if (asked > 0) { return asked; }
     if (std::getenv("OMP_NUM_THREADS") != nullptr) { return omp_get_max_threads(); }

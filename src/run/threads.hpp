@@ -5,8 +5,8 @@
 namespace tread::run
 {
 
-/// Collective: OpenMP threads for this rank: as many as `asked` for, or OMP_NUM_THREADS, or the cores of its machine
-/// over the ranks there.
+/// Collective: number of OpenMP threads of this rank: `asked`, else OMP_NUM_THREADS, else the machine's cores divided
+/// by its ranks.
 int choose_threads(const Communicator& communicator, int asked);
 
 } // namespace tread::run

@@ -10,7 +10,7 @@
 namespace tread::run
 {
 
-/// Collects warnings of one scene.
+/// Collects the warnings of a scene.
 class Warnings
 {
 public:
@@ -19,7 +19,7 @@ public:
     {
     }
 
-    /// `table`: as scene::line_of takes it.
+    /// `table`: name for scene::line_of.
     void add(const std::string& table, std::string text)
     {
         std::string where = scene::line_of(scene_, table);

@@ -15,13 +15,13 @@ namespace tread::solver
 namespace
 {
 
-constexpr std::int32_t alone = -1; ///< place of a body that no two ranks move
+constexpr std::int32_t alone = -1; ///< place of a body that only one rank holds
 
-/// Spacings: a body this near to a page of its rank stays with it. At a border it would else go to and fro with all
-/// that its contacts remember. What it may meet is known to its rank from as much further off.
+/// Spacings: hysteresis of ownership. A body this near to a page of its rank stays with it, so that bodies at a border
+/// do not migrate back and forth with their contact records. The rank's search radius is enlarged by as much.
 constexpr double owner_slack = 0.25;
 
-/// A body's words in a message: body, owner, number of holders, holders.
+/// Writes a body's part of a message: body, owner, number of holders, holders.
 void write_words(std::vector<std::int32_t>& words, std::int32_t body, std::int32_t owner,
                  const std::vector<std::int32_t>& holders)
 {
@@ -149,8 +149,8 @@ std::int32_t BodyRanks<Exec>::next_owner(std::size_t body, const Vec3<double>& p
     return std::find(near.begin(), near.end(), own) != near.end() ? own : ownership_->owner_of(place);
 }
 
-/// Whether all around the page of one of this rank's bodies is this rank's. Most bodies are where they were when last
-/// asked for, and there it was.
+/// Whether this rank owns all pages around one of its bodies. Cached: most bodies have the same surroundings as at the
+/// last check.
 template<class Exec>
 bool BodyRanks<Exec>::is_inside(std::size_t body, const decomp::Surroundings& around)
 {
@@ -160,7 +160,8 @@ bool BodyRanks<Exec>::is_inside(std::size_t body, const decomp::Surroundings& ar
     return true;
 }
 
-/// Of the bodies that this rank has owned until now; those that it goes on to hold alone are left out.
+/// Decides owner and holders of the bodies that this rank has owned until now; bodies that it alone still holds are
+/// left out.
 template<class Exec>
 auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs) -> std::vector<Holding>
 {
@@ -169,7 +170,7 @@ auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<E
     if (is_large_.empty()) { is_large_ = pairs.is_large.to_host(); }
     synchronize(exec_);
 
-    double met[2] = {}; // m, how far anything that is met reaches; how far anything small does
+    double met[2] = {}; // m, largest search radius of all bodies, and of small ones
     for (std::size_t b = 0; b < role_.size(); ++b)
     {
         if (role_[b] != dem::role_owner) { continue; }
@@ -193,8 +194,8 @@ auto BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<E
     return decided;
 }
 
-/// Returns what this rank holds from now on beside others, by body; `arriving`: of each rank, the bodies whose state it
-/// sends.
+/// Exchanges the decisions. Returns the bodies that this rank shares from now on, ascending; `arriving`: by rank, the
+/// bodies whose state it sends.
 template<class Exec>
 auto BodyRanks<Exec>::tell(const std::vector<Holding>& decided, Lists& arriving) const -> std::vector<Holding>
 {
@@ -237,7 +238,7 @@ void BodyRanks<Exec>::send_states(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& p
     states_.finish(columns, arriving_);
 }
 
-/// Whether any body of any rank has got another owner.
+/// Updates the roles. Returns whether any body of any rank has a new owner.
 template<class Exec>
 bool BodyRanks<Exec>::take_roles(dem::Bodies<Exec>& bodies, const std::vector<Holding>& decided,
                                  const std::vector<Holding>& held)
@@ -250,7 +251,7 @@ bool BodyRanks<Exec>::take_roles(dem::Bodies<Exec>& bodies, const std::vector<Ho
         role_[static_cast<std::size_t>(body.body)] = own ? dem::role_owner : dem::role_guest;
     }
     bodies.role.assign(role_);
-    double owned = 0, sum_of_owned = 0, leaving = 0; // whole numbers, exact
+    double owned = 0, sum_of_owned = 0, leaving = 0; // integers, exact in double
     for (std::size_t b = 0; b < role_.size(); ++b)
     {
         if (role_[b] != dem::role_owner) { continue; }
@@ -268,7 +269,7 @@ bool BodyRanks<Exec>::take_roles(dem::Bodies<Exec>& bodies, const std::vector<Ho
     return sums[2] > 0;
 }
 
-/// Both sides of a route list the bodies that they share in the same order.
+/// Lists the bodies shared on each route, in the same order on both sides.
 template<class Exec>
 void BodyRanks<Exec>::plan_sharing(const std::vector<Holding>& held)
 {

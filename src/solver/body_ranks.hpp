@@ -18,27 +18,27 @@
 namespace tread::solver
 {
 
-/// The bodies of a scene over the ranks of a run: whose they are, who else holds which, and what holders tell each
-/// other. A body belongs to the rank of the page that its centre is in when the pairs are found; the ranks whose pages
-/// it may reach until they are found again, and the widest other beyond, hold it too. Calls are collective unless a
-/// line says otherwise.
+/// Distribution of a scene's bodies over the ranks: ownership, ghosts, and exchange between the holders of a body. A
+/// body is owned by the rank of the page that holds its centre when pairs are found. Ranks whose pages it may reach
+/// before the next search, enlarged by the largest search radius of any other body, hold it as a ghost. Calls are
+/// collective unless a comment says otherwise.
 template<class Exec>
 class BodyRanks
 {
 public:
-    /// Bodies have their owners, and no guests before the first deal(). `sand_reach`: m, how far beyond its surface a
-    /// body must be known to the owner of sand.
+    /// Sets the owners; there are no ghosts before the first assign_owners(). `sand_reach`: m, distance beyond a
+    /// body's surface within which the owner of sand must know the body.
     BodyRanks(decomp::Decomposition<Exec>& decomposition, const world::World& world, double sand_reach,
               dem::Bodies<Exec>& bodies);
 
-    /// Whether all ranks say so.
+    /// Whether `value` is true on all ranks.
     bool all(bool value) const;
 
-    /// Over the ranks; of what is not 0.
+    /// Global maximum and minimum over ranks; zeros are ignored.
     double largest(double value) const;
     double shortest(double value) const;
 
-    /// A struct of doubles that becomes the sum of all ranks', in their order.
+    /// Sums a struct of doubles over all ranks, in rank order.
     template<class Row>
     void sum(Row& row) const
     {
@@ -46,23 +46,24 @@ public:
         decomp::combine(communicator_, reinterpret_cast<double*>(&row), sizeof(Row) / sizeof(double), 0);
     }
 
-    /// Between dem::request_displacement and dem::allow_displacement: what all ranks' bodies want.
+    /// Sums the requested displacements of all ranks' bodies. Call between dem::request_displacement and
+    /// dem::allow_displacement.
     void sum_wanted_travel(dem::Pairs<Exec>& pairs) const;
 
-    /// Between dem::allow_displacement and dem::list_pairs: bodies go to the rank that they have moved to, with what
-    /// their contacts remember, and guests to where they may be met.
+    /// Moves bodies, with their contact records, to the ranks that now own them, and sends ghosts to the ranks where
+    /// they may be in contact. Call between dem::allow_displacement and dem::list_pairs.
     void assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs);
 
-    /// Where no rank shares a body with another, nothing is ever sent. Not collective: of those that share some.
+    /// Exchanges of shared bodies. Not collective: only the ranks that share a body take part.
     void exchange_wrenches() { pass_on(wrench_); }
     void exchange_stiffness() { pass_on(stiffness_); }
     void exchange_speeds() { pass_on(speed_); }
 
-    /// Every rank knows the state of all bodies, until they move.
+    /// Gathers the state of all bodies on every rank; valid until they move.
     void collect(dem::Bodies<Exec>& bodies);
 
     // Not collective.
-    /// Predicted work of this rank's bodies, in points, and on which pages it is.
+    /// Predicted work of this rank's bodies, in points, in total and by page.
     double          load() const;
     void            add_loads(const dem::Bodies<Exec>& bodies, decomp::PageLoads& loads) const;
     bool            pages_have_changed() const { return pages_known_ != decomposition_.owners.changes(); }
@@ -70,20 +71,20 @@ public:
     bool            shares() const { return shared_body_.size() > 0; }
     dem::SharedView shared();
 
-    /// The body of a pair whose owner answers it.
+    /// The body of a pair whose owner evaluates the contact.
     std::int64_t decider(const std::vector<std::int32_t>& is_large, std::uint64_t key) const;
 
     const Communicator& communicator() const { return communicator_; }
 
 private:
-    /// Who owns and who holds a body from now on, where that is not this rank alone.
+    /// Owner and holders of a body that is not held by this rank alone.
     struct Holding
     {
         std::int32_t              body;
         std::int32_t              owner;
         std::vector<std::int32_t> holders; ///< ascending; the owner among them
     };
-    using Lists = std::vector<std::vector<std::int32_t>>; ///< of each rank
+    using Lists = std::vector<std::vector<std::int32_t>>; ///< one list per rank
 
     void                 look_at_pages();
     std::vector<Holding> decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs);
@@ -120,12 +121,12 @@ private:
     Exec                         exec_;
 
     double                               sand_reach_;
-    std::int64_t                         pages_known_ = 0; ///< changes of the map of pages that the ownership has
+    std::int64_t                         pages_known_ = 0; ///< version of the page map that `ownership_` was built from
     std::optional<decomp::PageOwnership> ownership_;
     std::vector<double>                  bounding_radius_; ///< m, by body
     std::vector<std::int32_t>            role_;            ///< by body
-    std::vector<decomp::Surroundings>    inside_;          ///< by body: where it was last seen inside this rank's pages
-    std::vector<std::int32_t>            is_large_;        ///< by body, of Pairs; empty before the first deal()
+    std::vector<decomp::Surroundings>    inside_;          ///< by body: last surroundings inside this rank's pages
+    std::vector<std::int32_t>            is_large_;        ///< by body, from Pairs; empty before assign_owners()
     FetchedArray<Exec, Vec3<double>>     position_;        ///< m
     FetchedArray<Exec, double>           travel_;          ///< m
     decomp::Exchange<Exec>               states_;

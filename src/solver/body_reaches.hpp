@@ -7,7 +7,7 @@
 namespace tread::solver
 {
 
-/// Where all bodies are now; waits for it.
+/// Copies the present bounding spheres of all bodies to the host; synchronises.
 template<class Exec>
 std::vector<BodyReach> body_reaches(const Exec& exec, const dem::BodiesView& bodies, const world::World& world)
 {

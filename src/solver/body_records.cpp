@@ -6,7 +6,7 @@
 #include "kernels/dem/pairs/pairs_kern.hpp"
 #include "solver/body_ranks.hpp"
 
-// What contacts remember goes with the body that decides who answers them.
+// Contact records migrate with the body whose owner evaluates the contact.
 namespace tread::solver
 {
 namespace
@@ -60,7 +60,7 @@ void put_places_back(const std::vector<world::ContactRecord>& records, dem::Pair
 template<class Exec>
 void BodyRanks<Exec>::hand_over_records(dem::Pairs<Exec>& pairs, const std::vector<Holding>& decided)
 {
-    std::map<std::int64_t, std::size_t> moved; // to which rank
+    std::map<std::int64_t, std::size_t> moved; // destination rank by body
     for (const Holding& body : decided)
     {
         if (body.owner != communicator_.rank()) { moved[body.body] = static_cast<std::size_t>(body.owner); }
@@ -79,7 +79,7 @@ void BodyRanks<Exec>::hand_over_records(dem::Pairs<Exec>& pairs, const std::vect
     {
         const auto own = static_cast<std::ptrdiff_t>(kept.size());
         kept.insert(kept.end(), arriving.begin(), arriving.end());
-        std::inplace_merge(kept.begin(), kept.begin() + own, kept.end(), by_key); // each rank's ascend
+        std::inplace_merge(kept.begin(), kept.begin() + own, kept.end(), by_key); // both parts are sorted
     }
     put_back(kept, pairs);
     if (have_places) { put_places_back(kept, pairs); }

@@ -5,7 +5,7 @@
 namespace tread::solver
 {
 
-/// One named body at one time. Force and torque are those of all contacts, mean since the last row.
+/// State of one named body at one time. Force and torque sum all contacts, averaged since the last row.
 struct BodyRow
 {
     Vec3<double> position;         ///< m
@@ -13,9 +13,9 @@ struct BodyRow
     Vec3<double> angular_velocity; ///< rad/s
     Vec3<double> force;            ///< N
     Vec3<double> torque;           ///< N m, about the centre of mass
-    Vec3<double> axle;             ///< unit, world
+    Vec3<double> axle;             ///< unit vector, world frame
     double       lowest;           ///< m, height of the lowest point
-    double       surface = 0;      ///< m, height of the terrain under it before bodies came (SurfaceMap)
+    double       surface = 0;      ///< m, height of the terrain under the body before bodies pressed on it (SurfaceMap)
 };
 
 } // namespace tread::solver

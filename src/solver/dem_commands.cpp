@@ -3,13 +3,13 @@
 #include "backend/instantiate.hpp"
 #include "solver/dem_solver.hpp"
 
-// What named bodies are told: to be held, lowered, driven or free, and how much of their weight acts.
+// Commands of named bodies: held, lowered, driven or free, and the share of their weight that acts.
 namespace tread::solver
 {
 namespace
 {
 
-/// Bits of BodiesView::locked. Of a body that is held altogether, none of the weight moves anything.
+/// Bits of BodiesView::locked. The weight of a body that is locked in all directions does no work.
 std::uint32_t flags_of(const BodyCommand& command)
 {
     const bool hangs = command.weight != 1 && command.locked != dem::lock_all;
@@ -26,7 +26,7 @@ void DemSolver<Exec>::command(const std::vector<BodyCommand>& commands)
     for (std::size_t b = 0; b < commands.size(); ++b)
     {
         heaviest_ = std::max(heaviest_, commands[b].weight);
-        if (commanded_[b] == commands[b]) { continue; } // what is locked has kept its velocity
+        if (commanded_[b] == commands[b]) { continue; } // locked components have kept their velocity
         const std::optional<BodyCommand> before = std::exchange(commanded_[b], commands[b]);
         copy_from_host(exec_, bodies_.weight.data() + b, &commands[b].weight, sizeof(double));
         changed = set_motion(b, before) || changed;
@@ -34,7 +34,7 @@ void DemSolver<Exec>::command(const std::vector<BodyCommand>& commands)
     if (changed && listed_) { stage(); }
 }
 
-/// The velocity that the present command gives to a body that moves so (the last command is `before`).
+/// Velocity under the present command of a body that had `velocity`; `before` is the last command.
 template<class Exec>
 Vec3<double> DemSolver<Exec>::commanded_velocity(std::size_t body, const std::optional<BodyCommand>& before,
                                                  Vec3<double> velocity)
@@ -42,7 +42,7 @@ Vec3<double> DemSolver<Exec>::commanded_velocity(std::size_t body, const std::op
     const BodyCommand& command = *commanded_[body];
     if (command.lowering)
     {
-        released_[body] = true; // it comes to the ground, where it is let go at rest
+        released_[body] = true; // lowered onto the ground, then released at rest
         return Vec3<double>(command.lowering->data());
     }
     if (before && before->lowering) { velocity.setZero(); }
@@ -60,7 +60,7 @@ Vec3<double> DemSolver<Exec>::commanded_velocity(std::size_t body, const std::op
     return velocity;
 }
 
-/// As the present command has it; whether that changes anything. The books get what it took.
+/// Applies the present command; returns whether that changes the motion. Accounts for the work and impulse.
 template<class Exec>
 bool DemSolver<Exec>::set_motion(std::size_t b, const std::optional<BodyCommand>& before)
 {

@@ -8,18 +8,18 @@
 #include "kernels/dem/contact/contact_limits.hpp"
 #include "solver/dem_solver.hpp"
 
-// What stops a run of bodies, by name, instead of letting it go on wrong.
+// Checks that stop a run with an invalid state of bodies, naming the body.
 namespace tread::solver
 {
 namespace
 {
 
-constexpr double deepest_overlap = 0.5; ///< of a radius: beyond it a contact's direction means nothing
-constexpr double longest_leap    = 1;   ///< of the smallest radius, in a substep
+constexpr double deepest_overlap = 0.5; ///< overlap over radius: beyond it a contact's direction is undefined
+constexpr double longest_leap    = 1;   ///< displacement in a substep over the smallest radius
 
 } // namespace
 
-/// The largest overlap over radius, dem::largest_overlap's, if the law can carry it.
+/// Returns `ratio`, the largest overlap over radius (dem::largest_overlap), if the law is valid for it; else throws.
 template<class Exec>
 double DemSolver<Exec>::guard(double time, double ratio)
 {
@@ -32,7 +32,7 @@ double DemSolver<Exec>::guard(double time, double ratio)
         time, name(dem::first_of(key)), wall ? "a wall" : name(dem::second_of(key)), ratio, deepest_overlap));
 }
 
-/// A body whose velocity or force is not a number has lost its way; the first of them is named.
+/// Throws for the first body whose velocity or force is not finite.
 template<class Exec>
 void DemSolver<Exec>::require_finite(double time)
 {
@@ -52,7 +52,7 @@ void DemSolver<Exec>::require_finite(double time)
     }
 }
 
-/// After a step in which nobody watched: a body may have met one that the list of pairs does not have.
+/// Throws after a step without checks if a body may have touched another that the pair list lacks.
 template<class Exec>
 void DemSolver<Exec>::require_listed(double time, double largest)
 {
@@ -65,7 +65,7 @@ void DemSolver<Exec>::require_listed(double time, double largest)
                                      time, name(body), largest));
 }
 
-/// A body that leaps over the smallest one in a substep leaps over its contact.
+/// Throws if a body moves so far in a substep that it may pass through the smallest body without contact.
 template<class Exec>
 void DemSolver<Exec>::require_resolved(double time, double speed)
 {
@@ -78,7 +78,7 @@ void DemSolver<Exec>::require_resolved(double time, double speed)
                                      time, name(body - rows.begin()), leap, leap / smallest_radius_, longest_leap));
 }
 
-/// The rank that has the stiffest body names it.
+/// The rank that holds the stiffest body names it.
 template<class Exec>
 void DemSolver<Exec>::refuse_substeps(const TimeStep& step, const Pace& pace, double time)
 {

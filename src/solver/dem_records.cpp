@@ -4,11 +4,11 @@
 #include "decomp/messages.hpp"
 #include "solver/dem_solver.hpp"
 
-// What contacts remember, out of a run and back into another.
+// Extracts contact records from a run, and restores them in another.
 namespace tread::solver
 {
 
-/// As the search's last list: what it finds again keeps its record.
+/// Stores the world's contacts as the search's previous list: pairs found again keep their records.
 template<class Exec>
 void DemSolver<Exec>::restore_contacts()
 {

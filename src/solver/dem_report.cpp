@@ -12,7 +12,7 @@
 #include "kernels/dem/motion/sums.hpp"
 #include "solver/dem_solver.hpp"
 
-// What bodies tell: to the books, the recorder and snapshots.
+// Output of the bodies: reports for the ledger, rows for the recorder, fields for snapshots.
 namespace tread::solver
 {
 namespace
@@ -26,8 +26,8 @@ std::vector<double> rows(const std::vector<T>& vectors)
     return out;
 }
 
-/// m at scale 1, from the centre down to the lowest point; of a wheel to that of the cylinder over its grousers, which
-/// does not rise and fall with each of them.
+/// m at scale 1, distance from the centre down to the lowest point; for a wheel, of the cylinder over its grousers,
+/// which does not oscillate with each grouser.
 double depth_below_centre(const shape::ShapeTemplate& form, const Quat& orientation)
 {
     const Vec3<double> down = orientation.conjugate() * -Vec3<double>::UnitZ(); // in the body's frame
@@ -83,7 +83,7 @@ void DemSolver<Exec>::request_report()
     overlap_readback_.request(dem::largest_overlap(exec_, pairs_, bodies_.view(), law_));
 }
 
-/// Of this rank's bodies. The largest speed hides one that is not a number, their sum does not.
+/// Checks this rank's bodies. A maximum of speeds hides a value that is not finite; a sum does not.
 template<class Exec>
 void DemSolver<Exec>::check(RigidReport& report, double sum_of_speeds, double time)
 {
@@ -104,7 +104,7 @@ void DemSolver<Exec>::add_up(RigidReport& report) const
     decomp::combine(ranks_->communicator(), reinterpret_cast<double*>(&report), rigid_report_sums, rigid_report_peaks);
 }
 
-/// What has been added to the totals since the last report.
+/// Adds the increase of the totals since the last report.
 template<class Exec>
 void DemSolver<Exec>::take(const dem::BodyTotal& now, RigidReport& report)
 {
@@ -114,7 +114,7 @@ void DemSolver<Exec>::take(const dem::BodyTotal& now, RigidReport& report)
     report.friction        = now.friction - taken_.friction;
     report.restitution     = now.restitution - taken_.restitution;
     report.damped          = now.damping - taken_.damping;
-    // A velocity that is given is given as one of half a substep ago, like all of them.
+    // Velocities are those of half a substep earlier; so are commanded ones.
     report.driver_work =
         now.holding_work - taken_.holding_work + command_work_ + 0.5 * substep_ * gravity_.dot(command_impulse_);
     report.sand_work = now.sand_work - taken_.sand_work;
@@ -154,7 +154,7 @@ std::vector<BodyRow> DemSolver<Exec>::named_bodies()
     return bodies;
 }
 
-/// Of all ranks, since begin_mean().
+/// Sums over all ranks, since begin_mean().
 template<class Exec>
 std::vector<dem::ContactImpulse> DemSolver<Exec>::summed_impulses() const
 {

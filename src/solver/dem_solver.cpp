@@ -21,19 +21,21 @@ namespace tread::solver
 namespace
 {
 
-constexpr double hit_twice = 4; ///< times as fast may a light body be that is hit by one that was hit itself
+constexpr double hit_twice = 4; ///< speed of a light body hit by one that was itself hit, over the largest now
 
-/// A body that a surface at speed v begins to push with stiffness K goes v (t - sin(w t) / w) in a time t, w = sqrt(K /
-/// m); off its centre a ball yields 7/2 times as easily. Until sqrt(m / K) that is less than so many v t.
+/// A body that a surface at speed v begins to push with stiffness K moves v (t - sin(w t) / w) in a time t,
+/// w = sqrt(K / m); off its centre a ball yields 7/2 times as easily. Up to t = sqrt(m / K) that is less than
+/// hit_soon v t.
 constexpr double hit_soon = 0.5;
 
-constexpr std::int64_t batches_ahead = 2; ///< of substeps, that a look is for: the first is asked for before it answers
+constexpr std::int64_t batches_ahead = 2; ///< batches of substeps covered by a check, as its readback takes one
 
-/// Of what a list must have left at the start of a step that is looked at within: the step itself, at its first speeds.
+/// Share of a step over which displacements are extrapolated at its start, if the list is also checked within the
+/// step.
 constexpr double watched_share = 0.5;
 
-/// Spacings: how far from the pages of its rank sand may be met. Points may be a page beyond before they change their
-/// rank, and have a radius.
+/// Spacings: largest distance from its rank's pages at which sand can touch a body. Points may be up to a page outside
+/// before they migrate, and have a radius.
 constexpr double sand_reach = mpm::page_edge + 2;
 
 std::vector<double> bounding_radii(const world::World& world)
@@ -99,7 +101,7 @@ DemSolver<Exec>::DemSolver(const Exec& exec, const scene::Scene& scene, const wo
     const auto count = static_cast<std::int64_t>(world.bodies.size());
     totals_.resize(count);
     totals_.fill_zero();
-    taken_                          = read(exec_, totals_.data()); // nothing, of any body
+    taken_                          = read(exec_, totals_.data()); // zero for all bodies
     const std::vector<double> radii = bounding_radii(world);
     bounding_radii_.assign(radii);
     smallest_radius_ = *std::min_element(radii.begin(), radii.end());
@@ -174,7 +176,7 @@ void DemSolver<Exec>::find_pairs(double dt)
     dem::expect_shared_contacts(exec_, pairs_, shared());
 }
 
-/// Nothing is changed before all ranks know that the list holds for all.
+/// Changes nothing before the list is known to hold on all ranks.
 template<class Exec>
 bool DemSolver<Exec>::list_holds(double dt)
 {
@@ -223,7 +225,7 @@ std::int64_t DemSolver<Exec>::substeps_without_check(const TimeStep& step, doubl
     const auto   number = static_cast<double>(step.substeps);
     const double dt = step.dt / number, reserve = dem::rest_reserve * smallest_radius_,
                  fall    = heaviest_ * gravity_.norm() * step.dt;
-    const double unseen  = reserve / (dt * (hit_twice * speed + fall)); // substeps
+    const double unseen  = reserve / (dt * (hit_twice * speed + fall)); // in substeps
     checked_within_step_ = number > unseen;
     if (!checked_within_step_) { return step.substeps; }
     const double soon  = std::min(contact_time / dt, reserve / (dt * (hit_soon * speed + fall)));
@@ -235,7 +237,7 @@ template<class Exec>
 std::int64_t DemSolver<Exec>::steps_without_check(double dt, double speed) const
 {
     if (!contacts_) { return std::numeric_limits<std::int64_t>::max(); }
-    // Speed and fall of n steps: n dt (4 v + g n dt) <= reserve.
+    // Displacement bound of n steps by speed and gravity: n dt (4 v + g n dt) <= reserve.
     const double fall = heaviest_ * gravity_.norm(), reserve = dem::rest_reserve * smallest_radius_,
                  start = hit_twice * speed;
     const double span  = 2 * reserve / (start + std::sqrt(start * start + 4 * fall * reserve));
@@ -258,7 +260,7 @@ void DemSolver<Exec>::request_lookahead(double ahead)
     lookahead_pending_ = true;
 }
 
-/// False also where nobody looked: a list that was found since then holds for two batches.
+/// Also false where no check was requested: a list found since then holds for two batches.
 template<class Exec>
 bool DemSolver<Exec>::is_displaced_too_far()
 {
@@ -267,7 +269,7 @@ bool DemSolver<Exec>::is_displaced_too_far()
     return of_all(lookahead_readback_.get()) > 1;
 }
 
-/// For as long as a whole step, so that the list may serve the next.
+/// The list is built for a whole step, so that it may serve the next.
 template<class Exec>
 void DemSolver<Exec>::find_pairs_within(const TimeStep& step, double time)
 {
@@ -276,7 +278,7 @@ void DemSolver<Exec>::find_pairs_within(const TimeStep& step, double time)
         {
             require_finite(time);
             const double overlap = read(exec_, dem::largest_overlap(exec_, pairs_, bodies_.view(), law_));
-            overlap_ = std::max(overlap_, guard(time, overlap)); // the search forgets the peaks of the pairs
+            overlap_             = std::max(overlap_, guard(time, overlap)); // the search resets the peaks of the pairs
         });
     find_pairs(step.dt);
 }

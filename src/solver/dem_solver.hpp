@@ -36,13 +36,13 @@ struct ContactCount
     double nodes;
 };
 
-/// The rigid bodies of a scene on one backend: their state, their pairs, and the calls of a substep.
+/// Rigid bodies of a scene on one backend: state, pairs, and the calls of a substep.
 template<class Exec>
 class DemSolver
 {
 public:
-    /// `decomposition`: who owns which page; null on one rank. With it every call is collective, and what comes back is
-    /// of all bodies.
+    /// `decomposition`: ownership of pages; null on one rank. With it every call is collective, and results cover all
+    /// bodies.
     DemSolver(const Exec& exec, const scene::Scene& scene, const world::World& world, const Plan& plan,
               decomp::Decomposition<Exec>* decomposition = nullptr);
 
@@ -53,74 +53,74 @@ public:
     /// Total mass, kg.
     double mass() const { return mass_; }
 
-    /// Whether this rank moves bodies together with others, so that every substep has messages.
+    /// Whether this rank shares bodies with others, so that every substep exchanges messages.
     bool shares() const { return ranks_ && ranks_->shares(); }
 
-    /// For messages: a named body's name, or "rock 17".
+    /// Name for messages: that of a named body, or "rock 17".
     std::string name(std::int64_t body) const;
 
-    /// Sets what the named bodies are held or driven to. A body that is freed for the first time starts with its
-    /// scene's velocity, one that was lowered at rest.
+    /// Sets what the named bodies are held or driven to. A body that is freed for the first time starts with the
+    /// scene's velocity, one that was lowered starts at rest.
     void command(const std::vector<BodyCommand>& commands);
 
-    /// 2. Pairs of bodies, and of bodies and walls, that may touch in the step: found anew if the list may not hold.
+    /// Step 2. Lists pairs of bodies, and of bodies and walls, that may touch within dt; rebuilds the list if the old
+    /// one may have expired.
     void find_pairs(double dt);
 
-    /// Shows the contacts what somebody else has changed in view() since. find_pairs and command do.
+    /// Passes changes made through view() on to the contacts. find_pairs and command do this themselves.
     void stage() { dem::stage_bodies(exec_, pairs_, bodies_.view()); }
 
-    /// Before the substeps of a step, when the fastest of anything goes at `speed` (m/s) and the shortest sqrt(m / sum
-    /// K) of a body is `contact_time` (s; 0 = no contact): the batch, of how many substeps may be asked for together.
-    /// Fewer than all: find_pairs_if_displaced is due in between.
+    /// Returns the number of substeps that may be requested together, called before the substeps of a step. `speed`:
+    /// m/s, the largest of anything; `contact_time`: s, the smallest sqrt(m / sum K) of a body, 0 = no contact. If the
+    /// result is less than all substeps, find_pairs_if_displaced is due after each batch.
     std::int64_t substeps_without_check(const TimeStep& step, double speed, double contact_time);
 
-    /// Between two batches, when so many substeps are done of a step that began at `time` (s): finds the pairs anew if
-    /// the look from before the last batch says that a body may go too far in the next; if not, asks for another look,
-    /// for the next two. So the backend has a batch to work on while an answer travels.
+    /// Call between two batches, after `done` substeps of a step that began at `time` (s). Rebuilds the pair list if
+    /// the check requested before the last batch says that a body may move too far in the next; if not, requests the
+    /// check for the next two batches, so that the backend computes during the readback.
     void find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time);
 
-    /// After how many steps of dt (s) the list of pairs should be looked at again: one, unless find_pairs allowed for
-    /// more of them without a watch.
+    /// Number of steps of dt (s) for which the pair list needs no check; at least one.
     std::int64_t steps_without_check(double dt, double speed) const;
 
-    /// m/s, the largest that commands have given since the last call, on any rank.
+    /// Returns and resets the largest speed (m/s) set by commands on any rank since the last call.
     double take_commanded_speed() { return of_all(std::exchange(commanded_speed_, 0.0)); }
 
-    /// How often bodies were dealt to the ranks: which of them are here stays while this does. 0 on one rank.
+    /// Partition version: the bodies on this rank stay the same while it is unchanged. 0 on one rank.
     std::int64_t partition_version() const { return partition_version_; }
 
-    /// Predicted work of the bodies that this rank owns, in points, on several ranks; added to the pages that they are
-    /// on.
+    /// Predicted work of the bodies that this rank owns, in points, on several ranks; add_loads adds it to their
+    /// pages.
     double load() const { return ranks_->load(); }
     void   add_loads(decomp::PageLoads& loads) const { ranks_->add_loads(bodies_, loads); }
 
-    /// The least sqrt(m / sum K) over bodies, of contacts that are live or may come in the step, s; 0 = none.
+    /// Minimum over bodies of sqrt(m / sum K), s, over contacts that are live or may begin in the step; 0 = none.
     double shortest_contact();
 
-    /// NumericalError: a step would take too many substeps, and which body wants them.
+    /// Throws NumericalError: a step would take too many substeps; names the body that demands them.
     [[noreturn]] void refuse_substeps(const TimeStep& step, const Pace& pace, double time);
 
-    /// Pairs that are listed, those of them that touch, and the nodes that are listed; waits for them.
+    /// Counts listed pairs, those of them that touch, and listed nodes; synchronises.
     ContactCount count_contacts();
 
-    // 3. A substep.
+    // Step 3. One substep.
     void contact(double dt);
     void move(double dt, double damping, const dem::OutsideWrenches& outside = {});
-    /// contact and move, `count` times: of bodies that meet nothing but each other and walls.
+    /// Calls contact and move `count` times, for bodies that touch only each other and walls.
     void run(double dt, double damping, std::int64_t count);
 
-    /// What a substep of bodies needs, for those who do it for them, and then say how many they did.
+    /// Data that a launch of whole substeps needs; its caller then reports how many it did.
     dem::BodyStep<Exec> body_step(double dt, double damping);
     void                count_substeps(double dt, std::int64_t count);
 
-    /// Of the step; waits for it. NumericalError when a contact is deeper than the law can carry, or a body is not at a
-    /// finite place: `time` (s) is for that message.
+    /// Report of the step; synchronises. NumericalError when a contact is deeper than its law allows, or a body's
+    /// position is not finite; `time` (s) is for that message.
     RigidReport report(double time);
 
-    /// Asks for the report already, so that one wait serves others' too.
+    /// Requests the report early, so that one synchronisation serves several readbacks.
     void request_report();
 
-    /// Of the pairs of the last step that touch.
+    /// Records of the pairs that touched in the last step.
     std::vector<world::ContactRecord> contacts() const;
 
     RigidCensus          census();
@@ -131,11 +131,11 @@ public:
     /// m, centre of a named body.
     Vec3<double> place(std::size_t body) const;
 
-    /// s, the integral over time since the run began of the share of a named body's weight that its contacts carried.
+    /// s, integral over time since the run began of the share of a named body's weight that its contacts carried.
     double carried(std::size_t body) const;
 
-    /// Into a checkpoint, or out of it into bodies of the same scene; due between two steps, and changes nothing that
-    /// comes after it. Contact energies are known again after the next substep.
+    /// Saves the state to a checkpoint, or loads it into bodies of the same scene; call between two steps. Does not
+    /// change later results. Contact energies are available again after the next substep.
     void transfer(StateFile& file);
 
 private:
@@ -166,7 +166,7 @@ private:
     dem::SharedView shared() { return ranks_ ? ranks_->shared() : dem::SharedView{}; }
     double          of_all(double value) const { return ranks_ ? ranks_->largest(value) : value; }
 
-    /// Checks of this rank's bodies: what one rank throws, all do.
+    /// Runs checks of this rank's bodies; an error on one rank is thrown on all.
     template<class Checks>
     void together(Checks checks) const
     {
@@ -178,7 +178,7 @@ private:
     void require_resolved(double time, double speed);
     void take(const dem::BodyTotal& now, RigidReport& report);
 
-    /// Over all bodies.
+    /// Sums and maxima over all bodies.
     struct ReportSums
     {
         dem::BodyActivity most;
@@ -193,7 +193,7 @@ private:
     Vec3<double>                                  gravity_;
     double                                        mass_ = 0;
     std::int64_t                                  named_;
-    bool                                          contacts_; ///< some body may meet another or a wall
+    bool                                          contacts_; ///< whether a body may touch another or a wall
     DeviceTemplates<Exec>                         templates_;
     DeviceRays<Exec>                              rays_;
     dem::Bodies<Exec>                             bodies_;
@@ -201,10 +201,10 @@ private:
     Array<Exec, dem::PairProperties>              properties_;
     Array<Exec, dem::Plane>                       planes_;
     dem::BodyTotals<Exec>                         totals_;
-    Array<Exec, dem::ContactImpulse>              impulses_; ///< of the named bodies, since begin_mean()
+    Array<Exec, dem::ContactImpulse>              impulses_; ///< impulses of the named bodies since begin_mean()
     Array<Exec, double>                           bounding_radii_;
     Array<Exec, double>                           sums_;     ///< ReportSums
-    std::optional<Array<Exec, dem::BodyActivity>> activity_; ///< of the report that was asked for
+    std::optional<Array<Exec, dem::BodyActivity>> activity_; ///< activity for the requested report
     AsyncReadback<Exec, ReportSums>               readback_;
     AsyncReadback<Exec, double>                   displacement_readback_;
     AsyncReadback<Exec, double>                   overlap_readback_;
@@ -212,21 +212,21 @@ private:
     Event<Exec>                                   lookahead_done_;
     dem::DisplacementTracker<Exec>                displacements_;
     double                                        smallest_radius_   = 0;     ///< m, of the bounding spheres
-    bool                                          listed_            = false; ///< pairs were found
+    bool                                          listed_            = false; ///< whether pairs were found
     std::int64_t                                  partition_version_ = 0;
-    double                                        span_              = 0; ///< s, that pairs were last found for
-    bool                                    checked_within_step_ = false; ///< of the present step: not only at its end
-    bool                                    lookahead_pending_ = false; ///< a look was asked for, and nobody heeded it
-    double                                  commanded_speed_   = 0;     ///< m/s, the largest that commands gave
-    double                                  overlap_ = 0; ///< largest over radius, before the list was found anew
+    double                                        span_              = 0; ///< s, span of the last search for pairs
+    bool                                    checked_within_step_ = false; ///< the list is also checked within the step
+    bool                                    lookahead_pending_   = false; ///< a check was requested and not used yet
+    double                                  commanded_speed_     = 0;     ///< m/s, largest speed set by commands
+    double                                  overlap_ = 0; ///< largest over radius, before the list was rebuilt
     dem::BodyLaw                            law_{};
-    std::vector<bool>                       released_;            ///< named bodies that were free once
-    std::vector<std::optional<BodyCommand>> commanded_;           ///< of the named bodies, the last
-    double                                  heaviest_  = 1;       ///< largest share of a weight that acts
+    std::vector<bool>                       released_;            ///< named bodies that have been free before
+    std::vector<std::optional<BodyCommand>> commanded_;           ///< last command of each named body
+    double                                  heaviest_  = 1;       ///< largest share of a body's weight that acts
     double                                  mean_time_ = 0;       ///< s, since begin_mean()
     std::vector<Vec3<double>>               kept_impulses_;       ///< N s, of the named bodies, until begin_mean()
-    double                                  substep_         = 0; ///< s, the last
-    double                                  command_work_    = 0; ///< J, of commands since the last report
+    double                                  substep_         = 0; ///< s, duration of the last substep
+    double                                  command_work_    = 0; ///< J, work of commands since the last report
     Vec3<double>                            command_impulse_ = Vec3<double>::Zero();
     dem::BodyTotal                          taken_{}; ///< totals at the last report
     std::optional<BodyRanks<Exec>>          ranks_;

@@ -9,18 +9,18 @@
 #include "solver/dem_solver.hpp"
 #include "solver/state_file.hpp"
 
-// The bodies into a checkpoint, and out of it.
+// Saves the bodies to a checkpoint, and loads them.
 namespace tread::solver
 {
 namespace
 {
 
 constexpr double freedoms = dem::lock_all | dem::hangs; ///< all bits of BodiesView::locked
-constexpr double furthest = 1e6;                        ///< m, that a body may be from the domain's corner
-constexpr double fastest  = 1e6;                        ///< m/s and rad/s: steps that follow faster bodies never end
-constexpr double shortest = 1e-10;                      ///< s, sqrt(m / K) of a body with contacts of stiffness K
+constexpr double furthest = 1e6;   ///< m, largest accepted distance of a body from the domain's corner
+constexpr double fastest  = 1e6;   ///< m/s and rad/s: steps with faster bodies would not end
+constexpr double shortest = 1e-10; ///< s, smallest accepted sqrt(m / K) of a body with contacts of stiffness K
 
-/// What was asked of a named body last, as doubles.
+/// Last command of a named body, as doubles.
 struct CommandRow
 {
     double given, locked, has_spin, spin, has_forward, forward, has_lowering, lowering[3], weight;
@@ -52,7 +52,7 @@ std::optional<BodyCommand> command_of(const CommandRow& row)
     return command;
 }
 
-/// Accepts contact stiffnesses of bodies that do not ask for endless substeps.
+/// Accepts contact stiffnesses of bodies that do not require endless substeps.
 auto accepted_stiffness(const world::HostBodies& bodies)
 {
     const auto most = [&bodies](std::size_t b) { return bodies.mass[b] / (shortest * shortest); };
@@ -60,7 +60,8 @@ auto accepted_stiffness(const world::HostBodies& bodies)
                            [most](std::size_t b) { return fmt::format("0 to {}", most(b)); });
 }
 
-/// Accepts what a field of the bodies may hold; `present` is what the scene gives: sizes, shapes and materials stay.
+/// Accepts valid values of a body field; `present`: the scene's values, as sizes, shapes and materials must not
+/// change.
 template<class T>
 auto accepted_field(std::string_view name, std::vector<T> present, const world::HostBodies& bodies)
 {
@@ -85,7 +86,7 @@ auto accepted_field(std::string_view name, std::vector<T> present, const world::
     };
 }
 
-/// Accepts commands that a named body can have been given.
+/// Accepts commands that a named body can have received.
 auto commands_that_can_be()
 {
     const auto flag = [](double value) { return value == 0 || value == 1; };
@@ -99,14 +100,14 @@ auto commands_that_can_be()
                                                       }));
 }
 
-/// Nodes of a body's surface.
+/// Number of nodes of a body's surface.
 std::int64_t nodes_of(const world::World& world, std::int64_t body)
 {
     const auto shape = static_cast<std::size_t>(world.bodies.shape[static_cast<std::size_t>(body)]);
     return static_cast<std::int64_t>(world.templates[shape].nodes.positions.size());
 }
 
-/// Accepts keys of two bodies, or of a body and a wall; where they are listed, in their order.
+/// Accepts keys of two bodies, or of a body and a wall; with `listed`, in ascending order.
 auto accepted_keys(const world::World& world, bool listed)
 {
     const auto        bodies = static_cast<std::int64_t>(world.bodies.size());
@@ -124,7 +125,7 @@ auto accepted_keys(const world::World& world, bool listed)
     };
 }
 
-/// Accepts, of each pair, nodes of its bodies: i of the first, ~i of the second. `first`: each pair's run of them.
+/// Accepts, for each pair, nodes of its bodies: i of the first, ~i of the second. `first`: start of each pair's nodes.
 auto accepted_nodes(const world::World& world, const std::vector<std::uint64_t>& keys,
                     const std::vector<std::int32_t>& first)
 {
@@ -174,7 +175,7 @@ void DemSolver<Exec>::transfer(StateFile& file)
     if (file.exact()) { transfer_lists(file); }
     else if (file.loads())
     {
-        totals_.fill_zero(); // what they grew by was booked when the state was saved
+        totals_.fill_zero(); // their increase was accounted for when the state was saved
         taken_  = read(exec_, totals_.data());
         listed_ = false;
     }
@@ -194,7 +195,7 @@ void DemSolver<Exec>::transfer_commands(StateFile& file)
     std::transform(released.begin(), released.end(), released_.begin(), [](std::int32_t value) { return value != 0; });
 }
 
-/// Ranks add up what each of them has seen.
+/// Transfers impulses; loading sums what each rank has recorded.
 template<class Exec>
 void DemSolver<Exec>::transfer_means(StateFile& file)
 {
@@ -218,7 +219,8 @@ void DemSolver<Exec>::transfer_means(StateFile& file)
     impulses_.assign(sums);
 }
 
-/// What the listed pairs remember: as the last list of one rank, or of the pairs that this rank is to answer.
+/// Transfers the contact records of the listed pairs: as the previous list of one rank, or those of pairs whose
+/// contact this rank evaluates.
 template<class Exec>
 void DemSolver<Exec>::transfer_contacts(StateFile& file)
 {
@@ -264,7 +266,7 @@ void DemSolver<Exec>::transfer_lists(StateFile& file)
     const auto count = static_cast<std::size_t>(bodies_.position.size());
     file.numbers("pairs/listed", listed_);
     const std::vector<std::uint64_t> keys = pairs_.key.to_host();
-    // What has not been listed yet has no rows.
+    // Without a list there are no rows.
     const auto of_each = [&](std::size_t rows, auto bound)
     {
         return [&, rows, bound](const auto& values)

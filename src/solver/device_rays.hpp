@@ -9,10 +9,10 @@
 namespace tread::solver
 {
 
-/// What the narrow phase by rays takes of a template.
+/// Data of a template for the narrow phase by rays.
 dem::RayShape ray_shape(const shape::ShapeTemplate& form);
 
-/// That of the scene's templates in a backend's memory. Made of no templates it holds nothing, and views() is null.
+/// Ray data of the scene's templates in a backend's memory. Without templates it is empty and views() is null.
 template<class Exec>
 class DeviceRays
 {

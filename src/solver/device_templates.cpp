@@ -11,10 +11,11 @@ namespace tread::solver
 namespace
 {
 
-// Kernels know nothing of shapes, and read what they lay out.
+// Kernels do not include shape headers, but read their memory layout.
 static_assert(dem::brick_cells == shape::SignedDistanceGrid::brick_cells);
 
-/// Of the radius, below the hull: generated rocks of the default solidity stay within 0.04, grousers go beyond 0.07.
+/// Depth below the hull over the radius from which on a shape counts as concave: generated rocks of the default
+/// solidity stay within 0.04, grousers exceed 0.07.
 constexpr double concave_depth = 0.05;
 
 /// Appends `from` to `to`; returns where it starts.

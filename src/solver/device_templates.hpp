@@ -10,7 +10,7 @@
 namespace tread::solver
 {
 
-/// The scene's templates in a backend's memory; views() is what kernels take.
+/// The scene's templates in a backend's memory; views() is the kernel argument.
 template<class Exec>
 class DeviceTemplates
 {
@@ -19,7 +19,7 @@ public:
 
     const dem::TemplateView* views() const { return views_.data(); }
 
-    /// Whether some template may touch another body in separate places.
+    /// Whether a template may touch another body at several separate places.
     bool concave() const { return concave_; }
 
 private:

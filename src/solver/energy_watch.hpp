@@ -8,27 +8,27 @@
 namespace tread::solver
 {
 
-/// Watches for energy that appears in the sand without a source, the mark of a step that is too long. The stress of an
-/// exact step does as much work on the grid as the strain energy falls by, less what plastic flow takes; what it does
-/// beyond that has appeared. Velocities are known half a step away from stresses only, and a transfer that filters much
-/// takes its part of that half step: energy has appeared if it has with and without that part. All is forgotten at the
-/// rate of 1/memory a step.
+/// Detects energy that appears in the sand without a source, which indicates too long a step. In an exact step the
+/// work of stress on the grid equals the decrease of strain energy less the plastic work; any excess has appeared.
+/// Velocities are known only half a step apart from stresses, and a transfer that filters strongly dissipates part of
+/// that half step: energy counts as appeared only if it has both with and without that part. Sums decay at the rate
+/// 1/memory per step.
 class EnergyWatch
 {
 public:
-    /// `mass` kg, `wave_speed` m/s: less energy than that of a strain of 1e-10 in all of the sand is none.
+    /// `mass` kg, `wave_speed` m/s. Energies below that of a strain of 1e-10 in all of the sand are ignored.
     EnergyWatch(double mass, double wave_speed);
 
-    /// `dt`: s, of the report's steps. The first call sets the start.
+    /// Adds a report whose steps took `dt` (s). The first call sets the reference.
     void add(const SandReport& sand, double dt);
 
-    /// J, that appeared without a source.
+    /// J, energy that appeared without a source.
     double appeared() const { return std::min(appeared_, appeared_ + transferred_); }
 
-    /// J, what the sand held at most, and what gravity and contacts did.
+    /// J, largest energy of the sand plus the work of gravity and contacts.
     double scale() const { return held_ + received_; }
 
-    /// True when the state is wrong: before its energy has doubled without a source.
+    /// Whether the state is wrong; true before the energy has doubled without a source.
     bool alarmed() const { return appeared() > tolerance * scale(); }
 
     static constexpr double memory    = 1000; ///< steps
@@ -37,7 +37,7 @@ public:
 private:
     double floor_;
     double strain_    = -1; ///< J, after the last step; negative before the first
-    double half_step_ = 0;  ///< J, of SandReport::power() after it
+    double half_step_ = 0;  ///< J, half a step of SandReport::power() after the last step
     double appeared_ = 0, transferred_ = 0, held_ = 0, received_ = 0;
 };
 

@@ -6,19 +6,19 @@
 namespace tread::solver
 {
 
-/// What each measuring of a run sees anyway, at its worst so far. Doubles and nothing else: a checkpoint has them.
+/// Worst values over all measurements of a run. Holds doubles only: checkpoints save it as such.
 struct Extremes
 {
     double courant       = 0; ///< c_p dt/h
     double travel        = 0; ///< v dt/h
     double spring        = 0; ///< k dt^2/m_p of the stiffest sand-body contact
-    double substep       = 0; ///< over sqrt(m / sum K) of the stiffest body
-    double body_overlap  = 0; ///< over the smaller radius
-    double point_overlap = 0; ///< over the point's radius
-    double touched       = 0; ///< s, in which named bodies touched sand
-    double touching      = 0; ///< s, times the points that they touched
+    double substep       = 0; ///< dt/N over sqrt(m / sum K) of the stiffest body
+    double body_overlap  = 0; ///< largest overlap over the smaller radius
+    double point_overlap = 0; ///< largest overlap over the point's radius
+    double touched       = 0; ///< s, time in which named bodies touched sand
+    double touching      = 0; ///< s, integral of the number of touched points over time
 
-    /// `steps` steps that end with `step`, which `pace` was measured after.
+    /// Updates from `steps` steps that end with `step`; `pace` was measured after it.
     void note(const TimeStep& step, std::int64_t steps, const PaceLimits& limits, const Pace& pace,
               const contact::Summary& contacts);
 };

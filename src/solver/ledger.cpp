@@ -9,7 +9,7 @@ namespace tread::solver
 namespace
 {
 
-/// A mode of frequency w has at most w dt / 2 of its energy in half a step's power; at 1 it is unstable.
+/// A mode of frequency w stores at most w dt / 2 of its energy in half a step's power; at 1 it is unstable.
 constexpr double unresolved_share = 0.75;
 
 double mass(const Census& census) { return census.sand.mass + census.rigid.mass; }
@@ -39,8 +39,8 @@ void Ledger::steps(double dt, std::int64_t steps, const SandReport& sand, const 
 {
     const double span = dt * static_cast<double>(steps);
     time_ += span;
-    // Each step loses what the points held before it, less what the grid held, and what the grid holds after it, less
-    // what the points do: of the points' energies only the first and the last are left of the sum.
+    // Transfer loss per step: energy of the points before it minus that of the grid, plus that of the grid after it
+    // minus that of the points. Over a span the points' energies telescope to first minus last; write the sum.
     const double kinetic = sand.last_points[mpm::point_kinetic];
     transfer_ += kinetic_points_ - kinetic + sand.grid[mpm::grid_kinetic_after] - sand.grid[mpm::grid_kinetic_before] +
                  sand.half_step_transfer(dt, half_step_);

@@ -7,36 +7,36 @@
 namespace tread::solver
 {
 
-/// What the bodies did in one step, summed over them, and the largest of two things. Doubles and nothing else.
+/// Sums over the bodies for one step, and the largest overlap and speed. Holds doubles only.
 struct RigidReport
 {
     double       net_force       = 0;                    ///< N, sum over free bodies of |contact + weight|
-    double       friction        = 0;                    ///< J, body-body, of the step
-    double       restitution     = 0;                    ///< J, body-body normal damping, of the step
-    double       damped          = 0;                    ///< J, taken by local damping in the step
-    double       driver_work     = 0;                    ///< J, done by what holds and drives bodies, of the step
-    double       sand_work       = 0;                    ///< J, done by sand, of the step
-    double       weight_power    = 0;                    ///< W, of the weight on the velocity after the step
-    Vec3<double> wall_impulse    = Vec3<double>::Zero(); ///< N s, of the step
+    double       friction        = 0;                    ///< J, body-body friction in the step
+    double       restitution     = 0;                    ///< J, body-body normal damping in the step
+    double       damped          = 0;                    ///< J, dissipated by local damping in the step
+    double       driver_work     = 0;                    ///< J, work of what holds and drives bodies, in the step
+    double       sand_work       = 0;                    ///< J, work of sand on bodies, in the step
+    double       weight_power    = 0;                    ///< W, power of the weight at the velocity after the step
+    Vec3<double> wall_impulse    = Vec3<double>::Zero(); ///< N s, in the step
     Vec3<double> damping_impulse = Vec3<double>::Zero();
     Vec3<double> driver_impulse  = Vec3<double>::Zero();
-    double       overlap         = 0; ///< largest, over the smaller radius of the pair
+    double       overlap         = 0; ///< largest overlap over the smaller radius of the pair
     double       largest_speed   = 0; ///< m/s
     double       substep         = 0; ///< s, the same on all ranks
 };
 
-/// Doubles in it that add up, and those after them of which the largest counts.
+/// Number of leading doubles that are summed, and of those after them whose maximum is taken.
 inline constexpr int rigid_report_sums = 16, rigid_report_peaks = 3;
 static_assert(sizeof(RigidReport) == (rigid_report_sums + rigid_report_peaks) * sizeof(double));
 
-/// What the contacts of sand with bodies did in one step.
+/// Energy of the contacts of sand with bodies in one step.
 struct ContactReport
 {
-    double friction = 0; ///< J, lost in the step
-    double energy   = 0; ///< J, elastic, held at its end
+    double friction = 0; ///< J, dissipated in the step
+    double energy   = 0; ///< J, elastic, stored at the end of the step
 };
 
-/// What the bodies hold.
+/// Mass, energy and momentum of the bodies.
 struct RigidCensus
 {
     double       mass     = 0;                    ///< kg
@@ -46,7 +46,7 @@ struct RigidCensus
     Vec3<double> momentum = Vec3<double>::Zero(); ///< kg m/s
 };
 
-/// Everything that the balances of a time need.
+/// Everything that the balances at one time need.
 struct Census
 {
     SandCensus  sand;
@@ -54,7 +54,7 @@ struct Census
     double      sand_contact = 0; ///< J, elastic, sand-body
 };
 
-/// Energy by kind, J: present stores, and what was lost or done since the start.
+/// Energy by kind, J: present stores, and losses and work since the start.
 struct EnergyRow
 {
     double kinetic_points = 0, strain = 0, kinetic_bodies = 0, contact = 0, gravity = 0;
@@ -62,26 +62,26 @@ struct EnergyRow
     /// the power of stress and weight brings the sum of stores from first to second order in dt.
     double half_step = 0;
     double plastic = 0, friction = 0, restitution = 0, damping = 0, transfer = 0, work_in = 0;
-    /// What contact forces took from sand and bodies and neither friction nor the contacts' springs have: the substeps
-    /// see other velocities than the grid's mean over the step. Of first order in dt.
+    /// Work of contact forces on sand and bodies that is neither friction nor stored in the contacts' springs:
+    /// substeps use other velocities than the grid's mean over the step. First order in dt.
     double coupling = 0;
-    double total    = 0; ///< stores and losses less work_in: constant if nothing is unaccounted
+    double total    = 0; ///< stores and losses minus work_in: constant if nothing is unaccounted
 };
 
 struct BalanceRow
 {
     double       mass          = 0; ///< kg
     Vec3<double> momentum      = Vec3<double>::Zero();
-    double       impulse_error = 0; ///< |momentum change less impulses| over total weight x time
+    double       impulse_error = 0; ///< |momentum change minus impulses| over total weight x time
 };
 
-/// Keeps the books of mass, momentum and energy over a run.
+/// Accounts for mass, momentum and energy over a run.
 class Ledger
 {
 public:
     Ledger(Vec3<double> gravity, const Census& start);
 
-    /// Books `steps` steps of dt (s) each.
+    /// Accounts for `steps` steps of dt (s) each.
     void steps(double dt, std::int64_t steps, const SandReport& sand, const RigidReport& rigid,
                const ContactReport& contact, double moving_mass);
 
@@ -93,8 +93,8 @@ private:
     double gravity_energy(const Census& now) const;
     double stored(const Census& now) const;
 
-    /// J, the half step of a run that is not stable. Symplectic Euler keeps stores and half step together even then:
-    /// one grows as the other falls.
+    /// J, the half step of a run that has become unstable. Symplectic Euler keeps the sum of stores and half step
+    /// constant even then: one grows as the other decreases.
     double gained(const Census& now) const;
 
     Vec3<double>    gravity_;

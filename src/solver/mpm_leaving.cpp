@@ -4,11 +4,11 @@
 #include "decomp/combine.hpp"
 #include "solver/mpm_solver.hpp"
 
-// Sand that leaves the domain, in the books.
+// Accounts for sand that leaves the domain.
 namespace tread::solver
 {
 
-/// `left` points of this rank stand behind the others: listed as those of one page, they are counted as a page is.
+/// The `left` points of this rank are stored behind the others; a census counts them as one page.
 template<class Exec, class Real>
 void MpmSolver<Exec, Real>::keep_account_of(std::int64_t left)
 {

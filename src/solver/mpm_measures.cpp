@@ -6,13 +6,13 @@
 #include "decomp/combine.hpp"
 #include "solver/mpm_solver.hpp"
 
-// What a measuring of the sand tells: sums and peaks of the steps, and the census.
+// Measurements of the sand: sums and peaks over the steps, and the census.
 namespace tread::solver
 {
 namespace
 {
 
-/// Copies `count` values; gives what comes after them.
+/// Copies `count` values; returns the position after them.
 const double* take(const double* from, int count, double* to)
 {
     std::copy(from, from + count, to);

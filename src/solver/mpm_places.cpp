@@ -3,7 +3,7 @@
 #include "backend/instantiate.hpp"
 #include "solver/mpm_solver.hpp"
 
-// Where the sand is, for the host.
+// Positions of the sand on the host.
 namespace tread::solver
 {
 
@@ -33,7 +33,7 @@ std::vector<Vec3<double>> MpmSolver<Exec, Real>::positions() const
 template<class Exec, class Real>
 void MpmSolver<Exec, Real>::add_to(world::TerrainBins& bins) const
 {
-    constexpr double loosest = 1.5; // of the initial volume: what is looser floats, and is no larger for that
+    constexpr double loosest = 1.5; // of the initial volume: looser sand floats, and counts as no larger
     for (const mpm::Points<Exec, Real>* points : all_points())
     {
         const std::vector<double> planes = points->position.to_host();

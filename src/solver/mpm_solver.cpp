@@ -11,14 +11,14 @@ namespace tread::solver
 namespace
 {
 
-/// Lighter nodes stand still. The share of the lightest point's mass is only there to keep products of weights clear of
-/// underflow in fp32: a larger one would hold nodes back that move with the sand, and strain what falls freely.
+/// Nodes below this mass are held. The share of the lightest point's mass only keeps products of weights clear of
+/// underflow in fp32: a larger one would hold nodes that move with the sand, and strain sand in free fall.
 constexpr double mass_floor_share = 1e-20;
 
-/// After so many new lists the points are moved in memory: those of a cell that stand far apart cost reads.
+/// Relistings after which points are sorted in memory: scattered points of a cell cost memory reads.
 constexpr int relists_an_order = 32;
 
-/// Room for a census, or for what a report reads.
+/// Size for a census, or for a report.
 constexpr std::int64_t totals_size = std::int64_t{mpm::census_count} + std::int64_t{std::tuple_size_v<ReportTotals>};
 
 template<class Real>
@@ -27,7 +27,7 @@ std::vector<Real> cast(const std::vector<double>& values)
     return {values.begin(), values.end()};
 }
 
-/// Planes of a vector per point, one component after the other.
+/// Converts a vector per point to planes, one component after the other.
 template<class Real, int components>
 std::vector<Real> planes(const std::vector<Eigen::Matrix<double, components, 1>>& values)
 {
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> numbers(const world::HostPoints& points)
     return ids;
 }
 
-/// The points of the pages that a rank owns.
+/// Selects the points of the pages that a rank owns.
 template<class Exec>
 world::HostPoints own_points(const world::World& world, const decomp::Decomposition<Exec>& decomposition)
 {
@@ -155,7 +155,7 @@ void MpmSolver<Exec, Real>::for_each_level(const Launch& launch)
 template<class Exec, class Real>
 void MpmSolver<Exec, Real>::order()
 {
-    if (listed_) { return; } // and what moved then is still to be told
+    if (listed_) { return; } // migration since then is still to be reported
     migrated_ = 0;
     listed_   = true;
     if (steps_ > 0)
@@ -235,7 +235,7 @@ void MpmSolver<Exec, Real>::order_in_memory()
     if (sleep_) { sleep_->enter_pages(pages_, pages(), order_scratch_.sort); }
 }
 
-/// For what steps write of the points and pages that there are.
+/// Allocates what steps write per point and page.
 template<class Exec, class Real>
 void MpmSolver<Exec, Real>::make_room()
 {

@@ -29,94 +29,97 @@ namespace tread::solver
 
 class StateFile;
 
-/// The sand of a scene on one backend: points, pages, grid and the four calls of an MPM step. With a decomposition a
-/// rank holds the points of the pages that it owns, every call is collective, and reports are of all ranks.
+/// Sand of a scene on one backend: points, pages, grid and the four calls of an MPM step. With a decomposition a rank
+/// holds the points of the pages that it owns, every call is collective, and reports cover all ranks.
 template<class Exec, class Real>
 class MpmSolver
 {
 public:
-    /// `decomposition`: who owns which page; null on one rank. A world whose points have ids has only this rank's.
+    /// `decomposition`: ownership of pages; null on one rank. If the world's points have ids, it holds this rank's
+    /// points only.
     MpmSolver(const Exec& exec, const scene::Scene& scene, const world::World& world, mpm::PointFields fields,
               decomp::Decomposition<Exec>* decomposition = nullptr);
 
-    /// Of this rank.
+    /// Number of points of this rank.
     std::int64_t count() const { return points_.count + (sleep_ ? sleep_->points().count : 0); }
 
-    /// Those that do not sleep, and their pages.
+    /// Points that are awake, and their pages.
     mpm::PointsView<Real>    view() { return points_.view(); }
     mpm::Points<Exec, Real>& points() { return points_; }
     mpm::PagesView           pages() const;
     const mpm::GridGeometry& geometry() const { return geometry_; }
 
-    /// 1. Lists points by page and cell, unless the last report says that none has left its cell; after many such lists
-    /// moves them in memory to where the list has them, without waiting. Sorts them and makes the pages anew, and
-    /// waits, when the report says that one comes near pages that are not listed.
+    /// Step 1. Lists points by page and cell, unless the last report says that none has left its cell. After many
+    /// relistings it sorts points in memory into the order of the list, without synchronisation. When the report says
+    /// that a point approaches pages that are not listed, it sorts points and rebuilds the pages, with
+    /// synchronisation.
     void order();
 
-    /// After order(), where sand may sleep: whether to look which of it does before a step with this damping, as
-    /// nothing is faster than `speed` (m/s); and the look. With damping none sleeps.
+    /// Sleep, after order(). sleep_is_due: whether to update which pages sleep before a step with this damping, when
+    /// nothing is faster than `speed` (m/s). With damping none sleeps.
     bool sleep_is_due(double speed, double damping) const { return sleep_ && sleep_->is_due(speed, damping); }
     void update_sleeping_pages(const std::vector<BodyReach>& bodies, double damping);
 
-    /// Mean share of the points that slept so far; nothing where none may.
+    /// Mean share of the points that have slept so far; empty where sleep is off.
     std::optional<double> mean_asleep() const;
 
-    /// After pages got other owners, with no step since the last report: the next order() sorts points anew, and so
-    /// brings them there.
+    /// Call after pages have got new owners, with no step since the last report: the next order() sorts and migrates
+    /// the points.
     void follow_owners();
 
-    /// Adds what this rank has on its pages, where they were last listed.
+    /// Adds the work of this rank's points to the pages where they were last listed.
     void add_loads(decomp::PageLoads& loads) const;
 
-    /// How often points were moved in memory: what is known of them by their place holds while this stays.
+    /// Counts reorderings in memory; a change invalidates indices into point arrays.
     std::int64_t reorder_count() const { return reorder_count_; }
-    /// Points that changed their rank in the last order(), of all ranks; and of this one, by rank that they went to.
+    /// Number of points of all ranks that changed rank in the last order(), and this rank's, by destination rank.
     std::int64_t                                   migrated() const { return migrated_; }
     const std::vector<std::vector<std::uint32_t>>& migrated_out() const { return ranks_->migration().migrated_out(); }
 
-    /// 4. P2G. On several ranks it begins with what they bring to the nodes that they share.
+    /// Step 4. P2G. On several ranks it begins with the nodes that ranks share.
     void scatter();
 
-    /// Between 4 and 5, on several ranks: waits for what the others bring, and adds it.
+    /// Between 4 and 5, on several ranks: completes the halo exchange and adds the other ranks' parts.
     void share() { ranks_->halo().finish(); }
 
-    /// 5. Grid momentum, with local damping (0 = none).
+    /// Step 5. Grid momentum, with local damping (0 = none).
     void update_grid(double dt, double damping);
 
-    /// 6. G2P and stress.
+    /// Step 6. G2P and stress.
     void gather(double dt);
 
-    /// Of the steps since the last report; waits for them. Due before a point can have run ahead of the listed pages: a
-    /// report of several steps whose cell_change() is CellChange::lost comes too late.
+    /// Report of the steps since the last one; synchronises. Due before a point can leave the listed pages: a report
+    /// of several steps whose cell_change() is CellChange::lost comes too late.
     SandReport report();
 
-    /// Asks for the report already, so that one wait serves others' too.
+    /// Requests the report early, so that one synchronisation serves several readbacks.
     void request_report();
 
-    /// Of the present state; waits for it. What has left the domain counts as it was when it left.
+    /// Census of the present state; synchronises. Points that have left the domain count with their values when they
+    /// left.
     SandCensus census();
 
-    /// kg, of what is in the domain and does not sleep, at the last census or since more has left or fallen asleep.
+    /// kg, of awake points in the domain, at the last census or since points last left or fell asleep.
     double mass() const { return mass_ - (sleep_ ? sleep_->census().mass : 0); }
 
-    /// m, in memory order, of this rank.
+    /// m, positions of this rank's points in memory order.
     std::vector<Vec3<double>> positions() const;
 
-    /// This rank's points, those that sleep among them, as cubes of their present volume.
+    /// Adds this rank's points, sleeping ones included, as cubes of their present volume.
     void add_to(world::TerrainBins& bins) const;
 
-    /// Takes what a snapshot shows, of this rank.
+    /// Copies the fields of this rank's points that a snapshot shows.
     void copy_to(PointCopy<Exec, Real>& copy) const { copy.take(exec_, all_points()); }
 
-    /// Into a checkpoint, or out of it into sand of the same scene, which was built as `built`. Due right after a
-    /// report; changes nothing that comes after it. Collective.
+    /// Saves to a checkpoint, or loads into sand of the same scene, built as `built`. Call right after a report; does
+    /// not change later results. Collective.
     void transfer(StateFile& file, const world::HostPoints& built);
 
 private:
     void transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder,
                          std::vector<bool>& seen);
     void transfer_lists(StateFile& file, const world::HostPoints& built, std::vector<bool>& seen);
-    /// Those of the steps, then those that sleep.
+    /// Awake points, then sleeping ones.
     std::vector<const mpm::Points<Exec, Real>*> all_points() const;
 
     void           restore_lasting(mpm::Points<Exec, Real>& points, const world::HostPoints& built);
@@ -153,24 +156,24 @@ private:
     Array<Exec, double>                        point_rows_;
     Array<Exec, double>                        peak_rows_;
     Array<Exec, double>                        census_rows_;
-    Array<Exec, double>                        totals_; ///< of a census, or ReportTotals
+    Array<Exec, double>                        totals_; ///< totals of a census, or ReportTotals
     Array<Exec, double>                        sums_scratch_;
     AsyncReadback<Exec, ReportTotals>          readback_;
     Array<Exec, mpm::MaterialParameters<Real>> materials_;
     double                                     pic_rate_;
-    bool                                       cell_means_; ///< of volumetric strain, and of pressure
+    bool                                       cell_means_; ///< cell averages of volumetric strain, and of pressure
     Array<Exec, Real>                          cell_divergence_;
     Array<Exec, Real>                          shared_stress_;
-    std::array<double, mpm::census_count>      left_{}; ///< census of what has left the domain, of all ranks
+    std::array<double, mpm::census_count>      left_{}; ///< census of points that have left the domain, of all ranks
     double                                     mass_          = 0;
-    std::int64_t                               step_          = 0;                     ///< number of the last one
-    std::int64_t                               steps_         = 0;                     ///< since the last report
-    bool                                       requested_     = false;                 ///< for the next
-    mpm::CellChange                            cell_change_   = mpm::CellChange::lost; ///< in those before it
-    bool                                       listed_        = false;                 ///< since the last step
-    int                                        relists_       = 0; ///< since they were last ordered in memory
+    std::int64_t                               step_          = 0;     ///< number of the last step
+    std::int64_t                               steps_         = 0;     ///< steps since the last report
+    bool                                       requested_     = false; ///< the next report was requested
+    mpm::CellChange                            cell_change_   = mpm::CellChange::lost; ///< up to the last report
+    bool                                       listed_        = false; ///< points were listed since the last step
+    int                                        relists_       = 0;     ///< relistings since the last sort in memory
     std::int64_t                               reorder_count_ = 0;
-    std::int64_t                               migrated_      = 0; ///< in the last order()
+    std::int64_t                               migrated_      = 0; ///< points that changed rank in the last order()
 };
 
 } // namespace tread::solver

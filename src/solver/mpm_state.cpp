@@ -7,23 +7,22 @@
 #include "solver/page_bounds.hpp"
 #include "solver/state_file.hpp"
 
-// The sand into a checkpoint, and out of it.
+// Saves the sand to a checkpoint, and loads it.
 namespace tread::solver
 {
 namespace
 {
 
-/// Whether a field of the points stays what it was when they were built. Those that do are built again, not saved: 33
-/// bytes a point.
+/// Whether a field of the points never changes. Such fields are rebuilt, not saved: 33 bytes a point.
 bool lasts(std::string_view name)
 {
     return name == "start" || name == "mass" || name == "volume" || name == "material";
 }
 
-/// Spacings beyond the domain in which a point may be that has not been dropped yet.
+/// Spacings beyond the domain at which a point that has not been removed yet may be.
 constexpr double outside = 16;
 
-/// Accepts numbers of points of which none is among those seen before; notes them.
+/// Accepts point ids that have not been seen before; marks them as seen.
 auto new_ids(std::vector<bool>& seen)
 {
     return [&seen](const auto& values) -> accept::Verdict
@@ -43,7 +42,7 @@ auto new_ids(std::vector<bool>& seen)
     };
 }
 
-/// Accepts what the plane of a point's field may hold. Only ids are integers.
+/// Accepts valid values of one plane of a point field. Only ids are integers.
 auto accepted_plane(std::string_view name, double lowest, double highest, std::vector<bool>& seen)
 {
     return [=, &seen]<class T>(const std::vector<T>& values) -> accept::Verdict
@@ -60,7 +59,7 @@ auto accepted_plane(std::string_view name, double lowest, double highest, std::v
 
 } // namespace
 
-/// Points that are listed need nothing of the last step any more but what they are.
+/// Listed points need no other data of the last step.
 template<class Exec, class Real>
 void MpmSolver<Exec, Real>::transfer(StateFile& file, const world::HostPoints& built)
 {
@@ -75,13 +74,13 @@ void MpmSolver<Exec, Real>::transfer(StateFile& file, const world::HostPoints& b
     if (!file.exact())
     {
         order_in_memory();
-        migrated_ = 0; // what belongs to the points did not wait for them elsewhere
+        migrated_ = 0; // no per-point data waits to be migrated
     }
     listed_ = true;
     steps_  = 0;
 }
 
-/// What an exact state has beside the points. `seen`: ids.
+/// Transfers the additional data of an exact state. `seen`: ids.
 template<class Exec, class Real>
 void MpmSolver<Exec, Real>::transfer_lists(StateFile& file, const world::HostPoints& built, std::vector<bool>& seen)
 {
@@ -121,7 +120,7 @@ void MpmSolver<Exec, Real>::transfer_points(StateFile& file, mpm::Points<Exec, R
         });
 }
 
-/// By the ids, which are places in what was built.
+/// Restores constant fields by id, which is the index in `built`.
 template<class Exec, class Real>
 void MpmSolver<Exec, Real>::restore_lasting(mpm::Points<Exec, Real>& points, const world::HostPoints& built)
 {

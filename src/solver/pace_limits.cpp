@@ -11,7 +11,7 @@ namespace tread::solver
 namespace
 {
 
-constexpr double longest_step = 0.02; ///< s, where nothing moves: what then begins is seen soon
+constexpr double longest_step = 0.02; ///< s, where nothing moves, so that the onset of motion is resolved
 
 } // namespace
 
@@ -25,7 +25,7 @@ PaceLimits pace_limits(const scene::Scene& scene, const world::World& world, con
         limits.smallest_body = *std::min_element(world.bodies.radius.begin(), world.bodies.radius.end());
     }
     if (!plan.sand) { return limits; }
-    double fewest = 1000; // points in a cell
+    double fewest = 1000; // least number of points in a cell
     for (const scene::Terrain& terrain : scene.terrain)
     {
         fewest            = std::min(fewest, std::pow(scene.grid.spacing / world::lattice_spacing(scene, terrain), 3));

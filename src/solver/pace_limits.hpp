@@ -6,7 +6,7 @@
 namespace tread::solver
 {
 
-/// What bounds the steps of a scene from its start to its end.
+/// Bounds on the time step that hold for the whole run.
 PaceLimits pace_limits(const scene::Scene& scene, const world::World& world, const Plan& plan);
 
 } // namespace tread::solver

@@ -18,14 +18,14 @@ using accept::Verdict;
 
 constexpr std::uint64_t key_end = std::uint64_t{1} << 57; ///< keys are Morton codes of 57 bits
 
-/// The place of a page in ascending keys, or -1.
+/// Index of a page in ascending keys, or -1.
 std::int32_t place_of(const std::vector<std::uint64_t>& keys, mpm::Index3 page)
 {
     return static_cast<std::int32_t>(
         find_sorted(keys.data(), static_cast<std::int64_t>(keys.size()), mpm::page_key(page)));
 }
 
-/// Accepts a table of `width` places for each of the keys, each of them what expected(key, column) says.
+/// Accepts a table of `width` indices per key, each equal to expected(key, column).
 template<class Expected>
 Verdict table(const std::vector<std::int32_t>& values, const std::vector<std::uint64_t>& keys, std::size_t width,
               const Expected& expected)
@@ -54,7 +54,7 @@ Verdict PageBounds::keys(const std::string& name, const std::vector<std::uint64_
     return {};
 }
 
-/// Checks the place in its page of each listed point's cell.
+/// Checks the place of each listed point's cell in its page.
 Verdict PageBounds::places(const std::string& name, const std::vector<std::uint8_t>& values) const
 {
     if (name != "place_at") { return Refusal{-1, "a table of bytes", "one that this program knows"}; }
@@ -93,7 +93,7 @@ Verdict PageBounds::numbers(const std::string& name, const std::vector<std::int3
     return Refusal{-1, "a table of numbers", "one that this program knows"};
 }
 
-/// Where a page's cells begin, its points do.
+/// The first cell of a page must begin where its points do.
 Verdict PageBounds::cells(const std::vector<std::int32_t>& values) const
 {
     const std::size_t pages = point_page_key_.size();
@@ -115,7 +115,7 @@ Verdict PageBounds::neighbours(const std::vector<std::int32_t>& values) const
     return table(values, point_page_key_, mpm::directions, place);
 }
 
-/// Every point page has the node pages that it reaches.
+/// Every point page must have the node pages that it reaches.
 Verdict PageBounds::node_pages(const std::vector<std::int32_t>& values) const
 {
     const auto place = [&](std::uint64_t key, std::size_t o)

@@ -10,8 +10,8 @@
 namespace tread::solver
 {
 
-/// What the tables of pages (mpm::Pages) may hold, which name each other's rows: all that can be told from the keys is.
-/// Fields are asked for in the order of Pages::for_each_field; those that later ones refer to are kept.
+/// Checks loaded page tables (mpm::Pages), which refer to each other's rows, as far as the keys allow. Fields must
+/// come in the order of Pages::for_each_field; fields that later ones refer to are kept.
 class PageBounds
 {
 public:
@@ -20,7 +20,7 @@ public:
     {
     }
 
-    /// The verdict on the field `name`; a field that this does not know is refused.
+    /// Checks the field `name`; an unknown field is refused.
     template<class T>
     accept::Verdict operator()(const std::string& name, const std::vector<T>& values)
     {

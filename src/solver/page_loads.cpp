@@ -17,7 +17,7 @@ namespace tread::solver
 namespace
 {
 
-/// m, of the grid. Bodies alone have none, and take a middle one of their diameters.
+/// m, grid spacing. Without sand, a median diameter of the bodies.
 double spacing_of(const world::World& world)
 {
     std::vector<double> radii = world.bodies.radius;
@@ -56,7 +56,7 @@ decomp::PageGraph page_graph_of(const world::World& world)
 {
     const double                    spacing = spacing_of(world);
     std::map<std::uint64_t, double> loads;
-    auto                            last = loads.end(); // points that follow each other are often in one page
+    auto                            last = loads.end(); // consecutive points are often in one page
     const auto                      add  = [&](const Vec3<double>& at, double load)
     {
         const mpm::Index3   cell = mpm::cell_of(at, mpm::make_lattice(spacing, world.geometry.stencil_shift));

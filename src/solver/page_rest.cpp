@@ -11,10 +11,10 @@ namespace tread::solver
 namespace
 {
 
-/// Further than it has to be, in pages: what a body has to come nearer before pages wake.
+/// Hysteresis in pages: extra distance from a body beyond which pages fall asleep.
 constexpr int slack = 2;
 
-/// Of the awake pages: fewer than these do not fall asleep by themselves, as all points are then sorted.
+/// Share of the awake pages: fewer do not fall asleep by themselves, since all points are then sorted.
 constexpr double worth_a_sort = 1.0 / 16;
 
 using Index = std::array<std::int32_t, 3>;
@@ -25,11 +25,11 @@ Index index_of(std::uint64_t key)
     return {page.x, page.y, page.z};
 }
 
-/// A box of pages, each marked or not.
+/// Marks on the pages of a box.
 class PageMarks
 {
 public:
-    /// Pages low to high, both included.
+    /// From page `low` to page `high`, both included.
     PageMarks(const Index& low, const Index& high)
         : low_(low)
     {
@@ -60,7 +60,7 @@ public:
         }
     }
 
-    /// Marks all pages up to `ring` from a marked one along every axis.
+    /// Marks all pages within `ring` of a marked one along every axis.
     void widen(int ring)
     {
         std::size_t stride = 1;
@@ -83,7 +83,7 @@ private:
         return at;
     }
 
-    /// One axis: forwards, then backwards, with how many pages back the last mark was.
+    /// Widens along one axis: forwards, then backwards, counting pages since the last mark.
     void widen_along(std::size_t length, std::size_t stride, int ring)
     {
         const std::vector<std::uint8_t> before = marks_;
@@ -127,7 +127,7 @@ PageMarks around_all(const RestState& state)
     return {low, high};
 }
 
-/// Marks the pages that a body is nearer to than `distance`, m.
+/// Marks the pages that are nearer than `distance` (m) to a body.
 void mark_near(const std::vector<BodyReach>& bodies, double edge, double distance, PageMarks& marks)
 {
     for (const BodyReach& body : bodies)
@@ -190,7 +190,7 @@ std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& 
         asleep.insert(asleep.end(), tired.begin(), tired.end());
     }
     std::sort(asleep.begin(), asleep.end());
-    asleep.erase(std::unique(asleep.begin(), asleep.end()), asleep.end()); // points may have come into a sleeping page
+    asleep.erase(std::unique(asleep.begin(), asleep.end()), asleep.end()); // points may have entered a sleeping page
     return asleep;
 }
 

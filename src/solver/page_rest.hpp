@@ -8,21 +8,21 @@
 namespace tread::solver
 {
 
-/// Which pages of sand may sleep.
+/// Thresholds for the sleep of pages.
 struct RestRule
 {
     double page_edge; ///< m
-    double distance;  ///< m, of what sleeps from every body
-    double speed;     ///< m/s that what sleeps was not over
-    double rest;      ///< s for which it was not
+    double distance;  ///< m, least distance of sleeping pages from every body
+    double speed;     ///< m/s, largest speed of points at rest
+    double rest;      ///< s, time at rest before a page may sleep
 };
 
-/// A page with points that does not sleep.
+/// An awake page with points.
 struct AwakePage
 {
     std::uint64_t key;
-    double        speed; ///< m/s, the largest since the last look
-    double        quiet; ///< s, for which speeds were not over the rule's
+    double        speed; ///< m/s, largest since the last check
+    double        quiet; ///< s, time since speeds last exceeded the threshold
 };
 
 /// A body's bounding sphere, m.
@@ -32,7 +32,7 @@ struct BodyReach
     double       radius;
 };
 
-/// What there is to choose from. Keys ascend. A page to which points have come since it fell asleep is in both lists.
+/// Input of choose_asleep. Keys ascend. A page that points have entered since it fell asleep is in both lists.
 struct RestState
 {
     std::vector<AwakePage>     awake;
@@ -41,13 +41,13 @@ struct RestState
     std::vector<BodyReach>     bodies;
 };
 
-/// Pages around a moving one that stay awake, in pages.
+/// Distance in pages around a moving page within which pages stay awake.
 inline constexpr int moving_ring = 2;
 
-/// The pages that sleep from now on, keys ascending. A page wakes when a body is nearer than the rule's distance, when
-/// one within moving_ring of it moves, and when its load, or that of a page beside it, has changed. It falls asleep
-/// when it and all within moving_ring + 1 have been at rest for long enough and every body is two pages further off
-/// than it has to be: what wakes does so in slices that last a while.
+/// Chooses the pages that sleep from now on, keys ascending. A page wakes when a body is nearer than the threshold
+/// distance, when a page within moving_ring moves, or when its load or that of an adjacent page has changed. It falls
+/// asleep when it and all pages within moving_ring + 1 have been at rest for long enough and every body is two pages
+/// beyond the threshold distance, so that pages wake in slices that last a while.
 std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& state);
 
 } // namespace tread::solver

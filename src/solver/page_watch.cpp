@@ -117,7 +117,7 @@ std::vector<std::uint64_t> PageWatch<Exec>::pressed(double force)
     return pages;
 }
 
-/// Before it is loaded the pages are those that were saved, and followed.
+/// Before loading, follow() must have been called with the saved pages.
 template<class Exec>
 void PageWatch<Exec>::transfer(StateFile& file, mpm::HeldPages<Exec>& held)
 {
@@ -137,7 +137,7 @@ void PageWatch<Exec>::transfer(StateFile& file, mpm::HeldPages<Exec>& held)
     const auto held_pages = static_cast<std::size_t>(held.impulse.size());
     file.own("sleep/rest_page", rest_key, accept::all(accept::ascending(), accept::distinct()));
     file.own("sleep/rest", rest, accept::all(accept::rows(rest_key.size()), accept::not_negative()));
-    file.own("sleep/held_page", held_key, accept::same_as(held_key)); // what was followed follows from the pages
+    file.own("sleep/held_page", held_key, accept::same_as(held_key)); // the followed pages are determined by the pages
     file.own("sleep/load", load, accept::all(accept::rows(held_key.size()), accept::finite()));
     file.own("sleep/speeds", speeds_, accept::all(accept::rows(keys_.size()), accept::not_negative()));
     file.own("sleep/impulse", held.impulse, accept::all(accept::rows(held_pages), accept::finite()));

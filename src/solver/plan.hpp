@@ -9,33 +9,33 @@
 namespace tread::solver
 {
 
-/// One thing that a step does, and whether the scene needs it.
+/// A stage of a step, and whether the scene needs it.
 struct Stage
 {
     std::string name;
     bool        on;
-    std::string why; ///< the reason, either way
+    std::string why; ///< the reason why it is on or off
 };
 
-/// Which parts of the state and of a step a scene needs. Nothing else is constructed, allocated or launched.
+/// Parts of the state and of a step that a scene needs. Nothing else is constructed, allocated or launched.
 struct Plan
 {
     bool sand;         ///< points, pages, grid
     bool bodies;       ///< wheels or rocks
     bool coupling;     ///< sand-body contact
     bool body_contact; ///< body-body or body-wall contact
-    bool rays;         ///< bodies that may meet do so by rays
+    bool rays;         ///< contacts between bodies use rays
     bool plasticity;   ///< return mapping
     bool affine;       ///< APIC
     bool damping;      ///< local damping in some phase
     bool rocks;
     bool snapshots;
-    bool sleep; ///< of sand that lies still
+    bool sleep; ///< sleep of sand at rest
 };
 
 Plan make_plan(const scene::Scene& scene, const world::World& world);
 
-/// The stages of a step on so many ranks in their order, as `tread check`, the log and summary.json list them.
+/// Lists the stages of a step on `ranks` ranks in order, as `tread check`, the log and summary.json show them.
 std::vector<Stage> stages(const scene::Scene& scene, const Plan& plan, int ranks);
 
 /// Stage names, shared by the plan, the clock and the tables.

@@ -6,7 +6,7 @@ namespace tread::solver
 namespace
 {
 
-/// Planes of `count` values as rows.
+/// Converts planes of `count` values to rows.
 template<class Out, class Host, class T>
 std::vector<Out> rows_of(const Array<Host, T>& planes, std::int64_t count, int components)
 {

@@ -7,17 +7,16 @@
 namespace tread::solver
 {
 
-/// What a snapshot shows of the points, as it was when it was taken: planes in host memory that is kept from one
-/// snapshot to the next, and on a GPU is pinned: 93 bytes a point in single precision, 101 of granular ones. Another
-/// thread may read it.
+/// Copy of the point fields that a snapshot shows, in host memory that is reused between snapshots and pinned for a
+/// GPU: 93 bytes a point in single precision, 101 for granular materials. Another thread may read it.
 template<class Exec, class Real>
 class PointCopy
 {
 public:
     explicit PointCopy(const Exec& exec);
 
-    /// Of this rank's points, one part after the other, in memory order; waits for it. Displacement and Cauchy stress
-    /// are made of it in rows().
+    /// Copies this rank's points, one part after the other, in memory order; synchronises. rows() computes
+    /// displacement and Cauchy stress from it.
     void take(const Exec& exec, const std::vector<const mpm::Points<Exec, Real>*>& parts);
 
     io::PointFields rows() const;
@@ -25,7 +24,7 @@ public:
 private:
     using Host = decltype(host_side(std::declval<Exec>()));
 
-    /// Where a part of the points stands in the planes here, and in its own.
+    /// Position of a part of the points in these planes, and the stride in its own.
     struct Part
     {
         std::int64_t first;
@@ -36,7 +35,7 @@ private:
     template<class T>
     void fetch(const Exec& exec, Array<Host, T>& to, const Array<Exec, T>& from, int components, const Part& part);
 
-    Counters                   host_; ///< on a GPU: what is here is none of the device's memory
+    Counters                   host_; ///< counters of the host's memory: on a GPU this copy is not device memory
     std::int64_t               count_ = 0;
     Array<Host, double>        position_;
     Array<Host, double>        start_;

@@ -16,8 +16,8 @@ namespace tread::solver
 namespace
 {
 
-/// Of the largest point's radius. A wider one has more candidates, a narrower one more searches: at 0.3 m/s and steps
-/// of 1e-5 s this one lasts 60 steps.
+/// Skin over the largest point's radius. A wider skin has more candidates, a narrower one more searches: at 0.3 m/s
+/// and steps of 1e-5 s it lasts 60 steps.
 constexpr double skin_share = 0.25;
 
 double largest_point_radius(const world::World& world, contact::RadiusRule rule)
@@ -25,7 +25,7 @@ double largest_point_radius(const world::World& world, contact::RadiusRule rule)
     return contact::point_radius(*std::max_element(world.points.volume.begin(), world.points.volume.end()), rule);
 }
 
-/// The limit given by the scene, m; 0 where no body is under it, so that the others' contacts stay plain.
+/// The scene's limit, m; 0 where no body is below it, so that contacts use the plain path.
 double met_limit(const world::World& world, double limit)
 {
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
@@ -68,7 +68,7 @@ template<class Exec, class Real>
 void SandBodyCoupling<Exec, Real>::send_records_after(const std::vector<std::vector<std::uint32_t>>& migrated_out)
 {
     contact::keep_history(exec_, contact_);
-    contact_.tangential.resize(0); // the table has it, until the search that follows
+    contact_.tangential.resize(0); // the records are in the table until the next search
     std::vector<std::vector<contact::HistoryRecord>> leaving;
     leaving.reserve(migrated_out.size());
     for (const auto& ids : migrated_out) { leaving.push_back(contact::records_of(exec_, contact_.history, ids)); }
@@ -85,7 +85,7 @@ void SandBodyCoupling<Exec, Real>::find_candidates(const mpm::PointsView<Real>& 
                                                    const dem::BodiesView& bodies, std::int64_t version, double span,
                                                    double speed)
 {
-    const double nearer = 2 * span * 2 * speed; // a body and a point, each up to twice as fast
+    const double nearer = 2 * span * 2 * speed; // a body and a point, each at up to twice the speed
     if (version != version_ || used_ + nearer > skin_)
     {
         const double drift = mpm::quadratic_cell_slack * pages.spacing;

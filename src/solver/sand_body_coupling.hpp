@@ -10,12 +10,12 @@ namespace tread::solver
 
 class StateFile;
 
-/// How many there are of what contacts name.
+/// Numbers of bodies and points that contacts may refer to.
 struct ContactPartners
 {
     std::size_t bodies;
-    std::size_t points; ///< of this rank, awake: places in memory
-    std::size_t ids;    ///< of the scene
+    std::size_t points; ///< awake points of this rank: places in memory
+    std::size_t ids;    ///< points of the scene
 };
 
 /// Contact of the sand with the bodies of a scene, on one backend.
@@ -27,44 +27,45 @@ public:
                      const dem::TemplateView* templates, dem::PairTable pairs,
                      decomp::Decomposition<Exec>* decomposition = nullptr);
 
-    /// Collective, on several ranks: what contacts remember of points goes to the ranks that these (by id, ascending,
-    /// of each rank) have gone to.
+    /// Collective, on several ranks: sends the contact records of migrated points after them. `migrated_out`: ids by
+    /// destination rank, ascending.
     void send_records_after(const std::vector<std::vector<std::uint32_t>>& migrated_out);
 
-    /// 2. Candidates of the next steps, of `span` (s) in all: found anew if the last ones may not hold. `version` says
-    /// which points, in which places of memory, and which bodies are here. No point or body is faster than `speed`
-    /// (m/s) now, nor will be twice as fast.
+    /// Step 2. Finds candidates for the next steps, `span` (s) in all, if the last ones may have expired. `version`:
+    /// layout version of points and bodies. No point or body is faster than `speed` (m/s) now, nor will exceed twice
+    /// that.
     void find_candidates(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
                          const dem::BodiesView& bodies, std::int64_t version, double span, double speed);
 
-    /// Shows the contacts what a step did to their points, unless find_candidates has just done so.
+    /// Updates the contacts with the changes of their points in the last step, unless find_candidates has just done
+    /// so.
     void begin_step(const mpm::PointsView<Real>& points);
 
-    /// Forces on bodies, and the private points' motion over a substep.
+    /// Computes forces on bodies, and the motion of the private points over a substep.
     void substep(const dem::BodiesView& bodies, double dt);
 
-    /// Of the last substep.
+    /// Wrenches of the last substep.
     dem::OutsideWrenches wrenches() const { return contact_.wrenches(); }
 
-    /// Whether one launch for all substeps of a step is worth it.
+    /// Whether a single launch for all substeps of a step is worthwhile.
     bool worth_one_launch(const dem::BodyStep<Exec>& step) { return contact::worth_one_launch(exec_, contact_, step); }
 
-    /// `count` substeps in it, contacts of bodies and their motion included.
+    /// Runs `count` substeps in a single launch, contacts of bodies and their motion included.
     void run_substeps(dem::BodyStep<Exec> step, std::int64_t count);
 
-    /// Impulses become the points' contact force.
+    /// Converts impulses to the points' contact force.
     void finish_step(const mpm::PointsView<Real>& points, double dt);
 
-    /// Takes stock of the last substep, of all ranks; waits for it.
+    /// Measures the last substep over all ranks; synchronises.
     void measure();
 
-    /// Asks for that already, so that one wait serves others' too.
+    /// Requests the measurement early, so that one synchronisation serves several readbacks.
     void request_measure();
 
-    /// As last measured (dissipated: since the time before that).
+    /// The last measurement (dissipated: since the one before it).
     const contact::Summary& summary() const { return summary_; }
 
-    /// What contacts remember, and the candidates, into a checkpoint or out of it, after the sand and the bodies.
+    /// Saves or loads contact records and candidates, after the sand and the bodies.
     void transfer(StateFile& file, const dem::BodiesView& bodies, const ContactPartners& partners);
 
 private:
@@ -82,13 +83,13 @@ private:
     contact::PointBodyLaw                 law_;
     double                                largest_radius_;
     double                                skin_;            ///< m
-    double                                used_    = 0;     ///< m of it, since the search
-    std::int64_t                          version_ = 0;     ///< at the search; 0 = none yet
-    bool                                  begun_   = false; ///< by the search
-    std::int64_t                          named_; ///< bodies, the first ones, whose contacts are counted apart
+    double                                used_    = 0;     ///< m, part of the skin that is used up since the search
+    std::int64_t                          version_ = 0;     ///< layout version at the search; 0 = none yet
+    bool                                  begun_   = false; ///< the search has begun the step
+    std::int64_t                          named_; ///< named bodies come first; their contacts are counted apart
     contact::Summary                      summary_ = contact::Summary::zero();
     AsyncReadback<Exec, contact::Summary> readback_;
-    bool                                  requested_ = false; ///< for the next summary
+    bool                                  requested_ = false; ///< the next summary was requested
     const Communicator*                   communicator_;      ///< null on one rank
 };
 

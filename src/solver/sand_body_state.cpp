@@ -6,7 +6,7 @@
 #include "solver/sand_body_coupling.hpp"
 #include "solver/state_file.hpp"
 
-// What sand-body contacts remember, into a checkpoint and out of it.
+// Saves sand-body contact records to a checkpoint, and loads them.
 namespace tread::solver
 {
 
@@ -30,14 +30,14 @@ void SandBodyCoupling<Exec, Real>::transfer(StateFile& file, const dem::BodiesVi
     if (!file.loads()) { return; }
     if (!file.exact())
     {
-        contact_.tangential.resize(0); // the search that follows has the records instead
+        contact_.tangential.resize(0); // the next search uses the records instead
         version_ = 0;
         begun_   = false;
     }
     if (contact_.tangential.size() == 0) { contact::put_back(exec_, contact_.history, records); }
 }
 
-/// Where pairs have their records by them, the table has none.
+/// If pairs hold their records, moves them to the table, reads it, and clears it.
 template<class Exec, class Real>
 std::vector<contact::HistoryRecord> SandBodyCoupling<Exec, Real>::remembered()
 {
@@ -69,8 +69,8 @@ void SandBodyCoupling<Exec, Real>::transfer_records(StateFile& file, std::vector
     for (std::size_t i = 0; i < keys.size(); ++i) { records.push_back({keys[i], tangential[i]}); }
 }
 
-/// Pairs that are listed have a place for what they remember whether they do or not; the search that follows files it
-/// under the ids of the points that the last step has copied.
+/// Listed pairs have a slot whether or not they have a record; the next search files the records under the point ids
+/// that the last step has copied.
 template<class Exec, class Real>
 void SandBodyCoupling<Exec, Real>::transfer_candidates(StateFile& file, const dem::BodiesView& bodies,
                                                        const ContactPartners& partners)
@@ -88,7 +88,7 @@ void SandBodyCoupling<Exec, Real>::transfer_candidates(StateFile& file, const de
     transfer_slots(file, partners);
 }
 
-/// Before they are loaded, there is a slot for each that the candidates want.
+/// Before loading, there must be a slot for each candidate.
 template<class Exec, class Real>
 void SandBodyCoupling<Exec, Real>::transfer_slots(StateFile& file, const ContactPartners& partners)
 {

@@ -13,24 +13,24 @@ namespace tread::solver
 class SandGuard
 {
 public:
-    /// `mass` kg, of the sand.
+    /// `mass`: kg, of the sand.
     SandGuard(const PaceLimits& limits, double mass);
 
-    /// NumericalError when no sand is stable at such a step, before it does harm. `time` (s) is for the message.
+    /// Throws NumericalError, before the step, when no sand is stable at its length. `time` (s) is for the message.
     void allow(const TimeStep& step, double time) const;
 
-    /// `sand`: what the steps that end with `step` did. NumericalError, with what and which limit, when a point's state
-    /// is none.
+    /// Throws NumericalError, with cause and limit, when a point's state is invalid. `sand`: report of the steps that
+    /// end with `step`.
     void check(const SandReport& sand, const TimeStep& step, double time) const;
 
-    /// NumericalError when energy has grown without a source. Once a report.
+    /// Throws NumericalError when energy has grown without a source. Call once per report.
     void watch(const SandReport& sand, const TimeStep& step, double time);
 
-    /// c_p dt/h from which on sand was destroyed whatever its points a cell (docs/theory.md#time-step: 0.82 at 1 a
-    /// cell, 0.98 at 8). Where a scene is loose enough to live with more, its energy tells nothing.
+    /// c_p dt/h at which sand is unstable at any number of points per cell (docs/theory.md#time-step: 0.82 at 1 a
+    /// cell, 0.98 at 8). Loose sand may survive more; then its energy gives no indication.
     static constexpr double hopeless_courant = 1;
 
-    /// Into a checkpoint, or out of it.
+    /// Saves to a checkpoint, or loads from it.
     void transfer(StateFile& file) { file.doubles("sand/energy_watch", energy_); }
 
 private:

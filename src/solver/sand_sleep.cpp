@@ -16,10 +16,10 @@ namespace tread::solver
 namespace
 {
 
-/// Of the distance: what nothing may go without a look.
+/// Share of the rule's distance that anything may move without a sleep check.
 constexpr double unseen_share = 0.25;
 
-/// Points whose census is one sum.
+/// Number of points per partial sum of a census.
 constexpr std::int64_t census_run = 512;
 
 /// Pressure of the bed on the domain's floor, Pa.
@@ -38,7 +38,7 @@ std::vector<std::uint64_t> without(const std::vector<std::uint64_t>& all, const 
     return rest;
 }
 
-/// What a point that does not move does not have.
+/// Whether a field is zero for a point at rest.
 bool is_motion(std::string_view field)
 {
     constexpr std::string_view names[] = {"velocity",      "affine",        "plastic_rate",
@@ -106,7 +106,7 @@ bool SandSleep<Exec, Real>::look(mpm::Points<Exec, Real>& points, const mpm::Pag
     return true;
 }
 
-/// Whole pages. `moved`: what their points hold.
+/// Moves the points of whole pages. `moved`: census of these points.
 template<class Exec, class Real>
 void SandSleep<Exec, Real>::move(mpm::Points<Exec, Real>& from, mpm::Points<Exec, Real>& to,
                                  const std::vector<std::uint64_t>& pages_to_move, const mpm::GridGeometry& geometry,
@@ -155,7 +155,7 @@ SandCensus SandSleep<Exec, Real>::census_of_leaving(mpm::Points<Exec, Real>&    
     return census_of(total.to_host().data());
 }
 
-/// Points from `first` on have just fallen asleep.
+/// Stops the points from `first` on, which have just fallen asleep.
 template<class Exec, class Real>
 void SandSleep<Exec, Real>::stop(std::int64_t first)
 {

@@ -10,8 +10,8 @@
 namespace tread::solver
 {
 
-/// The sand of one rank that sleeps: whole pages whose points stand apart from those of the steps, with stress and
-/// without velocity, and so cost nothing. The nodes that they reach are held.
+/// Sleeping sand of one rank: whole pages whose points are kept apart from the awake ones, with stress and without
+/// velocity, and cost no time. The grid nodes that they reach are held fixed.
 template<class Exec, class Real>
 class SandSleep
 {
@@ -19,43 +19,43 @@ public:
     /// The scene must have sleep.distance.
     SandSleep(const Exec& exec, const scene::Scene& scene, const world::World& world, mpm::PointFields fields);
 
-    /// Those that sleep.
+    /// Sleeping points.
     mpm::Points<Exec, Real>&       points() { return points_; }
     const mpm::Points<Exec, Real>& points() const { return points_; }
 
-    /// Of those that sleep.
+    /// Census of the sleeping points.
     const SandCensus& census() const { return census_; }
 
-    /// A step of dt (s) was taken.
+    /// Records a step of dt (s).
     void pass(double dt);
 
-    /// Points that slept so far, over time.
+    /// Mean number of sleeping points over time.
     double mean_count() const { return lived_ > 0 ? slept_ / lived_ : 0; }
 
-    /// At each measuring: peaks[point page][mpm::PointPeak].
+    /// Records peaks[point page][mpm::PointPeak] at each measurement.
     void note(const double* peaks) { watch_.note(peaks); }
 
-    /// Whether it is time to look who may sleep, where nothing is faster than `speed` (m/s). With damping none may.
+    /// Whether a sleep check is due when nothing is faster than `speed` (m/s). With damping none sleeps.
     bool is_due(double speed, double damping) const;
 
-    /// Looks. Points, listed in `pages`, fall asleep and others wake: says if any did, and then all have to be ordered
-    /// anew. With damping none may. Materials: by PointsView::material.
+    /// Moves points, listed in `pages`, to sleep and wakes others. Returns whether any did; all points must then be
+    /// sorted again. With damping none sleeps. Materials are indexed by PointsView::material.
     bool look(mpm::Points<Exec, Real>& points, const mpm::Pages<Exec>& pages, const mpm::GridGeometry& geometry,
               const std::vector<BodyReach>& bodies, const mpm::MaterialParameters<Real>* materials,
               mpm::OrderScratch<Exec, Real>& scratch, double damping);
 
-    /// Before pages are made anew, and after.
+    /// Call before pages are rebuilt, and after.
     void leave_pages() { watch_.collect(held_); }
     void enter_pages(const mpm::Pages<Exec>& pages, const mpm::PagesView& view, SortScratch<Exec>& scratch);
 
-    /// The last of what the grid does in a step.
+    /// Holds the nodes of sleeping pages; the last operation on the grid in a step.
     void hold(const mpm::PagesView& pages, const Real* tiles, const mpm::GridStep<Real>& step, Real* motion,
               double* tallies);
 
-    /// N s, what stopped points that fell asleep since the last call.
+    /// N s, impulse that stopped the points that fell asleep since the last call.
     Vec3<double> take_impulse();
 
-    /// Into a checkpoint, or out of it; then the pages are those that were entered last. Points go by themselves.
+    /// Saves or loads the state; pages must be those last entered. Points are saved separately.
     void transfer(StateFile& file, const mpm::Pages<Exec>& pages, const mpm::PagesView& view,
                   SortScratch<Exec>& scratch);
 

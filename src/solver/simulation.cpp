@@ -19,9 +19,9 @@ namespace
 {
 
 constexpr double longest_substep =
-    0.8; ///< of sqrt(m / sum K): beyond it a contact gains energy (docs/theory.md#time-step)
-constexpr double unseen_travel  = 0.5; ///< of a spacing: what sand may move before it is measured again
-constexpr double least_gradient = 0.5; ///< |grad phi| in contact under which a point is past the medial axis
+    0.8; ///< dt/N over sqrt(m / sum K): beyond it a contact gains energy (docs/theory.md#time-step)
+constexpr double unseen_travel  = 0.5; ///< displacement of sand, in spacings, after which it is measured again
+constexpr double least_gradient = 0.5; ///< |grad phi| in contact below which a point is past the medial axis
 
 Vec3<double> vector(const scene::Vector3& v) { return {v[0], v[1], v[2]}; }
 
@@ -32,7 +32,7 @@ double free_weight(const scene::Scene& scene, const world::World& world)
     return (sand + rocks) * vector(scene.domain.gravity).norm();
 }
 
-/// m/s; bodies get theirs by command.
+/// m/s, of sand; bodies get theirs by command.
 double speed_at_start(const scene::Scene& scene)
 {
     double speed = 0;
@@ -61,7 +61,7 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
         sand_.emplace(exec, scene, world, mpm::PointFields{plan.affine, plan.plasticity, plan.coupling}, decomposition);
     }
     plan_.body_contact =
-        plan.body_contact || (plan.bodies && decomposition != nullptr); // the list tells who holds which
+        plan.body_contact || (plan.bodies && decomposition != nullptr); // the list decides who holds which body
     if (plan.bodies) { rigid_.emplace(exec, scene, world, plan_, decomposition); }
     if (plan.coupling)
     {
@@ -70,7 +70,7 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     if (plan_.body_contact)
     {
         rigid_->find_pairs(choose_step(scene.time, limits_, pace_, 0).dt);
-        if (!world.contacts.empty()) { rigid_->contact(0); } // the books begin with what the contacts hold
+        if (!world.contacts.empty()) { rigid_->contact(0); } // the ledger starts with the contacts' energy
         pace_.shortest_contact = rigid_->shortest_contact();
     }
     const Census start = census();
@@ -89,7 +89,7 @@ template<class Exec, class Real>
 TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& clock)
 {
     if (rigid_) { apply_commands(step); }
-    if (unmeasured_ > 0 && step.dt != last_.dt) { measure(); } // the books take steps of one length together
+    if (unmeasured_ > 0 && step.dt != last_.dt) { measure(); } // the ledger accounts for steps of one length together
     if (sand_) { guard_->allow(step, time); }
     if (sand_ || balance_)
     {
@@ -131,8 +131,8 @@ TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& cl
     return step;
 }
 
-/// Lists points; on several ranks, all goes to the rank that owns its page: points, and what contacts remember of them,
-/// here, bodies when their pairs are found next.
+/// Lists points; on several ranks, migrates points and their contact records to the owners of their pages. Bodies
+/// migrate when their pairs are found next.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::sort_and_migrate()
 {
@@ -163,7 +163,8 @@ void Simulation<Exec, Real>::update_sleeping_pages()
     sand_->update_sleeping_pages(bodies, damping_);
 }
 
-/// A body that a command makes faster than anything was has lists for this step alone, which is as short as that wants.
+/// If a command makes a body faster than the largest speed measured, contact lists are valid for this step only, and
+/// the step is shortened to its limits.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::apply_commands(TimeStep& step)
 {
@@ -176,7 +177,7 @@ void Simulation<Exec, Real>::apply_commands(TimeStep& step)
     if (wanted.dt < step.dt && !scene_.time.dt) { step = wanted; }
 }
 
-/// Of the steps until the next measuring.
+/// Builds contact lists that stay valid for the next `measure_every_` steps.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::find_contacts(const TimeStep& step, StageClock& clock)
 {
@@ -197,8 +198,8 @@ void Simulation<Exec, Real>::find_contacts(const TimeStep& step, StageClock& clo
     }
 }
 
-/// Several steps may pass before sand is measured, as many as no point needs for half a cell, and bodies that it meets,
-/// as many as their list of pairs lasts without a look. A step that is over its limits is watched.
+/// Chooses the number of steps until the next measurement: no point may move more than half a cell, and the pair list
+/// must need no check. A step over its limits is measured every time.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::choose_measuring()
 {

@@ -9,11 +9,11 @@ namespace tread::solver
 namespace
 {
 
-constexpr double largest_speed = 1e7; ///< m/s: steps that follow a larger one never end
+constexpr double largest_speed = 1e7; ///< m/s: steps with a larger one would not end
 
 } // namespace
 
-/// Bodies in the order that Simulation::step uses them in: contact wants places of points and bodies.
+/// Bodies come in the order that Simulation::step uses: contact needs the positions of points and bodies.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::transfer(StateFile& file)
 {

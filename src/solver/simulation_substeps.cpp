@@ -10,7 +10,7 @@ namespace tread::solver
 namespace
 {
 
-/// At what goes on outside; more than a usual step has.
+/// Substeps between checks for a stop request; more than a usual step has.
 constexpr std::int64_t substeps_between_looks = 1000;
 
 } // namespace
@@ -33,7 +33,7 @@ void Simulation<Exec, Real>::substeps(const TimeStep& step, double time, StageCl
     }
 }
 
-/// `count` substeps after `done` others of the step. Between them somebody may stop the run.
+/// Runs `count` substeps after `done` others of the step, with checks for a stop request in between.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::run_batch(double dt, std::int64_t done, std::int64_t count, StageClock& clock)
 {
@@ -60,7 +60,7 @@ void Simulation<Exec, Real>::run_substeps(double dt, std::int64_t count, StageCl
     }
 }
 
-/// What was launched has to end first: else no time would pass between two looks.
+/// Synchronises first: launches are asynchronous, and no time would pass between two checks.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::look_outside()
 {
@@ -69,7 +69,7 @@ void Simulation<Exec, Real>::look_outside()
     if (const auto why = why_stop_()) { throw StoppedInStep(*why); }
 }
 
-/// Sand and bodies, where that is worth it: all of it counts as sand-body contact.
+/// Runs sand-body and body-body substeps in one launch where that is worthwhile; the time counts as sand-body contact.
 template<class Exec, class Real>
 bool Simulation<Exec, Real>::in_one_launch(double dt, std::int64_t count, StageClock& clock)
 {

@@ -46,7 +46,7 @@ std::vector<io::StageReport> StageClock::reports(const std::vector<Stage>& stage
         const auto      at = rows_.find(stage.name);
         if (at == rows_.end())
         {
-            if (!stage.on) { reports.push_back(report); } // the others are timed within another stage
+            if (!stage.on) { reports.push_back(report); } // stages that are on are timed within another stage
             continue;
         }
         report.calls   = at->second.all_calls();

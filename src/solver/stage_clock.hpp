@@ -15,9 +15,9 @@ namespace tread::solver
 
 class StateFile;
 
-/// Wall time by stage. On a GPU a stage's end is waited for in one step of seventeen only, so that timing does not open
-/// gaps between launches; its seconds are scaled from the calls that were timed, in each part of a run that goes on
-/// from a checkpoint by themselves: parts may run on other machines.
+/// Measures wall time by stage. On a GPU it synchronises at a stage's end in one step of seventeen only, so that
+/// timing opens no gaps between launches, and scales the seconds of the timed calls. Each part of a restarted run is
+/// scaled separately, since parts may run on other machines.
 class StageClock
 {
 public:
@@ -41,7 +41,7 @@ public:
         ++row.timed;
     }
 
-    /// Of what waits for the backend by itself, and is too rare to be sampled.
+    /// Times a stage that synchronises by itself and is too rare to be sampled.
     template<class F>
     void run_timed(const char* name, F f)
     {
@@ -53,10 +53,10 @@ public:
         ++row.timed;
     }
 
-    /// Into a checkpoint, or out of it: of this run and of those that it goes on from.
+    /// Saves or loads the times of this run and of the runs that it continues.
     void transfer(StateFile& file);
 
-    /// The plan's stages with calls and seconds.
+    /// Reports the plan's stages with calls and seconds.
     std::vector<io::StageReport> reports(const std::vector<Stage>& stages) const;
 
 private:
@@ -64,7 +64,7 @@ private:
     {
         std::int64_t calls   = 0;
         std::int64_t timed   = 0;
-        double       seconds = 0; ///< of those that were timed
+        double       seconds = 0; ///< time of the timed calls
 
         double scaled() const
         {
@@ -74,13 +74,13 @@ private:
 
     struct Row : Part
     {
-        Part before; ///< of the runs that this one goes on from
+        Part before; ///< times of the runs that this one continues
 
         std::int64_t all_calls() const { return before.calls + calls; }
         double       all_seconds() const { return before.scaled() + scaled(); }
     };
 
-    static constexpr std::int64_t gpu_sample = 17; ///< steps; no multiple of those between two reports
+    static constexpr std::int64_t gpu_sample = 17; ///< steps; not a multiple of the number of steps between two reports
 
     bool sampled(const Cpu&) const { return true; }
     bool sampled(const Gpu&) const { return step_ % gpu_sample == 0; }

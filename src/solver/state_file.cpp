@@ -33,7 +33,7 @@ void StateFile::row_of_numbers(const std::string& name, std::vector<double>& row
     on_every_rank(communicator_, read);
 }
 
-/// Every rank has written one row.
+/// Checks that every rank has written one row.
 void StateFile::require_a_row_each(const std::string& name) const
 {
     const std::vector<std::int64_t> first = reader_->first_rows(name);
@@ -55,7 +55,7 @@ void StateFile::text(const std::string& name, std::string& value)
     {
         on_every_rank(communicator_, [&] { value = reader_->text(name); });
     }
-    else { writer_->text(name, communicator_.broadcast(value)); } // as rank 0 has it
+    else { writer_->text(name, communicator_.broadcast(value)); } // rank 0's value
 }
 
 void StateFile::refuse(const std::string& name, const accept::Refusal& refusal) const

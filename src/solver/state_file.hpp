@@ -16,19 +16,19 @@ namespace tread::solver
 
 namespace accept = io::accept;
 
-/// What a loaded state can be.
+/// How closely a loaded state matches the saved one.
 enum class Fidelity
 {
-    exact,    ///< to the bit: what ranks hold, in the places where they had it, with every list that is still in use
-    physical, ///< what the scene's state is; who holds it where, and lists, are made anew: it agrees to rounding
+    exact,    ///< bitwise: each rank gets its own arrays in their order, with all lists in use
+    physical, ///< the scene's state; distribution and lists are rebuilt, so it agrees to rounding
 };
 
-/// A state on its way into a checkpoint or out of it. Each part of a simulation lists what it holds once, in
-/// transfer(), for both ways. Calls are collective and come in the same order on all ranks.
+/// A state being saved to a checkpoint or loaded from it. Each part of a simulation lists its data once, in
+/// transfer(), for both directions. Calls are collective and come in the same order on all ranks.
 class StateFile
 {
 public:
-    /// Into the file.
+    /// Opens for saving.
     StateFile(const Communicator& communicator, io::CheckpointWriter& writer, Fidelity fidelity)
         : communicator_(communicator)
         , writer_(&writer)
@@ -36,7 +36,7 @@ public:
     {
     }
 
-    /// Out of it.
+    /// Opens for loading.
     StateFile(const Communicator& communicator, const io::CheckpointReader& reader, Fidelity fidelity)
         : communicator_(communicator)
         , reader_(&reader)
@@ -48,15 +48,15 @@ public:
     bool                exact() const { return fidelity_ == Fidelity::exact; }
     const Communicator& communicator() const { return communicator_; }
 
-    /// Single numbers: integers, doubles, yes or no; with a range where their type has more than they may be
-    /// (accept::number). Loaded from a rank's own, or from rank 0's where the state is not exact.
+    /// Transfers single numbers: integers, doubles, booleans; with a range (accept::number) where their type admits
+    /// more values than they may have. Loads the rank's own values, or rank 0's where the state is not exact.
     template<class... T>
     void numbers(const std::string& name, T&&... values)
     {
         numbers_within(name, accept::by_type(values)...);
     }
 
-    /// A struct that holds doubles and nothing else; in the same way.
+    /// Transfers a struct that holds doubles only, like numbers().
     template<class T>
     void doubles(const std::string& name, T& value)
     {
@@ -67,13 +67,13 @@ public:
         std::memcpy(static_cast<void*>(&value), row.data(), sizeof(T));
     }
 
-    /// A text that all ranks have.
+    /// Transfers a text that is the same on all ranks.
     void text(const std::string& name, std::string& value);
 
-    // What follows takes a bound of accept.hpp, which loaded values must keep: EnvironmentError with the file, the data
-    // set, the value and what is accepted, on all ranks.
+    // The functions below take a bound of accept.hpp that loaded values must satisfy; else EnvironmentError with file,
+    // data set, value and accepted range, on all ranks.
 
-    /// Values of this rank, of the exact state only.
+    /// Transfers values of this rank; exact state only.
     template<class T, class Bound>
     void own(const std::string& name, std::vector<T>& values, const Bound& accepted)
     {
@@ -87,7 +87,7 @@ public:
         else { write(name, array.to_host()); }
     }
 
-    /// Values that all ranks have: written by rank 0, read by all.
+    /// Transfers values that all ranks have: rank 0 writes, all read.
     template<class T, class Bound>
     void common(const std::string& name, std::vector<T>& values, const Bound& accepted)
     {
@@ -101,7 +101,7 @@ public:
         else { write(name, communicator_.rank() == 0 ? array.to_host() : std::vector<T>{}); }
     }
 
-    /// Values of this rank. Loaded are its own, or all ranks' where the state is not exact.
+    /// Transfers values of this rank. Loads its own, or all ranks' where the state is not exact.
     template<class T, class Bound>
     void own_or_all(const std::string& name, std::vector<T>& values, const Bound& accepted)
     {
@@ -109,8 +109,8 @@ public:
         else { values = exact() ? own_rows<T>(name, accepted) : all_rows<T>(name, accepted); }
     }
 
-    /// One plane of `count` values of this rank. Loaded are its own, or an even share of all where the state is not
-    /// exact: `share` says which of the rows of a data set, which may be `most` in all.
+    /// Transfers one plane of `count` values of this rank. Loads its own, or an even share of all where the state is
+    /// not exact. share() returns the range of rows of a data set, which has at most `most` rows.
     struct Share
     {
         std::int64_t first;
@@ -134,7 +134,7 @@ public:
         write(name, values);
     }
 
-    /// Ends the loading with what is wrong with a data set.
+    /// Ends loading with an error about a data set.
     [[noreturn]] void refuse(const std::string& name, const accept::Refusal& refusal) const;
 
 private:
@@ -186,7 +186,7 @@ private:
         return values;
     }
 
-    /// All ranks leave together where the values of one are refused.
+    /// Reads and checks; an error on one rank is thrown on all.
     template<class T, class Bound>
     std::vector<T> checked(const std::string& name, const Share& rows, const Bound& accepted) const
     {
@@ -223,7 +223,7 @@ private:
     const io::CheckpointReader* reader_ = nullptr;
     Fidelity                    fidelity_;
 
-    /// Planes on their way: memory that is new costs more than what is put into it.
+    /// Staging buffers for planes; reused, since the first touch of new memory faults pages in.
     std::tuple<std::vector<double>, std::vector<float>, std::vector<std::uint32_t>, std::vector<std::uint8_t>> planes_;
 };
 

@@ -13,10 +13,10 @@ namespace tread::solver
 namespace
 {
 
-constexpr double contact_warning    = 0.4; ///< of sqrt(m / sum K), docs/theory.md#time-step
+constexpr double contact_warning    = 0.4; ///< dt/N over sqrt(m / sum K), docs/theory.md#time-step
 constexpr double point_contact_warn = 2.0;
-constexpr double unseen_fall        = dem::rest_reserve; ///< of a body's radius: what its pairs have left
-constexpr double overlap_warning    = 0.1;               ///< of a radius: the head-on case itself reaches 0.11
+constexpr double unseen_fall        = dem::rest_reserve; ///< reserve of the pair list over a body's radius
+constexpr double overlap_warning    = 0.1;               ///< overlap over radius: the head-on case itself reaches 0.11
 constexpr double growth             = 1.05;
 constexpr double substeps_alone     = 10; ///< substeps a step where no sand sets the step
 
@@ -65,7 +65,7 @@ std::int64_t substeps_of(const scene::TimeOptions& options, double dt, const Pac
     }
     if (limits.smallest_body > 0)
     {
-        // The rounding of a dt that is at the same bound must not double the substeps.
+        // Rounding of a dt at the same bound must not double the substeps.
         const double travel = dt * pace.largest_speed / (travel_bound * limits.smallest_body);
         needed              = std::max(needed, std::ceil(travel - 1e-9));
     }

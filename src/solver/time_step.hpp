@@ -9,13 +9,13 @@
 namespace tread::solver
 {
 
-/// What the last step measured, for the choice of the next; the contacts are those that it began with.
+/// Measurements of the last step for the choice of the next; contacts are those at its beginning.
 struct Pace
 {
     double largest_speed    = 0; ///< m/s, of points and bodies
     double stiffest_point   = 0; ///< 1/s2, k/m_p of the stiffest live sand-body contact
     double shortest_contact = 0; ///< s, min over bodies of sqrt(m / sum of K); 0 = no body contact
-    double overlap          = 0; ///< of bodies, largest over radius
+    double overlap          = 0; ///< largest overlap of bodies over radius
 };
 
 /// Bounds that hold for the whole run.
@@ -26,33 +26,32 @@ struct PaceLimits
     double courant       = 0; ///< c_p dt/h: 0.4 at 1 point a cell, 0.6 at 8 and more
     double smallest_body = 0; ///< m, smallest radius; 0 without bodies
     double gravity       = 0; ///< m/s2
-    double longest       = 0; ///< s, no step is longer
+    double longest       = 0; ///< s, longest step allowed
 };
 
 struct TimeStep
 {
     double       dt       = 0; ///< s
     std::int64_t substeps = 1;
-    std::string  limit; ///< which bound the step is at
+    std::string  limit; ///< name of the bound that sets the step
 };
 
-inline constexpr double point_contact_bound = 0.5; ///< of k dt^2 / m_p, docs/theory.md#time-step
-inline constexpr double travel_bound        = 0.3; ///< of the spacing, or of the smallest body
+inline constexpr double point_contact_bound = 0.5; ///< bound on k dt^2 / m_p, docs/theory.md#time-step
+inline constexpr double travel_bound        = 0.3; ///< v dt over the spacing, or v dt/N over the smallest body
 
-/// The step that the limits of the design allow: c_p dt/h <= courant, v dt <= 0.3 h, k dt^2/m_p <= 0.5 at the stiffest
-/// sand-body contact, dt/N <= contact_share sqrt(m / sum K), v dt/N <= 0.3 of the smallest body. Grows by at most 5 % a
-/// step.
-/// Fixed values of the scene are taken as they are.
+/// Chooses the step within the limits c_p dt/h <= courant, v dt <= 0.3 h, k dt^2/m_p <= 0.5 at the stiffest sand-body
+/// contact, dt/N <= contact_share sqrt(m / sum K), v dt/N <= 0.3 of the smallest body. It grows by at most 5 % a step.
+/// Values fixed by the scene are used unchanged.
 TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace, double last_dt);
 
-/// N of a step of dt (s): what its contacts ask for, or the scene.
+/// N of a step of dt (s): as the contacts require, or as the scene sets it.
 std::int64_t substeps_of(const scene::TimeOptions& options, double dt, const PaceLimits& limits, const Pace& pace);
 
-/// The step, made a little shorter for the last steps before `remaining` (s) runs out, so that none of them is tiny:
-/// the support acceleration of points in contact is a change of velocity over dt.
+/// Shortens the last steps before `remaining` (s) runs out slightly, so that none of them is tiny: the support
+/// acceleration of points in contact is a change of velocity over dt.
 double fitted(double dt, double remaining);
 
-/// How far a step is over its limits: a sentence for a warning, or nothing.
+/// Describes how far a step exceeds its limits, for a warning; empty if it does not.
 std::optional<std::string> over_limit(const TimeStep& step, const PaceLimits& limits, const Pace& pace);
 
 } // namespace tread::solver

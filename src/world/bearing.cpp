@@ -11,7 +11,7 @@ namespace
 
 constexpr double pi = std::numbers::pi;
 
-/// Patch of the chord that a sinkage cuts off.
+/// Patch bounded by the chord of a sinkage.
 Patch chord_patch(const RoundBody& body, double sinkage)
 {
     const double chord = 2 * std::sqrt(std::max(0.0, sinkage * (2 * body.radius - sinkage)));

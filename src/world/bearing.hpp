@@ -2,7 +2,8 @@
 
 #include "scene/scene.hpp"
 
-// Closed forms for what carries a body at rest: used to predict its contact patch before a run.
+// Closed-form bearing capacity and contact mechanics of a body at rest, used to predict its contact patch before a
+// run.
 namespace tread::world
 {
 
@@ -30,16 +31,16 @@ struct Patch
     double sinkage; ///< m
     double length;  ///< m, along the rolling direction
     double width;   ///< m
-    bool   carried; ///< false: the soil does not carry the load before the body stands in it up to its axle
+    bool   carried; ///< false: the soil does not carry the load at any sinkage up to the axle
 
     double area() const; ///< m2
 };
 
-/// Patch on granular soil: the load equals the bearing capacity times the area of the chord of the sinkage, with the
-/// shorter side of the patch as the footing's width and the sinkage as its depth.
+/// Patch on granular soil: the load equals the bearing capacity times the area of the sinkage's chord. The shorter
+/// side of the patch is the footing's width, and the sinkage its depth.
 Patch bearing_patch(const scene::Material& soil, double gravity, const RoundBody& body);
 
-/// Patch on elastic ground: Hertz, of a rigid ball or of a rigid cylinder.
+/// Patch on elastic ground, of a rigid ball or cylinder (Hertz).
 Patch hertz_patch(const scene::Material& ground, const RoundBody& body);
 
 } // namespace tread::world

@@ -50,7 +50,7 @@ io::RocksReport describe_rocks(const scene::Scene& scene, std::size_t table, con
     return report;
 }
 
-/// A percentage that rounds to 0.0 has no sign.
+/// Percentage without a sign where it rounds to 0.0.
 double without_sign_of_zero(double percent) { return std::abs(percent) < 0.05 ? 0 : percent; }
 
 } // namespace

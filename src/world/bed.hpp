@@ -9,10 +9,10 @@
 namespace tread::world
 {
 
-/// What the [[terrain]] and [[rocks]] tables of a scene became.
+/// Describes the bed built from the [[terrain]] and [[rocks]] tables of a scene.
 io::BedReport describe_bed(const scene::Scene& scene, const World& world);
 
-/// One line a table, for the log and `tread check`.
+/// One line per table, for the log and `tread check`.
 std::vector<std::string> bed_lines(const io::BedReport& bed);
 
 } // namespace tread::world

@@ -25,9 +25,10 @@ bool nodes_clear(const World& world, std::size_t one, std::size_t other, double 
     const Mat3<double> turn   = (scale * inverse) * (to_other * bodies.orientation[one].toRotationMatrix());
     const Vec3<double> shift  = inverse * (to_other * (bodies.position[one] - bodies.position[other]));
     const double       needed = margin * inverse;
-    // Nothing of `other` is farther from its centre than this: most nodes need no look at the grid.
+    // Bounding sphere of `other`: nodes outside it need no lookup in its distance field.
     const double beyond = form_of(world, other).bounding_radius + needed;
-    // Far from the surface the interpolant of a 1-Lipschitz distance may be off by a share of its cell, or brick.
+    // Far from the surface the interpolant of a 1-Lipschitz distance may have an error of a fraction of its cell, or
+    // brick.
     const double slack = sdf.spacing * (sdf.slots.empty() ? 1 : shape::SignedDistanceGrid::brick_cells);
     for (std::size_t cluster = 0; cluster < nodes.cluster_centres.size(); ++cluster)
     {

@@ -5,17 +5,18 @@
 
 #include "world/world.hpp"
 
-// Which bodies are near, while a world is built.
+// Neighbour search among bodies while a world is built.
 namespace tread::world
 {
 
 double bounding_radius(const World& world, std::size_t body);
 
-/// Distance (m) from a point of the world to a body's surface, negative inside.
+/// Signed distance (m) from a point (world frame) to a body's surface, negative inside.
 double distance(const World& world, std::size_t body, const Vec3<double>& x);
 
-/// Bodies by the cell of their centre, one lattice for each size class (bounding diameters from 2^k to 2^(k+1) m):
-/// rocks of any grading cost what rocks of one size do. Cells share buckets by a hash; a visitor may see a body twice.
+/// Spatial hash of bodies by the cell of their centre, one lattice for each size class (bounding diameters from 2^k to
+/// 2^(k+1) m), so that the cost does not depend on the grading of rocks. Cells share buckets; a visitor may see a body
+/// twice.
 class BodyGrid
 {
 public:
@@ -26,7 +27,7 @@ public:
 
     void add(std::size_t body);
 
-    /// Whether visit(body) is true for a body whose bounding sphere reaches within `radius` of x; stops at the first.
+    /// Whether visit(body) is true for a body whose bounding sphere is within `radius` of x; stops at the first.
     template<class Visit>
     bool any_near(const Vec3<double>& x, double radius, Visit&& visit) const
     {
@@ -43,15 +44,15 @@ private:
         Vec3<double> centre;
         double       radius; ///< m, of the bounding sphere
         std::size_t  body;
-        std::int32_t next; ///< of the same bucket, -1 = last
+        std::int32_t next; ///< next entry in the bucket, -1 = last
     };
 
     struct SizeClass
     {
         int                       exponent;
-        double                    width; ///< m, of a cell: at least the largest bounding diameter of the class
+        double                    width; ///< m, width of a cell: at least the largest bounding diameter of the class
         std::vector<Entry>        entries;
-        std::vector<std::int32_t> buckets; ///< first entry, -1 = none; a power of two of them
+        std::vector<std::int32_t> buckets; ///< first entry, -1 = none; the number of buckets is a power of two
     };
 
     static std::size_t bucket(const SizeClass& level, long i, long j, long k)
@@ -103,8 +104,8 @@ private:
     std::vector<SizeClass> classes_;
 };
 
-/// Whether two bodies are at least `margin` (m) apart: the surface nodes of each by the other's signed distance, as
-/// body-body contact asks. Thin things may cross between nodes.
+/// Whether two bodies are at least `margin` (m) apart, testing the surface nodes of each by the other's signed
+/// distance, as body-body contact does. Thin parts may intersect between nodes.
 bool apart(const World& world, std::size_t one, std::size_t other, double margin);
 
 } // namespace tread::world

@@ -9,7 +9,7 @@
 namespace tread::world
 {
 
-/// Which bodies sand samples at nine places, and how far its contacts reach.
+/// Search radius of point-body contacts, and which bodies are sampled at nine places of a point.
 struct PointReach
 {
     contact::RadiusRule rule;
@@ -17,7 +17,7 @@ struct PointReach
 
     double radius(double volume) const { return contact::point_radius(volume, rule); }
 
-    /// m, how near a body must come to a point of that radius to matter.
+    /// m, largest distance from a body at which a point of that radius may touch it.
     double search(double radius) const;
 };
 
@@ -26,7 +26,7 @@ double sampled_below(const scene::Scene& scene, const HostPoints& points);
 
 PointReach make_point_reach(const scene::Scene& scene, const HostPoints& points);
 
-/// The place of a point that is nearest to a body: its centre, or one of its samples.
+/// Place of a point that is nearest to a body: its centre, or one of its samples.
 struct NearestPlace
 {
     double       distance; ///< m, signed distance of the body's surface
@@ -36,8 +36,8 @@ struct NearestPlace
 NearestPlace nearest_place(const World& world, const PointReach& reach, std::size_t body, const Vec3<double>& x,
                            double radius);
 
-/// For each point of sand a body of [first, last) that it lies in or within its contact radius of (phi < r_p), itself
-/// or one of its samples; -1 where there is none. Sand that starts in such contact would fly.
+/// For each sand point, a body of [first, last) in which it lies or which is within its contact radius (phi < r_p), by
+/// its centre or one of its samples; -1 where there is none. Sand that starts in such contact would be ejected.
 std::vector<std::int32_t> covering_bodies(const scene::Scene& scene, const World& world, std::size_t first,
                                           std::size_t last);
 

@@ -16,13 +16,13 @@ const shape::ShapeTemplate& form_of(const World& world, std::size_t body)
     return world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
 }
 
-/// Half the length of the strip across the wheel's path in which its ground is measured, m.
+/// m, half the length of the strip across the wheel's path in which its ground is measured.
 double half_strip(const Footing& footing, const World& world)
 {
     return std::max(0.25 * footing.radius, world.point_spacing);
 }
 
-/// Calls act(i) for the points of the strip across the path that contains the body.
+/// Calls act(i) for the points of the strip, across the path, that contains the body.
 template<class Act>
 void each_in_strip(const Footing& footing, const World& world, const Act& act)
 {
@@ -70,12 +70,12 @@ std::optional<Ground> ground_under(const scene::Scene& scene, const Footing& foo
                       high = std::max(high, x[1]);
                   });
     const double around = 0.5 * world.point_spacing;
-    const bool   below  = y - low < high - y; // the nearer edge is that at low y
+    const bool   below  = y - low < high - y; // the nearer edge is the one at low y
     const double beside = std::min(y - low, high - y) + around - 0.5 * footing.width;
     return Ground{material, top + around, top - bottom + 2 * around, beside, ends_at_wall(scene, below ? low : high)};
 }
 
-/// Distance from the body's round face to the nearest of sand and rocks below its centre, m.
+/// m, distance from the body's round face to the nearest sand or rock below its centre.
 std::optional<double> gap_of(const Footing& footing, const World& world)
 {
     const Vec3<double>& at      = world.bodies.position[footing.body];

@@ -12,29 +12,29 @@ namespace tread::world
 /// Ground under a named body at the start.
 struct Ground
 {
-    int    material; ///< of Scene::materials, at the surface
-    double top;      ///< m, of the highest point under the body
-    double depth;    ///< m, from there to the lowest point
-    double beside;   ///< m of bed beside the body's nearer side; negative where the body reaches beyond it
+    int    material; ///< index into Scene::materials, at the surface
+    double top;      ///< m, height of the highest point under the body
+    double depth;    ///< m, from there down to the lowest point
+    double beside;   ///< m, extent of the bed beside the nearer side of the body; negative where the body overhangs
     bool   walled;   ///< the bed ends there at a wall of the domain, not at a free edge
 };
 
-/// A named body and what it is to stand on.
+/// A named body and the ground under it.
 struct Footing
 {
-    std::size_t           body; ///< of Scene::bodies
+    std::size_t           body; ///< index into Scene::bodies
     bool                  driven;
     double                load;   ///< N, its weight
-    double                radius; ///< m; of a body that is neither wheel nor ball, half its height
+    double                radius; ///< m; half the height of a body that is neither wheel nor ball
     double                width;  ///< m, along y
-    std::optional<Ground> ground; ///< none where no sand lies under it
-    std::optional<double> gap;    ///< m, to the nearest sand or rock under it; none where there is neither
-    std::optional<Patch>  patch;  ///< of a wheel or ball at rest on that ground; none without weight
+    std::optional<Ground> ground; ///< empty where no sand lies under the body
+    std::optional<double> gap;    ///< m, to the nearest sand or rock under the body; empty where there is neither
+    std::optional<Patch>  patch;  ///< patch of a wheel or ball at rest on that ground; empty without weight
 };
 
 std::vector<Footing> footings(const scene::Scene& scene, const World& world);
 
-/// Whether some phase drives the body.
+/// Whether a phase drives the body.
 bool is_driven(const scene::Scene& scene, const scene::Body& body);
 
 } // namespace tread::world

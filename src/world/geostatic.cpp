@@ -10,7 +10,7 @@ namespace tread::world
 namespace
 {
 
-/// A mass in a column of the plan: a point of sand, or a body's share.
+/// Mass in a column of the plan: that of a sand point, or a share of a body's.
 struct Weight
 {
     static constexpr std::int64_t no_point = -1;
@@ -20,7 +20,7 @@ struct Weight
     double       mass;   ///< kg
     std::int64_t point;
 
-    /// Columns one after the other, each from the top.
+    /// Orders by column, then from the top down.
     bool operator<(const Weight& other) const
     {
         if (column != other.column) { return column < other.column; }
@@ -29,7 +29,7 @@ struct Weight
     }
 };
 
-/// Columns of the plan of the domain, as wide as a cell.
+/// Columns over the plan of the domain, as wide as a cell.
 struct Plan
 {
     double       width; ///< m
@@ -39,7 +39,7 @@ struct Plan
     std::int64_t column(std::int64_t i, std::int64_t j) const { return j * columns_x + i; }
 };
 
-/// A rock's weight rests on all columns that its sphere of equal volume covers.
+/// Distributes a rock's weight over all columns that its sphere of equal volume covers.
 void add_rocks(const HostBodies& bodies, const Plan& plan, std::vector<Weight>& weights)
 {
     for (auto b = static_cast<std::size_t>(bodies.named); b < bodies.size(); ++b)
@@ -70,7 +70,7 @@ bool rests(const HostPoints& points, std::size_t i)
     return points.velocity.empty() || points.velocity[i] == Vec3<double>::Zero();
 }
 
-/// Points of a saved bed bring their stress.
+/// Points of a saved bed have their saved stress.
 bool has_stress(const scene::Scene& scene, const HostPoints& points, std::size_t i)
 {
     return !scene.terrain[static_cast<std::size_t>(points.terrain[i])].from.empty();
@@ -78,7 +78,7 @@ bool has_stress(const scene::Scene& scene, const HostPoints& points, std::size_t
 
 std::vector<Weight> sorted_weights(const scene::Scene& scene, const HostBodies& bodies, const HostPoints& points)
 {
-    // Two columns of margin: a rock at a wall may reach a rounding beyond it.
+    // A margin of two columns: a rock at a wall may extend beyond it by rounding.
     const double        width = scene.grid.spacing;
     const Plan          plan{width, static_cast<std::int64_t>(std::ceil(scene.domain.size[0] / width)) + 4};
     std::vector<Weight> weights;
@@ -106,7 +106,7 @@ void set_geostatic_stress(const scene::Scene& scene, const HostBodies& bodies, H
     double                    above   = 0;
     for (std::size_t first = 0; first < weights.size();)
     {
-        // Masses at one height of a column: their centres are here, so half of each is above.
+        // Masses at the same height of a column: at their centres, half of each is above.
         std::size_t end   = first;
         double      level = 0;
         for (; end < weights.size() && weights[end].column == weights[first].column &&

@@ -17,7 +17,7 @@ namespace
 
 constexpr std::size_t most_rocks = 100'000'000;
 
-/// Share of the standard normal distribution between two scores, from the tail that keeps its digits.
+/// Share of the standard normal distribution between two scores, computed in the tail without loss of digits.
 double normal_share(double low, double high)
 {
     const double root = std::numbers::sqrt2;
@@ -25,8 +25,8 @@ double normal_share(double low, double high)
                    : 0.5 * (std::erfc(-high / root) - std::erfc(-low / root));
 }
 
-/// The score in [low, high] below which a share `u` of what lies there is: by bisection, counted from the nearer end so
-/// that the thin tail keeps its digits.
+/// Quantile of the normal distribution truncated to [low, high]: score below which a share `u` lies, by bisection from
+/// the nearer end, so that the thin tail keeps its digits.
 double truncated_normal_quantile(double low, double high, double u)
 {
     const double total    = normal_share(low, high);
@@ -56,7 +56,8 @@ struct Quantile
         return std::clamp(spread.median * std::exp(spread.deviation * at), spread.low, spread.high);
     }
 
-    /// Of density ~ d^-n: with m = 1 - n, d = low [1 + u ((high/low)^m - 1)]^(1/m); the limit at m = 0 is geometric.
+    /// Density proportional to d^-n: with m = 1 - n, d = low [1 + u ((high/low)^m - 1)]^(1/m); the limit at m = 0 is
+    /// geometric.
     double operator()(const scene::PowerLawDiameters& spread) const
     {
         const double m = 1 - spread.exponent, ratio = std::log(spread.high / spread.low);
@@ -65,7 +66,7 @@ struct Quantile
     }
 };
 
-/// m3, mean and largest of a table's rocks.
+/// m3, mean and largest volume of a table's rocks.
 struct Volumes
 {
     double mean;
@@ -74,7 +75,7 @@ struct Volumes
 
 Volumes volumes_of(const scene::Diameter& diameter)
 {
-    constexpr int parts = 4096; // of the distribution, each as likely as another
+    constexpr int parts = 4096; // intervals of the distribution of equal probability
     double        sum   = 0;
     for (int part = 0; part < parts; ++part) { sum += sphere_volume(quantile(diameter, (part + 0.5) / parts)); }
     return {sum / parts, sphere_volume(quantile(diameter, 1))};
@@ -86,11 +87,11 @@ std::string text_of(const scene::Rocks& rocks)
                        : fmt::format("solid_fraction = {}", *rocks.solid_fraction);
 }
 
-/// Refuses, before any is drawn, rocks that are more than the region's volume with all but certainty (four standard
-/// deviations of the sum), more than may be, or more than fit into memory.
+/// Refuses, before any is drawn, rocks that almost certainly (by four standard deviations of the sum) exceed the
+/// region's volume, the largest number, or memory.
 void require_possible(const scene::Rocks& rocks, double volume)
 {
-    constexpr double deviations = 4, bytes_a_rock = 400; // as drawn, as a body, and in the lattice of bodies
+    constexpr double deviations = 4, bytes_a_rock = 400; // as drawn, as a body, and in the body grid
     const Volumes    one = volumes_of(rocks.diameter);
     const double count   = rocks.count ? static_cast<double>(*rocks.count) : *rocks.solid_fraction * volume / one.mean;
     const double least   = count * one.mean * (1 - deviations * std::sqrt(one.largest / (one.mean * count)));
@@ -110,7 +111,7 @@ void require_possible(const scene::Rocks& rocks, double volume)
                          "fewer or larger rocks, or a smaller region"});
 }
 
-/// Whether the rocks so far are nearer to the volume that is wanted than with one more.
+/// Whether the volume so far is nearer to `wanted` than with one more rock.
 bool enough(const scene::Rocks& rocks, std::size_t drawn, double filled, double next, double wanted)
 {
     if (rocks.count) { return drawn == static_cast<std::size_t>(*rocks.count); }

@@ -17,7 +17,7 @@ namespace tread::world
 namespace
 {
 
-/// Places inside a template, m at scale 1: those of 8 x 8 x 8 in its box that lie below its surface.
+/// Sample positions inside a template, m at scale 1: those of 8 x 8 x 8 in its box that are below its surface.
 std::vector<Vec3<double>> samples_of(const shape::ShapeTemplate& form)
 {
     constexpr int             each_way = 8;
@@ -33,7 +33,7 @@ std::vector<Vec3<double>> samples_of(const shape::ShapeTemplate& form)
     return samples;
 }
 
-/// m, of a table's rocks.
+/// m, mean over a table's rocks.
 double mean_radius(const HostBodies& bodies, std::size_t table)
 {
     const std::size_t first = table == 0 ? static_cast<std::size_t>(bodies.named) : bodies.rocks_end[table - 1];
@@ -43,23 +43,24 @@ double mean_radius(const HostBodies& bodies, std::size_t table)
     return sum / double(std::max<std::size_t>(end - first, 1));
 }
 
-constexpr double enough_radii = 2;   ///< contact radii of a point in a rock's: below, check advises finer points
-constexpr double enough_pores = 0.1; ///< share of a layer in which the points of all of its sand find a place
+constexpr double enough_radii = 2;   ///< rock radius in contact radii of the points: below, check advises finer points
+constexpr double enough_pores = 0.1; ///< share of a layer free of contact in which all of its sand points find a place
 
 double radius_of_unit_spacing(const scene::Scene& scene)
 {
     return contact::point_radius(1, radius_rule(scene.numerics.point_radius));
 }
 
-/// m: with rocks of the share c at random, points of radius r find exp(-c (1 + r/R)^3) of the layer free of contact.
+/// m, spacing without voids: among randomly placed rocks of volume share c, points of radius r find exp(-c (1 +
+/// r/R)^3) of the layer free of contact.
 double spacing_without_voids(const scene::Scene& scene, const LayerShares& layer)
 {
     const double radius = layer.rock_radius * (std::cbrt(-std::log(enough_pores) / layer.rock) - 1);
-    const double most   = layer.point_radius / 1.1; // what is refused is too coarse, whatever the estimate says
+    const double most   = layer.point_radius / 1.1; // a refused spacing is too coarse, whatever the estimate
     return std::min(std::max(radius, 0.25 * layer.rock_radius), most) / radius_of_unit_spacing(scene);
 }
 
-/// How a terrain table gets points so near each other.
+/// Scene keys that give a terrain table this point spacing.
 std::string finer_points(const scene::Scene& scene, double spacing)
 {
     for (const int each_way : {1, 2, 3, 4})

@@ -21,7 +21,7 @@ namespace
 struct Touch
 {
     std::size_t body;
-    double      distance; ///< m, of the point's centre from the surface
+    double      distance; ///< m, signed distance of the point's centre from the surface
     std::size_t point;
 
     bool operator<(const Touch& other) const
@@ -47,7 +47,7 @@ bool settled_together(const scene::Rocks& rocks, const scene::Terrain& terrain)
     return !rocks.from.empty() && rocks.from == terrain.from;
 }
 
-/// All contacts of points with rocks, by rock, the deepest first.
+/// Finds all contacts of points with rocks, ordered by rock, the deepest first.
 std::vector<Touch> find_touches(const scene::Scene& scene, const World& world, const BodyGrid& grid,
                                 const PointReach& reach)
 {
@@ -80,7 +80,7 @@ std::vector<Touch> find_touches(const scene::Scene& scene, const World& world, c
         touches.insert(touches.end(), mine.begin(), mine.end());
     }
     std::sort(touches.begin(), touches.end());
-    // The grid may show a body twice.
+    // A body may be visited twice.
     const auto same = [](const Touch& a, const Touch& b) { return a.body == b.body && a.point == b.point; };
     touches.erase(std::unique(touches.begin(), touches.end(), same), touches.end());
     return touches;
@@ -104,7 +104,7 @@ void refuse_sand_in_the_way(const scene::Scene& scene, const World& world, const
     }
 }
 
-/// Rocks row by row, a grid cell each: what one leaves of a point's volume goes to the next, which is near.
+/// Orders rocks in rows as wide as a grid cell, so that the rest of a point's volume is carried over to a nearby rock.
 std::vector<std::size_t> in_rows(const World& world)
 {
     std::vector<std::size_t> order;
@@ -121,13 +121,13 @@ std::vector<std::size_t> in_rows(const World& world)
     return order;
 }
 
-/// 0 for the points that go: of each rock those deepest in it, up to the volume of the rock that stands in sand.
+/// Returns 0 for removed points: of each rock the deepest, up to the volume of the rock that lies in sand.
 std::vector<std::uint8_t> keep_all_but_rock_volume(const World& world, const std::vector<Touch>& touches,
                                                    const std::vector<double>& in_sand)
 {
     const HostPoints&         points = world.points;
     std::vector<std::uint8_t> kept(points.size(), 1);
-    double                    due = 0; // m3
+    double                    due = 0; // m3, volume still to be removed
     for (const std::size_t body : in_rows(world))
     {
         due += in_sand[body] * sphere_volume(2 * world.bodies.radius[body]);
@@ -145,7 +145,7 @@ std::vector<std::uint8_t> keep_all_but_rock_volume(const World& world, const std
     return kept;
 }
 
-/// Pushes the points that stay off the bodies; those that find no place are not kept.
+/// Pushes remaining points off the bodies; removes those that find no place.
 void push_off(const Surroundings& near, const std::vector<Touch>& touches, std::vector<std::uint8_t>& kept,
               HostPoints& points)
 {
@@ -170,7 +170,7 @@ void push_off(const Surroundings& near, const std::vector<Touch>& touches, std::
     }
 }
 
-/// Tables whose rocks make room for themselves.
+/// Whether rocks of this table replace sand.
 bool makes_room(const scene::Scene& scene, const scene::Rocks& rocks)
 {
     return takes_sand(rocks.placement) &&

@@ -8,14 +8,14 @@
 namespace tread::world
 {
 
-/// Makes room in the sand for all placed rocks and says what their layers hold then (World::layers).
+/// Removes or moves sand so that no point touches a placed rock, and fills in World::layers.
 ///
-/// Tables with placement "replace" or "points": sand of the volume of the rocks that stand in it goes, whole points,
-/// from each rock those that lie deepest in it. What is left of a point's volume passes on to the next rock, so that
-/// mass is kept to one point. Points that stay and touch a body are pushed off it, by no more than a grid cell, within
-/// the sand of their table; one that finds no place goes, and leaves a void.
+/// Tables with placement "replace" or "points": whole sand points of the volume of the rocks that lie in sand are
+/// removed, from each rock those deepest in it. The rest of a point's volume is carried over to the next rock, so that
+/// mass is conserved to one point. Remaining points that touch a body are pushed off it, by at most a grid cell,
+/// within the sand of their table; a point that finds no free place is removed, and leaves a void.
 ///
-/// Other tables: sand in the way is an InputError. Rocks and points of one saved bed have their room already.
+/// Other tables: sand in the way is an InputError. Rocks and points of one saved bed do not overlap already.
 void make_room(const scene::Scene& scene, World& world);
 
 } // namespace tread::world

@@ -101,7 +101,7 @@ double active_stress(const scene::Material& material, double vertical)
     {
     case scene::MaterialModel::drucker_prager:
     {
-        // sqrt(J2) = (v - h) / sqrt 3 meets the cone k + eta (v + 2 h) / 3.
+        // sqrt(J2) = (v - h) / sqrt 3 intersects the cone k + eta (v + 2 h) / 3.
         const auto   cone = mpm::make_drucker_prager<double>(strength(material), cone_fit(material.drucker_prager_fit));
         const double third = cone.slope / 3, root = 1 / std::numbers::sqrt3;
         return ((root - third) * vertical - cone.limit) / (root + 2 * third);

@@ -11,29 +11,29 @@
 namespace tread::world
 {
 
-/// Law parameters of every material of the scene, in its order.
+/// Law parameters of all materials of the scene, in its order.
 template<class Real>
 std::vector<mpm::MaterialParameters<Real>> law_parameters(const scene::Scene& scene);
 
 /// Contact properties of every pair of materials; the last row and column is the domain's wall.
 std::vector<dem::PairProperties> pair_properties(const scene::Scene& scene);
 
-/// Smallest horizontal stress of a granular material under the vertical stress `vertical`; Pa, compression positive.
-/// That is triaxial compression at the yield limit.
+/// Smallest horizontal stress of a granular material under the vertical stress `vertical`; Pa, compression positive:
+/// triaxial compression at the yield limit.
 double active_stress(const scene::Material& material, double vertical);
 
 /// Speed of compression waves sqrt((lambda + 2 mu) / rho), m/s.
 double compression_wave_speed(const scene::Material& material);
 
-/// Rate at which the points' velocities are drawn to the grid's, 1/s: the scene's pic_rate, or 0.2 c_p/h for granular
-/// and 0.04 c_p/h for elastic materials, the largest of the materials of `points`: one for all, since rates by material
-/// lose momentum where materials share nodes. Infinite for APIC.
+/// Rate at which the points' velocities relax towards the grid's, 1/s: the scene's pic_rate, or 0.2 c_p/h for granular
+/// and 0.04 c_p/h for elastic materials; the largest over the materials of `points`, since different rates lose
+/// momentum where materials share nodes. Infinite for APIC.
 double pic_rate(const scene::Scene& scene, const HostPoints& points);
 
-/// The share of a step of dt (s) at that rate: between 0 and 1, and the same per unit time at any small dt.
+/// PIC share of a step of dt (s) at that rate: between 0 and 1, with the same decay per unit time at any small dt.
 double pic_share(double rate, double dt);
 
-/// The kernels' words for the scene's.
+/// Convert scene options to those of the kernels.
 contact::RadiusRule  radius_rule(scene::PointRadius rule);
 contact::PointMotion point_motion(scene::PointMotion motion);
 double               hertz_factor(scene::HertzFactor factor);

@@ -16,7 +16,7 @@ namespace tread::world
 namespace
 {
 
-constexpr double deepest_at_start = 0.1; ///< of the smaller radius: what contacts carry without a warning
+constexpr double deepest_at_start = 0.1; ///< overlap over the smaller radius that causes no warning
 
 double body_scale(const scene::Body& body, const shape::ShapeTemplate& form)
 {
@@ -34,7 +34,7 @@ double body_mass(const scene::Scene& scene, const scene::Body& body, const shape
     return *body.density * form.unit.volume * std::pow(body_scale(body, form), 3);
 }
 
-/// Lowest and highest corner of a named body in the world, from its mesh.
+/// Lowest and highest corner of a named body in the world frame, from its mesh.
 shape::Bounds world_bounds(const World& world, std::size_t body)
 {
     const auto&         form  = world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
@@ -62,7 +62,7 @@ void require_clear_of_walls(const scene::Body& body, std::size_t index, const Wo
     }
 }
 
-/// m, for a body whose height is found last: beyond all others, and each beyond the one before.
+/// m, height at which a body waits until its height is found: above all others, each above the one before.
 double out_of_the_way(const scene::Scene& scene, std::size_t number)
 {
     const auto&      size = scene.domain.size;
@@ -110,7 +110,7 @@ void require_clear_of_sand(const scene::Scene& scene, const World& world)
     }
 }
 
-/// Whether no surface node of `one` is `margin` (m) or more off the surface of `other`.
+/// Whether all surface nodes of `one` are within `margin` (m) of the surface of `other`.
 bool clings(const World& world, std::size_t one, std::size_t other, double margin)
 {
     const HostBodies& bodies = world.bodies;
@@ -123,7 +123,7 @@ bool clings(const World& world, std::size_t one, std::size_t other, double margi
                        });
 }
 
-/// Of coincident bodies no node is inside the other: all are on its surface.
+/// Coincident bodies overlap although no node is inside the other: all are on its surface.
 bool overlap(const World& world, std::size_t one, std::size_t other)
 {
     const double deepest = deepest_at_start * std::min(world.bodies.radius[one], world.bodies.radius[other]);

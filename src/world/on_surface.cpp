@@ -17,16 +17,16 @@ namespace tread::world
 namespace
 {
 
-constexpr double closest = 1e-4; ///< of the body's bounding radius: where its descent ends above what it meets
+constexpr double closest = 1e-4; ///< gap at which the descent ends, over the body's bounding radius
 
-/// A point of sand, and from how far (m) on the body touches it.
+/// A sand point, and its contact distance (m) from a body.
 struct Grain
 {
     Vec3<double> position;
     double       reach;
 };
 
-/// What may stand in the way of a body that comes down.
+/// Sand and rocks that a descending body may touch.
 struct Ground
 {
     std::vector<Grain>       grains;
@@ -51,7 +51,7 @@ Ground ground_under(const scene::Scene& scene, const World& world, std::size_t b
 {
     const auto&  form    = world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
     const bool   sampled = world.bodies.scale[body] * form.equivalent_radius < sampled_below(scene, world.points);
-    const double share   = sampled ? 1 + contact::patch_reach : 1.0; // samples stand beside their point
+    const double share   = sampled ? 1 + contact::patch_reach : 1.0; // samples lie beside the point's centre
     const auto   rule    = radius_rule(scene.numerics.point_radius);
     Ground       ground;
     for (std::size_t i = 0; i < world.points.size(); ++i)
@@ -71,7 +71,7 @@ Ground ground_under(const scene::Scene& scene, const World& world, std::size_t b
     return ground;
 }
 
-/// Least distance (m) of the surface nodes of `one` from the surface of `other`, or `known` if that is less.
+/// Least of `known` (m) and the distances of the surface nodes of `one` from the surface of `other`.
 double nodes_off(const World& world, std::size_t one, std::size_t other, double known)
 {
     const HostBodies&  bodies = world.bodies;
@@ -89,7 +89,7 @@ double nodes_off(const World& world, std::size_t one, std::size_t other, double 
     return known;
 }
 
-/// Least distance (m) of a body from what is under it; at most `most`.
+/// Least distance (m) of a body from the ground under it; at most `most`.
 double clearance(const World& world, std::size_t body, const Ground& ground, double most)
 {
     const Vec3<double>& centre = world.bodies.position[body];
@@ -112,8 +112,8 @@ double clearance(const World& world, std::size_t body, const Ground& ground, dou
 
 } // namespace
 
-/// A body may go down by its distance from all else. Away from surfaces the stored distance may be too large by a share
-/// of a cell, or of a brick of cells, so that half of it is taken at most.
+/// A body may descend by its distance from everything else. Away from surfaces the stored distance may be too large by
+/// a fraction of a cell, or of a brick of cells, so a step uses at most half of it.
 void stand_on_surface(const scene::Scene& scene, std::size_t body, double gap, World& world)
 {
     const double radius = bounding_radius(world, body), near = closest * radius;

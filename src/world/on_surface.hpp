@@ -5,9 +5,9 @@
 namespace tread::world
 {
 
-/// Puts a named body, whose x and y are known, above the sand and the rocks under it: as low as a body that comes down
-/// from above meets neither, sand by the contact radius of its points, and `gap` (m) higher. All rocks count, those
-/// that are to fall from above, too. InputError where nothing lies under the body.
+/// Places a named body with known x and y above the sand and rocks under it: at the lowest height that a body coming
+/// down from above reaches without contact (sand by the contact radius of its points), plus `gap` (m). All rocks
+/// count, also those that are to fall. InputError where nothing lies under the body.
 void stand_on_surface(const scene::Scene& scene, std::size_t body, double gap, World& world);
 
 } // namespace tread::world

@@ -11,7 +11,7 @@ namespace tread::world
 namespace
 {
 
-/// A rock as light from above sees it.
+/// A rock seen from above.
 struct Stone
 {
     const shape::ShapeTemplate* form;
@@ -22,7 +22,8 @@ struct Stone
     double reach() const { return scale * form->bounding_radius; }
     double highest() const { return centre[2] + reach(); }
 
-    /// m; minus infinity if the vertical line misses it. Follows the field, which is no more than the distance.
+    /// m, height of the rock's surface at (x, y); minus infinity if the vertical line misses it. Traces the distance
+    /// field, which does not exceed the distance.
     double top(double x, double y, double above) const
     {
         const double least_step = 1e-3 * reach();
@@ -52,7 +53,7 @@ std::vector<Stone> stones(const World& world, const io::BodyFields& bodies)
     return found;
 }
 
-/// Columns over the plan of all stones.
+/// Columns over the plan of all rocks.
 struct Columns
 {
     double              low[2];

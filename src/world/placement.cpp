@@ -20,10 +20,10 @@ namespace tread::world
 namespace
 {
 
-/// What bodies keep between their surfaces, as a share of the smaller one's radius of equal volume.
+/// Least distance between surfaces of bodies, over the smaller one's radius of equal volume.
 constexpr double clearance = 0.01;
 
-/// Uniform over rotations (Shoemake 1992).
+/// Uniformly distributed rotation (Shoemake 1992).
 Quat random_rotation(Random& random)
 {
     const double u = random.uniform(), a = 2 * std::numbers::pi * random.uniform(),
@@ -66,7 +66,7 @@ void resize(HostBodies& bodies, std::size_t size)
     bodies.material.resize(size);
 }
 
-/// Adds rocks to a world one by one: the last body is on trial until it is kept.
+/// Adds rocks to a world one by one: the last body is a trial until it is kept.
 class Placer
 {
 public:
@@ -89,7 +89,7 @@ public:
         for (std::size_t body = 0; body < world.bodies.size(); ++body) { grid_.add(body); }
     }
 
-    /// A new body on trial, without a place.
+    /// Adds a trial body, without a position.
     void begin(const RockDraw& rock)
     {
         HostBodies& bodies = world_.bodies;
@@ -108,10 +108,10 @@ public:
         outer_                   = bounding_radius(world_, body_);
     }
 
-    /// Where the centre of the body on trial may be at all.
+    /// Box that contains all possible centres of the trial body.
     scene::Box centres() const { return shrunk(box_, inner_); }
 
-    /// Whether its centre may be at x as far as the space goes.
+    /// Whether the space allows the centre at x.
     bool centre_fits(const Vec3<double>& x) const
     {
         if (!contains(space_.region, x)) { return false; }
@@ -119,7 +119,7 @@ public:
         return low <= x[2] - inner_ && x[2] + inner_ < high;
     }
 
-    /// Moves the body on trial there; whether it touches nothing and lies in the space.
+    /// Moves the trial body; returns whether it touches nothing and lies in the space.
     bool fits(const Vec3<double>& x, const Quat& rotation)
     {
         world_.bodies.position[body_]    = x;
@@ -169,19 +169,19 @@ private:
     double                    density_;
     World&                    world_;
     BodyGrid                  grid_;
-    std::vector<std::int32_t> members_;   ///< templates of the family; past the end where no rock drew it
-    std::vector<double>       inscribed_; ///< m, of each template: how deep its centre lies
+    std::vector<std::int32_t> members_;   ///< templates of the family; an index past the end where no rock uses it
+    std::vector<double>       inscribed_; ///< m, depth of the centre of each template
     std::size_t               body_  = 0;
     double                    inner_ = 0;
     double                    outer_ = 0;
 };
 
-/// How many more places may be tried.
+/// Number of trial positions left.
 struct Patience
 {
     std::int64_t for_table;
     std::int64_t for_rock = 0;
-    std::int64_t outside  = 0; ///< places outside the space, for a rock
+    std::int64_t outside  = 0; ///< positions outside the space, for a rock
 };
 
 bool find_place(Placer& placer, Random& random, Patience& patience)
@@ -205,7 +205,7 @@ bool find_place(Placer& placer, Random& random, Patience& patience)
     return false;
 }
 
-/// Sites of a cubic lattice over a box, x fastest; made one by one, as a fine one has more than memory holds.
+/// Sites of a cubic lattice over a box, x fastest; computed on demand, as a fine lattice exceeds memory.
 class Lattice
 {
 public:
@@ -244,11 +244,11 @@ bool turn_until_it_fits(Placer& placer, const Vec3<double>& site, Random& random
     return false;
 }
 
-/// Counts sites in a row that do not take a rock: of fine lattices there are more than anyone waits for.
+/// Counts consecutive sites that do not take a rock, to bound the time on fine lattices.
 struct SitePatience
 {
-    std::size_t outside = 0; ///< the space
-    std::size_t taken   = 0; ///< by other bodies
+    std::size_t outside = 0; ///< outside the space
+    std::size_t taken   = 0; ///< occupied by other bodies
 
     void require_more(double diameter) const
     {
@@ -261,7 +261,7 @@ struct SitePatience
     }
 };
 
-/// The first site from `site` on that takes the rock on trial; past the end if none does.
+/// First site from `site` on that takes the trial rock; past the end if none does.
 template<class SiteList>
 std::size_t find_site(Placer& placer, const SiteList& sites, std::size_t site, double diameter, Random& random)
 {
@@ -277,7 +277,7 @@ std::size_t find_site(Placer& placer, const SiteList& sites, std::size_t site, d
     return site;
 }
 
-/// Returns how many rocks found a site.
+/// Returns the number of rocks placed.
 template<class SiteList>
 std::size_t place_on_sites(Placer& placer, const SiteList& sites, const std::vector<RockDraw>& rocks, Random& random)
 {
@@ -297,7 +297,7 @@ std::size_t place_on_sites(Placer& placer, const SiteList& sites, const std::vec
     return rocks.size();
 }
 
-/// Points of sand in the space, in a random order (Fisher and Yates).
+/// Sand points in the space, in a random order (Fisher and Yates).
 std::vector<Vec3<double>> points_in(const Space& space, const World& world, Random& random)
 {
     std::vector<Vec3<double>> sites;
@@ -329,7 +329,7 @@ double largest_bounding_diameter(const scene::Scene& scene, std::size_t table, c
     return largest;
 }
 
-/// Places must not follow from sizes, which are drawn from the same seed.
+/// Seeds positions independently of sizes, which are drawn from the same seed.
 Random random_places(const scene::Rocks& rocks) { return Random(rocks.seed ^ 0x70c5a5f0e1d2c3b4ull); }
 
 } // namespace
@@ -373,7 +373,7 @@ std::size_t place_on_lattice(const scene::Scene& scene, std::size_t table, const
     {
         const double  spacing = widest * std::pow(0.97, narrowed);
         const Lattice sites(shrunk(bounds(space.region), 0.5 * spacing), spacing);
-        // The narrowest lattice is tried anyway: an error says how many it takes.
+        // The narrowest lattice is tried in any case: the error message states how many rocks it takes.
         if (sites.size() < rocks.size() && narrowed + 1 < lattices) { continue; }
         Placer placer(scene, table, space, world);
         Random random = random_places(scene.rocks[table]);

@@ -11,17 +11,17 @@ namespace tread::world
 namespace
 {
 
-constexpr int    sweeps         = 24;     ///< of one descent, each off the body that is deepest in reach
-constexpr int    starts         = 64;     ///< of descents, from places around the point
-constexpr double beyond_contact = 1.0001; ///< of what is missing: the gradient of an interpolant is not exact
-constexpr double off_the_walls  = 0.25;   ///< of a point's side, from the domain's faces
+constexpr int    sweeps         = 24;     ///< per descent, each moving off the body with the deepest contact
+constexpr int    starts         = 64;     ///< descents, from places around the point
+constexpr double beyond_contact = 1.0001; ///< push over the missing distance, as gradients are inexact
+constexpr double off_the_walls  = 0.25;   ///< least distance from the domain's faces, in point sides
 
-/// The body that a point at x stands deepest in the reach of.
+/// The deepest contact of a point at x with a body.
 struct Deepest
 {
-    double       missing = 0; ///< m, to a distance of the point's radius; 0 = no body is in reach
+    double       missing = 0; ///< m, contact radius minus distance; 0 = no body is in reach
     std::size_t  body    = 0;
-    Vec3<double> at      = Vec3<double>::Zero(); ///< of the point or its samples
+    Vec3<double> at      = Vec3<double>::Zero(); ///< m, the point's centre or one of its samples
 };
 
 Deepest deepest(const Surroundings& near, const Vec3<double>& x, double radius)
@@ -32,7 +32,7 @@ Deepest deepest(const Surroundings& near, const Vec3<double>& x, double radius)
                        {
                            const NearestPlace place   = nearest_place(near.world, near.reach, body, x, radius);
                            const double       missing = radius - place.distance;
-                           // A body may be seen twice, and in any order: ties go to the first.
+                           // Bodies may be visited twice, and in any order: ties go to the lowest index.
                            if (missing > found.missing ||
                                (missing == found.missing && missing > 0 && body < found.body))
                            {
@@ -43,7 +43,7 @@ Deepest deepest(const Surroundings& near, const Vec3<double>& x, double radius)
     return found;
 }
 
-/// Unit vector away from the surface; any where the field has none.
+/// Unit vector away from the surface; a random one where the field has no gradient.
 Vec3<double> outwards(const World& world, std::size_t body, const Vec3<double>& x, Random& random)
 {
     const double step = 0.02 * world.bodies.radius[body];
@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    /// Whether the point may be there as far as the domain and the sand go.
+    /// Whether the domain and the sand allow the point there.
     bool allowed(const Vec3<double>& x) const
     {
         if (!((x - origin_).squaredNorm() <= near_.farthest * near_.farthest)) { return false; }
@@ -115,7 +115,7 @@ private:
     const Surroundings& near_;
     Vec3<double>        origin_;
     std::int32_t        table_;
-    double              radius_; ///< m, of contact
+    double              radius_; ///< m, contact radius
     double              margin_; ///< m
     Random              random_;
 };

@@ -10,18 +10,18 @@
 namespace tread::world
 {
 
-/// What a point of sand may not touch, and where it may be.
+/// Constraints on a sand point that is moved: bodies that it must not touch, and the region where it must stay.
 struct Surroundings
 {
     const World&      world;
     const BodyGrid&   grid;
     const PointReach& reach;
     const SandMap&    sand;
-    double            farthest; ///< m, that a point may be moved
+    double            farthest; ///< m, largest distance that a point may be moved
 };
 
-/// The nearest place found for point i at which it touches no body: down the gradients of the signed distances, from
-/// where it is, else from places around. Depends on nothing but the bodies and i; threads may ask at the same time.
+/// Finds the nearest place at which point i touches no body, along the gradients of the signed distances: from its
+/// position, else from places around it. Depends only on the bodies and i; thread-safe.
 std::optional<Vec3<double>> free_place(const Surroundings& near, std::size_t i);
 
 } // namespace tread::world

@@ -23,7 +23,7 @@ namespace
 
 constexpr std::size_t most_samples = 100'000'000;
 
-/// The bytes of a file; they and the samples that may be in them, one in two bytes, have to fit into memory.
+/// Reads the bytes of a file; they and the samples (at most one for two bytes) must fit into memory.
 std::string contents(const std::string& path)
 {
     constexpr double most = 1e9, with_samples = 1 + 0.5 * sizeof(double);
@@ -42,7 +42,7 @@ std::string contents(const std::string& path)
     return text;
 }
 
-/// A PGM's bytes and how far they have been read.
+/// A PGM's bytes and the read position.
 class PictureText
 {
 public:
@@ -58,7 +58,7 @@ public:
         throw InputError(fmt::format("{}:{}: {}", path_, line, what));
     }
 
-    /// The next number in decimal, after blanks and comments.
+    /// Reads the next decimal number, after blanks and comments.
     std::size_t number(const std::string& of, std::size_t low, std::size_t high)
     {
         skip_blanks();
@@ -108,7 +108,8 @@ void require_sizes(const std::string& path, std::size_t columns, std::size_t row
     }
 }
 
-/// Netpbm's PGM: plain (P2) or raw (P5); two bytes a sample, high one first, where the largest value is over 255.
+/// Reads Netpbm's PGM: plain (P2) or raw (P5); two bytes a sample, high one first, where the largest value is over
+/// 255.
 Raster read_picture(const scene::RasterFile& file)
 {
     PictureText text(file.path, contents(file.path));
@@ -202,7 +203,7 @@ Raster read_numbers(const scene::RasterFile& file)
     return raster;
 }
 
-/// The cell of a lattice of `samples` in which `at` in [0, 1] lies, and how far in.
+/// Cell of a lattice of `samples` that contains `at` in [0, 1], and the relative position in it.
 struct Place
 {
     std::size_t cell;

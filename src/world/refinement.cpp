@@ -12,8 +12,9 @@ namespace tread::world
 namespace
 {
 
-/// Cells of the level outside a box that are left to a wall or to the box before: parents of slave nodes, two cells
-/// outside the box for points that have left it a moment ago, are neither held by a wall nor slaves themselves.
+/// Cells of the next coarser level between a box and a wall or the enclosing box. Parents of slave nodes, which lie up
+/// to two cells outside the box for points that have just left it, must be neither held by a wall nor slaves
+/// themselves.
 constexpr std::int32_t margin = 4;
 
 mpm::Lattice lattice_of(const scene::Scene& scene, int level)
@@ -21,19 +22,19 @@ mpm::Lattice lattice_of(const scene::Scene& scene, int level)
     return mpm::level_lattice(mpm::make_lattice(scene.grid.spacing, 0.5), level);
 }
 
-/// Low end of a cell along an axis, m.
+/// m, low end of a cell along an axis.
 double low_end(const mpm::Lattice& lattice, std::int32_t cell)
 {
     return (cell + lattice.stencil_shift + lattice.node_shift) * lattice.spacing;
 }
 
-/// Where the next box may lie, in cells of the level outside it.
+/// Range of the next box, in cells of the next coarser level.
 struct Room
 {
     std::int32_t low[3], high[3];
 };
 
-/// The domain, less the margin where there are walls.
+/// The domain, minus the margin where there are walls.
 Room room_in_domain(const scene::Scene& scene)
 {
     const scene::Walls&   walls      = scene.domain.walls;

@@ -6,8 +6,8 @@
 namespace tread::world
 {
 
-/// The levels of a scene's grid: each box of [grid] refine grown to whole cells of the level outside it. InputError if
-/// a box is not inside the one before, or too near a wall.
+/// Grid levels of a scene: each box of [grid] refine is extended to whole cells of the next coarser level. InputError
+/// if a box is not inside the one before, or too near a wall.
 mpm::Refinement refinement_of(const scene::Scene& scene);
 
 /// Level of the grid at a position (m): 0 outside the boxes.

@@ -18,7 +18,7 @@ namespace
 
 using Interval = std::pair<double, double>;
 
-/// `height`, with an error where it is not finite.
+/// Wraps `height` with an error where it is not finite.
 HeightField checked(std::function<double(double, double)> height, std::string what)
 {
     return [height = std::move(height), what = std::move(what)](double x, double y)
@@ -48,7 +48,7 @@ bool over(const scene::Box& box, double x, double y)
     return x >= box.low[0] && x < box.high[0] && y >= box.low[1] && y < box.high[1];
 }
 
-/// Span of the region in the column at (x, y), what is cut out apart; empty if the column misses it.
+/// Interval of the region in the column at (x, y), before exclusions; empty if the column misses it.
 Interval span(const scene::Region& region, double x, double y)
 {
     if (region.sphere)
@@ -63,7 +63,7 @@ Interval span(const scene::Region& region, double x, double y)
     return over(box, x, y) ? Interval{box.low[2], box.high[2]} : Interval{0, 0};
 }
 
-/// m, of a column that is free of `except`.
+/// m, length of a column outside `except`.
 double free_length(const scene::Region& region, Interval column, double x, double y)
 {
     std::vector<Interval> cuts;
@@ -81,7 +81,7 @@ double free_length(const scene::Region& region, Interval column, double x, doubl
     return length + std::max(0.0, column.second - from);
 }
 
-/// Faces of all boxes along one axis of the plan, in order, and the middles of columns between them.
+/// Strips between the faces of all boxes along one axis of the plan, in order, split into columns.
 std::vector<Interval> strips(const scene::Region& region, std::size_t axis)
 {
     constexpr double    fewest = 512;

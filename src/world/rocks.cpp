@@ -29,7 +29,7 @@ std::size_t place(const scene::Scene& scene, std::size_t table, const Space& spa
     return place_at_random(scene, table, space, rocks, world);
 }
 
-/// Throws when a table's rocks do not fit: says how many did, and how full that is.
+/// Throws when a table's rocks do not fit, with the number placed and the solid fraction.
 [[noreturn]] void refuse(const scene::Scene& scene, std::size_t table, const std::vector<RockDraw>& drawn,
                          std::size_t placed)
 {

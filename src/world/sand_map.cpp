@@ -13,7 +13,7 @@ namespace tread::world
 namespace
 {
 
-/// Points of a saved bed stand in no order: on a lattice of their own spacing many sites would be empty.
+/// Points of a saved bed are disordered: on a lattice of their own spacing many sites would be empty.
 constexpr double widening_of_disorder = 1.5;
 
 } // namespace
@@ -54,7 +54,7 @@ SandMap::SandMap(const scene::Scene& scene, const HostPoints& points)
     }
 }
 
-/// -1 outside the lattice.
+/// Index of the site; -1 outside the lattice.
 std::int64_t SandMap::site(const Sites& sites, const Vec3<double>& x)
 {
     std::array<std::int64_t, 3> at{};

@@ -9,8 +9,8 @@
 namespace tread::world
 {
 
-/// Where sand stands, by [[terrain]] table: the cubes of the volume of its points. Later changes of the points do not
-/// show. Threads may ask at the same time.
+/// Space occupied by sand, by [[terrain]] table: the cubes of the volume of its points. Later changes of the points
+/// have no effect. Thread-safe.
 class SandMap
 {
 public:
@@ -23,7 +23,7 @@ public:
     bool holds(const Vec3<double>& x) const;
 
 private:
-    /// The lattice of a table, one bit a site.
+    /// Occupied lattice sites of a table, one bit a site.
     struct Sites
     {
         Vec3<double>                low     = Vec3<double>::Zero(); ///< m, corner of the first site

@@ -15,9 +15,9 @@ namespace tread::world
 namespace
 {
 
-constexpr double deepest_in_wall = 0.1; ///< of a radius: what settled rocks overlap a wall is far less
+constexpr double deepest_in_wall = 0.1; ///< overlap over radius: settled rocks overlap a wall by far less
 
-/// 0 to 5, as io::BedContacts numbers walls.
+/// 0 to 5, the wall's number in io::BedContacts.
 int wall_number(const dem::Plane& plane)
 {
     for (int axis = 0; axis < 3; ++axis)
@@ -27,7 +27,7 @@ int wall_number(const dem::Plane& plane)
     return -1;
 }
 
-/// Seen from the pair's other body: `from` = the one that was first, `to` the other.
+/// Converts a record to the pair's reversed order: `from` = the first body before, `to` = the first one after.
 ContactRecord turned_over(ContactRecord contact, const HostBodies& bodies, std::size_t from, std::size_t to)
 {
     const Vec3<double> place = bodies.position[from] + bodies.orientation[from] * contact.place;
@@ -81,7 +81,7 @@ std::vector<io::BedKind> kinds_of_table(const scene::Scene& scene, std::size_t t
     return kinds;
 }
 
-/// Keeps the kinds that rocks are of.
+/// Removes kinds that no rock has.
 void drop_unused_kinds(io::BedFile& bed)
 {
     std::vector<std::int32_t> place(bed.kinds.size(), -1);

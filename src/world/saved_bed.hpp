@@ -9,37 +9,37 @@
 #include "world/grading.hpp"
 #include "world/world.hpp"
 
-// Beds of rocks that one run settles and others start with.
+// Saves beds of rocks that one run settles, and loads them in others.
 namespace tread::world
 {
 
-/// The rocks of a world at the places of `bodies`, and those of their contacts that are with rocks or walls.
+/// Collects the rocks of a world at the positions of `bodies`, and their contacts with rocks or walls.
 io::BedFile make_bed(const scene::Scene& scene, const World& world, const io::BodyFields& bodies,
                      const std::vector<ContactRecord>& contacts);
 
-/// The beds that the [[rocks]] tables of a scene start from, each file read once. InputError, with file, key and what
-/// is accepted, for a file that is no bed, and where scene and bed do not go together.
+/// The beds from which the [[rocks]] tables of a scene start; each file is read once. InputError, with file, key and
+/// accepted values, for a file that is not a bed, and where scene and bed do not match.
 class SavedBeds
 {
 public:
     explicit SavedBeds(const scene::Scene& scene);
 
-    /// The rocks that a table takes from its bed: those of its shape and material.
+    /// Rocks that a table takes from its bed: those of its shape and material.
     std::vector<RockDraw> draws(std::size_t table) const;
 
-    /// Adds them to the world, at rest where they lay. They must have the bed's form and stiffness, lie within the
-    /// domain and clear of the named bodies.
+    /// Adds them to the world, at rest at their saved positions. They must have the bed's form and stiffness, lie
+    /// within the domain and be clear of the named bodies.
     void place(std::size_t table, World& world);
 
-    /// When all tables are placed: gives the contacts to the world. No rock of a bed may be left over, which others may
-    /// lean on.
+    /// Call when all tables are placed: adds the contacts to the world. All rocks of a bed must be used, since others
+    /// may rest on them.
     void finish(World& world) const;
 
 private:
     struct Bed
     {
         io::BedFile               file;
-        std::vector<std::int64_t> body; ///< of each rock of the file; -1 while no table has taken it
+        std::vector<std::int64_t> body; ///< body of each rock of the file; -1 until a table takes it
     };
 
     static void              add_contacts(const Bed& bed, World& world);

@@ -38,7 +38,7 @@ void require_same(const scene::Scene& scene, std::size_t table, const std::strin
            fmt::format("{} is {:.10g} in the scene and {:.10g} in the bed; accepted: the bed's", what, ours, theirs));
 }
 
-/// The number of the table's material in the bed.
+/// Index of the table's material in the bed.
 std::int32_t material_in_bed(const scene::Scene& scene, std::size_t table, const io::BedPoints& points)
 {
     const std::string& name = scene.terrain[table].material;

@@ -5,16 +5,16 @@
 #include "io/snapshot.hpp"
 #include "world/world.hpp"
 
-// Sand that one run settles and others start with.
+// Saves sand that one run settles, and loads it in others.
 namespace tread::world
 {
 
-/// The points of all ranks with the volume and the stress that they have now; collective. `fields`: this rank's.
+/// Collects the points of all ranks with their present volume and stress; collective. `fields`: this rank's.
 io::BedPoints saved_points(const Communicator& communicator, const scene::Scene& scene, const World& world,
                            const io::PointFields& fields);
 
-/// Appends the points of the table's bed that are of its material, at rest where they lay. InputError, with file, key
-/// and what is accepted, for a file that is no bed, and where scene and bed do not go together.
+/// Appends the points of the table's bed that have its material, at rest at their saved positions. InputError, with
+/// file, key and accepted values, for a file that is not a bed, and where scene and bed do not match.
 void append_saved_points(const scene::Scene& scene, std::size_t table, HostPoints& points);
 
 } // namespace tread::world

@@ -29,14 +29,14 @@ struct Sites
     double at(long i) const { return origin + spacing * (double(i) + 0.5); }
 };
 
-/// Those whose site is inside [low, high), rounding forgiven.
+/// Sites inside [low, high), with a tolerance for rounding.
 Sites sites_between(double low, double high, double spacing, double origin)
 {
     const auto index = [&](double at) { return static_cast<long>(std::ceil((at - origin) / spacing - 0.5 - 1e-9)); };
     return {origin, spacing, index(low), index(high)};
 }
 
-/// `within`: where sites are wanted at all.
+/// Lattice of a table's points, restricted to the box `within`.
 std::array<Sites, 3> lattice(const scene::Terrain& terrain, double spacing, const scene::Box& within)
 {
     const auto           box = bounds(terrain.region);
@@ -51,7 +51,7 @@ std::array<Sites, 3> lattice(const scene::Terrain& terrain, double spacing, cons
 
 bool moves(const scene::Terrain& terrain) { return terrain.velocity != scene::Vector3{}; }
 
-/// What a table gives each of its points.
+/// Properties that a table gives each of its points.
 struct PointKind
 {
     double       volume;
@@ -78,7 +78,7 @@ void remove_inside(HostPoints& points, const Space& space)
     keep_points(points, kept);
 }
 
-/// Lists of points are 32-bit.
+/// Throws if there are more points than 32-bit lists can index.
 void require_countable(const HostPoints& points)
 {
     constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
@@ -92,11 +92,11 @@ void require_countable(const HostPoints& points)
 
 std::size_t count(const Sites& sites) { return static_cast<std::size_t>(std::max(0L, sites.end - sites.first)); }
 
-/// EnvironmentError where a table's columns or points do not fit into this machine's memory. Points are counted by the
-/// space's volume: its box may be emptier by far.
+/// Throws EnvironmentError where a table's columns or points do not fit into memory. Points are estimated from the
+/// space's volume, since its bounding box may be mostly empty.
 void require_room_for_points(const Space& space, const std::array<Sites, 3>& axes, const std::string& owner)
 {
-    constexpr double of_column = sizeof(std::pair<double, double>), growth = 2; // of a vector that is filled
+    constexpr double of_column = sizeof(std::pair<double, double>), growth = 2; // reallocation of a growing vector
     constexpr double of_point = growth * (sizeof(Vec3<double>) + sizeof(Sym3<double>) + 2 * sizeof(double) +
                                           sizeof(std::uint8_t) + sizeof(std::int32_t));
     const char*      advice   = "coarsen [grid] spacing, points_per_cell or the table's spacing";
@@ -110,7 +110,7 @@ void require_room_for_points(const Space& space, const std::array<Sites, 3>& axe
                          advice});
 }
 
-/// Sites along z that lie between the lowest and the highest level of all columns.
+/// Sites along z between the lowest and the highest level of all columns.
 Sites sites_of_levels(Sites along_z, const std::vector<std::pair<double, double>>& level)
 {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -128,12 +128,12 @@ Sites sites_of_levels(Sites along_z, const std::vector<std::pair<double, double>
     return along_z;
 }
 
-/// Adds a point at each site in the space that `wanted` holds of.
+/// Adds a point at each site in the space for which `wanted` is true.
 template<class Wanted>
 void fill(const Space& space, const std::array<Sites, 3>& axes, const PointKind& kind, const Wanted& wanted,
           HostPoints& points)
 {
-    // Points go layer by layer, the surfaces' levels are asked for once a column.
+    // Points are added layer by layer; levels are computed once per column.
     const auto& [along_x, along_y, all_along_z] = axes;
     const std::size_t columns_x = count(along_x), columns_y = count(along_y);
 
@@ -168,7 +168,7 @@ PointKind kind_of(const scene::Scene& scene, std::size_t table, double spacing)
             static_cast<std::uint8_t>(material), static_cast<std::int32_t>(table)};
 }
 
-/// Points of one level of the grid, on the lattice of its cells.
+/// Adds the points in one level of the grid, on the lattice of its cells.
 void fill_level(const scene::Scene& scene, std::size_t table, const Space& space, const mpm::Refinement& refinement,
                 int level, HostPoints& points)
 {

@@ -18,8 +18,8 @@ namespace
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-constexpr double full_enough = 0.3; ///< solid fraction: half of a loose bed of rocks; fog of points is far below
-constexpr int    dense_bins  = 4;   ///< whose mean says how densely a column is packed
+constexpr double full_enough = 0.3; ///< solid fraction: half of a loose bed of rocks; scattered points are far below
+constexpr int    dense_bins  = 4;   ///< bins averaged for the packing density of a column
 
 /// Solid fraction of bins, 0 beyond the ends.
 class Fractions
@@ -53,14 +53,14 @@ private:
     double                     of_bin_;
 };
 
-/// Where a column's bed ends, in bins, and what of it lies about there.
+/// Top of a column's bed, in bins, and the solid volume near it.
 struct Top
 {
-    std::int64_t          reference = 0; ///< bin from whose bottom on the surface is built up
-    double                content   = 0; ///< bins' worth of solid from there up to `counted`
-    double                counted   = 0; ///< top of the highest bin that counts
-    double                fog       = 0; ///< solid fraction of what floats
-    std::optional<double> packing;       ///< solid fraction under the reference; nothing where the bed is too thin
+    std::int64_t          reference = 0; ///< bin from whose bottom the surface is computed
+    double                content   = 0; ///< solid volume, in bins, from there up to `counted`
+    double                counted   = 0; ///< top of the highest bin that is counted
+    double                fog       = 0; ///< solid fraction of floating material
+    std::optional<double> packing;       ///< solid fraction below the reference; empty where the bed is too thin
 };
 
 std::optional<Top> top_of(const Fractions& fraction, std::int64_t slope_bins)
@@ -70,7 +70,7 @@ std::optional<Top> top_of(const Fractions& fraction, std::int64_t slope_bins)
     if (top < fraction.first()) { return {}; }
     while (fraction[bottom] < full_enough) { ++bottom; }
 
-    // The lowest bin may be cut by the bed's floor.
+    // The bed's floor may lie within the lowest bin.
     const std::int64_t under = std::max<std::int64_t>(top - bottom - 1, 0);
     const std::int64_t slope = std::min(slope_bins, under / 2);
     const std::int64_t dense = std::min(std::max<std::int64_t>(dense_bins, slope_bins), under - slope);
@@ -85,14 +85,14 @@ std::optional<Top> top_of(const Fractions& fraction, std::int64_t slope_bins)
     return found;
 }
 
-/// In bins.
+/// Height of the surface, in bins.
 double surface_of(const Top& top, double packing)
 {
     const double fog = std::min(top.fog, 0.5 * packing), base = static_cast<double>(top.reference);
     return base + (top.content - fog * (top.counted - base)) / (packing - fog);
 }
 
-/// Of the columns that tell it; 1 where none does.
+/// Median over the columns with a known packing; 1 without any.
 double median_packing(const std::vector<std::optional<Top>>& tops)
 {
     std::vector<double> known;
@@ -139,7 +139,7 @@ ColumnLattice column_lattice(const scene::Scene& scene, const World& world)
 
 void require_room_for_columns(const scene::Scene& scene, const World& world)
 {
-    constexpr double    of_column = 64; // bytes of the bins and heights of an empty one
+    constexpr double    of_column = 64; // bytes of the bins and heights of an empty column
     const ColumnLattice lattice   = column_lattice(scene, world);
     const double        columns   = static_cast<double>(lattice.count[0]) * static_cast<double>(lattice.count[1]);
     scene::with_line_of(scene, "grid",
@@ -168,7 +168,7 @@ void TerrainBins::add_block(const Vec3<double>& centre, double edge, double volu
         first[c] = std::clamp<std::int64_t>(bin_of(place - half, lattice_.width[c]), 0, lattice_.count[c] - 1);
         last[c]  = std::clamp<std::int64_t>(bin_of(place + half, lattice_.width[c]), 0, lattice_.count[c] - 1);
     }
-    // What lies beyond the outermost columns is theirs: a side that is cut there is widened by as much.
+    // Volume beyond the outermost columns counts as theirs: they extend to infinity.
     const auto share = [&](std::size_t c, std::int64_t at)
     {
         const double inf = std::numeric_limits<double>::infinity(), from = lattice_.width[c] * static_cast<double>(at);
@@ -209,7 +209,7 @@ void TerrainBins::add_to_column(Column& column, double low, double high, double 
 
 void TerrainBins::add_sphere(const Vec3<double>& centre, double radius)
 {
-    // Of the 4 x 4 x 4 cubes of the box, those whose centres lie inside.
+    // Those of the box's 4 x 4 x 4 cubes whose centres lie inside.
     constexpr int    samples = 32;
     constexpr double sphere  = 4.0 / 3.0 * std::numbers::pi;
     const double     volume  = sphere * radius * radius * radius / samples;

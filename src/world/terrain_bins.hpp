@@ -8,13 +8,13 @@
 #include "base/communicator.hpp"
 #include "world/world.hpp"
 
-// How much sand and rock there is at each height, in columns over the plan, and how high it stands.
+// Volume of sand and rock by height, in columns over the plan, and the surface height.
 namespace tread::world
 {
 
-/// Columns over the plan of the domain, cut into bins. A column is as wide as a cell of the grid, with rocks at least
-/// two of their mean diameters, so that it holds several of them. A bin is as high as a cell (thinner ones would hold
-/// few points each, thicker ones blur where the bed ends), with rocks at least half a mean diameter.
+/// Columns over the plan of the domain, divided into bins. A column is as wide as a grid cell, and at least two mean
+/// diameters of the rocks, so that it holds several of them. A bin is as high as a cell (thinner ones would hold few
+/// points, thicker ones would blur the surface), and at least half a mean diameter of the rocks.
 struct ColumnLattice
 {
     std::array<std::int64_t, 2> count{0, 0}; ///< columns along x and y; 0 without terrain
@@ -26,7 +26,7 @@ struct ColumnLattice
 
 ColumnLattice column_lattice(const scene::Scene& scene, const World& world);
 
-/// EnvironmentError where a map of a scene's columns does not fit into memory.
+/// Throws EnvironmentError where a map of a scene's columns does not fit into memory.
 void require_room_for_columns(const scene::Scene& scene, const World& world);
 
 /// The volume of sand and rock in each bin of a lattice.
@@ -35,28 +35,27 @@ class TerrainBins
 public:
     explicit TerrainBins(const ColumnLattice& lattice);
 
-    /// A cube of this volume (m3) about `centre` (m): each bin gets what lies in it. What lies beyond the outermost
+    /// Adds a cube of this volume (m3) about `centre` (m) to the bins that it overlaps. Volume beyond the outermost
     /// columns counts as theirs.
     void add_cube(const Vec3<double>& centre, double volume) { add_block(centre, std::cbrt(volume), volume); }
 
-    /// A sphere, as 32 cubes.
+    /// Adds a sphere, as 32 cubes.
     void add_sphere(const Vec3<double>& centre, double radius);
 
-    /// Adds up all ranks' bins on every rank, in rank order. Collective.
+    /// Sums the bins of all ranks on every rank, in rank order. Collective.
     void add_ranks(const Communicator& communicator);
 
-    /// Height of the terrain's surface in each column, x fastest, m; NaN where there is no terrain. From the top down,
-    /// the first bin that is full enough is the top of the bed. What lies from some bins under it (as many as make the
-    /// column's width, so that a slope ends within them) up to the bin above it would fill the column up to the
-    /// surface, if it were packed as densely as the bins below. What floats still higher is taken to float with the
-    /// same density down to the surface, and does not count. Exact for a level bed of points wherever their lattice
-    /// stands.
+    /// Height of the terrain's surface in each column, x fastest, m; NaN where there is no terrain. The top of the bed
+    /// is, from the top down, the first bin that is full enough. The volume from some bins below it (as many as make
+    /// the column's width, so that a slope ends within them) up to the bin above it fills the column up to the surface
+    /// at the packing density of the bins below. Volume that floats higher is assumed to have the same density down to
+    /// the surface, and is not counted. Exact for a level bed of points at any position of their lattice.
     std::vector<double> surface() const;
 
 private:
     struct Column
     {
-        std::int64_t        first = 0; ///< number of the lowest bin
+        std::int64_t        first = 0; ///< index of the lowest bin
         std::vector<double> volume;    ///< m3
     };
 

@@ -103,14 +103,14 @@ std::vector<std::vector<RockDraw>> draw_all_rocks(const scene::Scene& scene, con
     return draws;
 }
 
-/// A template that some bodies or rocks need.
+/// A template needed by bodies or rocks.
 struct Wanted
 {
     scene::Shape shape;
     double       smallest; ///< m, diameter of the smallest instance; infinite if all are bodies of the shape's own size
 };
 
-/// The shapes that bodies and drawn rocks take, each once, in order of first use.
+/// Shapes used by bodies and drawn rocks, each once, in order of first use.
 class WantedShapes
 {
 public:
@@ -147,11 +147,11 @@ std::vector<Wanted> wanted_shapes(const scene::Scene& scene, const std::vector<s
     return shapes.wanted;
 }
 
-/// Of a body's radius, that a point's contact radius may be: the body's distance field goes out to it.
+/// Largest contact radius of a point over a body's radius: the body's distance field extends that far.
 constexpr double most_point_radii = 8;
 
-/// The largest radius of a point beside the smallest instance of a shape, m at the shape's scale 1: sand is in contact
-/// from that distance on.
+/// m at the shape's scale 1, largest contact radius of a point at the smallest instance of a shape: the distance at
+/// which contact with sand begins.
 double contact_reach(const scene::Scene& scene, const HostPoints& points, const Wanted& wanted,
                      double equivalent_radius)
 {
@@ -186,7 +186,7 @@ shape::ShapeTemplate make_template(const scene::Scene& scene, const HostPoints& 
     return form;
 }
 
-/// "shape.clast", of its member "clast-0" too.
+/// Name of the shape's table, "shape.clast", also for its member "clast-0".
 std::string shape_table(const scene::Scene& scene, const std::string& name)
 {
     const bool own    = std::any_of(scene.shapes.begin(), scene.shapes.end(),

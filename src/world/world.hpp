@@ -12,11 +12,11 @@
 #include "scene/scene.hpp"
 #include "shape/template.hpp"
 
-// What a scene describes, built once on the host: the same on every machine and for every backend.
+// The world that a scene describes, built once on the host: identical on every machine and for every backend.
 namespace tread::world
 {
 
-/// Material points before they are given to a backend. One entry a point in every array.
+/// Material points before they are copied to a backend; one entry per point in every array.
 struct HostPoints
 {
     std::vector<Vec3<double>> position; ///< m
@@ -24,18 +24,18 @@ struct HostPoints
     std::vector<double>       mass;     ///< kg
     std::vector<Sym3<double>> stress;   ///< Pa
     std::vector<std::uint8_t> material;
-    std::vector<std::int32_t> terrain;  ///< index of the [[terrain]] table that made it
+    std::vector<std::int32_t> terrain;  ///< index of the [[terrain]] table that created the point
     std::vector<Vec3<double>> velocity; ///< m/s; empty if all points are at rest
 
-    std::vector<double> plastic_shear; ///< that points of a saved bed start with; empty without such points
+    std::vector<double> plastic_shear; ///< initial, of the points of a saved bed; empty without such points
 
-    /// Of points that are one rank's own alone, their numbers in the scene. Empty: all of the scene, as they stand.
+    /// Ids in the scene, if these points are one rank's own. Empty: all points of the scene, in their order.
     std::vector<std::uint32_t> id;
 
     std::size_t size() const { return position.size(); }
 };
 
-/// Keeps the points for which kept[i] is not 0, in their order; returns how many went.
+/// Keeps the points for which kept[i] is not 0, in their order; returns the number removed.
 std::int64_t keep_points(HostPoints& points, const std::vector<std::uint8_t>& kept);
 
 /// Rigid bodies: first the scene's [[body]] tables in their order, then the rocks.
@@ -45,35 +45,35 @@ struct HostBodies
     std::vector<Quat>         orientation; ///< body to world
     std::vector<Vec3<double>> velocity;    ///< m/s
     std::vector<double>       mass;        ///< kg
-    std::vector<double>       scale;       ///< of the template
-    std::vector<double>       radius;      ///< m, of the sphere of equal volume
-    std::vector<std::int32_t> shape;       ///< of World::templates
-    std::vector<std::int32_t> material;    ///< of Scene::materials
-    std::int64_t              named = 0;   ///< bodies of [[body]] tables
-    std::vector<std::size_t>  rocks_end;   ///< of each [[rocks]] table: one past its last body
+    std::vector<double>       scale;       ///< relative to the template
+    std::vector<double>       radius;      ///< m, radius of the sphere of equal volume
+    std::vector<std::int32_t> shape;       ///< index into World::templates
+    std::vector<std::int32_t> material;    ///< index into Scene::materials
+    std::int64_t              named = 0;   ///< number of bodies of [[body]] tables
+    std::vector<std::size_t>  rocks_end;   ///< for each [[rocks]] table: one past its last body
 
     std::size_t size() const { return position.size(); }
 };
 
-/// What a pair in contact remembers: the key of kernels/dem/pairs/pairs.hpp, walls counted on from the bodies. A pair
-/// that touches in several patches has a record for each, and only then their places count.
+/// Contact record of a pair: its key (kernels/dem/pairs/pairs.hpp), in which walls are numbered after the bodies. A
+/// pair that touches in several patches has a record for each; only then is `place` used.
 struct ContactRecord
 {
     std::uint64_t key;
     dem::Patch    patch;
     dem::Rolling  rolling = dem::no_rolling();
-    Vec3<double>  place   = Vec3<double>::Zero(); ///< m, from the centre of the first body in its frame
+    Vec3<double>  place   = Vec3<double>::Zero(); ///< m, from the centre of the first body, in its frame
 };
 
-/// What a [[rocks]] table's region holds at the start between floor and height, as far as sand stood there: shares of
+/// Composition of a [[rocks]] table's layer at the start, between floor and height as far as sand was there: shares of
 /// the volume of that sand.
 struct LayerShares
 {
-    std::size_t table; ///< of Scene::rocks
+    std::size_t table; ///< index into Scene::rocks
     double      sand;
     double      rock;
-    double      space;        ///< m3, of the sand that stood there
-    double      rock_radius;  ///< m, mean of the table's rocks: of the sphere of equal volume
+    double      space;        ///< m3, volume of that sand
+    double      rock_radius;  ///< m, mean over the table's rocks: radius of the sphere of equal volume
     double      point_radius; ///< m, largest contact radius of the points there
 
     double empty() const { return 1 - sand - rock; }
@@ -83,21 +83,21 @@ struct World
 {
     mpm::GridGeometry                 geometry;
     mpm::GridWalls                    grid_walls;
-    std::vector<dem::Plane>           planes; ///< walls as bodies meet them
+    std::vector<dem::Plane>           planes; ///< walls in contact with bodies
     std::vector<shape::ShapeTemplate> templates;
     HostPoints                        points;
     HostBodies                        bodies;
-    std::vector<LayerShares>          layers;        ///< of the [[rocks]] tables that take the place of sand
-    std::vector<ContactRecord>        contacts;      ///< that the bodies start with, by ascending key
-    double                            point_spacing; ///< m, smallest distance of neighbouring points; 0 without sand
+    std::vector<LayerShares>          layers;   ///< for [[rocks]] tables that replace sand
+    std::vector<ContactRecord>        contacts; ///< initial contacts of the bodies, by ascending key
+    double point_spacing;                       ///< m, smallest distance between neighbouring points; 0 without sand
 };
 
 /// Builds points, rocks and bodies of a scene; InputError where geometry is impossible: a body or rock that overlaps
 /// another, a wall or the sand (unless it replaces it), a shape over 100 times the domain, a region too small.
 World build_world(const scene::Scene& scene);
 
-/// Side of a contact patch on the bed, m: of the square of the same area, or, where the domain is narrower than that
-/// square (a slab in plane strain), of the rectangle across the domain.
+/// Side of a contact patch on the bed, m: that of the square of the same area, or, where the domain is narrower than
+/// that square (a slab in plane strain), of the rectangle across the domain.
 double patch_side(double area, const World& world);
 
 /// Index of a material by its name.

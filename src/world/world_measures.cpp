@@ -8,8 +8,8 @@ namespace tread::world
 namespace
 {
 
-constexpr double      largest_rounding = 1e-9; ///< of a sum of up to 1e9 terms, relative
-constexpr std::size_t weights          = 101;  ///< so many in turn: what stands in another order has other sums
+constexpr double      largest_rounding = 1e-9; ///< relative, of a sum of up to 1e9 terms
+constexpr std::size_t weights          = 101;  ///< number of cyclic weights, which make the sums depend on the order
 
 /// Sum of the masses, and of places times masses and weights.
 void add_masses(const std::vector<Vec3<double>>& place, const std::vector<double>& mass, std::vector<double>& to)
