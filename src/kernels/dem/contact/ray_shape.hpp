@@ -8,7 +8,7 @@
 namespace tread::dem
 {
 
-/// Owner of what RayView shows, on the host.
+/// Host memory of RayView.
 struct RayShape
 {
     RayView view() const
@@ -27,7 +27,7 @@ struct RayShape
 /// of a tip that is pressed into a body do not see that body's far end.
 std::vector<double> ray_lengths(const RayShape& shape, const std::vector<Vec3<double>>& nodes);
 
-/// From a tree laid out as shape::FlatTree, and the surface nodes with their outward normals.
+/// Makes a RayShape from a tree laid out as shape::FlatTree and from the surface nodes with their outward normals.
 template<class Tree>
 RayShape make_ray_shape(const Tree& tree, const std::vector<Vec3<double>>& nodes,
                         const std::vector<Vec3<double>>& normals)
