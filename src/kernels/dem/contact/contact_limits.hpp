@@ -39,8 +39,9 @@ std::int64_t stiffest_body(const Pairs<Exec>& pairs, std::int64_t bodies)
     return std::max_element(squared.begin(), squared.begin() + bodies) - squared.begin();
 }
 
-/// The largest overlap over the smaller equivalent radius of the pair, of any pair since it was listed; 0 if nothing
-/// touched; returns where the backend will have it, until pairs.measure is used again. Warn above 0.1, stop above 0.5.
+/// Computes the maximum over all pairs of the overlap divided by the smaller equivalent radius of the pair, since the
+/// pairs were listed; 0 if nothing touched. Returns the address of the result in the backend's memory, valid until
+/// pairs.measure is used again. Warn above 0.1, stop above 0.5.
 const double* largest_overlap(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 const double* largest_overlap(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 

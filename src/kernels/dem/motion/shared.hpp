@@ -17,7 +17,7 @@ struct WrenchShare
     ContactWrench pairs;   ///< from bodies and walls
 };
 
-/// What a body's contacts will ask of the substep, of one rank's pairs (contact_limits.hpp). N/m.
+/// Expected stiffness of a body's contacts from one rank's pairs, which limits the substep (contact_limits.hpp). N/m.
 struct StiffnessShare
 {
     double touches;  ///< first touches of separated pairs; in a bed most of them do not come about
