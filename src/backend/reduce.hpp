@@ -11,7 +11,7 @@ namespace tread
 void sum_rows(const Cpu&, const double* rows, std::int64_t count, int width, double* out);
 void sum_rows(const Gpu&, const double* rows, std::int64_t count, int width, double* out);
 
-/// Same sum for very many rows; `scratch` is kept between calls.
+/// Computes this sum for very many rows; `scratch` is kept between calls.
 void sum_rows(const Cpu&, const double* rows, std::int64_t count, int width, double* out, Array<Cpu, double>& scratch);
 void sum_rows(const Gpu&, const double* rows, std::int64_t count, int width, double* out, Array<Gpu, double>& scratch);
 

@@ -45,7 +45,7 @@ TREAD_HD std::int32_t page_coordinate(double position, double spacing, double sh
     return static_cast<std::int32_t>(page < high ? page : high);
 }
 
-/// Same, clamped to the range that has keys.
+/// Returns the page coordinate of a position along one axis, clamped to the range that has keys.
 TREAD_HD std::int32_t page_coordinate(double position, double spacing, double stencil_shift)
 {
     const double limit = mpm::page_bias - 1;
@@ -59,8 +59,7 @@ struct SearchBody
     double                   scale;
     Vec3<double>             position;
     Quat                     orientation;
-    double travel; ///< m, twice the displacement of body and points in the step (or the skin if larger), plus twice the
-                   ///< extent of the samples
+    double travel; ///< m, twice the possible approach in the step, or the skin, plus twice the samples' extent
 };
 
 TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::TemplateView* templates, std::int64_t b,

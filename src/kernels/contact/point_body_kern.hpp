@@ -72,14 +72,13 @@ TREAD_HD Vec3<double> stand_off(double distance, const Vec3<double>& gradient)
 /// Result of the law for one contact in one substep; all zero, including the gradient, while the pair is separated.
 struct Response
 {
-    Vec3<double> force;  ///< N, on the point; the body gets the exact opposite
-    Vec3<double> couple; ///< N m, on the body, in addition to the moment of the force at x_p, because friction acts at
-                         ///< its surface
-    double overlap;      ///< m, d = r_p - phi
-    double stiffness;    ///< N/m, k_n = dF/dd
-    double gradient_length; ///< of the SDF; 1 on a smooth face, small on a medial axis
-    double energy;          ///< J, elastic: normal + tangential
-    double dissipated;      ///< J, dissipated by friction in this substep, never negative
+    Vec3<double> force;           ///< N, on the point; the body gets the exact opposite
+    Vec3<double> couple;          ///< N m, on the body, in addition to its force at x_p: friction acts at the surface
+    double       overlap;         ///< m, d = r_p - phi
+    double       stiffness;       ///< N/m, k_n = dF/dd
+    double       gradient_length; ///< of the SDF; 1 on a smooth face, small on a medial axis
+    double       energy;          ///< J, elastic: normal + tangential
+    double       dissipated;      ///< J, dissipated by friction in this substep, never negative
 };
 
 TREAD_HD Response no_response() { return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0.0, 0.0, 0.0, 0.0, 0.0}; }

@@ -136,8 +136,8 @@ void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Points
                 const mpm::PagesView& pages, const dem::BodiesView& bodies, const PointBodyLaw& law,
                 const SearchReach& reach);
 
-/// Same with the candidates and histories of the last begin_step: valid while nothing has approached by more than its
-/// search allowed and the points are not reordered in memory. Allocates nothing.
+/// Begins a step with the candidates and histories of the last begin_step: valid while nothing has approached by more
+/// than its search allowed and the points are not reordered in memory. Allocates nothing.
 template<class Exec, class Real>
 void begin_kept_step(const Exec& exec, PointContact<Exec>& contact, const mpm::PointsView<Real>& points,
                      const PointBodyLaw& law);

@@ -124,7 +124,7 @@ struct Respond
     }
 };
 
-/// Same if some bodies are sampled.
+/// Computes the responses if some bodies are sampled.
 struct RespondSampled
 {
     Respond respond;

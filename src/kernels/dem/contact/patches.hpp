@@ -35,8 +35,7 @@ struct Patches
 
     bool wanted = false; ///< whether some body is concave
 
-    Array<Exec, Vec3<double>> place; ///< m, position of the patch from the centre of a, in a's body frame; empty if no
-                                     ///< pair has several patches
+    Array<Exec, Vec3<double>>  place;      ///< m, patch position in a's body frame; empty if no pair has several
     Array<Exec, Vec3<double>>  last_place; ///< `place` of the previous list
     Array<Exec, std::int32_t>  group;      ///< patch of every listed node
     Array<Exec, std::int32_t>  first;      ///< [pairs + 1]

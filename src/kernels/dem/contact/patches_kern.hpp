@@ -8,11 +8,10 @@
 namespace tread::dem::patches
 {
 
-inline constexpr int    most      = 4;   ///< maximum number of patches of a pair
-inline constexpr int    most_open = 8;   ///< maximum while nodes are still being added
-inline constexpr double same_side = 0.5; ///< minimum cosine of the angle between the normals of one patch
-inline constexpr double gap_in_spaces =
-    2; ///< maximum gap between the nodes of one patch, in node spacings of the coarser body
+inline constexpr int    most          = 4;   ///< maximum number of patches of a pair
+inline constexpr int    most_open     = 8;   ///< maximum while nodes are still being added
+inline constexpr double same_side     = 0.5; ///< minimum cosine of the angle between the normals of one patch
+inline constexpr double gap_in_spaces = 2;   ///< maximum gap in a patch, in node spacings of the coarser body
 
 /// A node in contact.
 struct Touch

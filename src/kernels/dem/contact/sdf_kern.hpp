@@ -132,8 +132,8 @@ TREAD_HD SdfSample sample_template_sdf(const TemplateView& shape, const Vec3<dou
     return sample;
 }
 
-/// Same for an instance in the world: phi(x) = s phi_template(R^T (x - c) / s), gradient R grad phi_template. position
-/// = centre of mass c (m), orientation = body to world.
+/// Returns distance and gradient of an instance in the world frame: phi(x) = s phi_template(R^T (x - c) / s), gradient
+/// R grad phi_template. position = centre of mass c (m), orientation = body to world.
 TREAD_HD SdfSample sample_body_sdf(const TemplateView& shape, double scale, const Vec3<double>& position,
                                    const Quat& orientation, const Vec3<double>& world_point)
 {

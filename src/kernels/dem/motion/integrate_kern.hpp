@@ -161,7 +161,7 @@ TREAD_HD Vec3<double> integrate_translation(BodyMotion& body, const Vec3<double>
     return mean;
 }
 
-/// Same for the rotation; returns the angular velocity over the step.
+/// Rotates a body likewise under its torque; returns the angular velocity over the step.
 template<class Damping>
 TREAD_HD Vec3<double> integrate_rotation(BodyMotion& body, const Vec3<double>& torque, const Damping& damping,
                                          double dt, BodyTotal& total)

@@ -25,8 +25,7 @@ TREAD_HD ContactWrench operator+(const ContactWrench& a, const ContactWrench& b)
 /// External wrenches on bodies (not from other bodies or walls), in parts that the integration sums for each body.
 struct OutsideWrenches
 {
-    const std::int32_t* run =
-        nullptr; ///< [bodies], run of the body's parts; -1 = none; null: no external wrench on any body
+    const std::int32_t*  run   = nullptr; ///< [bodies], run of the body's parts; -1 = none; null: none for any body
     const std::int32_t*  first = nullptr; ///< [runs + 1], first part of each run
     const ContactWrench* part  = nullptr;
 };

@@ -28,8 +28,7 @@ struct SharedView
 {
     std::int64_t        count = 0;       ///< number of bodies that this rank integrates together with others
     const std::int32_t* body  = nullptr; ///< [count], ascending
-    const std::int32_t* place =
-        nullptr; ///< [bodies], index in `body`; -1: no other rank integrates it; null: there is one rank
+    const std::int32_t* place = nullptr; ///< [bodies], index in `body`; -1: not shared; null: there is one rank
     const std::int32_t* first = nullptr; ///< [count + 1], first share of each body
     const std::int32_t* row   = nullptr; ///< row in the arrays below, by rank
 

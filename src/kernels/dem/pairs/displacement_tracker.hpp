@@ -38,7 +38,8 @@ const double* largest_displacement(const Cpu&, DisplacementTracker<Cpu>& tracker
 const double* largest_displacement(const Gpu&, DisplacementTracker<Gpu>& tracker, const BodiesView& bodies,
                                    const TemplateView* templates, const double* travel);
 
-/// Same, with the displacement extrapolated over the coming steps `ahead` (s), plus a reserve for bodies at rest.
+/// Computes the same share with the displacement extrapolated over the coming steps of `ahead` (s) each, plus a reserve
+/// for bodies at rest.
 const double* largest_displacement_ahead(const Cpu&, DisplacementTracker<Cpu>& tracker, const BodiesView& bodies,
                                          const TemplateView* templates, const double* travel, double ahead);
 const double* largest_displacement_ahead(const Gpu&, DisplacementTracker<Gpu>& tracker, const BodiesView& bodies,

@@ -86,7 +86,7 @@ struct UpdatePages
         return octant;
     }
 
-    /// Same as sum_tiles for two nodes.
+    /// Sums the tiles for two nodes, like sum_tiles.
     __device__ static void sum_pairs(unsigned filled, int lane, const Real* parts, Pair<Real>* total)
     {
         const int x = 2 * (lane & 1), y = lane >> 1 & 3, z = lane >> 3;
@@ -107,7 +107,7 @@ struct UpdatePages
         }
     }
 
-    /// Same as read_total for two nodes.
+    /// Reads the totals of two nodes, like read_total.
     __device__ void read_pairs(std::int32_t shared, int lane, Pair<Real>* total) const
     {
         const Real* from = shared_pages.total + std::int64_t(shared) * node_page_values + 2 * lane;

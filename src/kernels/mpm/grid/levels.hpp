@@ -42,8 +42,7 @@ TREAD_HD Lattice level_lattice(const Lattice& scene, int level)
 struct Refinement
 {
     int     levels = 0;         ///< levels beyond the scene's own grid
-    CellBox box[most_levels]{}; ///< of level l at index l - 1, in cells of that level: even, within the box of the
-                                ///< level below
+    CellBox box[most_levels]{}; ///< of level l at l - 1, in its cells: even, within the box of the level below
 };
 
 /// Returns the cells of `level` that the next level replaces: half the next level's box.

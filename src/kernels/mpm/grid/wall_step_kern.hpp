@@ -60,8 +60,8 @@ TREAD_HD int region_item(const WallRegion& region, int place)
 /// Result of wall_plane if the region does not contain the plane.
 constexpr int no_plane = -100;
 
-/// Returns the position along `axis` of the plane of the wall at `end` in the region of `page`, if the region has a node
-/// on each side of it; otherwise no_plane.
+/// Returns the position along `axis` of the plane of the wall at `end` in the region of `page`, if the region has a
+/// node on each side of it; otherwise no_plane.
 TREAD_HD int wall_plane(const GridWalls& walls, Index3 page, const WallRegion& region, int axis, int end)
 {
     if (walls.rule[axis][end] == WallRule::open) { return no_plane; }

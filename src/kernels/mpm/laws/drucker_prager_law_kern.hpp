@@ -36,8 +36,8 @@ struct DruckerPrager
 inline double edge_slope(double sine, double side) { return 6 * sine / (std::numbers::sqrt3 * (3 + side * sine)); }
 
 /// Makes the law, computed in fp64 and rounded to Real. The limit k of a cone is its slope times c cot phi except for
-/// phi = 0; the slopes below are therefore divided by sin phi. In plane strain the out-of-plane flow vanishes, s_y =
-/// -2/3 eta_flow sqrt(J2), which gives eta_flow = sin psi / sqrt(1 + sin^2 psi / 3) and eta = sin phi / (sqrt(1 -
+/// phi = 0; the slopes below are therefore divided by sin phi. In plane strain the out-of-plane flow vanishes,
+/// s_y = -2/3 eta_flow sqrt(J2), which gives eta_flow = sin psi / sqrt(1 + sin^2 psi / 3) and eta = sin phi / (sqrt(1 -
 /// eta_flow^2 / 3) + sin phi eta_flow / 3); for psi = phi that is 3 tan phi / sqrt(9 + 12 tan^2 phi) (Drucker and
 /// Prager 1952).
 template<class Real>
