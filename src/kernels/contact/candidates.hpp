@@ -24,7 +24,7 @@ struct SearchReach
     double point_drift;    ///< m, maximum distance of a point from the cell in which it is listed
     double largest_radius; ///< m, maximum radius of the points
     double sampled_below;  ///< m, as in PointBodyLaw
-    double skin;           ///< m, Verlet skin, twice the allowed approach of a body and a point
+    double skin;           ///< m, Verlet skin: twice the least approach of body and point that the list allows
 };
 
 /// View of the (body, point) pairs, ordered by body; within a body by page and memory order.

@@ -32,7 +32,7 @@ TREAD_HD void claim_bin(const HistoryView& history, std::uint64_t key, std::int3
     history.bin_record[bin] = record;
 }
 
-/// Returns the record stored under the key.
+/// Returns the record stored under the key, or zero if there is none.
 TREAD_HD Tangential recall(const HistoryView& history, std::uint64_t key)
 {
     if (history.bins == 0) { return no_tangential(); }

@@ -45,7 +45,7 @@ struct NodeInField
     double       sign;     ///< +1 for a node of a, -1 for one of b
 };
 
-/// Result of evaluating a node, for the sums over a pair. It is rounded to fp32, after the overlap was computed in
+/// Result of evaluating a node, for the sums over a pair. It is rounded to fp32 only after the overlap was computed in
 /// fp64.
 struct alignas(16) FoundNode
 {

@@ -24,7 +24,8 @@ struct RayField
     TREAD_HD double    bound(double r) const { return solid.bound(r); }
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const { return solid(y); }
 
-    /// Upper bound, m, as in BodyField, but without interpolation error: rays use the surface itself.
+    /// Upper bound, m, of the distance field at nodes that cross the true surface, which rays use, when they move by at
+    /// most `way`: includes the interpolation error of the field.
     TREAD_HD double bound_of_node(double way) const
     {
         const Instance& body = solid.body;
@@ -35,7 +36,7 @@ struct RayField
 /// Evaluates a node: it is inside if the first triangle that its ray meets is one where the ray leaves the body. The
 /// ray, of length d, rotates with the node's body: the gradient of d is n/(n . m), with n the triangle's normal and m
 /// the ray's direction, and the force acts where the ray leaves. The force therefore derives from a potential, except
-/// where the ray jumps to another part of the surface and where it leaves at a small angle (least_cosine).
+/// where the ray jumps to another part of the surface and where it leaves at a grazing angle (least_cosine).
 TREAD_HD NodeInField in_field(const Side<RayField>& side, std::int32_t i)
 {
     constexpr double   least_cosine = 0.5; // a node's force is at most twice its area times the traction

@@ -44,7 +44,7 @@ struct WriteLeaving
     }
 };
 
-/// Finds the i-th point that stays; `row` ascends.
+/// Writes point i to the order of the staying points, if it stays; `row` ascends.
 struct WriteStaying
 {
     const std::int32_t* row;

@@ -7,7 +7,7 @@
 namespace tread::mpm
 {
 
-/// Buffers of relist_points, kept between calls; swapped with the arrays of the pages.
+/// Buffers of relist_points, kept between calls; their contents are copied to the arrays of the pages.
 template<class Exec>
 struct RelistScratch
 {
