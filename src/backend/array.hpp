@@ -12,8 +12,8 @@
 namespace tread
 {
 
-/// Owner of n values of T in the memory of a backend. Grows by a quarter more than asked, shrinks only in fit.
-/// Every allocation is counted under the array's name.
+/// Array of n values of T in the memory of a backend, which it owns. Grows by a quarter more than requested and shrinks
+/// only in fit. Every allocation is counted under the array's name.
 template<class Exec, class T>
 class Array
 {
@@ -54,7 +54,7 @@ public:
     const Exec&  exec() const { return exec_; }
     const char*  name() const { return name_; }
 
-    /// Old values are lost when it has to grow; new ones are not initialised.
+    /// Resizes without keeping values: old ones are lost if the array has to grow, new ones are not initialised.
     void resize(std::int64_t size)
     {
         if (size > capacity_)
@@ -65,14 +65,14 @@ public:
         size_ = size;
     }
 
-    /// As resize, and gives memory back where over half of it would lie idle.
+    /// Resizes without keeping values and releases memory if more than half of it would be unused.
     void fit(std::int64_t size)
     {
         if (2 * (size + size / 4) < capacity_) { free(); }
         resize(size);
     }
 
-    /// Old values stay; new ones are not initialised.
+    /// Resizes and keeps the old values; new ones are not initialised.
     void resize_keep(std::int64_t size)
     {
         if (size > capacity_)
@@ -135,7 +135,7 @@ private:
     std::int64_t capacity_ = 0;
 };
 
-/// One value from a backend's memory; waits for it.
+/// Reads one value from a backend's memory; waits for the copy.
 template<class Exec, class T>
 T read(const Exec& exec, const T* at)
 {

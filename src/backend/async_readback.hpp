@@ -8,13 +8,13 @@
 namespace tread
 {
 
-/// The host's side of a backend: memory that its copies reach while the host goes on.
+/// Returns the host's tag of a backend: its arrays receive asynchronous copies (pinned memory for a GPU).
 inline Cpu host_side(const Cpu& cpu) { return cpu; }
 #ifdef TREAD_WITH_CUDA
 inline Pinned host_side(const Gpu& gpu) { return {gpu.counters}; }
 #endif
 
-/// A value of a backend's memory on its way to the host: several that are asked for together cost one wait.
+/// Asynchronous copy of one value to the host. Several requested copies share one synchronization.
 template<class Exec, class T>
 class AsyncReadback
 {
@@ -25,10 +25,10 @@ public:
     {
     }
 
-    /// Asks for what will be at `from` when the backend gets there.
+    /// Enqueues a copy of the value at `from`, as it will be when the backend reaches this point of its stream.
     void request(const T* from) { start_copy_to_host(exec_, value_.data(), from, sizeof(T)); }
 
-    /// What was asked for last; after synchronize(exec).
+    /// Returns the value requested last; valid after synchronize(exec).
     const T& get() const { return *value_.data(); }
 
 private:

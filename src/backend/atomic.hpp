@@ -5,13 +5,13 @@
 
 #include "backend/execution.hpp"
 
-// What threads agree on while they run side by side. Integers only: a floating-point sum would depend on who comes
-// first.
+// Atomic operations on integers. There are none for floating-point numbers, because their sums would depend on the
+// order of the threads.
 namespace tread
 {
 
-/// Puts `wanted` where `expected` stands, and nothing where another value does; what stood there before. Orders no
-/// other memory: what else the winner writes is seen after the launch.
+/// Writes `wanted` if `expected` is stored, and leaves any other value; returns the previous value. Orders no other
+/// memory accesses: other writes of the winning thread are visible only after the launch.
 TREAD_HD std::uint64_t compare_and_swap(std::uint64_t* at, std::uint64_t expected, std::uint64_t wanted)
 {
 #if defined(__CUDA_ARCH__)

@@ -5,7 +5,7 @@
 
 #include "backend/vector.hpp"
 
-// Sets of up to 32 things, a bit each.
+// Sets of up to 32 elements, one bit each.
 namespace tread
 {
 
@@ -18,7 +18,7 @@ TREAD_HD int count_bits(std::uint32_t bits)
 #endif
 }
 
-/// Of a set that is not empty.
+/// Returns the index of the lowest set bit; `bits` must not be 0.
 TREAD_HD int lowest_bit(std::uint32_t bits)
 {
 #if defined(__CUDA_ARCH__)
@@ -28,7 +28,7 @@ TREAD_HD int lowest_bit(std::uint32_t bits)
 #endif
 }
 
-/// The first n, all of them from 32 on.
+/// Returns a mask of the n lowest bits; all bits are set for n >= 32.
 TREAD_HD std::uint32_t first_bits(std::int32_t n) { return n < 32 ? (std::uint32_t{1} << n) - 1 : ~std::uint32_t{0}; }
 
 } // namespace tread

@@ -25,26 +25,26 @@ struct LargerValue
     }
 };
 
-/// Lanes of a warp that hold one of `width` combined values.
+/// Number of lanes of a warp that hold one of `width` combined values.
 template<int width>
 constexpr int lanes_a_slot = warp_size / static_cast<int>(std::bit_ceil(static_cast<unsigned>(width)));
 
-/// Which value lane `lane` has after warp_combine.
+/// Index of the value that lane `lane` holds after warp_combine.
 template<int width>
 __device__ int warp_slot(int lane)
 {
     return lane / lanes_a_slot<width>;
 }
 
-/// Whether a lane is the first of those with its value.
+/// Whether a lane is the first of the lanes that hold its value.
 template<int width>
 __device__ bool is_slot_head(int lane)
 {
     return lane % lanes_a_slot<width> == 0;
 }
 
-/// Combines the first `width` values of each lane of a warp in a fixed order; lane l gets value warp_slot(l). All at
-/// once: with every exchange a lane hands half of its values on, so that 16 values take 16 exchanges instead of 80.
+/// Combines the first `width` values of each lane of a warp in a fixed order; lane l receives value warp_slot(l). In
+/// each exchange a lane passes on half of its values, so that 16 values need 16 exchanges instead of 80.
 template<int width, class Value, class Combine>
 __device__ Value warp_combine(const Value* values, Combine combine)
 {
@@ -70,9 +70,9 @@ __device__ Value warp_combine(const Value* values, Combine combine)
     return part[0];
 }
 
-/// Combines `width` values of each of a block's `threads` threads in a fixed order: warp_combine, then, in fp64, the
-/// warps one after the other. Calls keep(which, value) from thread `which` of the block. `shared` holds threads / 32 *
-/// width doubles, not in use by others. All threads must call it.
+/// Combines `width` values of each of a block's `threads` threads in a fixed order: warp_combine first, then the warps
+/// sequentially in fp64. Calls keep(which, value) from thread `which` of the block. `shared` holds threads / 32 * width
+/// doubles that nothing else uses meanwhile. All threads must call it.
 template<int threads, int width, class Value, class Combine, class Keep>
 __device__ void block_combine(const Value* values, double* shared, Combine combine, Keep keep)
 {

@@ -8,11 +8,11 @@
 #include "backend/cuda_check.cuh"
 #include "backend/execution.hpp"
 
-// Kernels whose blocks wait for each other: all of them must be on the device at once.
+// Cooperative kernels: blocks wait for each other, hence all of them must be resident on the device.
 namespace tread
 {
 
-/// How many blocks of a kernel the device holds at once.
+/// Returns the number of blocks of a kernel that are resident on the device together.
 template<class Kernel>
 std::int64_t resident_blocks(const char* name, Kernel kernel, int threads)
 {
@@ -23,7 +23,7 @@ std::int64_t resident_blocks(const char* name, Kernel kernel, int threads)
     return std::int64_t{processors} * resident;
 }
 
-/// Launches so many blocks, at most resident_blocks.
+/// Launches `blocks` blocks cooperatively; at most resident_blocks.
 template<class... Parameters>
 void launch_together(const Gpu& gpu, const char* name, void (*kernel)(Parameters...), std::int64_t blocks, int threads,
                      Parameters... parameters)

@@ -9,7 +9,7 @@
 namespace tread
 {
 
-/// Lists (pairs of bodies, their nodes, points of cells) are numbered by int32.
+/// Throws if a list has too many entries: lists (body pairs, their nodes, points of cells) are indexed by int32.
 inline void require_countable(std::int64_t entries)
 {
     constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();

@@ -9,7 +9,7 @@
 namespace tread
 {
 
-/// What a run launched and allocated, by name: how "nothing that the scene does not need" is checked.
+/// Counts a run's launches and allocations by name; tests use it to check that a scene runs only what it needs.
 class Counters
 {
 public:
@@ -28,21 +28,21 @@ public:
         current_ -= bytes;
     }
 
-    /// What the run as a whole was estimated to want, for the message of an allocation that fails; 0 = not known.
+    /// Sets the estimated memory of the whole run, bytes, for the message of a failed allocation; 0 = unknown.
     void         expect(std::int64_t bytes) { expected_ = bytes; }
     std::int64_t expected_bytes() const { return expected_; }
 
-    /// An allocation that would take more than this in all fails as if the memory were full.
+    /// Sets the limit of the total, bytes: an allocation beyond it fails as if the memory were full.
     void limit(std::int64_t bytes) { limit_ = bytes; }
     bool has_room(std::int64_t bytes) const { return bytes <= limit_ - current_; }
 
     std::int64_t current_bytes() const { return current_; }
     std::int64_t peak_bytes() const { return peak_; }
 
-    /// Launches by kernel name.
+    /// Number of launches by kernel name.
     const std::map<std::string, std::int64_t, std::less<>>& launches() const { return launches_; }
 
-    /// Bytes now held, by array name; an array that was ever allocated keeps its row.
+    /// Bytes held now by array name; an array that was ever allocated keeps its row.
     const std::map<std::string, std::int64_t, std::less<>>& bytes() const { return bytes_; }
 
 private:

@@ -9,7 +9,7 @@
 namespace tread
 {
 
-/// Throws EnvironmentError that names the call unless `status` is success.
+/// Throws an EnvironmentError that names the call unless `status` is success.
 inline void check_cuda(cudaError_t status, const char* what)
 {
     if (status != cudaSuccess)

@@ -9,8 +9,8 @@ namespace tread
 namespace
 {
 
-/// What arrays give back stays with this process: lists that are found anew take it again, at once and in the order of
-/// the stream.
+/// Keeps memory released by arrays in this process's pool: lists that are rebuilt reuse it immediately, in stream
+/// order.
 void keep_released_memory(int device)
 {
     cudaMemPool_t pool      = nullptr;

@@ -5,24 +5,24 @@
 
 #include "backend/execution.hpp"
 
-// Only in builds with a CUDA compiler (TREAD_WITH_CUDA).
+// Exists only in builds with a CUDA compiler (TREAD_WITH_CUDA).
 namespace tread
 {
 
-/// Devices that this process can use; 0 also when there is no driver.
+/// Number of devices that this process can use; 0 also if there is no driver.
 int device_count();
 
 struct DeviceFacts
 {
     std::string  name;
-    std::string  identity; ///< of the chip, the same for every process
+    std::string  identity; ///< of the chip, the same in every process
     std::int64_t total_bytes;
     std::int64_t free_bytes;
 };
 
 DeviceFacts device_facts(int device);
 
-/// Makes `device` this thread's device and owns one stream on it. EnvironmentError when that fails.
+/// Selects `device` for this thread and owns one stream on it. Throws EnvironmentError on failure.
 class Device
 {
 public:

@@ -7,8 +7,8 @@ struct CUevent_st; // cudaEvent_t without CUDA's headers
 namespace tread
 {
 
-/// A moment in a backend's work. The host can wait until it is reached while the backend goes on with what it was given
-/// since. A CPU has done all that it was given.
+/// A CUDA event: the host waits until the backend has reached it, while the backend continues with work launched later.
+/// Does nothing on the CPU, where all launched work is complete.
 template<class Exec>
 class Event;
 
@@ -18,10 +18,10 @@ class Event<Cpu>
 public:
     explicit Event(const Cpu&) {}
 
-    /// From now on the moment is the end of all that the backend has been given.
+    /// Records the event after all work launched so far.
     void mark() {}
 
-    /// Until the moment that was marked last.
+    /// Waits for the event recorded last.
     void wait() const {}
 };
 
@@ -30,7 +30,7 @@ template<>
 class Event<Gpu>
 {
 public:
-    /// EnvironmentError when the device has no room for it.
+    /// Throws EnvironmentError if the device cannot create the event.
     explicit Event(const Gpu& gpu);
     ~Event();
     Event(const Event&)            = delete;

@@ -2,7 +2,8 @@
 
 #include <cstdint>
 
-// Item functions (the physics of one point, node, body or contact) are written once and run by both backends.
+// Marks item functions (the physics of one point, node, body or contact), which are written once and compiled for both
+// backends.
 #if defined(__CUDACC__)
 #define TREAD_HD __host__ __device__ __forceinline__
 #else
@@ -16,13 +17,13 @@ namespace tread
 
 class Counters;
 
-/// Execution tag, first argument of everything that runs on a backend: OpenMP threads of this process.
+/// Execution tag, the first argument of every function that runs on a backend: OpenMP threads of this process.
 struct Cpu
 {
     Counters* counters;
 };
 
-/// Execution tag: one CUDA device, everything in order on one stream.
+/// Execution tag: one CUDA device; all work runs in order on one stream.
 struct Gpu
 {
     CUstream_st* stream;

@@ -5,8 +5,8 @@
 namespace tread
 {
 
-/// An array of a backend's memory on its way to the host, into memory that is kept for the next time: several that are
-/// asked for together cost one wait, and on a GPU they go into pinned memory.
+/// Asynchronous copy of an array to the host, into a buffer that is reused. Several requested copies share one
+/// synchronization; the buffer of a GPU is pinned memory.
 template<class Exec, class T>
 class FetchedArray
 {
@@ -17,14 +17,14 @@ public:
     {
     }
 
-    /// Asks for what will be in `from` when the backend gets there.
+    /// Enqueues a copy of `from`, as it will be when the backend reaches this point of its stream.
     void request(const Array<Exec, T>& from)
     {
         values_.resize(from.size());
         start_copy_to_host(exec_, values_.data(), from.data(), static_cast<std::size_t>(from.size()) * sizeof(T));
     }
 
-    /// What was asked for last; after synchronize(exec).
+    /// Returns the values requested last; valid after synchronize(exec).
     const T* data() const { return values_.data(); }
 
 private:

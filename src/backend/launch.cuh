@@ -16,7 +16,7 @@ __global__ void for_each_kernel(std::int64_t n, const __grid_constant__ F f)
     if (i < n) { f(i); }
 }
 
-/// Runs f(i) for i in [0, n), one thread an item.
+/// Runs f(i) for i in [0, n), one thread per item.
 template<class F>
 void for_each(const Gpu& gpu, const char* name, std::int64_t n, F f)
 {
@@ -33,8 +33,8 @@ __global__ void __launch_bounds__(threads, blocks_an_sm) for_each_block_kernel(c
     f(static_cast<std::int64_t>(blockIdx.x));
 }
 
-/// Runs f(block) with `threads` threads a block, for bodies that share memory and barriers. `blocks_an_sm` caps the
-/// registers so that that many fit.
+/// Runs f(block) with `threads` threads per block, for functions that use shared memory and barriers. `blocks_an_sm`
+/// limits the registers so that this many blocks fit on a multiprocessor.
 template<int threads, int blocks_an_sm = 1, class F>
 void for_each_block(const Gpu& gpu, const char* name, std::int64_t blocks, F f)
 {

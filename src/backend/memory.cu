@@ -36,7 +36,7 @@ void* allocate(const Gpu& gpu, const char* name, std::size_t bytes)
     const cudaError_t status  = allowed ? cudaMallocAsync(&memory, bytes, gpu.stream) : cudaErrorMemoryAllocation;
     if (status == cudaErrorMemoryAllocation)
     {
-        cudaGetLastError(); // a run that ends for want of memory leaves no error behind
+        cudaGetLastError(); // clears the error: the run ends with a typed error for lack of memory
         throw out_of_memory("device", name, bytes, free_bytes(gpu), *gpu.counters);
     }
     check_cuda(status, "cudaMallocAsync");

@@ -3,7 +3,7 @@
 namespace tread
 {
 
-/// `n` values that are loaded and stored as one; n * sizeof(T) must be a power of two.
+/// `n` values that are loaded and stored as one word; n * sizeof(T) must be a power of two.
 template<class T, int n>
 struct alignas(n * sizeof(T)) Pack
 {

@@ -13,7 +13,7 @@ void* allocate(const Pinned& pinned, const char* name, std::size_t bytes)
     const cudaError_t status = cudaHostAlloc(&memory, bytes, cudaHostAllocPortable | cudaHostAllocMapped);
     if (status == cudaErrorMemoryAllocation)
     {
-        cudaGetLastError(); // a run that ends for want of memory leaves no error behind
+        cudaGetLastError(); // clears the error: the run ends with a typed error for lack of memory
         throw out_of_memory("pinned host", name, bytes, free_bytes(Cpu{pinned.counters}), *pinned.counters);
     }
     check_cuda(status, "cudaHostAlloc");

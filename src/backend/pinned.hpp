@@ -4,11 +4,11 @@
 
 #include "backend/execution.hpp"
 
-// Only in builds with a CUDA compiler (TREAD_WITH_CUDA).
+// Exists only in builds with a CUDA compiler (TREAD_WITH_CUDA).
 namespace tread
 {
 
-/// Host memory that the kernels of any device and MPI can both read and write. A tag for Array.
+/// Tag of Array: pinned host memory that kernels of any device and MPI can read and write.
 struct Pinned
 {
     Counters* counters;

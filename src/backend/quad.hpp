@@ -9,8 +9,8 @@
 namespace tread
 {
 
-/// Four numbers side by side in a vector register, where the processor has one so wide. Host only: a GPU's threads are
-/// lanes themselves.
+/// Four numbers in one vector register, where the processor has one that wide. Host only: on a GPU the threads are the
+/// lanes.
 template<class Real>
 struct Quad
 {
@@ -25,7 +25,7 @@ struct Quad
 };
 
 #ifdef __FMA__
-// Of a loop of std::fma over a register the compiler makes single operations and shuffles.
+// Uses intrinsics, because the compiler turns a loop of std::fma over a register into scalar operations and shuffles.
 inline __m256d multiply_add(double factor, __m256d value, __m256d sum)
 {
     return _mm256_fmadd_pd(_mm256_set1_pd(factor), value, sum);
@@ -36,7 +36,7 @@ inline __m128 multiply_add(float factor, __m128 value, __m128 sum)
 }
 #endif
 
-/// sum += factor * value, rounded once.
+/// Computes sum += factor * value with one rounding.
 template<class Real>
 inline void add_scaled(Real factor, const Quad<Real>& value, Quad<Real>& sum)
 {

@@ -18,9 +18,9 @@ struct Larger
 };
 
 constexpr int fold_threads = 1024;
-constexpr int fold_lanes   = 4; ///< loads in flight of a thread
+constexpr int fold_lanes   = 4; ///< loads in flight per thread
 
-/// One block a column: each thread folds fixed strides of rows, then a fixed tree folds the threads.
+/// Runs one block per column: each thread folds rows at a fixed stride, then a fixed tree folds the threads.
 template<class Combine>
 struct FoldColumn
 {
@@ -72,7 +72,8 @@ constexpr int          chunk_threads = 256;
 constexpr std::int64_t chunks        = 256;
 constexpr std::int64_t many_rows     = 16 * chunks;
 
-/// One block a chunk of rows; a thread sums every so many of them in one column, so that rows are read whole.
+/// Runs one block per chunk of rows; a thread sums rows at a fixed stride in one column, so that rows are read
+/// contiguously.
 struct SumChunk
 {
     const double* rows;
@@ -101,7 +102,7 @@ struct SumChunk
     }
 };
 
-/// One block a chunk of a column's rows. Numbers from 0 on are in the order of their bits.
+/// Runs one block per chunk of a column's rows. Non-negative floating-point numbers are ordered as their bit patterns.
 struct LargestOfChunk
 {
     const double*       rows;
@@ -115,7 +116,7 @@ struct LargestOfChunk
         double             largest = 0;
         for (std::int64_t row = chunk * count / chunks + threadIdx.x; row < end; row += chunk_threads)
         {
-            largest = Larger{}(rows[row * width + column], largest); // in this order -0 leaves it alone
+            largest = Larger{}(rows[row * width + column], largest); // in this order -0 does not replace it
         }
         for (int across = warp_size / 2; across > 0; across /= 2)
         {

@@ -5,12 +5,13 @@
 
 #include "backend/cooperative.cuh"
 
-// A sequence of parts, run many times by one launch: where each part is a few microseconds of work, launches cost as
-// much as they do.
+// Runs a sequence of parts many times in one launch. Where each part takes only a few microseconds, separate launches
+// would double the cost.
 namespace tread
 {
 
-/// f(block) for blocks of as many threads as the sequence has. Blocks share memory and barriers, as for_each_block's.
+/// Runs f(block) for blocks with as many threads as the sequence has. Blocks may use shared memory and barriers, as in
+/// for_each_block.
 template<class F>
 struct Part
 {
@@ -21,7 +22,7 @@ struct Part
 template<class F>
 Part(std::int64_t, F) -> Part<F>;
 
-/// f(i) for i in [0, n), an item a thread.
+/// Runs f(i) for i in [0, n), one item per thread.
 template<int threads, class F>
 struct ItemsOfBlock
 {
@@ -41,7 +42,7 @@ Part<ItemsOfBlock<threads, F>> items(std::int64_t n, const F& f)
     return {(n + threads - 1) / threads, {f, n}};
 }
 
-/// Two that need not wait for each other.
+/// Two parts that are independent of each other.
 template<class First, class Second>
 struct Beside
 {
@@ -78,7 +79,7 @@ struct Sequence<First, Rest...>
 
     std::int64_t most_blocks() const { return std::max(first.blocks, rest.most_blocks()); }
 
-    /// Every part when the one before is through; a part without blocks costs nothing.
+    /// Runs each part after the previous one has finished; a part without blocks costs nothing.
     __device__ void run(const cooperative_groups::grid_group& grid) const
     {
         if (first.blocks > 0)
@@ -86,7 +87,7 @@ struct Sequence<First, Rest...>
             for (std::int64_t block = blockIdx.x; block < first.blocks; block += gridDim.x)
             {
                 first.f(block);
-                __syncthreads(); // its shared memory is the next one's
+                __syncthreads(); // the next block reuses the shared memory
             }
             grid.sync();
         }
@@ -110,7 +111,7 @@ __global__ void __launch_bounds__(threads, blocks_an_sm)
     for (std::int64_t time = 0; time < times; ++time) { parts.run(grid); }
 }
 
-/// Runs a sequence so many times, in one cooperative launch of at most as many blocks as the device holds at once.
+/// Runs the sequence `times` times in one cooperative launch with at most as many blocks as are resident on the device.
 template<int threads, int blocks_an_sm, class Parts>
 void repeat(const Gpu& gpu, const char* name, std::int64_t times, const Parts& parts)
 {

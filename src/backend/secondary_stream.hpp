@@ -7,8 +7,8 @@ struct CUevent_st; // cudaEvent_t without CUDA's headers
 namespace tread
 {
 
-/// Room for work beside a backend's other work ("the first lane"). On a GPU: a second stream, whose blocks start before
-/// those of the first that wait for room. A CPU does one thing after the other, so that both lanes are one.
+/// A second CUDA stream; does nothing on the CPU, where work runs in order. Its blocks start before pending blocks of
+/// the first stream.
 template<class Exec>
 class SecondaryStream;
 
@@ -23,10 +23,10 @@ public:
 
     const Cpu& exec() const { return cpu_; }
 
-    /// What is launched here from now on comes after all that the first lane has been given.
+    /// Makes work launched here from now on wait for all work launched on the first stream so far.
     void fork() {}
 
-    /// What the first lane is given from now on comes after all that was launched here.
+    /// Makes work launched on the first stream from now on wait for all work launched here so far.
     void join() {}
 
 private:
@@ -38,7 +38,7 @@ template<>
 class SecondaryStream<Gpu>
 {
 public:
-    /// EnvironmentError when the device has no more streams.
+    /// Throws EnvironmentError if the device cannot create another stream.
     explicit SecondaryStream(const Gpu& first);
     ~SecondaryStream();
     SecondaryStream(const SecondaryStream&)            = delete;
@@ -51,7 +51,7 @@ public:
 private:
     Gpu         first_;
     Gpu         second_;
-    CUevent_st* reached_ = nullptr; ///< where one of them was when the other was told to wait
+    CUevent_st* reached_ = nullptr; ///< the event that fork and join record on one stream and wait for on the other
 };
 #endif
 

@@ -52,8 +52,8 @@ std::int64_t exclusive_scan(const Gpu& gpu, Array<Gpu, std::int32_t>& values, So
     copy(gpu, ends, values.data() + n - 1, sizeof(std::int32_t));
     scan_in_place(gpu, values, scratch);
     copy(gpu, ends + 1, values.data() + n - 1, sizeof(std::int32_t));
-    const auto          both = read(gpu, reinterpret_cast<const std::array<std::uint32_t, 2>*>(ends)); // in one wait
-    const std::uint32_t sum  = both[0] + both[1];                                                      // it wraps
+    const auto both = read(gpu, reinterpret_cast<const std::array<std::uint32_t, 2>*>(ends)); // one wait for both
+    const std::uint32_t sum = both[0] + both[1];                                              // wraps around at 2^32
     require_countable(sum);
     return sum;
 }

@@ -5,11 +5,12 @@
 
 #include "backend/array.hpp"
 
-// Sort and scan of integers: the standard library on the CPU, CUB on the GPU. Results do not depend on thread counts.
+// Sorts and scans of integers: the standard library on the CPU, CUB on the GPU. Results are independent of thread
+// counts.
 namespace tread
 {
 
-/// Scratch of sort_by_key and scan, kept between calls.
+/// Scratch memory of sort_by_key and scans, kept between calls.
 template<class Exec>
 struct SortScratch
 {
@@ -24,28 +25,28 @@ struct SortScratch
     Array<Exec, unsigned char> bytes;
     Array<Exec, std::uint64_t> keys;
     Array<Exec, std::int32_t>  values;
-    Array<Exec, std::int32_t>  ends; ///< what a scan's last value was, and what it became
+    Array<Exec, std::int32_t>  ends; ///< last value of a scan's input and of its output
 };
 
-/// Bits that tell the numbers below `count` apart.
+/// Number of bits that distinguish the numbers below `count`.
 inline int bits_below(std::int64_t count)
 {
     return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count)));
 }
 
-/// Sorts both arrays by key, stably: equal keys keep their order. n < 2^31 keys; values after the n-th stay. Keys are
-/// below 2^bits: a GPU takes eight of them at a time.
+/// Sorts both arrays by key, stably. Takes n < 2^31 keys; values after the n-th are left as they are. Keys must be
+/// below 2^bits: a GPU's radix sort handles eight bits per pass.
 void sort_by_key(const Cpu&, Array<Cpu, std::uint64_t>& keys, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&,
                  int bits = 64);
 void sort_by_key(const Gpu&, Array<Gpu, std::uint64_t>& keys, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>&,
                  int bits = 64);
 
-/// values[i] becomes the sum of the values before i.
+/// Exclusive prefix sum in place: values[i] becomes the sum of the values before i.
 void scan_in_place(const Cpu&, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&);
 void scan_in_place(const Gpu&, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>&);
 
-/// The same; returns the sum of all (and waits for it). NumericalError that names the sum where it is over 2^31 - 1,
-/// which the GPU sees of sums under 2^32.
+/// Exclusive prefix sum in place; returns the total, for which it waits. Throws a NumericalError that names the total
+/// if it exceeds 2^31 - 1; the GPU detects this only for totals below 2^32.
 std::int64_t exclusive_scan(const Cpu&, Array<Cpu, std::int32_t>& values, SortScratch<Cpu>&);
 std::int64_t exclusive_scan(const Gpu&, Array<Gpu, std::int32_t>& values, SortScratch<Gpu>&);
 

@@ -7,7 +7,7 @@
 
 #include "backend/execution.hpp"
 
-// Small vectors of item functions. EIGEN_MAX_STATIC_ALIGN_BYTES=0 (CMakeLists.txt) gives them one layout in both
+// Small vectors for item functions. EIGEN_MAX_STATIC_ALIGN_BYTES=0 (CMakeLists.txt) gives them the same layout in both
 // compilers.
 namespace tread
 {
@@ -39,7 +39,7 @@ TREAD_HD Sym3<Real> symmetric(const Mat3<Real>& m)
 
 using Quat = Eigen::Quaternion<double>;
 
-/// Components in planes, one after the other, `stride` values apart: neighbouring items are neighbours in memory.
+/// Components stored in planes, `stride` values apart: neighbouring items are neighbours in memory (coalesced access).
 template<class Real, int components>
 struct Planes
 {

@@ -7,7 +7,8 @@
 namespace tread
 {
 
-/// Local damping of one component (Cundall 1987): against the velocity, `alpha` (0 to 1) of the force that acts.
+/// Local damping of one component (Cundall 1987): a force against the velocity of `alpha` (0 to 1) times the acting
+/// force.
 template<class Real>
 TREAD_HD Real local_damping(Real alpha, Real force, Real velocity)
 {

@@ -26,7 +26,7 @@ struct Plan
     bool body_contact; ///< body-body or body-wall contact
     bool rays;         ///< contacts between bodies use rays
     bool plasticity;   ///< return mapping
-    bool affine;       ///< APIC
+    bool affine;       ///< affine transfers (APIC, AFLIP)
     bool damping;      ///< local damping in some phase
     bool rocks;
     bool snapshots;

@@ -11,32 +11,33 @@
 #include "kernels/mpm/pages/pages.hpp"
 #include "kernels/mpm/points.hpp"
 
-// Which sand points may touch which body during one MPM step, or several: found once, frozen during the substeps.
+// Candidates: sand points that may touch one or several bodies during an MPM step. They are found once and constant
+// during the substeps.
 namespace tread::contact
 {
 
-/// How far things may move before the candidates are found again.
+/// Allowed motion until the candidates are found again.
 struct SearchReach
 {
     double dt;             ///< s, of the MPM step
-    double point_speed;    ///< m/s, no point is faster
-    double point_drift;    ///< m, how far a point may stand outside the cell that it is listed in
-    double largest_radius; ///< m, of any point
-    double sampled_below;  ///< m, PointBodyLaw's
-    double skin;           ///< m, twice the way that a body and a point may at least come nearer: room for more steps
+    double point_speed;    ///< m/s, upper bound of the points' speeds
+    double point_drift;    ///< m, maximum distance of a point from the cell in which it is listed
+    double largest_radius; ///< m, maximum radius of the points
+    double sampled_below;  ///< m, as in PointBodyLaw
+    double skin;           ///< m, Verlet skin: twice the least approach of body and point that the list allows
 };
 
-/// (body, point) pairs, ordered by body; within a body by page and memory order.
+/// View of the (body, point) pairs, ordered by body; within a body by page and memory order.
 struct CandidatesView
 {
     std::int64_t        count;
     const std::int32_t* body;
-    const std::int32_t* point;    ///< index in memory: valid until the points are ordered again
-    const std::int32_t* touched;  ///< run in by_point of the candidate's point
+    const std::int32_t* point;    ///< index in memory, valid until the points are reordered
+    const std::int32_t* touched;  ///< run of the candidate's point in by_point
     const std::int32_t* in_order; ///< candidates ordered by point, then by body
 };
 
-/// Owner of what CandidatesView shows, its runs, and the scratch of the search.
+/// Memory of CandidatesView with its runs, and scratch memory of the search.
 template<class Exec>
 struct Candidates
 {
@@ -81,16 +82,17 @@ struct Candidates
     Array<Exec, std::uint64_t> sort_keys;
 };
 
-/// Every (body, point) pair that can come into contact within the step. A pair is kept when the point lies in the
-/// body's bounding box and under its signed distance, both grown by r_p, by the skin or twice what body and point can
-/// move if that is more, and by the reach of the point's samples: the trilinear interpolant of a distance rises by at
-/// most sqrt(3) a metre.
+/// Finds every (body, point) pair that can come into contact within the step. A pair is kept if the point lies in the
+/// body's bounding box and its signed distance is below a bound. Both are extended by r_p, by the skin (or by twice the
+/// possible displacement of body and point if that is larger), and by the extent of the point's samples: the slope of
+/// the trilinear interpolant of a distance is at most sqrt(3).
 template<class Exec, class Real>
 void find_candidates(const Exec& exec, Candidates<Exec>& candidates, const mpm::PointsView<Real>& points,
                      const mpm::PagesView& pages, const dem::BodiesView& bodies, const dem::TemplateView* templates,
                      RadiusRule radius, const SearchReach& reach);
 
-/// The order of the candidates by point, and the runs of both orders, of body and point as find_candidates leaves them.
+/// Builds the order of the candidates by point and the runs of both orders, from body and point as find_candidates
+/// leaves them.
 template<class Exec>
 void order_by_point(const Exec& exec, Candidates<Exec>& candidates);
 

@@ -2,9 +2,9 @@
 
 #include "kernels/contact/candidates_kern.hpp"
 
-// The steps of find_candidates, the same on both backends; candidates.cpp and candidates.cu bring in for_each and
-// instantiate. Three lists, each made from the one before by counting, scanning and filling: (body, page of its box),
-// (body, page with points), (body, point).
+// Steps of find_candidates, for both backends; candidates.cpp and candidates.cu provide for_each and instantiate. Three
+// lists, each derived from the previous one by counting, scanning and filling: (body, page of its box), (body, page
+// with points), (body, point).
 namespace tread::contact
 {
 namespace candidate_steps
@@ -29,7 +29,7 @@ struct CountLookups
 struct Lookup
 {
     std::int64_t body;
-    std::int64_t page; ///< -1 = holds no points
+    std::int64_t page; ///< -1 = no points
 };
 
 struct LookUpPages
@@ -38,7 +38,7 @@ struct LookUpPages
     const dem::TemplateView* templates;
     mpm::PagesView           pages;
     SearchReach              reach;
-    const std::int32_t*      first; ///< lookups of each body
+    const std::int32_t*      first; ///< first lookup of each body
 
     TREAD_HD Lookup operator()(std::int64_t i) const
     {
@@ -72,7 +72,7 @@ struct WritePairs
     }
 };
 
-/// Calls visit(body, point) for every candidate among the points of one cell; probe i = (pair, cell of its page).
+/// Calls visit(body, point) for every candidate among the points of one cell; item i = (pair, cell of its page).
 template<class Real>
 struct Probe
 {
@@ -182,7 +182,7 @@ void clear(Candidates<Exec>& candidates)
           candidates.body_parts.of_items.key, candidates.body_parts.of_items.first, candidates.body_parts.first_of_run);
 }
 
-/// (body, page with points) pairs; returns how many.
+/// Finds the (body, page with points) pairs; returns their number.
 template<class Exec>
 std::int64_t find_page_pairs(const Exec& exec, Candidates<Exec>& c, const mpm::PagesView& pages,
                              const dem::BodiesView& bodies, const dem::TemplateView* templates,
@@ -220,7 +220,7 @@ void order_by_point(const Exec& exec, Candidates<Exec>& c)
     find_runs(exec, c.body, c.marks, c.by_body, c.sort);
     split_runs(exec, c.by_body.view(), c.body_parts, c.sort);
     for_each(exec, "candidate sort keys", count, SortKeys{c.point.data(), c.sort_keys.data(), c.in_order.data()});
-    constexpr int point_bits = 31; // of an index
+    constexpr int point_bits = 31; // of a point index
     sort_by_key(exec, c.sort_keys, c.in_order, c.sort, point_bits);
     for_each(exec, "candidate sorted points", count, Narrow{c.sort_keys.data(), c.sorted_points.data()});
     find_runs(exec, c.sorted_points, c.marks, c.by_point, c.sort);

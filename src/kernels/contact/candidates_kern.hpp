@@ -11,7 +11,7 @@
 namespace tread::contact
 {
 
-/// A box of pages, both ends included.
+/// Box of pages, both ends included.
 struct PageBox
 {
     mpm::Index3 low;
@@ -28,7 +28,7 @@ struct PageBox
                page.z <= high.z;
     }
 
-    /// Page `i` of the box, x fastest.
+    /// Returns page `i` of the box, x fastest.
     TREAD_HD mpm::Index3 page(std::int64_t i) const
     {
         const std::int64_t nx = high.x - low.x + 1, ny = high.y - low.y + 1;
@@ -37,7 +37,7 @@ struct PageBox
     }
 };
 
-/// Page coordinate of a position along one axis, held to [low, high]: a body may be anywhere.
+/// Returns the page coordinate of a position along one axis, clamped to [low, high], because a body may be anywhere.
 TREAD_HD std::int32_t page_coordinate(double position, double spacing, double shift, double low, double high)
 {
     const double page = std::floor((position / spacing - shift) / mpm::page_edge);
@@ -45,21 +45,21 @@ TREAD_HD std::int32_t page_coordinate(double position, double spacing, double sh
     return static_cast<std::int32_t>(page < high ? page : high);
 }
 
-/// The same, held to the range that has keys.
+/// Returns the page coordinate of a position along one axis, clamped to the range that has keys.
 TREAD_HD std::int32_t page_coordinate(double position, double spacing, double stencil_shift)
 {
     const double limit = mpm::page_bias - 1;
     return page_coordinate(position, spacing, stencil_shift, -limit, limit);
 }
 
-/// A body as the search sees it.
+/// Data of a body for the search.
 struct SearchBody
 {
     const dem::TemplateView* shape;
     double                   scale;
     Vec3<double>             position;
     Quat                     orientation;
-    double travel; ///< m, twice what body and points can move in the step or the skin, and twice the samples' reach
+    double travel; ///< m, twice the possible approach in the step, or the skin, plus twice the samples' extent
 };
 
 TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::TemplateView* templates, std::int64_t b,
@@ -74,7 +74,8 @@ TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::Templa
     return {shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], nearer + 2.0 * patch};
 }
 
-/// Pages of a level whose points may be candidates of the body: those under its axis-aligned box, grown.
+/// Returns the pages of a level whose points may be candidates of the body: those that overlap its extended
+/// axis-aligned box.
 TREAD_HD PageBox page_box(const SearchBody& body, const mpm::PagesView& pages, int level, const SearchReach& reach)
 {
     const Mat3<double> rotation = body.orientation.toRotationMatrix();
@@ -96,14 +97,14 @@ TREAD_HD PageBox page_box(const SearchBody& body, const mpm::PagesView& pages, i
     return {page_at(centre - grown), page_at(centre + grown)};
 }
 
-/// Pages to look up for a box: its own, or all that hold points where those are fewer.
+/// Number of page lookups for a box: its own pages, or all pages with points if these are fewer.
 TREAD_HD std::int64_t lookups(const PageBox& box, std::int64_t point_pages)
 {
     const std::int64_t own = box.pages();
     return own < point_pages ? own : point_pages;
 }
 
-/// Lookups of all levels for a body.
+/// Number of lookups on all levels for a body.
 TREAD_HD std::int64_t lookups(const SearchBody& body, const mpm::PagesView& pages, const SearchReach& reach)
 {
     std::int64_t count = 0;
@@ -114,7 +115,7 @@ TREAD_HD std::int64_t lookups(const SearchBody& body, const mpm::PagesView& page
     return count;
 }
 
-/// Point page of lookup `i` of the box, or -1.
+/// Returns the point page of lookup `i` of the box, or -1.
 TREAD_HD std::int64_t look_up(const PageBox& box, const mpm::PagesView& pages, std::int64_t i)
 {
     if (box.pages() < pages.point_pages)
@@ -124,7 +125,7 @@ TREAD_HD std::int64_t look_up(const PageBox& box, const mpm::PagesView& pages, s
     return box.contains(mpm::page_coordinates(pages.point_page_key[i])) ? i : -1;
 }
 
-/// Point page of lookup `i` of all levels for a body, or -1.
+/// Returns the point page of lookup `i` on all levels for a body, or -1.
 TREAD_HD std::int64_t look_up(const SearchBody& body, const mpm::PagesView& pages, const SearchReach& reach,
                               std::int64_t i)
 {
@@ -138,7 +139,7 @@ TREAD_HD std::int64_t look_up(const SearchBody& body, const mpm::PagesView& page
     return look_up(page_box(body, pages, pages.levels, reach), pages, i);
 }
 
-/// Whether x stands in the body's own box, grown by `margin` along each of the body's axes.
+/// Whether x is in the body-frame bounding box, extended by `margin` along each of the body's axes.
 TREAD_HD bool in_grown_box(const SearchBody& body, const Vec3<double>& x, double margin)
 {
     const Vec3<double> local = body.orientation.conjugate() * Vec3<double>(x - body.position);
@@ -152,7 +153,7 @@ TREAD_HD bool in_grown_box(const SearchBody& body, const Vec3<double>& x, double
     return true;
 }
 
-/// Whether a point of a cell, wherever it stands in it, can be in the body's grown box.
+/// Whether any position in a cell can be inside the body's extended box.
 TREAD_HD bool cell_may_touch(const SearchBody& body, const mpm::PagesView& pages, std::int64_t page, int place,
                              const SearchReach& reach)
 {
@@ -166,7 +167,7 @@ TREAD_HD bool cell_may_touch(const SearchBody& body, const mpm::PagesView& pages
     return in_grown_box(body, centre, corners + reach.largest_radius + body.travel);
 }
 
-/// Whether a point of radius r_p at x can touch the body within the step.
+/// Whether a point of radius `radius` at x can touch the body within the step.
 TREAD_HD bool may_touch(const SearchBody& body, const Vec3<double>& x, double radius)
 {
     return in_grown_box(body, x, radius + body.travel) &&

@@ -6,7 +6,7 @@
 #include "kernels/contact/history_kern.hpp"
 #include "kernels/dem/pairs/select.hpp"
 
-// The steps of the history, the same on both backends; history.cpp and history.cu bring in for_each and instantiate.
+// Steps of the contact history, for both backends; history.cpp and history.cu provide for_each and instantiate.
 namespace tread::contact
 {
 namespace history_steps

@@ -5,15 +5,15 @@
 #include "kernels/contact/point_contact_kern.hpp"
 #include "kernels/dem/contact/warp_lanes.cuh"
 
-// Substeps of one body that meets sand and nothing else. A thread keeps its point and what the two remember; every
-// block moves the body in its own memory, by the same sums in the same order as all others. So blocks wait for each
-// other once a substep, for their parts of the wrench.
+// Substeps of one body that touches only sand. A thread holds its point and their contact record; every block
+// integrates the body in its own memory, with the same sums in the same order as all other blocks. Blocks therefore
+// synchronise only once per substep, for their parts of the wrench.
 namespace tread::contact::contact_steps
 {
 
 inline constexpr int lone_threads = 256, lone_blocks_an_sm = 2;
 
-/// Of all blocks, in every lane.
+/// Sums the parts of all blocks; every lane returns the sum.
 template<class Lanes>
 __device__ dem::ContactWrench sum_of_blocks(const dem::ContactWrench* part, std::int32_t blocks, const Lanes& lanes)
 {
@@ -23,7 +23,7 @@ __device__ dem::ContactWrench sum_of_blocks(const dem::ContactWrench* part, std:
     return sum;
 }
 
-/// What acts on the body, added up already.
+/// External wrench on the body that is already summed.
 struct KnownWrench
 {
     static constexpr bool acts = true;
@@ -37,7 +37,7 @@ struct KnownWrench
     }
 };
 
-/// What changes of the body, and its books.
+/// Variable state of the body, with its totals.
 struct LoneBodyState
 {
     Vec3<double>        position;
@@ -51,22 +51,23 @@ struct LoneBodyState
     dem::ContactImpulse impulse;
 };
 
-/// Move: dem::moving::Move of the body in the device's memory, with KnownWrench from outside. Every point has a thread.
+/// Move: dem::moving::Move of the body in device memory, with KnownWrench as external wrench. Every point has a thread.
 template<class Move>
 struct LoneBody
 {
-    Respond             respond;
-    RunsView            by_point;
-    PointMotion         motion;
-    Move                move;
-    dem::ContactBody*   shown; ///< to contacts of bodies; null where none were looked for
-    dem::ContactWrench* parts; ///< [2 blocks], of this substep and of the last, which others may still be reading
+    Respond           respond;
+    RunsView          by_point;
+    PointMotion       motion;
+    Move              move;
+    dem::ContactBody* shown; ///< for contacts between bodies; null if pairs were never found
+    dem::ContactWrench*
+        parts; ///< [2 blocks], of this substep and of the previous one, which other blocks may still be reading
 
     /// Contact and motion of a thread's point.
     struct Own
     {
         bool          there;
-        std::int64_t  t, c; ///< of the point, of its candidate
+        std::int64_t  t, c; ///< indices of the point and of its candidate
         MovingPoint   point;
         PairConstants pair;
         Tangential    tangential;
@@ -119,7 +120,7 @@ private:
         if (shown != nullptr) { store(shown, contact_body(to, 0)); }
     }
 
-    /// The move of a block's own body.
+    /// Returns the Move of a block's own copy of the body.
     __device__ Move move_of(LoneBodyState& state) const
     {
         Move own                    = move;
@@ -136,7 +137,7 @@ private:
         return own;
     }
 
-    /// By one warp.
+    /// Moves the body; called by one warp.
     __device__ static void move_body(const dem::ContactWrench* of_blocks, const Move& in_block)
     {
         const dem::GroupLanes<warp_size> warp;
@@ -169,7 +170,8 @@ private:
 
     __device__ const dem::TemplateView& shape() const { return respond.law.templates[respond.bodies.shape[0]]; }
 
-    /// What a thread's contact does to the body; its point moves on. `kept`, unless null, is where the response stays.
+    /// Returns the wrench of a thread's contact on the body, and moves its point. Stores the response in `kept` unless
+    /// null.
     __device__ dem::ContactWrench answer(Own& own, const dem::BodiesView& body, Response* kept) const
     {
         if (!own.there) { return dem::ContactWrench::zero(); }

@@ -6,15 +6,15 @@
 #include "backend/vector.hpp"
 #include "kernels/dem/contact/spring_kern.hpp"
 
-// The contact law of one sand point against one rigid body. The point feels the force at its position x_p; friction
-// acts on the body at its surface, x_p - phi n, and slips past the surface's velocity there: a wheel rolls on its own
-// radius, whatever the points' size. The normal force acts along the line between the two places and has no couple;
-// that of friction, which is phi n x F_t, the body gets and the sand does not.
+// Contact law of a sand point and a rigid body. The force on the point acts at its position x_p; friction acts on the
+// body at its surface, x_p - phi n, against the surface velocity there, so that a wheel rolls on its own radius
+// whatever the size of the points. The normal force acts along the line between the two positions and has no couple;
+// the couple of friction, phi n x F_t, acts on the body and not on the sand.
 namespace tread::contact
 {
 
-/// Which sphere a point stands for. Both follow the initial volume: a radius that followed the current one would do
-/// work on its own.
+/// Radius of the sphere that represents a point. Both rules use the initial volume: a radius that followed the current
+/// volume would do work by itself.
 enum class RadiusRule : std::int32_t
 {
     sphere,      ///< (3 V0 / 4 pi)^(1/3), the paper's Eq. 11 with eta = 1
@@ -27,34 +27,34 @@ TREAD_HD double point_radius(double initial_volume, RadiusRule rule)
     return rule == RadiusRule::sphere ? std::cbrt(sphere_factor * initial_volume) : 0.5 * std::cbrt(initial_volume);
 }
 
-/// What one contact remembers from substep to substep; all zero while the pair is apart.
+/// Record of one contact between substeps; all zero while the pair is separated.
 struct Tangential
 {
     Vec3<double> force;     ///< N, on the point
-    Vec3<double> normal;    ///< unit, out of the body, when `force` was last updated
-    double       stiffness; ///< N/m, k_t at that time
+    Vec3<double> normal;    ///< unit, out of the body, at the last update of `force`
+    double       stiffness; ///< N/m, k_t at that update
 };
 
 TREAD_HD Tangential no_tangential() { return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0.0}; }
 
-/// Constants of one point-body pair.
+/// Contact parameters of one point-body pair.
 struct PairConstants
 {
     double effective_young;  ///< Pa, E*
     double effective_shear;  ///< Pa, G*
-    double friction;         ///< Coulomb
+    double friction;         ///< Coulomb coefficient
     double hertz_factor;     ///< 1, or 1/sqrt(2) for the paper's Eq. 7
     double point_radius;     ///< m, r_p
     double effective_radius; ///< m, R*
 };
 
-/// 1/R* = 1/r_p + 1/R_body; an infinite R_body is a plane.
+/// Returns R* with 1/R* = 1/r_p + 1/R_body; an infinite R_body is a plane.
 TREAD_HD double effective_radius(double point_radius, double body_radius)
 {
     return 1.0 / (1.0 / point_radius + 1.0 / body_radius);
 }
 
-/// Where the point stands relative to the body, and how it moves.
+/// Position and velocity of the point relative to the body.
 struct Approach
 {
     double       distance; ///< m, phi(x_p), negative inside the body
@@ -62,30 +62,31 @@ struct Approach
     Vec3<double> velocity; ///< m/s, of the point relative to the body's material at its surface, x_p - phi n
 };
 
-/// From the body's surface to the point, m: phi n.
+/// Returns the vector from the body's surface to the point, m: phi n.
 TREAD_HD Vec3<double> stand_off(double distance, const Vec3<double>& gradient)
 {
     const double length = gradient.norm();
     return length > 0 ? Vec3<double>((distance / length) * gradient) : Vec3<double>(0.0, 0.0, 0.0);
 }
 
-/// What the law says of one contact in one substep; all zero, gradient included, while the pair is apart.
+/// Result of the law for one contact in one substep; all zero, including the gradient, while the pair is separated.
 struct Response
 {
-    Vec3<double> force;           ///< N, on the point; the body gets exactly its opposite
-    Vec3<double> couple;          ///< N m, on the body beside its force at x_p: friction acts at its surface
+    Vec3<double> force;           ///< N, on the point; the body gets the exact opposite
+    Vec3<double> couple;          ///< N m, on the body, in addition to its force at x_p: friction acts at the surface
     double       overlap;         ///< m, d = r_p - phi
     double       stiffness;       ///< N/m, k_n = dF/dd
     double       gradient_length; ///< of the SDF; 1 on a smooth face, small on a medial axis
     double       energy;          ///< J, elastic: normal + tangential
-    double       dissipated;      ///< J, lost to friction in this substep, never negative
+    double       dissipated;      ///< J, dissipated by friction in this substep, never negative
 };
 
 TREAD_HD Response no_response() { return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0.0, 0.0, 0.0, 0.0, 0.0}; }
 
-/// Mindlin's tangential force, incremental (the paper's Eq. 9a): dF_t = -k_t v_t dt, k_t = 8 G* sqrt(R* d). Rescaled by
-/// k_t,new/k_t,old on unloading, else a closed cycle makes energy (docs/theory.md#friction); capped at mu |F_n|.
-/// Returns the energy lost, never negative: by the change of stiffness, and by slip = cap times slipped distance.
+/// Advances Mindlin's tangential force incrementally (the paper's Eq. 9a): dF_t = -k_t v_t dt, k_t = 8 G* sqrt(R* d).
+/// It is rescaled by k_t,new/k_t,old on unloading, otherwise a closed cycle creates energy (docs/theory.md#friction),
+/// and capped at mu |F_n|. Returns the dissipated energy, never negative: by the change of stiffness, and by slip = cap
+/// times slip distance.
 TREAD_HD double update_tangential(Tangential& tangential, const Vec3<double>& normal, const Vec3<double>& velocity,
                                   double stiffness, double cap, double dt)
 {
@@ -105,8 +106,8 @@ TREAD_HD double update_tangential(Tangential& tangential, const Vec3<double>& no
     return lost;
 }
 
-/// Hertz (Eq. 14): F_n = 4/3 E* sqrt(R*) d^1.5 grad phi, un-normalised, so that force and energy come from one
-/// potential 8/15 E* sqrt(R*) d^2.5; plus the tangential force. Updates the history.
+/// Computes the response: Hertz (Eq. 14), F_n = 4/3 E* sqrt(R*) d^1.5 grad phi, with an un-normalised gradient, so that
+/// force and energy derive from one potential 8/15 E* sqrt(R*) d^2.5; plus the tangential force. Updates the history.
 TREAD_HD Response point_body_response(const PairConstants& pair, const Approach& approach, Tangential& tangential,
                                       double dt)
 {

@@ -7,21 +7,21 @@
 #include "kernels/contact/summary.hpp"
 #include "kernels/dem/motion/outside.hpp"
 
-// Sand against rigid bodies during one MPM step: begin_step or begin_kept_step, N times substep, finish_step. During
-// the substeps each point in reach moves on a private copy of (x, v); only the accumulated impulse goes back to the
-// sand.
+// Contact of sand and rigid bodies during one MPM step: begin_step or begin_kept_step, N times substep, finish_step.
+// During the substeps each candidate point moves on a private copy of (x, v); only the accumulated impulse is returned
+// to the sand.
 namespace tread::contact
 {
 
-/// What the private copies do during the substeps.
+/// Motion of the private copies during the substeps.
 enum class PointMotion : std::int32_t
 {
-    supported, ///< feel the contact and are held up by the acceleration that the grid gave them last step
-    ballistic, ///< feel the contact alone
-    frozen,    ///< stay where they are, at their grid velocity (the paper's)
+    supported, ///< move under the contact force and the grid acceleration of the last step
+    ballistic, ///< move under the contact force alone
+    frozen,    ///< keep their position and their grid velocity (as in the paper)
 };
 
-/// Numbers and tables of the law that hold for the whole scene.
+/// Parameters and tables of the contact law that hold for the whole scene.
 struct PointBodyLaw
 {
     const dem::TemplateView* templates;
@@ -29,36 +29,36 @@ struct PointBodyLaw
     double                   hertz_factor; ///< 1, or 1/sqrt(2) for the paper's Eq. 7
     RadiusRule               radius;
     PointMotion              motion;
-    double                   sampled_below; ///< m, equivalent radius under which points take nine samples; 0 = never
+    double sampled_below; ///< m, equivalent radius below which nine samples represent a point; 0 = never
 };
 
-/// Private copies of the points in reach: one for each run of Candidates::by_point.
+/// Private copies of the candidate points, one for each run of Candidates::by_point.
 struct PrivatePoints
 {
     std::int64_t   count;
     Vec3<double>*  position; ///< m
     Vec3<double>*  velocity; ///< m/s
     Vec3<double>*  support;  ///< m/s2
-    Vec3<double>*  impulse;  ///< N s, of the step so far
+    Vec3<double>*  impulse;  ///< N s, accumulated in this step
     double*        mass;     ///< kg
     double*        radius;   ///< m
     std::int32_t*  material;
     std::uint32_t* id;
 };
 
-/// State of the candidates, in their order. A candidate has one slot of history, or one for each sample.
+/// State of the candidates, in their order. A candidate has one slot of history, or one per sample.
 struct ContactsView
 {
     CandidatesView      candidates;
-    const std::int32_t* slot_first; ///< [count + 1], or null: one each
-    Tangential*         tangential; ///< of the slots
+    const std::int32_t* slot_first; ///< [count + 1]; null: one slot each
+    Tangential*         tangential; ///< per slot
     Response*           response;   ///< of the last substep
-    double*             dissipated; ///< J, friction, since summarise or begin_step
+    double*             dissipated; ///< J, dissipated by friction since summarise or begin_step
 
     TREAD_HD std::int64_t first_slot(std::int64_t c) const { return slot_first == nullptr ? c : slot_first[c]; }
 };
 
-/// Owner of everything that the sand-body contact needs.
+/// Memory of the sand-body contact.
 template<class Exec>
 struct PointContact
 {
@@ -97,7 +97,7 @@ struct PointContact
         return {candidates.view(), slot_first.data(), tangential.data(), response.data(), dissipated.data()};
     }
 
-    /// On the bodies, of the last substep.
+    /// Returns the wrenches on the bodies of the last substep.
     dem::OutsideWrenches wrenches() const
     {
         if (candidates.body.size() == 0) { return {}; }
@@ -116,56 +116,57 @@ struct PointContact
     Array<Exec, std::int32_t>  material;
     Array<Exec, std::uint32_t> id;
 
-    Array<Exec, std::int32_t> slot_first; ///< empty where no body takes samples
+    Array<Exec, std::int32_t> slot_first; ///< empty if no body takes samples
     Array<Exec, Tangential>   tangential;
     Array<Exec, Response>     response;
     Array<Exec, double>       dissipated;
 
     Array<Exec, std::int32_t>       run_of_body;  ///< of Candidates::by_body; -1 = no candidates
-    Array<Exec, dem::ContactWrench> wrench_sums;  ///< one for each part of a touched body's candidates
-    Array<Exec, Summary>            summary_sums; ///< the same
-    Array<Exec, Summary>            summary;      ///< of all
+    Array<Exec, dem::ContactWrench> wrench_sums;  ///< one per part of a touched body's candidates
+    Array<Exec, Summary>            summary_sums; ///< likewise
+    Array<Exec, Summary>            summary;      ///< of all contacts
     Array<Exec, std::int32_t>       all_parts;    ///< first and end of wrench_sums
     Array<Exec, std::int32_t>       marks;
 };
 
-/// Finds the candidates, copies their points (velocity from grid_velocity, impulse zero), and keeps and recalls the
-/// history. The points must be coupled (PointFields) and listed in `pages`.
+/// Finds the candidates, copies their points (velocity from grid_velocity, impulse zero), saves the contact history and
+/// restores it for the new candidates. The points must be coupled (PointFields) and listed in `pages`.
 template<class Exec, class Real>
 void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::PointsView<Real>& points,
                 const mpm::PagesView& pages, const dem::BodiesView& bodies, const PointBodyLaw& law,
                 const SearchReach& reach);
 
-/// The same with the candidates, and their history, that the last begin_step found: for as long as nothing has come
-/// nearer to each other than its reach allowed and points stand where they stood in memory. Allocates nothing.
+/// Begins a step with the candidates and histories of the last begin_step: valid while nothing has approached by more
+/// than its search allowed and the points are not reordered in memory. Allocates nothing.
 template<class Exec, class Real>
 void begin_kept_step(const Exec& exec, PointContact<Exec>& contact, const mpm::PointsView<Real>& points,
                      const PointBodyLaw& law);
 
-/// Forces of all candidates at the present places of points and bodies: contact.wrenches() for the bodies, which the
-/// caller moves; then the private points move by dt (s, of the substep). Allocates nothing.
+/// Computes the forces of all candidates at the present positions of points and bodies (contact.wrenches() for the
+/// bodies, which the caller integrates), then moves the private points by dt (s, of the substep). Allocates nothing.
 template<class Exec>
 void substep(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesView& bodies, const PointBodyLaw& law,
              double dt);
 
-/// points.contact_force = impulse / dt (s, of the MPM step) for points in reach, zero for the others.
+/// Sets points.contact_force to impulse / dt (s, of the MPM step) for candidate points and to zero for the others.
 template<class Exec, class Real>
 void finish_step(const Exec& exec, PointContact<Exec>& contact, const mpm::PointsView<Real>& points, double dt);
 
-/// Puts what the pairs that carry a tangential force remember under their keys in contact.history: for the next search,
-/// which does so itself, or for others.
+/// Stores the records of contacts that carry a tangential force under their keys in contact.history, for a checkpoint
+/// or another rank; the next search does so itself.
 template<class Exec>
 void keep_history(const Exec& exec, PointContact<Exec>& contact);
 
-/// Of candidates that were loaded (contact.candidates.body and point): all that begin_step makes of these but what the
-/// points are, which begin_kept_step copies, and what the pairs remember, which the caller puts into
+/// Rebuilds from loaded candidates (contact.candidates.body and point) everything that begin_step makes except the
+/// private points, which begin_kept_step copies, and the contact records, which the caller writes to
 /// contact.tangential.
 template<class Exec>
 void resume_candidates(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesView& bodies,
                        const PointBodyLaw& law);
 
-/// Of the last substep (dissipated: since the last summary or begin_step), where there are candidates; live_named
-/// counts contacts of the first `named` bodies. Returns where the backend will have it.
+/// Computes the summary of the last substep (dissipated: since the last summary or begin_step); requires candidates.
+/// live_named counts the contacts of the first `named` bodies. Returns the address of the result in the backend's
+/// memory.
 template<class Exec>
 const Summary* summarise(const Exec& exec, PointContact<Exec>& contact, std::int64_t named);
 

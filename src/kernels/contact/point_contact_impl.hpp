@@ -2,12 +2,12 @@
 
 #include "kernels/contact/point_contact_kern.hpp"
 
-// The steps of the sand-body contact, the same on both backends; point_contact.cpp and point_contact.cu bring in
-// for_each and reduce_runs, and instantiate.
+// Steps of the sand-body contact, for both backends; point_contact.cpp and point_contact.cu provide for_each and
+// reduce_runs, and instantiate.
 namespace tread::contact
 {
 
-/// Memory for the candidates found.
+/// Allocates memory for the candidates found.
 template<class Exec>
 void resize_to_candidates(const Exec& exec, PointContact<Exec>& contact)
 {
@@ -17,7 +17,7 @@ void resize_to_candidates(const Exec& exec, PointContact<Exec>& contact)
     resize(contact.candidates.body.size(), contact.response, contact.dissipated);
     const std::int64_t parts = contact.candidates.body_parts.of_items.key.size();
     if (parts == 0) { return; }
-    resize(parts + 1, contact.wrench_sums); // or two for each block of a lone body's substeps
+    resize(parts + 1, contact.wrench_sums); // or two per block for the substeps of a lone body
     resize(parts, contact.summary_sums);
     resize(1, contact.summary);
     resize(2, contact.all_parts);
@@ -25,7 +25,7 @@ void resize_to_candidates(const Exec& exec, PointContact<Exec>& contact)
              contact_steps::EndsOfAll{static_cast<std::int32_t>(parts), contact.all_parts.data()});
 }
 
-/// Memory for the history of the candidates found.
+/// Allocates the history slots of the candidates found.
 template<class Exec>
 void make_slots(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesView& bodies, const PointBodyLaw& law)
 {
@@ -42,7 +42,7 @@ void make_slots(const Exec& exec, PointContact<Exec>& contact, const dem::Bodies
     contact.tangential.resize(slots);
 }
 
-/// Of each body, where its wrenches will be.
+/// Writes the run of each body's wrenches.
 template<class Exec>
 void name_runs(const Exec& exec, PointContact<Exec>& contact, std::int64_t bodies)
 {
@@ -96,7 +96,7 @@ void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Points
     begin_kept_step(exec, contact, points, law);
     for_each(exec, "recall contacts", contact.candidates.body.size(),
              contact_steps::Recall{contact.contacts(), contact.id.data(), contact.history.view()});
-    resize(contact.history, 0); // from here on the slots have it
+    resize(contact.history, 0); // the slots hold the records from here on
     const auto plane = static_cast<std::size_t>(points.count) * sizeof(Real);
     for (int c = 0; c < 3; ++c) { fill_zero(exec, points.contact_force.data + c * points.contact_force.stride, plane); }
 }

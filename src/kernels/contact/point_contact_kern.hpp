@@ -6,7 +6,7 @@
 #include "kernels/dem/contact/sdf_kern.hpp"
 #include "kernels/dem/motion/move_impl.hpp"
 
-// What a step of the sand-body contact does to one point, candidate, part or body.
+// Item functions of a sand-body contact step for a point, candidate, part or body.
 namespace tread::contact
 {
 namespace contact_steps
@@ -54,7 +54,7 @@ struct CountSlots
     }
 };
 
-/// Key of slot s of candidate c.
+/// Returns the key of slot s of candidate c.
 TREAD_HD std::uint64_t slot_key(const ContactsView& contacts, const std::uint32_t* id, std::int64_t c, std::int64_t s)
 {
     const std::int64_t first = contacts.first_slot(c);
@@ -80,13 +80,13 @@ struct Recall
     }
 };
 
-/// Velocity of the body's material at x.
+/// Returns the velocity of the body's material at x.
 TREAD_HD Vec3<double> velocity_at(const dem::BodiesView& bodies, std::int32_t b, const Vec3<double>& x)
 {
     return bodies.velocity[b] + bodies.angular_velocity[b].cross(x - bodies.position[b]);
 }
 
-/// Of body b against a point at x with velocity v (m, m/s); `tangential` goes on by dt (s).
+/// Computes the response of body b to a point at x with velocity v (m, m/s); advances `tangential` by dt (s).
 TREAD_HD Response response_of(const dem::BodiesView& bodies, std::int32_t b, const dem::TemplateView& shape,
                               const PairConstants& pair, const Vec3<double>& x, const Vec3<double>& v,
                               Tangential& tangential, double dt)
@@ -124,7 +124,7 @@ struct Respond
     }
 };
 
-/// The same where some bodies are sampled.
+/// Computes the responses if some bodies are sampled.
 struct RespondSampled
 {
     Respond respond;
@@ -156,7 +156,7 @@ struct RespondSampled
     }
 };
 
-/// What the response at `arm` from the body's centre (m) does to the body.
+/// Returns the wrench on the body from the response at `arm` from the body's centre (m).
 TREAD_HD dem::ContactWrench wrench_on_body(const Response& response, const Vec3<double>& arm)
 {
     const Vec3<double> force = -response.force;
@@ -177,7 +177,7 @@ struct WrenchOf
     }
 };
 
-/// Forces of a part's candidates, and what they add up to. EachForce: Respond or RespondSampled.
+/// Computes the forces of a part's candidates and their sum. EachForce: Respond or RespondSampled.
 template<class EachForce>
 struct RespondPart
 {
@@ -200,7 +200,7 @@ struct RespondPart
     }
 };
 
-/// Of each touched body.
+/// Writes the run of each touched body.
 struct NameRun
 {
     const std::int32_t* touched_body;
@@ -219,7 +219,7 @@ struct NoRun
     TREAD_HD void operator()(std::int64_t b) const { run_of_body[b] = -1; }
 };
 
-/// What moves of a private point, and what moves it.
+/// State and external influences of a private point while it moves.
 struct MovingPoint
 {
     Vec3<double> position;
@@ -228,7 +228,7 @@ struct MovingPoint
     Vec3<double> support;
     double       mass;
 
-    /// Symplectic Euler under a contact force (N), by dt (s).
+    /// Symplectic Euler step under a contact force (N), by dt (s).
     TREAD_HD void move(const Vec3<double>& force, PointMotion motion, double dt)
     {
         impulse += dt * force;
@@ -250,7 +250,7 @@ TREAD_HD void store(const MovingPoint& point, const PrivatePoints& points, std::
     points.impulse[t]  = point.impulse;
 }
 
-/// Under the contact forces of all bodies, summed in body order.
+/// Moves a point under the contact forces of all bodies, summed in body order.
 struct MovePoint
 {
     RunsView      runs;
@@ -314,7 +314,7 @@ struct WriteRecords
     }
 };
 
-/// One run of all parts.
+/// Writes one run that contains all parts.
 struct EndsOfAll
 {
     std::int32_t  parts;
@@ -327,7 +327,7 @@ struct SummaryOf
 {
     ContactsView  contacts;
     PrivatePoints points;
-    std::int64_t  named; ///< bodies, the first ones, whose contacts are counted apart
+    std::int64_t  named; ///< number of named bodies (the first ones), whose contacts are counted separately
 
     TREAD_HD Summary operator()(std::int64_t c) const
     {

@@ -7,7 +7,7 @@
 namespace tread::contact
 {
 
-/// Static shared memory must not run constructors: raw storage for one value a thread.
+/// Raw storage for one value per thread, because static shared memory must not run constructors.
 template<class Sum, int threads>
 struct BlockStorage
 {
@@ -41,8 +41,8 @@ struct ReduceRun
     }
 };
 
-/// For every run r: finish(r, sum over its items i of item(i)): one block a run, its threads stride over the items,
-/// then a tree: a fixed order. Sum needs operator+ and zero().
+/// Calls finish(r, sum over its items i of item(i)) for every run r. One block per run: its threads stride over the
+/// items, then a tree sums the threads, in a fixed order. Sum needs operator+ and zero().
 template<class Sum, class Item, class Finish>
 void reduce_runs(const Gpu& gpu, const char* name, const RunsView& runs, Item item, Finish finish)
 {
@@ -50,7 +50,7 @@ void reduce_runs(const Gpu& gpu, const char* name, const RunsView& runs, Item it
     for_each_block<threads>(gpu, name, runs.count, ReduceRun<Sum, Item, Finish, threads>{runs, item, finish});
 }
 
-/// f(r, lanes) for every run r, a short one.
+/// Calls f(r, lanes) for every run r; runs are short.
 template<class F>
 void for_each_run(const Gpu& gpu, const char* name, const RunsView& runs, F f)
 {

@@ -7,7 +7,8 @@
 namespace tread::contact
 {
 
-/// For every run r: finish(r, sum over its items i of item(i)), in a fixed order. Sum needs operator+ and zero().
+/// Calls finish(r, sum over its items i of item(i)) for every run r; sums have a fixed order. Sum needs operator+ and
+/// zero().
 template<class Sum, class Item, class Finish>
 void reduce_runs(const Cpu& cpu, const char* name, const RunsView& runs, Item item, Finish finish)
 {
@@ -20,7 +21,7 @@ void reduce_runs(const Cpu& cpu, const char* name, const RunsView& runs, Item it
              });
 }
 
-/// f(r, lanes) for every run r, a short one.
+/// Calls f(r, lanes) for every run r; runs are short.
 template<class F>
 void for_each_run(const Cpu& cpu, const char* name, const RunsView& runs, F f)
 {

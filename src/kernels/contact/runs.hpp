@@ -5,7 +5,7 @@
 #include "backend/array.hpp"
 #include "backend/sort.hpp"
 
-// Runs of equal keys in a sorted list: the candidates of each body, the candidates of each point.
+// Runs of equal keys in a sorted list, such as the candidates of each body or of each point.
 namespace tread::contact
 {
 
@@ -13,10 +13,10 @@ struct RunsView
 {
     std::int64_t        count;
     const std::int32_t* key;   ///< [count], ascending
-    const std::int32_t* first; ///< [count + 1], places in the sorted list
+    const std::int32_t* first; ///< [count + 1], indices into the sorted list
 };
 
-/// Owner of what RunsView shows.
+/// Memory of RunsView.
 template<class Exec>
 struct Runs
 {
@@ -32,8 +32,8 @@ struct Runs
     Array<Exec, std::int32_t> first;
 };
 
-/// Last index in [0, count) with first[index] <= item, for ascending `first` with first[0] = 0: the owner of an item
-/// in a list that was flattened by an exclusive scan. Owners without items are passed over.
+/// Last index in [0, count) with first[index] <= item, for ascending `first` with first[0] = 0: the owner of an item in
+/// a list flattened by an exclusive scan. Owners without items are skipped.
 TREAD_HD std::int64_t owner_of(const std::int32_t* first, std::int64_t count, std::int64_t item)
 {
     return lower_bound(first, count, static_cast<std::int32_t>(item + 1)) - 1;
@@ -51,7 +51,7 @@ struct MarkHeads
     TREAD_HD void operator()(std::int64_t i) const { marks[i] = i < count && (i == 0 || keys[i] != keys[i - 1]); }
 };
 
-/// After the scan marks[i] counts the heads before i.
+/// Writes the runs; after the scan marks[i] is the number of run heads before i.
 struct WriteRuns
 {
     const std::int32_t* keys;
@@ -74,8 +74,8 @@ struct WriteRuns
 
 } // namespace run_steps
 
-/// Runs of equal values in `keys`, sorted, of which there is at least one. After the call marks[i + 1] - 1 is the run
-/// of item i.
+/// Finds the runs of equal values in `keys`, which is sorted and not empty. Afterwards marks[i + 1] - 1 is the run of
+/// item i.
 template<class Exec>
 void find_runs(const Exec& exec, const Array<Exec, std::int32_t>& keys, Array<Exec, std::int32_t>& marks,
                Runs<Exec>& runs, SortScratch<Exec>& scratch)
@@ -90,12 +90,12 @@ void find_runs(const Exec& exec, const Array<Exec, std::int32_t>& keys, Array<Ex
              run_steps::WriteRuns{keys.data(), count, marks.data(), runs.key.data(), runs.first.data()});
 }
 
-/// A long run is summed in parts, so that one body with all the contacts is not one thread's or one block's work; on a
-/// GPU so many lanes share a part. Most rocks have fewer contacts than lanes.
+/// Maximum number of items in a part. Long runs are summed in parts, so that a body with very many contacts does not
+/// occupy a single thread or block; on a GPU as many lanes share a part. Most rocks have fewer contacts than that.
 constexpr std::int32_t part_items = 32;
 constexpr int          part_lanes = 16;
 
-/// The parts of runs: a run of the list for each part, and a run of parts for each run.
+/// Parts of runs: an item range for each part and a range of parts for each run.
 template<class Exec>
 struct Parts
 {
@@ -162,7 +162,7 @@ struct LoadSum
 
 } // namespace run_steps
 
-/// Cuts runs, of which there is at least one, into parts.
+/// Divides runs into parts; there must be at least one run.
 template<class Exec>
 void split_runs(const Exec& exec, const RunsView& runs, Parts<Exec>& parts, SortScratch<Exec>& scratch)
 {

@@ -13,7 +13,7 @@ namespace
 using namespace contact_steps;
 using dem::repeat_threads;
 
-constexpr std::int64_t few_bodies = 500; ///< each may have a warp to add up what sand does to it
+constexpr std::int64_t few_bodies = 500; ///< each may use a warp to sum its contacts with sand
 
 auto forces_part(PointContact<Gpu>& contact, const Respond& respond)
 {
@@ -25,13 +25,13 @@ auto forces_part(PointContact<Gpu>& contact, const Respond& respond)
                                           contact.wrench_sums.data()});
 }
 
-/// Whether it is one body, which meets nothing but sand.
+/// Whether the scene has a single body, which touches only sand.
 bool is_alone(const dem::BodyStep<Gpu>& step)
 {
     return step.bodies.count == 1 && step.bodies.role == nullptr && step.pairs.key.size() == 0;
 }
 
-/// False where it wants more threads than the device holds at once.
+/// Returns false if it needs more threads than are resident on the device.
 bool run_alone(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw& law, const dem::BodyStep<Gpu>& step,
                std::int64_t count)
 {
@@ -58,7 +58,7 @@ bool run_alone(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw& l
 
 } // namespace
 
-/// Sampled points and rays have launches of their own.
+/// Sampled points and rays need separate launches.
 bool worth_one_launch(const Gpu&, PointContact<Gpu>& contact, const dem::BodyStep<Gpu>& step)
 {
     constexpr std::int64_t few = 200000;

@@ -5,11 +5,11 @@
 
 #include "backend/vector.hpp"
 
-// What is summed over contacts. Sums are taken in a fixed order (reduce_runs); of equal extremes the first is kept.
+// Sums and extremes over contacts. Sums have a fixed order (reduce_runs); of equal extremes the first is kept.
 namespace tread::contact
 {
 
-/// A value and the pair that it belongs to; body -1 = no contact at all.
+/// An extreme value and its pair; body -1 = no contact.
 struct Extreme
 {
     double        value;
@@ -20,17 +20,17 @@ struct Extreme
 TREAD_HD Extreme larger(const Extreme& a, const Extreme& b) { return b.value > a.value ? b : a; }
 TREAD_HD Extreme smaller(const Extreme& a, const Extreme& b) { return b.value < a.value ? b : a; }
 
-/// The live contacts of one body, or of all.
+/// Summary of the live contacts of one body or of all.
 struct Summary
 {
-    std::int64_t live;       ///< contacts with overlap
-    std::int64_t live_named; ///< of these, of the bodies that the caller asked for
+    std::int64_t live;       ///< number of contacts with overlap
+    std::int64_t live_named; ///< those of the bodies that the caller asked for
     double       energy;     ///< J, elastic, normal and tangential
-    double       dissipated; ///< J, lost to friction
-    Extreme      stiffest;   ///< 1/s2, k_n / m_p: the time step wants k_n dt^2 / m_p <= 0.5
-    Extreme      deepest;    ///< overlap over point radius
-    /// Least |grad phi| of points whose centre is inside the body: below 0.5 the point is at a medial axis. Outside, a
-    /// small one says nothing: an interpolated distance is flat along a concave edge.
+    double       dissipated; ///< J, dissipated by friction
+    Extreme      stiffest;   ///< 1/s2, k_n / m_p: the time step must satisfy k_n dt^2 / m_p <= 0.5
+    Extreme      deepest;    ///< overlap divided by point radius
+    /// Minimum |grad phi| of points whose centre is inside the body; below 0.5 the point is at a medial axis. Outside,
+    /// small values have no meaning: an interpolated distance is flat along a concave edge.
     Extreme flattest;
 
     TREAD_HD static Summary zero()

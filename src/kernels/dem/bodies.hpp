@@ -5,36 +5,36 @@
 #include "backend/array.hpp"
 #include "backend/vector.hpp"
 
-// State of the rigid bodies (rocks and wheels), fp64. Vectors in the world frame unless a line says body frame.
-// Body frame: centre of mass at the origin, axes of the template's mesh.
+// State of the rigid bodies (rocks and wheels), fp64. Vectors are in the world frame unless marked as body frame.
+// Body frame: origin at the centre of mass, axes of the template's mesh.
 namespace tread::dem
 {
 
-/// World degrees of freedom that a body does not have (bits of BodiesView::locked).
+/// World-frame degrees of freedom that are locked (bits of BodiesView::locked).
 enum LockedFreedom : std::uint32_t
 {
     lock_x     = 1,
     lock_y     = 2,
     lock_z     = 4,
     lock_roll  = 8,  ///< rotation about x
-    lock_pitch = 16, ///< about y
-    lock_yaw   = 32, ///< about z
+    lock_pitch = 16, ///< rotation about y
+    lock_yaw   = 32, ///< rotation about z
     lock_all   = 63,
 
-    hangs = 64, ///< no freedom is locked by it: BodiesView::weight says how much of the body's weight acts
+    hangs = 64, ///< locks nothing: the share BodiesView::weight of the body's weight acts
 };
 
-/// What a rank has to do with a body, where several compute a scene. All of them number bodies alike and have memory
-/// for all: what names a body, in contacts and in what they remember, means the same everywhere.
+/// Role of a rank for a body in a parallel run. All ranks number bodies alike and hold memory for all of them, so that
+/// body indices in contacts and contact histories are valid on every rank.
 enum BodyRole : std::int32_t
 {
-    role_owner, ///< moves it and keeps its books
-    role_guest, ///< moves it as its owner does, for its contacts with what this rank owns
-    role_none,  ///< does not know where it is
+    role_owner, ///< integrates the body and accounts for its energy
+    role_guest, ///< ghost: integrates the body as its owner does, for contacts with what this rank owns
+    role_none,  ///< does not know the body's position
 };
 
-/// How the time integration treats a locked degree of freedom: it keeps the velocity found in `velocity` and
-/// `angular_velocity` (zero for a held body, the prescribed value for a driven one) whatever the forces.
+/// View of the bodies. Time integration leaves the velocity of a locked degree of freedom as stored in `velocity` and
+/// `angular_velocity` (zero for a held body, prescribed for a driven one), whatever the forces.
 struct BodiesView
 {
     std::int64_t   count;
@@ -44,30 +44,30 @@ struct BodiesView
     Vec3<double>*  angular_velocity; ///< rad/s
     double*        mass;             ///< kg
     Sym3<double>*  inertia;          ///< kg m2, body frame
-    double*        scale;            ///< of the template
+    double*        scale;            ///< scale factor of the template
     std::int32_t*  shape;            ///< index of the template
     std::int32_t*  material;         ///< index of the material
     std::uint32_t* locked;           ///< bits of LockedFreedom
     std::int32_t*  damped;           ///< 1 = takes part in the local damping of a settling phase
-    Vec3<double>*  force;            ///< N, contact, of the last substep (gravity not included)
+    Vec3<double>*  force;            ///< N, contact force of the last substep (without gravity)
     Vec3<double>*  torque;           ///< N m, about the centre of mass
-    double*        stiffness;        ///< N/m, sum over live contacts of K, of the last substep
+    double*        stiffness;        ///< N/m, sum of K over the touching contacts of the last substep
 
-    const std::int32_t* role = nullptr; ///< BodyRole; null: this rank owns all
+    const std::int32_t* role = nullptr; ///< BodyRole; null: this rank owns all bodies
 
-    const double* weight = nullptr; ///< share of the weight that acts on a named body with `hangs`
+    const double* weight = nullptr; ///< share of the weight that acts on each named body with `hangs`
 
     TREAD_HD bool is_owned(std::int64_t b) const { return role == nullptr || role[b] == role_owner; }
     TREAD_HD bool is_here(std::int64_t b) const { return role == nullptr || role[b] != role_none; }
 
-    /// Share of a body's weight that acts. Only bodies with `hangs` read memory for it.
+    /// Returns the share of a body's weight that acts. Reads memory only for bodies with `hangs`.
     TREAD_HD double acting_weight(std::int64_t b, std::uint32_t flags) const
     {
         return (flags & hangs) != 0 ? weight[b] : 1.0;
     }
 };
 
-/// Owner of what BodiesView shows.
+/// Memory of BodiesView.
 template<class Exec>
 struct Bodies
 {
@@ -99,7 +99,7 @@ struct Bodies
                 role.data(),     weight.data()};
     }
 
-    /// Calls f(name, array) for every array but the roles, which are a rank's own affair.
+    /// Calls f(name, array) for every array except the roles, which differ between ranks.
     template<class F>
     void for_each_field(F f)
     {
@@ -134,7 +134,7 @@ struct Bodies
     Array<Exec, Vec3<double>>  force;
     Array<Exec, Vec3<double>>  torque;
     Array<Exec, double>        stiffness;
-    Array<Exec, std::int32_t>  role;   ///< empty on one rank
+    Array<Exec, std::int32_t>  role;   ///< empty in a run with one rank
     Array<Exec, double>        weight; ///< of the named bodies
 };
 

@@ -7,7 +7,7 @@
 #include "backend/array.hpp"
 #include "backend/vector.hpp"
 
-// State of the material points, structure of arrays. Positions are fp64 (1e-13 m at 1 km); fields are Real.
+// State of the material points, structure of arrays. Positions are fp64 (1e-13 m at 1 km); other fields are Real.
 namespace tread::mpm
 {
 
@@ -16,29 +16,29 @@ struct PointsView
 {
     std::int64_t      count;
     Planes<double, 3> position;     ///< m
-    Planes<double, 3> start;        ///< m, position that displacement is measured from
+    Planes<double, 3> start;        ///< m, reference position of the displacement
     Planes<Real, 3>   velocity;     ///< m/s
     Planes<Real, 6>   stress;       ///< Pa, Kirchhoff: Cauchy times volume_ratio; tension positive
     Real*             mass;         ///< kg
     Real*             volume;       ///< m3, initial
     Real*             volume_ratio; ///< current over initial volume
-    std::uint32_t*    id;           ///< unique, for ever
+    std::uint32_t*    id;           ///< unique during the whole run
     std::uint8_t*     material;
 
-    Planes<Real, 9> affine; ///< 1/s, row-major; APIC and AFLIP only, else null
+    Planes<Real, 9> affine; ///< 1/s, row-major affine velocity field; APIC and AFLIP only, else null
 
-    // Plastic materials only, else null.
+    // Plastic materials only, otherwise null.
     Real* plastic_shear; ///< equivalent plastic shear strain
-    Real* plastic_rate;  ///< 1/s, its rate in the last step
+    Real* plastic_rate;  ///< 1/s, rate of plastic_shear in the last step
     Real* volume_gap;    ///< log volume opened at the apex that must close before compression
 
-    // Coupling with bodies only, else null.
-    Planes<Real, 3> contact_force; ///< N, impulse of the step's contacts over dt
+    // Coupling with bodies only, otherwise null.
+    Planes<Real, 3> contact_force; ///< N, contact impulse of the step divided by dt
     Planes<Real, 3> grid_velocity; ///< m/s, interpolated at the end of the last step
     Planes<Real, 3> support;       ///< m/s2, grid acceleration of the last step without its contact force
 };
 
-/// What a scene needs of a point's state beyond the fields that every scene has.
+/// Optional fields of the point state that a scene needs.
 struct PointFields
 {
     bool affine;
@@ -46,7 +46,7 @@ struct PointFields
     bool coupled;
 };
 
-/// Owner of what PointsView shows. Fields that the scene does not need have no memory.
+/// Memory of PointsView. Fields that the scene does not need are not allocated.
 template<class Exec, class Real>
 struct Points
 {
@@ -70,7 +70,7 @@ struct Points
     {
     }
 
-    /// Memory for `points`; values are zero. Even without points the scene's fields have memory.
+    /// Allocates memory for `points`; values are zero. The scene's fields are allocated even without points.
     void allocate(std::int64_t points, PointFields fields)
     {
         count           = points;
@@ -98,7 +98,7 @@ struct Points
         take(support, 3, fields.coupled);
     }
 
-    /// Room for `points` at least; the living ones keep their values.
+    /// Ensures capacity for at least `points`; present points keep their values.
     void reserve(std::int64_t points)
     {
         if (points <= stride) { return; }
@@ -138,14 +138,14 @@ struct Points
                 {support.data(), stride}};
     }
 
-    /// Calls f(array, components) for every field that has memory.
+    /// Calls f(array, components) for every allocated field.
     template<class F>
     void for_each_field(F f)
     {
         for_each_named_field([&](const char*, auto& array, int components) { f(array, components); });
     }
 
-    /// Calls f(name, array, components) for these.
+    /// Calls f(name, array, components) for every allocated field.
     template<class F>
     void for_each_named_field(F f)
     {
@@ -171,8 +171,8 @@ struct Points
         visit("support", support, 3);
     }
 
-    std::int64_t count  = 0; ///< points alive
-    std::int64_t stride = 0; ///< of the planes: points that there is room for
+    std::int64_t count  = 0; ///< number of points
+    std::int64_t stride = 0; ///< stride of the planes: capacity in points
 
     Array<Exec, double>        position;
     Array<Exec, double>        start;

@@ -2,22 +2,22 @@
 
 #include "kernels/dem/contact/body_contact_impl.hpp"
 
-// The stiffness that a pair is about to gain: a flat face meets a wall with all its nodes in one substep, which the
-// stiffness of the last one cannot tell.
+// Anticipated stiffness of a pair: when a flat face meets a wall, all its nodes come into contact in one substep, which
+// the stiffness of the last substep does not show.
 namespace tread::dem
 {
 
-/// Sum of w p'(0) (N/m), the steepest, over a pair's listed nodes that are outside the other side and will be inside
-/// within `horizon` (s) if their motion goes on and nothing holds them against gravity but a lock, by the distance
-/// fields (rays tell nothing outside); 0 for exact spheres, whose first touch is known. However slow: a step too long
-/// for the stiffness multiplies what little energy there is.
+/// Computes the sum of w p'(0) (N/m), the maximum slope, over a pair's listed nodes that are outside the other body and
+/// will be inside within `horizon` (s) if their motion continues and only locks hold them against gravity. Uses the
+/// distance fields (rays give no distance outside); 0 for exact spheres, whose first touch is known. Slow nodes count
+/// as well: a time step too long for the stiffness amplifies even a small energy.
 struct AnticipatePair
 {
     BodiesView   bodies;
     BodyLaw      law;
-    PairsView    pairs; ///< its nodes looked up
+    PairsView    pairs; ///< with found_node up to date
     double       horizon;
-    Vec3<double> fall; ///< m/s, what weight adds to a free body's mean velocity
+    Vec3<double> fall; ///< m/s, change of a free body's mean velocity by its weight
     double*      entering;
 
     template<class Lanes>
@@ -39,7 +39,7 @@ struct AnticipatePair
     }
 
 private:
-    /// m/s, of the first body relative to the second.
+    /// Returns the weight's contribution to the velocity of the first body relative to the second, m/s.
     TREAD_HD Vec3<double> falling(std::int64_t p) const
     {
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
@@ -49,7 +49,7 @@ private:
         return sides * fall;
     }
 
-    /// Of a node that comes inside; 0 of any other.
+    /// Returns the contribution of a node that will enter; 0 for any other node.
     TREAD_HD double entering_weight(const RelativeMotion& motion, const NodeInField& node) const
     {
         if (node.overlap > 0) { return 0; }

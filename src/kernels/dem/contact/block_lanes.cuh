@@ -5,8 +5,8 @@
 namespace tread::dem
 {
 
-/// All lanes of a block of `threads` threads, which share one item (see OneLane). Every lane must come to every sum,
-/// which has a fixed order and the same bits in all of them.
+/// All lanes of a block of `threads` threads, which share one item (see OneLane). Every lane must call every sum; sums
+/// have a fixed order and the same bits in all lanes.
 template<int threads>
 struct BlockLanes
 {
@@ -19,7 +19,7 @@ struct BlockLanes
         __shared__ double           of_warp[warps];
         const GroupLanes<warp_size> warp;
         const double                own = warp.sum(value);
-        __syncthreads(); // of_warp may still be read for the sum before
+        __syncthreads(); // lanes may still be reading of_warp for the previous sum
         if (warp.lane() == 0) { of_warp[threadIdx.x / warp_size] = own; }
         __syncthreads();
         double sum = 0;
@@ -28,7 +28,7 @@ struct BlockLanes
     }
 };
 
-/// f(i, BlockLanes<threads>): an item a block.
+/// Calls f(i, BlockLanes<threads>), one item per block.
 template<int threads, class F>
 struct ItemOfBlock
 {

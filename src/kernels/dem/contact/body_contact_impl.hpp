@@ -7,28 +7,28 @@
 #include "kernels/dem/contact/ray_field_kern.hpp"
 #include "kernels/dem/contact/sphere_contact_kern.hpp"
 
-// The item function of a substep's body contacts; body_contact.cpp and body_contact.cu bring in the schedule.
+// Item function of the body contacts of a substep; body_contact.cpp and body_contact.cu provide the schedule.
 namespace tread::dem::body_contact
 {
 
-/// What a pair's nodes and its answer have in common.
+/// Data shared by a pair's nodes and its response.
 struct PairSetting
 {
     PairLaw        law;
     RelativeMotion motion;
-    Vec3<double>   arm;       ///< m, centre of b relative to that of a; zero against a wall
+    Vec3<double>   arm;       ///< m, centre of b relative to that of a, world frame; zero against a wall
     Vec3<double>   spin;      ///< rad/s, of a
-    double         radius[2]; ///< m, of exact spheres; 0 of other bodies, and of a wall
-    const Plane*   wall;      ///< null between bodies
+    double         radius[2]; ///< m, of exact spheres; 0 for other bodies and for a wall
+    const Plane*   wall;      ///< null for two bodies
 };
 
-/// m; 0 of a body that is no exact sphere.
+/// Returns the radius of an exact sphere, m; 0 for other bodies.
 TREAD_HD double exact_radius(const BodyLaw& law, const ContactBody& body)
 {
     return body.scale * law.templates[body.shape].sphere_radius;
 }
 
-/// `bodies` = how many there are.
+/// Makes the data of a pair; `bodies` = number of bodies.
 TREAD_HD PairSetting setting_of(const PairsView& pairs, const BodyLaw& law, std::int64_t bodies, std::uint64_t key)
 {
     const std::int64_t second = second_of(key);
@@ -51,13 +51,13 @@ TREAD_HD PairSetting setting_of(const PairsView& pairs, const BodyLaw& law, std:
             nullptr};
 }
 
-/// Answers a pair when its nodes were looked up (contact_nodes.hpp), by lanes that share it. Meet: how two bodies see
-/// each other, MeetByDistance or MeetByRays.
+/// Computes the response of a pair from its nodes, which must have been checked (contact_nodes.hpp), by lanes that
+/// share it. Meet: narrow phase, MeetByDistance or MeetByRays.
 template<class Meet>
 struct AnswerPair
 {
     Meet         meet;
-    std::int64_t bodies; ///< how many
+    std::int64_t bodies; ///< number of bodies
     BodyLaw      law;
     PairsView    pairs;
     double       dt;
@@ -68,7 +68,7 @@ struct AnswerPair
         const PairSetting setting = setting_of(pairs, law, bodies, pairs.key[p]);
         const NodeSums    sums    = of_spheres(setting) ? touch_spheres(p, setting) : sum_nodes(p, setting, lanes);
         if (lanes.lane() != 0) { return; }
-        const double       peak     = pairs.peak[p]; // all that is read before anything is written: it comes together
+        const double       peak     = pairs.peak[p]; // all reads come before any write, so that the loads overlap
         const std::int32_t place    = pairs.answers.place[p];
         Patch              patch    = pairs.patch[p];
         const PairResponse response = answer(setting, sums, patch);
@@ -83,7 +83,7 @@ private:
         return setting.radius[0] > 0 && (setting.wall != nullptr || setting.radius[1] > 0);
     }
 
-    /// Exact spheres have a closed form instead of nodes.
+    /// Returns the sums of exact spheres, which have a closed form instead of nodes.
     TREAD_HD NodeSums touch_spheres(std::int64_t p, const PairSetting& setting) const
     {
         const SphereContact contact =
@@ -94,7 +94,7 @@ private:
         return sums_of_spheres(setting.law, contact, setting.motion);
     }
 
-    /// The pair's answer; updates its record.
+    /// Computes the pair's response and updates its record.
     TREAD_HD PairResponse answer(const PairSetting& setting, const NodeSums& sums, Patch& patch) const
     {
         if (!(sums.stiffness.overlap > 0)) { return release(setting.law, patch); }
@@ -102,7 +102,7 @@ private:
         return respond(setting.law, sums, setting.motion, spins, setting.arm, patch, dt);
     }
 
-    /// Shows the lane's nodes that are inside, in the order of the list.
+    /// Calls visit for the lane's nodes that are inside, in the order of the list.
     template<class Lanes, class Visit>
     TREAD_HD void each_inside(std::int64_t p, const Lanes& lanes, Visit visit) const
     {
@@ -114,7 +114,7 @@ private:
         }
     }
 
-    /// Bit i: node `base` + i is inside.
+    /// Returns the mask of nodes that are inside; bit i: node `base` + i.
     TREAD_HD std::uint32_t inside_from(std::int32_t base) const
     {
         const std::uint32_t* word = pairs.inside + base / nodes_of_word;
@@ -143,10 +143,10 @@ private:
     }
 };
 
-/// A launch of its own, in scenes that have it.
+/// Rolling resistance, in a separate launch and only in scenes that have it.
 struct ResistRolling
 {
-    std::int64_t bodies; ///< how many
+    std::int64_t bodies; ///< number of bodies
     BodyLaw      law;
     PairsView    pairs;
     double       dt;

@@ -5,25 +5,25 @@
 #include "kernels/dem/contact/body_field_kern.hpp"
 #include "kernels/dem/contact/patch_kern.hpp"
 
-// The contact of one pair: what the nodes of each body in the field of the other say, tractions of both added to one
-// wrench and one patch.
+// Contact of one pair: the nodes of each body are evaluated in the field of the other, and the tractions of both are
+// added to one wrench and one patch.
 namespace tread::dem
 {
 
 struct Stiffness
 {
     double sum;     ///< N/m, of w p'(d) over the nodes inside
-    double overlap; ///< m, the largest
+    double overlap; ///< m, maximum
 };
 
-/// Of a node inside.
+/// Adds the stiffness of a node inside.
 TREAD_HD void add_stiffness(const PairLaw& law, const NodeInField& node, double stiffening, Stiffness& found)
 {
     found.sum += stiffening * node.weight * traction_at(law, node.overlap).slope;
     found.overlap = node.overlap > found.overlap ? node.overlap : found.overlap;
 }
 
-/// Sums over the nodes inside; y = place relative to the centre of a, f = length of the node's force.
+/// Sums over the nodes inside; y = position relative to the centre of a, f = magnitude of the node's force.
 struct PatchSums
 {
     Vec3<double> force;   ///< N, on a
@@ -32,9 +32,9 @@ struct PatchSums
     Vec3<double> first;   ///< sum of f y
     Sym3<double> second;  ///< sum of f y y^T
     double       energy;  ///< J
-    double       damping; ///< W, lost to normal damping
+    double       damping; ///< W, dissipated by normal damping
 
-    /// Of lanes that share a pair.
+    /// Sums over the lanes that share a pair.
     template<class Lanes>
     TREAD_HD void reduce(const Lanes& lanes)
     {
@@ -56,7 +56,7 @@ struct PatchSums
     }
 };
 
-/// All that the nodes of a pair say.
+/// All sums over the nodes of a pair.
 struct NodeSums
 {
     Stiffness stiffness;
@@ -74,9 +74,9 @@ struct RelativeMotion
     TREAD_HD Vec3<double> at(const Vec3<double>& y) const { return velocity + spin.cross(y); }
 };
 
-/// Force of one node inside: w (p(d) + damping) grad phi, never attraction. Proportional to the node's own stiffness,
-/// the damping gives the same restitution on flat faces as on spheres (docs/theory.md#restitution); d' = -grad phi . v
-/// exactly. relaxation = 2 zeta sqrt(m*/K), s.
+/// Adds the force of one node inside: w (p(d) + damping) grad phi, never attractive. Damping is proportional to the
+/// node's own stiffness, so that flat faces have the same restitution as spheres (docs/theory.md#restitution); d' =
+/// -grad phi . v exactly. relaxation = 2 zeta sqrt(m*/K), s.
 TREAD_HD void add_node(const PairLaw& law, const NodeInField& node, const RelativeMotion& motion, double relaxation,
                        PatchSums& sums)
 {
@@ -97,7 +97,7 @@ TREAD_HD void add_node(const PairLaw& law, const NodeInField& node, const Relati
     sums.damping += damping * rate;
 }
 
-/// sum f |y - x_c|^2 in the plane normal to the unit vector n, over sum f.
+/// Returns sum f |y - x_c|^2 in the plane normal to the unit vector n, divided by sum f.
 TREAD_HD double spread_about(const PatchSums& sums, double inverse_weight, const Vec3<double>& centre,
                              const Vec3<double>& n)
 {
@@ -108,17 +108,17 @@ TREAD_HD double spread_about(const PatchSums& sums, double inverse_weight, const
     return std::fmax(inverse_weight * (s[0] + s[1] + s[2] - along) - (centre.squaredNorm() - off * off), 0.0);
 }
 
-/// What a pair does to its bodies in one substep.
+/// Response of a pair: its action on the two bodies in one substep.
 struct PairResponse
 {
-    Vec3<double> force;       ///< N, on a; b gets its opposite
+    Vec3<double> force;       ///< N, on a; b gets the opposite force
     Vec3<double> torque_a;    ///< N m, about the centre of a
     Vec3<double> torque_b;    ///< N m, about the centre of b
     double       stiffness;   ///< N/m, K
-    double       overlap;     ///< m, the largest of its nodes
-    double       energy;      ///< J, elastic, springs of the patch included
-    double       friction;    ///< J, lost in this substep to tangential and torsional friction
-    double       restitution; ///< J, lost in this substep to normal damping
+    double       overlap;     ///< m, maximum over its nodes
+    double       energy;      ///< J, elastic, including the springs of the patch
+    double       friction;    ///< J, dissipated in this substep by tangential and torsional friction
+    double       restitution; ///< J, dissipated in this substep by normal damping
 };
 
 TREAD_HD PairResponse no_response()
@@ -126,14 +126,14 @@ TREAD_HD PairResponse no_response()
     return {Vec3<double>::Zero(), Vec3<double>::Zero(), Vec3<double>::Zero(), 0, 0, 0, 0, 0};
 }
 
-/// Turning of the two sides; b = 0 against a plane.
+/// Angular velocities of the two bodies, rad/s; b = 0 against a plane.
 struct Spins
 {
     Vec3<double> a;
     Vec3<double> b;
 };
 
-/// From the sums to the wrench; updates the record. `arm` = centre of b relative to that of a, m.
+/// Computes the wrench from the sums and updates the record. `arm` = centre of b relative to that of a, m.
 TREAD_HD PairResponse respond(const PairLaw& law, const NodeSums& nodes, const RelativeMotion& motion,
                               const Spins& spins, const Vec3<double>& arm, Patch& patch, double dt)
 {
@@ -176,7 +176,7 @@ TREAD_HD PairResponse respond(const PairLaw& law, const NodeSums& nodes, const R
     return response;
 }
 
-/// A pair that is apart: the record is lost, and with it what its springs held.
+/// Response of a pair that is not in contact: clears the record; the energy of its springs is dissipated.
 TREAD_HD PairResponse release(const PairLaw& law, Patch& patch)
 {
     PairResponse response = no_response();

@@ -7,12 +7,12 @@
 #include "kernels/dem/contact/contact_body.hpp"
 #include "kernels/dem/contact/sdf_kern.hpp"
 
-// Bodies and walls as fields, and the nodes of one body in the field of another. Everything stands relative to the
-// centre of a pair's first body, a, along the world's axes.
+// Fields of bodies and walls, and the nodes of one body in the field of another. All positions are relative to the
+// centre of a pair's first body, a, along the world axes.
 namespace tread::dem
 {
 
-/// What a body looks like from the centre of body a.
+/// A body placed relative to the centre of body a.
 struct Instance
 {
     const TemplateView* shape;
@@ -35,22 +35,23 @@ TREAD_HD Instance instance_of(const ContactBody& body, const TemplateView* templ
             body.position - origin};
 }
 
-/// A node at its place in the other side's field.
+/// A node evaluated in the field of the other body.
 struct NodeInField
 {
-    Vec3<double> place;    ///< m, where its force acts, relative to the centre of a
-    Vec3<double> gradient; ///< minus that of the overlap with the node's place
-    double       overlap;  ///< m; not positive: outside
-    double       weight;   ///< m2, its share of area
-    double       sign;     ///< +1 of a node of a, -1 of b
+    Vec3<double> place;    ///< m, point of action of its force, relative to the centre of a
+    Vec3<double> gradient; ///< minus the gradient of the overlap with respect to the node's position
+    double       overlap;  ///< m; outside if not positive
+    double       weight;   ///< m2, area assigned to the node
+    double       sign;     ///< +1 for a node of a, -1 for one of b
 };
 
-/// A node that was looked up, for the sums over a pair: rounded, but only after the overlap is known.
+/// Result of evaluating a node, for the sums over a pair. It is rounded to fp32 only after the overlap was computed in
+/// fp64.
 struct alignas(16) FoundNode
 {
     float place[3];
     float overlap;
-    float gradient[3]; ///< times the sign
+    float gradient[3]; ///< multiplied by the sign
     float weight;
 };
 
@@ -73,7 +74,7 @@ TREAD_HD NodeInField unpacked(const FoundNode& found)
             Vec3<double>(found.gradient[0], found.gradient[1], found.gradient[2]), found.overlap, found.weight, 1.0};
 }
 
-/// The distance field of a body.
+/// Distance field of a body.
 struct BodyField
 {
     const Instance& body;
@@ -81,14 +82,14 @@ struct BodyField
     TREAD_HD double distance_from_centre(const Vec3<double>& y) const { return (y - body.centre).norm(); }
     TREAD_HD double reach() const { return body.shape->bounding_radius * body.scale; }
 
-    /// m, on the field at places from which the inside is no further than r.
+    /// Upper bound, m, of the field at positions no further than r from the inside.
     TREAD_HD double bound(double r) const
     {
         const double furthest = r + surface_uncertainty(*body.shape, body.scale);
         return furthest + sdf_uncertainty(*body.shape, body.scale, furthest);
     }
 
-    /// m, on the field at places that come inside when they move by at most `way`.
+    /// Upper bound, m, of the field at positions that enter the body when they move by at most `way`.
     TREAD_HD double bound_of_node(double way) const { return approach_bound(*body.shape, body.scale, way); }
 
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const
@@ -99,11 +100,11 @@ struct BodyField
     }
 };
 
-/// The distance field of a wall.
+/// Distance field of a wall.
 struct PlaneField
 {
     Vec3<double> normal;
-    double       offset; ///< m, from the centre of body a
+    double       offset; ///< m, relative to the centre of body a
 
     TREAD_HD double distance_from_centre(const Vec3<double>&) const { return 0; }
     TREAD_HD double reach() const { return 0; }
@@ -113,14 +114,14 @@ struct PlaneField
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const { return {normal.dot(y) - offset, normal}; }
 };
 
-/// One body's nodes in the other side's field. Field: one of those above, or RayField.
+/// The nodes of one body in the field of the other. Field: one of those above, or RayField.
 template<class Field>
 struct Side
 {
     const Instance& owner;
     Field           field;
-    double          share; ///< of a node's area: 1/2 where both sides have nodes, 1 against a plane
-    double          sign;  ///< +1 if the owner is body a, -1 if it is b
+    double          share; ///< factor of a node's area: 1/2 if both bodies have nodes, 1 against a plane
+    double          sign;  ///< +1 if the nodes are of body a, -1 if of b
 
     TREAD_HD Vec3<double> node(std::int32_t i) const
     {
@@ -132,8 +133,8 @@ struct Side
         return share * owner.scale * owner.scale * owner.shape->node_areas[i];
     }
 
-    /// False only if no node of the cluster can come inside the other body when the two move by at most `way` together
-    /// (its distance has slope 1).
+    /// Returns false only if no node of the cluster can enter the other body when the two move by at most `way`
+    /// together (its distance has slope 1).
     TREAD_HD bool near(std::int32_t cluster, double way) const
     {
         const Vec3<double> y = owner.centre + owner.rotation * (owner.scale * owner.shape->cluster_centres[cluster]);
@@ -148,25 +149,25 @@ struct Side
     }
 };
 
-/// A wall as the centre of body a sees it.
+/// Returns the field of a wall relative to the centre of body a.
 TREAD_HD PlaneField field_of(const Plane& plane, const Vec3<double>& centre)
 {
     return {plane.normal, plane.offset - plane.normal.dot(centre)};
 }
 
-/// What one thread does alone; the GPU deals the nodes of a pair to lanes instead.
+/// Lanes of a single thread; on a GPU several lanes share the nodes of a pair.
 struct OneLane
 {
     TREAD_HD std::int32_t lane() const { return 0; }
     TREAD_HD std::int32_t lanes() const { return 1; }
     TREAD_HD std::uint32_t vote(bool value) const { return value ? 1u : 0u; } ///< bit l = the value of lane l
-    TREAD_HD std::uint32_t share(std::uint32_t bits) const { return bits; }   ///< of the lane: every so many
+    TREAD_HD std::uint32_t share(std::uint32_t bits) const { return bits; }   ///< bits of this lane: strided
     TREAD_HD double        sum(double value) const { return value; }
     TREAD_HD double        largest(double value) const { return value; }
-    TREAD_HD double        from(std::int32_t, double value) const { return value; } ///< of that lane
+    TREAD_HD double        from(std::int32_t, double value) const { return value; } ///< value of another lane
 };
 
-inline constexpr std::int32_t cluster_size = 32; ///< nodes, shape::SurfaceNodes
+inline constexpr std::int32_t cluster_size = 32; ///< nodes per cluster, as in shape::SurfaceNodes
 
 template<class Field>
 TREAD_HD NodeInField in_field(const Side<Field>& side, std::int32_t i)
@@ -182,7 +183,7 @@ struct Couple
     Instance body[2];
 };
 
-/// The two sides of a pair of bodies, as the list of nodes names their nodes. Meet: how bodies see each other.
+/// The two sides of a pair of bodies, selected by the node names in the list. Meet: narrow phase.
 template<class Meet>
 struct TwoSides
 {
@@ -200,16 +201,16 @@ struct TwoSides
     }
 };
 
-/// Two bodies see each other by their distance fields; with MeetByRays by rays.
+/// Narrow phase by distance fields; the alternative MeetByRays uses rays.
 struct MeetByDistance
 {
-    /// Both bodies have nodes, each with half its area.
+    /// Returns a side; both bodies have nodes, each with half its area.
     TREAD_HD Side<BodyField> side(const Instance& owner, const Instance& other, double sign) const
     {
         return {owner, {other}, 0.5, sign};
     }
 
-    /// d2/dx2 of a node's energy over its area times p'(d): |gradient|^2 of a distance.
+    /// Second derivative d2/dx2 of a node's energy divided by area and p'(d): |gradient|^2, which is 1 for a distance.
     TREAD_HD static double stiffening(const NodeInField&) { return 1; }
 };
 

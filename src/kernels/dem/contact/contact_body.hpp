@@ -5,15 +5,15 @@
 namespace tread::dem
 {
 
-/// What contacts ask of a body, side by side: a pair's second body is anywhere in memory, and a record costs one line
-/// of it.
+/// Body data that contacts read, in one record: the second body of a pair is anywhere in memory, and a record costs one
+/// cache line.
 struct alignas(16) ContactBody
 {
     Vec3<double> position; ///< m
     double       scale;
     Quat         orientation;
     Vec3<double> velocity;     ///< m/s
-    double       inverse_mass; ///< 1/kg; 0 with every freedom locked: as heavy as a wall
+    double       inverse_mass; ///< 1/kg; 0 if every degree of freedom is locked (infinite mass, like a wall)
     Vec3<double> spin;         ///< rad/s
     std::int32_t shape;
     std::int32_t material;
@@ -32,7 +32,7 @@ TREAD_HD ContactBody contact_body(const BodiesView& bodies, std::int64_t b)
             bodies.material[b]};
 }
 
-/// A record by eight loads of 16 bytes instead of some thirty.
+/// Loads a record by eight 16-byte loads instead of some thirty.
 TREAD_HD ContactBody load(const ContactBody* from)
 {
 #if defined(__CUDA_ARCH__)

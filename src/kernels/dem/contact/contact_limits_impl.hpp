@@ -9,7 +9,7 @@
 #include "kernels/dem/contact/contact_limits.hpp"
 #include "kernels/dem/contact/contact_nodes.hpp"
 
-// The steps of contact_limits.hpp, the same on both backends; contact_limits.cpp and .cu bring in for_each.
+// Steps of contact_limits.hpp, for both backends; contact_limits.cpp and .cu provide for_each.
 namespace tread::dem::contact_limits
 {
 
@@ -19,7 +19,7 @@ struct ExpectContacts
     BodyLaw       law;
     PairsView     pairs;
     const double* node_area;
-    const double* entering; ///< N/m, of the pairs
+    const double* entering; ///< N/m, per pair
     double*       expected;
     SharedView    shared;
 
@@ -57,11 +57,11 @@ private:
         const bool         wall = b >= bodies.count;
         const PairLaw      pair = law_of(pairs, law, bodies.count, pairs.key[p]);
         if (exact(a) && (wall || exact(b))) { return touch_of_spheres(pair, approach(a, b)); }
-        if (pairs.first_node[p] == pairs.first_node[p + 1]) { return 0; } // a spare row of a pair in several patches
+        if (pairs.first_node[p] == pairs.first_node[p + 1]) { return 0; } // an unused row of a pair in several patches
         return touch_of_nodes(pair, wall ? 2.0 * node_area[a] : std::fmax(node_area[a], node_area[b]));
     }
 
-    /// m/s, of the first body towards the second or the wall.
+    /// Returns the velocity of the first body towards the second or the wall, m/s.
     TREAD_HD double approach(std::int64_t a, std::int64_t b) const
     {
         if (b >= bodies.count) { return -law.planes[b - bodies.count].normal.dot(bodies.velocity[a]); }
@@ -72,13 +72,13 @@ private:
     /// Whether body b is an exact sphere.
     TREAD_HD bool exact(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
 
-    /// Two nodes, of the coarser side; `area`: m2, of both.
+    /// Returns the stiffness of two nodes of the body with the coarser nodes; `area`: m2, of both.
     TREAD_HD static double touch_of_nodes(const PairLaw& pair, double area)
     {
         return area * traction_at(pair, 0.0).slope;
     }
 
-    /// At the end of the impact to come.
+    /// Returns the stiffness at the maximum overlap of the coming impact.
     TREAD_HD static double touch_of_spheres(const PairLaw& pair, double approach)
     {
         const double overlap = hertz_impact_overlap(pair, std::fmax(approach, 0.0));
@@ -86,7 +86,7 @@ private:
     }
 };
 
-/// Of the bodies that several ranks move.
+/// Sums the expected stiffness of bodies that several ranks integrate.
 struct ExpectTogether
 {
     SharedView shared;
@@ -127,14 +127,15 @@ struct WriteOverlap
     }
 };
 
-/// As for the pairs themselves, twice dt: a body may be set going within the step. `each_pair`(name, item function) and
-/// `each_body` run those with a backend's lanes.
+/// Computes the expected stiffness with a horizon of twice dt, as for the pairs themselves, because a body may be set
+/// in motion within the step. `each_pair`(name, item function) and `each_body` run item functions with a backend's
+/// lanes.
 template<class Exec, class EachPair, class EachBody>
 void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, BodyLaw law, const Vec3<double>& gravity,
             double dt, const SharedView& shared, EachPair each_pair, EachBody each_body)
 {
     pairs.measure.resize(pairs.key.size());
-    law.rays = nullptr; // tell nothing outside
+    law.rays = nullptr; // rays give no distance outside
     look_up_nodes(exec, pairs, bodies, law);
     each_pair("anticipated contacts",
               AnticipatePair{bodies, law, pairs.view(), 2 * dt, 0.5 * dt * gravity, pairs.measure.data()});

@@ -5,7 +5,7 @@
 namespace tread::dem
 {
 
-/// Lanes that share a pair: a cluster of nodes at a time.
+/// Number of lanes that share a pair: they process a cluster of nodes at a time.
 constexpr int node_lanes = 32;
 
 void count_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)

@@ -2,25 +2,26 @@
 
 #include "kernels/dem/pairs/pairs.hpp"
 
-// Of every pair the nodes that may come inside the other side, in the order of the template's nodes, first those of the
-// first body. None is missed while no body moves further than pairs.travel. Exact spheres among themselves and against
-// walls have none.
+// Lists of the nodes of every pair that may enter the other body, in the order of the template's nodes, those of the
+// first body first. The list is complete while no body moves further than pairs.travel. Pairs of exact spheres, and of
+// a sphere and a wall, have no nodes.
 namespace tread::dem
 {
 
-/// pairs.first_node[p] = how many nodes pair p has, or -1 if it touches without any: exact spheres.
+/// Sets pairs.first_node[p] to the number of nodes of pair p, or to -1 for exact spheres, which touch without nodes.
 void count_contact_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 void count_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// Fills pairs.node, when pairs.first_node is where each pair's run begins.
+/// Fills pairs.node; pairs.first_node must already hold the start of each pair's run.
 void list_contact_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 void list_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// Pairs with more listed nodes than this, and those in several patches, are dealt to lanes of their own by a GPU:
-/// others would wait for them.
+/// Pairs with more listed nodes than this, and pairs in several patches, get lanes of their own on a GPU, because other
+/// pairs would wait for them.
 inline constexpr std::int32_t many_nodes = 64;
 
-/// The same as long as the list holds, although patches pass nodes to each other.
+/// Whether a pair has many nodes. The result is constant while the list holds, although patches pass nodes to each
+/// other.
 TREAD_HD bool has_many_nodes(const PairsView& pairs, std::int64_t p)
 {
     const std::uint64_t key = pairs.key[p];
@@ -28,11 +29,11 @@ TREAD_HD bool has_many_nodes(const PairsView& pairs, std::int64_t p)
            (p + 1 < pairs.count && same_pair(pairs.key[p + 1], key));
 }
 
-/// Fills pairs.many, when the list of pairs is complete.
+/// Fills pairs.many once the list of pairs is complete; does nothing on the CPU.
 inline void list_pairs_of_many_nodes(const Cpu&, Pairs<Cpu>&) {}
 void        list_pairs_of_many_nodes(const Gpu&, Pairs<Gpu>& pairs);
 
-/// pairs.found_node and pairs.inside: every node of the list at the bodies' present places.
+/// Computes pairs.found_node and pairs.inside for every listed node at the bodies' present positions.
 void look_up_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 void look_up_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 

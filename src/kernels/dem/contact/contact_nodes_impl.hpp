@@ -6,7 +6,7 @@
 #include "kernels/dem/contact/sphere_contact_kern.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
 
-// The item function of list_contact_nodes, for lanes that share a pair; contact_nodes.cpp and .cu bring in the lanes.
+// Item function of list_contact_nodes for lanes that share a pair; contact_nodes.cpp and .cu provide the lanes.
 namespace tread::dem::contact_nodes
 {
 
@@ -36,7 +36,7 @@ struct Write
     }
 };
 
-/// Shows take(near, name of the node, lanes) every node of the clusters that may come inside; all lanes together.
+/// Calls take(near, name of the node, lanes) for every node of the clusters that may enter; all lanes take part.
 template<class Field, class Name, class Lanes, class Take>
 TREAD_HD void walk(const Side<Field>& side, double way, Name name, const Lanes& lanes, Take& take)
 {
@@ -66,7 +66,7 @@ struct Walk
     BodyLaw    law;
     PairsView  pairs;
 
-    /// Whether the pair's contact is that of exact spheres, or of one and a wall.
+    /// Whether the pair consists of two exact spheres, or of one and a wall.
     TREAD_HD bool closed_form(std::int64_t p) const
     {
         const std::int64_t b = second_of(pairs.key[p]);
@@ -130,12 +130,12 @@ struct WriteNodes
     }
 };
 
-/// Looks up the nodes of one word of pairs.inside.
+/// Evaluates the nodes of one word of pairs.inside.
 template<class Meet>
 struct LookUp
 {
     Meet         meet;
-    std::int64_t bodies; ///< how many
+    std::int64_t bodies; ///< number of bodies
     BodyLaw      law;
     PairsView    pairs;
 

@@ -5,12 +5,12 @@
 #include "kernels/dem/contact/contact_nodes.hpp"
 #include "kernels/dem/contact/warp_lanes.cuh"
 
-// Which lanes take which item. What is much longer than the rest has a warp or a block, beside the others, which would
-// wait for it.
+// Assignment of items to lanes. Items much longer than the rest get a warp or a block of their own, because the others
+// would wait for them.
 namespace tread::dem
 {
 
-/// f(i, lanes) for i in [0, items).
+/// Calls f(i, lanes) for i in [0, items).
 template<int threads, int lanes, class F>
 auto group_part(std::int64_t items, const F& f)
 {
@@ -44,7 +44,7 @@ struct OfPairsWithFewNodes
     }
 };
 
-/// f(p, lanes) for every pair.
+/// Calls f(p, lanes) for every pair.
 template<int threads, int lanes, class F>
 auto pair_part(const PairsView& pairs, const F& f)
 {
@@ -56,7 +56,7 @@ template<class F>
 struct OfSmallBodies
 {
     F                   f;
-    const std::int32_t* is_large; ///< null where pairs were never looked for
+    const std::int32_t* is_large; ///< null if pairs were never found
 
     template<class Lanes>
     __device__ void operator()(std::int64_t b, const Lanes& lanes) const
@@ -65,7 +65,7 @@ struct OfSmallBodies
     }
 };
 
-/// f(b, lanes) for every body: a large one, a wheel in a bed of rocks, may have thousands of pairs.
+/// Calls f(b, lanes) for every body; a large body, such as a wheel in a bed of rocks, may have thousands of pairs.
 template<int threads, int lanes, class F>
 auto body_part(std::int64_t bodies, Pairs<Gpu>& pairs, const F& f)
 {

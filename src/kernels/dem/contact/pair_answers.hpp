@@ -6,23 +6,23 @@
 namespace tread::dem
 {
 
-/// What the pairs did to their bodies in the last substep: to the first body in the order of the list, to the second in
-/// that of second bodies. A body then finds what it is to add up side by side, and its neighbours theirs next to it.
+/// Responses of the pairs in the last substep: those on the first body in the order of the list, those on the second
+/// body in the order of second bodies. Each body then sums contiguous entries, adjacent to those of its neighbours.
 struct AnswersView
 {
-    Vec3<double>* force;       ///< N, on the first
-    Vec3<double>* torque;      ///< N m, about its centre
-    double*       stiffness;   ///< N/m, K; 0 = apart
-    double*       energy;      ///< J, elastic, springs of the patch included
-    double*       friction;    ///< J, lost in the substep
-    double*       restitution; ///< J, lost in the substep
+    Vec3<double>* force;       ///< N, on the first body
+    Vec3<double>* torque;      ///< N m, on the first body about its centre of mass
+    double*       stiffness;   ///< N/m, K; 0 = no contact
+    double*       energy;      ///< J, elastic, including the springs of the patch
+    double*       friction;    ///< J, dissipated in the substep
+    double*       restitution; ///< J, dissipated in the substep
 
-    const std::int32_t* place; ///< of the pair in the order of second bodies
+    const std::int32_t* place; ///< index of the pair in the order of second bodies
     Vec3<double>*       second_force;
     Vec3<double>*       second_torque;
     double*             second_stiffness;
 
-    /// `second` = place[p].
+    /// Stores the response of pair p; `second` = place[p].
     TREAD_HD void store(std::int64_t p, std::int32_t second, const PairResponse& response) const
     {
         force[p]                 = response.force;
@@ -37,7 +37,7 @@ struct AnswersView
     }
 };
 
-/// Owner of what AnswersView shows.
+/// Memory of AnswersView.
 template<class Exec>
 struct Answers
 {

@@ -10,7 +10,7 @@ TREAD_HD double equivalent_radius(const BodiesView& bodies, const TemplateView* 
     return templates[bodies.shape[b]].equivalent_radius * bodies.scale[b];
 }
 
-/// One side of a pair as the law sees it.
+/// Data of one side of a pair for the contact law.
 struct LawSide
 {
     double       inverse_radius; ///< 1/m
@@ -31,7 +31,7 @@ TREAD_HD PairLaw law_between(const BodyLaw& law, const LawSide& a, const LawSide
                     a.inverse_mass + b.inverse_mass);
 }
 
-/// Against a wall R* is the body's own radius, and a slip wall has no friction.
+/// Makes the law of a body and a wall: R* is the body's own radius, and a slip wall has no friction.
 TREAD_HD PairLaw law_against(const BodyLaw& law, const LawSide& a, const Plane& wall)
 {
     PairLaw found = law_between(law, a, wall_side(law));
@@ -39,7 +39,7 @@ TREAD_HD PairLaw law_against(const BodyLaw& law, const LawSide& a, const Plane& 
     return found;
 }
 
-/// Of a listed pair; `bodies` = how many there are.
+/// Makes the law of a listed pair; `bodies` = number of bodies.
 TREAD_HD PairLaw law_of(const PairsView& pairs, const BodyLaw& law, std::int64_t bodies, std::uint64_t key)
 {
     const std::int64_t b     = second_of(key);

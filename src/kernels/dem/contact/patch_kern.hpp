@@ -5,15 +5,16 @@
 #include "kernels/dem/contact/spring_kern.hpp"
 #include "kernels/dem/contact/traction_kern.hpp"
 
-// What a pair of bodies remembers and how friction follows from it: docs/theory.md#friction, one record a patch.
+// Contact record of a pair of bodies and the friction that follows from it: docs/theory.md#friction, one record per
+// patch.
 namespace tread::dem
 {
 
-/// All zero while the pair is apart. "On a" = on the pair's first body.
+/// Friction record; all zero while the pair is separated. "On a" = on the pair's first body. World frame.
 struct Patch
 {
     Vec3<double> tangential;      ///< N, on a
-    Vec3<double> normal;          ///< unit, towards a, when the record was last updated
+    Vec3<double> normal;          ///< unit, towards a, at the last update of the record
     double       torsion;         ///< N m, on a, about the normal
     double       stiffness;       ///< N/m, K; k_t = (4 G*/E*) K
     double       twist_stiffness; ///< N m/rad, k_theta
@@ -21,7 +22,7 @@ struct Patch
 
 TREAD_HD Patch no_patch() { return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0.0, 0.0, 0.0}; }
 
-/// What the normal law found, and how the two sides move at the patch.
+/// Result of the normal law, and relative motion of the two sides at the patch.
 struct PatchState
 {
     Vec3<double> normal;      ///< unit, towards a
@@ -37,31 +38,32 @@ struct Friction
 {
     Vec3<double> force;  ///< N, on a at x_c
     double       moment; ///< N m, on a about the normal
-    double       energy; ///< J, held by the springs
-    double       lost;   ///< J, in this substep
+    double       energy; ///< J, stored in the springs
+    double       lost;   ///< J, dissipated in this substep
 };
 
-/// Energy held by the springs of a patch of the pair.
+/// Returns the energy stored in the springs of a patch of the pair.
 TREAD_HD double held_energy(const PairLaw& law, const Patch& patch)
 {
     return spring_energy(patch.tangential.squaredNorm(), law.shear_ratio * patch.stiffness) +
            spring_energy(patch.torsion * patch.torsion, patch.twist_stiffness);
 }
 
-/// Turned about the unit normal by a small angle (rad), length kept: Cayley's form, off by angle^3/12.
+/// Rotates about the unit normal by a small angle (rad) and keeps the length: Cayley's form, with an angle error of
+/// angle^3/12.
 TREAD_HD Vec3<double> turn_about(const Vec3<double>& force, const Vec3<double>& normal, double angle)
 {
     const double half = 0.5 * angle, over = 1.0 / (1.0 + half * half);
     return over * ((1.0 - half * half) * force + angle * normal.cross(force));
 }
 
-/// 1, or what brings `value` down to `cap`.
+/// Returns 1, or the factor that reduces `value` to `cap`.
 TREAD_HD double cap_factor(double value, double cap) { return value > cap ? cap / value : 1.0; }
 
-/// Advances the record by dt (s): springs turned with the patch and loaded by its motion, shrunk when their stiffness
-/// falls (else a closed cycle makes energy, docs/theory.md#friction), capped by Coulomb; the damping acts inside the
-/// caps and is not stored. The torsion shrinks with its own stiffness. Its cap is that of a Hertz patch of radius a in
-/// full slip, 3 pi/16 mu F a = 0.94 mu F r with r^2 = 0.4 a^2 = 0.4 R* d.
+/// Advances the record by dt (s): springs are rotated with the patch, loaded by its motion, reduced when their
+/// stiffness falls (otherwise a closed cycle creates energy, docs/theory.md#friction), and capped by Coulomb's law;
+/// damping acts inside the caps and is not stored. The torsion spring is reduced with its own stiffness. Its cap is
+/// that of a Hertz patch of radius a in full slip, 3 pi/16 mu F a = 0.94 mu F r with r^2 = 0.4 a^2 = 0.4 R* d.
 TREAD_HD Friction update_patch(const PairLaw& law, const PatchState& state, Patch& patch, double dt)
 {
     constexpr double pi                = 3.14159265358979323846;

@@ -2,16 +2,16 @@
 
 #include "kernels/dem/contact/patches_kern.hpp"
 
-// One pair's nodes, dealt to its rows of the list by lanes that share the pair, and what the rows remember.
+// Assignment of one pair's nodes to its rows of the list, by lanes that share the pair, and of the records of the rows.
 namespace tread::dem::patches
 {
 
-/// The two bodies of a listed pair, and what its nodes look like from the first.
+/// The two bodies of a listed pair, with its nodes relative to the first body.
 struct Contact
 {
     PairLaw      law;
     Couple       couple;
-    Mat3<double> to_a; ///< from the world's axes to those of a
+    Mat3<double> to_a; ///< rotation from the world frame to a's body frame
 
     TREAD_HD TwoSides<MeetByDistance> sides() const { return {{}, couple}; }
 
@@ -20,7 +20,7 @@ struct Contact
         return {to_a * node.place, to_a * (node.sign * node.gradient).normalized()};
     }
 
-    /// m, of a node that need not touch.
+    /// Returns the position of a node, m, in a's frame; the node need not be in contact.
     TREAD_HD Vec3<double> place(std::int32_t node) const
     {
         return to_a * (node >= 0 ? sides().first().node(node) : sides().second().node(~node));
@@ -41,21 +41,21 @@ TREAD_HD bool may_split(const BodiesView& bodies, const BodyLaw& law, std::uint6
     return b < bodies.count && (law.templates[bodies.shape[a]].concave || law.templates[bodies.shape[b]].concave);
 }
 
-/// A run of nodes.
+/// Range of nodes.
 struct NodeRun
 {
     std::int32_t begin;
     std::int32_t end;
 };
 
-/// Says of every node of a pair that may split which patch it is of, and how many there are.
+/// Assigns every node of a pair that may split to a patch, and returns the number of patches.
 struct GroupNodes
 {
     BodiesView    bodies;
     BodyLaw       law;
     PairsView     pairs;
     const double* node_area;
-    std::int32_t* group; ///< of the nodes
+    std::int32_t* group; ///< patch of each node
 
     template<class Lanes>
     TREAD_HD std::int32_t operator()(std::uint64_t key, const NodeRun& nodes, const Lanes& lanes) const
@@ -75,7 +75,8 @@ struct GroupNodes
     }
 
 private:
-    /// All lanes keep the same groups: each looks up a node, and all add them one after the other.
+    /// Adds the nodes to the groups. All lanes keep identical groups: each lane evaluates one node, and all lanes add
+    /// these nodes in sequence.
     template<class Lanes>
     TREAD_HD void add(const Contact& contact, std::int32_t base, std::int32_t end, const Lanes& lanes,
                       Groups& groups) const
@@ -105,7 +106,7 @@ private:
         return {lanes.from(lane, value[0]), lanes.from(lane, value[1]), lanes.from(lane, value[2])};
     }
 
-    /// Nodes that do not touch yet are of the nearest patch.
+    /// Assigns final patch numbers; nodes not yet in contact belong to the nearest patch.
     template<class Lanes>
     TREAD_HD void number(const Contact& contact, const NodeRun& nodes, std::int32_t found, const Groups& groups,
                          const Lanes& lanes) const
@@ -123,17 +124,17 @@ private:
     }
 };
 
-/// What the rows of one pair remember.
+/// Records of the rows of one pair.
 struct RowRecords
 {
     int           count;
     Patch*        patch;
     Rolling*      rolling; ///< null without rolling friction
-    Vec3<double>* place;   ///< null where no pair has several rows
+    Vec3<double>* place;   ///< null if no pair has several rows
 };
 
-/// Deals a pair's nodes to its rows, and to these what its rows remembered so far, shared by the stiffness of nodes: to
-/// each what the nodes nearest to it had (a split keeps energy, two that come together lose what they differ by).
+/// Assigns a pair's nodes to its rows, and distributes the old records by the stiffness of the nodes: each row gets the
+/// share of the nodes nearest to the old row (a split conserves energy; a merge dissipates the difference).
 struct AssignNodes
 {
     BodiesView          bodies;
@@ -141,7 +142,8 @@ struct AssignNodes
     PairsView           pairs;
     const std::int32_t* group;
 
-    /// `from` may be `to`. Nodes go to `node`, patch after patch, each in the order of the list; `first` gets where.
+    /// `from` may be `to`. Nodes are written to `node`, patch after patch, each in the order of the list; `first`
+    /// receives the start of each.
     template<class Lanes>
     TREAD_HD void operator()(std::uint64_t key, const NodeRun& nodes, const RowRecords& from, const RowRecords& to,
                              std::int32_t* node, std::int32_t* first, const Lanes& lanes) const
@@ -174,11 +176,11 @@ struct AssignNodes
     }
 
 private:
-    /// Stiffness of the nodes, N/m, by their row and by the row so far that they are nearest to.
+    /// Stiffness of the nodes, N/m, by their new row and by the nearest old row.
     struct Shares
     {
         double       of[most][most];
-        double       last[most]; ///< of all rows
+        double       last[most]; ///< sums over all new rows
         Vec3<double> centre[most];
     };
 
@@ -218,7 +220,7 @@ private:
         return shares;
     }
 
-    /// Of the rows that have something to remember.
+    /// Returns the nearest of the rows with a nonzero record.
     TREAD_HD static int nearest(const RowRecords& from, const Vec3<double>& at)
     {
         int    found    = 0;
@@ -236,7 +238,7 @@ private:
         return found;
     }
 
-    /// Adds a part of an old record to a row's: as much of its springs' force as of their stiffness.
+    /// Adds a share of an old record to that of a row: the same share of its springs' force and of their stiffness.
     TREAD_HD static void add(const Patch& from, double part, Patch& to)
     {
         if (to.stiffness < part * from.stiffness)

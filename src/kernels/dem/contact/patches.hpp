@@ -5,9 +5,9 @@
 #include "kernels/dem/contact/patch_kern.hpp"
 #include "kernels/dem/contact/rolling_kern.hpp"
 
-// Several patches between two bodies. A pair that touches at separate places, or in directions far apart, stands once
-// for each of them in the list of pairs, with its own run of nodes and its own record of friction: what happens in the
-// substeps is then that of any pair.
+// Several contact patches between two bodies. A pair that touches at separate places, or in directions far apart, has
+// one row for each patch in the list of pairs, with its own run of nodes and its own friction record: the substeps
+// treat such a row as any other pair.
 namespace tread::dem
 {
 
@@ -15,7 +15,7 @@ template<class Exec>
 struct Pairs;
 struct BodyLaw;
 
-/// Of the pairs that touch in several patches; all empty in a scene whose bodies are convex.
+/// Data of the pairs that touch in several patches; all arrays are empty if all bodies are convex.
 template<class Exec>
 struct Patches
 {
@@ -33,12 +33,11 @@ struct Patches
     {
     }
 
-    bool wanted = false; ///< some body is concave
+    bool wanted = false; ///< whether some body is concave
 
-    Array<Exec, Vec3<double>>
-        place; ///< m, of the patch, from the centre of a in its frame; empty if no pair has several
-    Array<Exec, Vec3<double>>  last_place; ///< of the last list
-    Array<Exec, std::int32_t>  group;      ///< of every listed node
+    Array<Exec, Vec3<double>>  place;      ///< m, patch position in a's body frame; empty if no pair has several
+    Array<Exec, Vec3<double>>  last_place; ///< `place` of the previous list
+    Array<Exec, std::int32_t>  group;      ///< patch of every listed node
     Array<Exec, std::int32_t>  first;      ///< [pairs + 1]
     Array<Exec, std::int32_t>  several;    ///< first rows of the pairs with a concave body
     Array<Exec, std::uint64_t> key;
@@ -48,17 +47,18 @@ struct Patches
     Array<Exec, std::int32_t>  node;
 };
 
-/// Splits the pairs just listed, with their nodes, by the nodes that touch. A pair that had more rows in the last list
-/// keeps them, without nodes: it may need them again. The records of the last list follow the nodes, shared by their
-/// stiffness (a split keeps their energy, two that come together lose what they differ by).
+/// Splits the newly listed pairs, with their nodes, by the nodes that touch. A pair that had more rows in the previous
+/// list keeps them without nodes, because it may need them again. Friction records of the previous list follow the
+/// nodes, shared in proportion to stiffness (a split conserves their energy; a merge dissipates their difference).
 void split_patches(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 void split_patches(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// Groups the nodes of a list anew. False if some pair wants more rows than it has: pairs are then to be found anew.
+/// Groups the nodes of a list again. Returns false if some pair needs more rows than it has: the pairs must then be
+/// found again.
 bool patch_rows_suffice(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 bool patch_rows_suffice(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// After that: what split_patches does, within the rows that each pair has.
+/// Does what split_patches does within the rows that each pair has; call after patch_rows_suffice.
 void regroup_patches(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 void regroup_patches(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 

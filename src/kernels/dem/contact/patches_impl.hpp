@@ -5,17 +5,17 @@
 #include "kernels/dem/pairs/pairs_impl.hpp"
 #include "kernels/dem/pairs/select.hpp"
 
-// The steps of patches.hpp, for lanes that share a pair; patches.cpp and patches.cu bring in for_each and the lanes.
+// Steps of patches.hpp for lanes that share a pair; patches.cpp and patches.cu provide for_each and the lanes.
 namespace tread::dem::patches
 {
 
-/// The last list of pairs: as many rows for a pair that stays, which may need them again.
+/// Rows of the previous list: a pair that stays keeps as many rows, because it may need them again.
 struct LastRows
 {
     std::int64_t         count;
     const std::uint64_t* key;
     Patch*               patch;
-    Rolling*             rolling; ///< null without rolling friction, like those of the list
+    Rolling*             rolling; ///< null without rolling friction, as in the list
     Vec3<double>*        place;
 
     TREAD_HD RowRecords of(std::uint64_t pair) const
@@ -28,7 +28,7 @@ struct LastRows
     }
 };
 
-/// How many rows each pair of a list without patches is to have, after its nodes were grouped.
+/// Counts the rows of each pair of a list without patches, after its nodes were grouped.
 struct CountRows
 {
     GroupNodes    group;
@@ -50,7 +50,7 @@ struct CountRows
     }
 };
 
-/// The list of pairs with the rows in the place of their pair.
+/// Writes the list of pairs with the rows in place of their pair.
 struct WriteRows
 {
     AssignNodes         assign;
@@ -111,7 +111,7 @@ private:
     }
 };
 
-/// Whether row p is the first of a pair that may have several.
+/// Whether row p is the first row of a pair that may have several.
 struct FirstOfSeveral
 {
     BodiesView bodies;
@@ -124,7 +124,7 @@ struct FirstOfSeveral
     }
 };
 
-/// Of the pair whose first row is p.
+/// Returns the number of rows of the pair whose first row is p.
 TREAD_HD int rows_of(const PairsView& pairs, std::int64_t p)
 {
     int rows = 1;
@@ -132,7 +132,7 @@ TREAD_HD int rows_of(const PairsView& pairs, std::int64_t p)
     return rows;
 }
 
-/// Groups the nodes of a list's pairs anew, and marks the pairs that want more rows than they have.
+/// Groups the nodes of a list's pairs again and marks the pairs that need more rows than they have.
 struct GroupAgain
 {
     GroupNodes          group;
@@ -155,14 +155,14 @@ struct GroupAgain
     }
 };
 
-/// Deals them to the rows.
+/// Assigns the nodes to the rows again.
 struct DealAgain
 {
     AssignNodes         assign;
     const std::int32_t* several;
     Vec3<double>*       place;
-    std::int32_t*       first_node; ///< as the list's
-    std::int32_t*       node;       ///< as the list's
+    std::int32_t*       first_node; ///< the list's own array
+    std::int32_t*       node;       ///< the list's own array
     std::int32_t*       pair_of_node;
     std::int32_t*       scratch; ///< [nodes]
 
@@ -181,7 +181,10 @@ struct DealAgain
         starts[rows] = nodes.end;
         for (int g = 0; g < rows; ++g)
         {
-            if (g > 0) { first_node[p + g] = starts[g]; } // the pair's own place is read by its neighbour in the list
+            if (g > 0)
+            {
+                first_node[p + g] = starts[g];
+            } // the first entry is not written: the neighbouring pair in the list reads it
             for (std::int32_t n = starts[g]; n < starts[g + 1]; ++n)
             {
                 node[n]         = scratch[n];
@@ -202,7 +205,8 @@ void take_over(Pairs<Exec>& pairs)
     pairs.node.swap(patches.node);
 }
 
-/// `run`(name, items, item function) runs an item function with a backend's lanes. True if some pair has several rows.
+/// Writes the rows. `run`(name, items, item function) runs an item function with a backend's lanes. Returns whether
+/// some pair has several rows.
 template<class Exec, class Run>
 bool write_rows(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, Run run)
 {
@@ -250,7 +254,7 @@ void split(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const
            pairs.sort, pairs.patches.several);
 }
 
-/// `run` as that of split.
+/// Whether the rows of every pair suffice; `run` as in split.
 template<class Exec, class Run>
 bool rows_suffice(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, Run run)
 {

@@ -4,16 +4,16 @@
 #include "kernels/dem/contact/sphere_contact_kern.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
 
-// How the nodes of one pair fall into patches. Everything in the frame of body a, so that what turns with it stays.
+// Grouping of the nodes of one pair into patches, in the frame of body a, so that whatever rotates with a is unchanged.
 namespace tread::dem::patches
 {
 
-inline constexpr int    most          = 4;   ///< patches of a pair
-inline constexpr int    most_open     = 8;   ///< while nodes are still being added
-inline constexpr double same_side     = 0.5; ///< cosine of the angle between the normals of one patch, at least
-inline constexpr double gap_in_spaces = 2;   ///< between the nodes of one patch, at most; of the coarser body's spacing
+inline constexpr int    most          = 4;   ///< maximum number of patches of a pair
+inline constexpr int    most_open     = 8;   ///< maximum while nodes are still being added
+inline constexpr double same_side     = 0.5; ///< minimum cosine of the angle between the normals of one patch
+inline constexpr double gap_in_spaces = 2;   ///< maximum gap in a patch, in node spacings of the coarser body
 
-/// A node that touches.
+/// A node in contact.
 struct Touch
 {
     Vec3<double> at;     ///< m
@@ -32,17 +32,17 @@ TREAD_HD double cosine(const Vec3<double>& a, const Vec3<double>& b)
     return lengths > 0 ? a.dot(b) / lengths : 0.0;
 }
 
-/// m, between two boxes; 0 if they overlap.
+/// Returns the distance between two boxes, m; 0 if they overlap.
 TREAD_HD double between(const Group& a, const Vec3<double>& low, const Vec3<double>& high)
 {
     return (a.low - high).cwiseMax(low - a.high).cwiseMax(0.0).norm();
 }
 
-/// The patches of a pair while its nodes are added, in the order of the list.
+/// Patches of a pair while its nodes are added, in the order of the list.
 struct Groups
 {
     Group        group[most_open];
-    std::int32_t number[most_open]; ///< of the final patch
+    std::int32_t number[most_open]; ///< number of the final patch
     int          count;
     double       gap; ///< m
 
@@ -61,7 +61,8 @@ struct Groups
         return count++;
     }
 
-    /// Joins groups that have grown together, then the most alike until there are few enough, and numbers the rest.
+    /// Merges groups that have grown together, then the most similar ones until few enough are left, and numbers these.
+    /// Returns their number.
     TREAD_HD int close()
     {
         int left = count;
@@ -149,7 +150,7 @@ private:
         merge(first, second);
     }
 
-    /// Groups that were merged into a point to it, which comes before them.
+    /// Numbers the final groups; merged groups refer to a group with a lower index.
     TREAD_HD int renumber()
     {
         int left = 0;

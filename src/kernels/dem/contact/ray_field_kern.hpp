@@ -6,17 +6,17 @@
 #include "kernels/dem/contact/ray_kern.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
 
-// The narrow phase by rays, after the ray-tracing DEM of the paper's rocks (Zhao and Zhao 2023): each surface node
-// looks along its inward normal for the place where it leaves the other body. The traction law is that of the distance
+// Narrow phase by rays, after the ray-tracing DEM of the paper's rocks (Zhao and Zhao 2023): from each surface node a
+// ray along its inward normal is traced to where it leaves the other body. The traction law is that of the distance
 // fields.
 namespace tread::dem
 {
 
-/// A body as rays of the other one's nodes meet it.
+/// A body as seen by the rays of the other body's nodes.
 struct RayField
 {
-    BodyField      solid; ///< tells which clusters of nodes are near
-    const RayView* own;   ///< of the body that the nodes are of
+    BodyField      solid; ///< selects the clusters of nodes that are near
+    const RayView* own;   ///< of the body that owns the nodes
     const RayView* other;
 
     TREAD_HD double    distance_from_centre(const Vec3<double>& y) const { return solid.distance_from_centre(y); }
@@ -24,7 +24,8 @@ struct RayField
     TREAD_HD double    bound(double r) const { return solid.bound(r); }
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const { return solid(y); }
 
-    /// Rays know the surface itself, not the interpolated one.
+    /// Upper bound, m, of the distance field at nodes that cross the true surface, which rays use, when they move by at
+    /// most `way`: includes the interpolation error of the field.
     TREAD_HD double bound_of_node(double way) const
     {
         const Instance& body = solid.body;
@@ -32,10 +33,10 @@ struct RayField
     }
 };
 
-/// The node is inside if the first triangle that its ray meets is one where the ray leaves. The ray, its length d
-/// included, turns with the node's body: the gradient of d is n/(n . m), with n the triangle's normal, m the ray's
-/// direction, and the force acts where the ray leaves. So the force comes from a potential, but where the ray jumps to
-/// another part of the surface, and where it leaves at a slant: least_cosine.
+/// Evaluates a node: it is inside if the first triangle that its ray meets is one where the ray leaves the body. The
+/// ray, of length d, rotates with the node's body: the gradient of d is n/(n . m), with n the triangle's normal and m
+/// the ray's direction, and the force acts where the ray leaves. The force therefore derives from a potential, except
+/// where the ray jumps to another part of the surface and where it leaves at a grazing angle (least_cosine).
 TREAD_HD NodeInField in_field(const Side<RayField>& side, std::int32_t i)
 {
     constexpr double   least_cosine = 0.5; // a node's force is at most twice its area times the traction
@@ -54,7 +55,7 @@ TREAD_HD NodeInField in_field(const Side<RayField>& side, std::int32_t i)
             side.sign};
 }
 
-/// Two bodies see each other by rays.
+/// Narrow phase of two bodies by rays.
 struct MeetByRays
 {
     const TemplateView* templates;
@@ -68,7 +69,7 @@ struct MeetByRays
     TREAD_HD static double stiffening(const NodeInField& node) { return node.gradient.squaredNorm(); }
 };
 
-/// Calls act(meet) with the way in which the scene's bodies see each other.
+/// Calls act(meet) with the scene's narrow phase.
 template<class Act>
 void by_narrow_phase(const BodyLaw& law, Act act)
 {

@@ -5,43 +5,43 @@
 
 #include "backend/vector.hpp"
 
-// Rays against the triangles of a template, at scale 1 in the body frame.
+// Intersection of rays with the triangles of a template, at scale 1 in the body frame.
 namespace tread::dem
 {
 
-/// A box about triangles. Nodes stand depth first, so that a walk needs no stack: into a box goes to the node that
-/// follows, past it to `next`.
+/// Bounding box of triangles. Boxes are stored depth first, so that traversal needs no stack: a hit continues with the
+/// following box, a miss with `next`.
 struct RayBox
 {
     float        low[3];
     float        high[3];
-    std::int32_t next; ///< the first node that is not inside this one
-    std::int32_t leaf; ///< 8 first + count of its triangles; 0 = it holds boxes
+    std::int32_t next; ///< the first box that is not inside this one
+    std::int32_t leaf; ///< 8 first + count of its triangles; 0 = inner box
 };
 
 struct RayTriangle
 {
     Vec3<double> corner;
-    Vec3<double> side_1; ///< from `corner` to the next
-    Vec3<double> side_2; ///< to the one after; side_1 x side_2 points outwards
+    Vec3<double> side_1; ///< from `corner` to the next corner
+    Vec3<double> side_2; ///< from `corner` to the one after next; side_1 x side_2 points outwards
 };
 
-/// What the narrow phase by rays needs of a template, beside its TemplateView.
+/// Data of a template for the narrow phase by rays, in addition to its TemplateView.
 struct RayView
 {
     const RayBox*       boxes;
     std::int32_t        box_count;
     const RayTriangle*  triangles;
-    const Vec3<double>* inward; ///< of each surface node, unit
-    const double*       length; ///< m, of each node's ray: half of its way through its own body
+    const Vec3<double>* inward; ///< of each surface node, unit inward normal
+    const double*       length; ///< m, length of each node's ray: half the thickness of its own body there
 };
 
 struct RayHit
 {
     double       length;   ///< m, from the origin
     std::int32_t triangle; ///< -1 = none
-    Vec3<double> normal;   ///< unit, outwards; of a hit alone
-    double       cosine;   ///< of direction and normal: positive where the ray leaves the body
+    Vec3<double> normal;   ///< unit, outwards; valid only for a hit
+    double       cosine;   ///< between direction and normal: positive where the ray leaves the body
 };
 
 TREAD_HD bool ray_meets(const RayBox& box, const Vec3<double>& origin, const Vec3<double>& inverse, double length)
@@ -57,9 +57,9 @@ TREAD_HD bool ray_meets(const RayBox& box, const Vec3<double>& origin, const Vec
     return first <= last;
 }
 
-/// How far along the ray it meets the triangle; `beyond` if not before that. By the ratios of volumes of Moeller and
-/// Trumbore 1997 (J. Graphics Tools 2:21). A triangle reaches a billionth beyond its sides, so that no ray slips
-/// through between two.
+/// Returns the distance along the ray to the triangle, or `beyond` if there is no hit before that. Ratios of volumes
+/// after Moeller and Trumbore 1997 (J. Graphics Tools 2:21). Triangles are extended by a billionth beyond their sides,
+/// so that no ray passes between two.
 TREAD_HD double ray_length(const RayTriangle& triangle, const Vec3<double>& origin, const Vec3<double>& direction,
                            double beyond)
 {
@@ -76,10 +76,10 @@ TREAD_HD double ray_length(const RayTriangle& triangle, const Vec3<double>& orig
     return length > 0 && length < beyond ? length : beyond;
 }
 
-/// The first triangle that a ray meets within `length`. direction: unit.
+/// Returns the first triangle that a ray meets within `length`. direction: unit.
 TREAD_HD RayHit first_hit(const RayView& body, const Vec3<double>& origin, const Vec3<double>& direction, double length)
 {
-    constexpr double parallel = 1e300; // finite, for 0 times infinity is no place
+    constexpr double parallel = 1e300; // finite, because 0 times infinity is NaN
     Vec3<double>     inverse;
     for (int c = 0; c < 3; ++c) { inverse[c] = direction[c] == 0 ? parallel : 1.0 / direction[c]; }
 

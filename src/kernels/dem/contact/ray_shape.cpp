@@ -9,7 +9,7 @@ namespace tread::dem
 namespace
 {
 
-/// m, from the node to where it leaves. A node that stands outside its own facets goes in first.
+/// Distance from the node to where the ray leaves the body, m. The ray of a node outside its own facets enters first.
 double way_through(const RayView& body, const Vec3<double>& node, const Vec3<double>& direction, double start)
 {
     constexpr int entries = 4;
@@ -29,7 +29,7 @@ double way_through(const RayView& body, const Vec3<double>& node, const Vec3<dou
 
 std::vector<double> ray_lengths(const RayShape& shape, const std::vector<Vec3<double>>& nodes)
 {
-    constexpr double off_surface = 1e-6; // of the largest coordinate: a node's own triangle is not where it leaves
+    constexpr double off_surface = 1e-6; // relative to the largest coordinate: skips the node's own triangle
     double           largest     = 0;
     for (const Vec3<double>& node : nodes) { largest = std::max(largest, node.cwiseAbs().maxCoeff()); }
     std::vector<double> lengths;

@@ -8,7 +8,7 @@
 namespace tread::dem
 {
 
-/// Owner of what RayView shows, on the host.
+/// Host memory of RayView.
 struct RayShape
 {
     RayView view() const
@@ -22,12 +22,12 @@ struct RayShape
     std::vector<double>       length;
 };
 
-/// Length of each node's ray: half of the way from the node to where its inward normal leaves its own body. A node that
-/// is deeper in something is nearer to its body's other side, which has nodes of its own; and the nodes on the flanks
-/// of a tip that is pressed into a body do not see that body's far end.
+/// Computes the length of each node's ray: half the distance from the node along its inward normal to the opposite side
+/// of its own body. A node that penetrates deeper is nearer to the opposite side, which has nodes of its own. The limit
+/// also keeps nodes on the flanks of a tip that is pressed into a body from reaching that body's far side.
 std::vector<double> ray_lengths(const RayShape& shape, const std::vector<Vec3<double>>& nodes);
 
-/// From a tree laid out as shape::FlatTree, and the surface nodes with their outward normals.
+/// Makes a RayShape from a tree laid out as shape::FlatTree and from the surface nodes with their outward normals.
 template<class Tree>
 RayShape make_ray_shape(const Tree& tree, const std::vector<Vec3<double>>& nodes,
                         const std::vector<Vec3<double>>& normals)

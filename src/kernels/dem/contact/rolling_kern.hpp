@@ -4,17 +4,17 @@
 
 #include "kernels/dem/contact/body_contact_kern.hpp"
 
-// Resistance to rolling: a spring of the bodies' relative rolling that yields at a moment, and a damper (J. Ai, J.-F.
+// Rolling resistance: a spring of the relative rolling that yields at a limiting moment, and a damper (J. Ai, J.-F.
 // Chen, J. Rotter, J. Ooi, Powder Technology 206 (2011) 269, model C).
 namespace tread::dem
 {
 
-/// What a pair remembers of it; all zero while it is apart.
+/// Record of a pair's rolling resistance; all zero while the pair is separated.
 struct Rolling
 {
     Vec3<double> moment;    ///< N m, on a, normal to the patch's normal
     double       stiffness; ///< N m/rad
-    Vec3<double> normal;    ///< unit, the patch's when the record was last updated
+    Vec3<double> normal;    ///< unit, normal of the patch at the last update of the record
 };
 
 TREAD_HD Rolling no_rolling() { return {Vec3<double>::Zero(), 0.0, Vec3<double>::Zero()}; }
@@ -24,19 +24,19 @@ TREAD_HD double held_energy(const Rolling& rolling)
     return spring_energy(rolling.moment.squaredNorm(), rolling.stiffness);
 }
 
-/// What the resistance adds to a pair's answer.
+/// Contribution of the rolling resistance to a pair's response.
 struct Resistance
 {
-    Vec3<double> moment; ///< N m, on a; b gets its opposite
-    double       energy; ///< J, held by the spring
-    double       lost;   ///< J, in this substep
+    Vec3<double> moment; ///< N m, on a; b gets the opposite moment
+    double       energy; ///< J, stored in the spring
+    double       lost;   ///< J, dissipated in this substep
 };
 
-/// The resistance of a pair that answers with `force` (N, on a) and `contact_stiffness` (N/m); advances its record by
-/// dt (s). `patch` = the pair's, after the substep. Moment at most mu_r R* F; stiffness 9/4 K (mu_r R*)^2, so that it
-/// yields at a rotation of 4/9 F/(K mu_r R*); damping ratio that of the pair, of a ball's 7/5 m* R*^2 about its
-/// contact. The damper's part acts inside the cap and is not stored. Only where there is friction: without, nothing
-/// rolls.
+/// Computes the rolling resistance of a pair that responds with `force` (N, on a) and `contact_stiffness` (N/m), and
+/// advances its record by dt (s). `patch` = the pair's, after the substep. The moment is at most mu_r R* F; the
+/// stiffness is 9/4 K (mu_r R*)^2, so that the spring yields at a rotation of 4/9 F/(K mu_r R*); the damping ratio is
+/// that of the pair, for a ball's moment of inertia 7/5 m* R*^2 about its contact. The damper acts inside the cap and
+/// is not stored. Zero without friction, where nothing rolls.
 TREAD_HD Resistance resist_rolling(const PairLaw& law, const Patch& patch, const Vec3<double>& force,
                                    double contact_stiffness, const Spins& spins, Rolling& rolling, double dt)
 {

@@ -6,9 +6,8 @@
 #include "backend/vector.hpp"
 #include "kernels/dem/templates.hpp"
 
-// Signed distance of a body: the trilinear interpolant of its template's grid, and the exact gradient of that same
-// interpolant. One potential then gives both the depth and the direction of a contact force
-// (docs/theory.md#distance-fields).
+// Signed distance of a body: the trilinear interpolant of its template's grid, and the exact gradient of that
+// interpolant. Depth and direction of a contact force then derive from one potential (docs/theory.md#distance-fields).
 namespace tread::dem
 {
 
@@ -21,17 +20,17 @@ struct SdfSample
 inline constexpr std::int32_t brick_shift = 3; ///< a brick has 8 cells along each axis
 inline constexpr std::int32_t brick_cells = 1 << brick_shift, brick_nodes = brick_cells + 1;
 
-/// The cell that interpolates at a place.
+/// The cell used for interpolation at a position.
 struct SdfCell
 {
-    const float* low;   ///< its lowest corner; x neighbours are next to each other
-    std::int64_t row;   ///< to the neighbour along y
-    std::int64_t layer; ///< along z
+    const float* low;   ///< its lowest corner; x is contiguous
+    std::int64_t row;   ///< stride along y
+    std::int64_t layer; ///< stride along z
     Vec3<double> fraction;
     double       inverse_spacing; ///< 1/m
 };
 
-/// The cell of a grid in bricks; `index` = its lowest node, `at` = the place, both in fine cells.
+/// Finds the cell of a bricked grid; `index` = its lowest node, `at` = position, both in fine cells.
 TREAD_HD SdfCell brick_cell(const TemplateView& shape, const std::int32_t* index, const Vec3<double>& at)
 {
     std::int64_t brick[3], inner[3];
@@ -64,7 +63,7 @@ TREAD_HD SdfCell brick_cell(const TemplateView& shape, const std::int32_t* index
     return cell;
 }
 
-/// The cell at `at` spacings from the grid's origin, each component in [0, nodes - 1].
+/// Finds the cell at `at` spacings from the grid's origin, each component in [0, nodes - 1].
 TREAD_HD SdfCell find_cell(const TemplateView& shape, const Vec3<double>& at)
 {
     std::int32_t index[3];
@@ -84,7 +83,8 @@ TREAD_HD SdfCell find_cell(const TemplateView& shape, const Vec3<double>& at)
     return cell;
 }
 
-/// The interpolant at `at` spacings from the grid's origin, each component in [0, nodes - 1]; gradient by metres.
+/// Returns the interpolant at `at` spacings from the grid's origin, each component in [0, nodes - 1]; gradient per
+/// metre.
 TREAD_HD SdfSample interpolate_sdf(const TemplateView& shape, const Vec3<double>& at)
 {
     const SdfCell       cell    = find_cell(shape, at);
@@ -106,9 +106,9 @@ TREAD_HD SdfSample interpolate_sdf(const TemplateView& shape, const Vec3<double>
     return {low_z + t[2] * (high_z - low_z), cell.inverse_spacing * Vec3<double>(by_x, by_y, high_z - low_z)};
 }
 
-/// Distance and gradient at a point of the template's frame (m, scale 1). Outside the grid a lower bound of the
-/// distance, positive and continuous: the root of the squares of the distance to the grid's box and of the value (at
-/// least 0) at the box's nearest point, with its exact gradient.
+/// Returns distance and gradient at a point of the template's frame (m, scale 1). Outside the grid it is a lower bound
+/// of the distance, positive and continuous: the root of the sum of the squares of the distance to the grid's box and
+/// of the value (at least 0) at the box's nearest point, with its exact gradient.
 TREAD_HD SdfSample sample_template_sdf(const TemplateView& shape, const Vec3<double>& point)
 {
     const Vec3<double> cell = (point - shape.sdf_origin) * shape.sdf_inverse_spacing;
@@ -132,8 +132,8 @@ TREAD_HD SdfSample sample_template_sdf(const TemplateView& shape, const Vec3<dou
     return sample;
 }
 
-/// The same for an instance in the world: phi(x) = s phi_template(R^T (x - c) / s), gradient R grad phi_template.
-/// position = centre of mass c (m), orientation = body to world.
+/// Returns distance and gradient of an instance in the world frame: phi(x) = s phi_template(R^T (x - c) / s), gradient
+/// R grad phi_template. position = centre of mass c (m), orientation = body to world.
 TREAD_HD SdfSample sample_body_sdf(const TemplateView& shape, double scale, const Vec3<double>& position,
                                    const Quat& orientation, const Vec3<double>& world_point)
 {
@@ -143,31 +143,31 @@ TREAD_HD SdfSample sample_body_sdf(const TemplateView& shape, double scale, cons
     return {scale * sample.distance, rotation * sample.gradient};
 }
 
-/// How far the interpolant of a body may be from the distance that it interpolates, in a cell of the given edge: at
-/// most the mean distance to the cell's corners, weighted as they are, of a function with slope 1; and that is at most
-/// the root of sum t (1 - t) along the axes, half the diagonal in the middle.
+/// Maximum error of the interpolant with respect to the interpolated distance, in a cell of the given edge. It is at
+/// most the weighted mean distance to the cell's corners (the function has slope 1), which is at most the root of sum t
+/// (1 - t) over the axes, half the diagonal in the middle.
 TREAD_HD double cell_uncertainty(double edge) { return 0.5 * std::sqrt(3.0) * edge; }
 
-/// That at the surface, where every cell is fine.
+/// Maximum error at the surface, where every cell is fine.
 TREAD_HD double surface_uncertainty(const TemplateView& shape, double scale)
 {
     return cell_uncertainty(shape.sdf_spacing) * scale;
 }
 
-/// That at any place no further than `distance` (m, true) outside the surface. Nearer than sdf_fine_reach all corners
-/// of a cell are exact. Beyond, a cell may be a whole brick, or have corners on the face of one: these are off by half
-/// the face's diagonal, and with a fine cell's own uncertainty still by less than a brick's.
+/// Maximum error at any position no further than `distance` (m, true) outside the surface. Nearer than sdf_fine_reach
+/// all corners of a cell are exact. Beyond, a cell may be a whole brick or have corners on the face of one: these have
+/// an error of half the face's diagonal, which together with the error of a fine cell is still below that of a brick.
 TREAD_HD double sdf_uncertainty(const TemplateView& shape, double scale, double distance)
 {
     const bool fine = shape.sdf_slots == nullptr || distance <= scale * shape.sdf_fine_reach;
     return cell_uncertainty((fine ? 1 : brick_cells) * shape.sdf_spacing) * scale;
 }
 
-/// Bound on the interpolant at every place from which, or from nearer, a point can come within `radius` of the
-/// interpolated surface when it moves by at most half of `travel`, m.
-/// The interpolant's slope is at most sqrt(3) where cells are exact: radius + travel does. A way that leaves those
-/// places comes from sdf_fine_reach or beyond; for it to end within `radius`, that must lie within the sum below.
-/// Where it does, the distance at the start (at most radius + uncertainty + travel/2) and its uncertainty count.
+/// Upper bound of the interpolant at every position from which a point can come within `radius` of the interpolated
+/// surface when it moves by at most half of `travel`, m, and at every nearer position.
+/// The slope of the interpolant is at most sqrt(3) where cells are exact: there radius + travel is a bound. A path that
+/// leaves this region starts at sdf_fine_reach or beyond; to end within `radius`, that distance must be below the sum
+/// below. In that case the distance at the start (at most radius + uncertainty + travel/2) and its error are added.
 TREAD_HD double search_bound(const TemplateView& shape, double scale, double radius, double travel)
 {
     const double bound = radius + travel, at_surface = surface_uncertainty(shape, scale);
@@ -175,8 +175,8 @@ TREAD_HD double search_bound(const TemplateView& shape, double scale, double rad
     return bound + at_surface + cell_uncertainty(brick_cells * shape.sdf_spacing) * scale;
 }
 
-/// Bound on the interpolant at every place from which, or from nearer, a point can come to the interpolated surface
-/// when it moves by at most `way`, m: as search_bound, by the slope that the interpolant has.
+/// Upper bound of the interpolant at every position from which a point can reach the interpolated surface when it moves
+/// by at most `way`, m, and at every nearer one: as search_bound, with the actual maximum slope of the interpolant.
 TREAD_HD double approach_bound(const TemplateView& shape, double scale, double way)
 {
     const double bound = shape.sdf_steepest * way, at_surface = surface_uncertainty(shape, scale);

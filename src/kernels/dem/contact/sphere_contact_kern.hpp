@@ -2,20 +2,20 @@
 
 #include "kernels/dem/contact/body_contact_kern.hpp"
 
-// Contact of two exact spheres, or of one and a plane: Hertz's law in closed form, the paper's Eq. 14, in place of sums
-// over nodes. The record of friction and what follows from it are those of every other pair.
+// Contact of two exact spheres, or of a sphere and a plane: Hertz's law in closed form, the paper's Eq. 14, instead of
+// sums over nodes. The friction record and its law are those of every other pair.
 namespace tread::dem
 {
 
-/// Where two surfaces touch, relative to the centre of a.
+/// Contact geometry of two surfaces, relative to the centre of a.
 struct SphereContact
 {
     Vec3<double> normal;  ///< unit, towards a
-    double       overlap; ///< m; not positive: apart
+    double       overlap; ///< m; separated if not positive
     double       depth;   ///< m, from the centre of a to the middle of the overlap
 };
 
-/// Radii in m; `arm` = centre of b relative to that of a, m.
+/// Contact of two spheres. Radii in m; `arm` = centre of b relative to that of a, m.
 TREAD_HD SphereContact contact_of_spheres(double radius_a, double radius_b, const Vec3<double>& arm)
 {
     const double       distance = arm.norm();
@@ -24,29 +24,29 @@ TREAD_HD SphereContact contact_of_spheres(double radius_a, double radius_b, cons
     return {normal, overlap, radius_a - 0.5 * overlap};
 }
 
-/// The wall does not give way: its plane is where the contact acts.
+/// Contact of a sphere and a wall; the wall is rigid, so that the contact acts on its plane.
 TREAD_HD SphereContact contact_with_plane(double radius, const PlaneField& wall)
 {
     const double overlap = radius + wall.offset;
     return {wall.normal, overlap, radius - overlap};
 }
 
-/// dF/dd of Hertz's law, N/m: 2 E* a with a = sqrt(R* d).
+/// Stiffness dF/dd of Hertz's law, N/m: 2 E* a with a = sqrt(R* d).
 TREAD_HD double hertz_stiffness(const PairLaw& law, double overlap)
 {
     return 2.0 * law.effective_young * std::sqrt(law.effective_radius * overlap);
 }
 
-/// The largest overlap (m) of an impact at `speed` (m/s): k d^2.5 = 5/4 m v^2 with k = 4/3 E* sqrt(R*).
+/// Maximum overlap (m) of an impact at `speed` (m/s): k d^2.5 = 5/4 m v^2 with k = 4/3 E* sqrt(R*).
 TREAD_HD double hertz_impact_overlap(const PairLaw& law, double speed)
 {
     const double k = 4.0 / 3.0 * law.effective_young * std::sqrt(law.effective_radius);
     return law.reduced_mass > 0 ? std::pow(1.25 * law.reduced_mass * speed * speed / k, 0.4) : 0.0;
 }
 
-/// What the nodes of a patch would sum to, all in its middle: the record of friction adds the arm of Hertz's pressure
-/// itself. Damped by 2 zeta sqrt(5/6 m* K) v, without attraction, the contact gives back what a linear one of the same
-/// zeta does (Antypov and Elliott 2011, EPL 94:50004).
+/// Returns the equivalent of the sums over a patch's nodes, concentrated at its centre; the friction record adds the
+/// arm of Hertz's pressure itself. With damping 2 zeta sqrt(5/6 m* K) v and no attraction, the contact has the
+/// restitution of a linear one with the same zeta (Antypov and Elliott 2011, EPL 94:50004).
 TREAD_HD PatchSums sphere_sums(const PairLaw& law, const SphereContact& contact, const RelativeMotion& motion)
 {
     const double       stiffness  = hertz_stiffness(law, contact.overlap);

@@ -16,15 +16,15 @@ struct PairLaw
     double effective_radius; ///< m, R*
     double traction;         ///< Pa/sqrt(m), E*/(pi sqrt(R*)): p = traction sqrt(d)
     double linear_overlap;   ///< m, d0: below it the traction is linear
-    double linear_slope;     ///< Pa/m, there
+    double linear_slope;     ///< Pa/m, slope of the linear part
     double shear_ratio;      ///< k_t/K = 4 G*/E*: Mindlin's 8 G* sqrt(R* d) where the patch is resolved
-    double friction;         ///< Coulomb
+    double friction;         ///< Coulomb coefficient
     double damping_ratio;    ///< zeta, normal and tangential
     double reduced_mass;     ///< kg, m*; 0 if neither side can move
     double rolling_friction; ///< mu_r
 };
 
-/// 1/sqrt(x): one operation on a GPU, where a root and a division are two long ones.
+/// Computes 1/sqrt(x): one operation on a GPU instead of a root and a division, which are both slow.
 TREAD_HD double inverse_root(double x)
 {
 #if defined(__CUDA_ARCH__)
@@ -34,7 +34,7 @@ TREAD_HD double inverse_root(double x)
 #endif
 }
 
-/// inverse_radii = 1/R_a + 1/R_b, inverse_masses = 1/m_a + 1/m_b.
+/// Makes the law of a pair. inverse_radii = 1/R_a + 1/R_b, inverse_masses = 1/m_a + 1/m_b.
 TREAD_HD PairLaw pair_law(const PairProperties& pair, const ContactOptions& options, double inverse_radii,
                           double inverse_masses)
 {
@@ -55,7 +55,7 @@ TREAD_HD PairLaw pair_law(const PairProperties& pair, const ContactOptions& opti
             pair.rolling_friction};
 }
 
-/// p(d), Pa; p'(d), Pa/m; and the potential psi with psi' = p, J/m2.
+/// Traction p(d), Pa; slope p'(d), Pa/m; and the potential psi with psi' = p, J/m2.
 struct Traction
 {
     double pressure;
@@ -70,7 +70,7 @@ TREAD_HD Traction traction_at(const PairLaw& law, double overlap)
     {
         return {law.linear_slope * overlap, law.linear_slope, 0.5 * law.linear_slope * overlap * overlap};
     }
-    // psi of the linear part is d0^1.5/2 at the knee, where that of the square root would be 2/3 d0^1.5
+    // psi of the linear part is d0^1.5/2 at d0, where that of the square root would be 2/3 d0^1.5
     const double slope = 0.5 * law.traction * inverse_root(overlap), pressure = 2.0 * overlap * slope;
     return {pressure, slope, 2.0 / 3.0 * overlap * pressure - law.linear_slope * knee * knee / 6.0};
 }

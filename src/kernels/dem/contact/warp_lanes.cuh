@@ -8,8 +8,8 @@
 namespace tread::dem
 {
 
-/// `size` neighbouring lanes of a warp, which share one item (see OneLane). Every sum is a butterfly: fixed order, same
-/// bits in every lane.
+/// Group of `size` neighbouring lanes of a warp, which share one item (see OneLane). Every sum is a butterfly: fixed
+/// order, same bits in every lane.
 template<int size>
 struct GroupLanes
 {
@@ -52,14 +52,14 @@ struct GroupLanes
     }
 
 private:
-    /// The group's first lane in its warp.
+    /// Returns the group's first lane in its warp.
     __device__ static int first() { return static_cast<int>(threadIdx.x) % warp_size / size * size; }
 
-    /// The group alone, whatever the warp's others do.
+    /// Returns the mask of the group's lanes, whatever the other lanes of the warp do.
     __device__ static unsigned everyone() { return all_lanes >> (warp_size - size) << first(); }
 };
 
-/// f(i, GroupLanes<size>) for i in [0, n), `size` lanes an item, as what a block of `threads` threads does.
+/// Calls f(i, GroupLanes<size>) for i in [0, n) with `size` lanes per item, for blocks of `threads` threads.
 template<int threads, int size, class F>
 struct GroupsOfBlock
 {
@@ -77,7 +77,7 @@ struct GroupsOfBlock
     }
 };
 
-/// Runs f(i, GroupLanes<size>) for i in [0, n); `blocks_an_sm` as for_each_block's.
+/// Runs f(i, GroupLanes<size>) for i in [0, n); `blocks_an_sm` as in for_each_block.
 template<int size, int blocks_an_sm = 1, class F>
 void for_each_group(const Gpu& gpu, const char* name, std::int64_t n, F f)
 {

@@ -5,22 +5,22 @@
 namespace tread::dem
 {
 
-/// What contacts gave a body since it was cleared (move.hpp books it).
+/// Contact impulses on a body since they were cleared (accumulated by move.hpp).
 struct ContactImpulse
 {
     Vec3<double> linear;  ///< N s
     Vec3<double> angular; ///< N m s, about the centre of mass
 };
 
-/// Of one body, for sums and largest values over bodies.
+/// Activity of one body, for sums and maxima over bodies.
 struct BodyActivity
 {
-    double speed;        ///< m/s, largest of any of its points: |v| + |omega| times the bounding radius
+    double speed;        ///< m/s, maximum over the body's points: |v| + |omega| times the bounding radius
     double net_force;    ///< N, |contact force + weight| of a body that is free to move, else 0
-    double weight_power; ///< W, of the weight on the body
+    double weight_power; ///< W, power of the weight on the body
 };
 
-/// Gravity in m/s2; `bounding_radii` in m, by body.
+/// Computes the activity of every body. Gravity in m/s2; `bounding_radii` in m, per body.
 void measure_activity(const Cpu&, const BodiesView& bodies, const double* bounding_radii, const Vec3<double>& gravity,
                       BodyActivity* activity);
 void measure_activity(const Gpu&, const BodiesView& bodies, const double* bounding_radii, const Vec3<double>& gravity,

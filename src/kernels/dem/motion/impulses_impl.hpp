@@ -2,7 +2,7 @@
 
 #include "kernels/dem/motion/impulses.hpp"
 
-// The steps of impulses.hpp, the same on both backends; impulses.cpp and impulses.cu bring in for_each.
+// Steps of impulses.hpp, for both backends; impulses.cpp and impulses.cu provide for_each.
 namespace tread::dem::impulse_steps
 {
 

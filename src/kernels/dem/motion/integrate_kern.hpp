@@ -9,13 +9,14 @@
 #include "kernels/dem/motion/totals.hpp"
 #include "kernels/local_damping_kern.hpp"
 
-// One substep of one rigid body. Translation: symplectic Euler. Rotation: the world angular momentum L is advanced by
-// the torque exactly and the orientation by the exponential map of the angular velocity at mid-step, so that a
-// torque-free body keeps L to rounding and its energy to third order (explicit midpoint of R' = [omega(R, L)] R).
+// One substep of one rigid body. Translation: symplectic Euler. Rotation: the world-frame angular momentum L is
+// advanced by the torque exactly, and the orientation by the exponential map of the angular velocity at mid-step. A
+// torque-free body then conserves L to rounding and its energy to third order (explicit midpoint of R' = [omega(R, L)]
+// R).
 namespace tread::dem
 {
 
-/// Local damping of the settling phases, off.
+/// No local damping.
 struct NoDamping
 {
     static constexpr bool acts = false;
@@ -23,7 +24,7 @@ struct NoDamping
     TREAD_HD double operator()(double, double) const { return 0.0; }
 };
 
-/// On.
+/// Local damping of the settling phases.
 struct LocalDamping
 {
     static constexpr bool acts = true;
@@ -39,18 +40,18 @@ TREAD_HD Vec3<double> damping_of(const Damping& damping, const Vec3<double>& for
     return {damping(force[0], velocity[0]), damping(force[1], velocity[1]), damping(force[2], velocity[2])};
 }
 
-/// cos h, and sin h over h.
+/// Contains cos h and sin(h)/h.
 struct Turn
 {
     double cosine;
     double sine_over;
 };
 
-/// Of h^2. Substeps turn bodies by little: five terms are then exact to rounding (h^10 / 10! < 3e-22), and no root,
-/// sine or division keeps a GPU waiting.
+/// Computes a Turn from h^2. Rotations per substep are small: five terms are then exact to rounding (h^10 / 10! <
+/// 3e-22), without the latency of a root, sine or division on a GPU.
 TREAD_HD Turn turn_of(double square)
 {
-    constexpr double little = 1e-3; // of h^2
+    constexpr double little = 1e-3; // limit of h^2
     if (square < little)
     {
         const auto series = [square](double a, double b, double c, double d)
@@ -62,7 +63,7 @@ TREAD_HD Turn turn_of(double square)
     return {std::cos(h), std::sin(h) / h};
 }
 
-/// exp of a rotation vector (rad).
+/// Exponential map of a rotation vector (rad).
 TREAD_HD Quat rotation_by(const Vec3<double>& vector)
 {
     const Turn         half = turn_of(0.25 * vector.squaredNorm());
@@ -70,7 +71,7 @@ TREAD_HD Quat rotation_by(const Vec3<double>& vector)
     return {half.cosine, axis[0], axis[1], axis[2]};
 }
 
-/// Of a quaternion that is off by rounding alone: one step of Newton's for 1/|q|.
+/// Normalises a quaternion whose error is only rounding: one Newton step for 1/|q|.
 TREAD_HD Quat made_unit(const Quat& q) { return Quat((1.5 - 0.5 * q.squaredNorm()) * q.coeffs()); }
 
 TREAD_HD bool is_locked(std::uint32_t locked, LockedFreedom first, int component)
@@ -80,8 +81,9 @@ TREAD_HD bool is_locked(std::uint32_t locked, LockedFreedom first, int component
 
 inline constexpr std::uint32_t locked_rotation = lock_roll | lock_pitch | lock_yaw;
 
-/// omega at orientation `rotation` whose free components of J omega are those of `momentum`, and whose locked
-/// components are those of `present`: J = R I R^T. The reaction that locks acts on locked components alone.
+/// Returns omega at orientation `rotation` such that the free components of J omega are those of `momentum` and the
+/// locked components of omega are those of `present`: J = R I R^T. The constraint torque acts on locked components
+/// only.
 TREAD_HD Vec3<double> angular_velocity_of(const Mat3<double>& rotation, const Mat3<double>& inertia,
                                           const Mat3<double>& inverse_inertia, const Vec3<double>& momentum,
                                           const Vec3<double>& present, std::uint32_t locked)
@@ -99,8 +101,7 @@ TREAD_HD Vec3<double> angular_velocity_of(const Mat3<double>& rotation, const Ma
     return matrix.inverse() * wanted;
 }
 
-/// What moves of a body and what resists it: read as a whole before the sums over its contacts, so that memory answers
-/// meanwhile.
+/// Motion and inertia of a body. It is read before the sums over its contacts, so that the loads overlap with them.
 struct BodyMotion
 {
     Vec3<double>  position;
@@ -112,7 +113,7 @@ struct BodyMotion
     std::uint32_t locked;
 };
 
-/// `shown` is as bodies.
+/// Reads the motion of body b; `shown` must agree with `bodies`.
 TREAD_HD BodyMotion motion_of(const BodiesView& bodies, std::int64_t b, const ContactBody& shown)
 {
     return {shown.position, shown.orientation, shown.velocity,  shown.spin,
@@ -127,9 +128,9 @@ TREAD_HD void store_motion(const BodiesView& bodies, std::int64_t b, const BodyM
     bodies.angular_velocity[b] = motion.angular_velocity;
 }
 
-/// Moves a body by dt (s) under its contact force, gravity (m/s2) and the damping; adds to its row of totals, where it
-/// has something to add: a row is as long as all the rest of a body. A locked component keeps its velocity, whatever
-/// the forces. Returns the velocity at mid-step.
+/// Moves a body by dt (s) under its contact force, gravity (m/s2) and damping. Adds to its row of totals only nonzero
+/// terms, because a row is as large as the rest of a body. A locked component keeps its velocity whatever the forces.
+/// Returns the velocity at mid-step.
 template<class Damping>
 TREAD_HD Vec3<double> integrate_translation(BodyMotion& body, const Vec3<double>& force, const Vec3<double>& gravity,
                                             const Damping& damping, double dt, BodyTotal& total)
@@ -160,7 +161,7 @@ TREAD_HD Vec3<double> integrate_translation(BodyMotion& body, const Vec3<double>
     return mean;
 }
 
-/// As integrate_translation; returns the angular velocity over the step.
+/// Rotates a body likewise under its torque; returns the angular velocity over the step.
 template<class Damping>
 TREAD_HD Vec3<double> integrate_rotation(BodyMotion& body, const Vec3<double>& torque, const Damping& damping,
                                          double dt, BodyTotal& total)
@@ -193,14 +194,14 @@ TREAD_HD Vec3<double> integrate_rotation(BodyMotion& body, const Vec3<double>& t
     return mean;
 }
 
-/// Of a body over a step.
+/// Mean velocities of a body over a step.
 struct MeanMotion
 {
     Vec3<double> velocity;         ///< m/s
     Vec3<double> angular_velocity; ///< rad/s
 };
 
-/// By a whole step.
+/// Integrates translation and rotation over a step.
 template<class Damping>
 TREAD_HD MeanMotion integrate_body(BodyMotion& body, const ContactWrench& contact, const Vec3<double>& gravity,
                                    const Damping& damping, double dt, BodyTotal& total)

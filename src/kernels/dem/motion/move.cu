@@ -9,7 +9,7 @@ namespace
 template<int lanes, class Move>
 void launch(const Gpu& gpu, const BodyStep<Gpu>& step, const Move& move)
 {
-    constexpr int threads = 128, blocks_an_sm = 4; // registers for so many
+    constexpr int threads = 128, blocks_an_sm = 4; // limits the registers
     const auto    part = body_part<threads, lanes>(step.bodies.count, step.pairs, move);
     for_each_block<threads, blocks_an_sm>(gpu, "move bodies", part.blocks, part.f);
 }
@@ -29,7 +29,7 @@ void share_wrenches(const Gpu& gpu, const BodyStep<Gpu>& step)
 
 void move_bodies(const Gpu& gpu, const BodyStep<Gpu>& step)
 {
-    constexpr std::int64_t few = 10000; // do not fill the device: lanes gather side by side, one moves
+    constexpr std::int64_t few = 10000; // too few to fill the device: several lanes gather, one moves
     moving::with_move(step,
                       [&](const auto& move)
                       {

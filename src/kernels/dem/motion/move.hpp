@@ -9,28 +9,28 @@
 namespace tread::dem
 {
 
-/// The first bodies of a scene, which it names, and what contacts gave them.
+/// Contact impulses on the named bodies, which are the first bodies of a scene.
 struct NamedImpulses
 {
     ContactImpulse* impulse;
     std::int64_t    count;
 };
 
-/// What moves bodies beside their contacts.
+/// Parameters of the motion of bodies other than contact forces.
 struct Motion
 {
     Vec3<double> gravity; ///< m/s2
-    double       damping; ///< local, in [0, 1]; 0 = none
+    double       damping; ///< local damping coefficient in [0, 1]; 0 = none
     double       dt;      ///< s, of the substep
 
     OutsideWrenches outside = {};
 };
 
-/// All that a substep of bodies needs.
+/// All data that a substep of bodies needs.
 template<class Exec>
 struct BodyStep
 {
-    Pairs<Exec>&  pairs; ///< without a list where no body may meet another or a wall
+    Pairs<Exec>&  pairs; ///< has no list if no body may meet another body or a wall
     BodiesView    bodies;
     BodyLaw       law;
     BodyTotal*    totals;
@@ -39,14 +39,15 @@ struct BodyStep
     SharedView    shared = {};
 };
 
-/// First half of what follows, on several ranks: this rank's shares of step.shared.wrench, which the others are to
-/// have.
+/// First part of move_bodies on several ranks: computes this rank's shares step.shared.wrench, which are then
+/// exchanged.
 void share_wrenches(const Cpu&, const BodyStep<Cpu>& step);
 void share_wrenches(const Gpu&, const BodyStep<Gpu>& step);
 
-/// Second half of a substep, after evaluate_contacts: every body's force, torque and stiffness become the sum of what
-/// acts on it from outside and what its pairs answer, if pairs were ever found; books wall impulses, losses and the
-/// impulses of named bodies, and moves all bodies. Every sum has a fixed order on one backend. Allocates nothing.
+/// Second half of a substep, after evaluate_contacts. Sets every body's force, torque and stiffness to the sum of the
+/// external wrenches and of its pairs' responses (if pairs were ever found); adds wall impulses, losses and the
+/// impulses of named bodies to the energy and momentum balance; and moves all bodies. Every sum has a fixed order on
+/// one backend. Allocates nothing.
 void move_bodies(const Cpu&, const BodyStep<Cpu>& step);
 void move_bodies(const Gpu&, const BodyStep<Gpu>& step);
 

@@ -4,11 +4,11 @@
 #include "kernels/dem/motion/integrate_kern.hpp"
 #include "kernels/dem/motion/move.hpp"
 
-// The item functions of move.hpp; move.cpp and move.cu bring in the schedule.
+// Item functions of move.hpp; move.cpp and move.cu provide the schedule.
 namespace tread::dem::moving
 {
 
-/// What the pairs do to one body.
+/// Sums over the pairs of one body.
 struct BodyShare
 {
     ContactWrench contact;
@@ -19,7 +19,7 @@ struct BodyShare
     TREAD_HD static BodyShare zero() { return {ContactWrench::zero(), Vec3<double>::Zero(), 0, 0}; }
 };
 
-/// Of lanes that share a body.
+/// Sums over the lanes that share a body.
 template<class Lanes>
 TREAD_HD void reduce(Vec3<double>& value, const Lanes& lanes)
 {
@@ -43,12 +43,12 @@ TREAD_HD void reduce(BodyShare& share, const Lanes& lanes)
     share.restitution = lanes.sum(share.restitution);
 }
 
-/// Adds the pairs of one body in the order of the list, those in which it comes first and those in which it comes
-/// second side by side: memory then answers both at a time.
+/// Adds the pairs of one body in the order of the list. Pairs in which it is first and pairs in which it is second are
+/// read in the same iteration, so that the loads overlap.
 struct GatherPairs
 {
     PairsView    pairs;
-    std::int64_t bodies; ///< how many
+    std::int64_t bodies; ///< number of bodies
 
     template<class Lanes>
     TREAD_HD BodyShare operator()(std::int64_t b, const Lanes& lanes) const
@@ -66,7 +66,7 @@ struct GatherPairs
     }
 
 private:
-    // Zero is chosen where there is no pair, after row 0, which is always there, was read: no load waits for a branch.
+    // Selects 0 if there is no pair, after reading row 0, which always exists: loads do not wait for a branch.
     TREAD_HD static double       chosen(bool there, double value) { return there ? value : 0.0; }
     TREAD_HD static Vec3<double> chosen(bool there, const Vec3<double>& value)
     {
@@ -95,7 +95,7 @@ private:
     }
 };
 
-/// Nothing acts on bodies beside other bodies and walls.
+/// No external wrenches on bodies.
 struct NothingOutside
 {
     static constexpr bool acts = false;
@@ -107,7 +107,7 @@ struct NothingOutside
     }
 };
 
-/// Something may.
+/// Sums the external wrenches.
 struct SumOutside
 {
     static constexpr bool acts = true;
@@ -147,13 +147,13 @@ struct Damped
     }
 };
 
-/// One rank has all bodies.
+/// A single rank has all bodies.
 struct Alone
 {
     static constexpr bool of_several = false;
 };
 
-/// Several ranks move bodies, some of them together.
+/// Several ranks integrate bodies, some of them together.
 struct Together
 {
     static constexpr bool of_several = true;
@@ -161,13 +161,13 @@ struct Together
     SharedView shared;
 };
 
-/// Gathers what acts on a body, books it, and moves the body. Of the lanes that share it the first one writes.
+/// Sums the forces on a body, adds them to its ledger, and moves it. Of the lanes that share it, the first one writes.
 /// Damping: Free or Damped; Outside: NothingOutside or SumOutside; Ranks: Alone or Together.
 template<class Damping, class Outside, class Ranks>
 struct Move
 {
     BodiesView    bodies;
-    PairsView     pairs; ///< first = null: none were ever found
+    PairsView     pairs; ///< first = null: pairs were never found
     BodyTotal*    totals;
     NamedImpulses named;
     Vec3<double>  gravity; ///< m/s2
@@ -183,7 +183,7 @@ struct Move
         {
             if (!bodies.is_here(b)) { return; }
         }
-        // Read before the sums, so that memory answers meanwhile.
+        // read before the sums, so that the loads overlap with them
         ContactBody     shown = pairs.body != nullptr ? load(pairs.body + b) : contact_body(bodies, b);
         BodyMotion      body  = motion_of(bodies, b, shown);
         const BodyShare share = pairs.first != nullptr ? GatherPairs{pairs, bodies.count}(b, lanes) : BodyShare::zero();
@@ -211,7 +211,8 @@ private:
         return own;
     }
 
-    /// A guest's motion is booked by its owner. One call moves both: a compiler may round two in two ways.
+    /// Returns the body's totals; the owner accounts for a ghost's motion. One call integrates both kinds, because a
+    /// compiler may round two calls differently.
     TREAD_HD BodyTotal* book_of(std::int64_t b, BodyTotal& unbooked) const
     {
         if constexpr (Ranks::of_several)
@@ -242,14 +243,14 @@ private:
         if (power != 0) { total.sand_work += dt * power; }
     }
 
-    /// What holds a part of the weight does work on the body, as what holds a locked freedom does.
+    /// Adds the work of the constraint that carries a share of the weight, as for locked degrees of freedom.
     TREAD_HD void book_hanging(const Vec3<double>& force, const MeanMotion& mean, BodyTotal& total) const
     {
         total.holding_impulse += dt * force;
         total.holding_work += dt * force.dot(mean.velocity);
     }
 
-    /// To the contacts of the next substep.
+    /// Updates the record that the contacts of the next substep read.
     TREAD_HD static void show(const BodyMotion& body, ContactBody& shown, ContactBody* record)
     {
         shown.position    = body.position;
@@ -260,12 +261,12 @@ private:
     }
 };
 
-/// This rank's share of what acts on a body that others move too.
+/// Computes this rank's share of the wrench on a body that several ranks integrate.
 template<class Outside>
 struct ShareWrench
 {
-    PairsView    pairs;  ///< first = null: none were ever found
-    std::int64_t bodies; ///< how many
+    PairsView    pairs;  ///< first = null: pairs were never found
+    std::int64_t bodies; ///< number of bodies
     Outside      outside;
     SharedView   shared;
 
@@ -279,7 +280,7 @@ struct ShareWrench
     }
 };
 
-/// Calls run with the Move that the motion and the ranks ask for, and `outside`.
+/// Calls run with the Move for the motion's damping and the ranks, and with `outside`.
 template<class Exec, class Outside, class Run>
 void with_damping(const BodyStep<Exec>& step, const Outside& outside, Run run)
 {
@@ -297,16 +298,16 @@ void with_damping(const BodyStep<Exec>& step, const Outside& outside, Run run)
     else { among(Free{}); }
 }
 
-/// Calls run with what acts from outside.
+/// Calls run with the external wrenches.
 template<class Exec, class Run>
 void with_outside(const BodyStep<Exec>& step, Run run)
 {
-    // Of several ranks one may have sand on a body, and another none: both move it by the same code.
+    // One rank may have sand on a body and another none: both must integrate it by the same code.
     if (step.motion.outside.run != nullptr || step.bodies.role != nullptr) { run(SumOutside{step.motion.outside}); }
     else { run(NothingOutside{}); }
 }
 
-/// Calls run with the Move that the motion asks for.
+/// Calls run with the Move for the motion.
 template<class Exec, class Run>
 void with_move(const BodyStep<Exec>& step, Run run)
 {

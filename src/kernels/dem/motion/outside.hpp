@@ -7,12 +7,12 @@
 namespace tread::dem
 {
 
-/// What contacts do to one body, world frame.
+/// Contact wrench on one body, world frame.
 struct ContactWrench
 {
     Vec3<double> force;     ///< N
     Vec3<double> torque;    ///< N m, about the centre of mass
-    double       stiffness; ///< N/m, sum over the contacts
+    double       stiffness; ///< N/m, sum over its contacts
 
     TREAD_HD static ContactWrench zero() { return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0.0}; }
 };
@@ -22,11 +22,11 @@ TREAD_HD ContactWrench operator+(const ContactWrench& a, const ContactWrench& b)
     return {a.force + b.force, a.torque + b.torque, a.stiffness + b.stiffness};
 }
 
-/// What acts on bodies beside other bodies and walls, in parts: whoever moves a body adds up its own.
+/// External wrenches on bodies (not from other bodies or walls), in parts that the integration sums for each body.
 struct OutsideWrenches
 {
-    const std::int32_t*  run   = nullptr; ///< [bodies], of the body's parts; -1 = none; null: nothing acts on any
-    const std::int32_t*  first = nullptr; ///< [runs + 1], the parts of each run
+    const std::int32_t*  run   = nullptr; ///< [bodies], run of the body's parts; -1 = none; null: none for any body
+    const std::int32_t*  first = nullptr; ///< [runs + 1], first part of each run
     const ContactWrench* part  = nullptr;
 };
 

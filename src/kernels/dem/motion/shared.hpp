@@ -5,41 +5,41 @@
 
 #include "kernels/dem/motion/outside.hpp"
 
-// Bodies that several ranks move, each for its own contacts with them: all add up what all found, by rank, and so reach
-// the same bits, and none has to tell another where a body went.
+// Shared bodies: several ranks integrate them, each computing its own contacts with them. All ranks add the shares of
+// all ranks in rank order and so reach the same bits; positions need not be exchanged.
 namespace tread::dem
 {
 
-/// What one rank's contacts do to a body.
+/// Contact wrench on a body from one rank's contacts.
 struct WrenchShare
 {
     ContactWrench outside; ///< from sand
     ContactWrench pairs;   ///< from bodies and walls
 };
 
-/// What a body's contacts will ask of the substep, of one rank's pairs (contact_limits.hpp). N/m.
+/// Expected stiffness of a body's contacts from one rank's pairs, which limits the substep (contact_limits.hpp). N/m.
 struct StiffnessShare
 {
-    double touches;  ///< first touches of pairs that are apart; in a bed most of them will not come to be
-    double approach; ///< what touches and what comes nearer
+    double touches;  ///< first touches of separated pairs; in a bed most of them do not come about
+    double approach; ///< pairs in contact and pairs that approach
 };
 
 struct SharedView
 {
-    std::int64_t        count = 0;       ///< bodies that this rank moves with others
+    std::int64_t        count = 0;       ///< number of bodies that this rank integrates together with others
     const std::int32_t* body  = nullptr; ///< [count], ascending
-    const std::int32_t* place = nullptr; ///< [bodies], in `body`; -1: no other rank moves it; null: there is one rank
-    const std::int32_t* first = nullptr; ///< [count + 1], the shares of each body
-    const std::int32_t* row   = nullptr; ///< in the two below, by rank
+    const std::int32_t* place = nullptr; ///< [bodies], index in `body`; -1: not shared; null: there is one rank
+    const std::int32_t* first = nullptr; ///< [count + 1], first share of each body
+    const std::int32_t* row   = nullptr; ///< row in the arrays below, by rank
 
-    WrenchShare*    wrench    = nullptr; ///< [rows], this rank's own first, [count]
-    StiffnessShare* stiffness = nullptr; ///< likewise
-    double*         speed     = nullptr; ///< likewise: m/s, of the fastest body near it
+    WrenchShare*    wrench    = nullptr; ///< [rows], this rank's own shares first: [count]
+    StiffnessShare* stiffness = nullptr; ///< [rows], likewise
+    double*         speed     = nullptr; ///< [rows], likewise: m/s, maximum speed of the bodies near it
 
     TREAD_HD bool is_shared(std::int64_t b) const { return place != nullptr && place[b] >= 0; }
 };
 
-/// The shares of body[i] together.
+/// Sums the wrench shares of body[i] over ranks.
 TREAD_HD WrenchShare wrench_of(const SharedView& shared, std::int64_t i)
 {
     WrenchShare sum{ContactWrench::zero(), ContactWrench::zero()};
@@ -51,7 +51,7 @@ TREAD_HD WrenchShare wrench_of(const SharedView& shared, std::int64_t i)
     return sum;
 }
 
-/// The largest of the shares of body[i].
+/// Maximum over ranks of the speed shares of body[i].
 TREAD_HD double speed_of_all(const SharedView& shared, std::int64_t i)
 {
     double largest = 0;

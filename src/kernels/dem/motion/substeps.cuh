@@ -6,14 +6,14 @@
 #include "kernels/dem/motion/move_impl.hpp"
 #include "kernels/dem/motion/substeps.hpp"
 
-// The parts of a substep of bodies, for sequences that run on the device alone (backend/repeat.cuh).
+// Parts of a substep of bodies, for sequences in one launch (backend/repeat.cuh).
 namespace tread::dem
 {
 
 inline constexpr int repeat_threads = 128, repeat_blocks_an_sm = 4;
 
-/// Fewer pairs than fill the device: waiting between launches would be most of a substep. Resistance to rolling has a
-/// launch of its own.
+/// Whether there are too few pairs to fill the device, so that launch latency would dominate a substep. Rolling
+/// resistance has a separate launch.
 inline bool worth_one_launch(Pairs<Gpu>& pairs)
 {
     constexpr std::int64_t few = 50000;

@@ -5,7 +5,7 @@
 namespace tread::dem
 {
 
-/// evaluate_contacts and move_bodies, `count` times, with motion.dt (s). The host has no part in them. Allocates
+/// Runs evaluate_contacts and move_bodies `count` times with motion.dt (s), without host work in between. Allocates
 /// nothing.
 void run_substeps(const Cpu&, const BodyStep<Cpu>& step, std::int64_t count);
 void run_substeps(const Gpu&, const BodyStep<Gpu>& step, std::int64_t count);

@@ -6,18 +6,18 @@
 namespace tread::dem
 {
 
-/// All bodies together. Energies in J.
+/// Sums over all bodies. Energies in J.
 struct BodySums
 {
     double       kinetic;   ///< translation and rotation
     double       potential; ///< -m g . x
     Vec3<double> momentum;  ///< N s
     Vec3<double> spin;      ///< N m s, angular momentum about the world's origin
-    double       contact;   ///< held by normal tractions and by the springs of patches, of the last substep
+    double       contact;   ///< elastic energy of normal tractions and of the patches' springs, of the last substep
     BodyTotal    total;     ///< since the totals were cleared
 };
 
-/// Fixed-order sums; waits for the backend. gravity in m/s2.
+/// Computes the sums in a fixed order; waits for the backend. gravity in m/s2.
 BodySums sum_bodies(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyTotals<Cpu>& totals,
                     const Vec3<double>& gravity);
 BodySums sum_bodies(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyTotals<Gpu>& totals,

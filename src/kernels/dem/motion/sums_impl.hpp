@@ -3,11 +3,11 @@
 #include "backend/reduce.hpp"
 #include "kernels/dem/motion/sums.hpp"
 
-// The steps of sum_bodies, the same on both backends; sums.cpp and sums.cu bring in for_each.
+// Steps of sum_bodies, for both backends; sums.cpp and sums.cu provide for_each.
 namespace tread::dem::sums
 {
 
-/// The part of BodySums that is a sum of one value a body.
+/// The part of BodySums that is a sum of one value per body.
 struct BodyRow
 {
     double       kinetic;

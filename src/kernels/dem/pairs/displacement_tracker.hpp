@@ -4,11 +4,12 @@
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/templates.hpp"
 
-// Whether the list of pairs still holds: a body that is hit within a step may go further than the search allowed for.
+// Checks that the list of pairs is still valid: a body that is hit within a step may be displaced further than the
+// search allowed.
 namespace tread::dem
 {
 
-/// Where bodies stood when their pairs were found.
+/// Positions of the bodies when their pairs were found.
 template<class Exec>
 struct DisplacementTracker
 {
@@ -21,22 +22,24 @@ struct DisplacementTracker
 
     Array<Exec, Vec3<double>> position;
     Array<Exec, Quat>         orientation;
-    Array<Exec, double>       share; ///< of its allowed travel that each body used, and then the largest
+    Array<Exec, double>       share; ///< share of its allowed displacement that each body used, followed by the maximum
 };
 
-/// Remembers the bodies as they are, after find_pairs.
+/// Stores the present positions of the bodies; call after find_pairs.
 void mark_places(const Cpu&, DisplacementTracker<Cpu>& tracker, const BodiesView& bodies);
 void mark_places(const Gpu&, DisplacementTracker<Gpu>& tracker, const BodiesView& bodies);
 
-/// The largest share of its allowed travel (m, of every body) that any point of a body has moved since; tracker.share
-/// holds all. Up to 1 no pair is missing from the list. Infinite for a body that is nowhere. Returns where the backend
-/// will have it.
+/// Computes the displacement of every body's furthest point since mark_places as a share of the body's allowed
+/// displacement (m), and its maximum; tracker.share holds all. No pair is missing from the list while the maximum is at
+/// most 1. It is infinite for a body without a finite position. Returns the address of the maximum in the backend's
+/// memory.
 const double* largest_displacement(const Cpu&, DisplacementTracker<Cpu>& tracker, const BodiesView& bodies,
                                    const TemplateView* templates, const double* travel);
 const double* largest_displacement(const Gpu&, DisplacementTracker<Gpu>& tracker, const BodiesView& bodies,
                                    const TemplateView* templates, const double* travel);
 
-/// The same when the bodies go on for the steps ahead of `ahead` (s), and with what must be left for a body at rest.
+/// Computes the same share with the displacement extrapolated over the coming steps of `ahead` (s) each, plus a reserve
+/// for bodies at rest.
 const double* largest_displacement_ahead(const Cpu&, DisplacementTracker<Cpu>& tracker, const BodiesView& bodies,
                                          const TemplateView* templates, const double* travel, double ahead);
 const double* largest_displacement_ahead(const Gpu&, DisplacementTracker<Gpu>& tracker, const BodiesView& bodies,

@@ -6,12 +6,12 @@
 #include "kernels/dem/pairs/displacement_tracker.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
 
-// The steps of displacement_tracker.hpp, the same on both backends; displacement_tracker.cpp and .cu bring in for_each.
+// Steps of displacement_tracker.hpp, for both backends; displacement_tracker.cpp and .cu provide for_each.
 namespace tread::dem::displacement_steps
 {
 
-/// A turn by the angle t moves no point further than 2 sin(t/2) of the bounding radius; a quaternion's vector part is
-/// sin(t/2) long.
+/// Measures displacements. A rotation by the angle t moves no point further than 2 sin(t/2) times the bounding radius;
+/// the norm of a quaternion's vector part is sin(t/2).
 struct Measure
 {
     BodiesView          bodies;

@@ -5,8 +5,7 @@
 #include "backend/reduce.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
 
-// The search for pairs whose bounding spheres and surfaces may meet, the same on both backends. Include after a
-// backend's for_each.
+// Search for pairs whose bounding spheres and surfaces may meet, for both backends. Include after a backend's for_each.
 namespace tread::dem::pair_steps
 {
 
@@ -59,7 +58,7 @@ struct WritePairs
     }
 };
 
-/// Bodies in the cells of a grid as wide as the widest pair; returns the width.
+/// Sorts the bodies into the cells of a grid as wide as the widest pair; returns the cell width.
 template<class Exec>
 double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {

@@ -14,11 +14,11 @@
 #include "kernels/dem/motion/shared.hpp"
 #include "kernels/dem/templates.hpp"
 
-// Which bodies may touch which, and which walls, and by which nodes: found for some steps to come, frozen in between.
+// Contact lists: body pairs, body-wall pairs and their nodes, found for several coming steps and constant in between.
 namespace tread::dem
 {
 
-/// The body-body law and its tables, in a backend's memory.
+/// The body-body contact law and its tables, in a backend's memory.
 struct BodyLaw
 {
     const TemplateView* templates;
@@ -26,13 +26,14 @@ struct BodyLaw
     const Plane*        planes;
     std::int32_t        plane_count;
     ContactOptions      options;
-    const RayView*      rays = nullptr; ///< of the templates; null: bodies meet by their distance fields
+    const RayView*      rays = nullptr; ///< rays of the templates; null: bodies touch through their distance fields
 };
 
-/// The lowest bits of a key number the patches of a pair that touches in several (patches.hpp): 0 of any other.
+/// Number of lowest bits of a key that number the patches of a pair that touches in several (patches.hpp); 0 for other
+/// pairs.
 inline constexpr int patch_bits = 3;
 
-/// Bodies and walls that keys can tell apart.
+/// Maximum number of bodies and walls that keys can distinguish.
 inline constexpr std::int64_t most_bodies = std::int64_t{1} << (32 - patch_bits);
 
 /// Key of a pair, a < b; the wall `plane` has b = bodies + plane, below most_bodies.
@@ -45,11 +46,12 @@ TREAD_HD std::int64_t second_of(std::uint64_t key)
 {
     return static_cast<std::int64_t>((key & 0xffffffffu) >> patch_bits);
 }
-/// The key without the number of a patch.
+/// Returns the key without the patch number.
 TREAD_HD std::uint64_t whole_pair(std::uint64_t key) { return key >> patch_bits << patch_bits; }
 TREAD_HD bool same_pair(std::uint64_t one, std::uint64_t other) { return one >> patch_bits == other >> patch_bits; }
 
-/// Bits of a word in PairsView::inside; words that hold so many nodes, and one more, which a run may read past its end.
+/// Number of bits in a word of PairsView::inside, and the number of words for so many nodes plus one extra, because a
+/// run may read past its end.
 inline constexpr std::int32_t nodes_of_word = 32;
 inline std::int64_t           node_words(std::int64_t nodes) { return nodes / nodes_of_word + 2; }
 
@@ -58,26 +60,26 @@ struct PairsView
     std::int64_t         count;
     const std::uint64_t* key; ///< ascending
     Patch*               patch;
-    double*              peak;      ///< m, largest overlap since the pairs were found
-    const std::int32_t*  first;     ///< [bodies + 1], the run of pairs whose first body is this one
+    double*              peak;      ///< m, maximum overlap since the pairs were found
+    const std::int32_t*  first;     ///< [bodies + 1], first pair of each body's run as first body
     const std::int32_t*  by_second; ///< pairs ordered by their second body
-    const std::int32_t*  second;    ///< [bodies + 1], the run in by_second of this body
-    Rolling*             rolling;   ///< null where no pair of materials has rolling friction
+    const std::int32_t*  second;    ///< [bodies + 1], first entry of each body's run in by_second
+    Rolling*             rolling;   ///< null if no pair of materials has rolling friction
     AnswersView          answers;   ///< of the last substep
-    ContactBody*         body;      ///< of every body
+    ContactBody*         body;      ///< record of every body
 
-    const double*       travel;     ///< m, of every body, that the list allows for
-    const std::int32_t* first_node; ///< [pairs + 1], the run of nodes that may touch, of each pair
+    const double*       travel;     ///< m, displacement of every body for which the list is valid
+    const std::int32_t* first_node; ///< [pairs + 1], first node of each pair's run of nodes that may touch
     const std::int32_t* node;       ///< i of the first body, ~i of the second
-    const std::int32_t* many;       ///< pairs of over many_nodes (contact_nodes.hpp)
+    const std::int32_t* many;       ///< pairs with more than many_nodes nodes (contact_nodes.hpp)
     std::int64_t        many_count;
     const std::int32_t* pair_of_node;
     std::int64_t        node_count;
-    FoundNode*          found_node; ///< of the last look
-    std::uint32_t*      inside;     ///< [node_words], bit i of all: node i was inside at the last look
+    FoundNode*          found_node; ///< result of the last check of the nodes
+    std::uint32_t*      inside;     ///< [node_words], bit i of all: node i was inside at the last check
 };
 
-/// Owner of what PairsView shows, and of the search's scratch.
+/// Memory of PairsView, and scratch memory of the search.
 template<class Exec>
 struct Pairs
 {
@@ -136,19 +138,21 @@ struct Pairs
     Array<Exec, std::int32_t>  by_second;
     Array<Exec, std::int32_t>  second;
     Array<Exec, Rolling>       rolling;            ///< empty unless resists_rolling
-    Array<Exec, double>        expected_stiffness; ///< N/m, of each body (contact_limits.hpp)
+    Array<Exec, double>        expected_stiffness; ///< N/m, per body (contact_limits.hpp)
 
-    Array<Exec, std::int32_t> large;     ///< bodies that never enter the cell grid
-    Array<Exec, std::int32_t> is_large;  ///< of every body
-    Array<Exec, double>       node_area; ///< m2, mean of each body's nodes
+    Array<Exec, std::int32_t> large;     ///< bodies that are not in the cell grid
+    Array<Exec, std::int32_t> is_large;  ///< per body
+    Array<Exec, double>       node_area; ///< m2, mean node area of each body
 
     Array<Exec, std::uint64_t> last_key;
     Array<Exec, Patch>         last_patch;
-    Array<Exec, double>        travel; ///< m, of each body: how far it may move until the pairs are found anew
+    Array<Exec, double>        travel; ///< m, allowed displacement of each body until the pairs are found again
     Array<Exec, Rolling>       last_rolling;
-    Array<Exec, double>        reach; ///< m, of each body: its bounding radius and travel; 0 = not in the cell grid
-    Array<Exec, double>        speed; ///< m/s, of each body's fastest point, when the search began
-    Array<Exec, double>        more_travel; ///< bounding radii, of each owned body: what a step more would need
+    Array<Exec, double>
+        reach; ///< m, search radius of each body: its bounding radius plus travel; 0 = not in the cell grid
+    Array<Exec, double> speed; ///< m/s, maximum speed over each body's points at the start of the search
+    Array<Exec, double>
+        more_travel; ///< bounding radii, of each owned body: extra Verlet skin needed for one further step
     Array<Exec, std::uint64_t> cell_key;
     Array<Exec, std::int32_t>  cell_body;
     Array<Exec, std::int32_t>  found;
@@ -159,54 +163,57 @@ struct Pairs
     Array<Exec, std::int32_t>  pair_of_node;
     Array<Exec, FoundNode>     found_node;
     Array<Exec, std::uint32_t> inside;
-    Array<Exec, std::int32_t>  many; ///< empty on the host, where one lane takes any pair
+    Array<Exec, std::int32_t>  many; ///< empty on the host, where one lane handles any pair
     SortScratch<Exec>          sort;
     Patches<Exec>              patches;
-    bool                       resists_rolling = false; ///< some pair of materials has rolling friction
+    bool                       resists_rolling = false; ///< whether some pair of materials has rolling friction
 };
 
-/// Once, and again when bodies come, go or change places: sorts them by size. A body more than 4 times larger than the
-/// median is tested against all others instead of entering the cell grid, whose cells would be its size.
+/// Sorts the bodies by size; call once, and again when bodies are added, removed or reordered. A body more than 4 times
+/// larger than the median is tested against all others instead of entering the cell grid, because it would set the cell
+/// size.
 template<class Exec>
 void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates);
 
-/// Copies what contacts ask of the bodies; again when anything but move_bodies has changed them. find_pairs does.
+/// Copies the body data that contacts read. Needed again after anything but move_bodies has changed the bodies;
+/// find_pairs calls it.
 template<class Exec>
 void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
 
-/// Every pair of bodies, and of body and wall, that may touch within the next dt (s, of the MPM step), and of each the
-/// nodes that may come inside the other side (contact_nodes.hpp): none is missed while no point of a body moves further
-/// than pairs.travel. Patches of pairs that stay in the list are kept. `substeps`: of such a step, for how long the
-/// list should last.
+/// Finds every pair of bodies, and of body and wall, that may touch within the next dt (s, of the MPM step), and the
+/// nodes of each pair that may enter the other body (contact_nodes.hpp). The lists are complete while no point of a
+/// body moves further than pairs.travel. Patches of pairs that stay in the list are kept. `substeps`: number of
+/// substeps of such a step; it sets how many steps the list should remain valid.
 template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                 double substeps = 1);
 
-/// find_pairs in parts, between which several ranks agree. First: the present list becomes the last one, and
+/// find_pairs in parts, between which ranks exchange data. First part: the present list becomes the previous one, and
 /// pairs.speed is measured.
 template<class Exec>
 void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// On several ranks: this rank's shares of shared.speed, which the others are to have.
+/// Computes this rank's shares of shared.speed, which are then exchanged; several ranks only.
 template<class Exec>
 void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared);
 
-/// Second: pairs.more_travel, and its sum in pairs.measure, which the caller replaces by that of all ranks.
+/// Second part: computes pairs.more_travel and its sum in pairs.measure; the caller replaces the sum by that of all
+/// ranks.
 template<class Exec>
 void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                           const SharedView& shared);
 
-/// Third: pairs.travel of owned bodies. The owners send that of guests.
+/// Third part: computes pairs.travel of owned bodies; owners send it to ghosts.
 template<class Exec>
 void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                         double substeps);
 
-/// Last: the list, of the pairs that this rank answers.
+/// Last part: lists the pairs that this rank evaluates.
 template<class Exec>
 void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// Of a list that was loaded (pairs.key, patch, rolling, travel, first_node, node, and of patches place and several):
-/// all that list_pairs makes of these. Overlaps are as of a new list.
+/// Rebuilds everything that list_pairs derives, from a loaded list (pairs.key, patch, rolling, travel, first_node,
+/// node, and place and several of patches). Overlaps start as for a new list.
 template<class Exec>
 void resume_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
 

@@ -7,14 +7,14 @@
 #include "kernels/dem/pairs/pair_search_impl.hpp"
 #include "kernels/dem/pairs/travel_impl.hpp"
 
-// The steps of find_pairs, the same on both backends; pairs.cpp and pairs.cu bring in for_each and instantiate.
+// Steps of find_pairs, for both backends; pairs.cpp and pairs.cu provide for_each and instantiate.
 namespace tread::dem
 {
 namespace pair_steps
 {
 
-/// What only the search needs and what only the substeps need are never there at the same time: each gives its memory
-/// back when the other begins, and takes no more than it wants.
+/// Releases memory. Arrays of the search and those of the substeps never exist at the same time: each phase releases
+/// its memory when the other begins, and allocates no more than it needs.
 template<class... Arrays>
 void release_memory(Arrays&... arrays)
 {
@@ -74,10 +74,10 @@ struct KeepPairs
 {
     std::int64_t         count;
     const std::uint64_t* key;
-    const std::int32_t*  nodes; ///< of each pair; below 0: none, but kept
+    const std::int32_t*  nodes; ///< of each pair; negative: none, but the pair is kept
     const std::int32_t*  place; ///< [pairs + 1], after the scan
     std::uint64_t*       kept_key;
-    std::int32_t*        kept_nodes; ///< and a zero for the scan's end
+    std::int32_t*        kept_nodes; ///< followed by a zero for the end of the scan
 
     TREAD_HD void operator()(std::int64_t p) const
     {
@@ -88,7 +88,7 @@ struct KeepPairs
     }
 };
 
-/// What every pair of a new list starts with, and its place in the order by second body.
+/// Initialises every pair of a new list and its place in the order by second body.
 struct Renew
 {
     PairsView      pairs;
@@ -103,7 +103,7 @@ struct Renew
     }
 };
 
-/// Where each pair is in the order by second body.
+/// Finds the place of each pair in the order by second body.
 struct Place
 {
     const std::int32_t* by_second;
@@ -119,7 +119,7 @@ struct ClearAnswers
     TREAD_HD void operator()(std::int64_t p) const { answers.store(p, answers.place[p], no_response()); }
 };
 
-/// The patch of a pair that was in the last list.
+/// Restores the patch of a pair that was in the previous list.
 struct Recall
 {
     PairsView            pairs;
@@ -151,7 +151,7 @@ struct WriteRuns
     }
 };
 
-/// Of each node in the list, its pair.
+/// Writes the pair of each node in the list.
 struct WritePairsOfNodes
 {
     const std::int32_t* first_node; ///< [pairs + 1]
@@ -166,7 +166,7 @@ struct WritePairsOfNodes
     }
 };
 
-/// All that follows from the keys alone.
+/// Rebuilds everything that follows from the keys alone.
 template<class Exec>
 void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
@@ -184,7 +184,8 @@ void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
              WriteRuns{count, pairs.key.data(), pairs.second_key.data(), pairs.first.data(), pairs.second.data()});
 }
 
-/// Leaves out the pairs that no node can join, and orders the rest: bounding spheres meet far more often than surfaces.
+/// Removes the pairs without any node that may touch, and orders the rest: bounding spheres meet far more often than
+/// surfaces.
 template<class Exec>
 void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
@@ -202,12 +203,13 @@ void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesVie
     pairs.key.swap(pairs.second_key);
     pairs.first_node.swap(pairs.by_second);
     release_memory(pairs.second_key, pairs.by_second, pairs.found);
-    sort_by_key(exec, pairs.key, pairs.first_node, pairs.sort, 32 + bits_below(bodies.count)); // its last zero stays
+    sort_by_key(exec, pairs.key, pairs.first_node, pairs.sort,
+                32 + bits_below(bodies.count)); // the final zero keeps its place
     pairs.node.resize(exclusive_scan(exec, pairs.first_node, pairs.sort));
     list_contact_nodes(exec, pairs, bodies, law);
 }
 
-/// What the substeps had of a list.
+/// Releases the substeps' memory of a list.
 template<class Exec>
 void end_substeps(Pairs<Exec>& pairs)
 {
@@ -215,7 +217,7 @@ void end_substeps(Pairs<Exec>& pairs)
     release_memory(pairs.node, pairs.pair_of_node, pairs.found_node, pairs.inside, pairs.first_node);
 }
 
-/// What they need beside the list.
+/// Allocates and initialises the substeps' arrays in addition to the list.
 template<class Exec>
 void begin_substeps(const Exec& exec, Pairs<Exec>& pairs)
 {

@@ -8,15 +8,15 @@
 namespace tread::dem
 {
 
-/// What a list of pairs allows a body beyond its own motion, in bounding radii: a body at rest may be set going. At a
-/// step's start at least half of it must be left.
+/// Verlet skin: displacement that a list of pairs allows a body beyond its own motion, in bounding radii, because a
+/// body at rest may be set in motion. At least half of it must be left at the start of a step.
 inline constexpr double search_skin = 0.003, rest_reserve = 0.5 * search_skin;
 
-/// Steps of a body's motion that a list must have left at a step's start: the present one, and the next, whose contacts
-/// are expected (contact_limits.hpp).
+/// Number of steps of a body's motion for which a list must still be valid at the start of a step: the present step,
+/// and the next, whose contacts are expected (contact_limits.hpp).
 inline constexpr double steps_ahead = 2.1;
 
-/// m/s, that no point of a body with this bounding radius (m) exceeds.
+/// Upper bound of the speed of a body's points, m/s; `radius` = bounding radius, m.
 TREAD_HD double speed_of(const BodiesView& bodies, std::int64_t b, double radius)
 {
     return bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius;
@@ -27,27 +27,28 @@ TREAD_HD double bounding_radius(const BodiesView& bodies, const TemplateView* te
     return templates[bodies.shape[b]].bounding_radius * bodies.scale[b];
 }
 
-/// How far any point of a body may move until the pairs are found anew, in bounding radii.
+/// Displacement of any point of a body until the pairs are found again, in bounding radii.
 struct Travel
 {
-    double least; ///< what it will in the steps ahead, and the skin
-    double more;  ///< what it may in each step that a list lasts beyond the first
+    double least; ///< expected displacement over steps_ahead, plus the skin
+    double more;  ///< additional displacement for each step that a list lasts beyond the first
 };
 
-/// More than this nobody gets: cells of the search grid are as wide as the widest reach.
+/// Upper limit of the additional displacement: the cells of the search grid are as wide as the largest search radius.
 inline constexpr double most_more = 0.2;
 
-/// Of a body with this speed among others with speeds up to `near` (m/s): it may soon be as fast.
+/// Computes the displacement of a body with this speed among bodies with speeds up to `near` (m/s), which it may soon
+/// reach.
 TREAD_HD Travel travel_of(double radius, double speed, double near, double dt)
 {
     const double a_step = radius > 0 ? dt / radius : 0.0;
     return {steps_ahead * a_step * speed + search_skin, std::fmin(a_step * near, most_more)};
 }
 
-/// Steps that a list should last beyond the first, where a step has so many substeps and bodies go `mean` (bounding
-/// radii) in one. With every radius that all go further a substep looks up more nodes, whose time is 1 / `worth` of a
-/// search's (53,000 rocks on an H200); so a step costs substeps mean steps / worth + 1 / (1 + steps) searches, which is
-/// least here. Nodes also take memory: no more than for `mean_more`.
+/// Number of steps that a list should last beyond the first, if a step has `substeps` substeps and bodies move by
+/// `mean` (bounding radii) in one step. For every radius of additional displacement a substep evaluates more nodes,
+/// which takes 1 / `worth` of the time of a search; a step therefore costs substeps mean steps / worth + 1 / (1 +
+/// steps) searches, and the result minimises this. Nodes also take memory, which `mean_more` limits.
 TREAD_HD double steps_to_last(double mean, double substeps)
 {
     constexpr double worth = 1.5, most_steps = 60, mean_more = 0.01;
@@ -56,7 +57,7 @@ TREAD_HD double steps_to_last(double mean, double substeps)
     return std::fmin(std::fmax(cheapest, 0.0), std::fmin(mean_more / mean, most_steps));
 }
 
-/// A body as the search sees it.
+/// Size of a body in the search.
 struct Reach
 {
     double bounding; ///< m, radius of the bounding sphere
@@ -70,7 +71,7 @@ TREAD_HD Reach reach_of(const BodiesView& bodies, const TemplateView* templates,
     return {bounding_radius(bodies, templates, b), travel[b]};
 }
 
-/// Whether the bounding spheres can meet.
+/// Whether the bounding spheres may meet.
 TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates, const double* travel, std::int64_t a,
                         std::int64_t b)
 {
@@ -79,8 +80,8 @@ TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates,
     return (bodies.position[a] - bodies.position[b]).squaredNorm() <= together * together;
 }
 
-/// Whether the surface of body b's template can come within the other's grown bounding sphere. What is inside the
-/// interpolated surface is within its uncertainty of the true one.
+/// Whether the surface of body b's template can enter the other body's extended bounding sphere. Points inside the
+/// interpolated surface are within its error of the true surface.
 TREAD_HD bool surface_near(const BodiesView& bodies, const TemplateView* templates, std::int64_t b,
                            const Vec3<double>& centre, double reach)
 {
@@ -91,7 +92,7 @@ TREAD_HD bool surface_near(const BodiesView& bodies, const TemplateView* templat
            furthest + sdf_uncertainty(shape, scale, furthest);
 }
 
-/// Whether each body's surface can come within the other's bounding sphere: most pairs whose spheres meet fail here.
+/// Whether each body's surface can enter the other's bounding sphere: most pairs whose spheres meet fail this test.
 TREAD_HD bool surfaces_near(const BodiesView& bodies, const TemplateView* templates, const double* travel,
                             std::int64_t a, std::int64_t b)
 {
@@ -106,11 +107,11 @@ TREAD_HD bool may_touch_plane(const BodiesView& bodies, const TemplateView* temp
     return plane.normal.dot(bodies.position[b]) - plane.offset <= reach_of(bodies, templates, travel, b).total();
 }
 
-/// Cells of the search grid: 21 bits an axis, x lowest, so that neighbours along x have consecutive keys.
+/// Cells of the search grid: 21 bits per axis, x lowest, so that neighbours along x have consecutive keys.
 inline constexpr std::int32_t  cell_bias = 1 << 20;
 inline constexpr std::uint64_t no_cell   = ~std::uint64_t{0};
 
-/// Held to the range that has keys: a body may be anywhere.
+/// Returns the cell coordinate, clamped to the range of keys, because a body may be anywhere.
 TREAD_HD std::int64_t cell_coordinate(double position, double size)
 {
     const double cell = std::floor(position / size), limit = cell_bias - 2;
@@ -122,20 +123,21 @@ TREAD_HD std::uint64_t cell_key_of(std::int64_t x, std::int64_t y, std::int64_t 
     return static_cast<std::uint64_t>(z << 42 | y << 21 | x);
 }
 
-/// Of several ranks that one answers a pair, a < b, which owns this body of it: the second, but the small one beside a
-/// large, which may be near many ranks.
+/// Returns the body whose owner evaluates the pair a < b if there are several ranks: the second body, or the small one
+/// of a small and a large body, because a large one may be near many ranks.
 TREAD_HD std::int64_t decider_of(const std::int32_t* is_large, std::int64_t a, std::int64_t b)
 {
     return is_large[b] > is_large[a] ? a : b;
 }
 
-/// Finds the pairs of one body, each pair with one of its two bodies only. In parts, so that few bodies fill a device.
+/// Finds the pairs of one body; each pair is found from only one of its two bodies. The search is split into parts, so
+/// that few bodies fill a device.
 struct PairSearch
 {
     BodiesView           bodies;
     BodyLaw              law;
     const double*        travel;
-    double               cell_size; ///< m, at least twice the largest reach in the grid
+    double               cell_size; ///< m, at least twice the maximum search radius in the grid
     const std::uint64_t* cell_key;  ///< ascending
     const std::int32_t*  cell_body;
     const std::int32_t*  large;
@@ -149,14 +151,14 @@ struct PairSearch
         return bodies.is_owned(decider_of(is_large, a, b)) && bodies.is_here(a) && bodies.is_here(b);
     }
 
-    /// Exact spheres are as large as their bounding spheres.
+    /// Whether two bodies may touch; the bounding sphere of an exact sphere is its surface.
     TREAD_HD bool near(std::int64_t a, std::int64_t b) const
     {
         return may_touch(bodies, law.templates, travel, a, b) &&
                ((is_sphere(a) && is_sphere(b)) || surfaces_near(bodies, law.templates, travel, a, b));
     }
 
-    /// Parts of a body's search: rows of cells around its own, and what is in none.
+    /// Parts of a body's search: the rows of cells around its own cell, and everything that is not in the cell grid.
     static constexpr std::int64_t cell_rows = 9, parts = cell_rows + 1;
 
     template<class Visit>
@@ -185,7 +187,7 @@ private:
         }
     }
 
-    /// Large bodies, and walls.
+    /// Visits pairs with large bodies and walls.
     template<class Visit>
     TREAD_HD void beside_cells(std::int64_t a, Visit visit) const
     {

@@ -2,7 +2,7 @@
 
 #include "kernels/dem/pairs/pairs_impl.hpp"
 
-// The steps of resume_list, the same on both backends; pairs.cpp and pairs.cu bring in for_each and instantiate.
+// Steps of resume_list, for both backends; pairs.cpp and pairs.cu provide for_each and instantiate.
 namespace tread::dem
 {
 

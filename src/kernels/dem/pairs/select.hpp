@@ -5,7 +5,7 @@
 #include "backend/array.hpp"
 #include "backend/sort.hpp"
 
-// Lists of what a predicate holds for, in order. Include after a backend's for_each.
+// Ordered lists of the indices that satisfy a predicate. Include after a backend's for_each.
 namespace tread::dem
 {
 namespace select_steps
@@ -34,7 +34,7 @@ struct Write
 
 } // namespace select_steps
 
-/// `list` = the i in [0, count) that is(i) holds for, ascending; `place` is scratch.
+/// Fills `list` with the i in [0, count) for which is(i) holds, ascending; `place` is scratch.
 template<class Exec, class Is>
 void select(const Exec& exec, const char* name, std::int64_t count, const Is& is, Array<Exec, std::int32_t>& place,
             SortScratch<Exec>& scratch, Array<Exec, std::int32_t>& list)

@@ -3,7 +3,7 @@
 #include "backend/reduce.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
 
-// How far each body may move until the pairs are found anew, the same on both backends. Include after a backend's
+// Allowed displacement of each body until the pairs are found again, for both backends. Include after a backend's
 // for_each.
 namespace tread::dem
 {
@@ -22,19 +22,20 @@ struct WriteSpeed
     }
 };
 
-/// The last list, for who was near whom.
+/// The previous list, for the neighbours of each body.
 struct LastPairs
 {
     const std::uint64_t* key;
-    const std::int32_t*  first; ///< as PairsView's; null where there was no list
+    const std::int32_t*  first; ///< as in PairsView; null if there was no list
     const std::int32_t*  by_second;
     const std::int32_t*  second;
 };
 
-/// m/s, of the fastest body that was near this one in the last list. A large one has too many near it to ask.
+/// Maximum speed, m/s, of a body and its neighbours in the previous list. The neighbours of a large body are not
+/// searched, because there are too many.
 struct FastestNear
 {
-    std::int64_t        bodies; ///< how many
+    std::int64_t        bodies; ///< number of bodies
     const std::int32_t* is_large;
     LastPairs           last;
     const double*       speed;
@@ -56,7 +57,7 @@ struct FastestNear
     }
 };
 
-/// This rank's share of the same.
+/// Computes this rank's share of FastestNear.
 struct ShareFastestNear
 {
     FastestNear near;
@@ -76,7 +77,7 @@ struct FastestNearOfAllRanks
     }
 };
 
-/// What an owned body would have of Travel::more. Near: FastestNear or FastestNearOfAllRanks.
+/// Computes Travel::more of an owned body. Near: FastestNear or FastestNearOfAllRanks.
 template<class Near>
 struct WriteMore
 {
@@ -106,7 +107,7 @@ struct WriteReach
     double              substeps;
     const double*       speed;
     const double*       more;
-    const double*       sum; ///< of `more`
+    const double*       sum; ///< sum of `more`
     double*             travel;
     double*             reach;
 
@@ -120,7 +121,7 @@ struct WriteReach
     }
 };
 
-/// Of bodies whose travel their owner has told.
+/// Recomputes the search radius of bodies whose allowed displacement came from their owner.
 struct WriteReachAgain
 {
     BodiesView          bodies;
@@ -154,7 +155,7 @@ void write_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
     for_each(exec, "body speeds", bodies.count, WriteSpeed{bodies, law.templates, pairs.speed.data()});
 }
 
-/// On several ranks: guests have their travel from elsewhere.
+/// Recomputes search radii on several ranks: ghosts receive their allowed displacement from their owners.
 template<class Exec>
 void reach_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {

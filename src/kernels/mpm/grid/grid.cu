@@ -13,15 +13,15 @@ namespace
 
 constexpr int grid_warps   = 4;
 constexpr int grid_threads = grid_warps * warp_size;
-/// On a multiprocessor: fp64 needs twice the registers.
+/// Number of blocks per multiprocessor; fp64 needs twice the registers.
 template<class Real>
 constexpr int grid_blocks = sizeof(Real) == 4 ? 8 : 4;
 
-/// Of a lane's two nodes, neighbours along x.
+/// The two nodes of a lane, neighbours along x.
 template<class Real>
 using Pair = Pack<Real, 2>;
 
-/// A warp a node page, a lane two nodes.
+/// Updates the nodes of the pages: one warp per node page, two nodes per lane.
 template<class Real>
 struct UpdatePages
 {
@@ -59,9 +59,9 @@ struct UpdatePages
         else { update_held(page, wall_page, channels, lane, out, booked, row); }
     }
 
-    /// Brings what the tiles around keep for the page: octant by octant one piece of memory, which stands in `parts` as
-    /// in its tile. Lane `octant` has the page of the tile. It is not yet known whether that has points: if not, what
-    /// comes is not used.
+    /// Starts the asynchronous copy of the surrounding tiles' contributions to the page. Each octant is contiguous in
+    /// memory and is stored in `parts` as in its tile. Lane `octant` has the tile's page. Whether that page has points
+    /// is not yet known: if it has none, the copy is not used.
     __device__ void fetch_parts(std::int32_t tile_of_lane, int lane, Real* parts) const
     {
         constexpr int width = 16 / sizeof(Real), pieces = node_channels * tile_nodes / width;
@@ -77,7 +77,7 @@ struct UpdatePages
         __pipeline_commit();
     }
 
-    /// The octant in which a tile keeps number `at`.
+    /// Returns the octant in which a tile stores number `at`.
     __device__ static int octant_at(int at)
     {
         int octant = 0;
@@ -86,7 +86,7 @@ struct UpdatePages
         return octant;
     }
 
-    /// sum_tiles for two nodes.
+    /// Sums the tiles for two nodes, like sum_tiles.
     __device__ static void sum_pairs(unsigned filled, int lane, const Real* parts, Pair<Real>* total)
     {
         const int x = 2 * (lane & 1), y = lane >> 1 & 3, z = lane >> 3;
@@ -107,7 +107,7 @@ struct UpdatePages
         }
     }
 
-    /// read_total for two nodes.
+    /// Reads the totals of two nodes, like read_total.
     __device__ void read_pairs(std::int32_t shared, int lane, Pair<Real>* total) const
     {
         const Real* from = shared_pages.total + std::int64_t(shared) * node_page_values + 2 * lane;
@@ -161,7 +161,7 @@ struct UpdatePages
         }
     }
 
-    /// Books the first `count` sums; the others are zero. `booked`: what the lane's sum was before.
+    /// Adds the first `count` sums to the tally; the others are zero. `booked`: the tally of the lane's sum before.
     template<int count>
     __device__ static void book_warp(const Real* sum, int lane, double booked, double* row)
     {
@@ -176,7 +176,7 @@ struct UpdatePages
 
 constexpr int wall_threads = 64;
 
-/// A block a wall page.
+/// Updates a wall page with one block.
 template<class Real>
 struct UpdateWallPage
 {

@@ -8,14 +8,15 @@
 namespace tread::mpm
 {
 
-/// The point page whose tile reaches a node page from an octant, or -1 where there is none or no point in it.
+/// Returns the point page whose tile contributes to a node page from an octant, or -1 if there is none or it has no
+/// points.
 TREAD_HD std::int32_t tile_page(const PagesView& pages, std::int64_t node_page, int octant)
 {
     const std::int32_t page = pages.point_page_of[octants * node_page + octant];
     return page >= 0 && pages.first_point[page] < pages.first_point[page + 1] ? page : -1;
 }
 
-/// Sum of the up to eight tiles that reach a node, lowest octant first. `tile_pages`: by octant.
+/// Sums the tiles that contribute to a node (at most eight), lowest octant first. `tile_pages`: by octant.
 template<class Real>
 TREAD_HD void sum_tiles(const std::int32_t* tile_pages, const Real* tiles, int place, Real* total)
 {
@@ -31,7 +32,7 @@ TREAD_HD void sum_tiles(const std::int32_t* tile_pages, const Real* tiles, int p
     }
 }
 
-/// The node's total in shared page `number`.
+/// Reads the node's total in shared page `number`.
 template<class Real>
 TREAD_HD void read_total(const SharedPagesView<Real>& shared_pages, std::int32_t number, int place, Real* total)
 {
@@ -39,18 +40,18 @@ TREAD_HD void read_total(const SharedPagesView<Real>& shared_pages, std::int32_t
     for (int c = 0; c < node_channels; ++c) { total[c] = from[c * page_cells]; }
 }
 
-/// A node before walls have touched it.
+/// State of a node before wall conditions.
 template<class Real>
 struct NodeStep
 {
-    Real       mass    = 0; ///< kg; 0 if it is too light to move
+    Real       mass    = 0; ///< kg; 0 if below the mass floor
     Vec3<Real> before  = Vec3<Real>::Zero();
-    Vec3<Real> force   = Vec3<Real>::Zero(); ///< N, weight and what points bring
+    Vec3<Real> force   = Vec3<Real>::Zero(); ///< N, weight and forces from the points
     Vec3<Real> damping = Vec3<Real>::Zero(); ///< N
-    Vec3<Real> moved   = Vec3<Real>::Zero(); ///< m/s, by all forces but those of walls
+    Vec3<Real> moved   = Vec3<Real>::Zero(); ///< m/s, velocity after all forces except those of walls
 };
 
-/// What a step leaves at a node. One that the sand has left stands still.
+/// Result of a step at a node; zero at a node without sand.
 template<class Real>
 struct NodeEnd
 {
@@ -58,9 +59,9 @@ struct NodeEnd
     Vec3<Real> change   = Vec3<Real>::Zero(); ///< m/s, in the step
 };
 
-/// `channels`: what sum_tiles gave. Local damping is a share of the force that is out of balance, but not of the
-/// components in the set `held` (bit c): what acts on a node beside a wall is balanced by its mirror image and the
-/// wall, not by the node; damped, it would never come to rest.
+/// Starts a node's step. `channels`: result of sum_tiles. Local damping is proportional to the unbalanced force, but
+/// excludes the components in the set `held` (bit c): the force on a node next to a wall is balanced by its mirror
+/// image and the wall, not by the node itself; with damping it would never come to rest.
 template<class Real>
 TREAD_HD NodeStep<Real> begin_node(const GridStep<Real>& step, unsigned held, const Real* channels)
 {
@@ -82,7 +83,7 @@ TREAD_HD NodeStep<Real> begin_node(const GridStep<Real>& step, unsigned held, co
     return node;
 }
 
-/// What forces do. `after`: m/s, right in all components that are damped.
+/// Adds the work and impulse of the forces. `after`: m/s, correct in all damped components.
 template<class Real, class Sum>
 TREAD_HD void book_forces(const GridStep<Real>& step, const NodeStep<Real>& node, const Vec3<Real>& after, Sum* sums)
 {
@@ -95,7 +96,7 @@ TREAD_HD void book_forces(const GridStep<Real>& step, const NodeStep<Real>& node
     }
 }
 
-/// The end of a node's step.
+/// Completes a node's step: adds the energies after it.
 template<class Real, class Sum>
 TREAD_HD NodeEnd<Real> finish_node(const GridStep<Real>& step, Real mass, const Vec3<Real>& before,
                                    const Vec3<Real>& after, Sum* sums)
@@ -109,7 +110,7 @@ TREAD_HD NodeEnd<Real> finish_node(const GridStep<Real>& step, Real mass, const 
     return {after, change};
 }
 
-/// What walls did to a node that forces had `moved`.
+/// Adds the energy and impulse of walls at a node whose velocity without walls is `moved`.
 template<class Real, class Sum>
 TREAD_HD void book_walls(Real mass, const Vec3<Real>& before, const Vec3<Real>& moved, const Vec3<Real>& after,
                          Sum* sums)
@@ -119,7 +120,7 @@ TREAD_HD void book_walls(Real mass, const Vec3<Real>& before, const Vec3<Real>& 
     for (int c = 0; c < 3; ++c) { sums[grid_wall_impulse + c] += Sum(impulse[c]); }
 }
 
-/// One node's step where no wall may hold it. `channels`: what sum_tiles gave.
+/// Updates a node that no wall may constrain. `channels`: result of sum_tiles.
 template<class Real, class Sum>
 TREAD_HD NodeEnd<Real> update_free_node(const GridStep<Real>& step, const Real* channels, Sum* sums)
 {
@@ -129,8 +130,9 @@ TREAD_HD NodeEnd<Real> update_free_node(const GridStep<Real>& step, const Real* 
     return finish_node(step, begun.mass, begun.before, begun.moved, sums);
 }
 
-/// One node's step on a wall page. Of a node that walls hold together with others only the first part: `wall_node` is
-/// then its mass and velocity so far, and what is returned, for finish_held, its velocity without walls and before.
+/// Updates a node on a wall page. For a node that walls constrain together with others it does only the first part:
+/// `wall_node` is then its mass and present velocity, and the result, for finish_held, contains its velocities without
+/// walls and before the step.
 template<class Real, class Sum>
 TREAD_HD NodeEnd<Real> update_node(const GridStep<Real>& step, Index3 node, const Real* channels,
                                    WallNode<Real>& wall_node, Sum* sums)
@@ -150,7 +152,7 @@ TREAD_HD NodeEnd<Real> update_node(const GridStep<Real>& step, Index3 node, cons
     return finish_node(step, begun.mass, begun.before, after, sums);
 }
 
-/// The end of the step of a node that walls hold at `after` (m/s). `begun`: what update_node returned.
+/// Completes the step of a node that walls constrain to `after` (m/s). `begun`: result of update_node.
 template<class Real, class Sum>
 TREAD_HD NodeEnd<Real> finish_held(const GridStep<Real>& step, Real mass, const NodeEnd<Real>& begun,
                                    const Vec3<Real>& after, Sum* sums)

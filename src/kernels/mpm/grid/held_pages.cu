@@ -9,7 +9,7 @@ namespace tread::mpm
 namespace
 {
 
-/// A block a held page, a thread a node.
+/// Holds the nodes of a held page: one block per page, one thread per node.
 template<class Real>
 struct HoldPage
 {

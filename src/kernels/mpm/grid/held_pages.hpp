@@ -3,21 +3,21 @@
 #include "backend/sort.hpp"
 #include "kernels/mpm/grid/grid.hpp"
 
-// Sand that sleeps is held: the nodes that its points reach stand still, so that it neither moves nor changes its
-// stress. To the points beside it that is a wall which holds whatever touches it.
+// Sleeping sand is held: the nodes of its stencils are fixed, so that neither its positions nor its stresses change.
+// For adjacent points this acts like a no-slip wall.
 namespace tread::mpm
 {
 
-/// The node pages that sleeping pages reach ("held pages").
+/// Node pages in the stencils of sleeping pages ("held pages").
 struct HeldPagesView
 {
     std::int64_t        count;
     const std::int32_t* page;    ///< [count], node page, ascending
     const std::uint8_t* octants; ///< [count], bit o: the page at - (o & 1, o >> 1 & 1, o >> 2) of it sleeps
-    double*             impulse; ///< [count][3], N s, what holds the nodes has given since it was cleared
+    double*             impulse; ///< [count][3], N s, impulse of the constraint on the nodes since it was cleared
 };
 
-/// Owner of what HeldPagesView shows.
+/// Memory of HeldPagesView.
 template<class Exec>
 struct HeldPages
 {
@@ -37,13 +37,13 @@ struct HeldPages
     Array<Exec, std::int32_t> marks; ///< scratch
 };
 
-/// Lists the held pages of `pages`, with impulses of zero. `asleep`: keys of the pages that sleep, ascending.
+/// Lists the held pages of `pages` and clears their impulses. `asleep`: keys of the sleeping pages, ascending.
 template<class Exec>
 void list_held_pages(const Exec& exec, const PagesView& pages, const Array<Exec, std::uint64_t>& asleep,
                      HeldPages<Exec>& held, SortScratch<Exec>& scratch);
 
-/// Stops the nodes that sleeping pages reach, after update_grid and update_walls; books that in the tallies as a wall's
-/// work and impulse. Pre: a step without damping.
+/// Stops the nodes in the stencils of sleeping pages, after update_grid and update_walls, and adds this to the tallies
+/// like a wall's work and impulse. Precondition: a step without damping.
 template<class Real>
 void hold_still(const Cpu&, const PagesView& pages, const HeldPagesView& held, const Real* tiles,
                 const GridStep<Real>& step, Real* motion, double* tallies);
@@ -51,7 +51,7 @@ template<class Real>
 void hold_still(const Gpu&, const PagesView& pages, const HeldPagesView& held, const Real* tiles,
                 const GridStep<Real>& step, Real* motion, double* tallies);
 
-/// largest[page] becomes the larger of itself and the page's peak_speed_squared, m2/s2.
+/// Sets largest[page] to the maximum of itself and the page's peak_speed_squared, m2/s2.
 void keep_largest_speeds(const Cpu&, std::int64_t pages, const double* peaks, double* largest);
 void keep_largest_speeds(const Gpu&, std::int64_t pages, const double* peaks, double* largest);
 

@@ -2,11 +2,11 @@
 
 #include "kernels/mpm/grid/held_pages_kern.hpp"
 
-// list_held_pages, the same on both backends; held_pages.cpp and held_pages.cu bring in for_each and instantiate.
+// list_held_pages, for both backends; held_pages.cpp and held_pages.cu provide for_each and instantiate.
 namespace tread::mpm
 {
 
-/// Which of the pages whose points reach a node page sleep, by octant.
+/// Finds the sleeping pages, by octant, whose points contribute to a node page.
 struct SleepingAround
 {
     PagesView            pages;
@@ -34,7 +34,7 @@ struct MarkHeldPage
     TREAD_HD void operator()(std::int64_t i) const { marks[i] = around(i) != 0; }
 };
 
-/// After the scan before[i] counts the held pages before i.
+/// Writes a held page; after the scan before[i] is the number of held pages before i.
 struct WriteHeldPage
 {
     SleepingAround      around;

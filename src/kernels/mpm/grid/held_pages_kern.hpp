@@ -7,7 +7,7 @@
 namespace tread::mpm
 {
 
-/// Whether one of the sleeping pages around reaches the node at a place of a held page.
+/// Whether the node at a place of a held page is in a stencil of one of the surrounding sleeping pages.
 TREAD_HD bool is_held(unsigned sleeping, int place)
 {
     const int x = place & 3, y = place >> 2 & 3, z = place >> 4;
@@ -19,8 +19,9 @@ TREAD_HD bool is_held(unsigned sleeping, int place)
     return false;
 }
 
-/// Stops a node, whose motion is what forces and walls have left it; books the difference. `channels`: what sum_tiles
-/// gave. All forces on a node work on the mean of its velocities before and after the step, and the one after is now 0.
+/// Stops a node after forces and walls have acted, and adds the difference to the sums. `channels`: result of
+/// sum_tiles. All forces on a node do work on the mean of its velocities before and after the step, and the latter is
+/// now 0.
 template<class Real, class Sum>
 TREAD_HD void stop_node(const GridStep<Real>& step, Index3 node, const Real* channels, Real* motion, Sum* sums)
 {
@@ -39,7 +40,7 @@ TREAD_HD void stop_node(const GridStep<Real>& step, Index3 node, const Real* cha
     write_motion({Vec3<Real>(Vec3<Real>::Zero()), Vec3<Real>(-begun.before)}, motion);
 }
 
-/// One node of held page `number`, if it is held.
+/// Stops one node of held page `number`, if it is held.
 template<class Real, class Sum>
 TREAD_HD void hold_place(const PagesView& pages, const HeldPagesView& held, std::int64_t number, int place,
                          const Real* tiles, const GridStep<Real>& step, Real* motion, Sum* sums)

@@ -8,27 +8,27 @@
 namespace tread::mpm
 {
 
-/// Where the nodes and cells of a grid are.
+/// Positions of the nodes and cells of a grid.
 struct Lattice
 {
     double spacing;         ///< m
     double inverse_spacing; ///< 1/m
     double
         stencil_shift; ///< from a node to the low end of the cell that it names, in spacings: 0.5 quadratic, 0 linear
-    double node_shift; ///< node j stands at (j + node_shift) spacing; 0 but on refined levels (levels.hpp)
+    double node_shift; ///< node j is at (j + node_shift) spacing; nonzero only on refined levels (levels.hpp)
 };
 
 TREAD_HD Lattice make_lattice(double spacing, double stencil_shift) { return {spacing, 1 / spacing, stencil_shift, 0}; }
 
-/// How far (in spacings) a point may pass the boundary of its cell before it is listed in the next one: beds at rest on
-/// a lattice that falls on boundaries do not change their lists with every breath. Quadratic weights, continued beyond
-/// the cell, still sum to one and reproduce linear fields exactly; they differ from the next cell's by half the square
-/// of this, the rounding of fp32. Hats have a kink at the boundary, and no slack.
+/// Distance (in spacings) by which a point may leave its cell before it is listed in the next one, so that small
+/// oscillations of a bed at rest on cell boundaries do not change the lists. Quadratic weights, continued beyond the
+/// cell, still sum to one and reproduce linear fields exactly; they differ from those of the next cell by half the
+/// square of this slack, the rounding of fp32. Linear (hat) functions have a kink at the boundary and get no slack.
 constexpr double quadratic_cell_slack = 1.0 / 1024;
 
-/// Node that names the cell of a position: the lowest of its stencil. A product with the inverse, not a quotient: fp64
-/// division costs a GPU as much as the rest of the stencil. The multiply-add is explicit: left to compilers it would be
-/// fused in one kernel and not in another, and they would disagree about points on the boundary of a cell.
+/// Returns the node that names the cell of a position: the lowest of its stencil. Multiplies by the inverse spacing,
+/// because an fp64 division costs a GPU as much as the rest of the stencil. The fused multiply-add is explicit:
+/// otherwise compilers would fuse it in some kernels only, and these would disagree about points on a cell boundary.
 TREAD_HD Index3 cell_of(const Vec3<double>& position, const Lattice& lattice)
 {
     const double inverse = lattice.inverse_spacing, shift = lattice.stencil_shift + lattice.node_shift;
@@ -37,7 +37,7 @@ TREAD_HD Index3 cell_of(const Vec3<double>& position, const Lattice& lattice)
             static_cast<std::int32_t>(std::floor(std::fma(position[2], inverse, -shift)))};
 }
 
-/// Whether a point of `cell` may stay listed there.
+/// Whether a point listed in `cell` may remain listed there.
 TREAD_HD bool stays_in(Index3 cell, const Vec3<double>& position, const Lattice& lattice)
 {
     const double reach     = 0.5 + (lattice.stencil_shift > 0 ? quadratic_cell_slack : 0);
@@ -52,13 +52,13 @@ TREAD_HD bool stays_in(Index3 cell, const Vec3<double>& position, const Lattice&
     return stays;
 }
 
-/// Cells of one lattice, `high` excluded.
+/// Box of cells of one lattice, `high` excluded.
 struct CellBox
 {
     Index3 low{0, 0, 0};
     Index3 high{0, 0, 0};
 
-    /// The box with so many more cells on every side.
+    /// Returns the box extended by `by` cells on every side.
     TREAD_HD CellBox grown(std::int32_t by) const
     {
         return {{low.x - by, low.y - by, low.z - by}, {high.x + by, high.y + by, high.z + by}};
@@ -71,7 +71,7 @@ struct CellBox
     }
 };
 
-/// Larger than any grid.
+/// Returns a box larger than any grid.
 TREAD_HD CellBox all_cells()
 {
     constexpr std::int32_t far = 1 << 30;

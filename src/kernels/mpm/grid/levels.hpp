@@ -2,33 +2,34 @@
 
 #include "kernels/mpm/pages/pages.hpp"
 
-// A refined grid: level 0 has the scene's spacing, each further level half the spacing of the one before, in a box that
-// lies within the box before. Where the knots of quadratic splines of level l are m h_l + c_l h_l, those of level l + 1
-// stand at the same places and halfway between; that makes every spline of a level a sum of splines of the next,
+// A refined grid: level 0 has the scene's spacing; each further level halves the spacing in a box that lies within the
+// box of the previous level. The knots of quadratic splines of level l are at m h_l + c_l h_l; those of level l + 1 are
+// at the same positions and halfway between, so that every spline of a level is a sum of splines of the next,
 //   N_i = (n_2i-2 + 3 n_2i-1 + 3 n_2i + n_2i+1) / 4 along each axis,
-// and fixes where the nodes of a level are: (j + c_l - 1/2) h_l with c_0 = 1/2, c_l+1 = 2 c_l. A cell m of a level is
-// the cells 2m and 2m + 1 of the next.
+// This determines the node positions of a level: (j + c_l - 1/2) h_l with c_0 = 1/2, c_l+1 = 2 c_l. Cell m of a level
+// covers the cells 2m and 2m + 1 of the next.
 //
-// All levels share one table of pages. Pages of level l stand at coordinates shifted by level_offset(l) along every
-// axis, so that keys ascend by level, and what looks for neighbours needs to know nothing of levels.
+// All levels share one table of pages. Page coordinates of level l are shifted by level_offset(l) along every axis, so
+// that keys ascend by level and neighbour searches are independent of levels.
 namespace tread::mpm
 {
 
-/// Levels beyond the scene's own grid, at most.
+/// Maximum number of levels beyond the scene's own grid.
 constexpr int most_levels = 3;
 
-/// Page coordinates of level l >= 1 are those from l << level_bits on.
+/// Page coordinates of level l >= 1 start at l << level_bits.
 constexpr int          level_bits  = 16;
 constexpr std::int32_t level_guard = 8; ///< pages on the negative side of the origin
 
 TREAD_HD int level_of(Index3 page) { return page.x < (1 << level_bits) ? 0 : page.x >> level_bits; }
 
-/// Pages, along every axis.
+/// Offset of a level's page coordinates along every axis, in pages.
 TREAD_HD std::int32_t level_offset(int level) { return level == 0 ? 0 : (level << level_bits) + level_guard; }
 
 TREAD_HD Index3 shifted_by(Index3 at, std::int32_t shift) { return {at.x + shift, at.y + shift, at.z + shift}; }
 
-/// Lattice of a level: cell = floor(x / spacing - node_shift - stencil_shift), node j at (j + node_shift) spacing.
+/// Returns the lattice of a level: cell = floor(x / spacing - node_shift - stencil_shift), node j at (j + node_shift)
+/// spacing.
 TREAD_HD Lattice level_lattice(const Lattice& scene, int level)
 {
     if (level == 0) { return scene; }
@@ -37,14 +38,14 @@ TREAD_HD Lattice level_lattice(const Lattice& scene, int level)
             0.5 * parts - 0.5 - double(level_offset(level)) * page_edge};
 }
 
-/// Where the grid is refined.
+/// Refined boxes of the grid.
 struct Refinement
 {
-    int     levels = 0;         ///< beyond the scene's own
-    CellBox box[most_levels]{}; ///< of level l at l - 1, in its own cells: even, within the box of the level before
+    int     levels = 0;         ///< levels beyond the scene's own grid
+    CellBox box[most_levels]{}; ///< of level l at l - 1, in its cells: even, within the box of the level below
 };
 
-/// The cells of `level` that the next one replaces: half the next one's box.
+/// Returns the cells of `level` that the next level replaces: half the next level's box.
 TREAD_HD CellBox replaced_cells(const Refinement& refinement, int level)
 {
     if (level >= refinement.levels) { return {}; }
@@ -55,7 +56,7 @@ TREAD_HD CellBox replaced_cells(const Refinement& refinement, int level)
             {coarse(box.high.x), coarse(box.high.y), coarse(box.high.z)}};
 }
 
-/// Page or node of a level without the level's offset.
+/// Returns a page without the offset of its level.
 TREAD_HD Index3 plain_page(Index3 page) { return shifted_by(page, -level_offset(level_of(page))); }
 
 TREAD_HD Index3 plain_node(Index3 page, int place)
@@ -63,7 +64,7 @@ TREAD_HD Index3 plain_node(Index3 page, int place)
     return shifted_by(node_at(page, place), -level_offset(level_of(page)) * page_edge);
 }
 
-/// Nodes of level l from `low` to `high`, both included, whose splines lie within the box of their level.
+/// Whether the splines of all nodes of level l from `low` to `high`, both included, lie within the box of their level.
 TREAD_HD bool all_free(const Refinement& refinement, int level, Index3 low, Index3 high)
 {
     const CellBox& box = refinement.box[level - 1];
@@ -92,7 +93,7 @@ TREAD_HD bool is_near_box(const Refinement& refinement, Index3 page)
            low.x < box.high.x + around && low.y < box.high.y + around && low.z < box.high.z + around;
 }
 
-/// The page of the next level in a direction from twice a page.
+/// Returns the page of the next level in a direction from twice a page.
 TREAD_HD Index3 finer_page(Index3 page, int direction)
 {
     const Index3 plain = plain_page(page);
@@ -100,7 +101,7 @@ TREAD_HD Index3 finer_page(Index3 page, int direction)
                       level_offset(level_of(page) + 1));
 }
 
-/// The page of the level below that has the lowest parents of a page's nodes, + octant.
+/// Returns the page of the level below that contains the lowest parents of a page's nodes, + octant.
 TREAD_HD Index3 coarser_page(Index3 page, int octant)
 {
     const Index3 plain = plain_page(page);
@@ -108,7 +109,7 @@ TREAD_HD Index3 coarser_page(Index3 page, int octant)
                       level_offset(level_of(page) - 1));
 }
 
-/// Cell of a position on the finest level that has one there.
+/// Returns the cell of a position on the finest level there.
 TREAD_HD Index3 finest_cell(const Lattice& scene, const Refinement& refinement, const Vec3<double>& position)
 {
     Index3 cell = cell_of(position, scene);
@@ -121,7 +122,7 @@ TREAD_HD Index3 finest_cell(const Lattice& scene, const Refinement& refinement, 
     return cell;
 }
 
-/// The view with the lattice of a level. Tables are those of all levels.
+/// Returns the view with the lattice of a level; the tables remain those of all levels.
 inline PagesView on_level(const PagesView& pages, const Refinement& refinement, int level)
 {
     PagesView view              = pages;

@@ -8,18 +8,17 @@
 #include "kernels/mpm/pages/page_list.hpp"
 #include "kernels/mpm/pages/shared_pages.hpp"
 
-// Where two levels of a refined grid meet. Nodes of level l whose splines reach beyond the level's box do not move by
-// themselves ("slave nodes"): they take the motion of the level below, as the sum of finer splines that a coarse spline
-// is (levels.hpp), and hand what points bring them to it by the same weights. The other nodes of the box are free, and
-// the coarse splines that lie within the box are then not needed. These are truncated hierarchical B-splines
-// (Giannelli, Juettler, Speleers 2012, Comput. Aided Geom. Des. 29:485): they sum to one, none is negative, so that
-// lumped masses are positive, and linear fields are kept exactly; mass, momentum and the work of all forces are the
-// same on both sides. Points need to know nothing of it: each sees 27 nodes of its level.
+// Seams between two levels of a refined grid. Nodes of level l whose splines extend beyond the level's box are no
+// degrees of freedom ("slave nodes"): they take the motion of the level below through the refinement relation of
+// splines (levels.hpp), and pass their mass, momentum and forces to it with the same weights. The other nodes of the
+// box are free, and the coarse splines that lie within the box are not needed there. These are truncated hierarchical
+// B-splines (Giannelli, Juettler, Speleers 2012, Comput. Aided Geom. Des. 29:485): they sum to one, are non-negative,
+// so that lumped masses are positive, and reproduce linear fields exactly; mass, momentum and the work of all forces
+// agree on both sides. Points are unaffected: each has 27 nodes of its own level.
 namespace tread::mpm
 {
 
-/// Node pages with slave nodes, or with nodes that these depend on ("seam pages"). Where a page number is asked for, -1
-/// means none.
+/// Node pages with slave nodes, or with nodes on which these depend ("seam pages"). A page number of -1 means none.
 template<class Exec, class Real>
 struct Seams
 {
@@ -33,7 +32,7 @@ struct Seams
     {
     }
 
-    /// For update_grid: what points bring, of slave nodes nothing.
+    /// Returns the totals for update_grid; those of slave nodes are zero.
     SharedPagesView<Real> view() const { return {number_of.data(), total.data()}; }
 
     PageList point_pages(int level) const
@@ -48,8 +47,8 @@ struct Seams
     Array<Exec, std::int32_t> parent;    ///< [seam pages][8], node page of the level below, at page/2 + octant
     Array<Exec, Real>         total;     ///< [seam pages][node_channels][page_cells]
 
-    std::array<std::int64_t, most_levels + 2> first_page{}; ///< point pages of level l begin at [l]
-    Array<Exec, std::int64_t>                 level_start;  ///< the same on the device
+    std::array<std::int64_t, most_levels + 2> first_page{}; ///< first point page of level l at [l]
+    Array<Exec, std::int64_t>                 level_start;  ///< device copy of first_page
 };
 
 /// Lists the seam pages and the levels of `pages`.
@@ -57,7 +56,7 @@ template<class Exec, class Real>
 void list_seams(const Exec& exec, const PagesView& pages, const Refinement& refinement, Seams<Exec, Real>& seams,
                 SortScratch<Exec>& scratch);
 
-/// After P2G: writes the totals of the seam pages, with what slave nodes hand down.
+/// After P2G: computes the totals of the seam pages, including the parts passed on by slave nodes.
 template<class Real>
 void hand_down(const Cpu&, const PagesView& pages, const Refinement& refinement, const Real* tiles,
                Seams<Cpu, Real>& seams);
@@ -65,7 +64,7 @@ template<class Real>
 void hand_down(const Gpu&, const PagesView& pages, const Refinement& refinement, const Real* tiles,
                Seams<Gpu, Real>& seams);
 
-/// After update_grid and update_walls: writes the motion of the slave nodes.
+/// After update_grid and update_walls: computes the motion of the slave nodes.
 template<class Real>
 void follow_coarser(const Cpu&, const PagesView& pages, const Refinement& refinement, const Seams<Cpu, Real>& seams,
                     Real* motion);

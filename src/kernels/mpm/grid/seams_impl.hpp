@@ -7,7 +7,7 @@
 #include "kernels/mpm/pages/numbered_pages_impl.hpp"
 #include "kernels/mpm/pages/shared_pages_impl.hpp"
 
-// The steps of seams.hpp, the same on both backends; seams.cpp and seams.cu bring in for_each and instantiate.
+// Steps of seams.hpp, for both backends; seams.cpp and seams.cu provide for_each and instantiate.
 namespace tread::mpm
 {
 namespace seam_steps
@@ -85,7 +85,7 @@ struct HandDown
 {
     PagesView           pages;
     Refinement          refinement;
-    int                 level; ///< that receives
+    int                 level; ///< receiving level
     const std::int32_t* page;
     const std::int32_t* child;
     Real*               total;
@@ -124,7 +124,7 @@ struct FollowParents
 {
     PagesView           pages;
     Refinement          refinement;
-    int                 level; ///< of the slave nodes
+    int                 level; ///< level of the slave nodes
     const std::int32_t* page;
     const std::int32_t* parent;
     Real*               motion;

@@ -6,14 +6,14 @@
 namespace tread::mpm
 {
 
-/// Share of child c (0..3) of a node along an axis.
+/// Weight of child c (0..3) of a node along an axis.
 template<class Real>
 TREAD_HD Real child_share(int c)
 {
     return c == 0 || c == 3 ? Real(0.25) : Real(0.75);
 }
 
-/// Adds to `total` what the slave nodes among the children of node `place` of a page hand down to it. `child`: seam
+/// Adds the contributions of the slave nodes among the children of node `place` of a page to `total`. `child`: seam
 /// pages of the next level, by direction; `totals`: of all seam pages.
 template<class Real>
 TREAD_HD void add_children(const Refinement& refinement, Index3 page, int place, const std::int32_t* child,
@@ -35,7 +35,7 @@ TREAD_HD void add_children(const Refinement& refinement, Index3 page, int place,
     }
 }
 
-/// Motion of a slave node from its parents. `parent`: node pages by octant.
+/// Returns the motion of a slave node from its parents. `parent`: node pages by octant.
 template<class Real>
 TREAD_HD NodeEnd<Real> follow_parents(Index3 page, int place, const std::int32_t* parent, const Real* motion)
 {

@@ -3,25 +3,25 @@
 #include "kernels/mpm/grid/grid.hpp"
 #include "kernels/mpm/grid/levels.hpp"
 
-// What walls do to the grid's velocity. A quadratic spline on a wall's plane weighs three nodes, 1/8, 6/8 and 1/8: a
-// node on the plane that stands still does not make the sand there stand still. The three nodes (outside, on the plane,
-// inside) are held together instead: v_out = -v_in, v_on = 0, so that a linear profile is interpolated exactly and
-// vanishes on the plane. Of all such velocities the one nearest to the free one in the metric of the lumped masses is
-// taken: v_in = (m_in v_in* - m_out v_out*) / (m_in + m_out), which is what forces of constraint would give.
-// Linear splines reach no node outside: the same rule then holds the node on the plane alone.
+// Wall conditions on the grid velocity. A quadratic spline on a wall's plane weights three nodes by 1/8, 6/8 and 1/8:
+// fixing the node on the plane does not fix the sand there. Instead, the three nodes (outside, on the plane, inside)
+// are constrained together: v_out = -v_in, v_on = 0, so that a linear profile is interpolated exactly and vanishes on
+// the plane. Of all such velocities the one nearest to the free velocity in the metric of the lumped masses is used:
+// v_in = (m_in v_in* - m_out v_out*) / (m_in + m_out), which is the result of constraint forces. Linear splines involve
+// no node outside: the same rule then constrains the node on the plane alone.
 namespace tread::mpm
 {
 
-/// Where a node stands along one axis, seen from the wall of that axis that it may feel.
+/// Position of a node along one axis relative to the wall of that axis that may constrain it.
 struct WallPlace
 {
-    int  end;    ///< 0 low, 1 high, -1 none
+    int  end;    ///< 0 low, 1 high, -1 no wall
     int  depth;  ///< spacings into the domain: 1, 0, -1 ...
-    bool paired; ///< held together with its mirror image; if not, alone
+    bool paired; ///< constrained together with its mirror image; otherwise alone
 };
 
-/// Between two walls less than three spacings apart mirror images would be shared: there, nodes are held one by one.
-/// So are nodes more than a spacing beyond a wall, where sand hardly gets.
+/// Whether two walls are less than three spacings apart, where mirror images would be shared: nodes are then
+/// constrained one by one. So are nodes more than a spacing beyond a wall, where sand rarely is.
 TREAD_HD bool is_thin(const GridWalls& walls, int axis)
 {
     return walls.rule[axis][0] != WallRule::open && walls.rule[axis][1] != WallRule::open && walls.last_node[axis] < 3;
@@ -45,7 +45,7 @@ TREAD_HD Index3 beside(Index3 node, int axis, int steps)
     return {node.x + (axis == 0 ? steps : 0), node.y + (axis == 1 ? steps : 0), node.z + (axis == 2 ? steps : 0)};
 }
 
-/// How walls may hold a node: with its mirror image, alone, or, by different walls, both.
+/// How walls may constrain a node: with its mirror image, alone, or, by different walls, both.
 struct Held
 {
     bool paired = false;
@@ -64,7 +64,7 @@ TREAD_HD Held held_by(const GridWalls& walls, Index3 node)
     return held;
 }
 
-/// Whether any wall may hold a node of the page at `page`. Refined boxes keep off walls.
+/// Whether any wall may constrain a node of the page at `page`. Refined boxes do not touch walls.
 TREAD_HD bool has_held_nodes(const GridWalls& walls, Index3 page)
 {
     if (level_of(page) > 0) { return false; }
@@ -79,8 +79,8 @@ TREAD_HD bool has_held_nodes(const GridWalls& walls, Index3 page)
     return false;
 }
 
-/// Whether walls hold nodes of the page at `page` together with others across an axis: those on a wall's plane and
-/// beside it.
+/// Whether walls constrain nodes of the page at `page` together with others across an axis: the nodes on a wall's plane
+/// and next to it.
 TREAD_HD bool has_paired_nodes(const GridWalls& walls, Index3 page, int axis)
 {
     if (is_thin(walls, axis)) { return false; }
@@ -92,7 +92,7 @@ TREAD_HD bool has_paired_nodes(const GridWalls& walls, Index3 page, int axis)
     return false;
 }
 
-/// The components (bit c) of its velocity that walls which pair the node may hold.
+/// Returns the velocity components (bit c) that walls which pair the node may constrain.
 TREAD_HD unsigned held_components(const GridWalls& walls, Index3 node)
 {
     unsigned held = 0;
@@ -105,7 +105,7 @@ TREAD_HD unsigned held_components(const GridWalls& walls, Index3 node)
     return held;
 }
 
-/// Nodes outside, on and inside a wall's plane. Those that are not there, or too light, have no mass.
+/// Nodes outside, on and inside a wall's plane. Missing nodes and nodes below the mass floor have zero mass.
 template<class Real>
 struct WallGroup
 {
@@ -113,7 +113,7 @@ struct WallGroup
     Vec3<Real> velocity[3] = {Vec3<Real>::Zero(), Vec3<Real>::Zero(), Vec3<Real>::Zero()};
 };
 
-/// What holds one component of the group entirely.
+/// Computes the values that fully constrain one component of the group.
 template<class Real>
 TREAD_HD void held_component(const WallGroup<Real>& group, int component, Real* held)
 {
@@ -125,7 +125,7 @@ TREAD_HD void held_component(const WallGroup<Real>& group, int component, Real* 
     held[0]         = -held[2];
 }
 
-/// Sets one component by `share` (0 to 1) of the way to what holds it; returns the impulse that the wall gives, N s.
+/// Moves one component by `share` (0 to 1) towards its constrained value; returns the impulse of the wall, N s.
 template<class Real>
 TREAD_HD Real hold_component(WallGroup<Real>& group, int component, Real share)
 {
@@ -148,8 +148,9 @@ TREAD_HD double kinetic_energy(const WallGroup<Real>& group)
     return energy;
 }
 
-/// Coulomb's law for the group: what sticks is held if the impulse along the wall that this takes is at most `friction`
-/// times the `normal` one (N s, of the wall on the sand); if not, it slides, and gets that much. Returns J dissipated.
+/// Applies Coulomb's law to the group: it sticks if the tangential impulse that this requires is at most `friction`
+/// times the `normal` one (N s, of the wall on the sand); otherwise it slides with that limit. Returns the dissipated
+/// energy, J.
 template<class Real>
 TREAD_HD double rub(WallGroup<Real>& group, int axis, Real friction, Real normal)
 {
@@ -167,7 +168,7 @@ TREAD_HD double rub(WallGroup<Real>& group, int axis, Real friction, Real normal
     return kinetic_energy(before) - kinetic_energy(group);
 }
 
-/// The wall at `end` of `axis` on one group. Returns J taken by friction.
+/// Applies the wall at `end` of `axis` to one group. Returns the energy dissipated by friction, J.
 template<class Real>
 TREAD_HD double hold(const GridWalls& walls, int axis, int end, WallGroup<Real>& group)
 {
@@ -183,7 +184,7 @@ TREAD_HD double hold(const GridWalls& walls, int axis, int end, WallGroup<Real>&
     return rule == WallRule::frictional ? rub(group, axis, static_cast<Real>(walls.friction), normal) : 0;
 }
 
-/// Friction is part of what walls take, which the end of the node's step books as a whole.
+/// Separates friction from the loss of walls, because the end of the node's step adds the total loss.
 template<class Sum>
 TREAD_HD void book_friction(double friction, Sum* sums)
 {
@@ -191,7 +192,7 @@ TREAD_HD void book_friction(double friction, Sum* sums)
     sums[grid_wall_loss] -= Sum(friction);
 }
 
-/// What walls do to a node alone. Adds what friction takes to `sums`.
+/// Applies walls to a node that is constrained alone. Adds the dissipation of friction to `sums`.
 template<class Real, class Sum>
 TREAD_HD Vec3<Real> hold_alone(const GridWalls& walls, Index3 node, Real mass, const Vec3<Real>& velocity, Sum* sums)
 {

@@ -4,7 +4,7 @@
 #include "kernels/mpm/grid/wall_pages.hpp"
 #include "kernels/mpm/pages/numbered_pages_impl.hpp"
 
-// list_wall_pages, the same on both backends; wall_pages.cpp and wall_pages.cu bring in for_each and instantiate.
+// list_wall_pages, for both backends; wall_pages.cpp and wall_pages.cu provide for_each and instantiate.
 namespace tread::mpm
 {
 

@@ -2,20 +2,21 @@
 
 #include "kernels/mpm/grid/grid_kern.hpp"
 
-// The second half of the step of the nodes beside walls: axis after axis, so that edges and corners of the domain obey
-// all their walls, the groups across a wall's plane are held (they share no node); then every node is finished. A page
-// does so for all nodes that its own are held with, in a copy, so that pages need not wait for each other.
+// Second half of the step of nodes next to walls. Axis by axis, so that edges and corners of the domain satisfy all
+// their walls, the groups across a wall's plane are constrained (they share no node); then every node is completed. A
+// page does so in a copy for all nodes that are constrained together with its own, so that pages are independent of
+// each other.
 namespace tread::mpm
 {
 
-/// What a page needs: its own nodes and, along each axis across which walls hold some of them together with others, two
-/// more on each side. Coordinates count from the page's lowest node.
+/// Nodes that a page needs: its own and, along each axis across which walls constrain some of them together with
+/// others, two more on each side. Coordinates are relative to the page's lowest node.
 struct WallRegion
 {
     bool paired[3];
     int  low[3];
-    int  bits[3];  ///< edges are 4 or 8 nodes, their logarithms
-    int  shift[3]; ///< a step along an axis is 1 << shift in the region
+    int  bits[3];  ///< log2 of the edges, which are 4 or 8 nodes
+    int  shift[3]; ///< stride along an axis in the region is 1 << shift
     int  nodes;
 };
 
@@ -48,7 +49,7 @@ TREAD_HD Index3 region_node(const WallRegion& region, int item)
     return {region_coordinate(region, item, 0), region_coordinate(region, item, 1), region_coordinate(region, item, 2)};
 }
 
-/// Place in the region of a page's own node.
+/// Returns the index in the region of a page's own node.
 TREAD_HD int region_item(const WallRegion& region, int place)
 {
     return (((place & 3) - region.low[0]) << region.shift[0]) +
@@ -56,9 +57,11 @@ TREAD_HD int region_item(const WallRegion& region, int place)
            (((place >> 4) - region.low[2]) << region.shift[2]);
 }
 
-/// Where along `axis` the region of `page` has the plane of the wall at `end`, with a node on each side; or no_plane.
+/// Result of wall_plane if the region does not contain the plane.
 constexpr int no_plane = -100;
 
+/// Returns the position along `axis` of the plane of the wall at `end` in the region of `page`, if the region has a
+/// node on each side of it; otherwise no_plane.
 TREAD_HD int wall_plane(const GridWalls& walls, Index3 page, const WallRegion& region, int axis, int end)
 {
     if (walls.rule[axis][end] == WallRule::open) { return no_plane; }
@@ -66,7 +69,7 @@ TREAD_HD int wall_plane(const GridWalls& walls, Index3 page, const WallRegion& r
     return at > region.low[axis] && at < region.low[axis] + (1 << region.bits[axis]) - 1 ? at : no_plane;
 }
 
-/// Node of the region of wall page `number`, as update_grid left it.
+/// Returns a node of the region of wall page `number`, as update_grid left it.
 template<class Real>
 TREAD_HD WallNode<Real> wall_node(const WallPagesView<Real>& pages, std::int64_t number, Index3 node)
 {
@@ -83,7 +86,7 @@ TREAD_HD Vec3<Real> velocity_of(const WallNode<Real>& node)
     return {node.at[1], node.at[2], node.at[3]};
 }
 
-/// The wall at `end` of `axis`, whose plane is at `plane` along it, on the group of node `item` of the plane.
+/// Applies the wall at `end` of `axis`, whose plane is at `plane` along it, to the group of node `item` of the plane.
 template<class Real, class Sum>
 TREAD_HD void hold_group(const GridWalls& walls, const WallRegion& region, int axis, int end, int plane, int item,
                          WallNode<Real>* nodes, Sum* sums)
@@ -108,7 +111,7 @@ TREAD_HD void hold_group(const GridWalls& walls, const WallRegion& region, int a
     }
 }
 
-/// The end of the step of a node of the page, if walls hold it together with others.
+/// Completes the step of a node of the page, if walls constrain it together with others.
 template<class Real, class Sum>
 TREAD_HD void finish_wall_node(const GridStep<Real>& step, const WallNode<Real>& held, Real* motion, Sum* sums)
 {

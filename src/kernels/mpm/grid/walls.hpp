@@ -7,47 +7,47 @@
 namespace tread::mpm
 {
 
-/// What a wall of the domain does to the grid's velocity at its nodes and beyond.
+/// Boundary condition of a domain wall on the grid velocity at its nodes and beyond.
 enum class WallRule : std::int32_t
 {
     open,
-    slip,       ///< no velocity into the wall; sand may leave it
-    fixed,      ///< no velocity: sand cannot come off it
-    frictional, ///< as slip, and Coulomb's friction along the wall
-    rough       ///< no velocity of sand that does not come off
+    slip,       ///< no velocity into the wall; sand may separate
+    fixed,      ///< no velocity: sand cannot separate
+    frictional, ///< like slip, with Coulomb friction along the wall
+    rough       ///< no velocity unless the sand separates
 };
 
-/// [axis][0 = low side, 1 = high side].
+/// Indexed by [axis][0 = low side, 1 = high side].
 struct GridWalls
 {
     WallRule     rule[3][2];
-    std::int32_t last_node[3]; ///< node on the high wall; the low wall's is 0
-    double       friction;     ///< coefficient of the frictional walls
+    std::int32_t last_node[3]; ///< node on the high wall; the low wall's node is 0
+    double       friction;     ///< friction coefficient of the frictional walls
 };
 
-/// Whether any wall across an axis holds anything.
+/// Whether any wall across an axis constrains anything.
 inline bool has_walls(const GridWalls& walls, int axis)
 {
     return walls.rule[axis][0] != WallRule::open || walls.rule[axis][1] != WallRule::open;
 }
 
-/// Whether any wall holds anything.
+/// Whether any wall constrains anything.
 inline bool has_walls(const GridWalls& walls)
 {
     return has_walls(walls, 0) || has_walls(walls, 1) || has_walls(walls, 2);
 }
 
-/// Mass (kg) and velocity (m/s) of a node that walls hold together with others; all zero of any other.
+/// Mass (kg) and velocity (m/s) of a node that walls constrain together with others; zero for other nodes.
 template<class Real>
 using WallNode = Pack<Real, 4>;
 
-/// The node pages of which walls may hold nodes ("wall pages").
+/// Node pages in which walls may constrain nodes ("wall pages").
 template<class Real>
 struct WallPagesView
 {
     std::int64_t        count;
     const std::int32_t* page;      ///< [count], node page, ascending
-    const std::int32_t* number_of; ///< [node pages], its wall page, or -1; null where no wall holds anything
+    const std::int32_t* number_of; ///< [node pages], its wall page, or -1; null if no wall constrains anything
     const std::int32_t* neighbour; ///< [27 * count], wall page by direction, or -1
     WallNode<Real>*     node;      ///< [64 * count]
 
@@ -57,7 +57,7 @@ struct WallPagesView
     }
 };
 
-/// Owner of what WallPagesView shows. No walls, no memory.
+/// Memory of WallPagesView; none is allocated without walls.
 template<class Exec, class Real>
 struct WallPages
 {

@@ -9,36 +9,37 @@
 #include "kernels/mpm/laws/strength.hpp"
 #include "kernels/mpm/laws/volume_gap_kern.hpp"
 
-// Perfect plasticity of Drucker and Prager, tension positive, m the mean stress:
+// Drucker-Prager perfect plasticity, tension positive, m the mean stress:
 //   f = sqrt(J2) + eta m - k <= 0, flow along the gradient of the same with eta_flow <= eta.
 // The return is exact: cone, apex (de Souza Neto, Peric, Owen 2008, Computational Methods for Plasticity, 8.3).
 namespace tread::mpm
 {
 
-/// Where the cone meets Mohr and Coulomb's hexagon of the same friction angle and cohesion.
+/// Intersection of the cone with the Mohr-Coulomb hexagon of the same friction angle and cohesion.
 enum class ConeFit
 {
     compression, ///< triaxial compression, the outer edges: too strong elsewhere
     extension,   ///< triaxial extension, the inner edges: too weak elsewhere
-    plane_strain ///< flow in a plane
+    plane_strain ///< plane-strain flow
 };
 
 template<class Real>
 struct DruckerPrager
 {
     Real slope;        ///< eta
-    Real flow_slope;   ///< of the flow's cone: volumetric plastic strain a multiplier
-    Real limit;        ///< Pa, k: sqrt(J2) at no pressure
-    Real apex_tension; ///< Pa, of apex_tension(Strength)
+    Real flow_slope;   ///< of the flow potential: volumetric plastic strain per multiplier
+    Real limit;        ///< Pa, k: sqrt(J2) at zero pressure
+    Real apex_tension; ///< Pa, see apex_tension(Strength)
 };
 
-/// Slope of the cone that meets the hexagon's outer (`side` = -1) or inner (+1) edges.
+/// Slope of the cone through the outer (`side` = -1) or inner (+1) edges of the hexagon.
 inline double edge_slope(double sine, double side) { return 6 * sine / (std::numbers::sqrt3 * (3 + side * sine)); }
 
-/// k of a cone is its slope times c cot phi, but for phi = 0; so the slopes below come over sin phi. In plane strain
-/// the out-of-plane flow vanishes, s_y = -2/3 eta_flow sqrt(J2), which gives eta_flow = sin psi / sqrt(1 + sin^2 psi /
-/// 3) and eta = sin phi / (sqrt(1 - eta_flow^2 / 3) + sin phi eta_flow / 3); for psi = phi that is 3 tan phi / sqrt(9 +
-/// 12 tan^2 phi) (Drucker and Prager 1952). Computed in fp64, then rounded to Real.
+/// Makes the law, computed in fp64 and rounded to Real. The limit k of a cone is its slope times c cot phi except for
+/// phi = 0; the slopes below are therefore divided by sin phi. In plane strain the out-of-plane flow vanishes,
+/// s_y = -2/3 eta_flow sqrt(J2), which gives eta_flow = sin psi / sqrt(1 + sin^2 psi / 3) and eta = sin phi / (sqrt(1 -
+/// eta_flow^2 / 3) + sin phi eta_flow / 3); for psi = phi that is 3 tan phi / sqrt(9 + 12 tan^2 phi) (Drucker and
+/// Prager 1952).
 template<class Real>
 DruckerPrager<Real> make_drucker_prager(const Strength& strength, ConeFit fit)
 {
@@ -58,15 +59,15 @@ DruckerPrager<Real> make_drucker_prager(const Strength& strength, ConeFit fit)
             static_cast<Real>(apex_tension(strength))};
 }
 
-/// sqrt(J2) on the cone at the mean stress m; negative beyond the apex.
+/// Returns sqrt(J2) on the cone at the mean stress m; negative beyond the apex.
 template<class Real>
 TREAD_HD Real cone_radius(const DruckerPrager<Real>& law, Real mean)
 {
     return law.limit - law.slope * mean;
 }
 
-/// Returned stress and state of a trial stress (Pa) after the step dt (s). Grains that do not touch cannot dilate: the
-/// flow is isochoric while a gap is open.
+/// Returns stress and state for a trial stress (Pa) after the step dt (s). Separated grains cannot dilate: the flow is
+/// isochoric while a gap is open.
 template<class Real>
 TREAD_HD StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const DruckerPrager<Real>& law,
                                     const Sym3<Real>& trial, const PlasticState<Real>& state, Real dt)
@@ -105,7 +106,7 @@ TREAD_HD StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const Dr
     for (int i = 0; i < 3; ++i) { update.stress[i] += new_mean; }
 
     const Real drop = radius - new_radius, volume = (mean - new_mean) / bulk;
-    const Real plastic_shear = drop / (Real(std::numbers::sqrt3) * shear); // e = s/(2 G) of s:s = 2 drop^2
+    const Real plastic_shear = drop / (Real(std::numbers::sqrt3) * shear); // e = s/(2 G), with s:s = 2 drop^2
     update.state.plastic_shear += plastic_shear;
     update.state.plastic_rate = plastic_shear / dt;
     if (at_apex && volume > 0) { update.state.volume_gap += volume; }

@@ -6,7 +6,7 @@
 namespace tread::mpm
 {
 
-/// C : strain for isotropic C, Pa; `strain` in tensor components.
+/// Computes C : strain for isotropic C, Pa; `strain` in tensor components.
 template<class Real>
 TREAD_HD Sym3<Real> elastic_stress(const Elasticity<Real>& elasticity, const Sym3<Real>& strain)
 {
@@ -16,7 +16,7 @@ TREAD_HD Sym3<Real> elastic_stress(const Elasticity<Real>& elasticity, const Sym
     return stress;
 }
 
-/// Hypoelastic step R stress R^T + C : D dt with incremental objectivity (Hughes and Winget 1980).
+/// Computes the hypoelastic step R stress R^T + C : D dt with incremental objectivity (Hughes and Winget 1980).
 template<class Real>
 TREAD_HD Sym3<Real> trial_stress(const Elasticity<Real>& elasticity, const Sym3<Real>& stress,
                                  const Mat3<Real>& gradient, Real dt)
@@ -25,7 +25,7 @@ TREAD_HD Sym3<Real> trial_stress(const Elasticity<Real>& elasticity, const Sym3<
     return stress + (turned + elastic_stress(elasticity, strain_increment(gradient, dt)));
 }
 
-/// a : C^-1 : b, J/m3: the work of stress `a` on the elastic strain of stress `b`.
+/// Computes a : C^-1 : b, J/m3: the work of stress `a` on the elastic strain of stress `b`.
 template<class Real>
 TREAD_HD Real elastic_product(const Elasticity<Real>& elasticity, const Sym3<Real>& a, const Sym3<Real>& b)
 {
@@ -35,7 +35,7 @@ TREAD_HD Real elastic_product(const Elasticity<Real>& elasticity, const Sym3<Rea
     return mean * other * elasticity.bulk_compliance + product * elasticity.shear_compliance;
 }
 
-/// p^2/(2K) + s:s/(4G), J/m3: the energy that the stress can give back, without further state.
+/// Computes p^2/(2K) + s:s/(4G), J/m3: the recoverable energy of the stress, without further state.
 template<class Real>
 TREAD_HD Real elastic_energy_density(const Elasticity<Real>& elasticity, const Sym3<Real>& stress)
 {

@@ -5,7 +5,7 @@
 namespace tread::mpm
 {
 
-/// Isotropic elasticity of a material and what follows from it.
+/// Isotropic elastic constants of a material and derived quantities.
 template<class Real>
 struct Elasticity
 {
@@ -13,14 +13,15 @@ struct Elasticity
     Real lame_modulus;  ///< Pa, lambda
     Real shear_modulus; ///< Pa
     Real bulk_modulus;  ///< Pa
-    Real wave_speed;    ///< m/s, of compression waves
+    Real wave_speed;    ///< m/s, compression (P) wave speed
 
-    // What divides in every step.
+    // Reciprocals, to avoid divisions in every step.
     Real bulk_compliance;  ///< 1/Pa, 1/K
     Real shear_compliance; ///< 1/Pa, 1/(2 G)
 };
 
-/// `young` > 0 in Pa, -1 < `poisson` < 0.5, `density` > 0 in kg/m3. Computed in fp64, then rounded to Real.
+/// Makes the constants from `young` > 0 in Pa, -1 < `poisson` < 0.5 and `density` > 0 in kg/m3; computed in fp64, then
+/// rounded to Real.
 template<class Real>
 Elasticity<Real> make_elasticity(double young, double poisson, double density)
 {

@@ -6,8 +6,8 @@
 namespace tread::mpm
 {
 
-/// One step of a point's law. `stress` Pa, Kirchhoff, world axes; `gradient` 1/s, [i][j] = d v_i / d x_j, of the middle
-/// of the step; dt s. An elastic material hands `state` back as it came.
+/// Updates a point's stress by its law. `stress` Pa, Kirchhoff, world axes; `gradient` 1/s, [i][j] = d v_i / d x_j, at
+/// mid-step; dt s. An elastic material returns `state` unchanged.
 template<class Real>
 TREAD_HD StressUpdate<Real> update_stress(const MaterialParameters<Real>& material, const Sym3<Real>& stress,
                                           const PlasticState<Real>& state, const Mat3<Real>& gradient, Real dt)

@@ -6,9 +6,10 @@
 #include "kernels/mpm/laws/elasticity.hpp"
 #include "kernels/mpm/laws/mohr_coulomb_law_kern.hpp"
 
-// The table of laws. A law is a struct of constants and an item function
+// Table of the constitutive laws. A law is a struct of constants and an item function
 //   respond(elasticity, constants, trial stress, plastic state, dt) -> StressUpdate
-// in a file of its own; here it has a word, a place for its constants and a line in update_stress (law_kern.hpp).
+// in a file of its own; it is registered here by a name and a member for its constants, and by a line in update_stress
+// (law_kern.hpp).
 namespace tread::mpm
 {
 
@@ -19,8 +20,8 @@ enum class LawKind : std::int32_t
     drucker_prager
 };
 
-/// What the laws need of a material, by PointsView::material. Made on the host by make_material; the constants of other
-/// laws than its own are zero.
+/// Parameters of a material for the laws, indexed by PointsView::material. Made on the host by make_material; the
+/// constants of laws other than its own are zero.
 template<class Real>
 struct MaterialParameters : Elasticity<Real>
 {

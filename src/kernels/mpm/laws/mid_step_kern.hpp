@@ -5,17 +5,17 @@
 namespace tread::mpm
 {
 
-/// What turns a velocity gradient L (1/s) with respect to the positions at the start of a step into that with respect
-/// to the middle of the step: C = L (1 + L dt/2)^-1 - L = -L^2 dt/2 + O(dt^2). Points move along straight lines, f = 1
-/// + L dt: in a rotation by an angle a they move outwards by a^2/2, which L does not see and L + C does. Two terms of
-/// the series: the error is a quarter of the cube of the step's strain, and a rotation strains by a^4/4.
+/// Returns the correction of a velocity gradient L (1/s) from the positions at the start of a step to those at
+/// mid-step: C = L (1 + L dt/2)^-1 - L = -L^2 dt/2 + O(dt^2). Points move along straight lines, f = 1 + L dt: in a
+/// rotation by an angle a they move outwards by a^2/2, which L + C includes and L does not. Two terms of the series:
+/// the error is a quarter of the cube of the step's strain, and a rotation strains by a^4/4.
 template<class Real>
 TREAD_HD Mat3<Real> to_mid_step(const Mat3<Real>& gradient, Real dt)
 {
     return (Real(-0.5) * dt) * (gradient * gradient);
 }
 
-/// Trace of the same.
+/// Trace of this correction.
 template<class Real>
 TREAD_HD Real divergence_to_mid_step(const Mat3<Real>& gradient, Real dt)
 {

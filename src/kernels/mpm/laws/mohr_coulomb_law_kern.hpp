@@ -10,7 +10,7 @@
 #include "kernels/mpm/laws/symmetric_eigen_kern.hpp"
 #include "kernels/mpm/laws/volume_gap_kern.hpp"
 
-// Perfect plasticity of Mohr-Coulomb, tension positive, principal stresses s1 >= s2 >= s3:
+// Mohr-Coulomb perfect plasticity, tension positive, principal stresses s1 >= s2 >= s3:
 //   f = (1 + sin phi) s1 - (1 - sin phi) s3 - 2 c cos phi <= 0, flow along the gradient of the same with psi <= phi.
 // The return is exact: plane, two edges, apex (de Souza Neto, Peric, Owen 2008, Computational Methods for
 // Plasticity, 8.2).
@@ -24,10 +24,10 @@ struct MohrCoulomb
     Real cos_friction;
     Real sin_dilation;
     Real cohesion;     ///< Pa
-    Real apex_tension; ///< Pa, of apex_tension(Strength)
+    Real apex_tension; ///< Pa, see apex_tension(Strength)
 };
 
-/// Computed in fp64, then rounded to Real.
+/// Makes the law, computed in fp64 and rounded to Real.
 template<class Real>
 MohrCoulomb<Real> make_mohr_coulomb(const Strength& strength)
 {
@@ -45,8 +45,8 @@ TREAD_HD Real yield_function(const MohrCoulomb<Real>& law, Real major, Real mino
            Real(2) * law.cohesion * law.cos_friction;
 }
 
-/// True only if the state is elastic, from invariants alone: over all Lode angles f is at most
-/// 2 sqrt(J2 (1 + sin^2 phi / 3)) + 2 p sin phi - 2 c cos phi, the cone inscribed in the hexagon.
+/// Returns true only if the state is elastic, from invariants alone: over all Lode angles f is at most 2 sqrt(J2 (1 +
+/// sin^2 phi / 3)) + 2 p sin phi - 2 c cos phi, the cone inscribed in the hexagon.
 template<class Real>
 TREAD_HD bool inside_inscribed_cone(const MohrCoulomb<Real>& law, Real mean, Real j2)
 {
@@ -55,7 +55,7 @@ TREAD_HD bool inside_inscribed_cone(const MohrCoulomb<Real>& law, Real mean, Rea
     return limit >= 0 && j2 * (Real(1) + s * s * Real(1.0 / 3)) <= limit * limit;
 }
 
-/// True only if the state is elastic, from principal values that are not exact: axes cost more than they do.
+/// Returns true only if the state is elastic, from approximate principal values, which are cheaper than the axes.
 template<class Real>
 TREAD_HD bool surely_inside(const MohrCoulomb<Real>& law, const PrincipalRange<Real>& range)
 {
@@ -67,11 +67,11 @@ template<class Real>
 struct YieldPair
 {
     Real major, minor;
-    Real multiplier; ///< length of the way, in rates
+    Real multiplier; ///< distance along the flow, in units of its rates
 };
 
-/// Where the yield surface is met by flow that lowers (major, minor) at the rates (major_flow, minor_flow). The
-/// larger coefficient of f divides, so that f vanishes to rounding whatever the length of the way.
+/// Intersects the yield surface with a flow that lowers (major, minor) at the rates (major_flow, minor_flow). Divides
+/// by the larger coefficient of f, so that f vanishes to rounding whatever the distance.
 template<class Real>
 TREAD_HD YieldPair<Real> flow_to_surface(const MohrCoulomb<Real>& law, Real major, Real minor, Real major_flow,
                                          Real minor_flow)
@@ -82,8 +82,8 @@ TREAD_HD YieldPair<Real> flow_to_surface(const MohrCoulomb<Real>& law, Real majo
     return {(Real(2) * law.cohesion * law.cos_friction + flat * returned) / steep, returned, multiplier};
 }
 
-/// Principal stresses, in order, returned from yielding trial values in order. On an edge both active surfaces share
-/// one principal value and the equal pair moves as its mean, so that one multiplier is left.
+/// Returns ordered principal stresses for yielding trial values in order. On an edge both active surfaces share one
+/// principal value and the equal pair moves as its mean, so that one multiplier remains.
 template<class Real>
 TREAD_HD Vec3<Real> return_principal(const Elasticity<Real>& elasticity, const MohrCoulomb<Real>& law,
                                      Real sin_dilation, const Vec3<Real>& trial)
@@ -104,11 +104,11 @@ TREAD_HD Vec3<Real> return_principal(const Elasticity<Real>& elasticity, const M
     return {edge.major, right ? edge.minor : edge.major, edge.minor};
 }
 
-/// What a return from `trial` to `stress`, in principal values, did.
+/// Plastic flow of a return from `trial` to `stress`, in principal values.
 template<class Real>
 struct PlasticFlow
 {
-    Real shear;  ///< sqrt(2/3 e:e)
+    Real shear;  ///< sqrt(2/3 e:e), deviatoric plastic strain
     Real volume; ///< volumetric plastic strain
     Real work;   ///< J/m3, stress : plastic strain
 };
@@ -126,8 +126,8 @@ TREAD_HD PlasticFlow<Real> plastic_flow(const Elasticity<Real>& elasticity, cons
             stress_mean * volume + e.dot(Vec3<Real>(stress.array() - stress_mean))};
 }
 
-/// Returned stress and state of a trial stress (Pa) after the step dt (s). Grains that do not touch cannot dilate: the
-/// flow is isochoric while a gap is open.
+/// Returns stress and state for a trial stress (Pa) after the step dt (s). Separated grains cannot dilate: the flow is
+/// isochoric while a gap is open.
 template<class Real>
 TREAD_HD StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const MohrCoulomb<Real>& law,
                                     const Sym3<Real>& trial, const PlasticState<Real>& state, Real dt)

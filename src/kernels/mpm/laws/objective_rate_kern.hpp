@@ -13,7 +13,7 @@ TREAD_HD Mat3<Real> full_matrix(const Sym3<Real>& s)
     return m;
 }
 
-/// D dt, tensor components, D = symmetric part of the velocity gradient (1/s).
+/// Computes D dt, tensor components, with D = symmetric part of the velocity gradient (1/s).
 template<class Real>
 TREAD_HD Sym3<Real> strain_increment(const Mat3<Real>& gradient, Real dt)
 {
@@ -24,9 +24,9 @@ TREAD_HD Sym3<Real> strain_increment(const Mat3<Real>& gradient, Real dt)
     return strain;
 }
 
-/// R - I of the rotation R = (I - W dt/2)^-1 (I + W dt/2), W = skew part of the velocity gradient: a proper rotation at
-/// any step (Hughes and Winget 1980, Int. J. Numer. Methods Eng. 15:1862). With W dt/2 = [a]x it is
-/// 2/(1 + a.a) ([a]x + a a^T - a.a I), Cayley's formula.
+/// Computes R - I of the rotation R = (I - W dt/2)^-1 (I + W dt/2), W = skew part of the velocity gradient: a proper
+/// rotation for any step (Hughes and Winget 1980, Int. J. Numer. Methods Eng. 15:1862). With W dt/2 = [a]x it is 2/(1 +
+/// a.a) ([a]x + a a^T - a.a I), Cayley's formula.
 template<class Real>
 TREAD_HD Mat3<Real> rotation_increment(const Mat3<Real>& gradient, Real dt)
 {
@@ -41,8 +41,8 @@ TREAD_HD Mat3<Real> rotation_increment(const Mat3<Real>& gradient, Real dt)
     return Real(2) / (Real(1) + aa) * q;
 }
 
-/// R stress R^T - stress for R = I + `rotation`. As an increment, so that the rounding of a small rotation is small
-/// beside the stress: fp32 keeps |stress| over many turns.
+/// Computes R stress R^T - stress for R = I + `rotation`. It is computed as an increment, so that the rounding of a
+/// small rotation is small compared with the stress: fp32 conserves |stress| over many rotations.
 template<class Real>
 TREAD_HD Sym3<Real> rotation_of_stress(const Sym3<Real>& stress, const Mat3<Real>& rotation)
 {

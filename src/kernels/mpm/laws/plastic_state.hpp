@@ -5,25 +5,25 @@
 namespace tread::mpm
 {
 
-/// What a plastic point remembers besides its stress.
+/// Internal variables of a plastic point besides its stress.
 template<class Real>
 struct PlasticState
 {
     Real
         plastic_shear; ///< sum of sqrt(2/3 e:e), e = deviatoric plastic strain increment (gamma/sqrt 3 in simple shear)
-    Real plastic_rate; ///< 1/s, of plastic_shear in the last step
+    Real plastic_rate; ///< 1/s, rate of plastic_shear in the last step
     Real volume_gap;   ///< log volume opened at the apex that must close before compression, >= 0
 };
 
-/// A point after a step of its law.
+/// State of a point after a step of its law.
 template<class Real>
 struct StressUpdate
 {
     Sym3<Real>         stress; ///< Pa, Kirchhoff, tension positive
     PlasticState<Real> state;
     Real               plastic_work; ///< J/m3 of initial volume, of the step, at the returned stress: never negative
-    /// J/m3, what makes it the work at the mean of the stresses before and after, so that it and the elastic energy
-    /// are together the trapezoidal rule of the stress power.
+    /// J/m3, correction to the work at the mean of the stresses before and after. With it, plastic and elastic work
+    /// together are the trapezoidal rule of the stress power.
     Real work_to_mean = 0;
 };
 

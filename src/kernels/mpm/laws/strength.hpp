@@ -9,8 +9,8 @@
 namespace tread::mpm
 {
 
-/// Strength of a granular material in the terms of Mohr and Coulomb, which every granular law takes its constants from:
-/// 0 <= dilation <= friction < 90 degrees, cohesion >= 0.
+/// Mohr-Coulomb strength of a granular material, from which every granular law derives its constants: 0 <= dilation <=
+/// friction < 90 degrees, cohesion >= 0.
 struct Strength
 {
     double friction_angle_deg;
@@ -18,12 +18,13 @@ struct Strength
     double cohesion; ///< Pa
 };
 
-/// A stress above its yield limit by this share of its size is yielding: 16 roundings, above what an
-/// eigen-decomposition and the yield function leave (2-3), so that a returned stress is not returned again.
+/// Relative tolerance of yielding: a stress above its yield limit by this share of its magnitude yields. It is 16
+/// roundings, above the error of an eigen-decomposition and the yield function (2-3), so that a returned stress does
+/// not yield again.
 template<class Real>
 constexpr Real yield_tolerance = Real(16) * std::numeric_limits<Real>::epsilon();
 
-/// Tension that no strength holds, Pa: c cot phi of the apex; none without cohesion, and no limit for phi = 0 < c.
+/// Maximum tension that the material carries, Pa: c cot phi of the apex; 0 without cohesion, no limit for phi = 0 < c.
 inline double apex_tension(const Strength& strength)
 {
     if (strength.cohesion == 0) { return 0; }
@@ -31,8 +32,8 @@ inline double apex_tension(const Strength& strength)
     return friction > 0 ? strength.cohesion / std::tan(friction) : std::numeric_limits<double>::infinity();
 }
 
-/// The mean stress is beyond the apex. The yield surface sees to that itself but for phi = 0 = c, a liquid, which would
-/// hold any tension (and made energy when it tore).
+/// Whether the mean stress is beyond the apex. The yield surface ensures this itself except for phi = 0 = c, a liquid,
+/// which would carry any tension (and create energy when it separates).
 template<class Real>
 TREAD_HD bool beyond_apex(Real mean, Real apex_tension)
 {

@@ -8,7 +8,7 @@
 namespace tread::mpm
 {
 
-/// Principal values, descending, and the orthonormal axes that belong to them, one a column.
+/// Principal values, descending, and the corresponding orthonormal axes, one per column.
 template<class Real>
 struct SymmetricEigen
 {
@@ -16,8 +16,9 @@ struct SymmetricEigen
     Mat3<Real> axes;
 };
 
-/// Largest root, in [sqrt 3, 2], of x^3 - 3 x = 2 r for r in [0, 1]: x = 2 cos(acos(r)/3). Newton from a parabola 3e-3
-/// off squares the error: 7e-6, 4e-11, 1e-21. The root is simple there, so rounding of r is not amplified.
+/// Returns the largest root, in [sqrt 3, 2], of x^3 - 3 x = 2 r for r in [0, 1]: x = 2 cos(acos(r)/3). Newton's
+/// iteration starts from a parabola with an error of 3e-3 and squares it: 7e-6, 4e-11, 1e-21. The root is simple, so
+/// that rounding of r is not amplified.
 template<class Real>
 TREAD_HD Real isolated_root(Real r)
 {
@@ -27,7 +28,7 @@ TREAD_HD Real isolated_root(Real r)
     return x;
 }
 
-/// Unit null vector of a symmetric matrix of rank 2: the largest column of its adjugate.
+/// Returns the unit null vector of a symmetric matrix of rank 2: the largest column of its adjugate.
 template<class Real>
 TREAD_HD Vec3<Real> null_vector(const Sym3<Real>& m)
 {
@@ -62,7 +63,7 @@ struct PlaneEigen
 template<class Real>
 TREAD_HD PlaneEigen<Real> plane_eigen(const Sym3<Real>& m, const Vec3<Real>& normal)
 {
-    // Basis of the plane: Duff et al. 2017, J. Comput. Graph. Tech. 6(1).
+    // basis of the plane: Duff et al. 2017, J. Comput. Graph. Tech. 6(1)
     const Real       sign = std::copysign(Real(1), normal[2]);
     const Real       k    = Real(-1) / (sign + normal[2]);
     const Real       b    = normal[0] * normal[1] * k;
@@ -86,7 +87,7 @@ TREAD_HD PlaneEigen<Real> plane_eigen(const Sym3<Real>& m, const Vec3<Real>& nor
     return {mean + radius, mean - radius, x * u + y * w, x * w - y * u};
 }
 
-/// Mean of a tensor and what is left without it.
+/// Mean and deviator of a tensor.
 template<class Real>
 struct Deviator
 {
@@ -95,8 +96,8 @@ struct Deviator
     Real       j2;
 };
 
-/// The mean is taken out twice: the first difference of an almost spherical tensor has a trace as large as itself, from
-/// rounding.
+/// Subtracts the mean twice: for an almost spherical tensor, the first difference has a rounding trace as large as
+/// itself.
 template<class Real>
 TREAD_HD Deviator<Real> deviator_of(const Sym3<Real>& tensor)
 {
@@ -116,9 +117,9 @@ TREAD_HD Deviator<Real> deviator_of(const Sym3<Real>& tensor)
 template<class Real>
 struct IsolatedValue
 {
-    Real       size; ///< sqrt(J2/3); 0 where its square underflows
+    Real       size; ///< sqrt(J2/3); 0 if its square underflows
     Real       root;
-    Sym3<Real> scaled; ///< deviator over size
+    Sym3<Real> scaled; ///< deviator divided by size
 };
 
 template<class Real>
@@ -141,8 +142,8 @@ struct PrincipalRange
     Real major, minor, error;
 };
 
-/// The other roots of the cubic are (-x +- sqrt(12 - 3 x^2))/2 for the isolated root x. Near x = 2, where they meet,
-/// rounding of x comes out as its square root.
+/// Computes the range: the other roots of the cubic are (-x +- sqrt(12 - 3 x^2))/2 for the isolated root x. Near x = 2,
+/// where they coincide, rounding of x is amplified to its square root.
 template<class Real>
 TREAD_HD PrincipalRange<Real> principal_range(Real mean, const IsolatedValue<Real>& isolated)
 {
@@ -154,10 +155,10 @@ TREAD_HD PrincipalRange<Real> principal_range(Real mean, const IsolatedValue<Rea
     return {isolated.root > 0 ? alone : other, isolated.root > 0 ? other : alone, isolated.size * precision};
 }
 
-/// Eigen-decomposition of a symmetric 3 x 3 tensor without iteration over rotations: the most isolated principal value
-/// first, from the characteristic cubic of the deviator, where its root is simple; its axis; then the plane problem,
-/// which is exact for close and equal values (Scherzinger and Dohrmann 2008, Comput. Methods Appl. Mech. Eng.
-/// 197:4007). A deviator whose square underflows counts as zero. NaN in, NaN out.
+/// Computes the eigen-decomposition of a symmetric 3 x 3 tensor without iterative rotations: first the most isolated
+/// principal value, from the characteristic cubic of the deviator, where its root is simple; then its axis; then the
+/// plane problem, which is exact for close and equal values (Scherzinger and Dohrmann 2008, Comput. Methods Appl. Mech.
+/// Eng. 197:4007). A deviator whose square underflows counts as zero. NaN in, NaN out.
 template<class Real>
 TREAD_HD SymmetricEigen<Real> symmetric_eigen(Real mean, const IsolatedValue<Real>& isolated)
 {
@@ -190,7 +191,8 @@ TREAD_HD SymmetricEigen<Real> symmetric_eigen(const Sym3<Real>& tensor)
     return symmetric_eigen(deviator.mean, isolated_value(deviator));
 }
 
-/// Sum of values[i] axes_i axes_i^T. The mean is added apart, so that the axes' rounding acts on the deviator alone.
+/// Computes the sum of values[i] axes_i axes_i^T. The mean is added separately, so that rounding of the axes affects
+/// only the deviator.
 template<class Real>
 TREAD_HD Sym3<Real> from_principal(const Vec3<Real>& values, const Mat3<Real>& axes)
 {

@@ -5,8 +5,9 @@
 namespace tread::mpm
 {
 
-/// Compression first closes the volume that opened at the apex, and only then loads the grains (the hypoelastic twin of
-/// Tampubolon et al. 2017, ACM Trans. Graph. 36:105). Lowers `gap`; gives the tension to add to the mean of the trial.
+/// Closes the volume gap: compression first closes the volume opened at the apex and only then loads the grains
+/// (hypoelastic analogue of Tampubolon et al. 2017, ACM Trans. Graph. 36:105). Reduces `gap`; returns the tension to
+/// add to the mean of the trial stress.
 template<class Real>
 TREAD_HD Real close_gap(Real mean, Real bulk_modulus, Real& gap)
 {

@@ -11,7 +11,7 @@ namespace
 
 constexpr int census_threads = 128;
 
-/// One block a page, its points dealt to the threads in order.
+/// Sums one page per block; its points are assigned to the threads in order.
 template<class Real>
 struct CountPage
 {

@@ -7,7 +7,7 @@
 namespace tread::mpm
 {
 
-/// What a census of the points counts, fp64.
+/// Sums over the points for the ledger, fp64.
 enum PointCensus : int
 {
     census_mass,                         ///< kg
@@ -18,7 +18,7 @@ enum PointCensus : int
     census_count  = census_moment + 3
 };
 
-/// rows[point page][PointCensus]: sums over the page's points in their order.
+/// Computes rows[point page][PointCensus]: sums over the page's points in their order.
 template<class Real>
 void take_census(const Cpu&, const PointsView<Real>& points, const PagesView& pages,
                  const MaterialParameters<Real>* materials, double* rows);

@@ -3,12 +3,12 @@
 #include "kernels/mpm/pages/leaving.hpp"
 #include "kernels/mpm/pages/order_impl.hpp"
 
-// The steps of find_leaving and remove_leaving, the same on both backends; leaving.cpp and leaving.cu bring in for_each
-// and instantiate.
+// Steps of find_leaving and remove_leaving, for both backends; leaving.cpp and leaving.cu provide for_each and
+// instantiate.
 namespace tread::mpm
 {
 
-/// From the points' keys (order_steps::MakeKeys).
+/// Marks the leaving points by their keys (order_steps::MakeKeys).
 struct MarkLeaving
 {
     const std::uint64_t* keys;
@@ -24,7 +24,7 @@ struct MarkLeaving
     }
 };
 
-/// After the scan before[i] counts the leaving points before i.
+/// Writes the leaving points; after the scan before[i] is the number of leaving points before i.
 struct WriteLeaving
 {
     const std::uint64_t* keys;
@@ -44,7 +44,7 @@ struct WriteLeaving
     }
 };
 
-/// The i-th point that stays: `row` ascends.
+/// Writes point i to the order of the staying points, if it stays; `row` ascends.
 struct WriteStaying
 {
     const std::int32_t* row;

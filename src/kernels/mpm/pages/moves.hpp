@@ -7,29 +7,30 @@
 namespace tread::mpm
 {
 
-/// What a step did to a point's place in the list, worst last.
+/// Change of a point's place in the list during a step, in order of severity.
 enum class CellChange : std::int32_t
 {
     none,      ///< same cell
-    moved,     ///< another cell of a page that is listed
-    rim,       ///< a cell beside a page that is not listed, or one of another level: order the points anew soon
-    lost,      ///< no listed page: the points must be ordered anew
-    not_finite ///< position, velocity or stress
+    moved,     ///< another cell on a listed page
+    rim,       ///< a cell next to a page that is not listed, or one of another level: reorder the points soon
+    lost,      ///< no listed page: the points must be reordered now
+    not_finite ///< position, velocity or stress is not finite
 };
 
-/// Where a point is after a step, seen from its page.
+/// New place of a point after a step, relative to its page.
 struct Move
 {
-    int        direction; ///< of the page
-    int        place;     ///< in that page
+    int        direction; ///< to the new page
+    int        place;     ///< cell in that page
     CellChange cell_change;
 };
 
-/// How many points leave a page each way (0 for `own_page`); the last entry counts those that changed their cell.
+/// Entries per page: number of points that leave it in each direction (0 for `own_page`); the last entry counts the
+/// points that changed their cell.
 constexpr int changed_points = directions;
 constexpr int move_counts    = directions + 1;
 
-/// Of all points, by their places in the list of before the step.
+/// Moves of all points, by their places in the list before the step.
 struct MovesView
 {
     std::uint16_t* to;         ///< [points], place in the page + 64 * direction
@@ -40,7 +41,7 @@ struct MovesView
     TREAD_HD bool any_changed_cell() const { return *changed_in == step; }
 };
 
-/// Whether a page beside a cell (`place` of `page`) is not listed.
+/// Whether any page next to a cell (`place` of `page`) is not listed.
 TREAD_HD bool at_rim(const PagesView& pages, std::int64_t page, int place)
 {
     const int at[] = {place & 3, place >> 2 & 3, place >> 4};
@@ -55,8 +56,8 @@ TREAD_HD bool at_rim(const PagesView& pages, std::int64_t page, int place)
     return false;
 }
 
-/// Of a point of cell `before` that is at `position` now. One that has no listed page to go to stays in its own until
-/// all are ordered anew.
+/// Computes the move of a point of cell `before` that is at `position` now. A point without a listed page to move to
+/// stays in its own page until the points are reordered.
 TREAD_HD Move move_to(const PagesView& pages, std::int64_t page, Index3 before, const Vec3<double>& position)
 {
     if (stays_in(before, position, pages)) { return {own_page, place_in_page(before), CellChange::none}; }

@@ -4,7 +4,7 @@
 #include "backend/sort.hpp"
 #include "kernels/mpm/pages/pages.hpp"
 
-// Some of the node pages, numbered in their order; who includes this brings in for_each.
+// Numbering of a subset of the node pages in their order; the including file provides for_each.
 namespace tread::mpm
 {
 namespace numbered_steps
@@ -19,7 +19,7 @@ struct Mark
     TREAD_HD void operator()(std::int64_t i) const { marks[i] = is_one(i); }
 };
 
-/// After the scan number_of[i] counts the marked pages before i.
+/// Writes the marked pages; after the scan number_of[i] is the number of marked pages before i.
 template<class IsOne>
 struct Write
 {
@@ -36,7 +36,7 @@ struct Write
 
 } // namespace numbered_steps
 
-/// Writes the node pages of which is_one(node page) holds, and of every node page its number among them, or -1.
+/// Lists the node pages for which is_one(node page) holds, and writes each node page's index in this list, or -1.
 template<class Exec, class IsOne>
 void number_pages(const Exec& exec, const PagesView& pages, const IsOne& is_one, const char* mark, const char* write,
                   Array<Exec, std::int32_t>& page, Array<Exec, std::int32_t>& number_of, SortScratch<Exec>& scratch)
@@ -48,7 +48,7 @@ void number_pages(const Exec& exec, const PagesView& pages, const IsOne& is_one,
     for_each(exec, write, pages.node_pages, Write<IsOne>{is_one, number_of.data(), page.data()});
 }
 
-/// Node page of page coordinates, or -1.
+/// Returns the node page at page coordinates, or -1.
 TREAD_HD std::int32_t find_node_page(const PagesView& pages, Index3 page)
 {
     return static_cast<std::int32_t>(find_sorted(pages.node_page_key, pages.node_pages, page_key(page)));

@@ -9,7 +9,7 @@
 namespace tread::mpm
 {
 
-/// Where cells and walls are.
+/// Geometry of the grid: spacing, domain and walls.
 struct GridGeometry
 {
     double       spacing;       ///< m
@@ -19,11 +19,11 @@ struct GridGeometry
 
     TREAD_HD Lattice lattice() const { return make_lattice(spacing, stencil_shift); }
 
-    /// m, on the last level.
+    /// Returns the spacing of the last level, m.
     TREAD_HD double finest_spacing() const { return level_lattice(lattice(), refinement.levels).spacing; }
 };
 
-/// Scratch of order_points, kept between calls.
+/// Scratch memory of order_points, kept between calls.
 template<class Exec, class Real>
 struct OrderScratch
 {
@@ -44,19 +44,18 @@ struct OrderScratch
 };
 
 /// Orders points in memory by page and cell, stably, and rebuilds the page tables. Points more than two cells outside
-/// the domain are dropped (points.count shrinks): how many comes back, and until points are added they stand behind the
-/// others. Post: every point is listed in the range of its cell;
-/// the list is the order in memory; page keys ascend; every page within two cells of a point is
-/// listed.
+/// the domain are dropped (points.count decreases): returns their number, and until points are added they remain in
+/// memory behind the others. Postconditions: every point is listed in the range of its cell; the list is the order in
+/// memory; page keys ascend; every page within two cells of a point is listed.
 template<class Exec, class Real>
 std::int64_t order_points(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages,
                           const GridGeometry& geometry, OrderScratch<Exec, Real>& scratch);
 
-/// Moves the points in memory to where the list has them; lists and tables of pages stay.
+/// Moves the points in memory into the order of the list; lists and tables of pages are unchanged.
 template<class Exec, class Real>
 void renew_order(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, OrderScratch<Exec, Real>& scratch);
 
-/// Lists other node pages: `keys` ascend and include those that there are.
+/// Replaces the list of node pages: `keys` ascend and include the present ones.
 template<class Exec>
 void set_node_pages(const Exec& exec, Pages<Exec>& pages, const std::vector<std::uint64_t>& keys);
 

@@ -2,13 +2,13 @@
 
 #include "kernels/mpm/pages/order.hpp"
 
-// The steps of order_points, the same on both backends; order.cpp and order.cu bring in for_each and instantiate.
+// Steps of order_points, for both backends; order.cpp and order.cu provide for_each and instantiate.
 namespace tread::mpm
 {
 namespace order_steps
 {
 
-/// Points further outside the domain are dropped, in spacings.
+/// Distance outside the domain beyond which points are dropped, in spacings.
 constexpr double drop_margin = 2;
 
 template<class Real>
@@ -47,7 +47,7 @@ struct MarkFirstOfPage
 {
     const std::uint64_t* keys;
     std::int32_t*        marks;
-    int                  shift; ///< bits of the key below the page
+    int                  shift; ///< number of bits of the key below the page
 
     TREAD_HD void operator()(std::int64_t i) const
     {
@@ -55,7 +55,7 @@ struct MarkFirstOfPage
     }
 };
 
-/// After the scan marks[i] counts the heads before i: a head writes its page.
+/// Writes the pages: after the scan marks[i] is the number of heads before i, and a head writes its page.
 struct WritePages
 {
     const std::uint64_t* keys;
@@ -70,7 +70,8 @@ struct WritePages
     }
 };
 
-/// Of `pages` pages and, for the last i, of the points that left the domain: they carry the largest key.
+/// Finds the first point of page i of `pages`; the last i is that of the points outside the domain, which have the
+/// largest key.
 struct FirstOfPage
 {
     const std::uint64_t* keys;
@@ -128,10 +129,10 @@ struct FirstOfCell
     }
 };
 
-/// How far from its page's faces, in cells, a point makes the page beyond be listed, too.
+/// Distance of a point from a face of its page, in cells, within which the page beyond is listed as well.
 constexpr int surround_reach = 2;
 
-/// Whether a cell of a page (place 0..63) is within reach of the neighbour in a direction, along every axis.
+/// Whether a cell of a page (place 0..63) is within that distance of the neighbour in a direction, along every axis.
 TREAD_HD bool reaches(int place, int direction)
 {
     const int at[]   = {place & 3, place >> 2 & 3, place >> 4};
@@ -144,7 +145,8 @@ TREAD_HD bool reaches(int place, int direction)
     return true;
 }
 
-/// Pages around those that hold points: where points may go before they are ordered anew. Not where no point may be.
+/// Keys of the pages around those with points, into which points may move before they are reordered; pages where no
+/// point may be are excluded.
 struct SurroundingKeys
 {
     const std::uint64_t* page_key;
@@ -154,7 +156,7 @@ struct SurroundingKeys
     std::uint64_t*       keys;
     std::int32_t*        order;
 
-    /// Whether a point of the page is within reach of its neighbour.
+    /// Whether a point of the page is within that distance of its neighbour.
     TREAD_HD bool wanted(std::uint64_t key, int direction) const
     {
         const std::int64_t first = lower_bound(point_keys, points, key << 6);
@@ -197,8 +199,8 @@ struct NeighbourKeys
     }
 };
 
-/// Node pages of the level below that have the parents of nodes that a point page reaches, where some of these are
-/// slaves of it (seams.hpp).
+/// Keys of the node pages of the level below that contain the parents of a point page's nodes, if some of these nodes
+/// are slaves of that level (seams.hpp).
 struct ParentKeys
 {
     const std::uint64_t* page_key;
@@ -248,7 +250,7 @@ struct FindAround
 
 } // namespace order_steps
 
-/// One plane after the other, so that the buffer is as small as one: the sort's, which is over.
+/// Reorders a field plane by plane, so that the buffer is only one plane: that of the sort, which is finished.
 template<class Exec, class Real, class T>
 void gather_field(const Exec& exec, Array<Exec, T>& field, const Points<Exec, Real>& points, int components,
                   const std::int32_t* order, SortScratch<Exec>& scratch)
@@ -264,7 +266,7 @@ void gather_field(const Exec& exec, Array<Exec, T>& field, const Points<Exec, Re
     }
 }
 
-/// Point i becomes the one that is at order[i].
+/// Reorders the points: point i becomes the one at order[i].
 template<class Exec, class Real>
 void gather_points(const Exec& exec, Points<Exec, Real>& points, const std::int32_t* order, SortScratch<Exec>& scratch)
 {
@@ -272,7 +274,7 @@ void gather_points(const Exec& exec, Points<Exec, Real>& points, const std::int3
                           { gather_field(exec, field, points, components, order, scratch); });
 }
 
-/// The pages of the sorted keys, each once, to `page_key`; keys below `shift` bits do not count.
+/// Writes the distinct pages of the sorted keys to `page_key`; the lowest `shift` bits of the keys are ignored.
 template<class Exec, class Real>
 void write_pages(const Exec& exec, const Array<Exec, std::uint64_t>& keys, int shift,
                  Array<Exec, std::uint64_t>& page_key, OrderScratch<Exec, Real>& scratch)
@@ -285,7 +287,7 @@ void write_pages(const Exec& exec, const Array<Exec, std::uint64_t>& keys, int s
              WritePages{keys.data(), scratch.sort.values.data(), page_key.data(), shift});
 }
 
-/// Point pages and their neighbours, ranges of pages and cells, from the sorted keys of the points.
+/// Builds the point pages with their neighbours and the ranges of pages and cells, from the sorted keys of the points.
 template<class Exec, class Real>
 void build_point_pages(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>& pages, const GridGeometry& geometry,
                        OrderScratch<Exec, Real>& scratch)
@@ -320,7 +322,7 @@ void build_point_pages(const Exec& exec, Points<Exec, Real>& points, Pages<Exec>
              FindAround{pages.point_page_key.data(), count, pages.neighbour.data()});
 }
 
-/// Which node pages each point page reaches, and the other way round.
+/// Links each point page to its node pages and vice versa.
 template<class Exec>
 void link_pages(const Exec& exec, Pages<Exec>& pages)
 {
@@ -336,7 +338,7 @@ void link_pages(const Exec& exec, Pages<Exec>& pages)
                             pages.point_page_of.data()});
 }
 
-/// Node pages = point pages and their upper neighbours, and those of the parents of slave nodes.
+/// Builds the node pages: point pages and their upper neighbours, and the pages of the parents of slave nodes.
 template<class Exec, class Real>
 void build_node_pages(const Exec& exec, Pages<Exec>& pages, const Refinement& refinement,
                       OrderScratch<Exec, Real>& scratch)

@@ -5,11 +5,11 @@
 namespace tread::mpm
 {
 
-/// Some of the point pages.
+/// List of some of the point pages.
 struct PageList
 {
     std::int64_t        count;
-    const std::int32_t* page; ///< [count], each once; null: those from `first` on, in their order
+    const std::int32_t* page; ///< [count], without duplicates; null: consecutive pages starting at `first`
     std::int64_t        first = 0;
 
     TREAD_HD std::int64_t at(std::int64_t i) const { return page == nullptr ? first + i : page[i]; }

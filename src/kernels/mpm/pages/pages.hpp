@@ -8,7 +8,8 @@
 namespace tread::mpm
 {
 
-/// Directions from a page to its neighbours: (d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1); `own_page` is the page itself.
+/// Number of directions from a page to its neighbours: (d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1); `own_page` is the page
+/// itself.
 constexpr int directions = 27;
 constexpr int own_page   = 13;
 
@@ -17,34 +18,35 @@ TREAD_HD Index3 page_towards(Index3 page, int direction)
     return {page.x + direction % 3 - 1, page.y + direction / 3 % 3 - 1, page.z + direction / 9 - 1};
 }
 
-/// The page at an octant, (octant & 1, octant >> 1 & 1, octant >> 2), of a page; `sign` -1: at the opposite one.
+/// Returns the page at an octant, (octant & 1, octant >> 1 & 1, octant >> 2), of a page; `sign` -1: at the opposite
+/// one.
 TREAD_HD Index3 page_at_octant(Index3 page, int octant, int sign = 1)
 {
     return {page.x + sign * (octant & 1), page.y + sign * (octant >> 1 & 1), page.z + sign * (octant >> 2)};
 }
 
-/// The pages that hold points, with all their neighbours ("point pages"), and those that their stencils reach ("node
-/// pages", which include them). Points are listed by page key, then by place in the page; in memory they stand as they
-/// were when they were last ordered. The cell of a point is the one in which it is listed.
+/// Tables of the pages: those that hold points with all their neighbours ("point pages"), and those in their stencils
+/// ("node pages", a superset). Points are listed by page key, then by place in the page; their memory order is that of
+/// the last reordering. The cell of a point is the one in which it is listed.
 struct PagesView : Lattice
 {
-    int                  levels;   ///< beyond the scene's own grid (levels.hpp); tables are those of all levels
-    CellBox              replaced; ///< cells in which points belong to the next level
-    CellBox              own;      ///< cells in which they may stay on this one
-    std::int64_t         point_pages;
-    std::int64_t         node_pages;
+    int          levels;   ///< number of levels beyond the scene's own grid (levels.hpp); tables contain all levels
+    CellBox      replaced; ///< cells in which points belong to the next level
+    CellBox      own;      ///< cells in which points may stay on this level
+    std::int64_t point_pages;
+    std::int64_t node_pages;
     const std::uint64_t* point_page_key;   ///< [point_pages], ascending
     const std::int32_t*  first_point;      ///< [point_pages + 1], into the list
     const std::int32_t*  cell_first_point; ///< [64 * point_pages + 1], into the list, by place in the page
-    const std::int32_t*  point_at;         ///< [points], the list: where in memory each point is
-    const std::uint8_t*  place_at;         ///< [points], of the list: place in its page of the point's cell
+    const std::int32_t*  point_at;         ///< [points], the list: index in memory of each point
+    const std::uint8_t*  place_at;         ///< [points], by place in the list: place in its page of the point's cell
     const std::int32_t*  neighbour;        ///< [27 * point_pages], point page by direction, or -1
     const std::uint64_t* node_page_key;    ///< [node_pages], ascending
     const std::int32_t*  node_page_of;     ///< [8 * point_pages], node page at + (o & 1, o >> 1 & 1, o >> 2)
     const std::int32_t*  point_page_of;    ///< [8 * node_pages], point page at - (o & 1, o >> 1 & 1, o >> 2), or -1
 };
 
-/// Owner of what PagesView shows.
+/// Memory of PagesView.
 template<class Exec>
 struct Pages
 {
@@ -61,7 +63,7 @@ struct Pages
     {
     }
 
-    /// `levels`: beyond the scene's own grid, whose lattice this is.
+    /// Makes the view; `levels`: beyond the scene's own grid, whose lattice is given.
     PagesView view(const Lattice& lattice, int levels = 0) const
     {
         return {lattice,

@@ -11,7 +11,7 @@ namespace
 
 constexpr int relist_warps = 4;
 
-/// One warp a page: places are counted, then filled in the order of the old list, 32 points at a time.
+/// Relists one page per warp: places are counted, then filled in the order of the old list, 32 points at a time.
 struct RelistPages
 {
     Relisting job;
@@ -45,7 +45,7 @@ private:
         }
     }
 
-    /// `sources`: a bit for each direction from which points come.
+    /// Relists a page; `sources`: a bit for each direction from which points arrive.
     __device__ void relist(std::int64_t page, unsigned sources, std::int32_t* next) const
     {
         next[lane()] = next[lane() + 32] = 0;
@@ -60,7 +60,7 @@ private:
         for_each_listed(page, sources, [&](bool listed, int place, std::int32_t at) { put(listed, place, at, next); });
     }
 
-    /// Calls visit(listed, place, place in the old list) with all lanes at once; `listed` if the point is in `page`
+    /// Calls visit(listed, place, place in the old list) with all lanes together; `listed` = the point is in `page`
     /// now.
     template<class Visit>
     __device__ void for_each_listed(std::int64_t page, unsigned sources, Visit visit) const
@@ -85,7 +85,7 @@ private:
         }
     }
 
-    /// Counts become first places, two a lane.
+    /// Converts counts to first places, two per lane.
     __device__ void start_cells(std::int64_t page, std::int32_t* next) const
     {
         const std::int32_t low = next[2 * lane()], high = next[2 * lane() + 1];
@@ -104,7 +104,7 @@ private:
         __syncwarp();
     }
 
-    /// The lanes of one place follow each other in the order of the lanes.
+    /// Writes the points; lanes with the same place are ordered by lane.
     __device__ void put(bool listed, int place, std::int32_t at, std::int32_t* next) const
     {
         const unsigned lanes = __match_any_sync(all_lanes, listed ? place : page_cells);
@@ -122,7 +122,7 @@ private:
 
 constexpr int start_threads = 1024;
 
-/// Pages that one block counts and scans in less time than three launches take.
+/// Number of pages that one block counts and scans in less time than three launches.
 constexpr std::int64_t few_pages = 8 * start_threads;
 
 struct StartFewPages

@@ -7,7 +7,7 @@
 namespace tread::mpm
 {
 
-/// What relist_points writes before the pages take it over; kept between calls.
+/// Buffers of relist_points, kept between calls; their contents are copied to the arrays of the pages.
 template<class Exec>
 struct RelistScratch
 {
@@ -23,11 +23,11 @@ struct RelistScratch
     Array<Exec, std::int32_t> cell_first_point;
 };
 
-/// Lists every point in the cell that it moved to; no point moves in memory. In a cell those that stayed in the page
-/// come first, then those from neighbours by direction, each in the order of the old list.
-/// Does nothing where no point changed its cell; the host does not ask. Pre: `moves` is of the present list and no
-/// point is lost (CellChange). Post: every point is listed in the range of its cell. `room`: for the new list, any
-/// array that others use between the calls.
+/// Lists every point in the cell to which it moved; no point moves in memory. Within a cell, points that stayed in the
+/// page come first, then those from neighbours by direction, each in the order of the old list.
+/// Does nothing if no point changed its cell (tested on the device). Preconditions: `moves` belongs to the present list
+/// and no point is lost (CellChange). Postcondition: every point is listed in the range of its cell. `room`: buffer for
+/// the new list, any array that others use between the calls.
 template<class Exec>
 void relist_points(const Exec& exec, Pages<Exec>& pages, const MovesView& moves, RelistScratch<Exec>& scratch,
                    Array<Exec, std::uint64_t>& room);

@@ -6,26 +6,26 @@
 #include "kernels/mpm/pages/relist.hpp"
 #include "kernels/mpm/pages/relist_kern.hpp"
 
-// The steps of relist_points, the same on both backends; relist.cpp and relist.cu bring in for_each and instantiate.
+// Steps of relist_points, for both backends; relist.cpp and relist.cu provide for_each and instantiate.
 namespace tread::mpm
 {
 
-/// Whether points may have changed their cells, as far as the host knows without waiting.
+/// Whether points may have changed cell; may return true where the answer would need a wait for the device.
 bool may_have_changed_cells(const Cpu& cpu, const MovesView& moves);
 bool may_have_changed_cells(const Gpu& gpu, const MovesView& moves);
 
-/// Writes first_point: the points before each page and, last, all, after the moves.
+/// Writes first_point: the number of points before each page and, last, the total, after the moves.
 void start_pages(const Cpu& cpu, const PagesView& old, const MovesView& moves, RelistScratch<Cpu>& scratch);
 void start_pages(const Gpu& gpu, const PagesView& old, const MovesView& moves, RelistScratch<Gpu>& scratch);
 
-/// Writes list and cell ranges of every page.
+/// Writes the list and the cell ranges of every page.
 void relist_pages(const Cpu& cpu, const Relisting& job);
 void relist_pages(const Gpu& gpu, const Relisting& job);
 
-/// Each thread takes over every so many entries: where nothing moved, there should be few threads to find that out.
+/// Stride with which each thread copies entries: if nothing moved, only few threads should be needed to find that out.
 constexpr std::int64_t take_over_stride = 1 << 18;
 
-/// The new list becomes the pages' own.
+/// Copies the new list into the arrays of the pages.
 struct TakeOver
 {
     MovesView           moves;

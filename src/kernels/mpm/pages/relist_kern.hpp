@@ -6,7 +6,7 @@
 namespace tread::mpm
 {
 
-/// The lists before and after.
+/// The lists before and after the moves.
 struct Relisting
 {
     PagesView           old;
@@ -17,7 +17,7 @@ struct Relisting
     std::uint8_t*       place_at;         ///< new
 };
 
-/// How many come to `page` from its neighbour in a direction; their own direction is the opposite.
+/// Number of points that arrive in `page` from its neighbour in a direction; they move in the opposite direction.
 TREAD_HD std::int32_t arrivals(const PagesView& pages, const MovesView& moves, std::int64_t page, int direction)
 {
     const std::int32_t from = pages.neighbour[page * directions + direction];
@@ -25,7 +25,7 @@ TREAD_HD std::int32_t arrivals(const PagesView& pages, const MovesView& moves, s
     return moves.count[std::int64_t(from) * move_counts + directions - 1 - direction];
 }
 
-/// Points in a page after the moves.
+/// Number of points in a page after the moves.
 TREAD_HD std::int32_t count_after(const PagesView& pages, const MovesView& moves, std::int64_t page)
 {
     std::int32_t points = pages.first_point[page + 1] - pages.first_point[page];
@@ -49,7 +49,7 @@ struct CountAfter
     }
 };
 
-/// No point of the page changed its cell, and none came: the list is the old one.
+/// Whether no point of the page changed its cell and none arrived: the list is then unchanged.
 TREAD_HD bool unchanged(const PagesView& pages, const MovesView& moves, std::int64_t page)
 {
     std::int32_t changes = moves.count[page * move_counts + changed_points];

@@ -7,15 +7,15 @@
 namespace tread::mpm
 {
 
-/// What points bring to the nodes of a page.
+/// Number of P2G values per node page.
 constexpr int node_page_values = node_channels * page_cells;
 
-/// Node pages to which points of other processes bring something, too ("shared pages").
+/// Node pages to which points of several processes contribute ("shared pages").
 template<class Real>
 struct SharedPagesView
 {
-    const std::int32_t* number_of; ///< [node pages], its shared page, or -1; null where there are none
-    const Real*         total;     ///< [shared pages][node_channels][page_cells], what all processes bring
+    const std::int32_t* number_of; ///< [node pages], its shared page, or -1; null if there are none
+    const Real*         total;     ///< [shared pages][node_channels][page_cells], sums over all processes
 
     TREAD_HD std::int32_t number(std::int64_t node_page) const
     {
@@ -23,7 +23,7 @@ struct SharedPagesView
     }
 };
 
-/// Owner of what SharedPagesView shows, and of what it is added up from.
+/// Memory of SharedPagesView and of its summands.
 template<class Exec, class Real>
 struct SharedPages
 {
@@ -42,26 +42,26 @@ struct SharedPages
 
     Array<Exec, std::int32_t> page;       ///< [shared pages], node page, ascending
     Array<Exec, std::int32_t> number_of;  ///< [node pages]
-    Array<Exec, Real>         own;        ///< [shared pages][node_page_values], what the tiles here bring
+    Array<Exec, Real>         own;        ///< [shared pages][node_page_values], contributions of this process's tiles
     Array<Exec, Real>         total;      ///< [shared pages][node_page_values]
     Array<Exec, std::int32_t> first_part; ///< [shared pages + 1]
-    Array<Exec, std::int32_t> part; ///< of a page, in the order of adding: the number of an arrived one, or -1 = own
+    Array<Exec, std::int32_t> part; ///< of a page, in the order of summation: index of a received part, or -1 = own
     Array<Exec, std::int32_t> booked_elsewhere; ///< node pages whose tallies another process keeps
 };
 
-/// Writes SharedPages::own from the tiles.
+/// Computes SharedPages::own from the tiles.
 template<class Real>
 void sum_own_parts(const Cpu&, const PagesView& pages, const Real* tiles, SharedPages<Cpu, Real>& shared);
 template<class Real>
 void sum_own_parts(const Gpu&, const PagesView& pages, const Real* tiles, SharedPages<Gpu, Real>& shared);
 
-/// Writes SharedPages::total: the parts of every page in their order. `arrived`: [parts of others][node_page_values].
+/// Computes SharedPages::total: sums the parts of every page in order. `arrived`: [parts of others][node_page_values].
 template<class Real>
 void add_parts(const Cpu&, const Real* arrived, SharedPages<Cpu, Real>& shared);
 template<class Real>
 void add_parts(const Gpu&, const Real* arrived, SharedPages<Gpu, Real>& shared);
 
-/// Clears the tallies (`width` numbers a node page) of pages that are booked elsewhere.
+/// Clears the tallies (`width` numbers per node page) of pages whose tallies another process keeps.
 template<class Real>
 void clear_booked_elsewhere(const Cpu&, const SharedPages<Cpu, Real>& shared, int width, double* tallies);
 template<class Real>

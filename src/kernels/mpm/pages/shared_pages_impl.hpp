@@ -3,12 +3,12 @@
 #include "kernels/mpm/grid/grid_kern.hpp"
 #include "kernels/mpm/pages/shared_pages.hpp"
 
-// Parts and totals of shared pages, the same on both backends; shared_pages.cpp and shared_pages.cu bring in for_each
-// and instantiate.
+// Parts and totals of shared pages, for both backends; shared_pages.cpp and shared_pages.cu provide for_each and
+// instantiate.
 namespace tread::mpm
 {
 
-/// Item: a node of a shared page.
+/// Sums the tiles of this process; an item is a node of a shared page.
 template<class Real>
 struct SumOwnPart
 {
@@ -33,7 +33,7 @@ struct SumOwnPart
     }
 };
 
-/// Item: a value of a shared page.
+/// Sums the parts of all processes; an item is a value of a shared page.
 template<class Real>
 struct AddParts
 {

@@ -8,7 +8,7 @@ namespace tread::mpm
 namespace
 {
 
-/// One block a page, one thread a cell.
+/// Averages one page per block, one cell per thread.
 template<class Real>
 struct AveragePage
 {

@@ -7,7 +7,7 @@
 namespace tread::mpm
 {
 
-/// A page's tile of velocities, by tile node.
+/// Velocities of a page's tile, by tile node.
 template<class Real>
 using VelocityTile = Real[tile_nodes][3];
 
@@ -19,7 +19,7 @@ TREAD_HD void load_velocity(const Real* motion, const PagesView& pages, std::int
     for (int c = 0; c < 3; ++c) { tile[node][c] = source[c * page_cells]; }
 }
 
-/// [i][j] = d v_i / d x_j, 1/s, of the tile's velocity at a stencil.
+/// Computes the velocity gradient at a stencil from the tile's velocity: [i][j] = d v_i / d x_j, 1/s.
 template<class Real>
 TREAD_HD Mat3<Real> gradient_at(const Stencil<Real>& s, const VelocityTile<Real>& tile)
 {
@@ -47,7 +47,7 @@ TREAD_HD Mat3<Real> gradient_at(const Stencil<Real>& s, const VelocityTile<Real>
     return gradient;
 }
 
-/// Over the points of cell `cell` = 64 * page + place, in their order in the list.
+/// Computes the mean over the points of cell `cell` = 64 * page + place, in the order of the list.
 template<class Real>
 TREAD_HD Real mean_divergence(const PointsView<Real>& points, const PagesView& pages, std::int64_t cell,
                               const VelocityTile<Real>& tile, Real dt)

@@ -6,11 +6,10 @@
 namespace tread::mpm
 {
 
-/// Every point's stress with the mean stress of its cell, Pa, into `shared`: the mean over the points of the
-/// cell, weighted by their initial volumes. P2G must take it where the laws see the cells' mean divergence
-/// (cell_divergence.hpp): of the two, each is the other's adjoint, so that the nodes' forces do the work that the
-/// points' stresses do on their strains. With every point's own pressure in the forces, sand that dilates gained energy
-/// out of nothing.
+/// Replaces the mean stress of every point by the volume-weighted mean (initial volumes) over the points of its cell,
+/// Pa, and writes the stress to `shared`. P2G must use it if the laws use the cells' mean divergence
+/// (cell_divergence.hpp): the two operators are adjoint, so that the nodal forces do the same work as the points'
+/// stresses on their strains. With each point's own pressure in the forces, dilating sand gained energy.
 template<class Real>
 void share_pressure(const Cpu&, const PointsView<Real>& points, const PagesView& pages, const Planes<Real, 6>& shared);
 template<class Real>

@@ -5,7 +5,7 @@
 namespace tread::mpm
 {
 
-/// Over the points of cell `cell` = 64 * page + place, in their order in the list.
+/// Averages the pressure over the points of cell `cell` = 64 * page + place, in the order of the list.
 template<class Real>
 TREAD_HD void share_cell_pressure(const PointsView<Real>& points, const PagesView& pages, std::int64_t cell,
                                   const Planes<Real, 6>& shared)

@@ -15,18 +15,18 @@ namespace tread::mpm
 namespace
 {
 
-/// Registers for so many threads on a multiprocessor: with more of them the kernel spills what it keeps of a point.
+/// Number of threads per multiprocessor, which limits the registers: with more threads the kernel spills.
 template<class Moment>
 constexpr int threads_an_sm = std::is_same_v<Moment, WithMoment> ? 384 : 512;
 
-/// Fewer pages than this leave multiprocessors idle unless each page has many threads.
+/// Number of pages below which multiprocessors are idle unless each page has many threads.
 constexpr std::int64_t few_pages = 1024;
 
-/// Pages with fewer points than this on average have one warp, which waits for no other.
+/// Mean number of points per page below which a page has a single warp, which needs no block synchronisation.
 constexpr std::int64_t full_page = 128;
 
-/// Where shared memory keeps channel 0 of tile node (x, y, z): with this pitch the 16 cells of a layer, each at the
-/// same one of its nodes, touch all banks with two channels each.
+/// Layout of tile node (x, y, z) in shared memory: with this pitch, the 16 cells of a layer, each reading the same node
+/// of its stencil with two channels, access all banks without conflicts.
 constexpr int gather_row  = 40;
 constexpr int gather_size = gather_row * tile_edge * tile_edge;
 
@@ -44,7 +44,7 @@ struct RowPair
     Pack<Real, tile_edge - page_edge> high[2];
 };
 
-/// Brings the motion of a page's tile into shared memory: all loads of a thread first, then its stores.
+/// Copies the motion of a page's tile into shared memory: all loads of a thread first, then its stores.
 template<int threads, class Real>
 __device__ void load_tile(const Real* motion, const std::int32_t* node_page, Real* tile)
 {
@@ -87,7 +87,7 @@ __device__ void load_tile(const Real* motion, const std::int32_t* node_page, Rea
         });
 }
 
-/// The motion of a stencil's nodes, from shared memory.
+/// Reads the motion of a stencil's nodes from shared memory.
 template<class Real>
 struct NodesOfTile
 {
@@ -101,8 +101,8 @@ struct NodesOfTile
     }
 };
 
-/// Where points wait for their threads: what read_point reads, on its way from device memory while the point before is
-/// updated. A thread uses its own column alone.
+/// Prefetch buffer in shared memory: the data of the next point are copied from device memory while the present point
+/// is updated. A thread uses only its own column.
 template<int threads, class Real>
 class Waiting
 {
@@ -171,7 +171,7 @@ struct Listed
     std::uint8_t place;
 };
 
-/// One block a page: its tile in shared memory, its points dealt to the threads in order.
+/// Gathers one page per block: its tile is in shared memory, its points are assigned to the threads in order.
 template<int threads, class Real, class Moment>
 struct GatherPage
 {
@@ -210,7 +210,7 @@ struct GatherPage
         Listed       later    = listed(at + threads, end);
         load_tile<threads>(motion, pages.node_page_of + 8 * page, tile);
         __syncthreads();
-        Real         sum[point_sums] = {}, peak[point_peaks] = {}; // of a few points
+        Real         sum[point_sums] = {}, peak[point_peaks] = {}; // over the few points of one thread
         const Index3 low     = page_coordinates(pages.point_page_key[page]);
         const Real   spacing = static_cast<Real>(pages.spacing);
         for (; at < end; at += threads)
@@ -247,7 +247,7 @@ struct GatherPage
         return {pages.point_at[at], pages.place_at[at]};
     }
 
-    /// Gives the point's material.
+    /// Prefetches a point and returns its material.
     __device__ std::uint8_t fetch(const Listed& next, bool any, Waiting<threads, Real>& waiting) const
     {
         if (!any) { return 0; }
@@ -256,14 +256,14 @@ struct GatherPage
         return points.material[next.point];
     }
 
-    /// Nothing happens on a page without points.
+    /// Clears the results of a page without points.
     __device__ void clear(std::int64_t page) const
     {
         if (threadIdx.x < point_sums) { tallies[page * tally_width(point_sums) + point_sums + threadIdx.x] = 0; }
         if (threadIdx.x < move_counts) { moves.count[page * move_counts + threadIdx.x] = 0; }
     }
 
-    /// Integers: the order of the additions changes nothing.
+    /// Counts a move; integer sums do not depend on the order.
     __device__ static void count_move(const Move& move, std::int32_t* count)
     {
         atomicAdd(count + changed_points, 1);

@@ -11,7 +11,7 @@
 namespace tread::mpm
 {
 
-/// Of a node page's motion, the value of tile node `node` of a point page whose eight node pages are `neighbours`.
+/// Returns the motion of tile node `node` of a point page whose eight node pages are `neighbours`.
 template<class Real>
 TREAD_HD const Real* tile_source(const Real* motion, const std::int32_t* neighbours, int node)
 {
@@ -21,7 +21,7 @@ TREAD_HD const Real* tile_source(const Real* motion, const std::int32_t* neighbo
            ((x & 3) | (y & 3) << 2 | (z & 3) << 4);
 }
 
-/// What the update of a point reads of it.
+/// State of a point that its update reads.
 template<class Real>
 struct PointState
 {
@@ -29,7 +29,7 @@ struct PointState
     Vec3<Real>   velocity;
     Sym3<Real>   stress;
     Real         mass, volume, volume_ratio;
-    Real         plastic_shear, volume_gap; ///< 0 where no material is plastic
+    Real         plastic_shear, volume_gap; ///< 0 if no material is plastic
     std::uint8_t material;
 };
 
@@ -48,25 +48,25 @@ TREAD_HD PointState<Real> read_point(const PointsView<Real>& points, std::int64_
             points.material[i]};
 }
 
-/// What a point sees of the grid.
+/// Grid motion interpolated at a point.
 template<class Real>
 struct Seen
 {
     Vec3<Real> velocity; ///< m/s, after the step
     Vec3<Real> change;   ///< m/s, in the step
     Mat3<Real> gradient; ///< 1/s, [i][j] = d v_i / d x_j
-    Mat3<Real> moment;   ///< m2/s, sum of weight v (x_node - x_point)^T; APIC only
+    Mat3<Real> moment;   ///< m2/s, sum of weight v (x_node - x_point)^T; affine transfers (APIC, AFLIP) only
 };
 
-/// A node's velocity after the step and its change in the step, m/s. `Numbers`: three components and what fills a
-/// vector register, by [].
+/// A node's velocity after the step and its change in the step, m/s. `Numbers`: three components, with padding to a
+/// vector register, accessed by [].
 template<class Numbers>
 struct NodeMotion
 {
     Numbers velocity, change;
 };
 
-/// Partial sums of the motion over rows and layers of nodes, and of the velocity's products with slopes and offsets.
+/// Partial sums of the motion over rows and layers of nodes, and of the velocity times slopes and offsets.
 template<class Numbers>
 struct Partial
 {
@@ -74,7 +74,7 @@ struct Partial
     Numbers at_x, at_y, at_z;
 };
 
-/// Without APIC nothing reads the moment.
+/// Tag: no moment is computed, because the transfer is not affine (APIC, AFLIP).
 struct WithoutMoment
 {
 };
@@ -82,8 +82,8 @@ struct WithMoment
 {
 };
 
-/// Adds up the motion that node(a, b, c) gives of each node of a stencil, one axis after the other: a third of the
-/// operations of a sum over nodes.
+/// Sums the motion that node(a, b, c) returns for each node of a stencil, axis by axis: a third of the operations of a
+/// sum over nodes.
 template<class Real, class Node, class Moment>
 TREAD_HD auto sum_motion(const Stencil<Real>& s, Node node, Moment)
 {
@@ -132,7 +132,7 @@ TREAD_HD auto sum_motion(const Stencil<Real>& s, Node node, Moment)
     return all;
 }
 
-/// node(a, b, c) gives the NodeMotion of a node of the stencil.
+/// Interpolates the motion; node(a, b, c) returns the NodeMotion of a node of the stencil.
 template<class Real, class Node, class Moment>
 TREAD_HD Seen<Real> see(const Stencil<Real>& s, Real spacing, Node node, Moment)
 {
@@ -151,8 +151,8 @@ TREAD_HD Seen<Real> see(const Stencil<Real>& s, Real spacing, Node node, Moment)
     return seen;
 }
 
-/// APIC's affine velocity: 4/h^2 times the moment for quadratic splines (Jiang et al. 2015), the velocity gradient for
-/// linear ones.
+/// Sets the affine velocity field of affine transfers (APIC, AFLIP): 4/h^2 times the moment for quadratic splines
+/// (Jiang et al. 2015), the velocity gradient for linear ones.
 template<class Real>
 TREAD_HD void set_affine(const PointsView<Real>& points, std::int64_t i, const Seen<Real>& seen, double spacing,
                          double stencil_shift)
@@ -168,8 +168,8 @@ TREAD_HD void set_affine(const PointsView<Real>& points, std::int64_t i, const S
     }
 }
 
-/// Velocity after the step: FLIP with a share of the grid's. The share is the same for all materials: of points that
-/// share nodes, sum m (v_grid - v_flip) = 0 holds for all together, not for each, so that rates by material would not
+/// Computes the velocity after the step: FLIP with a PIC share. The share is the same for all materials: for points
+/// that share nodes, sum m (v_grid - v_flip) = 0 holds only for all together, so that shares by material would not
 /// conserve momentum.
 template<class Real>
 TREAD_HD Vec3<Real> transferred_velocity(const Vec3<Real>& before, const Seen<Real>& seen, Real pic)
@@ -188,7 +188,7 @@ TREAD_HD void keep_for_contact(const PointsView<Real>& points, std::int64_t i, R
     sums[point_contact_work] += Sum(dt) * Sum(force.dot(seen.velocity - Real(0.5) * seen.change));
 }
 
-/// Power of `stress` (Pa) on the symmetric part of `gradient` (1/s), W/m3.
+/// Computes the power of `stress` (Pa) on the symmetric part of `gradient` (1/s), W/m3.
 template<class Real>
 TREAD_HD Real stress_power(const Sym3<Real>& stress, const Mat3<Real>& gradient)
 {
@@ -197,13 +197,13 @@ TREAD_HD Real stress_power(const Sym3<Real>& stress, const Mat3<Real>& gradient)
            stress[5] * (gradient(0, 1) + gradient(1, 0));
 }
 
-/// Gives the new stress. `gradient`: of the middle of the step, as the law sees it.
+/// Updates material state and returns the new stress. `gradient`: at mid-step, as in law_gradient.
 template<class Real, class Sum>
 TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t i, const PointState<Real>& point,
                                     const Mat3<Real>& gradient, const GatherStep<Real>& step, Sum* sums)
 {
     const MaterialParameters<Real>& material = step.materials[point.material];
-    const Real                      swelling = step.dt * gradient.trace(); // logarithmic
+    const Real                      swelling = step.dt * gradient.trace(); // logarithmic volume change
     points.volume_ratio[i] = point.volume_ratio * (Real(1) + swelling * (Real(1) + Real(0.5) * swelling));
     const PlasticState<Real> state{point.plastic_shear, Real(0), point.volume_gap};
     const StressUpdate<Real> update = update_stress(material, point.stress, state, gradient, step.dt);
@@ -221,10 +221,11 @@ TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t
     return update.stress;
 }
 
-/// The velocity gradient that the law sees, of the middle of the step: with cell means, its trace is that of the cell.
-/// Books the power of the stress at the start on what leads from the start's gradient there: P2G's forces work on the
-/// gradient at the start, the law stores what the one of the middle does, and by the same difference the power at the
-/// end of the step is less than that on the middle's. Without it, stress that turns made or lost energy.
+/// Computes the velocity gradient at mid-step for the law; with cell means its trace is that of the cell. Adds the
+/// power of the stress at the start on the correction from the gradient at the start to that at mid-step: the forces of
+/// P2G do work on the gradient at the start, but the law stores the work on the mid-step gradient, and the power at the
+/// end of the step is lower than that on the mid-step gradient by the same difference. Without this term, rotating
+/// stress would create or lose energy.
 template<class Real, class Sum>
 TREAD_HD Mat3<Real> law_gradient(const PointState<Real>& point, const Mat3<Real>& gradient,
                                  const GatherStep<Real>& step, std::int64_t cell, Sum* sums)
@@ -236,7 +237,7 @@ TREAD_HD Mat3<Real> law_gradient(const PointState<Real>& point, const Mat3<Real>
     return middle + (step.cell_divergence[cell] - middle.trace()) * Real(1.0 / 3) * Mat3<Real>::Identity();
 }
 
-/// The whole G2P of one point of a page, up to where it is then.
+/// Performs G2P of one point of a page; returns its move.
 template<class Real, class Sum>
 TREAD_HD Move update_point(const PointsView<Real>& points, std::int64_t i, const PointState<Real>& point,
                            const Seen<Real>& seen, Index3 cell, const PagesView& pages, std::int64_t page,

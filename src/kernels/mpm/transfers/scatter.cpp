@@ -11,7 +11,7 @@ namespace tread::mpm
 namespace
 {
 
-/// Without APIC a point's momentum is the same at every node.
+/// Tag: not an affine transfer (APIC, AFLIP); a point's momentum per weight is the same at every node.
 struct WithoutAffine
 {
 };
@@ -19,7 +19,7 @@ struct WithAffine
 {
 };
 
-/// What a tile node receives: mass and momentum; force and a pad.
+/// Contributions to a tile node: mass and momentum; force and padding.
 template<class Real>
 struct TileNode
 {
@@ -30,7 +30,7 @@ struct TileNode
 template<class Real>
 struct Burden
 {
-    Quad<Real> inertia, per_offset[3]; ///< per_offset: APIC only
+    Quad<Real> inertia, per_offset[3]; ///< per_offset: affine transfers (APIC, AFLIP) only
     Quad<Real> force, per_slope[3];
 };
 
@@ -48,15 +48,15 @@ Burden<Real> burden(const PointLoad<Real>& load)
     return quads;
 }
 
-/// Offset of node n of a stencil from its point along an axis, m.
+/// Returns the offset of node n of a stencil from its point along an axis, m.
 template<class Real>
 Real offset(const Stencil<Real>& s, int axis, int n, Real spacing)
 {
     return (Real(n) - s.fraction[axis]) * spacing;
 }
 
-/// Adds a point's load to the nodes of its stencil, one axis after the other: what is common to a layer or a row of
-/// nodes is multiplied once.
+/// Adds a point's load to the nodes of its stencil, axis by axis: common factors of a layer or a row of nodes are
+/// multiplied once.
 template<class Real, class Affine>
 void add_load(const Burden<Real>& load, const Stencil<Real>& s, Real spacing, TileNode<Real>* lowest, Affine)
 {
@@ -91,7 +91,7 @@ void add_load(const Burden<Real>& load, const Stencil<Real>& s, Real spacing, Ti
     }
 }
 
-/// A tile as the grid reads it.
+/// Stores a tile in the layout that the grid reads.
 template<class Real>
 void store_tile(const TileNode<Real>* tile, Real* out)
 {

@@ -8,7 +8,7 @@ namespace tread::mpm
 namespace
 {
 
-/// Pages with fewer points than this on average are sparse.
+/// Mean number of points per page below which pages count as sparse.
 constexpr std::int64_t full_page = 128;
 
 } // namespace

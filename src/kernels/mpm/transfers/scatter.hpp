@@ -7,8 +7,9 @@
 namespace tread::mpm
 {
 
-/// P2G: writes the tile of every listed page that holds points, tiles[page][channel][tile node] (scatter_kern.hpp names
-/// the channels). Each page adds its points in their order: the sums do not depend on threads, nor on what is listed.
+/// P2G: computes the tile of every listed page that holds points, tiles[page][channel][tile node] (channels:
+/// scatter_kern.hpp). Each page sums its points in their order: the sums do not depend on threads or on which pages are
+/// listed.
 template<class Real>
 void scatter(const Cpu&, const PointsView<Real>& points, const PagesView& pages, const PageList& list, Real* tiles);
 template<class Real>

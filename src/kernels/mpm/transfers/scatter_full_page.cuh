@@ -16,9 +16,9 @@ using Pair = Pack<Real, 2>;
 template<class Real>
 using Quad = Pack<Real, 4>;
 
-/// What a point brings to its nodes, as it stands in shared memory: mass and momentum, -V tau/h, weight and slope
-/// (per spacing) of each of its three nodes along each axis; then what only some scenes need: contact force, m h C,
-/// with which momentum is that of the point's affine field at its lowest node.
+/// Layout of a point's P2G data in shared memory: mass and momentum, -V tau/h, weight and slope (per spacing) of each
+/// of its three nodes along each axis. Then the data that only some scenes need: contact force, and m h C, with which
+/// the momentum is that of the point's affine field at its lowest node.
 enum Brought : int
 {
     brought_mass    = 0,
@@ -28,18 +28,19 @@ enum Brought : int
     brought_affine  = brought_force + 4
 };
 
-/// Numbers that a point brings: an odd number of quads, so that lanes write their points without bank conflicts.
+/// Number of values per point: an odd number of quads, so that lanes write their points without bank conflicts.
 template<class Brings>
 constexpr int brought_width = Brings::affine  ? brought_affine + 12
                               : Brings::force ? brought_force + 8
                                               : brought_force;
 
-/// A warp for each of the four layers of cells of a page; its stencils reach three of the tile's layers of nodes.
+/// Number of warps: one for each of the four layers of cells of a page; a warp's stencils cover three of the tile's
+/// layers of nodes.
 constexpr int scatter_warps   = page_edge;
 constexpr int scatter_threads = scatter_warps * warp_size;
 constexpr int warp_nodes      = 3 * layer_nodes;
 
-/// The nodes that a warp's cells reach: mass and momentum, then force.
+/// Nodes in the stencils of a warp's cells: mass and momentum, then force.
 template<class Real>
 struct WarpTile
 {
@@ -47,7 +48,7 @@ struct WarpTile
     Quad<Real> force[warp_nodes];
 };
 
-/// Points loaded at a time: as many as fit into 48 KiB of shared memory beside the tiles of four warps.
+/// Number of points loaded at a time: as many as fit into 48 KiB of shared memory besides the tiles of four warps.
 template<class Real, class Brings>
 __host__ __device__ constexpr int batch()
 {
@@ -57,9 +58,9 @@ __host__ __device__ constexpr int batch()
     return size;
 }
 
-/// One lane of a warp: of every point's 27 nodes it has one, (column, row, layer). Along x its column is that node of
-/// the point's three whose coordinate is `column` modulo 3, so that from one cell to the next two thirds of the lanes
-/// keep their node, and with it the sums in their registers.
+/// One lane of a warp: of every point's 27 nodes it handles one, (column, row, layer). Along x, its column is the one
+/// of the point's three nodes whose coordinate is `column` modulo 3, so that from one cell to the next two thirds of
+/// the lanes keep their node, and with it the sums in their registers.
 template<class Real, class Brings>
 class NodeLane
 {
@@ -73,7 +74,7 @@ public:
     {
     }
 
-    /// To the stencil of a cell of the layer, 0..15. All lanes together.
+    /// Moves to the stencil of a cell of the layer, 0..15. All lanes take part.
     __device__ void go_to(int cell)
     {
         const int x = cell % page_edge, y = cell / page_edge;
@@ -126,7 +127,7 @@ public:
 private:
     __device__ static Pair<Real> pair(const Real* at) { return *reinterpret_cast<const Pair<Real>*>(at); }
 
-    /// Adds the affine velocity's momentum at the lane's node, which is (offset, row, layer) above the lowest.
+    /// Adds the momentum of the affine velocity at the lane's node, which is (offset, row, layer) above the lowest.
     __device__ void turn(const Real* point, Real* momentum) const
     {
         const Real       x = Real(offset_), y = Real(row_), z = Real(layer_);
@@ -145,9 +146,9 @@ private:
     Quad<Real>      moving_{}, force_{};
 };
 
-/// One block a page. Each warp takes the points of its layer of cells in the order of the list, a batch at a time: a
-/// lane loads a point into shared memory, then all lanes add every point, each to its own node. Plain additions in a
-/// fixed order, no atomics.
+/// Scatters one page per block. Each warp takes the points of its layer of cells in the order of the list, in batches:
+/// a lane loads a point into shared memory, then all lanes add every point, each to its own node. The additions have a
+/// fixed order and no atomics.
 template<class Real, class Brings>
 struct ScatterPage
 {
@@ -259,7 +260,8 @@ struct ScatterPage
         }
     }
 
-    /// A thread sums a column of nodes over the warps that reach it, low to high: mass and momentum, or force.
+    /// Writes the tile: a thread sums a column of nodes over the contributing warps, from low to high: mass and
+    /// momentum, or force.
     __device__ static void write(const Tile* tile, Real* out)
     {
         for (int item = threadIdx.x; item < 2 * layer_nodes; item += scatter_threads)

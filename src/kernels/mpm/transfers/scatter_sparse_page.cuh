@@ -7,14 +7,14 @@
 namespace tread::mpm
 {
 
-/// Sums of a page with few points: node (x, y, z) at x + row * y + layer * z. With these pitches 32 neighbouring cells,
-/// each at the same one of its nodes, touch 32 banks.
+/// Layout of the sums of a page with few points: node (x, y, z) is at x + row * y + layer * z. With these pitches, 32
+/// neighbouring cells, each accessing the same node of its stencil, use 32 different banks.
 constexpr int sparse_row   = 8;
 constexpr int sparse_layer = 52;
 constexpr int sparse_nodes = 5 * sparse_layer + 6 * sparse_row;
 
-/// A warp a page, a lane a point, no two points of one cell at a time: in each of 27 rounds every lane adds to another
-/// node. First the first points of all cells, then the second ones, and so on.
+/// Scatters one page per warp, one point per lane, and no two points of one cell at a time: in each of 27 rounds every
+/// lane adds to a different node. First come the first points of all cells, then the second ones, and so on.
 template<class Real, class Brings>
 struct ScatterSparsePage
 {
@@ -51,7 +51,7 @@ struct ScatterSparsePage
         write(lane, tile, tiles + page * node_channels * tile_nodes);
     }
 
-    /// Lists the points that are number `turn` in their cell, in the order of cells; gives how many.
+    /// Lists the points with index `turn` in their cell, in the order of cells; returns their number.
     __device__ static int list_turn(int turn, int lane, const std::int32_t* first, const std::int32_t* count,
                                     std::int32_t* listed)
     {
@@ -67,7 +67,7 @@ struct ScatterSparsePage
         return size;
     }
 
-    /// One point, or none (-1); all lanes together.
+    /// Adds one point, or none (-1); all lanes take part.
     __device__ void add(std::int32_t at, Index3 low, Tile& tile) const
     {
         PointLoad<Real> load{};
@@ -92,7 +92,7 @@ struct ScatterSparsePage
         }
     }
 
-    /// Three nodes along x. What they share is formed once.
+    /// Adds to three nodes along x. Common factors are computed once.
     __device__ void add_row(bool active, const PointLoad<Real>& load, const Stencil<Real>& s, int b, int c, Tile& tile,
                             int row) const
     {
@@ -133,7 +133,7 @@ struct ScatterSparsePage
         }
     }
 
-    /// A lane writes a column of nodes of one channel at a time.
+    /// Writes the tile; a lane writes a column of nodes of one channel at a time.
     __device__ static void write(int lane, const Tile& tile, Real* out)
     {
         __syncwarp();

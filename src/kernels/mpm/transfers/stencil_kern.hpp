@@ -7,8 +7,8 @@
 namespace tread::mpm
 {
 
-/// Weights of the 3 x 3 x 3 nodes around a point, one axis at a time.
-/// Quadratic B-splines (Steffen, Kirby, Berzins 2008) or linear hats, whose third weight is zero.
+/// Weights of the 3 x 3 x 3 nodes around a point, one axis at a time. Quadratic B-splines (Steffen, Kirby, Berzins
+/// 2008) or linear hats, whose third weight is zero.
 template<class Real>
 struct Stencil
 {
@@ -30,8 +30,9 @@ TREAD_HD void quadratic_weights(Real f, Real inverse_spacing, Real* weight, Real
     slope[2]  = high * inverse_spacing;
 }
 
-/// A point on a node plane counts as a millionth of a spacing above it: the next node has a slope there, and with no
-/// weight it would have no velocity either (10 m/s through cells made 0.03 E of stress).
+/// Computes the weights of linear hats. A point on a node plane counts as a millionth of a spacing above it: the next
+/// node has a slope there, and with zero weight it would have no velocity either (with 10 m/s through cells this caused
+/// stresses of 0.03 E).
 template<class Real>
 TREAD_HD void linear_weights(Real f, Real inverse_spacing, Real* weight, Real* slope)
 {
@@ -44,7 +45,7 @@ TREAD_HD void linear_weights(Real f, Real inverse_spacing, Real* weight, Real* s
     slope[2]  = 0;
 }
 
-/// Weights along one axis of a point `f` spacings above its lowest node.
+/// Computes the weights along one axis of a point `f` spacings above its lowest node.
 template<class Real>
 TREAD_HD void axis_weights(Real f, Real inverse_spacing, double stencil_shift, Real* weight, Real* slope)
 {
@@ -52,7 +53,7 @@ TREAD_HD void axis_weights(Real f, Real inverse_spacing, double stencil_shift, R
     else { linear_weights(f, inverse_spacing, weight, slope); }
 }
 
-/// Stencil of a position (m) whose lowest node is `base`. `slope_scale`: 1/m, or 1 for slopes per spacing.
+/// Makes the stencil of a position (m) whose lowest node is `base`. `slope_scale`: 1/m, or 1 for slopes per spacing.
 template<class Real>
 TREAD_HD Stencil<Real> stencil_above(Index3 base, const Vec3<double>& position, double slope_scale,
                                      const Lattice& lattice)
@@ -70,7 +71,7 @@ TREAD_HD Stencil<Real> stencil_above(Index3 base, const Vec3<double>& position, 
     return stencil;
 }
 
-/// sum += factor * value for each of an array or vector of numbers, rounded once on both backends.
+/// Computes sum += factor * value for each element of an array or vector, with one rounding on both backends.
 template<class Real, class Numbers>
 TREAD_HD void add_scaled(Real factor, const Numbers& value, Numbers& sum)
 {
@@ -78,10 +79,10 @@ TREAD_HD void add_scaled(Real factor, const Numbers& value, Numbers& sum)
     for (int i = 0; i < count; ++i) { sum[i] = std::fma(factor, value[i], sum[i]); }
 }
 
-/// Place in the page's tile of the stencil's lowest node.
+/// Index in the page's tile of the stencil's lowest node.
 TREAD_HD int tile_base(Index3 base) { return (base.x & 3) + tile_edge * ((base.y & 3) + tile_edge * (base.z & 3)); }
 
-/// Place of node (i, j, k) of a stencil relative to its lowest.
+/// Index of node (i, j, k) of a stencil relative to its lowest node.
 TREAD_HD int tile_offset(int i, int j, int k) { return i + tile_edge * (j + tile_edge * k); }
 
 } // namespace tread::mpm

@@ -2,16 +2,16 @@
 
 #include "kernels/mpm/pages/page_key.hpp"
 
-// Where a finished tile keeps what P2G brings to its nodes. A node page reads from each of the eight tiles that reach
-// it the part that is its own: tiles are stored octant after octant, in each channel after channel, so that this is one
-// piece of memory.
+// Layout of a finished P2G tile. A node page reads its own part from each of the eight tiles that contribute to it:
+// tiles are stored octant by octant, and within an octant channel by channel, so that this part is contiguous in
+// memory.
 namespace tread::mpm
 {
 
-/// What a node receives: mass, momentum (3), force (3).
+/// Number of channels of a node: mass, momentum (3), force (3).
 constexpr int node_channels = 7;
 
-/// Octant o of a tile belongs to the node page at + (o & 1, o >> 1 & 1, o >> 2).
+/// Number of octants; octant o of a tile belongs to the node page at + (o & 1, o >> 1 & 1, o >> 2).
 constexpr int octants = 8;
 
 TREAD_HD constexpr int octant_edge(int octant, int axis)
@@ -24,7 +24,7 @@ TREAD_HD constexpr int octant_nodes(int octant)
     return octant_edge(octant, 0) * octant_edge(octant, 1) * octant_edge(octant, 2);
 }
 
-/// First number of an octant in its tile.
+/// Returns the index of an octant's first number in its tile.
 TREAD_HD constexpr int octant_start(int octant)
 {
     const int z = octant >> 2, y = octant >> 1 & 1, x = octant & 1;
@@ -33,11 +33,11 @@ TREAD_HD constexpr int octant_start(int octant)
                             x * height * octant_edge(octant, 1) * page_edge);
 }
 
-/// The channels of one node.
+/// Location of the channels of one node.
 struct TileSlot
 {
-    int first;  ///< the lowest channel
-    int stride; ///< from one to the next
+    int first;  ///< index of the lowest channel
+    int stride; ///< stride between channels
 };
 
 TREAD_HD constexpr TileSlot tile_slot(int i, int j, int k)
