@@ -65,7 +65,7 @@ void Watchdog::end_steps()
     last_.reset();
 }
 
-/// What is wrong, if anything is. The mutex is held.
+/// What is wrong; empty if nothing is. The caller holds the mutex.
 std::optional<std::string> Watchdog::complaint() const
 {
     const Clock::time_point             now    = Clock::now();
