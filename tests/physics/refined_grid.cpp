@@ -151,7 +151,7 @@ TYPED_TEST(RefinedGrid, BooksOfABallCloseAcrossSeams)
     EXPECT_LT(unaccounted, test::closes);
 }
 
-/// A box around the contact is as good as fine cells everywhere: the ball reaches the same depth, to half the
+/// A box around the contact is as good as fine cells everywhere: the ball reaches the same depth, to 15 % of the
 /// difference from the coarse grid.
 TYPED_TEST(RefinedGrid, BallGoesAsDeepAsOnFineCellsEverywhere)
 {
