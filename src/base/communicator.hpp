@@ -31,7 +31,8 @@ public:
     int      size() const { return size_; }
     MPI_Comm native() const { return native_; }
 
-    /// What this rank waits for in calls of this class; callers that wait through native() record it here, too.
+    /// Record of what this rank waits for in calls of this class; callers that wait through native() record it here,
+    /// too.
     WaitNote& waits() const { return waits_; }
 
     void barrier() const;

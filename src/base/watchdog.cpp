@@ -65,7 +65,7 @@ void Watchdog::end_steps()
     last_.reset();
 }
 
-/// What is wrong; empty if nothing is. The caller holds the mutex.
+/// Describes an overdue wait or step; empty if there is none. The caller holds the mutex.
 std::optional<std::string> Watchdog::complaint() const
 {
     const Clock::time_point             now    = Clock::now();

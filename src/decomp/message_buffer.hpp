@@ -11,7 +11,7 @@
 namespace tread::decomp
 {
 
-/// How bytes are sent between ranks.
+/// Transfer method for bytes between ranks.
 enum class Carrier
 {
     mpi,  ///< MPI on the backend's own memory

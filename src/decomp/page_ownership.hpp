@@ -74,7 +74,7 @@ private:
 
     std::unordered_map<std::uint64_t, std::int32_t> unseen_; ///< cached owners of pages that are not in key_
 
-    /// By reach (in pages) and page: pages within that reach that belong to another owner than the page's.
+    /// Cache, keyed by reach (in pages) and page: pages within that reach with another owner than the page.
     std::map<std::int32_t, std::unordered_map<std::uint64_t, OwnedPages>> others_;
 };
 

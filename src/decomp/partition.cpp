@@ -31,7 +31,7 @@ double most_that_counts(std::vector<double> load, int ranks)
     return rest / (ranks - own);
 }
 
-/// What is wrong with a partitioner's result; empty if nothing is.
+/// Describes the fault of a partitioner's result; empty if there is none.
 std::string fault(const PartitionQuality& found, const PartitionQuality& chunks, const PartitionOptions& options)
 {
     if (found.empty > 0) { return fmt::format("it left {} of {} ranks without a page", found.empty, options.ranks); }

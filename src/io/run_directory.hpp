@@ -11,7 +11,7 @@
 namespace tread::io
 {
 
-/// How to treat a run that already is in the output directory.
+/// Treatment of a run that already is in the output directory.
 enum class Existing
 {
     refuse,
@@ -26,7 +26,7 @@ struct NeededFile
     std::string what; ///< its use: "[[rocks]] 0 from"
 };
 
-/// What a new run requires of its directory.
+/// Requirements of a new run on its directory.
 struct NewRun
 {
     std::string             path;

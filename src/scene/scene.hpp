@@ -315,7 +315,7 @@ struct Output
     bool operator==(const Output&) const = default;
 };
 
-/// When checkpoints of the whole state are written.
+/// Intervals at which checkpoints of the whole state are written.
 struct CheckpointOptions
 {
     double       every_wall  = 600; ///< s of wall time; 0 = never
@@ -326,7 +326,7 @@ struct CheckpointOptions
     bool operator==(const CheckpointOptions&) const = default;
 };
 
-/// How a run on several ranks partitions its pages.
+/// Partitioning of pages in a run on several ranks.
 struct Balance
 {
     double threshold = 1.15; ///< largest load of a rank over the mean above which pages may be repartitioned

@@ -10,7 +10,7 @@
 namespace tread::shape
 {
 
-/// How to treat a mesh with defects.
+/// Treatment of a mesh with defects.
 enum class Repair
 {
     none, ///< refuse it

@@ -27,7 +27,7 @@ world::ColumnLattice plan(double width = cell, double bin = cell)
     return {{count, count}, {width, width}, bin};
 }
 
-/// Points of a lattice `apart` (m) under a height, shifted against the cells.
+/// Points of a lattice with spacing `apart` (m) below a height, offset from the cells.
 void fill(world::TerrainBins& bins, const std::function<double(double, double)>& height, double apart,
           const Vec3<double>& shift)
 {

@@ -212,7 +212,7 @@ TEST(Rocks, DoNotDependOnTheNumberOfThreads)
     EXPECT_LT(one.points.size(), 4u * 8 * 8 * 8 * 8);
 }
 
-/// A wheel is also tested by its surface: rocks lie in a ring about a pole, not outside its bounding sphere.
+/// A body with a diameter is scaled: radius and mass follow from it, and no rock touches its surface.
 TEST(Rocks, ABodyOfASizeIsScaled)
 {
     const auto         scene = load_text(rocks_scene("count = 1\ndiameter = 0.012\n") + R"(
