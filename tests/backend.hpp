@@ -12,8 +12,8 @@
 #include "backend/device.hpp"
 #endif
 
-// One test body, every backend: TYPED_TEST_SUITE(Name, tread::test::Backends, tread::test::BackendNames).
-// TREAD_TEST_BACKEND=cpu|cuda runs one of them alone; cuda is skipped where there is no device.
+// One test body for every backend: TYPED_TEST_SUITE(Name, tread::test::Backends, tread::test::BackendNames).
+// TREAD_TEST_BACKEND=cpu|cuda selects one of them; cuda is skipped if there is no device.
 namespace tread::test
 {
 

@@ -11,40 +11,40 @@
 #include "temporary_directory.hpp"
 #include "unit/shape/meshes.hpp"
 
-// Strip footing in plane strain (docs/verification.md#strip-footing): half of the problem beside a plane of symmetry at
+// Strip footing in plane strain (docs/verification.md#strip-footing): half of the problem, with a plane of symmetry at
 // x = 0, one cell thick in y. The footing is a rigid body so heavy that no load slows it.
 namespace tread::test
 {
 
 struct Footing
 {
-    std::string soil;                  ///< keys of the soil's [[material]]; Poisson's ratio is a part of it
+    std::string soil;                  ///< keys of the soil's [[material]]; Poisson's ratio is one of them
     double      poisson       = 0.3;   ///< of the soil
     double      density       = 1000;  ///< kg/m3, of the soil
     double      weight        = 0;     ///< N/m3, of the soil; its stress at rest is that of uniaxial strain
-    double      surcharge     = 0;     ///< Pa, on all the surface; the pressure under the footing contains it
+    double      surcharge     = 0;     ///< Pa, on the whole surface; included in the pressure under the footing
     double      width         = 0.1;   ///< m, B
     int         cells         = 5;     ///< of the grid across B / 2
-    double      reach         = 2;     ///< of the soil sideways from the centre, in B
+    double      reach         = 2;     ///< width of the soil from the centre, in B
     double      depth         = 1;     ///< in B
-    double      speed         = 0.02;  ///< m/s; waves carry some rho c_s times this
+    double      speed         = 0.02;  ///< m/s; waves have a stress of some rho c_s times this
     double      settlement    = 0.015; ///< at the end, in B
     double      pic_rate      = 0.01;  ///< c_p/h
     std::string volume_strain = "cell-average";
 };
 
-/// Mean pressure under the footing, Pa, at a settlement.
+/// Mean pressure under the footing at a settlement.
 struct FootingLoad
 {
     double settlement; ///< in B
     double pressure;   ///< Pa
 };
 
-/// m, edge length of a cell.
+/// Edge length of a cell, m.
 inline double spacing(const Footing& footing) { return 0.5 * footing.width / footing.cells; }
 
-/// No local damping: it takes its share of every force that is out of balance, and acts on steady flow as friction.
-/// A point's contact radius is half its spacing, so that the top row just touches.
+/// No local damping: it takes a share of every unbalanced force, and acts on steady flow as friction. A point's contact
+/// radius is half its spacing, so that the top row just touches.
 inline std::string footing_scene(const Footing& footing, const std::string& mesh)
 {
     const double h = spacing(footing), across = footing.reach * footing.width, deep = footing.depth * footing.width;
@@ -114,7 +114,7 @@ public:
         if (footing.weight > 0 || footing.surcharge > 0) { load(); }
     }
 
-    /// The load, each a mean over one of `samples` equal parts of the way.
+    /// Runs the test; each load is a mean over one of `samples` equal parts of the settlement.
     std::vector<FootingLoad> run(int samples)
     {
         std::vector<FootingLoad> loads;
@@ -136,7 +136,7 @@ public:
     }
 
 private:
-    /// A twentieth of a cell off the walls, which it must not meet.
+    /// The block keeps a twentieth of a cell from the walls, which it must not touch.
     std::string write_block()
     {
         const double      h    = spacing(footing_);
@@ -145,7 +145,8 @@ private:
         return path;
     }
 
-    /// Stress at rest, and what holds it: weight and surcharge by hand, for the scene's gravity would pull the footing.
+    /// Sets the stress at rest and its loads: weight and surcharge are applied as point accelerations, because the
+    /// scene's gravity would pull the footing.
     void load()
     {
         auto&        points   = experiment_.simulation().sand().points();
@@ -178,7 +179,7 @@ private:
     Footing             footing_;
     TemporaryDirectory  folder_;
     Experiment<Exec>    experiment_;
-    std::vector<double> pull_; ///< m/s2 downwards, by the points' id
+    std::vector<double> pull_; ///< m/s2 downwards, by point id
 };
 
 inline void print(const std::string& what, const Footing& footing, const std::vector<FootingLoad>& loads)
@@ -196,7 +197,7 @@ inline double mean_pressure(const std::vector<FootingLoad>& loads, std::size_t f
     return sum / static_cast<double>(end - first);
 }
 
-/// Pa, means over quarters of the way: waves come and go within them.
+/// Mean pressure, Pa, over a quarter of the settlement, within which waves average out.
 inline double last_quarter(const std::vector<FootingLoad>& loads)
 {
     return mean_pressure(loads, 3 * loads.size() / 4, loads.size());
@@ -206,8 +207,8 @@ inline double third_quarter(const std::vector<FootingLoad>& loads)
     return mean_pressure(loads, loads.size() / 2, 3 * loads.size() / 4);
 }
 
-/// What the figures at two counts of cells across B say at infinitely many, if the error is of first order: grid and
-/// points know the footing's edge to a cell, so that its width is B + O(h).
+/// Extrapolates figures at two numbers of cells across B to infinitely many, with a first-order error: grid and points
+/// resolve the footing's edge to a cell, so that its width is B + O(h).
 inline double at_infinitely_many(int coarse, double coarse_value, int fine, double fine_value)
 {
     return (fine * fine_value - coarse * coarse_value) / (fine - coarse);

@@ -7,12 +7,12 @@
 #include "base/communicator.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
-/// Open MPI unloads its plugins at the end; what they kept could then be neither named nor suppressed as theirs
+/// Open MPI unloads its plugins at the end; leaks in them could then neither be attributed nor suppressed
 /// (ci/lsan.supp). So nothing is unloaded in sanitizer builds.
 extern "C" __attribute__((weak, visibility("default"))) int dlclose(void*) { return 0; }
 #endif
 
-// MPI for test programs: one session around all tests of a program that includes this.
+// MPI for test programs: one session around all tests of a program that includes this header.
 namespace tread::test
 {
 

@@ -13,15 +13,15 @@
 namespace tread::test
 {
 
-/// f0 + c h^p through three values.
+/// Fit of f0 + c h^p through three values.
 struct PowerFit
 {
     double limit;  ///< f0
-    double order;  ///< p; not a number if the values do not approach a limit
+    double order;  ///< p; NaN if the values do not approach a limit
     double factor; ///< c
 };
 
-/// `steps` fall. The ratio of the differences grows with p: bisection between p = 0.05 and 8.
+/// Fits a power. `steps` decrease. The ratio of the differences grows with p: bisection between p = 0.05 and 8.
 inline PowerFit fit_power(const std::array<double, 3>& steps, const std::array<double, 3>& values)
 {
     const auto ratio = [&](double p)
@@ -38,14 +38,14 @@ inline PowerFit fit_power(const std::array<double, 3>& steps, const std::array<d
     return {values[2] - factor * std::pow(steps[2], low), low, factor};
 }
 
-/// An interval for an order of convergence, and why it is that.
+/// Expected interval of an order of convergence, and the reason for it.
 struct ExpectedOrder
 {
     double      low, high;
     std::string why;
 };
 
-/// Fits, prints and expects the order. Returns the fit, whose limit is the caller's to judge.
+/// Fits, prints and checks the order. Returns the fit; the caller checks its limit.
 inline PowerFit expect_order(const std::string& what, const std::array<double, 3>& steps,
                              const std::array<double, 3>& values, const ExpectedOrder& expected)
 {

@@ -7,7 +7,7 @@
 #include "scene/load.hpp"
 #include "temporary_directory.hpp"
 
-// Scenes of tests, written as a user would and read by the same loader.
+// Scenes for tests, as a user would write them, read by the same loader.
 namespace tread::test
 {
 
@@ -19,7 +19,7 @@ inline scene::Scene load_text(const std::string& text, const std::vector<std::st
     return scene::load_scene(path, overrides);
 }
 
-/// A box of sand with a fixed floor; small enough for a test of a second.
+/// A box of sand with a fixed floor, small enough for a test of a second.
 inline const std::string sand_text = R"(
 title = "sand"
 [domain]
@@ -44,7 +44,7 @@ duration = 0.05
 every = 0.01
 )";
 
-/// To be appended: rocks of 6 cm.
+/// Appended: rocks of 6 cm.
 inline const std::string rocks_text = R"(
 [[material]]
 name    = "rock"
@@ -85,7 +85,7 @@ position = [0.2, 0.2, 0.33]
 lock     = ["x", "y", "roll", "pitch", "yaw"]
 )";
 
-/// Without weight, walls or time: steel for balls. To be appended: [time], bodies of shape "ball", and phases.
+/// No gravity, walls or [time]: steel for balls. Append [time], bodies of shape "ball", and phases.
 inline const std::string steel_text = R"(
 title = "steel balls"
 [domain]

@@ -8,14 +8,14 @@
 namespace tread::test
 {
 
-/// Of values[first] on.
+/// Mean of values[first] and all later ones.
 inline double mean_of(const std::vector<double>& values, std::size_t first)
 {
     return std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(first), values.end(), 0.0) /
            static_cast<double>(values.size() - first);
 }
 
-/// Standard deviation of values[first] on.
+/// Standard deviation of values[first] and all later ones.
 inline double deviation_of(const std::vector<double>& values, std::size_t first)
 {
     const double mean   = mean_of(values, first);
@@ -24,7 +24,7 @@ inline double deviation_of(const std::vector<double>& values, std::size_t first)
     return std::sqrt(square / static_cast<double>(values.size() - first));
 }
 
-/// Of the regression of values over times.
+/// Slope of the linear regression of values over times.
 inline double slope_of(const std::vector<double>& times, const std::vector<double>& values)
 {
     const double time = mean_of(times, 0), value = mean_of(values, 0);

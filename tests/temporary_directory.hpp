@@ -10,7 +10,7 @@
 namespace tread::test
 {
 
-/// A fresh directory that goes with the test.
+/// A new directory that is removed after the test.
 class TemporaryDirectory
 {
 public:
@@ -23,7 +23,7 @@ public:
     TemporaryDirectory(const TemporaryDirectory&)            = delete;
     TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
 
-    /// Of `name` within it.
+    /// Path of `name` within it.
     std::string path(const std::string& name) const { return (path_ / name).string(); }
 
 private:

@@ -6,7 +6,7 @@
 namespace tread
 {
 
-/// "12.3 MB": for people; decimal units.
+/// Formats bytes for people, as "12.3 MB"; decimal units.
 std::string bytes_text(std::int64_t bytes);
 
 } // namespace tread

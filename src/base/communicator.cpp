@@ -69,7 +69,7 @@ std::vector<T> gather_all(const Communicator& communicator, const std::vector<T>
     return all;
 }
 
-/// As what it was on the rank that it befell.
+/// Rethrows with the error type of the failing rank.
 [[noreturn]] void rethrow(ExitCode code, const std::string& message)
 {
     switch (code)

@@ -8,7 +8,7 @@
 namespace tread
 {
 
-/// Every error that ends a run carries the exit code that it ends with.
+/// Base of errors that end a run; carries the exit code.
 class Error : public std::runtime_error
 {
 public:
@@ -33,7 +33,7 @@ struct InputError : Error
     }
 };
 
-/// The computation cannot go on: names what, where, when and which limit: exit 3.
+/// The computation cannot continue; the message names what, where, when and which limit: exit 3.
 struct NumericalError : Error
 {
     explicit NumericalError(const std::string& message)
@@ -42,7 +42,7 @@ struct NumericalError : Error
     }
 };
 
-/// The machine cannot do what is asked: no GPU, no space, no permission, MPI: exit 4.
+/// The machine cannot provide what is needed: no GPU, no space, no permission, MPI: exit 4.
 struct EnvironmentError : Error
 {
     explicit EnvironmentError(const std::string& message)
@@ -51,7 +51,7 @@ struct EnvironmentError : Error
     }
 };
 
-/// Somebody asked the run to stop while it was in a step, of which no checkpoint can be written: exit 75.
+/// A stop was requested during a step, when no checkpoint can be written: exit 75.
 struct StoppedInStep : Error
 {
     explicit StoppedInStep(const std::string& message)
@@ -60,11 +60,11 @@ struct StoppedInStep : Error
     }
 };
 
-/// What the process returns when it ends with this: of an Error its own, of no memory and of the system's errors that
-/// of the machine, of anything else that of a computation that cannot go on.
+/// Exit code for an exception: an Error's own; environment for out of memory and system errors; numerical for all
+/// others.
 ExitCode code_of(const std::exception& error);
 
-/// What is said of it, printable.
+/// Printable message of an exception.
 std::string text_of(const std::exception& error);
 
 } // namespace tread

@@ -3,7 +3,7 @@
 namespace tread
 {
 
-/// What the process returns; jobs decide from it whether to retry, requeue or give up.
+/// Exit codes of the process; jobs decide from them whether to retry, requeue or give up.
 enum class ExitCode : int
 {
     finished      = 0,

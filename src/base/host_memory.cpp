@@ -21,7 +21,7 @@ namespace
 
 constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
 
-/// The number after a word in a file of words and numbers; nothing if there is none.
+/// Number after a word in a file of words and numbers; empty if there is none.
 std::optional<std::int64_t> number_after(const std::filesystem::path& path, const std::string& name)
 {
     std::ifstream file(path);
@@ -34,7 +34,7 @@ std::optional<std::int64_t> number_after(const std::filesystem::path& path, cons
     return std::nullopt;
 }
 
-/// The number that a file begins with; nothing where it is "max" or there is no file.
+/// Number at the beginning of a file; empty if it is "max" or there is no file.
 std::optional<std::int64_t> number_in(const std::filesystem::path& path)
 {
     std::ifstream file(path);
@@ -56,7 +56,7 @@ std::int64_t left_in_address_space()
     return std::max<std::int64_t>(0, saturated(static_cast<double>(limit.rlim_cur)) - *pages * sysconf(_SC_PAGESIZE));
 }
 
-/// How a version of control groups names its files.
+/// File names of one version of control groups.
 struct GroupFiles
 {
     const char* root;
@@ -64,7 +64,7 @@ struct GroupFiles
     const char* usage;
 };
 
-/// The least that a group and those that enclose it leave; caches that the kernel can drop count as free.
+/// Smallest remaining memory of a group and its parents; caches that the kernel can drop count as free.
 std::int64_t left_in_group(const GroupFiles& files, std::filesystem::path group)
 {
     std::int64_t least = unknown;
@@ -81,7 +81,7 @@ std::int64_t left_in_group(const GroupFiles& files, std::filesystem::path group)
     }
 }
 
-/// Lines of /proc/self/cgroup are "number:controllers:/path"; the second version has no controllers.
+/// Lines of /proc/self/cgroup are "number:controllers:/path"; version 2 has no controllers.
 std::int64_t left_in_groups()
 {
     constexpr GroupFiles first{"/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes"};

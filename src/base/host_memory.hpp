@@ -3,15 +3,15 @@
 #include <cstdint>
 #include <string>
 
-// How much host memory this process may still take, and the refusal of what would not fit.
+// Host memory still available to this process, and refusal of demands that would not fit.
 namespace tread
 {
 
-/// Bytes that the machine has available, or fewer where a control group or RLIMIT_AS leaves less to this process. The
-/// largest integer where nothing is known.
+/// Bytes available on the machine, or less if a control group or RLIMIT_AS leaves less to this process. The largest
+/// integer if unknown.
 std::int64_t available_host_memory();
 
-/// What is about to be made, for the message that refuses it.
+/// A planned allocation, for the message that refuses it.
 struct HostDemand
 {
     double      bytes;
@@ -19,7 +19,7 @@ struct HostDemand
     std::string advice; ///< "a coarser [grid] spacing"
 };
 
-/// EnvironmentError, with both figures, where the demand is more than what is available.
+/// EnvironmentError, with both figures, if the demand exceeds the available memory.
 void require_host_memory(const HostDemand& demand);
 
 } // namespace tread

@@ -42,7 +42,7 @@ void Log::open(const std::string& path, LogFile file)
     early_.clear();
 }
 
-/// Null where that fails.
+/// Null on failure.
 Log::File Log::open_file(const std::string& path, LogFile file)
 {
     const int flags      = O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | (file == LogFile::anew ? O_EXCL : O_APPEND);

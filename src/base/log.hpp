@@ -23,21 +23,21 @@ enum class LogFile
     continued
 };
 
-/// What a run says: lines to rank 0's terminal, and to a file from the moment that there is one, both printable. Other
-/// ranks are mute.
+/// Log of a run: writes printable lines to rank 0's terminal, and to a file once one is open. Other ranks write
+/// nothing.
 class Log
 {
 public:
     Log(const Communicator& communicator, Terminal terminal);
 
-    /// To standard output.
+    /// Writes to standard output.
     void info(std::string_view line);
 
-    /// To standard error, marked "warning: ".
+    /// Writes to standard error, marked "warning: ".
     void warning(std::string_view line);
 
-    /// Starts the file at `path`, which must not be there, or goes on at its end, with every line said so far.
-    /// EnvironmentError when it cannot be written, here and in the calls above, or is a link.
+    /// Creates the file at `path`, which must not exist, or appends to it, beginning with all lines logged so far.
+    /// EnvironmentError, here and in the calls above, if it cannot be written or is a link.
     void open(const std::string& path, LogFile file = LogFile::anew);
 
 private:
@@ -55,7 +55,7 @@ private:
     Terminal                 terminal_;
     std::string              path_;
     File                     file_;
-    std::vector<std::string> early_; ///< lines said before there was a file
+    std::vector<std::string> early_; ///< lines logged before a file was open
 };
 
 } // namespace tread

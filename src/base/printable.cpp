@@ -9,8 +9,8 @@ namespace tread
 namespace
 {
 
-/// Bytes of the character that a text begins with; 0 if it is none of UTF-8, or an ASCII control character other than a
-/// line break or a tab.
+/// Bytes of the first character of a text; 0 if it is not UTF-8, or is an ASCII control character other than a line
+/// break or a tab.
 std::size_t plain_bytes(std::string_view text)
 {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };

@@ -14,8 +14,8 @@ namespace tread
 namespace
 {
 
-/// Clock ticks after the machine's start; field 22 of the file (man 5 proc). The second is the program's name in
-/// parentheses, which may hold anything. Below 0: unknown.
+/// Start time of this process in clock ticks since boot; field 22 of the file (man 5 proc). The second field is the
+/// program's name in parentheses, which may hold anything. Negative: unknown.
 double start_in_ticks()
 {
     constexpr int     fields_between = 19;

@@ -3,8 +3,8 @@
 namespace tread
 {
 
-/// s since this process began, by the kernel's books (to 10 ms): loading libraries and joining MPI come before the
-/// first line of main, and take seconds on a busy machine. 0 where the kernel does not say.
+/// Seconds since the kernel started this process (to 10 ms). Loading libraries and joining MPI precede main, and take
+/// seconds on a busy machine. 0 if the kernel does not report it.
 double process_age();
 
 } // namespace tread

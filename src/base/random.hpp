@@ -5,7 +5,7 @@
 namespace tread
 {
 
-/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers on every machine, which std::distributions do not promise.
+/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers on every machine, which std::distributions do not guarantee.
 class Random
 {
 public:
@@ -22,7 +22,7 @@ public:
         return z ^ (z >> 31);
     }
 
-    /// In [0, 1).
+    /// Uniform number in [0, 1).
     double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
 
     double uniform(double low, double high) { return low + (high - low) * uniform(); }

@@ -6,8 +6,8 @@
 namespace tread
 {
 
-/// Why a path is not a regular file (a pipe or a device would be waited for), or nothing if it is one. Looks at what a
-/// link leads to; does not open it.
+/// Why a path is not a regular file; empty if it is one. Opening a pipe or a device could block, so the path is not
+/// opened; links are followed.
 std::optional<std::string> irregularity(const std::string& path);
 
 /// EnvironmentError, with that reason, unless a path is a regular file.

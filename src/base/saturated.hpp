@@ -6,7 +6,7 @@
 namespace tread
 {
 
-/// A count or a size that was computed as a double: the integer below it, or the largest where it is beyond that.
+/// Rounds a count or size computed as a double down to an integer, limited to the largest one.
 inline std::int64_t saturated(double value)
 {
     constexpr auto most = std::numeric_limits<std::int64_t>::max();

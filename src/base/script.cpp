@@ -25,7 +25,7 @@ fs::path this_program()
     return path;
 }
 
-/// Beside an installed program (bin, share), or in the sources that this program was built from.
+/// Looks beside an installed program (bin, share), or in the source tree that this program was built from.
 fs::path find_script(const fs::path& program, const std::string& name)
 {
     const fs::path installed = program.parent_path().parent_path() / "share" / "tread" / name;
@@ -45,7 +45,7 @@ void become_script(const std::string& name, const std::vector<std::string>& argu
 {
     const fs::path    program = this_program();
     const char* const named   = std::getenv("TREAD_PYTHON");
-    // Debian's Python has the packages that the scripts use; another one may stand first on PATH.
+    // Debian's Python has the packages that the scripts use; another one may come first on PATH.
     std::vector<std::string> words{named != nullptr ? named : "/usr/bin/python3", find_script(program, name).string(),
                                    "--tread", program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());

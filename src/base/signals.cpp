@@ -17,7 +17,7 @@ struct Watched
 
 constexpr std::array<Watched, 4> watched{{{SIGUSR1, "USR1"}, {SIGUSR2, "USR2"}, {SIGTERM, "TERM"}, {SIGINT, "INT"}}};
 
-// A handler has nowhere else to write. Lock-free atomics are all that it may touch (POSIX, async-signal-safe).
+// Lock-free atomics are all that a signal handler may touch (POSIX, async-signal-safe).
 std::atomic<bool> checkpoint_asked{false}, stop_asked{false};
 std::atomic<int>  last{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
@@ -45,7 +45,7 @@ SignalWatch::SignalWatch()
     {
         struct sigaction action = {};
         action.sa_handler       = note;
-        action.sa_flags         = SA_RESTART; // writes in progress go on
+        action.sa_flags         = SA_RESTART; // interrupted writes continue
         sigemptyset(&action.sa_mask);
         sigaction(signal.number, &action, nullptr);
     }

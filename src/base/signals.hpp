@@ -3,16 +3,16 @@
 namespace tread
 {
 
-/// What somebody outside has asked of a run, the most last.
+/// Requests to a run from outside, in ascending order of priority.
 enum class Request : int
 {
     none,
-    checkpoint, ///< and go on: USR1
+    checkpoint, ///< and continue: USR1
     stop        ///< after a checkpoint: USR2, TERM, INT
 };
 
-/// While one lives, USR1, USR2, TERM and INT are noted instead of ending the process; a second INT ends it. One at a
-/// time. What was noted is forgotten when it is made.
+/// Records USR1, USR2, TERM and INT while it lives, instead of ending the process; a second INT ends it. Only one may
+/// exist at a time. Construction discards earlier requests.
 class SignalWatch
 {
 public:
@@ -21,13 +21,13 @@ public:
     SignalWatch(const SignalWatch&)            = delete;
     SignalWatch& operator=(const SignalWatch&) = delete;
 
-    /// The most that was asked for since the last call; a stop stays.
+    /// Request of highest priority since the last call; a stop is kept.
     static Request take();
 
-    /// Whether a stop was asked for; take() says so too.
+    /// Whether a stop was requested; take() reports it too.
     static bool stop_is_asked();
 
-    /// "USR2", of the last signal; "" before any.
+    /// Name of the last signal, as "USR2"; "" before any.
     static const char* last_name();
 };
 

@@ -9,7 +9,7 @@
 namespace tread
 {
 
-/// What a rank waits for in a message, kept where a watchdog's thread may look. One thread waits, others look.
+/// The message that a rank waits for, readable by a watchdog's thread. One thread waits, others read.
 class WaitNote
 {
 public:
@@ -18,7 +18,7 @@ public:
     struct Wait
     {
         std::string       what;  ///< "sum", "halo messages"
-        std::vector<int>  ranks; ///< that it waits for; empty = all
+        std::vector<int>  ranks; ///< ranks waited for; empty = all
         Clock::time_point since;
     };
 
@@ -28,12 +28,12 @@ public:
 
 private:
     mutable std::mutex mutex_;
-    const char*        what_ = nullptr; ///< none: no wait
+    const char*        what_ = nullptr; ///< null while not waiting
     std::vector<int>   ranks_;
     Clock::time_point  since_;
 };
 
-/// A wait while one lives; `what` outlives it.
+/// Marks a wait during its lifetime; `what` must outlive it.
 class Waiting
 {
 public:

@@ -65,7 +65,7 @@ void Watchdog::end_steps()
     last_.reset();
 }
 
-/// What is wrong, if anything is. The mutex is held.
+/// Describes an overdue wait or step; empty if there is none. The caller holds the mutex.
 std::optional<std::string> Watchdog::complaint() const
 {
     const Clock::time_point             now    = Clock::now();

@@ -14,26 +14,26 @@
 namespace tread
 {
 
-/// Notices that a rank waits too long, or takes no step: a rank that waits for a message that never comes says nothing
-/// itself.
+/// Detects that a rank waits too long or completes no step: a rank that waits for a message that never comes cannot
+/// report it itself.
 class Watchdog
 {
 public:
-    /// Calls `bark`, once and in a thread of its own, with a sentence that says what the rank waits for, when one of
-    /// its `waits` has lasted for `timeout`, or its steps have begun and none ended for so long.
+    /// Calls `bark`, once and in its own thread, with a sentence on what the rank waits for, when one of its `waits`
+    /// has lasted for `timeout`, or when no step has ended for that long after begin_steps().
     Watchdog(const WaitNote& waits, std::chrono::duration<double> timeout,
              std::function<void(const std::string&)> bark);
     ~Watchdog();
     Watchdog(const Watchdog&)            = delete;
     Watchdog& operator=(const Watchdog&) = delete;
 
-    /// From now on a step is due.
+    /// Expects steps from now on.
     void begin_steps();
 
-    /// A step has ended, and another follows.
+    /// Records the end of a step; another follows.
     void advance();
 
-    /// No more steps are to come.
+    /// Expects no more steps.
     void end_steps();
 
 private:
@@ -47,10 +47,10 @@ private:
     std::function<void(const std::string&)> bark_;
     std::mutex                              mutex_;
     std::condition_variable                 changed_;
-    std::optional<Clock::time_point>        last_; ///< end of a step; none: no step is due
+    std::optional<Clock::time_point>        last_; ///< end of the last step; empty: no step is expected
     std::int64_t                            steps_ = 0;
     bool                                    ended_ = false;
-    std::thread                             thread_; ///< last: it uses all of the above
+    std::thread                             thread_; ///< declared last, as it uses all of the above
 };
 
 } // namespace tread

@@ -13,11 +13,12 @@ namespace tread::decomp
 namespace
 {
 
-/// Steps of a point that it costs to pack, send, unpack and sort it, and to build what follows.
+/// Cost of migrating a point, in steps of a point: packing, sending, unpacking, sorting and rebuilding what depends on
+/// it.
 constexpr double move_cost = 20;
 
-/// Steps of all points of a rank that a partition costs, whatever moves: METIS takes about a microsecond a page of some
-/// 500 points, on every rank, beside the sorting of all points.
+/// Cost of a partition, in steps of all points of a rank, whatever moves: METIS takes about a microsecond for a page of
+/// some 500 points, on every rank, beside the sorting of all points.
 constexpr double partition_cost = 30;
 
 double largest(const std::vector<double>& loads) { return *std::max_element(loads.begin(), loads.end()); }
@@ -37,7 +38,7 @@ std::vector<double> loads_of(const PageGraph& graph, const PageRanks& rank, int 
     return loads;
 }
 
-/// The pages of all ranks with their loads, and the rank that has most of each.
+/// Pages of all ranks with their loads, and the rank with most load on each.
 struct AllPages
 {
     PageGraph graph;
@@ -126,7 +127,7 @@ bool Balance<Exec>::is_due(std::int64_t step) const
            rule_.is_due(state_.row.loads, step - state_.partitioned);
 }
 
-/// What was not worth it is looked at again when twice as many steps have gone by.
+/// If it does not pay, it is tried again after twice as many steps.
 template<class Exec>
 bool Balance<Exec>::repartition(const PageLoads& own, std::int64_t step)
 {

@@ -5,8 +5,8 @@
 namespace tread::decomp
 {
 
-/// Collective, of all ranks in rank order: the first `sums` values become their sums, the next `peaks` the largest.
-/// All ranks get the same bits.
+/// Reduces values over all ranks, in rank order: the first `sums` become their sums, the next `peaks` their maxima.
+/// Collective. All ranks get the same bits.
 void combine(const Communicator& communicator, double* values, int sums, int peaks);
 
 } // namespace tread::decomp

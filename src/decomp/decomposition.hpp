@@ -6,7 +6,7 @@
 namespace tread::decomp
 {
 
-/// Whether what all ranks have together is compared before and after points change ranks.
+/// Whether counts, ids and masses of all ranks' points are compared before and after a migration.
 enum class Checksums
 {
     off,
@@ -19,7 +19,7 @@ struct DecompositionOptions
     Checksums       checksums = Checksums::off;
 };
 
-/// What every part of a run on several ranks shares. A run on one rank has none.
+/// State shared by all parts of a run on several ranks. A run on one rank has none.
 template<class Exec>
 struct Decomposition
 {

@@ -15,7 +15,7 @@ std::int64_t rows_of(const std::vector<Route>& routes)
     return rows;
 }
 
-/// The routes' parts of a packed buffer.
+/// Byte ranges of the routes in a packed buffer.
 void write_ranges(const std::vector<Route>& routes, std::int64_t row_bytes, MessageRanges& ranges)
 {
     ranges.clear();
@@ -27,7 +27,7 @@ void write_ranges(const std::vector<Route>& routes, std::int64_t row_bytes, Mess
     }
 }
 
-/// What others have for this rank.
+/// Routes by which other ranks send to this one.
 std::vector<Route> announced(const Communicator& communicator, const std::vector<Route>& to)
 {
     std::vector<std::int64_t> rows(static_cast<std::size_t>(communicator.size()), 0);

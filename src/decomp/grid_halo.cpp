@@ -12,7 +12,7 @@ namespace tread::decomp
 namespace
 {
 
-/// The numbers of pages in a list that has all of them.
+/// Index of each of `pages` in `all`, which contains all of them.
 std::vector<std::int32_t> places_in(const PageKeys& all, const PageKeys& pages)
 {
     std::vector<std::int32_t> places;
@@ -24,7 +24,7 @@ std::vector<std::int32_t> places_in(const PageKeys& all, const PageKeys& pages)
     return places;
 }
 
-/// The other way round: of each of `count` pages its place in `places`, or -1.
+/// Inverse of `places`: for each of `count` pages its index in `places`, or -1.
 std::vector<std::int32_t> numbers_of(const std::vector<std::int32_t>& places, std::size_t count)
 {
     std::vector<std::int32_t> numbers(count, -1);
@@ -94,7 +94,7 @@ void GridHalo<Exec, Real>::plan(mpm::Pages<Exec>& pages, const mpm::GridWalls& w
     shared_.total.resize(count * mpm::node_page_values);
 }
 
-/// All pages that there is a tile for: one that is empty now may be reached by points before pages are made anew.
+/// Uses all pages with a tile: points may reach one that is empty now before pages are rebuilt.
 template<class Exec, class Real>
 void GridHalo<Exec, Real>::list_border(const mpm::Pages<Exec>& pages, const std::vector<std::int32_t>& shared_number)
 {

@@ -12,18 +12,20 @@
 namespace tread::decomp
 {
 
-/// The node pages that this rank shares with others, and what all of them bring to their nodes. Point pages that reach
-/// such nodes ("border pages") are scattered first, and what they bring travels while the others are. Collective.
+/// Node pages shared with other ranks, and the sum of all ranks' contributions to them. Point pages that reach shared
+/// nodes ("border pages") are scattered first, and their contributions are sent while the others are scattered.
+/// Collective.
 template<class Exec, class Real>
 class GridHalo
 {
 public:
     explicit GridHalo(Decomposition<Exec>& decomposition);
 
-    /// After the point pages have changed: finds what is shared, and lists what walls hold together with it as well.
+    /// Finds the shared pages; call after the point pages have changed. Pages that walls tie to shared ones are
+    /// included.
     void plan(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls);
 
-    /// Runs P2G of the border pages, `scatter(exec, list)`, on a stream of its own, and sends what they bring to
+    /// Runs P2G of the border pages, `scatter(exec, list)`, on a secondary stream, and sends their contributions to
     /// `tiles`.
     template<class Scatter>
     void begin(const mpm::PagesView& pages, const Real* tiles, const Scatter& scatter)
@@ -33,15 +35,15 @@ public:
         send(pages, tiles);
     }
 
-    /// The other pages, whose P2G needs no begin() nor finish() to be over.
+    /// The other point pages, whose P2G depends neither on begin() nor on finish().
     mpm::PageList interior() const { return {interior_.size(), interior_.data()}; }
 
-    /// Adds up; view() and the border pages' tiles are right from now on.
+    /// Adds up the contributions; view() and the tiles of border pages are valid afterwards.
     void finish();
 
     mpm::SharedPagesView<Real> view() const { return shared_.view(); }
 
-    /// Of the tallies of node pages, `width` numbers each, clears those that another rank keeps.
+    /// Clears the tallies of node pages (`width` numbers each) that another rank accounts for.
     void clear_booked_elsewhere(int width, double* tallies);
 
     std::int64_t pages() const { return shared_.page.size(); }
@@ -54,7 +56,7 @@ private:
     SecondaryStream<Exec>        stream_;
     mpm::SharedPages<Exec, Real> shared_;
     Array<Exec, std::int32_t>    border_;   ///< point pages
-    Array<Exec, std::int32_t>    interior_; ///< the others
+    Array<Exec, std::int32_t>    interior_; ///< all other point pages
     Exchange<Exec>               exchange_;
 };
 

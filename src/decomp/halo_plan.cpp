@@ -32,7 +32,7 @@ void for_each_beside(std::uint64_t page, Visit visit)
     }
 }
 
-/// Of `theirs` those that walls hold together with pages of `mine`, which does not have them.
+/// Pages of `theirs`, not in `mine`, that walls tie to pages of `mine`.
 PageKeys held_with(const PageKeys& mine, const PageKeys& theirs, const IsHeld& is_held)
 {
     PageKeys found;
@@ -61,13 +61,13 @@ PageKeys united(const PageKeys& a, const PageKeys& b)
     return all;
 }
 
-/// What `from` sends to a rank that reaches `to`.
+/// Pages that a rank reaching `from` sends to a rank reaching `to`.
 PageKeys sent(const PageKeys& from, const PageKeys& to, const IsHeld& is_held)
 {
     return united(common(from, to), held_with(to, from, is_held));
 }
 
-/// The parts of every shared page, and who books it.
+/// Lists the contributions to every shared page, and which rank accounts for it.
 void list_parts(int rank, const std::vector<PageKeys>& reached, const std::vector<PageKeys>& incoming, HaloPlan& plan)
 {
     plan.first_part = {0};
@@ -98,7 +98,7 @@ struct Box
     std::array<std::int32_t, 3> low, high;
 };
 
-/// Around pages and one page more; empty where there are none.
+/// Box around the pages, widened by one page; empty if there are none.
 Box box_around(const PageKeys& keys)
 {
     constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();

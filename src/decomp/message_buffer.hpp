@@ -11,15 +11,15 @@
 namespace tread::decomp
 {
 
-/// What carries bytes from rank to rank.
+/// Transfer method for bytes between ranks.
 enum class Carrier
 {
-    mpi,  ///< MPI, from and to the backend's own memory
-    nccl, ///< NCCL, the same
-    host  ///< MPI, from and to host memory that kernels of the GPU write and read
+    mpi,  ///< MPI on the backend's own memory
+    nccl, ///< NCCL on the backend's own memory
+    host  ///< MPI on host memory that GPU kernels write and read
 };
 
-/// Memory that kernels and the carrier both reach; grows only.
+/// Memory accessible to both kernels and the carrier; only grows.
 template<class Exec>
 class MessageBuffer;
 
@@ -32,7 +32,7 @@ public:
     {
     }
 
-    /// Old bytes are lost when it has to grow.
+    /// Contents are lost if the buffer has to grow.
     std::byte* reserve(std::int64_t bytes)
     {
         bytes_.resize(bytes);

@@ -7,7 +7,7 @@
 namespace tread::decomp
 {
 
-/// Bytes in a row of a buffer that go to a rank, or come from it.
+/// Contiguous bytes of a buffer that are sent to a rank, or received from it.
 struct MessageRange
 {
     int          rank;

@@ -10,7 +10,7 @@ namespace tread::decomp
 namespace
 {
 
-/// Where each of so many bytes begins, and the end of all.
+/// Offset of each message in bytes, and the end of the last.
 std::vector<int> places_of(const std::vector<int>& bytes)
 {
     std::vector<int> places{0};

@@ -7,13 +7,13 @@
 
 #include "base/communicator.hpp"
 
-// What ranks tell each other seldom, from host memory, in any length.
+// Occasional messages between ranks, in host memory and of any length.
 namespace tread::decomp
 {
 
 using Message = std::vector<std::byte>;
 
-/// Collective: messages[r] goes to rank r; returns what every rank had for this one.
+/// Sends messages[r] to rank r; returns the message of every rank to this one. Collective.
 std::vector<Message> exchange_messages(const Communicator& communicator, const std::vector<Message>& messages);
 
 template<class T>
@@ -24,7 +24,7 @@ void write(Message& message, const T* values, std::size_t count)
     message.insert(message.end(), bytes, bytes + count * sizeof(T));
 }
 
-/// All of a message that holds values of one type.
+/// Returns the whole content of a message that holds values of one type.
 template<class T>
 std::vector<T> read_all(const Message& message)
 {
@@ -33,7 +33,7 @@ std::vector<T> read_all(const Message& message)
     return values;
 }
 
-/// Collective: values[r], of one type, goes to rank r.
+/// Sends values[r], of one type, to rank r; returns the values of every rank for this one. Collective.
 template<class T>
 std::vector<std::vector<T>> exchange_values(const Communicator& communicator, const std::vector<std::vector<T>>& values)
 {
@@ -44,7 +44,7 @@ std::vector<std::vector<T>> exchange_values(const Communicator& communicator, co
     return found;
 }
 
-/// Collective: the values of every rank, in rank order.
+/// Gathers the values of every rank, in rank order. Collective.
 template<class T>
 std::vector<std::vector<T>> gather_values(const Communicator& communicator, const std::vector<T>& values)
 {

@@ -18,7 +18,7 @@ PageRanks metis_parts(const PageGraph& graph, int ranks, double imbalance)
     idx_t              options[METIS_NOPTIONS];
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_SEED]   = 1;
-    options[METIS_OPTION_CONTIG] = 0; // it fails on graphs that are not connected, as heaps of sand apart are not
+    options[METIS_OPTION_CONTIG] = 0; // contiguous parts fail on disconnected graphs, such as separate heaps of sand
     PageRanks rank(graph.pages());
     const int done = METIS_PartGraphKway(&vertices, &constraints, first.data(), neighbour.data(), load.data(), nullptr,
                                          shared.data(), &parts, nullptr, &balance, options, &cut, rank.data());

@@ -15,12 +15,12 @@ namespace tread::decomp
 namespace
 {
 
-/// Of all ranks, exactly: whole numbers, which wrap.
+/// Exact checksum over all ranks, in integers that wrap around.
 struct Checksum
 {
     std::uint64_t count  = 0;
     std::uint64_t ids    = 0;
-    std::uint64_t masses = 0; ///< their bits
+    std::uint64_t masses = 0; ///< sum of their bit patterns
 };
 
 template<class Exec, class Real>
@@ -121,7 +121,7 @@ void Migration<Exec, Real>::note_migrated_out(mpm::Points<Exec, Real>& points, c
     for (auto& of_rank : migrated_out_) { std::sort(of_rank.begin(), of_rank.end()); }
 }
 
-/// All ranks say which pages without an owner have how many of their points, and come to the same answer.
+/// Gathers from all ranks the pages without an owner and their points on each, so that all decide alike.
 template<class Exec, class Real>
 void Migration<Exec, Real>::adopt_pages()
 {

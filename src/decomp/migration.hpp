@@ -10,21 +10,21 @@
 namespace tread::decomp
 {
 
-/// Brings points, with all their fields, to the ranks that own their pages. Collective.
+/// Sends points, with all their fields, to the ranks that own their pages. Collective.
 template<class Exec, class Real>
 class Migration
 {
 public:
     explicit Migration(Decomposition<Exec>& decomposition);
 
-    /// Points that stay come first, in their order; then those that come, by rank, each rank's in its order. A page
-    /// that nobody owns becomes that of the rank with most of its points, of equals the lowest. Ranges of points have
-    /// to be made anew. Returns how many points of all ranks changed their rank. With Checksums::on NumericalError
-    /// where count, ids or masses of all points together are not what they were.
+    /// Migrates points; returns how many changed rank, over all ranks. Points that stay come first, in their order,
+    /// then arrivals by rank, each rank's in its order. A page without an owner is assigned to the rank with most of
+    /// its points, the lowest of equals. Point ranges must be rebuilt afterwards. With Checksums::on, NumericalError if
+    /// count, ids or masses of all points changed.
     std::int64_t run(mpm::Points<Exec, Real>& points, const mpm::GridGeometry& geometry,
                      mpm::OrderScratch<Exec, Real>& scratch);
 
-    /// Ids of the points that went to each rank in the last run, ascending: what belongs to them can follow.
+    /// Ids of the points sent to each rank in the last run, ascending, so that data attached to them can follow.
     const std::vector<std::vector<std::uint32_t>>& migrated_out() const { return migrated_out_; }
 
 private:

@@ -11,7 +11,7 @@ namespace tread::decomp
 namespace
 {
 
-// Of nccl.h, version 2: what is used of it, so that it need not be there when tread is built.
+// The declarations of nccl.h, version 2, that are used here, so that building tread does not need the header.
 struct UniqueId
 {
     char bytes[128];
@@ -30,7 +30,7 @@ using ErrorString = const char* (*)(int);
 
 } // namespace
 
-/// It stays open until the process ends: its threads may outlive the last communicator.
+/// Handle of the library. It stays open until the process ends: its threads may outlive the last communicator.
 struct NcclLibrary
 {
     void*       handle        = nullptr;
@@ -74,7 +74,7 @@ Nccl::Nccl(const Communicator& communicator)
     {
         throw EnvironmentError("NCCL: not every rank finds libnccl.so.2");
     }
-    // Sends and receives have no use for NVLink multicast, which takes resources of the whole machine.
+    // Sends and receives do not use NVLink multicast, which occupies resources of the whole machine.
     setenv("NCCL_NVLS_ENABLE", "0", 1);
     UniqueId id{};
     if (communicator.rank() == 0) { library_->check(library_->get_unique_id(&id), "unique id"); }

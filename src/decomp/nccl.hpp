@@ -7,7 +7,7 @@
 #include "base/communicator.hpp"
 #include "decomp/message_range.hpp"
 
-// NCCL, if this machine has it: opened when a run asks for it, so that no build needs it.
+// NCCL, opened at run time on request, so that no build depends on it.
 namespace tread::decomp
 {
 
@@ -16,14 +16,14 @@ struct NcclLibrary;
 class Nccl
 {
 public:
-    /// Collective. EnvironmentError, on all ranks, with the reason: no libnccl.so.2 on some rank, or NCCL does not
-    /// start there (two ranks on one GPU, for one).
+    /// Collective. EnvironmentError with the reason, on all ranks, if some rank has no libnccl.so.2 or NCCL does not
+    /// start (two ranks on one GPU, for example).
     explicit Nccl(const Communicator& communicator);
     ~Nccl();
     Nccl(const Nccl&)            = delete;
     Nccl& operator=(const Nccl&) = delete;
 
-    /// Sends and receives on the device's stream, after what was launched before and before what is launched later.
+    /// Enqueues sends and receives on the device's stream, in order with kernels launched before and after.
     void exchange(const Gpu& gpu, const MessageRanges& out, const std::byte* from, const MessageRanges& in,
                   std::byte* to);
 

@@ -17,8 +17,8 @@ struct Step
     std::int32_t shared; ///< nodes
 };
 
-/// To the 26 neighbours. The stencils of two pages that are neighbours along an axis share two layers of nodes, and all
-/// of them along the others.
+/// Steps to the 26 neighbours. Stencils of two pages that are neighbours along an axis share two layers of nodes along
+/// it, and all layers along the other axes.
 std::array<Step, 26> steps()
 {
     std::array<Step, 26> all{};

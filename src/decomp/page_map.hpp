@@ -10,29 +10,29 @@
 namespace tread::decomp
 {
 
-/// Which rank owns which page: the same on all ranks, on the host and in the backend's memory.
+/// Owning rank of each page: identical on all ranks, on the host and in the backend's memory.
 template<class Exec>
 class PageMap
 {
 public:
     explicit PageMap(const Exec& exec);
 
-    /// `key` ascends, each once; a rank each. What was there before is forgotten.
+    /// Replaces the whole map. `key`: ascending and unique; one rank for each.
     void assign(std::vector<std::uint64_t> key, PageRanks rank);
 
-    /// Pages that nobody owned before, in any order.
+    /// Adds pages that had no owner, in any order.
     void add(const std::vector<std::uint64_t>& key, const PageRanks& rank);
 
     const std::vector<std::uint64_t>& keys() const { return key_; }
     const PageRanks&                  ranks() const { return rank_; }
 
-    /// How often pages were given to ranks: who keeps something that follows from it knows when to look again.
+    /// Number of assignments so far; data derived from the owners is stale once it has changed.
     std::int64_t changes() const { return changes_; }
 
     /// The owner of a page, or -1.
     std::int32_t owner(std::uint64_t page) const;
 
-    /// The same for kernels.
+    /// Device view for kernels.
     mpm::PageOwnersView view() const;
 
 private:

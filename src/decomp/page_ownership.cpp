@@ -11,8 +11,8 @@ namespace tread::decomp
 namespace
 {
 
-constexpr std::int32_t farthest_owner = 2;  ///< pages, between one that is owned and one that goes with it
-constexpr std::int32_t most_reach     = 15; ///< pages, around which all are looked up for one ball
+constexpr std::int32_t farthest_owner = 2;  ///< pages; farthest page that still determines an owner
+constexpr std::int32_t most_reach     = 15; ///< pages; largest reach for which a ball's surroundings are looked up
 
 void keep_each_once(std::vector<std::int32_t>& ranks)
 {
@@ -26,7 +26,7 @@ mpm::Index3 page_at(const PageLattice& lattice, const Vec3<double>& x)
     return {along(0), along(1), along(2)};
 }
 
-/// Calls visit for the pages up to `reach` away along each axis that have keys, the page itself among them.
+/// Calls visit for every page with a key up to `reach` away along each axis, including the page itself.
 template<class Visit>
 void for_each_around(const mpm::Index3& page, std::int32_t reach, const Visit& visit)
 {
@@ -47,14 +47,14 @@ std::int64_t squared_distance(const mpm::Index3& a, const mpm::Index3& b)
     return x * x + y * y + z * z;
 }
 
-/// m, of the page's cells.
+/// Low corner (m) of the page's cells.
 Vec3<double> low_corner(const PageLattice& lattice, const mpm::Index3& page)
 {
     return lattice.spacing *
            (mpm::page_edge * Vec3<double>(page.x, page.y, page.z) + Vec3<double>::Constant(lattice.stencil_shift));
 }
 
-/// Whether the ball reaches the page's cells.
+/// Whether the ball overlaps the page's cells.
 bool reaches(const PageLattice& lattice, const Vec3<double>& centre, double radius, const mpm::Index3& page)
 {
     const double       width   = lattice.spacing * mpm::page_edge;

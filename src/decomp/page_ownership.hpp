@@ -9,18 +9,18 @@
 #include "decomp/partition.hpp"
 #include "kernels/mpm/pages/page_key.hpp"
 
-// Which rank owns which place, for every place there is: the pages of a partition and those that may come to be.
+// Owning rank of any position, on pages of a partition and on pages that it does not contain.
 namespace tread::decomp
 {
 
-/// How positions fall to pages: those of kernels/mpm/pages/pages.hpp.
+/// Mapping from positions to pages, as in kernels/mpm/pages/pages.hpp.
 struct PageLattice
 {
     double spacing;       ///< m, of the grid
     double stencil_shift; ///< in spacings
 };
 
-/// A page, and how many pages around it count. As made here, none.
+/// A page and the number of pages around it that a query considers; none by default.
 struct Surroundings
 {
     std::uint64_t page  = mpm::no_page;
@@ -29,29 +29,29 @@ struct Surroundings
     bool operator==(const Surroundings&) const = default;
 };
 
-/// A page that no partition has seen, above the sand or beside it, belongs to the rank of the nearest page up to two
-/// away that one has, or else to that of the page before it by key (before all, of the first). The same on every rank,
-/// as long as it is made of the same partition.
+/// Owner lookup for any page. A page outside the partition, above the sand or beside it, belongs to the owner of the
+/// nearest page of the partition within two pages, or else to that of the page before it by key (the first page's
+/// owner, if there is none before). All ranks with the same partition get the same answers.
 class PageOwnership
 {
 public:
-    /// `key` ascending, each once, at least one, and the rank of each.
+    /// `key`: ascending, unique and not empty; one rank for each.
     PageOwnership(const PageLattice& lattice, const std::vector<std::uint64_t>& key, const PageRanks& rank);
 
     std::uint64_t page_of(const Vec3<double>& place) const;
 
-    /// Remembers what it found for a page that no partition has seen.
+    /// Caches the answer for a page outside the partition.
     std::int32_t owner_of(std::uint64_t page_key);
     std::int32_t owner_of(const Vec3<double>& place);
 
-    /// The ranks that own a page which the ball (m) reaches, ascending; all, where it reaches very many pages.
-    /// Remembers what is around the ball's page: next to nothing for the next ball there.
+    /// Ranks that own a page within the ball (m), ascending; all ranks if the ball reaches very many pages. The
+    /// neighbourhood of the ball's page is cached, so that later balls there cost next to nothing.
     std::vector<std::int32_t> owners_near(const Vec3<double>& centre, double radius);
 
-    /// The pages that a ball (m) can reach, wherever in its page the centre is.
+    /// Pages that a ball (m) can reach, wherever its centre lies within its page.
     Surroundings surroundings(const Vec3<double>& centre, double radius) const;
 
-    /// Whether all of them are the rank's; false where they are very many. Remembers what it found.
+    /// Whether the rank owns all of them; false if they are very many. Caches the answer.
     bool is_within(const Surroundings& around, std::int32_t rank);
 
 private:
@@ -70,11 +70,11 @@ private:
     PageLattice                lattice_;
     std::vector<std::uint64_t> key_;
     PageRanks                  rank_; ///< of each key
-    std::vector<std::int32_t>  all_;  ///< ranks that own something
+    std::vector<std::int32_t>  all_;  ///< ranks that own any page
 
-    std::unordered_map<std::uint64_t, std::int32_t> unseen_; ///< owners of pages that are not in key_, as asked for
+    std::unordered_map<std::uint64_t, std::int32_t> unseen_; ///< cached owners of pages that are not in key_
 
-    /// By reach, in pages, and page: pages up to that far from it that are not its owner's.
+    /// Cache, keyed by reach (in pages) and page: pages within that reach with another owner than the page.
     std::map<std::int32_t, std::unordered_map<std::uint64_t, OwnedPages>> others_;
 };
 

@@ -16,7 +16,8 @@ namespace
 
 double sum_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-/// A page that weighs more than its rank's share has a rank of its own, whatever it weighs: the share of the others.
+/// Largest load that counts. A page heavier than a rank's share gets a rank of its own, so it counts as the share of
+/// the others.
 double most_that_counts(std::vector<double> load, int ranks)
 {
     std::sort(load.begin(), load.end(), std::greater<>());
@@ -30,7 +31,7 @@ double most_that_counts(std::vector<double> load, int ranks)
     return rest / (ranks - own);
 }
 
-/// What is wrong with the parts of a partitioner; empty if nothing is.
+/// Describes the fault of a partitioner's result; empty if there is none.
 std::string fault(const PartitionQuality& found, const PartitionQuality& chunks, const PartitionOptions& options)
 {
     if (found.empty > 0) { return fmt::format("it left {} of {} ranks without a page", found.empty, options.ranks); }
@@ -72,8 +73,9 @@ PageRanks morton_chunks(const PageGraph& graph, int ranks)
         const double share  = total > 0 ? (before + 0.5 * graph.load[page]) / total
                                         : static_cast<double>(page) / static_cast<double>(pages);
         const int    wanted = static_cast<int>(share * ranks);
-        const int least = ranks - static_cast<int>(std::min<std::size_t>(pages - page, ranks)); // one for each after it
-        const int last  = rank.empty() ? -1 : rank.back();
+        const int    least =
+            ranks - static_cast<int>(std::min<std::size_t>(pages - page, ranks)); // leaves one page for each later rank
+        const int last = rank.empty() ? -1 : rank.back();
         rank.push_back(std::clamp(std::max(wanted, least), std::max(last, 0), std::min(last + 1, ranks - 1)));
         before += graph.load[page];
     }

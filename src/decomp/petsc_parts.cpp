@@ -25,12 +25,13 @@ void check_petsc(PetscErrorCode code, const char* call)
     throw EnvironmentError(fmt::format("PETSc: {} failed: {}", call, text == nullptr ? "unknown error" : text));
 }
 
-/// PETSc between construction and destruction, without its signal handlers; errors come back to the caller.
+/// PETSc session, initialised and finalised by its lifetime, without signal handlers; errors are returned to the
+/// caller.
 struct Library
 {
     Library()
     {
-        setenv("SCOTCH_PTHREAD_NUMBER", "1", 1); // its threads race: four ranks got other parts each time
+        setenv("SCOTCH_PTHREAD_NUMBER", "1", 1); // its threads race: four ranks got different parts each time
         check_petsc(PetscInitializeNoArguments(), "PetscInitialize");
         check_petsc(PetscPopSignalHandler(), "PetscPopSignalHandler");
         check_petsc(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "PetscPushErrorHandler");
@@ -40,7 +41,7 @@ struct Library
     Library& operator=(const Library&) = delete;
 };
 
-/// An array that PETSc will free.
+/// Copies an array into memory that PETSc will free.
 template<class From>
 PetscInt* copy_for_petsc(From begin, From end)
 {
@@ -50,7 +51,7 @@ PetscInt* copy_for_petsc(From begin, From end)
     return copy;
 }
 
-/// The pages of one rank of the communicator while PETSc works: any split will do.
+/// Pages of one rank while PETSc works: any split will do.
 struct Rows
 {
     std::size_t begin, end;
@@ -103,7 +104,7 @@ struct Partitioning
     IS              parts  = nullptr;
 };
 
-/// Of this rank's rows.
+/// Parts of this rank's rows.
 std::vector<std::int32_t> own_parts(const Partitioning& partitioning, const Rows& rows)
 {
     const PetscInt* found = nullptr;
@@ -134,7 +135,7 @@ PageRanks petsc_parts(const Communicator& communicator, const PageGraph& graph, 
                 "MatPartitioningSetVertexWeights");
     check_petsc(MatPartitioningPTScotchSetImbalance(partitioning.object, imbalance - 1),
                 "MatPartitioningPTScotchSetImbalance");
-    SCOTCH_randomSeed(1); // else the second partition of a process is another than the first
+    SCOTCH_randomSeed(1); // otherwise a process's second partition differs from its first
     check_petsc(MatPartitioningApply(partitioning.object, &partitioning.parts), "MatPartitioningApply");
     return communicator.gather(own_parts(partitioning, rows));
 }

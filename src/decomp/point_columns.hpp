@@ -6,7 +6,7 @@
 namespace tread::decomp
 {
 
-/// A point as a row: all planes of all its fields.
+/// Columns of a point as one row: all planes of all its fields.
 template<class Exec, class Real>
 Columns point_columns(mpm::Points<Exec, Real>& points)
 {

@@ -6,7 +6,7 @@
 
 #include "backend/execution.hpp"
 
-// Rows of several arrays, packed beside each other into messages, and back.
+// Packs rows of several arrays beside each other into messages, and unpacks them.
 namespace tread::decomp
 {
 
@@ -20,11 +20,11 @@ struct Column
     std::int32_t bytes;
     std::int32_t count;
 
-    /// Of a packed row, 4 bytes each.
+    /// Words of 4 bytes in a packed row.
     TREAD_HD std::int32_t words() const { return bytes == 8 ? 2 * count : count; }
 };
 
-/// Each row is `length` structs that stand beside each other.
+/// Column of rows of `length` contiguous structs.
 template<class Row>
 Column rows(Row* data, int length = 1)
 {
@@ -33,7 +33,7 @@ Column rows(Row* data, int length = 1)
     return {reinterpret_cast<std::byte*>(data), words, 1, 4, words};
 }
 
-/// Component c of row r is data[c * stride + r].
+/// Column of a structure of arrays: component c of row r is data[c * stride + r].
 template<class T>
 Column planes(T* data, std::int64_t stride, int components)
 {
@@ -43,7 +43,7 @@ Column planes(T* data, std::int64_t stride, int components)
 
 constexpr int most_columns = 20;
 
-/// What travels of a row.
+/// The columns that make up a packed row.
 struct Columns
 {
     int          count = 0;
@@ -57,7 +57,7 @@ struct Columns
     }
 };
 
-/// Of arrays of structs.
+/// Columns of arrays of structs.
 template<class... Row>
 Columns columns(Row*... data)
 {
@@ -67,11 +67,11 @@ Columns columns(Row*... data)
     return all;
 }
 
-/// Row index[k] of the columns becomes packed row k.
+/// Copies row index[k] of the columns to packed row k.
 void pack_rows(const Cpu&, const Columns& columns, const std::int32_t* index, std::int64_t count, std::uint32_t* to);
 void pack_rows(const Gpu&, const Columns& columns, const std::int32_t* index, std::int64_t count, std::uint32_t* to);
 
-/// Packed row k becomes row index[k], or first + k where `index` is null, of the columns. Indices must not repeat.
+/// Copies packed row k to row index[k] of the columns, or to row first + k if `index` is null. Indices must not repeat.
 void unpack_rows(const Cpu&, const std::uint32_t* from, std::int64_t count, const Columns& columns,
                  const std::int32_t* index, std::int64_t first);
 void unpack_rows(const Gpu&, const std::uint32_t* from, std::int64_t count, const Columns& columns,

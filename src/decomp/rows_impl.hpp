@@ -2,14 +2,14 @@
 
 #include "decomp/rows.hpp"
 
-// Packing and unpacking, the same on both backends; rows.cpp and rows.cu bring in for_each.
+// Packing and unpacking for both backends; rows.cpp and rows.cu provide for_each.
 namespace tread::decomp
 {
 
-/// Four bytes of whatever type.
+/// Four bytes of any type.
 using Word = std::uint32_t __attribute__((may_alias));
 
-/// Where word `word` of packed row `row` stands in the columns.
+/// Address of one word of a packed row in the columns.
 struct Spot
 {
     std::byte*   at;

@@ -13,7 +13,8 @@ namespace tread::decomp
 namespace
 {
 
-// MPI promises tags up to 32767; the turns of a channel differ, so that a rank that is a step ahead is noticed.
+// MPI guarantees tags up to 32767. Turns of a channel get different tags, so that a rank that is one step ahead is
+// detected.
 constexpr int turns         = 64;
 constexpr int most_channels = 32768 / turns;
 
@@ -30,7 +31,7 @@ struct Choice
 Choice choose(const Cpu&, const Communicator&, TransportChoice) { return {Carrier::mpi, nullptr, "MPI"}; }
 
 #ifdef TREAD_WITH_CUDA
-/// Whether the MPI library of every rank says so.
+/// Whether the MPI library of every rank reports GPU support.
 bool mpi_knows_gpus(const Communicator& communicator)
 {
 #if defined(OMPI_HAVE_MPI_EXT_CUDA) && OMPI_HAVE_MPI_EXT_CUDA
@@ -66,13 +67,13 @@ Choice choose(const Gpu&, const Communicator& communicator, TransportChoice choi
 }
 #endif
 
-/// Whether what is launched has run when the launch returns.
+/// Whether launched work has completed when the launch returns.
 bool runs_at_once(const Cpu&) { return true; }
 #ifdef TREAD_WITH_CUDA
 bool runs_at_once(const Gpu&) { return false; }
 #endif
 
-/// Calls f(first byte, bytes) for pieces that MPI can count; they arrive in the order in which they are sent.
+/// Calls f(first byte, bytes) for pieces that MPI can count; they arrive in the order of sending.
 template<class F>
 void for_each_piece(const MessageRange& range, F f)
 {
@@ -82,7 +83,7 @@ void for_each_piece(const MessageRange& range, F f)
     }
 }
 
-/// Only GPUs have it.
+/// Never called: only GPUs use NCCL.
 void exchange_by_nccl(Transport<Cpu>&, const Cpu&, const MessageRanges&, const std::byte*, const MessageRanges&,
                       std::byte*)
 {
@@ -148,7 +149,7 @@ void Messages<Exec>::start(const MessageRanges& out, const MessageRanges& in)
 template<class Exec>
 void Messages<Exec>::post()
 {
-    // What is to go must be written, and what came last must have been read.
+    // Outgoing bytes must be written, and the last incoming ones read, before they are reused.
     synchronize(exec_);
     for (const MessageRange& range : coming_) { post_receive(range); }
     for (const MessageRange& range : leaving_) { post_send(range); }

@@ -17,22 +17,22 @@
 namespace tread::decomp
 {
 
-/// What the user may ask for. All give the same bits.
+/// Transport that the user requests. All give the same bits.
 enum class TransportChoice
 {
-    automatic, ///< the first that works of: MPI from GPU memory, NCCL, pinned host memory; CPUs always take MPI
+    automatic, ///< the first that works of MPI from GPU memory, NCCL and pinned host memory; CPUs always use MPI
     mpi,
     nccl,
     host
 };
 
-/// What moves bytes between the ranks of a run from and to a backend's memory. Collective: every rank makes the same
-/// calls in the same order.
+/// Moves bytes between ranks, from and to a backend's memory. Collective: every rank makes the same calls in the same
+/// order.
 template<class Exec>
 class Transport
 {
 public:
-    /// EnvironmentError when what is asked for does not work here.
+    /// EnvironmentError if the requested transport does not work here.
     Transport(const Communicator& communicator, const Exec& exec, TransportChoice choice);
 
     const Communicator& communicator() const { return communicator_; }
@@ -43,7 +43,7 @@ public:
     /// "pinned host memory (this MPI does not know GPUs)", for the log.
     const std::string& description() const { return description_; }
 
-    /// A number for one more kind of message, so that none meets another's.
+    /// Returns a new channel number, so that messages of different kinds never match each other.
     int open_channel();
 
 private:
@@ -55,29 +55,29 @@ private:
     int                   channels_ = 0;
 };
 
-/// Messages of one kind between this rank and others: one set may be under way at a time. Nothing is allocated once
+/// Messages of one kind between this rank and others; one set may be in flight at a time. Nothing is allocated once the
 /// buffers are large enough.
 template<class Exec>
 class Messages
 {
 public:
-    /// `exec`: where the kernels run that write and read the messages, and NCCL.
+    /// `exec`: stream of the kernels that write and read the messages, and of NCCL.
     Messages(Transport<Exec>& transport, const Exec& exec, const char* name);
 
-    /// Memory for what goes out, and for what comes in, which kernels of the backend write and read. `bytes` at least;
-    /// nothing may be under way.
+    /// Buffers of at least `bytes` for outgoing and incoming messages, which kernels of the backend write and read. No
+    /// message may be in flight.
     std::byte* outgoing(std::int64_t bytes) { return outgoing_.reserve(bytes); }
     std::byte* incoming(std::int64_t bytes) { return incoming_.reserve(bytes); }
 
-    /// From now on ranks that have messages for each other depart equally often, however often they did before.
+    /// Resets the turn counter, so that ranks that exchange messages count turns alike from now on.
     void count_anew() { turn_ = 0; }
 
-    /// Starts sending what kernels that were launched before have written to the outgoing buffer; from a GPU through
-    /// MPI, which would have to wait for them here, in arrive().
+    /// Starts sending what previously launched kernels write to the outgoing buffer. From a GPU through MPI, sending is
+    /// deferred to finish(), as it would have to wait for the kernels here.
     void start(const MessageRanges& out, const MessageRanges& in);
 
-    /// When it returns, kernels may read the incoming buffer and write the outgoing one. EnvironmentError when MPI
-    /// reports one or another rank sent less than was to come.
+    /// Waits for all messages; then kernels may read the incoming buffer and write the outgoing one. EnvironmentError
+    /// if MPI reports an error or another rank sent less than expected.
     void finish();
 
 private:
@@ -93,10 +93,10 @@ private:
     std::vector<MPI_Request> requests_;
     std::vector<MPI_Status>  states_;
     MessageRanges            leaving_;  ///< not yet posted
-    MessageRanges            coming_;   ///< the same
+    MessageRanges            coming_;   ///< not yet posted
     MessageRanges            expected_; ///< of the first requests
-    std::vector<int>         partners_; ///< of all of them
-    const char*              name_;     ///< for a watchdog
+    std::vector<int>         partners_; ///< rank of each request
+    const char*              name_;     ///< for the watchdog
     int                      channel_;
     int                      turn_ = 0;
 };

@@ -12,23 +12,23 @@
 
 #include <fmt/format.h>
 
-// What a data set of a checkpoint or a bed may hold. These may come from anywhere: kernels take indices and sizes as
-// they find them, so each is checked where it is loaded.
+// Bounds on the data sets of a checkpoint or a bed. These files may come from anywhere, and kernels do not check
+// indices and sizes, so each is checked where it is loaded.
 namespace tread::io::accept
 {
 
-/// Why values are refused.
+/// Reason for refusing values.
 struct Refusal
 {
-    std::int64_t row; ///< below 0: not a single one
+    std::int64_t row; ///< negative: concerns no single row
     std::string  value;
     std::string  accepted;
 };
 
-/// A bound is a callable on the loaded values that returns this; nothing means that they are accepted.
+/// Result of a bound, a callable on the loaded values; empty if they are accepted.
 using Verdict = std::optional<Refusal>;
 
-/// Numbers as themselves; structs, which hold doubles, as rows of these.
+/// Casts a number to itself, and a struct of doubles to a row of doubles.
 template<class T>
 using Word = std::conditional_t<std::is_arithmetic_v<T>, T, double>;
 template<class T>
@@ -52,7 +52,7 @@ Verdict each_word(const std::vector<T>& values, const Holds& holds, const std::s
 
 } // namespace detail
 
-/// Accepts anything: of bytes that something else checks.
+/// Accepts anything: for bytes that are checked elsewhere.
 inline auto anything()
 {
     return [](const auto&) -> Verdict { return {}; };
@@ -69,7 +69,7 @@ inline auto finite()
     };
 }
 
-/// Accepts finite numbers, and NaN, which stands for none.
+/// Accepts finite numbers, and NaN, which marks an absent value.
 inline auto finite_or_none()
 {
     return []<class T>(const std::vector<T>& values) -> Verdict
@@ -79,7 +79,7 @@ inline auto finite_or_none()
     };
 }
 
-/// Accepts numbers from `low` to `high`, both included.
+/// Accepts numbers from `low` to `high`, inclusive.
 inline auto within(double low, double high)
 {
     return [low, high]<class T>(const std::vector<T>& values) -> Verdict
@@ -93,16 +93,16 @@ inline auto within(double low, double high)
 
 inline constexpr double largest = std::numeric_limits<double>::max();
 
-/// Accepts finite numbers over 0.
+/// Accepts finite positive numbers.
 inline auto positive() { return within(std::numeric_limits<double>::min(), largest); }
 
-/// Accepts finite numbers that are not below 0.
+/// Accepts finite non-negative numbers.
 inline auto not_negative() { return within(0, largest); }
 
-/// Accepts places in something of `count` items.
+/// Accepts indices into `count` items.
 inline auto index(std::size_t count) { return within(0, static_cast<double>(count) - 1); }
 
-/// Accepts what all of the bounds accept, which are asked in turn.
+/// Accepts values that satisfy all bounds, checked in order.
 template<class... Bounds>
 auto all(Bounds... bounds)
 {
@@ -114,7 +114,7 @@ auto all(Bounds... bounds)
     };
 }
 
-/// Accepts so many values.
+/// Accepts exactly `count` values.
 inline auto rows(std::size_t count)
 {
     return [count](const auto& values) -> Verdict
@@ -124,7 +124,7 @@ inline auto rows(std::size_t count)
     };
 }
 
-/// Accepts values of which each has holds(value).
+/// Accepts values that all satisfy holds(value).
 template<class Holds>
 auto each(std::string accepted, Holds holds)
 {
@@ -144,7 +144,7 @@ auto each(std::string accepted, Holds holds)
     };
 }
 
-/// Accepts values of which each has holds(place, value); `accepted(place)` says what it is to be.
+/// Accepts values that all satisfy holds(index, value); `accepted(index)` describes the expected value.
 template<class Holds, class Accepted>
 auto each_at(Holds holds, Accepted accepted)
 {
@@ -161,7 +161,7 @@ auto each_at(Holds holds, Accepted accepted)
     };
 }
 
-/// Accepts what `present` holds, whose values a state does not change; floating-point numbers to 1e-6.
+/// Accepts values equal to `present`, which a state cannot change; floating-point numbers to 1e-6.
 template<class T>
 auto same_as(std::vector<T> present)
 {
@@ -175,7 +175,7 @@ auto same_as(std::vector<T> present)
             bool same = ours[i] == theirs[i];
             if constexpr (std::is_floating_point_v<Word<T>>)
             {
-                // Along a row: an inertia's products are rounding of its moments.
+                // Scales along a row: products of inertia are rounding errors of its moments.
                 double scale = 0;
                 for (std::size_t k = i - i % words<T>; k < i - i % words<T> + words<T>; ++k)
                 {
@@ -191,7 +191,7 @@ auto same_as(std::vector<T> present)
     };
 }
 
-/// Accepts values in ascending order; equal ones may follow each other.
+/// Accepts values in ascending order; equal neighbours are allowed.
 inline auto ascending()
 {
     return [](const auto& values) -> Verdict
@@ -203,7 +203,7 @@ inline auto ascending()
     };
 }
 
-/// Accepts values of which none comes twice.
+/// Accepts values without duplicates.
 inline auto distinct()
 {
     return [](auto values) -> Verdict
@@ -215,7 +215,7 @@ inline auto distinct()
     };
 }
 
-/// Accepts places that cut a list into runs: from 0 on, ascending. What the last is, the list's own bound must say.
+/// Accepts offsets that split a list into runs: from 0, ascending. The list's own bound must check the last one.
 inline auto cuts()
 {
     return [](const auto& values) -> Verdict
@@ -228,7 +228,7 @@ inline auto cuts()
     };
 }
 
-/// Accepts the places that cut a list of `end` items into `count` runs: `count` + 1 of them.
+/// Accepts offsets that split a list of `end` items into `count` runs: `count` + 1 of them.
 inline auto offsets(std::size_t count, std::int64_t end)
 {
     return [count, end](const auto& values) -> Verdict
@@ -240,7 +240,7 @@ inline auto offsets(std::size_t count, std::int64_t end)
     };
 }
 
-/// Accepts the numbers from 0 to `count` - 1, each once, in any order.
+/// Accepts a permutation of the numbers from 0 to `count` - 1.
 inline auto permutation(std::size_t count)
 {
     return [count](const auto& values) -> Verdict
@@ -268,7 +268,7 @@ inline auto unit_quaternions()
     return each("a quaternion of length 1", [](const auto& turn) { return std::abs(turn.squaredNorm() - 1) <= 1e-6; });
 }
 
-/// A single number with the values that it may have, ends included. Integers must be whole, yes or no 0 or 1.
+/// Accepts a single number within bounds, inclusive. Integers must be whole, booleans 0 or 1.
 template<class T>
 struct Bounded
 {
@@ -282,7 +282,7 @@ Bounded<T> number(T& value, double low, double high)
     return {value, low, high};
 }
 
-/// What its type can hold: finite numbers, and integers that a double holds exactly.
+/// Accepts whatever the type can hold: finite numbers, and integers that a double holds exactly.
 template<class T>
 Bounded<T> by_type(T& value)
 {

@@ -87,7 +87,7 @@ void write_points(const h5::File& file, const BedPoints& points)
     throw EnvironmentError(fmt::format("{}: the bed cannot be used: {}", path, what));
 }
 
-/// The rows of a data set, of which there must be so many, and whose values must keep the bound.
+/// Reads a data set that must have `count` rows and values within the bound.
 template<class T, class Bound>
 std::vector<T> read_rows(const h5::File& file, const std::string& name, int width, std::size_t rows,
                          const Bound& accepted)
@@ -161,7 +161,7 @@ void read_rocks(const h5::File& file, BedFile& bed)
     bed.diameter            = read_rows<double>(file, "/rocks/diameter", 1, count, accept::positive());
 }
 
-/// Accepts pairs of a rock and another after it, or a wall: two numbers each.
+/// Accepts pairs of a rock and a later rock, or a wall: two numbers each.
 auto pairs_of(std::size_t rocks)
 {
     return [rocks](const std::vector<std::int32_t>& values) -> accept::Verdict

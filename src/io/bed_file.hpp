@@ -6,24 +6,24 @@
 
 #include "io/provenance.hpp"
 
-// bed.h5: rocks at rest, as one run leaves them and another starts with them.
+// bed.h5: rocks at rest, saved by one run as the initial state of another.
 namespace tread::io
 {
 
 /// Rocks that share a template and a material.
 struct BedKind
 {
-    std::string shape;    ///< the [[shape]] that the rocks were drawn from
-    std::string member;   ///< the rock of that family: its template
-    std::string material; ///< of the scene that made the bed
-    double      inertia;  ///< kg m2, trace of that of the template at scale 1 and density 1: tells forms apart
+    std::string shape;    ///< the [[shape]] that generated the rocks
+    std::string member;   ///< the rock of that family, by the name of its template
+    std::string material; ///< in the scene that made the bed
+    double      inertia;  ///< kg m2, trace of the template's inertia at scale 1 and density 1; identifies its geometry
     double      density;  ///< kg/m3
     double      young;    ///< Pa
     double      poisson;
 };
 
-/// Pairs in contact: records of friction (kernels/dem/contact/patch_kern.hpp). A rock is numbered by its row; a wall of
-/// the domain by the rocks' count and 0 to 5: x low, x high, y low, y high, bottom, top.
+/// Friction records of pairs in contact (kernels/dem/contact/patch_kern.hpp). A rock is numbered by its row, a wall of
+/// the domain by the number of rocks plus 0 to 5: x low, x high, y low, y high, bottom, top.
 struct BedContacts
 {
     std::vector<std::int32_t> pair;            ///< [n][2]
@@ -33,10 +33,9 @@ struct BedContacts
     std::vector<double>       stiffness;       ///< [n] N/m
     std::vector<double>       twist_stiffness; ///< [n] N m/rad
 
-    std::vector<double>
-        place; ///< [n][3] m, from the first's centre in its frame; of pairs that are listed several times
+    std::vector<double> place; ///< [n][3] m, from the first's centre in its frame; for pairs with several contacts
 
-    std::vector<double> rolling;           ///< [n][3] N m, on the first; zero where nothing resists rolling
+    std::vector<double> rolling;           ///< [n][3] N m, on the first; zero without rolling resistance
     std::vector<double> rolling_stiffness; ///< [n] N m/rad
 };
 
@@ -49,13 +48,13 @@ struct BedMaterial
     double      poisson;
 };
 
-/// Points of sand as they were left. Loaded, their present volume is the one that strain is measured from, which leaves
-/// volume times stress, and so all forces, as they were.
+/// Sand points of the bed. When loaded, their present volume becomes the reference of strain, which preserves volume
+/// times stress and so all forces.
 struct BedPoints
 {
     double                    grid_spacing = 0; ///< m
     std::vector<BedMaterial>  materials;
-    std::vector<std::int32_t> material;      ///< [n] of materials
+    std::vector<std::int32_t> material;      ///< [n] index into materials
     std::vector<double>       position;      ///< [n][3] m
     std::vector<double>       volume;        ///< [n] m3, present
     std::vector<double>       mass;          ///< [n] kg
@@ -66,21 +65,21 @@ struct BedPoints
 struct BedFile
 {
     std::vector<BedKind>      kinds;
-    std::vector<std::int32_t> kind;        ///< [n] of kinds
+    std::vector<std::int32_t> kind;        ///< [n] index into kinds
     std::vector<double>       position;    ///< [n][3] m, centre of mass
     std::vector<double>       orientation; ///< [n][4] quaternion w, x, y, z, body to world
     std::vector<double>       scale;       ///< [n] of the template
     std::vector<double>       diameter;    ///< [n] m, of the sphere of equal volume
     BedContacts               contacts;
-    BedPoints                 points; ///< none where the bed has no sand
+    BedPoints                 points; ///< none if the bed has no sand
 
     std::size_t size() const { return kind.size(); }
 };
 
-/// The file appears when it is whole. EnvironmentError when it cannot be written.
+/// Writes a bed; the file gets its name once it is complete. EnvironmentError if it cannot be written.
 void write_bed(const std::string& path, const BedFile& bed, const Provenance& provenance = {});
 
-/// EnvironmentError when it cannot be read, is no bed, or numbers in it are out of their range.
+/// Reads a bed. EnvironmentError if it cannot be read, is not a bed, or holds numbers out of range.
 BedFile read_bed(const std::string& path);
 
 } // namespace tread::io

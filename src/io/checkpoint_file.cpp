@@ -31,7 +31,7 @@ constexpr std::int64_t                head_bytes = 512;
 struct Head
 {
     std::int64_t  bytes    = 0; ///< of the whole file
-    std::uint64_t checksum = 0; ///< of all behind the head
+    std::uint64_t checksum = 0; ///< of everything after the head
 };
 
 std::string text_of(const Head& head)
@@ -65,7 +65,7 @@ std::int64_t bytes_of(const std::string& path)
 
 std::string temporary(const std::string& path) { return path + ".tmp"; }
 
-/// What needs no look at the bytes behind the head.
+/// Why the file is damaged, as far as the head and its length tell.
 std::optional<std::string> damage_of_head(const std::string& path, const std::optional<Head>& head)
 {
     if (!head) { return "it is no checkpoint, or its first bytes are damaged"; }
@@ -74,7 +74,7 @@ std::optional<std::string> damage_of_head(const std::string& path, const std::op
     return {};
 }
 
-/// A rank that sees another file than rank 0, as far as heads tell: theirs have the length and the checksum of the
+/// Whether this rank sees a different file than rank 0. Compares heads, which hold the length and the checksum of the
 /// rest.
 std::string stranger(const Communicator& communicator, const std::optional<Head>& head)
 {
@@ -130,7 +130,7 @@ void CheckpointWriter::write(const std::string& name, const std::vector<T>& valu
     const auto     rank = static_cast<std::size_t>(communicator_.rank());
     const auto     row  = [&](std::size_t r) { return static_cast<hsize_t>(first[r]); };
     const h5::Rows rows{row(first.size() - 1), row(rank), row(rank + 1) - row(rank)};
-    // One rank's disk may be full: then all stop here, and none waits in the next call for another.
+    // One rank's disk may be full: all stop here together, so that none waits in the next collective call.
     on_every_rank(communicator_,
                   [&]
                   {
@@ -157,7 +157,7 @@ void CheckpointWriter::number(const std::string& name, std::int64_t value)
     h5::write_attribute(*file_, "/", name, std::vector<std::int64_t>{value});
 }
 
-/// What a rank has written may be on its machine alone until that machine flushes it.
+/// Data written by a rank may be on its machine alone until that machine flushes them.
 std::int64_t CheckpointWriter::finish()
 {
     on_every_rank(communicator_, [&] { file_->close(); });
@@ -214,7 +214,7 @@ std::optional<std::string> damage_of(const Communicator& communicator, const std
         }
         const auto look = [&]
         {
-            // What reads all of its structure and texts, so that it crashes there if anywhere.
+            // Reads the whole structure and all texts, so that a damaged file crashes the child.
             found = run_in_child(path,
                                  [&]
                                  {

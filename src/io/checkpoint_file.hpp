@@ -8,34 +8,34 @@
 #include "base/communicator.hpp"
 #include "io/h5.hpp"
 
-// A checkpoint: one HDF5 file with data sets of rows, each rank's behind those of the ranks before it, and 512 bytes
-// before it that say how long the rest is and what its checksum must be.
+// A checkpoint is one HDF5 file with data sets of rows, in rank order, preceded by a head of 512 bytes with the length
+// and checksum of the rest.
 namespace tread::io
 {
 
-/// Writes under another name until the file is whole. Every call is collective; a failure is an EnvironmentError, and
-/// nothing is left of the file.
+/// Writes a checkpoint under a temporary name until it is complete. Every call is collective; a failure is an
+/// EnvironmentError, and no file is left behind.
 class CheckpointWriter
 {
 public:
-    /// Several ranks ask for room for `expected` bytes first: MPI's collective calls never end where the disk of one
-    /// rank is full.
+    /// `expected`: bytes of disk space that several ranks reserve first, because MPI's collective calls hang if the
+    /// disk of one rank is full.
     CheckpointWriter(const Communicator& communicator, std::string path, std::int64_t expected = 0);
     ~CheckpointWriter();
     CheckpointWriter(const CheckpointWriter&)            = delete;
     CheckpointWriter& operator=(const CheckpointWriter&) = delete;
 
-    /// `values` = [rows][width] of this rank.
+    /// Writes `values` = [rows][width] of this rank.
     template<class T>
     void write(const std::string& name, const std::vector<T>& values, int width);
 
-    /// Attributes of the whole file.
+    /// Writes an attribute of the whole file.
     void text(const std::string& name, const std::string& value);
     void number(const std::string& name, std::int64_t value);
 
     const h5::File& file() const { return *file_; }
 
-    /// The file is on the disk and has its name. Returns its bytes.
+    /// Flushes the file to disk and renames it. Returns its size in bytes.
     std::int64_t finish();
 
 private:
@@ -45,7 +45,7 @@ private:
     bool                    finished_ = false;
 };
 
-/// Of one process.
+/// Reads a checkpoint; used by one process.
 class CheckpointReader
 {
 public:
@@ -58,7 +58,8 @@ public:
 
     bool holds(const std::string& name) const { return h5::holds(file_, name); }
 
-    /// [ranks + 1]: the rows of each rank that wrote, ascending from 0 to how many there are. EnvironmentError.
+    /// [ranks + 1]: first row of each rank of the writing run, ascending from 0 to the number of rows.
+    /// EnvironmentError.
     std::vector<std::int64_t> first_rows(const std::string& name) const;
 
     template<class T>
@@ -74,8 +75,8 @@ private:
     h5::File file_;
 };
 
-/// Collective: why a file cannot be used as a checkpoint, or nothing if it can: cut short, changed, of another kind or
-/// of a newer schema.
+/// Why a file cannot be used as a checkpoint: truncated, changed, of another kind or of a newer schema; empty if it
+/// can. Collective.
 std::optional<std::string> damage_of(const Communicator& communicator, const std::string& path);
 
 } // namespace tread::io

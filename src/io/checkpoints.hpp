@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-// The directory with a run's checkpoints. Calls of one process.
+// Directory of a run's checkpoints. Called by one process.
 namespace tread::io
 {
 
@@ -17,22 +17,22 @@ public:
     {
     }
 
-    /// Of the state after so many steps.
+    /// Path of the checkpoint after `step` steps.
     std::string path(std::int64_t step) const;
 
-    /// That of a path as above; empty if its name is another.
+    /// Step number encoded in a path as above; empty for any other name.
     static std::optional<std::int64_t> step_of(const std::string& path);
 
-    /// Paths of those there are, newest first: by their steps, whatever the clock said when they were written.
+    /// Paths of all checkpoints, newest first by step number, whatever their time stamps.
     std::vector<std::string> newest_first() const;
 
-    /// Makes the directory if need be, and removes what a run that was killed has left half written.
+    /// Creates the directory if needed, and removes partial files of a killed run.
     void prepare() const;
 
-    /// After one more is there: `latest` names it, and only the newest `keep` stay.
+    /// Points `latest` to the new checkpoint and deletes all but the newest `keep`.
     void settle(const std::string& newest, int keep) const;
 
-    /// Those newer than so many steps: they are of a future that will not come about.
+    /// Deletes checkpoints later than the step restarted from.
     void remove_after(std::int64_t step) const;
 
 private:

@@ -22,7 +22,7 @@ constexpr std::uint64_t start = 0xcbf29ce484222325u, prime = 0x100000001b3u;
 
 std::uint64_t step(std::uint64_t sum, std::uint64_t word) { return (sum ^ word) * prime; }
 
-/// Bytes after the last whole word count as one filled up with zeros, and their number.
+/// Bytes after the last whole word count as a word padded with zeros, followed by their number.
 std::uint64_t sum_of(const std::vector<char>& bytes, std::size_t count)
 {
     std::uint64_t sum = step(start, count);
@@ -70,7 +70,7 @@ private:
     int         id_;
 };
 
-/// Of the blocks from `begin` on, up to `last`; threads take them side by side.
+/// Checksums of the blocks from `begin` on, up to `last`; computed by threads in parallel.
 std::vector<std::uint64_t> sums_of_blocks(const Input& input, std::int64_t first, std::int64_t end, std::int64_t begin,
                                           std::int64_t last)
 {

@@ -8,10 +8,9 @@
 namespace tread::io
 {
 
-/// Collective: of the bytes of a file from `first` to `end`, each rank reading a share of them. In blocks of 4 MiB,
-/// FNV-1a by words of 64 bits; the checksum is that of the blocks' own. A word that differs changes it for certain, as
-/// each step maps different words, and different sums, to different sums. EnvironmentError when the file cannot be
-/// read that far.
+/// Computes the checksum of a file's bytes from `first` to `end`. Collective: each rank reads a share. FNV-1a over
+/// 64-bit words, in blocks of 4 MiB, and again over the blocks' checksums. A single changed word always changes it,
+/// because each step is injective in the word and in the sum. EnvironmentError if the file cannot be read that far.
 std::uint64_t checksum(const Communicator& communicator, const std::string& path, std::int64_t first, std::int64_t end);
 
 } // namespace tread::io

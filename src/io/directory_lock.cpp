@@ -19,7 +19,7 @@ namespace tread::io
 namespace
 {
 
-/// What an open file begins with.
+/// Reads the beginning of an open file.
 std::string text_of(int file)
 {
     std::array<char, 512> text{};
@@ -34,7 +34,7 @@ std::string this_process()
     return fmt::format("process {} on {}", getpid(), host.data());
 }
 
-/// Whether a text is what this_process() says in some process of some machine.
+/// Whether a text has the form of this_process(), of any process on any machine.
 bool names_process(const std::string& text)
 {
     int  process = 0, read = 0;
@@ -43,13 +43,13 @@ bool names_process(const std::string& text)
            static_cast<std::size_t>(read) == text.size();
 }
 
-/// Never waits, whatever has that name.
+/// Opens without blocking, whatever kind of file has that name.
 int open_lock(const std::string& path, int flags)
 {
     return open(path.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644);
 }
 
-/// Whether nobody loses anything if a run writes into it: it is new, or a run's.
+/// Whether a run may write into it: it is new, or the lock file of a run.
 bool may_be_written(int file)
 {
     struct stat facts   = {};
@@ -57,13 +57,13 @@ bool may_be_written(int file)
     return regular && (facts.st_size == 0 || names_process(text_of(file)));
 }
 
-/// Says whose it is, at every moment: a run that is killed here leaves its mark.
+/// Writes the holder's name. A run that is killed during this still leaves a valid lock file.
 void sign(int file)
 {
     const std::string text    = this_process();
     const auto        written = pwrite(file, text.data(), text.size(), 0);
     const bool        said    = written > 0 && ftruncate(file, written) == 0;
-    static_cast<void>(said); // only for messages
+    static_cast<void>(said); // failure is ignored: the text serves messages only
 }
 
 } // namespace
@@ -102,7 +102,7 @@ public:
             throw EnvironmentError(fmt::format("{}: is in use by {}: one run at a time", directory,
                                                holder.empty() ? "another process" : holder));
         }
-        sign(file_); // a file system without locks leaves runs unguarded, but lets them run
+        sign(file_); // a file system without locks leaves runs unguarded, but does not stop them
     }
     ~Held() { close(file_); }
     Held(const Held&)            = delete;

@@ -10,16 +10,16 @@ namespace tread::io
 
 inline constexpr const char* lock_file = ".lock";
 
-/// Whether a directory has the lock of a run, which says so, and not somebody's file of that name.
+/// Whether a directory holds a run's lock, which identifies itself, and not an unrelated file of that name.
 bool has_lock_of_run(const std::string& directory);
 
-/// Keeps other runs out of a directory while it or a copy lives; the kernel takes the lock back when the process ends,
-/// however that happens. Held by rank 0 through the file `.lock`, which says whose it is and stays.
+/// Excludes other runs from a directory while it or a copy lives; the kernel releases the lock when the process ends,
+/// however that happens. Rank 0 holds it through the file `.lock`, which names the holder and is never deleted.
 class DirectoryLock
 {
 public:
-    /// Collective. The directory must be there. EnvironmentError if another process has it; InputError where a file
-    /// `.lock` is somebody else's, or a link.
+    /// Collective. The directory must exist. EnvironmentError if another process holds the lock; InputError if `.lock`
+    /// is an unrelated file or a link.
     DirectoryLock(const Communicator& communicator, const std::string& directory);
 
 private:

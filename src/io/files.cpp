@@ -34,7 +34,7 @@ struct Close
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// Makes a new file and returns its descriptor; below 0 where that fails.
+/// Creates a new file and returns its descriptor; negative on failure.
 int open_new(const std::string& path)
 {
     remove_name(path);

@@ -9,7 +9,7 @@ namespace tread::io
 namespace
 {
 
-/// Magnitude to two digits, "180".
+/// Formats a magnitude to two digits, "180".
 std::string rounded(double value)
 {
     if (value == 0 || !std::isfinite(value)) { return fmt::format("{}", value); }

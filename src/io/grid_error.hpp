@@ -6,16 +6,16 @@
 namespace tread::io
 {
 
-/// Estimated errors of a driven wheel's answers that come from the grid's spacing.
+/// Estimated errors of a driven wheel's answers due to the grid spacing.
 struct GridError
 {
     double load    = 0; ///< N, weight of the wheel
-    double pull    = 0; ///< of the drawbar pull, over the load
+    double pull    = 0; ///< of the drawbar pull, relative to the load
     double torque  = 0; ///< relative
     double sinkage = 0; ///< relative
 };
 
-/// Means over the part of a drive that counts.
+/// Means over the steady part of a drive.
 struct DriveMeans
 {
     double pull    = 0; ///< N
@@ -23,8 +23,8 @@ struct DriveMeans
     double sinkage = 0; ///< m
 };
 
-/// For the log, "pull 154 N, error of the grid about 180 N (18 % of the load, first order); torque ..."; without means
-/// the errors alone.
+/// Log line, such as "pull 154 N, error of the grid about 180 N (18 % of the load, first order); torque ..."; without
+/// means only the errors.
 std::string grid_error_line(const GridError& error, const std::optional<DriveMeans>& means);
 
 } // namespace tread::io

@@ -13,17 +13,17 @@ namespace tread::io::h5
 namespace
 {
 
-// Rows that a growing data set takes at a time: 8 KiB a column.
+// Rows by which a growing data set is extended: 8 KiB per column.
 constexpr hsize_t growth = 1024;
 
-// The error stack's innermost entry says most: "unable to create file: ... Permission denied".
+// The innermost entry of the error stack is the most specific: "unable to create file: ... Permission denied".
 herr_t take_innermost(unsigned depth, const H5E_error2_t* entry, void* reason)
 {
     if (depth == 0 && entry->desc != nullptr) { *static_cast<std::string*>(reason) = entry->desc; }
     return 0;
 }
 
-// Called before anything may fail: HDF5 prints its whole stack to standard error unless told not to.
+// Call before anything may fail: by default HDF5 prints its whole stack to standard error.
 void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 void write_attribute_data(const File& file, const std::string& object, const std::string& name, hid_t type,
@@ -52,7 +52,7 @@ Handle collective_transfer()
     return transfer;
 }
 
-/// Small data sets and chunks reach the disk here, and nowhere else is said that they did not.
+/// Closes a data set. Small data sets and chunks are written only now, and no other call reports that they were not.
 void close_written(Handle& dataset, const File& file, const std::string& what)
 {
     check(H5Dclose(dataset.release()), file, what);

@@ -9,15 +9,15 @@
 
 #include "base/communicator.hpp"
 
-// HDF5, as little as tread needs of it. What fails is an EnvironmentError with the file's path and HDF5's reason.
+// A minimal HDF5 interface. Failures are an EnvironmentError with the file's path and HDF5's reason.
 namespace tread::io::h5
 {
 
-/// To be called before MPI begins. HDF5 then leaves its open files alone when MPI ends: it would once more write what a
-/// full disk has refused, and end the process by a signal. Every file is closed by its File, which says what fails.
+/// Call before MPI_Init. HDF5 then does not close open files in MPI_Finalize, where it would retry a write that a full
+/// disk has refused and end the process by a signal. Every file is closed by its File, which reports failures.
 void begin();
 
-/// An open HDF5 object of any kind; closes itself.
+/// Owner of an open HDF5 object of any kind.
 class Handle
 {
 public:
@@ -47,29 +47,29 @@ private:
     Closer close_;
 };
 
-/// An open file. While several ranks hold it, every call below that takes it is collective. Closes itself, but for a
+/// An open file. While several ranks hold it, every call below that takes it is collective. Closes itself, except a
 /// file of several ranks, which stays open until close(): a rank that fails alone would wait for the others there.
 class File
 {
 public:
-    /// New, or emptied if there was one; this process alone.
+    /// Creates a file, or truncates an existing one; this process alone.
     static File create(const std::string& path);
 
-    /// New, or emptied; all ranks of the communicator together through MPI-IO, without MPI where there is only one.
-    /// Before it are `user_block` bytes (0, or 512 times a power of 2) that HDF5 leaves to others.
+    /// Creates or truncates a file on all ranks of the communicator together through MPI-IO, without MPI if there is
+    /// only one. `user_block`: bytes in front (0, or 512 times a power of 2) that HDF5 leaves alone.
     static File create(const std::string& path, const Communicator& communicator, hsize_t user_block = 0);
 
-    /// For more rows. Takes no file lock: a reader that has the file open must not end the run.
+    /// Opens a file to append rows. Takes no file lock: a reader that has the file open must not end the run.
     static File append(const std::string& path);
 
-    /// To be read. EnvironmentError unless it is a regular file.
+    /// Opens a file for reading. EnvironmentError unless it is a regular file.
     static File open(const std::string& path);
 
-    /// The same of a file that may come from anywhere. EnvironmentError unless all that it holds is its own: links that
-    /// lead to other files or by name, storage in other files, filters and huge chunks are refused.
+    /// Opens a file of unknown origin for reading. EnvironmentError unless it is self-contained: links to other files
+    /// or by name, external storage, filters and huge chunks are refused.
     static File open_received(const std::string& path);
 
-    /// Reports what the destructor could not: data that never reached the disk.
+    /// Closes the file and reports what the destructor cannot: data that never reached the disk.
     void close();
 
     hid_t              id() const { return handle_.id(); }
@@ -81,10 +81,10 @@ private:
 
     Handle      handle_;
     std::string path_;
-    Handle      transfer_; ///< how raw data move: collectively on a file of several ranks
+    Handle      transfer_; ///< transfer mode of raw data: collective for a file of several ranks
 };
 
-/// A rank's part of the rows of a data set.
+/// This rank's part of the rows of a data set.
 struct Rows
 {
     hsize_t total;
@@ -92,17 +92,17 @@ struct Rows
     hsize_t count;
 };
 
-/// This rank's rows when every rank has `count`, in rank order.
+/// Rows of this rank if ranks hold `count` rows each, in rank order.
 Rows rows_of_rank(const Communicator& communicator, std::size_t count);
 
 void create_group(const File& file, const std::string& name);
 
-/// `values` = [rows.count][width], row-major; width 1 makes a one-dimensional data set, in groups that are made if need
-/// be. T: double, float, int32, int64, uint64, uint32, uint8.
+/// Writes `values` = [rows.count][width], row-major; width 1 makes a one-dimensional data set. Groups are created if
+/// needed. T: double, float, int32, int64, uint64, uint32, uint8.
 template<class T>
 void write(const File& file, const std::string& name, const std::vector<T>& values, int width, const Rows& rows);
 
-/// All rows by this process.
+/// Writes all rows from this process.
 template<class T>
 void write(const File& file, const std::string& name, const std::vector<T>& values, int width)
 {
@@ -110,54 +110,54 @@ void write(const File& file, const std::string& name, const std::vector<T>& valu
     write(file, name, values, width, Rows{count, 0, count});
 }
 
-/// What `write` wrote, by this process alone. The data set must have `width` columns, of numbers of T's kind, and no
-/// more values than the file and the free memory have room for.
+/// Reads all that `write` wrote, by this process alone. The data set must have `width` columns, of T's kind of number,
+/// and no more values than the file holds and free memory allows.
 template<class T>
 std::vector<T> read(const File& file, const std::string& name, int width);
 
-/// The same of `count` rows from `first` on.
+/// Reads `count` rows from `first` on.
 template<class T>
 std::vector<T> read_rows(const File& file, const std::string& name, int width, hsize_t first, hsize_t count);
 
-/// Rows of a data set.
+/// Number of rows of a data set.
 std::int64_t count_rows(const File& file, const std::string& name);
 
-/// EnvironmentError unless a data set grows by append_rows: its own storage in chunks, doubles, `width` columns.
+/// EnvironmentError unless append_rows can extend a data set: chunked storage in this file, doubles, `width` columns.
 void require_growing(const File& file, const std::string& name, int width);
 
-/// Whether there is an object of that path.
+/// Whether an object of that path exists.
 bool holds(const File& file, const std::string& name);
 
-/// How many objects a group holds.
+/// Number of objects in a group.
 std::int64_t count_members(const File& file, const std::string& group);
 
-/// Attributes that write_attribute wrote.
+/// Reads an attribute written by write_attribute.
 std::string read_text_attribute(const File& file, const std::string& object, const std::string& name);
 double      read_number_attribute(const File& file, const std::string& object, const std::string& name);
 
 std::vector<std::int64_t> read_numbers_attribute(const File& file, const std::string& object, const std::string& name);
 
-/// An empty data set of doubles that grows by append_rows.
+/// Creates an empty data set of doubles that append_rows can extend.
 void create_growing(const File& file, const std::string& name, int width);
 
-/// `values` = [rows][width] behind what is there.
+/// Appends `values` = [rows][width].
 void append_rows(const File& file, const std::string& name, const std::vector<double>& values, int width);
 
-/// `object` is the path of a group or data set; "/" the file's root.
+/// Writes an attribute. `object`: path of a group or data set; "/" for the root.
 void write_attribute(const File& file, const std::string& object, const std::string& name, const std::string& value);
 void write_attribute(const File& file, const std::string& object, const std::string& name, double value);
 void write_attribute(const File& file, const std::string& object, const std::string& name,
                      const std::vector<std::int64_t>& values);
 
-/// As a string of fixed length in ASCII, which is what VTK's reader accepts.
+/// Writes a fixed-length ASCII string, which VTK's reader requires.
 void write_fixed_attribute(const File& file, const std::string& object, const std::string& name,
                            const std::string& value);
 
-/// The same for one that may be there already, of the same length: it is written over, and the file does not grow.
+/// Writes a fixed-length attribute, or overwrites one of the same length, so that the file does not grow.
 void set_fixed_attribute(const File& file, const std::string& object, const std::string& name,
                          const std::string& value);
 
-/// Throws unless `id` is valid; else passes it on. `what` and `path` go into the message.
+/// Returns `id`, or throws if it is invalid. `what` and `path` go into the message.
 hid_t checked(hid_t id, const std::string& path, const std::string& what);
 
 } // namespace tread::io::h5

@@ -8,7 +8,7 @@
 
 #include "io/h5.hpp"
 
-// What h5.cpp and h5_read.cpp share.
+// Shared by h5.cpp and h5_read.cpp.
 namespace tread::io::h5
 {
 
@@ -28,7 +28,7 @@ hid_t type_of()
     }
 }
 
-/// EnvironmentError unless a file holds all that it shows (h5_received.cpp).
+/// EnvironmentError unless all contents are stored in the file itself (h5_received.cpp).
 void require_self_contained(const File& file);
 
 inline Handle property_list(hid_t kind) { return {H5Pcreate(kind), H5Pclose}; }

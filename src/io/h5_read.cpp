@@ -9,7 +9,7 @@
 #include "base/host_memory.hpp"
 #include "io/h5_parts.hpp"
 
-// Files that were written, by one process.
+// Reading of files, by one process.
 namespace tread::io::h5
 {
 
@@ -24,7 +24,7 @@ std::string name_of(H5T_class_t kind)
     return kind == H5T_FLOAT ? "floating-point numbers" : kind == H5T_INTEGER ? "integers" : "no numbers";
 }
 
-/// Before anything is made for the values.
+/// Call before memory for the values is allocated.
 template<class T>
 void require_readable(const File& file, const Handle& dataset, const std::string& name, hsize_t rows, int width)
 {
@@ -50,7 +50,7 @@ void require_readable(const File& file, const Handle& dataset, const std::string
     }
 }
 
-/// EnvironmentError unless an attribute has so many values, of numbers or of text.
+/// EnvironmentError unless an attribute has `count` values, of numbers or of text.
 void require_attribute(const File& file, const Handle& attribute, const std::string& what, hssize_t count,
                        bool fits_kind)
 {
@@ -66,7 +66,7 @@ bool holds_numbers(const Handle& attribute)
     return (kind == H5T_INTEGER || kind == H5T_FLOAT) && H5Tget_size(type.id()) <= sizeof(double);
 }
 
-/// Rows of a data set that must have `width` columns.
+/// Number of rows of a data set that must have `width` columns.
 hsize_t rows_in(const File& file, const Handle& dataset, const std::string& name, int width)
 {
     const Handle           space{H5Dget_space(dataset.id()), H5Sclose};

@@ -7,16 +7,17 @@
 #include "base/errors.hpp"
 #include "io/h5_parts.hpp"
 
-// Files that may come from anywhere: HDF5 would follow their links, and read what they name, as whoever runs tread.
+// Checks files of unknown origin: HDF5 would follow their links, and read what they name, with the user's permissions.
 namespace tread::io::h5
 {
 namespace
 {
 
-constexpr hsize_t largest_chunk = hsize_t{64} << 20; ///< bytes that HDF5 takes to read any part of one
-constexpr int     stop          = 1;                 ///< for an iteration
+constexpr hsize_t largest_chunk = hsize_t{64}
+                                  << 20; ///< bytes that HDF5 reads into memory to access any part of a chunk
+constexpr int stop = 1;                  ///< ends an iteration
 
-/// What was found; empty if nothing.
+/// Description of a fault; empty if there is none.
 using Finding = std::string;
 
 const char* name_of(H5L_type_t type)
@@ -39,7 +40,7 @@ herr_t look_at_link(hid_t, const char* name, const H5L_info_t* info, void* findi
     return stop;
 }
 
-/// What is wrong with how a data set is stored.
+/// Fault in the storage of a data set.
 Finding fault_of_storage(hid_t dataset)
 {
     const Handle creation{H5Dget_create_plist(dataset), H5Pclose};

@@ -22,9 +22,9 @@ namespace tread::io
 namespace
 {
 
-constexpr int said_an_error = 1; ///< exit code of a child whose text is an error's
+constexpr int said_an_error = 1; ///< exit code of a child whose text is an error message
 
-/// Bytes of address space that this process has.
+/// Bytes of address space of this process.
 std::int64_t address_space()
 {
     std::ifstream pages_of("/proc/self/statm");
@@ -53,7 +53,7 @@ void write_all(int to, std::string_view text)
     }
 }
 
-/// Never comes back: nothing of what this process does when it ends is the copy's to do.
+/// Does not return: the child must not run this process's exit handlers.
 [[noreturn]] void be_child(int to, const std::function<std::string()>& work, const ChildLimits& limits)
 {
     for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGILL, SIGUSR1, SIGUSR2})
@@ -76,7 +76,7 @@ void write_all(int to, std::string_view text)
     _exit(code);
 }
 
-/// What the child writes, until it ends; false when the time is over or it is too much.
+/// Reads what the child writes until it ends; false if it exceeds the time or the size limit.
 bool read_all(int from, std::string& text, const ChildLimits& limits)
 {
     using Clock           = std::chrono::steady_clock;

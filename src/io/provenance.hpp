@@ -8,7 +8,7 @@
 namespace tread::io
 {
 
-/// Where a file comes from.
+/// Origin of a file.
 struct Provenance
 {
     std::string              scene_hash;
@@ -18,10 +18,10 @@ struct Provenance
     std::string              start; ///< when the run began, UTC, ISO 8601
 };
 
-/// The present time, as "2026-11-22T14:41:28Z".
+/// Present time, as "2026-11-22T14:41:28Z".
 std::string utc_now();
 
-/// As attributes of the file's root, with version and commit of the code, and when it was written.
+/// Writes the provenance as attributes of the root, with version and commit of the code and the time of writing.
 void write_provenance(const h5::File& file, const Provenance& provenance, const std::string& written = utc_now());
 
 /// Sets `written` to the present time.

@@ -25,7 +25,7 @@ Verdict Figure::verdict() const
 {
     const auto keeps = [&](double bound) { return resolved > marginal ? value >= bound : value <= bound; };
     if (keeps(resolved)) { return Verdict::resolved; }
-    return keeps(marginal) ? Verdict::marginal : Verdict::under_resolved; // what is not a number keeps no bound
+    return keeps(marginal) ? Verdict::marginal : Verdict::under_resolved; // NaN satisfies no bound
 }
 
 Verdict verdict_of(const std::vector<Figure>& figures)

@@ -6,7 +6,7 @@
 namespace tread::io
 {
 
-/// How far a run can be trusted.
+/// Verdict on how far a run can be trusted.
 enum class Verdict
 {
     resolved,
@@ -16,25 +16,25 @@ enum class Verdict
 
 const char* name_of(Verdict verdict);
 
-/// A figure that tells one side of it, with the bounds of docs/verdict.md. Where the bound for `resolved` is the larger
-/// one, more is better.
+/// One measure of resolution, with the bounds of docs/verdict.md. Larger is better if the bound `resolved` is the
+/// larger one.
 struct Figure
 {
     std::string name;
     double      value;
-    double      resolved; ///< as good as this, or better: resolved
-    double      marginal; ///< else as good as this, or better: marginal
+    double      resolved; ///< resolved if at least as good as this
+    double      marginal; ///< else marginal if at least as good as this
 
     Verdict verdict() const;
 };
 
-/// The worst of them; resolved if there are none.
+/// Worst verdict of the figures; resolved if there are none.
 Verdict verdict_of(const std::vector<Figure>& figures);
 
-/// Each figure that is not resolved with its bounds, separated by semicolons; empty if all are resolved.
+/// Lists each figure that is not resolved with its bounds, separated by semicolons; empty if all are resolved.
 std::string coarse_figures(const std::vector<Figure>& figures);
 
-/// For the log: the verdict of the figures, and each figure that is not resolved.
+/// Log line: the verdict, and each figure that is not resolved.
 std::string verdict_line(const std::vector<Figure>& figures);
 
 } // namespace tread::io

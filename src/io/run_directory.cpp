@@ -22,15 +22,15 @@ namespace fs = std::filesystem;
 constexpr const char* scene_file   = "scene.toml";
 constexpr const char* summary_file = "summary.json";
 
-// Everything that a run writes, besides scene.toml.
+// All files that a run writes, besides scene.toml.
 constexpr std::array<const char*, 6> run_files = {"log.txt",   summary_file,  "timeseries.h5",
                                                   "snapshots", "checkpoints", "bed.h5"};
 
-// What it writes these by.
+// Temporary names under which it writes these.
 constexpr std::array<const char*, 4> passing_files = {"scene.toml.tmp", "summary.json.tmp", "timeseries.h5.tmp",
                                                       "bed.h5.tmp"};
 
-/// A link counts as what it is.
+/// Whether the path exists; links are not followed.
 bool is_there(const fs::path& path)
 {
     std::error_code none;
@@ -42,7 +42,7 @@ bool holds_run(const fs::path& directory)
     return is_there(directory / scene_file) || is_there(directory / summary_file);
 }
 
-/// Of a directory that no run has used: what one would replace; empty if there is nothing.
+/// First entry that a run would replace in a directory that no run has used; empty if none.
 std::string in_the_way(const fs::path& directory)
 {
     if (has_lock_of_run(directory.string())) { return {}; }
@@ -57,19 +57,19 @@ std::string in_the_way(const fs::path& directory)
     return {};
 }
 
-/// Contents of a regular file; nothing of anything else.
+/// Contents of a regular file; empty for anything else.
 std::optional<std::string> text_of(const fs::path& path)
 {
     return irregularity(path.string()) ? std::nullopt : std::optional<std::string>(read_file(path.string()));
 }
 
-/// Whether a path is `top` or below it, word for word.
+/// Whether a path is `top` or below it, by its names.
 bool is_at_or_below(const fs::path& path, const fs::path& top)
 {
     return std::mismatch(top.begin(), top.end(), path.begin(), path.end()).first == top.end();
 }
 
-/// Whether a run in `directory` replaces the file: by its name, or by where links lead from it.
+/// Whether a run in `directory` replaces the file, by its name or through links in the directory.
 bool is_replaced(const std::string& file, const fs::path& directory)
 {
     std::error_code none;
@@ -111,7 +111,7 @@ void require_unused(const fs::path& directory)
     }
 }
 
-// The first directory that create_directories would make: what to remove if the run cannot start after all.
+// First directory that create_directories would create: removed if the run cannot start after all.
 fs::path first_missing(fs::path directory)
 {
     std::error_code none;
@@ -124,8 +124,8 @@ fs::path first_missing(fs::path directory)
     return missing;
 }
 
-/// scene.toml goes first and comes last: whenever this is killed, what it says is of the files beside it. Nothing goes
-/// before the new one is on the disk.
+/// The old scene.toml is removed first and the new one put in place last, so that it belongs to the files beside it
+/// whenever this is killed. Nothing is removed before the new one is on the disk.
 void prepare(const fs::path& directory, Existing existing, const std::string& resolved_scene)
 {
     const auto remove_old = [&]
@@ -143,7 +143,7 @@ void prepare(const fs::path& directory, Existing existing, const std::string& re
 fs::path normal(const std::string& path)
 {
     const fs::path directory = fs::path(path).lexically_normal();
-    return directory.has_filename() ? directory : directory.parent_path(); // "runs/a/" is "runs/a"
+    return directory.has_filename() ? directory : directory.parent_path(); // "runs/a/" becomes "runs/a"
 }
 
 } // namespace

@@ -11,22 +11,22 @@
 namespace tread::io
 {
 
-/// What to do with a run that is already in the output directory.
+/// Treatment of a run that already is in the output directory.
 enum class Existing
 {
     refuse,
     overwrite,
-    resume ///< keep its files, but for summary.json, and go on with them
+    resume ///< keep its files, except summary.json, and continue them
 };
 
-/// A file that a run reads and that must outlast it.
+/// An input file of a run, which must not be replaced by its output.
 struct NeededFile
 {
     std::string path;
-    std::string what; ///< it is: "[[rocks]] 0 from"
+    std::string what; ///< its use: "[[rocks]] 0 from"
 };
 
-/// What a run asks of its directory.
+/// Requirements of a new run on its directory.
 struct NewRun
 {
     std::string             path;
@@ -35,40 +35,40 @@ struct NewRun
     std::vector<NeededFile> needed;
 };
 
-/// Where a run writes. Paths of its files; the directory exists.
+/// Output directory of a run, with the paths of its files; the directory exists.
 class RunDirectory
 {
 public:
-    /// InputError when a run may not begin in its directory: it holds a run and `existing` says refuse, it holds
-    /// somebody's files by names that a run takes, or what the run needs is among those that it would replace. Looks
-    /// only. Collective.
+    /// Checks, without changes, that a run may start in its directory. InputError if it holds a run and `existing` says
+    /// refuse, if it holds unrelated files under names that a run uses, or if an input of the run would be replaced.
+    /// Collective.
     static void require_free(const Communicator& communicator, const NewRun& run);
 
-    /// Makes the directory (and those above it) and writes scene.toml, whose presence marks it as a run's. With
-    /// Existing::overwrite an earlier run's files go first, files of others stay. Locks it, unless the caller has.
-    /// Collective.
+    /// Creates the directory (and its parents) and writes scene.toml, which marks it as a run's. With
+    /// Existing::overwrite an earlier run's files are removed first, other files stay. Takes the lock, unless the
+    /// caller holds it. Collective.
     ///
-    /// InputError as of require_free; EnvironmentError when it cannot be made or written, and then nothing of it is
-    /// left behind, or when another process has its lock.
+    /// InputError as in require_free. EnvironmentError if it cannot be created or written, and then nothing is left
+    /// behind, or if another process holds its lock.
     static RunDirectory create(const Communicator& communicator, const NewRun& run,
                                std::optional<DirectoryLock> lock = {});
 
-    /// The same without making anything: where a run would be, or is.
+    /// Paths of a present or future run; creates nothing.
     static RunDirectory at(const std::string& path);
 
-    /// Takes back what create() has made and done, as far as it can: a new directory goes, in one that was there the
-    /// run's files; a run to be gone on with has its scene.toml and summary.json again. What was overwritten is gone.
+    /// Undoes create() as far as possible: removes a new directory, or the run's files from an existing one, and
+    /// restores scene.toml and summary.json of a run to be resumed. Overwritten files are lost.
     void undo() const;
 
-    /// Of a file: as seen from the directory, if it is in it.
+    /// Path of a file relative to the directory, if it is inside.
     std::string within(const std::string& file) const;
 
-    /// Bytes of the files that a run which begins anew here would remove. On any one rank.
+    /// Bytes of the files that a new run here would remove. Called on any one rank.
     std::int64_t bytes_to_remove() const;
 
     bool holds_run() const;
 
-    /// Whether a run has been at work in it, be it that it was stopped before its files were there.
+    /// Whether a run has used the directory, even if it stopped before it wrote its files.
     bool is_of_run() const;
 
     const std::string& path() const { return path_; }
@@ -86,13 +86,13 @@ private:
     {
     }
 
-    /// What was there before create().
+    /// State of the directory before create().
     struct Before
     {
-        std::string                missing; ///< the first directory that was not; empty = all were
+        std::string                missing; ///< the outermost directory that did not exist; empty = all did
         bool                       resumed    = false;
         bool                       had_a_lock = false;
-        std::optional<std::string> scene, summary; ///< of a run that is gone on with
+        std::optional<std::string> scene, summary; ///< of a run that is resumed
     };
 
     std::string                  path_;

@@ -8,8 +8,8 @@
 namespace tread::io
 {
 
-/// A new HDF5 file, or one emptied: attributes `shape` and `extent` (m) and a data set for each member of SdfQuality.
-/// Throws EnvironmentError that names the file.
+/// Writes a new HDF5 file, or truncates one: attributes `shape` and `extent` (m) and a data set for each member of
+/// SdfQuality. Throws EnvironmentError that names the file.
 void write_sdf_report(const std::string& path, const shape::ShapeTemplate& form,
                       const std::vector<shape::SdfQuality>& qualities);
 

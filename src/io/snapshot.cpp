@@ -136,7 +136,7 @@ void SnapshotWriter::write(double time, const PointFields& points, const BodyFie
     }
 }
 
-/// Of several ranks: their collective calls never end where the disk of one is full.
+/// Needed with several ranks: MPI's collective calls hang if the disk of one rank is full.
 void SnapshotWriter::require_space_of(const std::string& path, const PointFields& points) const
 {
     if (communicator_->size() == 1) { return; }
@@ -166,7 +166,7 @@ void SnapshotWriter::whole_or_not(const std::string& path, const std::function<v
     on_root(*communicator_, [&] { rename_file(temporary(path), path); });
 }
 
-/// Of the snapshots that have points: all, unless the last of them left the domain.
+/// Lists the snapshots that have points: all, unless the last points left the domain.
 void SnapshotWriter::write_series() const
 {
     nlohmann::ordered_json files = nlohmann::ordered_json::array();

@@ -23,7 +23,7 @@ struct PointFields
     std::vector<float>         plastic_shear; ///< [n] equivalent plastic shear strain
     std::vector<float>         plastic_rate;  ///< [n] 1/s
     std::vector<std::int32_t>  material;      ///< [n]
-    std::vector<std::uint32_t> id;            ///< [n] unique, for ever
+    std::vector<std::uint32_t> id;            ///< [n] unique over the whole run
     std::vector<float>         volume_ratio;  ///< [n] present over initial volume; not in snapshots
 };
 
@@ -38,33 +38,32 @@ struct BodyFields
     std::vector<std::int32_t> shape;            ///< [n] index in shapes.h5
 };
 
-/// A shape's surface at scale 1 in the body frame: what draws a body.
+/// Surface of a shape at scale 1 in the body frame, to draw bodies.
 struct NamedMesh
 {
     std::string         name;
     shape::TriangleMesh mesh;
 };
 
-/// The numbered snapshots of one run. A file appears under its name when it is whole. Every rank calls; a failure is an
-/// EnvironmentError on all of them, and leaves nothing of the file.
+/// Writes the numbered snapshots of a run. A file gets its name once it is complete. Collective; a failure is an
+/// EnvironmentError on all ranks and leaves no file behind.
 class SnapshotWriter
 {
 public:
-    /// Makes the directory.
+    /// Creates the directory.
     SnapshotWriter(const Communicator& communicator, std::string directory, Provenance provenance = {});
 
     /// Times (s) of the snapshots so far, by number.
     const std::vector<double>& times() const { return times_; }
 
-    /// Goes on behind those: later ones that are there are removed, as are half-written ones, and the series lists no
-    /// others.
+    /// Continues a series of snapshots: removes later and partial files that exist, and lists no others in the series.
     void resume(std::vector<double> times);
 
-    /// shapes.h5: /<index>/{vertices [v][3] m, triangles [t][3]}, attribute name.
+    /// Writes shapes.h5: /<index>/{vertices [v][3] m, triangles [t][3]}, attribute name.
     void write_shapes(const std::vector<NamedMesh>& shapes) const;
 
-    /// The next number: points_0007.hdf and points.hdf.series if there are points on any rank, bodies_0007.h5 if there
-    /// are bodies. `time` in s. Bodies are rank 0's.
+    /// Writes the snapshot of the next number: points_0007.hdf and points.hdf.series if any rank has points,
+    /// bodies_0007.h5 if there are bodies. `time` in s. Bodies are those of rank 0.
     void write(double time, const PointFields& points, const BodyFields& bodies);
 
 private:
@@ -78,15 +77,15 @@ private:
     std::vector<double> times_;
 };
 
-/// One VTKHDF 1.0 file: an UnstructuredGrid of vertices, one partition a rank, with point data `displacement`,
-/// `velocity`, `stress`, `plastic_shear`, `plastic_rate`, `material`, `id` and `rank`; each carries `units`. Stress
-/// components stand in VTK's order xx, yy, zz, xy, yz, xz (also in the attribute `components`). `time` is an attribute
-/// of the root, beside the provenance. Every rank calls. Layout:
+/// Writes a VTKHDF 1.0 file: an UnstructuredGrid of vertices, one partition per rank, with point data `displacement`,
+/// `velocity`, `stress`, `plastic_shear`, `plastic_rate`, `material`, `id` and `rank`; each has an attribute `units`.
+/// Stress components are in VTK's order xx, yy, zz, xy, yz, xz (also in the attribute `components`). `time` and the
+/// provenance are attributes of the root. Collective. Layout:
 /// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html#vtkhdf
 void write_points(const Communicator& communicator, const std::string& path, double time, const PointFields& points,
                   const Provenance& provenance = {});
 
-/// One HDF5 file with the arrays of BodyFields, `units` on each, `time` on the root. This process alone.
+/// Writes an HDF5 file with the arrays of BodyFields, `units` on each, `time` on the root. This process alone.
 void write_bodies(const std::string& path, double time, const BodyFields& bodies, const Provenance& provenance = {});
 
 } // namespace tread::io

@@ -14,7 +14,7 @@ namespace
 // VTK_VERTEX of vtkCellType.h.
 constexpr std::uint8_t vertex_cell = 1;
 
-// Of xx, yy, zz, yz, xz, xy, in the order in which VTK labels six components.
+// Permutation of xx, yy, zz, yz, xz, xy to the order in which VTK labels six components.
 constexpr std::array<std::size_t, 6> vtk_order = {0, 1, 2, 5, 3, 4};
 
 std::vector<float> in_vtk_order(const std::vector<float>& stress)
@@ -27,7 +27,7 @@ std::vector<float> in_vtk_order(const std::vector<float>& stress)
     return reordered;
 }
 
-/// A file of all ranks. What fails for one fails for all: none waits in the next call for another.
+/// A file written by all ranks. A failure on one is a failure on all, so that none waits in the next collective call.
 class SharedFile
 {
 public:
@@ -51,7 +51,7 @@ public:
         together([&](const h5::File& h5) { h5::write(h5, "/VTKHDF/" + name, values, width, rows); });
     }
 
-    /// Nothing where no rank has any.
+    /// Writes nothing if no rank has values.
     template<class T>
     void write_field(const std::string& name, const std::vector<T>& values, int width, const std::string& unit)
     {
@@ -70,7 +70,7 @@ private:
     std::optional<h5::File> file_;
 };
 
-// Every rank is a partition; its numbers are one entry of each of these data sets.
+// Every rank is a partition; its sizes are one entry of each of these data sets.
 void write_partition_sizes(SharedFile& file, std::int64_t count)
 {
     for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
@@ -79,7 +79,7 @@ void write_partition_sizes(SharedFile& file, std::int64_t count)
     }
 }
 
-// Point i is the only corner of cell i; numbers start anew in each partition.
+// Point i is the only corner of cell i; numbering restarts in each partition.
 void write_cells(SharedFile& file, std::size_t count)
 {
     std::vector<std::int64_t> numbers(count + 1);

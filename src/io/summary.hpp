@@ -19,7 +19,7 @@ enum class RunStatus
     failed
 };
 
-/// One stage of the plan: what it did, or why the scene has no need of it.
+/// One stage of the plan: its calls and time, or why the scene does not need it.
 struct StageReport
 {
     std::string  name;
@@ -29,29 +29,29 @@ struct StageReport
     double       seconds = 0;
 };
 
-/// How wrong the run may be, from its own ledgers.
+/// Errors of a run, from its ledgers.
 struct ErrorReport
 {
     double mass     = 0; ///< relative
     double momentum = 0; ///< impulse imbalance over total weight x time
-    double energy   = 0; ///< unaccounted over the largest energy that changed hands
+    double energy   = 0; ///< unaccounted energy over the largest energy exchanged
     double transfer = 0; ///< lost between points and grid, over the same
-    double coupling = 0; ///< left between sand and bodies by their contacts, over the same
+    double coupling = 0; ///< residual of the contacts between sand and bodies, over the same
 };
 
-/// A phase that ended.
+/// A completed phase.
 struct PhaseReport
 {
     std::string           name;
-    double                start = 0;        ///< s
-    double                time  = 0;        ///< s that it took
-    std::string           end;              ///< what ended it: "duration", "settled", "not settled", "lowered" ...
-    std::optional<bool>   settled;          ///< whether it ended in equilibrium; null if it was not to
-    double                unbalanced = 0;   ///< force that is out of balance over the weight, at its end
-    std::optional<double> packing_fraction; ///< of the bed of rocks that it settled; null if it settled none
+    double                start = 0; ///< s
+    double                time  = 0; ///< s, duration
+    std::string           end;       ///< condition that ended it: "duration", "settled", "not settled", "lowered" ...
+    std::optional<bool>   settled;   ///< whether it ended in equilibrium; null if that was not required
+    double                unbalanced = 0;   ///< unbalanced force over the weight, at its end
+    std::optional<double> packing_fraction; ///< of the bed of rocks that it settled; null without one
 };
 
-/// What a [[terrain]] table holds at the start, after later tables and rocks took their place.
+/// Sand of a [[terrain]] table at the start, after later tables and rocks replaced part of it.
 struct TerrainReport
 {
     std::string  material;
@@ -60,7 +60,7 @@ struct TerrainReport
     double       mass   = 0; ///< kg
 };
 
-/// What a [[rocks]] table placed.
+/// Rocks placed by a [[rocks]] table.
 struct RocksReport
 {
     std::string  shape;
@@ -73,13 +73,13 @@ struct RocksReport
     double       largest_diameter  = 0;
 };
 
-/// Shares of the volume of a [[rocks]] table's region between floor and height, as far as sand stood there before.
+/// Volume shares in the region of a [[rocks]] table between floor and height, where there was sand before.
 struct LayerReport
 {
-    std::int64_t table = 0; ///< of [[rocks]]
+    std::int64_t table = 0; ///< index of the [[rocks]] table
     double       sand  = 0;
     double       rock  = 0; ///< of all tables
-    double       empty = 0; ///< what is left: `void` in summary.json
+    double       empty = 0; ///< the remainder: `void` in summary.json
 };
 
 /// The bed at the start.
@@ -87,11 +87,11 @@ struct BedReport
 {
     std::vector<TerrainReport> terrain;
     std::vector<RocksReport>   rocks;
-    std::vector<LayerReport>   layers;         ///< where rocks took the place of sand
+    std::vector<LayerReport>   layers;         ///< where rocks replaced sand
     double                     rock_share = 0; ///< volume of rocks over that of rocks and points
 };
 
-/// What writing the state has cost.
+/// Cost of writing checkpoints.
 struct CheckpointReport
 {
     std::string  newest; ///< path within the run's directory; empty = none
@@ -107,11 +107,11 @@ struct Answer
     std::string           unit;
     double                mean;
     double                spread;          ///< standard deviation of the rows
-    double                standard_error;  ///< of the mean, by the means of eight parts; NaN of fewer than 8 rows
-    std::optional<double> estimated_error; ///< of the computation; null: unknown
+    double                standard_error;  ///< of the mean, from the means of eight parts; NaN with fewer than 8 rows
+    std::optional<double> estimated_error; ///< numerical error; null: unknown
 };
 
-/// What a named body did in a phase, over its steady part.
+/// Answers of a named body in a phase, over its steady part.
 struct PhaseAnswers
 {
     std::string         phase;
@@ -119,7 +119,7 @@ struct PhaseAnswers
     double              to     = 0; ///< s, time of the last row
     std::int64_t        rows   = 0;
     bool                steady = false; ///< if not, means are over the last half
-    bool                ended  = true;  ///< false where the run stopped within the phase
+    bool                ended  = true;  ///< false if the run stopped within the phase
     std::vector<Answer> quantities;
 };
 
@@ -129,8 +129,8 @@ struct BodyAnswers
     std::vector<PhaseAnswers> phases;
 };
 
-/// What a run did; summary.json holds these fields by these names, with schema, version, commit
-/// and `end`, the time of writing.
+/// Summary of a run. summary.json holds these fields by these names, with schema, version, commit and `end`, the time
+/// of writing.
 struct Summary
 {
     RunStatus                status    = RunStatus::finished;
@@ -144,37 +144,37 @@ struct Summary
     std::int64_t             points            = 0;
     std::int64_t             bodies            = 0;
     std::int64_t             steps             = 0;
-    std::int64_t             substeps          = 0; ///< all together
+    std::int64_t             substeps          = 0; ///< total number
     double                   time              = 0; ///< s simulated
     double                   wall_s            = 0;
     std::int64_t             peak_device_bytes = 0;
     std::int64_t             peak_host_bytes   = 0;
     std::vector<StageReport> stages;
-    std::optional<double>    asleep; ///< mean share of the points that slept; null where none may
+    std::optional<double>    asleep; ///< mean share of sleeping points; null if sleep is off
     ErrorReport              errors;
     double                   points_across = 0; ///< the contact patch of a named body on sand; 0 = none
     std::vector<Figure>      figures;           ///< with points_across, `resolution`
     std::optional<GridError> grid_error;        ///< of a driven wheel's answers; null without one on granular sand
-    std::vector<std::string> warnings;          ///< what looks wrong in the scene, a sentence each
+    std::vector<std::string> warnings;          ///< suspicious settings of the scene, a sentence each
     std::vector<PhaseReport> phases;
-    CheckpointReport         checkpoints;  ///< with those of the runs that this one went on from
-    std::int64_t             restarts = 0; ///< how often it was stopped and went on
+    CheckpointReport         checkpoints;  ///< including those of the runs that this one continues
+    std::int64_t             restarts = 0; ///< number of times it was stopped and resumed
     std::string              start;        ///< UTC, of the first of these runs
     BedReport                bed;          ///< in summary.json: terrain, rocks, layers, rock_share
     std::vector<BodyAnswers> answers;
 };
 
-/// The verdict on a run, for its log and its summary alike: a run that failed is under-resolved whatever its figures
-/// say, because they are those of the part before the failure.
+/// Verdict on a run, for its log and its summary. A failed run is under-resolved whatever its figures, because they
+/// describe the part before the failure.
 Verdict verdict_of(const Summary& summary);
 
-/// The verdict for the log, and why: the failure, and each figure that is not resolved.
+/// Log line: the verdict and its reason: the failure, and each figure that is not resolved.
 std::string verdict_line(const Summary& summary);
 
-/// The text of summary.json. steps_per_s and sim_per_wall follow from the fields; numbers that are not finite are null.
+/// Text of summary.json. steps_per_s and sim_per_wall follow from the fields; numbers that are not finite are null.
 std::string to_json(const Summary& summary);
 
-/// Written in one step; EnvironmentError when it cannot be.
+/// Writes summary.json atomically; EnvironmentError if it cannot be written.
 void write_summary(const std::string& path, const Summary& summary);
 
 } // namespace tread::io

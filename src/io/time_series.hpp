@@ -16,7 +16,7 @@ struct Column
     std::string unit;  ///< "m/s"; "1" if it has none
 };
 
-/// A group of data sets, one a column.
+/// A group of data sets, one per column.
 struct SeriesTable
 {
     std::string         group; ///< "/wheel/front"
@@ -26,24 +26,24 @@ struct SeriesTable
 enum class SeriesFile
 {
     anew,
-    continued ///< as it is; rows follow those that are there
+    continued ///< kept; new rows follow the present ones
 };
 
-/// EnvironmentError unless a file, which came within a checkpoint, is a time series in which these tables can be
-/// continued, as far as it has them. Its contents would else be whatever other file it names.
+/// EnvironmentError unless a file restored from a checkpoint is a time series that these tables can continue. Otherwise
+/// it could draw its contents from any other file that it names.
 void require_series(const std::string& path, const std::vector<SeriesTable>& tables, const std::string& checkpoint);
 
-/// timeseries.h5: a data set for every column of every table, one row a time. Of one process. The file is closed
-/// between flushes, so that it can be read while the run goes on. EnvironmentError when it cannot be written.
+/// Writes timeseries.h5: a data set for every column of every table, one row per time. Used by one process. The file is
+/// closed between flushes, so that it can be read during the run. EnvironmentError if it cannot be written.
 class TimeSeries
 {
 public:
     explicit TimeSeries(std::string path, const Provenance& provenance = {}, SeriesFile file = SeriesFile::anew);
 
-    /// Groups above its group are made. What a continued file has, stays.
+    /// Creates the table and its parent groups; data in a continued file stay.
     void add_table(const SeriesTable& table);
 
-    /// One row: the values of all columns, one column after the other. Kept in memory until flush().
+    /// Appends a row: the values of all columns, one column after the other. Kept in memory until flush().
     void append(const std::string& group, const std::vector<double>& values);
 
     void flush();

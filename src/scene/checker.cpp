@@ -9,7 +9,7 @@ namespace tread::scene
 namespace
 {
 
-/// The table itself, or the nearest thing that encloses it.
+/// The table itself, or the innermost existing node that encloses it.
 const Node& table_node(const Node& document, const TableAt& at)
 {
     const Node* found = find(document, at.name);
@@ -57,7 +57,7 @@ void Checker::require_known(const TableAt& at, const std::string& key, const std
 {
     const auto is_known = [&](const std::string& candidate)
     { return std::find(known.begin(), known.end(), candidate) != known.end(); };
-    // An empty name is one that could not be read: it may be the one that is looked for.
+    // An empty name is one that could not be read: it may be the one sought.
     if (!sound(at, {key}) || is_known(name) || is_known("")) { return; }
     report(at, key, fmt::format("there is no {} called \"{}\"{}", kind, name, suggestion(name, known)),
            known.empty() ? "" : fmt::format("{}", fmt::join(known, ", ")));

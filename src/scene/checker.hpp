@@ -5,14 +5,14 @@
 namespace tread::scene
 {
 
-/// A table of the document: a single one, or the index-th of an array.
+/// A table of the document: a single one, or the index-th element of an array.
 struct TableAt
 {
     std::string name;
     std::size_t index = 0;
 };
 
-/// Finds places in the document for the cross checks, and collects their problems.
+/// Looks up entries of the document for cross checks, and collects problems.
 struct Checker
 {
     const Node& document;
@@ -20,16 +20,16 @@ struct Checker
 
     std::string label(const TableAt& at) const;
 
-    /// The key of a table; nullptr if it was not given.
+    /// Value of a key in a table; nullptr if not given.
     const Node* given(const TableAt& at, const std::string& key) const;
 
-    /// Whether all keys were read without a problem, so that what they say may be compared.
+    /// Whether all keys were read without a problem, so that their values may be compared.
     bool sound(const TableAt& at, const std::vector<std::string>& keys) const;
 
-    /// A problem at the key, or at its table if the key was not given.
+    /// Reports a problem at the key, or at its table if the key was not given.
     void report(const TableAt& at, const std::string& key, std::string what, std::string accepted = {});
 
-    /// A problem, naming the `kind` of thing that is looked for, unless `name` is among `known`.
+    /// Reports a problem, naming the expected `kind` of thing, unless `name` is among `known`.
     void require_known(const TableAt& at, const std::string& key, const std::string& name,
                        const std::vector<std::string>& known, const std::string& kind);
 };

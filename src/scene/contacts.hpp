@@ -7,11 +7,11 @@
 namespace tread::scene
 {
 
-/// Friction and restitution of two families, in either order. Pairs that the scene leaves out have friction 0.3
-/// (0.5 with "wall") and restitution 0.5.
+/// Friction and restitution of two families, in either order. Pairs not given in the scene have friction 0.3 (0.5 with
+/// "wall") and restitution 0.5.
 Contact contact_of(const Scene& scene, const std::string& family_a, const std::string& family_b);
 
-/// Adds the defaults of every pair that can meet (rocks and bodies with each other, with terrain, with walls).
+/// Adds default contacts for every pair that can meet (rocks and bodies with each other, with terrain, with walls).
 void complete_contacts(Scene& scene);
 
 } // namespace tread::scene

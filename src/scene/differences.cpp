@@ -14,7 +14,7 @@ namespace
 
 using Place = std::tuple<std::string, std::size_t, std::string>; ///< table, index, key
 
-/// One line a key, in tables that a line in brackets begins.
+/// Splits a resolved scene: one key per line, in tables that start with a line in brackets.
 std::map<Place, std::string> keys_of(const std::string& resolved)
 {
     std::map<Place, std::string>       keys;

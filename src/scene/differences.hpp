@@ -7,7 +7,7 @@
 namespace tread::scene
 {
 
-/// A key that two scenes do not agree on.
+/// A key whose value differs between two scenes.
 struct Difference
 {
     std::string table;     ///< "output"; "phase" of an array of tables
@@ -17,23 +17,22 @@ struct Difference
     std::string is;
 };
 
-/// Of two scenes as resolved_toml writes them.
+/// Lists the differences of two scenes as written by resolved_toml.
 std::vector<Difference> differences(const std::string& before, const std::string& after);
 
-/// "[[phase]] 1 duration".
+/// Formats the key of a difference, as "[[phase]] 1 duration".
 std::string place_of(const Difference& difference);
 
-/// "[[phase]] 1 duration: 0.5, was 0.2".
+/// Formats a difference, as "[[phase]] 1 duration: 0.5, was 0.2".
 std::string describe(const Difference& difference);
 
-/// The phase of a run that has ended.
+/// Index of the current phase of a run that has ended.
 inline constexpr std::size_t no_phase_to_come = static_cast<std::size_t>(-1);
 
-/// Whether a run that is in phase `phase` may go on although this has changed:
-/// the title; how often output and checkpoints are written, which changes no result; how sand falls to ranks, which
-/// changes results by rounding alone; how long the present phase and those after it last, which have not ended; of sand
-/// that may sleep, when it does, which is how the effect of sleep is measured. What has begun is not done again, and
-/// what else changes makes another problem of it.
+/// Whether a run in phase `phase` may continue with this change. Allowed: the title; intervals of output and
+/// checkpoints, which change no result; the balance of ranks, which changes results by rounding alone; durations of the
+/// present and later phases, which have not ended; and settings of sleep, if sand may sleep, so that the effect of
+/// sleep can be measured. Any other change would alter steps already computed or define another problem.
 bool may_change(const Difference& difference, std::size_t phase);
 
 } // namespace tread::scene

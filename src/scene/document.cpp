@@ -21,8 +21,8 @@ namespace tread::scene
 namespace
 {
 
-/// Finds the lines of a document's values. toml11's own `location` copies a value's whole line, and counts lines from
-/// the file's beginning, for every value.
+/// Finds line numbers of a document's values. toml11's own `location` copies a value's whole line and counts lines from
+/// the beginning of the file, for every value.
 class LineNumbers
 {
 public:
@@ -48,7 +48,7 @@ private:
     std::vector<std::ptrdiff_t> ends_;
 };
 
-/// T or, as toml11 reads what T cannot hold as the largest or lowest T, the news of that.
+/// Returns a T, or an OtherValue where toml11 has clamped a number that T cannot hold to the largest or lowest T.
 template<class T>
 decltype(Node::value) held(T number)
 {
@@ -57,7 +57,7 @@ decltype(Node::value) held(T number)
     return number;
 }
 
-/// `locate` maps a toml::value to the Location that its node shall carry.
+/// `locate` maps a toml::value to the Location of its node.
 template<class Locate>
 Node convert(const toml::value& value, const Locate& locate)
 {
@@ -81,7 +81,7 @@ Node convert(const toml::value& value, const Locate& locate)
     return node;
 }
 
-/// The number of a drawing's line "12 | text"; empty if it is none.
+/// Line number in a diagram's line "12 | text"; empty if it has none.
 std::string_view drawn_line(std::string_view line)
 {
     take(line, " ");
@@ -90,7 +90,7 @@ std::string_view drawn_line(std::string_view line)
     return line.substr(0, line.size() - rest.size());
 }
 
-/// What a drawing's line "| ^^^ remark" says; nothing if it underlines nothing.
+/// Remark in a diagram's line "| ^^^ remark"; empty if it underlines nothing.
 std::optional<std::string> remark_of(std::string_view line)
 {
     take(line, " ");
@@ -113,8 +113,8 @@ std::string_view without_origin(std::string_view sentence)
     return sentence;
 }
 
-/// toml11 answers with a drawing of several lines; this keeps its first sentence and the last place that it points to:
-/// where the second of two keys stands, not the first.
+/// Shortens toml11's error, a diagram of several lines, to its first sentence and the last location it marks: for a
+/// duplicate key that is the second one, not the first.
 std::string syntax_message(const std::string& file, const std::string& drawing)
 {
     constexpr std::size_t most = 200;
@@ -152,7 +152,7 @@ std::string read_file(const std::string& path)
     return text.str();
 }
 
-/// Without the mark that some editors put before UTF-8.
+/// Removes a byte order mark, which some editors put before UTF-8.
 std::string without_mark(const std::string& text)
 {
     constexpr std::string_view mark = "\xef\xbb\xbf";

@@ -6,22 +6,22 @@
 #include <variant>
 #include <vector>
 
-// A TOML document as a tree whose every value knows where it was written.
+// A TOML document as a tree in which every value knows its location in the file.
 namespace tread::scene
 {
 
-/// Where a value was written: "scene.toml:12" or "--set grid.spacing=0.02".
+/// Location of a value: "scene.toml:12" or "--set grid.spacing=0.02".
 struct Location
 {
     std::string  text;
-    std::int64_t order = 0; ///< problems are reported in this order: lines of the file, then --set arguments
+    std::int64_t order = 0; ///< order in which problems are reported: lines of the file, then --set arguments
 };
 
 struct Node;
 using NodeArray = std::vector<Node>;
 using NodeTable = std::map<std::string, Node>;
 
-/// What no key of a scene accepts: a date, a number too large to hold.
+/// A TOML value that no key accepts, such as a date or a number too large to represent.
 struct OtherValue
 {
     std::string kind;
@@ -33,18 +33,18 @@ struct Node
     Location                                                                                where;
 };
 
-/// "an integer", "a string" ..., for messages.
+/// Name of a node's type for messages: "an integer", "a string" ...
 std::string kind_of(const Node& node);
 
-/// The member `key` of a table; nullptr if `node` is no table or has no such member.
+/// Member `key` of a table; nullptr if `node` is not a table or has no such member.
 const Node* find(const Node& node, const std::string& key);
 
-/// The root table of a TOML file. InputError, with file and line, if it cannot be read, is malformed or is beyond the
-/// limits of text_limits.hpp.
+/// Parses a TOML file and returns its root table. InputError, with file and line, if it cannot be read, is malformed or
+/// exceeds the limits of text_limits.hpp.
 Node parse_document(const std::string& path);
 
-/// One TOML value of a text within the limits of text_limits.hpp; what is not TOML is taken as a bare word, that is a
-/// string.
+/// Parses one TOML value from a text within the limits of text_limits.hpp; text that is not TOML is taken as a bare
+/// word, that is a string.
 Node parse_value(const std::string& text, const Location& where);
 
 } // namespace tread::scene

@@ -14,13 +14,13 @@ namespace tread::scene
 namespace
 {
 
-/// What else the library would take (assignments, comparisons, strings) has no meaning as a height.
+/// Other syntax that the library accepts (assignments, comparisons, strings) has no meaning as a height.
 constexpr const char* formula_letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.,+-*/^() \t\n";
 
 double smallest(const double* values, int count) { return *std::min_element(values, values + count); }
 double largest(const double* values, int count) { return *std::max_element(values, values + count); }
 
-/// The library's own functions are left out: each of ours is in `formula_language`, and does what <cmath> does.
+/// Defines functions as in `formula_language`, with the meaning of <cmath>, instead of the library's own.
 void define_language(mu::Parser& parser)
 {
     using Unary = double (*)(double);

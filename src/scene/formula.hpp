@@ -3,21 +3,21 @@
 #include <memory>
 #include <string>
 
-// A formula of x and y, for heights of terrain.
+// Formulas of x and y, for terrain heights.
 namespace tread::scene
 {
 
-/// What a formula may be made of, for messages and documentation.
+/// Elements that a formula may contain, for messages and documentation.
 extern const char* const formula_language;
 
-/// Why `text` is no formula, naming the token at fault; empty if it is one.
+/// Why `text` is not a formula, naming the offending token; empty if it is one.
 std::string formula_problem(const std::string& text);
 
-/// Evaluates a formula. The same text gives the same numbers in every locale. Not to be shared by threads.
+/// Evaluates a formula. The same text gives the same numbers in every locale. Not thread-safe.
 class FormulaEvaluator
 {
 public:
-    /// InputError if the text is no formula.
+    /// InputError if the text is not a formula.
     explicit FormulaEvaluator(const std::string& text);
     ~FormulaEvaluator();
     FormulaEvaluator(FormulaEvaluator&&) noexcept;
@@ -25,7 +25,7 @@ public:
     FormulaEvaluator(const FormulaEvaluator&)            = delete;
     FormulaEvaluator& operator=(const FormulaEvaluator&) = delete;
 
-    /// May be NaN or infinite.
+    /// Value at x and y (m); may be NaN or infinite.
     double operator()(double x, double y);
 
 private:

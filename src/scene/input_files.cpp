@@ -15,7 +15,7 @@ void add_height(const std::optional<Height>& height, const std::string& key, std
     if (raster != nullptr) { files.push_back({raster->path, key + " file"}); }
 }
 
-/// Adds the files that [[terrain]] or [[rocks]] tables name.
+/// Adds the files named by [[terrain]] or [[rocks]] tables.
 template<class T>
 void add_places(const std::vector<T>& items, const char* table, std::vector<InputFile>& files)
 {

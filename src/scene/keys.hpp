@@ -6,14 +6,14 @@
 #include "scene/scene.hpp"
 #include "scene/table.hpp"
 
-// The one table of everything that a scene may say. Reading, checking, writing and docs/scene.md iterate it.
+// The one table of all keys of a scene. Reading, validation, writing and docs/scene.md iterate it.
 namespace tread::scene
 {
 
-/// Wheels that a body may name as its shape without a [[shape]] table.
+/// Wheels that a body may use as its shape without a [[shape]] table.
 inline constexpr std::array<std::string_view, 4> builtin_wheels{"perseverance", "curiosity", "spirit", "viper"};
 
-/// The contact family of the domain's walls.
+/// Contact family of the domain's walls.
 inline constexpr std::string_view wall_family = "wall";
 
 Keys<Scene>       scene_keys();
@@ -35,7 +35,7 @@ Keys<Reference>   reference_keys();
 
 Keys<CheckpointOptions> checkpoint_keys();
 
-/// Keys of places and sizes, which [[terrain]] and [[rocks]] share (bed_keys.cpp).
+/// Keys of position and size, shared by [[terrain]] and [[rocks]] (bed_keys.cpp).
 Key<Terrain> terrain_region_key();
 Key<Terrain> terrain_height_key();
 Key<Terrain> terrain_floor_key();
@@ -44,11 +44,11 @@ Key<Rocks>   rocks_height_key();
 Key<Rocks>   rocks_floor_key();
 Key<Rocks>   rocks_diameter_key();
 
-/// Position of a [[body]]: given, or on what lies under it (body_keys.cpp).
+/// Position of a [[body]]: given, or on the surface below it (body_keys.cpp).
 Key<Body> body_position_key();
 
-/// Calls visit(name, meaning, member pointer, keys) for each table of a scene, in the order in which they are written.
-/// A member that is a vector is an array of tables.
+/// Calls visit(name, meaning, member pointer, keys) for each table of a scene, in the order of writing. A member that
+/// is a vector is an array of tables.
 template<class Visit>
 void for_each_table(Visit&& visit)
 {

@@ -8,11 +8,11 @@
 namespace tread::scene
 {
 
-/// "sand.toml:41: ", where a table of a list was written, by its name in messages ("rocks[0]", "body.wheel"); empty
-/// where that is not known: a built-in shape, a scene that was not read from a file.
+/// Line of a table in the scene file, "sand.toml:41: ", by its name in messages ("rocks[0]", "body.wheel"); empty if
+/// unknown, as for a built-in shape or a scene that was not read from a file.
 std::string line_of(const Scene& scene, const std::string& table);
 
-/// What `act` gives. An InputError or EnvironmentError of it says also where the table was written.
+/// Returns the result of `act`; an InputError or EnvironmentError of it is extended by the table's line.
 template<class Act>
 decltype(auto) with_line_of(const Scene& scene, const std::string& table, const Act& act)
 {

@@ -15,7 +15,7 @@ namespace tread::scene
 namespace
 {
 
-/// Tables of a list. All pairs of families of that many materials stand in a resolved scene.
+/// Largest number of tables in a list. A resolved scene holds all pairs of families of that many materials.
 std::size_t most_tables(const std::string& table)
 {
     if (table == "material") { return 100; }
@@ -80,7 +80,7 @@ void complete_materials(Scene& scene)
     }
 }
 
-/// A pair with the wall that leaves friction out has the wall's default, not the struct's.
+/// A pair with the wall and no given friction gets the wall's default, not the struct's.
 void complete_wall_friction(Scene& scene, const Node& document)
 {
     for (std::size_t i = 0; i < scene.contacts.size(); ++i)
@@ -93,7 +93,7 @@ void complete_wall_friction(Scene& scene, const Node& document)
     }
 }
 
-/// Makes a path absolute; a problem at the key if there is no such file.
+/// Makes a path absolute; reports a problem at the key if there is no such file.
 void complete_path(const Scene& scene, std::string& path, const Node& file, const std::string& label,
                    const std::string& key, const std::string& accepted, Problems& problems)
 {
@@ -121,7 +121,7 @@ void complete_meshes(Scene& scene, const Node& document, Problems& problems)
     }
 }
 
-/// A height from a file: its path, and an extent that is left out is the domain's plan.
+/// Completes a height from a file: makes its path absolute, and sets a missing extent to the domain's plan.
 void complete_height(const Scene& scene, std::optional<Height>& height, const Node& table, const std::string& label,
                      const std::string& key, Problems& problems)
 {

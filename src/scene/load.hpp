@@ -10,11 +10,12 @@ namespace tread::scene
 
 /// Reads, completes and checks the scene of a TOML file (keys, units and ranges: docs/scene.md).
 ///
-/// Each override is `a.b=c`, as of `--set`: "domain.gravity=[0, 0, -9.8]", "material.sand.young=1e6" or
-/// "material[0].young=1e6" (arrays of tables go by name or index). The value is TOML; a bare word is a string.
+/// Each override is `a.b=c`, as in `--set`: "domain.gravity=[0, 0, -9.8]", "material.sand.young=1e6" or
+/// "material[0].young=1e6" (elements of arrays of tables are addressed by name or index). The value is TOML; a bare
+/// word is a string.
 ///
-/// What comes back is complete: families, every pair of contacts that can occur, absolute mesh paths.
-/// Throws InputError with every problem found, one a line: `file:line: [table] key: what; accepted: range`.
+/// The result is complete: families, every pair of contacts that can occur, absolute mesh paths. Throws InputError with
+/// every problem found, one per line: `file:line: [table] key: what; accepted: range`.
 Scene load_scene(const std::string& path, const std::vector<std::string>& overrides);
 
 } // namespace tread::scene

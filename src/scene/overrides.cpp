@@ -17,10 +17,10 @@ namespace tread::scene
 namespace
 {
 
-/// After every line of a file.
+/// Follows every line of a file in the order of problems.
 constexpr std::int64_t first_override = std::numeric_limits<std::int64_t>::max() / 2;
 
-/// "material[0].young" -> material, 0, young
+/// Splits a path: "material[0].young" -> material, 0, young.
 std::vector<std::string> split_path(const std::string& path)
 {
     std::vector<std::string> segments(1);
@@ -44,7 +44,7 @@ std::vector<std::string> names_in(const NodeArray& array)
     return names;
 }
 
-/// The element called `segment`, or at that index; nullptr if there is none.
+/// Element with name or index `segment`; nullptr if there is none.
 Node* element(NodeArray& array, const std::string& segment)
 {
     const auto names = names_in(array);
@@ -65,7 +65,7 @@ bool holds_tables(const NodeArray& array)
                        [](const Node& item) { return std::holds_alternative<NodeTable>(item.value); });
 }
 
-/// A value as TOML, for messages.
+/// Writes a value as TOML, for messages.
 struct AsToml
 {
     std::string operator()(const OtherValue& other) const { return other.kind; }
@@ -85,7 +85,7 @@ struct AsToml
     }
 };
 
-/// `path` leads to an array of values, none of which is called `segment`.
+/// `path` leads to an array without an element called `segment`.
 Problem no_such_value(const NodeArray& array, const std::string& path, const std::string& segment,
                       const Location& where)
 {
@@ -95,8 +95,8 @@ Problem no_such_value(const NodeArray& array, const std::string& path, const std
             array.empty() ? whole : fmt::format("{}, or {}[0] to {}[{}]", whole, path, path, array.size() - 1)};
 }
 
-/// The node that `segment` names below `node`, to which `path` leads, made if a table lacks it; nullptr, with a
-/// problem, if there is no way.
+/// Node named `segment` below `node`, which is at `path`; created if a table lacks it. nullptr, with a problem
+/// reported, if it cannot exist.
 Node* descend(Node& node, const std::string& path, const std::string& segment, const Location& where,
               Problems& problems)
 {
@@ -170,7 +170,7 @@ struct Override
     std::string value;
 };
 
-/// Nothing where the text is not of the form key=value.
+/// Empty if the text is not of the form key=value.
 std::optional<Override> split_override(std::string_view text)
 {
     const auto equals = text.find('=');

@@ -6,7 +6,7 @@
 
 #include "scene/words.hpp"
 
-// What the user asked for of a span of simulated time, as plain data: scene.hpp says how to read it.
+// Settings of a phase of simulated time, as plain data; scene.hpp describes how it is read.
 namespace tread::scene
 {
 
@@ -14,13 +14,13 @@ struct Drive
 {
     std::string           body;
     double                angular_velocity = 0; ///< rad/s about the axle; positive drives towards +x
-    double                ramp             = 0; ///< s, linear from the value at phase start
-    std::optional<double> slip;                 ///< 1 - v_x/(omega r); nothing leaves v_x free
+    double                ramp             = 0; ///< s, linear from the value at the start of the phase
+    std::optional<double> slip;                 ///< 1 - v_x/(omega r); if empty, v_x is free
 
     bool operator==(const Drive&) const = default;
 };
 
-/// A body goes down at a given speed until the ground carries a share of its weight.
+/// Lowers a body at a given speed until the ground carries a share of its weight.
 struct Lower
 {
     std::string body;
@@ -30,7 +30,7 @@ struct Lower
     bool operator==(const Lower&) const = default;
 };
 
-/// The share of a body's weight that acts in a phase; the rest is held by something that moves with it.
+/// Share of a body's weight that acts in a phase; a support that moves with the body carries the rest.
 struct WeightShare
 {
     std::string body;
@@ -50,8 +50,8 @@ struct Phase
     double                     duration     = 0; ///< s
     double                     max_duration = 0; ///< s, for until = "equilibrium" and "lowered"
     std::optional<Drive>       drive;
-    std::optional<Lower>       lower;  ///< of until = "lowered"
-    std::optional<WeightShare> weight; ///< nothing: all of every body's weight acts
+    std::optional<Lower>       lower;  ///< only with until = "lowered"
+    std::optional<WeightShare> weight; ///< empty: the full weight of every body acts
 
     bool operator==(const Phase&) const = default;
 };

@@ -58,7 +58,7 @@ void validate_height(const std::optional<Height>& height, const TableAt& at, con
     }
 }
 
-/// Of the standard normal distribution; from the tail that keeps its digits.
+/// Probability of an interval under the standard normal distribution; evaluated in the tail that avoids cancellation.
 double probability_between(double low, double high)
 {
     const double root = std::numbers::sqrt2;
@@ -120,7 +120,7 @@ void validate_places_of(const Scene& scene, const std::vector<T>& items, const s
     }
 }
 
-/// Rocks and spheres are made with a diameter of 1 m: no body means that.
+/// Rocks and spheres have a diameter of 1 m at scale 1, which no body intends, so a diameter is required.
 void validate_diameter(const Scene& scene, const Body& body, const TableAt& at, Checker& checker)
 {
     const auto shape = std::find_if(scene.shapes.begin(), scene.shapes.end(),

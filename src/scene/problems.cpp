@@ -13,7 +13,7 @@ namespace tread::scene
 namespace
 {
 
-/// Levenshtein's distance: the least number of letters inserted, deleted or replaced.
+/// Levenshtein distance: smallest number of letters inserted, deleted or replaced.
 std::size_t edit_distance(const std::string& a, const std::string& b)
 {
     std::vector<std::size_t> row(b.size() + 1);
@@ -45,7 +45,7 @@ std::string lower(std::string text)
 
 std::string to_string(const Problem& problem)
 {
-    constexpr std::size_t most_text = 500; // of what is said; a user's names and words are in it
+    constexpr std::size_t most_text = 500; // bytes of a message's text, which may contain a user's names and words
     std::string           text      = problem.where.text + ":";
     if (!problem.table.empty()) { text += fmt::format(" [{}]", shown(problem.table)); }
     if (!problem.key.empty()) { text += fmt::format(" {}", shown(problem.key)); }

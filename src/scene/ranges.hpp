@@ -2,8 +2,8 @@
 
 #include "scene/values.hpp"
 
-// Ranges of the quantities of a scene. They are wider than what sand, rock and wheels have and than what a run can end
-// with, and narrow enough that no estimate made of them leaves what a double or a 64-bit count holds.
+// Ranges of the quantities of a scene. They are wider than realistic values of sand, rock and wheels, and narrow enough
+// that no estimate computed from them overflows a double or a 64-bit count.
 namespace tread::scene
 {
 
@@ -23,7 +23,7 @@ inline Range span_of_time() { return between(1e-9, 1e10); } ///< s; three centur
 inline Range time_or_none() { return between(0, 1e10); }    ///< s
 inline Range interval() { return between(1e-12, 1e12); }    ///< s; longer than any run: "never"
 inline Range step_of_time() { return between(1e-12, 1e3); } ///< s
-inline Range coefficient() { return between(0, 1e6); }      ///< of friction; from 1e3 on nothing slips
+inline Range coefficient() { return between(0, 1e6); }      ///< of friction; nothing slips from 1e3 on
 inline Range pure_number() { return between(0, 1e6); }
 
 } // namespace tread::scene

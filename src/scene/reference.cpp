@@ -31,7 +31,7 @@ The run directory holds the resolved scene: every key explicit, every pair of co
 Pairs that the scene leaves out have friction 0.3 (0.5 with "wall") and restitution 0.5.
 )";
 
-/// A cell may not hold the character that ends it.
+/// Escapes the character that ends a table cell.
 std::string cell(const std::string& text)
 {
     std::string escaped;

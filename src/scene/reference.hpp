@@ -5,7 +5,7 @@
 namespace tread::scene
 {
 
-/// docs/scene.md: every key of a scene with unit, default, accepted values and meaning.
+/// Text of docs/scene.md: every key of a scene with unit, default, accepted values and meaning.
 std::string reference_markdown();
 
 } // namespace tread::scene

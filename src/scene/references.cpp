@@ -18,7 +18,7 @@ const Material* find_material(const Scene& scene, const std::string& name)
     return found == scene.materials.end() ? nullptr : &*found;
 }
 
-/// The material exists, and its model is one that this table can use.
+/// Checks that the material exists and that this table can use its model.
 void check_material(const Scene& scene, const TableAt& at, const std::string& name,
                     const std::function<bool(MaterialModel)>& suits, const std::string& accepted, Checker& checker)
 {

@@ -23,7 +23,7 @@ std::string write_member(const std::string& table, const Keys<T>& keys, const st
     return text;
 }
 
-/// Fowler, Noll, Vo: FNV-1a with 64 bits (RFC 9923).
+/// FNV-1a hash (Fowler, Noll, Vo) with 64 bits (RFC 9923).
 std::uint64_t fnv1a(const std::string& text)
 {
     std::uint64_t hash = 0xcbf29ce484222325u;

@@ -11,8 +11,8 @@
 #include "scene/phase.hpp"
 #include "scene/words.hpp"
 
-// What the user asked for, as plain data in SI units (angles in degrees where the name says so).
-// Defaults, units, ranges and meanings stand in keys.cpp, the one table that parses, validates and documents.
+// The scene as plain data in SI units (angles in degrees where the name says so). keys.cpp, the one table that parses,
+// validates and documents, holds defaults, units, ranges and meanings.
 namespace tread::scene
 {
 
@@ -25,7 +25,7 @@ struct Walls
     WallKind bottom = WallKind::fixed;
     WallKind top    = WallKind::open;
 
-    double friction = 0.5; ///< of frictional walls with sand
+    double friction = 0.5; ///< of frictional walls against sand
 
     bool operator==(const Walls&) const = default;
 };
@@ -50,23 +50,23 @@ struct Box
 struct GridOptions
 {
     double           spacing = 0; ///< m
-    std::vector<Box> refine;      ///< m; half the spacing in the first, half of that in the second, and so on
+    std::vector<Box> refine;      ///< m; the first halves the spacing, the second halves it again, and so on
 
-    /// m, in the last of the boxes.
+    /// Grid spacing (m) in the last of the boxes.
     double finest() const { return spacing / static_cast<double>(1 << refine.size()); }
 
     bool operator==(const GridOptions&) const = default;
 };
 
-/// Contact substeps of a step: more never come to an end that anybody waits for.
+/// Largest number of contact substeps in a step; a run with more would not finish in reasonable time.
 inline constexpr std::int64_t most_substeps = 1000000;
 
 struct TimeOptions
 {
-    std::optional<double>       dt;       ///< s; nothing means "auto"
-    std::optional<std::int64_t> substeps; ///< contact substeps a step; nothing means "auto"
+    std::optional<double>       dt;       ///< s; empty means "auto"
+    std::optional<std::int64_t> substeps; ///< contact substeps per step; empty means "auto"
     double                      contact_share =
-        0.2; ///< of sqrt(m / sum K), what automatic substeps take: docs/theory.md#time-step (measured limit: 1.1)
+        0.2; ///< share of sqrt(m / sum K) used by automatic substeps: docs/theory.md#time-step (measured limit: 1.1)
 
     bool operator==(const TimeOptions&) const = default;
 };
@@ -75,15 +75,15 @@ struct Numerics
 {
     Precision             precision = Precision::single_;
     Transfer              transfer  = Transfer::aflip;
-    std::optional<double> pic_rate; ///< PIC part of FLIP per unit time, in units of c_p/h; nothing = by material
+    std::optional<double> pic_rate; ///< PIC part of FLIP per unit time, in units of c_p/h; empty = by material
     ShapeFunctions        shape_functions = ShapeFunctions::quadratic;
     NarrowPhase           narrow_phase    = NarrowPhase::sdf;
     PointMotion           point_motion    = PointMotion::supported;
     HertzFactor           hertz           = HertzFactor::standard;
     PointRadius           point_radius    = PointRadius::sphere;
-    double                refine_below    = 0;    ///< point radii: smaller bodies are sampled at nine places; 0 = none
-    double                linear_overlap  = 1e-3; ///< d0/R* under which the body-body traction is linear
-    VolumeStrain          volume_strain   = VolumeStrain::point;
+    double                refine_below = 0; ///< in point radii: smaller bodies are sampled at nine positions; 0 = none
+    double                linear_overlap = 1e-3; ///< d0/R* below which the body-body traction is linear
+    VolumeStrain          volume_strain  = VolumeStrain::point;
 
     bool operator==(const Numerics&) const = default;
 };
@@ -93,7 +93,7 @@ struct Material
     std::string   name;
     MaterialModel model   = MaterialModel::elastic;
     double        density = 0; ///< kg/m3
-    double        young   = 0; ///< Pa; infinity: perfectly stiff, for a rigid material whose scene gives none
+    double        young   = 0; ///< Pa; infinity: perfectly stiff, for a rigid material without a given modulus
     double        poisson = 0.3;
     double        friction_angle_deg = 0; ///< granular models
     double        dilation_angle_deg = 0;
@@ -104,7 +104,7 @@ struct Material
     bool operator==(const Material&) const = default;
 };
 
-/// Friction and restitution of one unordered pair of families.
+/// Friction and restitution of an unordered pair of families.
 struct Contact
 {
     std::array<std::string, 2> between;
@@ -136,7 +136,8 @@ struct SphereGenerator
     bool operator==(const SphereGenerator&) const = default;
 };
 
-/// A rigid wheel: drum with grousers, open or with flanges, web and hub; axle along the mesh's y. Lengths in metres.
+/// A rigid wheel: drum with grousers, open or with flanges, web and hub; the axle is the mesh's y axis. Lengths in
+/// metres.
 struct WheelGenerator
 {
     double radius         = 0.26; ///< over the grousers
@@ -147,8 +148,8 @@ struct WheelGenerator
     double grouser_width  = 0.004;
 
     GrouserShape grouser_shape     = GrouserShape::straight;
-    double       grouser_sweep_deg = 0; ///< from a grouser's middle to its ends, about the axle, degrees
-    double       crown             = 0; ///< the drum's radius at its edges is smaller by this; parabolic
+    double       grouser_sweep_deg = 0; ///< degrees about the axle, from a grouser's middle to its ends
+    double       crown             = 0; ///< reduction of the drum's radius at its edges; parabolic
     double       rim_height        = 0; ///< of the flanges inside the drum's edges; 0 = none
     double       rim_thickness     = 0;
     double       hub_radius        = 0; ///< 0 = open rim
@@ -161,8 +162,8 @@ struct WheelGenerator
 struct MeshFile
 {
     std::string path;           ///< absolute, or relative to the scene file
-    double      unit   = 1.0;   ///< metres a mesh unit
-    bool        repair = false; ///< mend the mesh, and take winding numbers where that does not close it
+    double      unit   = 1.0;   ///< metres per mesh unit
+    bool        repair = false; ///< repair the mesh, and use winding numbers if it cannot be closed
 
     bool operator==(const MeshFile&) const = default;
 };
@@ -173,8 +174,8 @@ struct Shape
 {
     std::string                 name;
     ShapeSource                 source;
-    std::optional<std::int64_t> sdf_cells; ///< along the longest axis of the 120 % box; nothing = by the thinnest wall
-    double                      node_spacing = 0; ///< m; surface nodes; 0 = by the generator, or a 40th of the extent
+    std::optional<std::int64_t> sdf_cells; ///< along the longest axis of the 120 % box; empty = by the thinnest wall
+    double node_spacing = 0; ///< m; spacing of surface nodes; 0 = by the generator, or a 40th of the extent
 
     bool operator==(const Shape&) const = default;
 };
@@ -187,12 +188,12 @@ struct Sphere
     bool operator==(const Sphere&) const = default;
 };
 
-/// Exactly one of box and sphere is set in a loaded scene: the domain's box where the scene names neither.
+/// In a loaded scene exactly one of box and sphere is set: the domain's box if the scene names neither.
 struct Region
 {
     std::optional<Box>    box;
     std::optional<Sphere> sphere;
-    std::vector<Box>      except; ///< cut out
+    std::vector<Box>      except; ///< excluded boxes
 
     bool operator==(const Region&) const = default;
 };
@@ -207,14 +208,14 @@ struct Formula
 
 using PlanExtent = std::array<std::array<double, 2>, 2>;
 
-/// Heights on a rectangular lattice: the grey values of a PGM, or the numbers of a CSV. The first row is at high y.
+/// Heights on a rectangular lattice: grey values of a PGM, or numbers of a CSV. The first row is at high y.
 struct RasterFile
 {
     std::string               path;       ///< absolute, or relative to the scene file
-    double                    low  = 0;   ///< m, of black; PGM only
-    double                    high = 0;   ///< m, of white; PGM only
-    double                    unit = 1.0; ///< metres a CSV's unit
-    std::optional<PlanExtent> extent;     ///< m, where the outermost samples stand; in a loaded scene always set
+    double                    low  = 0;   ///< m, height of black; PGM only
+    double                    high = 0;   ///< m, height of white; PGM only
+    double                    unit = 1.0; ///< metres per unit of a CSV
+    std::optional<PlanExtent> extent;     ///< m, positions of the outermost samples; always set in a loaded scene
 
     bool operator==(const RasterFile&) const = default;
 };
@@ -229,8 +230,8 @@ struct Terrain
     std::optional<Height> height;              ///< upper surface
     std::optional<Height> floor;               ///< lower surface
     int                   points_per_cell = 8; ///< a cube number: 1, 8, 27, 64
-    std::optional<double> spacing;             ///< m, of a lattice from the region's low corner; instead of the above
-    Vector3               velocity{};          ///< m/s, at the start
+    std::optional<double> spacing;    ///< m, of a lattice from the region's low corner; replaces points_per_cell
+    Vector3               velocity{}; ///< m/s, at the start
 
     bool operator==(const Terrain&) const = default;
 };
@@ -243,7 +244,7 @@ struct UniformDiameters
     bool operator==(const UniformDiameters&) const = default;
 };
 
-/// ln d is normal with this deviation about ln(median), d truncated to [low, high].
+/// Log-normal distribution: ln d has this deviation about ln(median); d is truncated to [low, high].
 struct LogNormalDiameters
 {
     double median    = 0; ///< m
@@ -254,7 +255,7 @@ struct LogNormalDiameters
     bool operator==(const LogNormalDiameters&) const = default;
 };
 
-/// Number density ~ d^-exponent in [low, high].
+/// Number density proportional to d^-exponent in [low, high].
 struct PowerLawDiameters
 {
     double exponent = 0;
@@ -264,22 +265,22 @@ struct PowerLawDiameters
     bool operator==(const PowerLawDiameters&) const = default;
 };
 
-/// m, of spheres of equal volume: one for all, or a distribution by number.
+/// Diameter (m) of the sphere of equal volume: one for all, or a distribution by number.
 using Diameter = std::variant<double, UniformDiameters, LogNormalDiameters, PowerLawDiameters>;
 
 struct Rocks
 {
     std::string                 shape;
     std::string                 material;
-    std::string                 from;  ///< absolute path of a saved bed; empty = the rocks are drawn and placed
-    std::optional<std::int64_t> count; ///< exactly one of count, solid_fraction
+    std::string                 from;           ///< absolute path of a saved bed; empty = rocks are sampled and placed
+    std::optional<std::int64_t> count;          ///< exactly one of count and solid_fraction is set
     std::optional<double>       solid_fraction; ///< volume of the rocks over that of the region
     Diameter                    diameter = 0.0;
     Region                      region;
     std::optional<Height>       height; ///< surfaces between which the rocks lie
     std::optional<Height>       floor;
     Placement                   placement   = Placement::replace;
-    bool                        allow_voids = false; ///< in the sand around rocks that take its place
+    bool                        allow_voids = false; ///< in the sand around rocks that replace it
     std::uint64_t               seed        = 1;
 
     bool operator==(const Rocks&) const = default;
@@ -288,17 +289,17 @@ struct Rocks
 struct Body
 {
     std::string              name;
-    std::string              shape; ///< a [[shape]], or a built-in wheel
+    std::string              shape; ///< a [[shape]] or a built-in wheel
     std::string              material;
     std::optional<double>    diameter;           ///< m, of the sphere of equal volume; default: the shape's own size
-    std::optional<double>    density;            ///< kg/m3; exactly one of density, mass, load
+    std::optional<double>    density;            ///< kg/m3; exactly one of density, mass and load is set
     std::optional<double>    mass;               ///< kg
     std::optional<double>    load;               ///< N under the scene's gravity
-    Vector3                  position{};         ///< m, of the centre of mass; its z is 0 if the body stands on_surface
-    bool                     on_surface = false; ///< z follows from what lies under the body
-    double                   gap        = 0;     ///< m, between what lies there and the body's lowest point
+    Vector3                  position{};         ///< m, of the centre of mass; z is 0 if the body stands on_surface
+    bool                     on_surface = false; ///< z follows from the surface below the body
+    double                   gap        = 0;     ///< m, between that surface and the body's lowest point
     Vector3                  velocity{};         ///< m/s, when first released
-    std::optional<double>    rolling_radius;     ///< m; default: over the grousers
+    std::optional<double>    rolling_radius;     ///< m; default: radius over the grousers
     std::vector<std::string> lock;               ///< world degrees of freedom held fixed: x y z roll pitch yaw
 
     bool operator==(const Body&) const = default;
@@ -309,42 +310,42 @@ struct Output
     double every           = 0.02; ///< s, time series
     double snapshots_every = 0;    ///< s; 0 = none
 
-    std::string bed_after; ///< phase at whose end rocks and sand are saved; empty = none
+    std::string bed_after; ///< phase at the end of which rocks and sand are saved; empty = none
 
     bool operator==(const Output&) const = default;
 };
 
-/// When the whole state is written, to go on from.
+/// Intervals at which checkpoints of the whole state are written.
 struct CheckpointOptions
 {
     double       every_wall  = 600; ///< s of wall time; 0 = never
     double       every_time  = 0;   ///< s of simulated time; 0 = never
     std::int64_t every_steps = 0;   ///< 0 = never
-    std::int64_t keep        = 2;   ///< newest that stay
+    std::int64_t keep        = 2;   ///< number of newest checkpoints kept
 
     bool operator==(const CheckpointOptions&) const = default;
 };
 
-/// How a run on several ranks deals out its pages.
+/// Partitioning of pages in a run on several ranks.
 struct Balance
 {
-    double threshold = 1.15; ///< largest load of a rank over the mean above which pages may be dealt out anew
+    double threshold = 1.15; ///< largest load of a rank over the mean above which pages may be repartitioned
 
     bool operator==(const Balance&) const = default;
 };
 
-/// Sand that lies still, far from what moves, is left out of the steps.
+/// Sand at rest, far from anything that moves, is left out of the steps.
 struct Sleep
 {
-    std::optional<double> distance;     ///< m from every body; nothing = no sand sleeps
-    double                speed = 0.01; ///< m/s that what sleeps was never over
-    double                rest  = 0.05; ///< s for which it was not
-    double                load  = 0.2;  ///< change of the pressure on it that wakes it, over the bed's mean on its base
+    std::optional<double> distance;     ///< m from every body; empty = no sand sleeps
+    double                speed = 0.01; ///< m/s; sand sleeps if it never moved faster ...
+    double                rest  = 0.05; ///< s; ... for this long
+    double                load  = 0.2;  ///< change of pressure that wakes it, over the mean pressure on the bed's base
 
     bool operator==(const Sleep&) const = default;
 };
 
-/// What is known of the right answer. `tread study` compares runs with it; no run reads it.
+/// Reference values of the right answer. `tread study` compares runs with them; no run reads them.
 struct Reference
 {
     ReferenceForm form = ReferenceForm::none;
@@ -353,8 +354,8 @@ struct Reference
     bool operator==(const Reference&) const = default;
 };
 
-/// Where tables of lists were written ("sand.toml:41"), by their names in messages ("rocks[0]", "body.wheel"): for
-/// errors that only the world of a scene shows. No part of what the scene says, so that any two are equal.
+/// File locations of tables ("sand.toml:41"), by their names in messages ("rocks[0]", "body.wheel"), for errors that
+/// appear only when the world is built. Not part of the scene's content, so any two compare equal.
 struct Lines
 {
     std::map<std::string, std::string> of;

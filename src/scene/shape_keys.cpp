@@ -59,7 +59,7 @@ Keys<WheelGenerator> wheel_keys()
     };
 }
 
-/// Calls visit(kind, keys) for each generator: the words of `kind` and what each of them takes.
+/// Calls visit(kind, keys) for each generator: the words of `kind` and the keys of each.
 template<class Visit>
 void for_each_generator(Visit&& visit)
 {
@@ -75,14 +75,14 @@ std::vector<std::string> generator_kinds()
     return kinds;
 }
 
-/// The generator that is made where a table has keys of type Keys<Generator>.
+/// Generator that is created for a table with keys of type Keys<Generator>.
 template<class Generator>
 Generator made_by(const Keys<Generator>&)
 {
     return {};
 }
 
-/// The word of `kind`; nothing, with a problem reported, if it is missing or unknown.
+/// Reads the word of `kind`; empty, with a problem reported, if it is missing or unknown.
 std::optional<std::string> read_kind(const Node& node, const std::string& table, Problems& problems)
 {
     const auto  kinds = generator_kinds();
@@ -158,7 +158,7 @@ Key<Shape> generate_key()
             read_generator, write_generator,    describe_generators()};
 }
 
-/// `access` gives the member of a MeshFile; the key makes the shape a mesh file.
+/// `access` gives the member of a MeshFile; setting the key makes the shape a mesh file.
 template<class M>
 Key<Shape> mesh_key(KeyText text, M MeshFile::*member, const Value<M>& value)
 {

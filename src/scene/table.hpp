@@ -10,19 +10,19 @@
 #include "scene/problems.hpp"
 #include "scene/values.hpp"
 
-// Keys of a TOML table, tied to the members of the struct that they fill.
+// Keys of a TOML table, each bound to a member of the struct that it fills.
 namespace tread::scene
 {
 
-/// What a key is to its reader; the columns of docs/scene.md.
+/// Description of a key for users; the columns of docs/scene.md.
 struct KeyText
 {
     std::string name;
     std::string unit;     ///< empty if it has none
-    std::string fallback; ///< default as TOML, or what absence means; "required"
+    std::string fallback; ///< default as TOML, or the meaning of absence; "required"
     std::string accepted;
     std::string meaning;
-    std::string condition; ///< `until = "duration"`: the key is refused elsewhere; empty if it may always stand
+    std::string condition; ///< `until = "duration"`: the key is refused otherwise; empty if always allowed
 };
 
 struct TableText
@@ -46,9 +46,9 @@ struct Key
     std::function<bool(const T&)>                                             applies; ///< the condition
     std::function<void(const Node&, const std::string& table, T&, Problems&)> read;
     std::function<std::string(const T&)>                                      write; ///< TOML; empty = not given
-    std::vector<TableText>                                                    inner; ///< of a key that is a table
+    std::vector<TableText>                                                    inner; ///< keys of a table-valued key
 
-    /// The key may stand only where `condition` holds; if it is required, then there.
+    /// Restricts the key to tables where `condition` holds; a required key is required only there.
     Key when(std::string condition, std::function<bool(const T&)> holds) &&
     {
         text.condition = std::move(condition);
@@ -73,7 +73,7 @@ inline std::string accepted_with_unit(const KeyText& text)
     return text.unit.empty() ? text.accepted : text.accepted + " (" + text.unit + ")";
 }
 
-/// `access` is a member pointer, or a function from T& to the member's reference.
+/// `access`: member pointer, or function from T& to a reference to the member.
 template<class T, class Access, class M>
 Key<T> make_key(Presence presence, KeyText text, Access access, Value<M> value)
 {
@@ -101,7 +101,7 @@ Key<T> required(std::string name, std::string unit, M T::*member, Value<M> value
     return make_key<T>(Presence::required, std::move(text), member, std::move(value));
 }
 
-/// `fallback` says what absence means where the member's default does not.
+/// `fallback` describes the meaning of absence if the member's default does not.
 template<class T, class M>
 Key<T> optional(std::string name, std::string unit, M T::*member, Value<M> value, std::string meaning,
                 std::string fallback = {})
@@ -110,7 +110,7 @@ Key<T> optional(std::string name, std::string unit, M T::*member, Value<M> value
     return make_key<T>(Presence::optional, std::move(text), member, std::move(value));
 }
 
-/// A problem for each member of a table that is not among `known`.
+/// Reports a problem for each member of a table that is not among `known`.
 inline void check_unknown(const Node& node, const std::string& table, const std::vector<std::string>& known,
                           Problems& problems)
 {
@@ -139,7 +139,7 @@ void check_presence(const Node& node, const std::string& table, const Key<T>& ke
     }
 }
 
-/// Fills `object` from the members of a table that `keys` name; `known` adds to them what is read elsewhere.
+/// Fills `object` from the members of a table named by `keys`; `known` lists further keys that are read elsewhere.
 template<class T>
 void read_keys(const Node& node, const std::string& table, const Keys<T>& keys, const std::vector<std::string>& known,
                T& object, Problems& problems)
@@ -150,7 +150,7 @@ void read_keys(const Node& node, const std::string& table, const Keys<T>& keys, 
     {
         if (const Node* value = find(node, key.text.name)) { key.read(*value, table, object, problems); }
     }
-    // A key that could not be read, or was misspelt, leaves conditions that hang on it undecided.
+    // Conditions that depend on a misspelt or unreadable key cannot be decided.
     const bool decided = problems.size() == before;
     for (const auto& key : keys)
     {
@@ -158,7 +158,7 @@ void read_keys(const Node& node, const std::string& table, const Keys<T>& keys, 
     }
 }
 
-/// Fills `object` from a table that holds `keys` and no others; `table` names it in messages.
+/// Fills `object` from a table that holds only `keys`; `table` names it in messages.
 template<class T>
 void read_table(const Node& node, const std::string& table, const Keys<T>& keys, T& object, Problems& problems)
 {
@@ -170,7 +170,7 @@ void read_table(const Node& node, const std::string& table, const Keys<T>& keys,
     read_keys(node, table, keys, names_of(keys), object, problems);
 }
 
-/// The keys given, each `name = value`, joined by `separator`.
+/// Writes the keys that are given as `name = value`, joined by `separator`.
 template<class T>
 std::string write_keys(const Keys<T>& keys, const T& object, const std::string& separator)
 {
@@ -197,7 +197,7 @@ TableText describe(std::string title, std::string meaning, const Keys<T>& keys)
     return text;
 }
 
-/// A key whose value is itself a table, held in a member; `title` heads its keys in docs/scene.md.
+/// A key whose value is a table held in a member; `title` is the heading of its keys in docs/scene.md.
 template<class T, class Member, class M>
 Key<T> table_key(Presence presence, const std::string& name, const std::string& title, Member member,
                  const Keys<M>& keys, const std::string& meaning, std::string fallback)

@@ -25,7 +25,7 @@ std::optional<Excess> long_line(std::string_view text)
     return std::nullopt;
 }
 
-/// Walks over a text outside of strings and comments, and counts levels of brackets and segments of keys.
+/// Scans a text outside strings and comments, counting levels of brackets and segments of keys.
 class Scan
 {
 public:
@@ -67,7 +67,7 @@ private:
         if (letter == ']' || letter == '}') { depth_ = std::max(depth_ - 1, 0); }
     }
 
-    /// A string of one line ends with that line at the latest: what is behind it is no TOML.
+    /// A single-line string ends at its line's end at the latest: an unterminated one is not TOML.
     void skip_string(char quote)
     {
         const std::string three(3, quote);
@@ -79,7 +79,7 @@ private:
             if (many_lines ? text_.substr(at_, 3) == three : text_[at_] == quote)
             {
                 at_ += many_lines ? 3 : 1;
-                // Up to two quotes before the last three are the string's own.
+                // Up to two quotes before the closing three belong to the string.
                 for (int own = 0; many_lines && own < 2 && text_.substr(at_, 1) == three.substr(0, 1); ++own) { ++at_; }
                 return;
             }

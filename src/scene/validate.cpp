@@ -30,7 +30,7 @@ void require_unique(const std::string& table, const std::vector<T>& items, Check
     }
 }
 
-/// Terrain and rocks have their mass from the material; bodies bring their own.
+/// Whether a density is needed: terrain and rocks take their mass from the material, bodies have their own.
 bool needs_density(const Scene& scene, const Material& material)
 {
     const auto uses = [&](const auto& item) { return item.material == material.name; };
@@ -63,10 +63,11 @@ bool has_wall(const Walls& walls)
     return std::any_of(kinds.begin(), kinds.end(), [](WallKind kind) { return kind != WallKind::open; });
 }
 
-/// Hertz's law takes its stiffness from what deforms: of two that meet, walls included, one must.
+/// Hertz's law takes its stiffness from deformable partners: at least one of two that meet, walls included, must
+/// deform.
 void validate_stiffness(const Scene& scene, Checker& checker)
 {
-    constexpr std::int64_t many  = 2; // rocks that fill a fraction of a region
+    constexpr std::int64_t many  = 2; // count assumed for rocks that fill a fraction of a region
     std::int64_t           stiff = 0;
     const auto             check = [&](const std::string& material, std::int64_t count)
     {
@@ -166,7 +167,7 @@ void require_terrain_to_replace(const Scene& scene, Checker& checker)
     }
 }
 
-/// What a refined grid cannot do yet; where its boxes may lie, the world of the scene knows.
+/// Checks limitations of a refined grid; where its boxes may lie is checked when the world is built.
 void validate_refinement(const Scene& scene, Checker& checker)
 {
     constexpr std::size_t most = 3;
@@ -201,10 +202,10 @@ void validate_spacing(const Scene& scene, Checker& checker)
     }
 }
 
-/// Pages of all levels of the grid have numbers of their own, of 16 bits along each axis.
+/// Checks page numbers: pages of each level of the grid have their own, of 16 bits along each axis.
 void validate_cells(const Scene& scene, Checker& checker)
 {
-    constexpr double most = 262000; // of the smallest
+    constexpr double most = 262000; // of the smallest cells, along an axis
     if (!checker.sound({"domain"}, {"size"}) || !checker.sound({"grid"}, {"spacing"}) || scene.grid.spacing == 0)
     {
         return;

@@ -6,8 +6,8 @@
 namespace tread::scene
 {
 
-/// Checks what no single key can tell: names, references, choices that exclude each other, places in the domain.
-/// `document` is what `scene` was read from; problems point into it.
+/// Checks across keys: names, references, mutually exclusive choices, positions in the domain. `document` is the source
+/// of `scene`; problems refer to its lines.
 void validate(const Scene& scene, const Node& document, Problems& problems);
 
 /// Name of a table in messages: "domain", "material.sand", or "terrain[0]" if it has no name.

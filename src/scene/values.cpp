@@ -19,7 +19,7 @@ constexpr std::array<std::pair<const char*, double>, 4> length_units{
 
 constexpr const char* name_letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
 
-/// Applies `read` to each element; a bad element is named by its position.
+/// Applies `read` to each element; an error names the element's index.
 template<class Read>
 auto read_each(const NodeArray& array, const Read& read)
 {
@@ -338,7 +338,7 @@ Value<std::optional<Box>> box_given()
 
 Value<std::vector<Box>> boxes()
 {
-    constexpr std::size_t most = 100; // columns of a region are cut at the faces of each
+    constexpr std::size_t most = 100; // limit, because columns of a region are cut at the faces of each box
     const auto            read = [](const Node& node)
     {
         const NodeArray& list = read_list(node);

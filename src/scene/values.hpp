@@ -13,23 +13,23 @@
 #include "scene/document.hpp"
 #include "scene/scene.hpp"
 
-// What one value of a scene may be: how it is read from TOML, written back, and described in messages and docs.
+// Types of values in a scene: how they are read from TOML, written back, and described in messages and docs.
 namespace tread::scene
 {
 
-/// Thrown by Value::read; the reader of the table adds file, line, key and what is accepted.
+/// Thrown by Value::read; the reader of the table adds file, line, key and the accepted values.
 struct BadValue
 {
     std::string what;
 };
 
-/// One kind of value held as an M.
+/// One type of value, stored as an M.
 template<class M>
 struct Value
 {
     std::string                          accepted;
     std::function<M(const Node&)>        read;  ///< throws BadValue
-    std::function<std::string(const M&)> write; ///< TOML; empty if the value stands for "not given"
+    std::function<std::string(const M&)> write; ///< TOML; empty if the value means "not given"
 };
 
 /// An interval of finite numbers.
@@ -48,36 +48,36 @@ Range between(double low, double high);     ///< [low, high]
 Range from_below(double low, double high);  ///< [low, high)
 Range above_up_to(double low, double high); ///< (low, high]
 
-/// A finite number; TOML integers are taken too. BadValue outside the range.
+/// Reads a finite number, or a TOML integer. BadValue outside the range.
 double read_number(const Node& node, const Range& range);
 
-/// BadValue outside [low, high].
+/// Reads an integer. BadValue outside [low, high].
 std::int64_t read_integer(const Node& node, std::int64_t low, std::int64_t high);
 
-/// BadValue if `node` is no string.
+/// Reads a string. BadValue if `node` is not one.
 const std::string& read_string(const Node& node);
 
-/// The elements of an array; BadValue unless there are `size` of them.
+/// Elements of an array. BadValue unless there are `size` of them.
 const NodeArray& read_array(const Node& node, std::size_t size);
 
-/// The shortest decimal that reads back as the same double, recognisable as a float.
+/// Shortest decimal that reads back as the same double, recognisable as a float.
 std::string write_number(double value);
 
-/// A quoted TOML string.
+/// Writes a quoted TOML string.
 std::string write_string(const std::string& text);
 
-/// A number out of range (0 where only > 0 is accepted) stands for "not given" and is not written.
+/// A number in range. A value out of range (0 if only > 0 is accepted) means "not given" and is not written.
 Value<double> number(Range range);
 
 /// 0, or a number in range.
 Value<double> zero_or(Range range);
 
-/// `word` stands for "nothing"; with an empty word, absence does.
+/// A number in range. `word` means "empty"; if `word` is empty, absence does.
 Value<std::optional<double>>       number_or(const std::string& word, Range range);
 Value<std::optional<std::int64_t>> integer_or(const std::string& word, std::int64_t low,
                                               std::int64_t high = std::numeric_limits<std::int64_t>::max());
 
-/// An integer in [low, high]; absence stands for "nothing".
+/// An integer in [low, high]; absence gives an empty optional.
 Value<std::optional<std::int64_t>> integer_given(std::int64_t low, std::int64_t high);
 
 /// Three numbers, each in range.
@@ -89,34 +89,34 @@ Value<bool> boolean();
 /// Any string.
 Value<std::string> text();
 
-/// A string that is not empty; absence stands for the empty one.
+/// A non-empty string; absence gives an empty one.
 Value<std::string> path();
 
-/// A string of letters, digits, '_' and '-', so that it may stand in paths, HDF5 names and --set arguments.
+/// A string of letters, digits, '_' and '-', so that it can be used in paths, HDF5 names and --set arguments.
 Value<std::string> name();
 
 /// An array of names.
 Value<std::vector<std::string>> names();
 
-/// An array of distinct words out of `words`.
+/// An array of distinct words from `words`.
 Value<std::vector<std::string>> words_of(const std::vector<std::string>& words);
 
 /// Two names.
 Value<std::array<std::string, 2>> pair_of_names();
 
-/// [[x, y, z], [x, y, z]], the second above the first in each component; absence stands for "nothing".
+/// [[x, y, z], [x, y, z]], the second above the first in each component; absence gives an empty optional.
 Value<std::optional<Box>> box_given();
 
 /// An array of boxes.
 Value<std::vector<Box>> boxes();
 
-/// [[x, y], [x, y]], the second above the first in both; absence stands for "nothing".
+/// [[x, y], [x, y]], the second above the first in both; absence gives an empty optional.
 Value<std::optional<PlanExtent>> extent_given();
 
-/// Metres a mesh unit: a word of length or a number.
+/// Metres per mesh unit: a word of length or a number.
 Value<double> length_unit();
 
-/// An integer in [low, high] held as an M.
+/// An integer in [low, high], stored as an M.
 template<class M>
 Value<M> integer(std::int64_t low, std::int64_t high = std::numeric_limits<std::int64_t>::max())
 {
@@ -126,16 +126,16 @@ Value<M> integer(std::int64_t low, std::int64_t high = std::numeric_limits<std::
             [](const M& value) { return fmt::format("{}", value); }};
 }
 
-/// One of a few integers.
+/// An integer from a list of choices.
 Value<int> integer_of(std::vector<int> choices);
 
-/// The word at `value`; the accepted words in the order given.
+/// Reads a word and returns its index in `words`.
 std::size_t read_word(const Node& node, const std::vector<std::string>& words);
 
-/// `"a" | "b"`
+/// Formats a list of words as `"a" | "b"`.
 std::string list_words(const std::vector<std::string>& words);
 
-/// An enumeration whose enumerators, in order, are spelt as `words`.
+/// An enumeration; `words` are the spellings of its enumerators, in order.
 template<class E>
 Value<E> word(const std::vector<std::string>& words)
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-// The words that a scene chooses from; keys.cpp and its like spell them, in this order.
+// Enumerations of a scene; keys.cpp and similar files spell them, in this order.
 namespace tread::scene
 {
 
@@ -39,11 +39,11 @@ enum class HertzFactor
     standard,
     paper_eq7
 };
-/// What the volumetric strain rate of a point's law is.
+/// Source of the volumetric strain rate in a point's law.
 enum class VolumeStrain
 {
-    point,       ///< the velocity's divergence there
-    cell_average ///< its mean over the points of the cell
+    point,       ///< divergence of the velocity at the point
+    cell_average ///< mean of it over the points of the cell
 };
 enum class PointRadius
 {
@@ -58,13 +58,13 @@ enum class MaterialModel
     rigid
 };
 
-/// The models that flow: with friction angle, dilation angle and cohesion.
+/// Models of granular flow, with friction angle, dilation angle and cohesion.
 constexpr bool is_granular(MaterialModel model)
 {
     return model == MaterialModel::mohr_coulomb || model == MaterialModel::drucker_prager;
 }
 
-/// The stress states in which Drucker and Prager's cone is as strong as Mohr and Coulomb's hexagon.
+/// Stress states in which the Drucker-Prager cone matches the Mohr-Coulomb hexagon.
 enum class ConeFit
 {
     compression,
@@ -79,7 +79,7 @@ enum class Placement
     points
 };
 
-/// Whether rocks so placed stand where points of sand stood before.
+/// Whether rocks placed this way replace sand points.
 constexpr bool takes_sand(Placement placement)
 {
     return placement == Placement::replace || placement == Placement::points;
@@ -91,11 +91,11 @@ enum class StopRule
     equilibrium,
     lowered
 };
-/// How bodies tell how deep their surface nodes are in each other.
+/// Method that finds the penetration depth of surface nodes.
 enum class NarrowPhase
 {
-    sdf, ///< by the other one's distance field
-    rays ///< by a ray from each node to the other one's triangles
+    sdf, ///< distance field of the other body
+    rays ///< ray from each node to the triangles of the other body
 };
 enum class GrouserShape
 {
@@ -103,7 +103,7 @@ enum class GrouserShape
     chevron,
     curved
 };
-/// A closed form whose answer follows from the scene: docs/study.md says from what.
+/// Closed-form solutions that follow from the scene; docs/study.md lists their inputs.
 enum class ReferenceForm
 {
     none,

@@ -22,7 +22,7 @@ struct BoundaryFinder
     double              finest;
     double              step; ///< m, from the surface to either side of it
 
-    /// The other triangles that cross this one.
+    /// Other triangles that cross this one.
     std::vector<Corners> find_crossing(std::size_t triangle) const
     {
         const Corners        own = corners(mesh, triangle);
@@ -45,7 +45,7 @@ struct BoundaryFinder
         return before != (winding_number(winding, middle - step * normal) > 0.5);
     }
 
-    /// Adds what bounds the solid of a piece that `crossing` may cross.
+    /// Adds the parts of a piece, which `crossing` may cross, that bound the solid.
     void collect(const Corners& piece, const std::vector<Corners>& crossing, std::vector<Corners>& kept) const
     {
         std::vector<Corners> still;

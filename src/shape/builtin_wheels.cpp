@@ -13,10 +13,10 @@ namespace tread::shape
 namespace
 {
 
-// Radii are over the grousers. Real skins are about 1 mm thick, far below any grid's reach: walls are thickened
-// inwards, where the ground does not see them. Spokes are left out. "Assumed" marks what no source
-// gives. With these cells the SDF encloses the mesh's volume within 1 % (measured by the unit tests); the sizes are
-// those of the SDF.
+// Radii are over the grousers. Real skins are about 1 mm thick, far below any grid's resolution: walls are thickened
+// inwards, where they do not touch the ground. Spokes are omitted. "Assumed" marks values without a source. With these
+// cells the SDF encloses the mesh's volume within 1 % (measured by the unit tests); the sizes in MB are those of the
+// SDF.
 
 /// As in the paper: radius 0.26 m and volume 0.0058 m3, from which the wall follows; width 0.33 m from NASA/JPL's
 /// public m2020 robot description; 48 gently curved grousers (NASA, "Perseverance Mars Rover Gets Its Wheels and Air
@@ -31,7 +31,7 @@ scene::WheelGenerator perseverance()
 
 /// Diameter 0.50 m, width 0.40 m, 24 chevrons 15 degrees apart and 7.5 mm high (JPL 2016, Mars Science Laboratory
 /// wheels). One V across the width with its ends 10 degrees ahead, grouser width 5 mm and wall 10 mm: assumed. The
-/// marker of visual odometry, where five chevrons differ, is left out.
+/// visual odometry marker, where five chevrons differ, is omitted.
 scene::WheelGenerator curiosity()
 {
     scene::WheelGenerator wheel{0.25, 0.40, 0.01, 24, 0.0075, 0.005};

@@ -13,11 +13,11 @@ namespace tread::shape
 namespace
 {
 
-/// A neighbour across an edge of two triangles.
+/// A neighbouring triangle across an edge that two triangles share.
 struct Neighbour
 {
     std::int32_t triangle = -1;
-    bool         opposed  = false; ///< the two run along their edge in the same direction
+    bool         opposed  = false; ///< both traverse the edge in the same direction
 };
 
 using Neighbours = std::vector<std::array<Neighbour, 3>>;
@@ -78,7 +78,7 @@ Components find_components(const TriangleMesh& mesh)
     {
         if (components.of[t] == unknown) { flood(neighbours, t, components); }
     }
-    components.one_sided /= 2; // seen from both sides
+    components.one_sided /= 2; // counted from both sides
     return components;
 }
 
@@ -110,8 +110,8 @@ std::vector<std::vector<std::size_t>> sample_triangles(const TriangleMesh& mesh,
         double      key;
         std::size_t triangle;
     };
-    // Exponential variates over the areas: the smallest are a sample without replacement, weighted by area (Efraimidis
-    // & Spirakis 2006, Inf. Process. Lett. 97:181).
+    // Exponential variates over the areas: the smallest ones are a sample without replacement, weighted by area
+    // (Efraimidis & Spirakis 2006, Inf. Process. Lett. 97:181).
     Random                          random(1);
     std::vector<std::vector<Entry>> entries(components.count);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)

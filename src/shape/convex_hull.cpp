@@ -23,7 +23,7 @@ namespace tread::shape
 namespace
 {
 
-/// Qhull's memory of one hull, and a file that its complaints vanish into.
+/// Qhull's memory for one hull, and a file that discards its messages.
 struct Workspace
 {
     Workspace()
@@ -44,7 +44,7 @@ struct Workspace
     qhT                                             context{};
 };
 
-/// Counter-clockwise seen from outside, whatever the order in which Qhull holds the corners.
+/// Orients triangles counter-clockwise seen from outside, in whatever order Qhull holds the corners.
 void orient(TriangleMesh& hull, const double* outwards)
 {
     if (area_vector(hull, hull.triangles.size() - 1).dot(Eigen::Map<const Eigen::Vector3d>(outwards)) < 0)

@@ -51,8 +51,8 @@ double distance_to_segment(const Eigen::Vector3d& point, const Eigen::Vector3d& 
     return (point - a - part * along).norm();
 }
 
-/// Of the part of a small circle about `point`, which the triangle holds, that lies in it. Off by up to `tolerance` (m)
-/// a point is still on a side or a corner.
+/// Angle of the part of a small circle about `point`, on the triangle, that lies within the triangle. A point within
+/// `tolerance` (m) of a side or a corner counts as on it.
 double angle_about(const Corners& corners, const Eigen::Vector3d& point, double tolerance)
 {
     constexpr double pi = 3.14159265358979323846;
@@ -69,7 +69,7 @@ double angle_about(const Corners& corners, const Eigen::Vector3d& point, double 
     return 2 * pi;
 }
 
-/// Whether a point within `tolerance` of the box of the triangle is within about that of the triangle.
+/// Whether a point within `tolerance` of the triangle's box is within about that distance of the triangle.
 bool holds(const Corners& corners, const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double tolerance)
 {
     if (std::abs(normal.dot(point - corners[0])) > tolerance) { return false; }
@@ -98,7 +98,7 @@ Eigen::Vector3d normal_at(const TriangleMesh& mesh, const TriangleTree& tree, co
             sum += angle_about(around, place.point, tolerance) * normal;
         }
     }
-    // Two sides of a wall without thickness leave nothing.
+    // The two sides of a wall without thickness cancel.
     return sum.norm() > 1e-6 ? sum.normalized() : face;
 }
 

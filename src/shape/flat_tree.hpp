@@ -9,19 +9,19 @@
 #include "shape/triangle.hpp"
 #include "shape/triangle_tree.hpp"
 
-// What rays against a template need of it.
+// Template data for ray queries.
 namespace tread::shape
 {
 
-/// A TriangleTree depth first, to be walked without a stack.
+/// A TriangleTree in depth-first order, traversed without a stack.
 struct FlatTree
 {
     struct Box
     {
         std::array<float, 3> low;  ///< m; a millionth of the mesh's extent beyond the triangles
         std::array<float, 3> high; ///< m
-        std::int32_t         next; ///< the first node that is not inside this one
-        std::int32_t         leaf; ///< 8 first + count of its triangles; 0 = it holds boxes
+        std::int32_t         next; ///< next node outside this one's subtree
+        std::int32_t         leaf; ///< 8 first + count of its triangles; 0 = inner node
     };
 
     std::vector<Box>     boxes;
@@ -30,8 +30,8 @@ struct FlatTree
 
 FlatTree flatten(const TriangleTree& tree);
 
-/// Outward unit normal of a closed mesh at the place of its surface closest to each point: on sides and corners those
-/// of the triangles that meet there, weighted by their angle (Baerentzen & Aanaes 2005, TVCG 11:243).
+/// Outward unit normal of a closed mesh at the surface point closest to each point. On edges and vertices it is the
+/// mean over the adjacent triangles, weighted by their angle (Baerentzen & Aanaes 2005, TVCG 11:243).
 std::vector<Eigen::Vector3d> surface_normals(const TriangleMesh& mesh, const TriangleTree& tree,
                                              const std::vector<Eigen::Vector3d>& points);
 

@@ -39,7 +39,7 @@ struct Width
     bool operator<(const Width& other) const { return length < other.length; }
 };
 
-/// Directions spread evenly over half the unit sphere (Fibonacci lattice): a width has no sign.
+/// Directions distributed evenly over half the unit sphere (Fibonacci lattice): a width has no sign.
 std::vector<Eigen::Vector3d> half_sphere(int count)
 {
     std::vector<Eigen::Vector3d> directions;
@@ -53,12 +53,12 @@ std::vector<Eigen::Vector3d> half_sphere(int count)
     return directions;
 }
 
-/// The least width near `start`: the best of a patch of directions, around which a smaller patch is laid. Descent by
-/// gradients would stop at the kinks that the width of a polyhedron has all over.
+/// Smallest width near `start`: the best of a patch of directions, about which a smaller patch follows. Gradient
+/// descent would stop at the kinks of a polyhedron's width.
 Width least_near(const std::vector<Eigen::Vector3d>& points, Width start, double step)
 {
     constexpr int    reach  = 2;
-    constexpr double finest = 1e-7; // rad: 1e-7 of the largest extent, as a width grows no faster than that a radian
+    constexpr double finest = 1e-7; // rad: changes a width by at most 1e-7 of the largest extent
     while (step > finest)
     {
         const Eigen::Vector3d across = start.direction.unitOrthogonal();
@@ -73,7 +73,8 @@ Width least_near(const std::vector<Eigen::Vector3d>& points, Width start, double
                 best = std::min(best, {width(points, direction), direction});
             }
         }
-        // A better direction at the rim of the patch: the least may lie beyond, so the patch moves before it shrinks.
+        // The best direction is at the rim of the patch: the minimum may lie beyond, so the patch moves before it
+        // shrinks.
         if (best.direction.dot(start.direction) > std::cos(0.75 * step)) { step *= 0.5; }
         start = best;
     }
@@ -105,8 +106,9 @@ Width least_width(const std::vector<Eigen::Vector3d>& points)
     return best;
 }
 
-/// Across `axis`. A silhouette is narrowest across one of its sides (Freeman & Shapira 1975, Commun. ACM 18:409), but
-/// points inside the silhouette are many: the same search as in space, on a half circle.
+/// Smallest width perpendicular to `axis`. A silhouette is narrowest perpendicular to one of its sides (Freeman &
+/// Shapira 1975, Commun. ACM 18:409), but most points are inside the silhouette: so the search is as in space, on a
+/// half circle.
 Width least_width_across(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& axis)
 {
     constexpr int         turns = 180;

@@ -9,7 +9,7 @@
 namespace tread::shape
 {
 
-/// One side of one triangle: from corner `side` to the next corner.
+/// One side of a triangle: from corner `side` to the next corner.
 struct HalfEdge
 {
     std::int32_t low;  ///< smaller vertex index
@@ -20,14 +20,14 @@ struct HalfEdge
     bool same_edge(const HalfEdge& other) const { return low == other.low && high == other.high; }
 };
 
-/// Whether the half edge runs from its low to its high vertex.
+/// Whether the half edge goes from its low to its high vertex.
 inline bool runs_upwards(const TriangleMesh& mesh, const HalfEdge& half_edge)
 {
     const auto& corners = mesh.triangles[static_cast<std::size_t>(half_edge.triangle)];
     return corners[static_cast<std::size_t>(half_edge.side)] == half_edge.low;
 }
 
-/// All 3 x triangles half edges, sorted so that those of one edge are neighbours, in the order of their triangles.
+/// All 3 x triangles half edges, sorted so that those of one edge are adjacent, in the order of their triangles.
 std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh);
 
 /// Calls f(first, last) with iterators to the half edges of each edge.

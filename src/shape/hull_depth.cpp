@@ -28,7 +28,7 @@ double hull_depth(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& 
     for (const Eigen::Vector3d& place : places)
     {
         double depth = std::numeric_limits<double>::infinity();
-        // A place that is no deeper than another one below some face need not see the rest.
+        // A point no deeper than the deepest one so far below some face need not be tested against the others.
         for (std::size_t t = 0; t < normals.size() && depth > deepest; ++t)
         {
             depth = std::min(depth, offsets[t] - normals[t].dot(place));

@@ -9,7 +9,7 @@
 namespace tread::shape
 {
 
-/// m, how far the deepest of `places` on the surface of the mesh lies below the mesh's convex hull: 0 of a convex one.
+/// Depth (m) of the deepest of `places` on the mesh's surface below the mesh's convex hull: 0 for a convex mesh.
 double hull_depth(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& places);
 
 } // namespace tread::shape

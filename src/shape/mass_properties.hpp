@@ -7,7 +7,7 @@
 namespace tread::shape
 {
 
-/// Of a closed mesh filled with density 1.
+/// Mass properties of a closed mesh filled with density 1.
 struct MassProperties
 {
     double          volume;  ///< m3
@@ -15,7 +15,7 @@ struct MassProperties
     Eigen::Matrix3d inertia; ///< m5, tensor about the centre of mass, mesh axes
 };
 
-/// Exact, by signed tetrahedra (divergence theorem).
+/// Computes exact mass properties, by signed tetrahedra (divergence theorem).
 MassProperties mass_properties(const TriangleMesh& mesh);
 
 } // namespace tread::shape

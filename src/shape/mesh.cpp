@@ -23,7 +23,7 @@ Bounds bounds(const TriangleMesh& mesh)
 
 std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh)
 {
-    // By counting the edges of each low vertex; what has to be compared are the few of one vertex.
+    // Bucket sort by low vertex; only the few edges of one vertex need comparing.
     const auto each_half_edge = [&](const auto& f)
     {
         std::int32_t triangle = 0;

@@ -17,7 +17,7 @@ struct TriangleMesh
     std::vector<std::array<std::int32_t, 3>> triangles;
 };
 
-/// Extent of a set of points.
+/// Axis-aligned bounding box of a set of points.
 struct Bounds
 {
     Eigen::Vector3d low;
@@ -28,16 +28,16 @@ struct Bounds
 
 Bounds bounds(const TriangleMesh& mesh);
 
-/// What keeps the mesh from being a closed surface, one line for each kind of defect: how many, and the place of the
-/// first. Empty if nothing does.
+/// Describes why the mesh is not a closed surface: one line per kind of defect, with the count and the position of the
+/// first. Empty if it is closed.
 std::string describe_defects(const TriangleMesh& mesh);
 
-/// Throws InputError, naming `origin`, unless the mesh is closed, consistently oriented outwards, non-degenerate and
-/// of positive volume; the message counts the bad edges or triangles and gives the place of the first.
+/// Throws InputError, naming `origin`, unless the mesh is closed, consistently oriented outwards, non-degenerate and of
+/// positive volume; the message counts the bad edges or triangles and gives the position of the first.
 void require_watertight(const TriangleMesh& mesh, const std::string& origin);
 
-/// Reads binary or ASCII STL, or OBJ, by content and extension; equal corners are welded; `unit` = metres a mesh unit.
-/// Throws InputError that names the file (and the line in text files).
+/// Reads binary or ASCII STL, or OBJ, recognised by content and extension; equal corners are welded; `unit`: metres per
+/// mesh unit. Throws InputError that names the file (and the line in text files).
 TriangleMesh read_mesh(const std::string& path, double unit);
 
 void write_stl(const TriangleMesh& mesh, const std::string& path);

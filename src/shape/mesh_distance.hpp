@@ -13,33 +13,33 @@
 namespace tread::shape
 {
 
-/// How inside is told from outside.
+/// Method that determines the sign of a distance.
 enum class SignRule
 {
     pseudonormal,  ///< at the closest face, edge or vertex, weighted by angle (Baerentzen & Aanaes 2005, TVCG 11:243)
-    winding_number ///< inside is where it is over 1/2
+    winding_number ///< negative where the winding number exceeds 1/2
 };
 
-/// What the signed distance to a mesh needs.
+/// Precomputed data for signed distances to a mesh.
 struct MeshDistance
 {
-    /// By Feature: the face, its three sides, its three corners; directions only, not normalised.
+    /// Indexed by Feature: the face, its three sides, its three corners; directions only, not normalised.
     using Pseudonormals = std::array<Eigen::Vector3d, 7>;
 
     SignRule                   sign;
     TriangleTree               tree;
-    std::vector<Pseudonormals> pseudonormals; ///< of each triangle; by pseudonormal only
-    WindingTree                winding;       ///< by winding number only
+    std::vector<Pseudonormals> pseudonormals; ///< of each triangle; only with SignRule::pseudonormal
+    WindingTree                winding;       ///< only with SignRule::winding_number
 };
 
-/// Of a watertight mesh whose parts do not meet, by pseudonormal.
+/// Prepares a watertight mesh whose parts do not meet, with pseudonormals.
 MeshDistance prepare_distance(const TriangleMesh& mesh);
 
-/// Distance to `surface`, inside where `parts` winds round a point more than 1/2 times. `surface` should be the part of
-/// `parts` that bounds that inside (see boundary.hpp).
+/// Prepares the distance to `surface`, negative where the winding number of `parts` exceeds 1/2. `surface` should be
+/// the part of `parts` that bounds this region (see boundary.hpp).
 MeshDistance prepare_distance(const TriangleMesh& surface, const TriangleMesh& parts);
 
-/// m, negative inside. `within` (m): an upper bound of the distance, if one is known, saves time.
+/// Signed distance (m), negative inside. `within` (m): a known upper bound of its magnitude, which saves time.
 double signed_distance(const MeshDistance& distance, const Eigen::Vector3d& point,
                        double within = std::numeric_limits<double>::infinity());
 

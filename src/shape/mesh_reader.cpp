@@ -45,7 +45,7 @@ std::string read_bytes(const std::string& path)
     std::error_code error;
     const auto      size = std::filesystem::file_size(path, error);
     if (error) { throw InputError(fmt::format("{}: the mesh cannot be read: {}", path, error.message())); }
-    constexpr double in_memory = 6; // bytes of vertices, triangles and their directory a byte of the file
+    constexpr double in_memory = 6; // bytes of vertices, triangles and their spatial hash per byte of the file
     require_host_memory(
         {in_memory * static_cast<double>(size), fmt::format("{}: its triangles", path), "a coarser mesh"});
     if (size == 0) { throw InputError(fmt::format("{}: the mesh file is empty", path)); }
@@ -58,7 +58,7 @@ std::string read_bytes(const std::string& path)
     return bytes;
 }
 
-/// Adding 0.0 makes 0.0 of -0.0.
+/// Key of a position. Adding 0.0 turns -0.0 into 0.0.
 std::array<double, 3> key_of(const Eigen::Vector3d& place)
 {
     return {place.x() + 0.0, place.y() + 0.0, place.z() + 0.0};

@@ -16,7 +16,7 @@ namespace tread::shape
 namespace
 {
 
-/// Makes one mesh of each component; its triangles share no vertices.
+/// Splits a mesh into one mesh per component; their triangles share no vertices.
 std::vector<TriangleMesh> split(const TriangleMesh& mesh, const Components& components)
 {
     std::vector<TriangleMesh> parts(components.count);
@@ -30,7 +30,7 @@ std::vector<TriangleMesh> split(const TriangleMesh& mesh, const Components& comp
     return parts;
 }
 
-/// Boxes of the parts as a mesh of their diagonals, for the tree's search.
+/// Bounding boxes of the parts as a mesh of their diagonals, for the tree's search.
 TriangleMesh diagonals(const std::vector<Bounds>& boxes)
 {
     TriangleMesh mesh;
@@ -80,7 +80,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t most = 1024; ///< triangles of a part that are asked where they lie
+    static constexpr std::size_t most = 1024; ///< most triangles of a part that are tested
 
     bool holds(std::size_t outer, std::size_t inner)
     {
@@ -95,7 +95,7 @@ private:
         return *windings_[part];
     }
 
-    /// A face in common with the holder is seen at 1/2.
+    /// On a face shared with the holder the winding number is 1/2.
     bool samples_lie_in(std::size_t outer, std::size_t inner)
     {
         constexpr double   least = 0.4;
@@ -120,7 +120,7 @@ private:
         return false;
     }
 
-    /// Whether the first lies in the plane of the second: faces in common.
+    /// Whether the first lies in the plane of the second, so that they share a face.
     bool coplanar(const Corners& one, const Corners& other) const
     {
         const Eigen::Vector3d normal = (other[1] - other[0]).cross(other[2] - other[0]).normalized();
@@ -129,11 +129,11 @@ private:
                            { return std::abs(normal.dot(corner - other[0])) <= step_; });
     }
 
-    double                                step_; ///< m, off a surface on either side; depth from which triangles cross
-    std::vector<std::vector<std::size_t>> samples_;
-    std::vector<double>                   volumes_; ///< m3
-    std::vector<TriangleMesh>             parts_;
-    std::vector<std::optional<WindingTree>> windings_; ///< of parts that may hold others
+    double step_; ///< m, offset from a surface to either side; smallest depth of a crossing
+    std::vector<std::vector<std::size_t>>   samples_;
+    std::vector<double>                     volumes_; ///< m3
+    std::vector<TriangleMesh>               parts_;
+    std::vector<std::optional<WindingTree>> windings_; ///< of parts that may contain others
     std::vector<Bounds>                     boxes_;
     const TriangleMesh&                     mesh_;
 };

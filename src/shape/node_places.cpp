@@ -20,11 +20,11 @@ double total_area(const SurfaceSamples& samples)
     return std::accumulate(samples.areas.begin(), samples.areas.end(), 0.0);
 }
 
-/// Takes samples away, the most crowded first.
+/// Eliminates samples, the most crowded first.
 class Elimination
 {
 public:
-    /// `reach` (m): within which samples crowd each other.
+    /// `reach` (m): distance within which samples crowd each other.
     Elimination(const SurfaceSamples& samples, double reach)
         : samples_(samples)
         , reach_(reach)
@@ -40,7 +40,7 @@ public:
         for (std::size_t i = 0; i < left_.size(); ++i) { queue_.emplace(crowding_[i], i); }
     }
 
-    /// Entries of the queue that are out of date stand ahead of their samples' true ones and are put back.
+    /// An outdated entry of the queue comes before its sample's true one and is reinserted.
     void take_away(std::size_t count)
     {
         while (count > 0)
@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    /// Whom a sample crowds: its own kind and what is less sharp, the more the nearer.
+    /// Visits the samples that a sample crowds, of its own kind or less sharp, with a weight that grows with proximity.
     template<class Visit>
     void for_each_crowded_by(std::size_t i, Visit visit) const
     {
@@ -81,8 +81,8 @@ private:
                                      {
                                          return;
                                      }
-                                     // A point on an edge has two neighbours where one on a face has six; by
-                                     // measurement, 8 leaves both as far apart.
+                                     // A sample on an edge has two neighbours, one on a face has six; by measurement, 8
+                                     // spaces both alike.
                                      const double share = samples_.kinds[other] == Sharpness::smooth ? 1 : 8;
                                      const double near  = 1 - std::sqrt(squared) / reach_;
                                      const double four  = near * near * near * near;
@@ -98,7 +98,7 @@ private:
     std::priority_queue<std::pair<double, std::size_t>> queue_;
 };
 
-/// Without a place near, any will do, the nearest that does not face away first.
+/// Nearest of all positions, if none is near; those that do not face away come first.
 std::size_t nearest_of_all(const SurfaceSamples& samples, const std::vector<std::size_t>& places, std::size_t sample)
 {
     const auto distance = [&](std::size_t place)
@@ -113,8 +113,8 @@ std::size_t nearest_of_all(const SurfaceSamples& samples, const std::vector<std:
     return static_cast<std::size_t>(nearest - places.begin());
 }
 
-/// Each place to the sample of its own kind in its cell that is nearest to the middle of the cell, or, on an edge, of
-/// the edges in the cell.
+/// Moves each node to the sample of its kind that is nearest to the centre of its Voronoi cell, or, on an edge, of the
+/// edges in the cell.
 void centre(const SurfaceSamples& samples, const std::vector<std::size_t>& owners, std::vector<std::size_t>& places)
 {
     const auto                   from = places;

@@ -5,19 +5,20 @@
 
 #include "shape/surface_samples.hpp"
 
-// Where nodes stand among the samples of a surface.
+// Positions of nodes among the samples of a surface.
 namespace tread::shape
 {
 
-/// `count` samples (all, if there are no more) about as far apart as can be. The most crowded is taken away again and
-/// again (Yuksel 2015, Comput. Graph. Forum 34:25); corners and edges are crowded by their own kind and sharper alone.
+/// Selects `count` samples (all, if there are fewer), spaced as evenly as possible: the most crowded sample is
+/// eliminated repeatedly (Yuksel 2015, Comput. Graph. Forum 34:25). Corners and edges are crowded only by samples of
+/// their own kind or sharper ones.
 std::vector<std::size_t> spread(const SurfaceSamples& samples, std::size_t count);
 
-/// Samples in even places instead of the given ones: each goes to the middle of what is nearer to it than to the
-/// others, several times (Lloyd 1982, IEEE Trans. Inf. Theory 28:129). Corners stay and edges keep theirs.
+/// Replaces the given samples by evenly spaced ones: each moves to the centre of its Voronoi cell, several times (Lloyd
+/// 1982, IEEE Trans. Inf. Theory 28:129). Corners do not move, and edges keep their samples.
 std::vector<std::size_t> evened(const SurfaceSamples& samples, std::vector<std::size_t> places);
 
-/// Which of `places` each sample is nearest to, on its side of a thin wall.
+/// Nearest of `places` to each sample, on its side of a thin wall.
 std::vector<std::size_t> nearest_places(const SurfaceSamples& samples, const std::vector<std::size_t>& places);
 
 } // namespace tread::shape

@@ -32,7 +32,7 @@ std::int32_t vertex_index(std::string_view entry, std::size_t vertices, const Li
     return static_cast<std::int32_t>(at);
 }
 
-/// Polygons become fans about their first corner.
+/// Splits polygons into fans about their first corner.
 void append_face(TriangleMesh& mesh, std::string_view line, const LineReader& reader)
 {
     std::vector<std::int32_t> corners;

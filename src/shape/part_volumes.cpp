@@ -14,12 +14,12 @@ namespace tread::shape
 namespace
 {
 
-/// Integrals of the winding number, rounded, over space: m3.
+/// Integrals over space of the rounded winding number: m3.
 struct WoundVolumes
 {
-    double all    = 0; ///< of the number itself
-    double shared = 0; ///< of what it has over 1, where parts overlap
-    double error  = 0; ///< standard error of `shared`, as of random places
+    double all    = 0; ///< of the winding number
+    double shared = 0; ///< of its excess over 1, where parts overlap
+    double error  = 0; ///< standard error of `shared`, as for random positions
 };
 
 /// Samples the box by the additive sequence of the root of x^4 = x + 1 (Roberts 2018).
@@ -48,11 +48,11 @@ WoundVolumes sample_wound_volumes(const TriangleMesh& surface)
     return {share * all, share * shared, share * std::sqrt(std::max(squares - shared * mean, 0.0))};
 }
 
-/// Parts that face one way.
+/// All parts that face one way.
 struct Facing
 {
     std::size_t count  = 0;
-    double      volume = 0; ///< m3, of all of them, positive
+    double      volume = 0; ///< m3, sum over the parts, positive
 };
 
 } // namespace

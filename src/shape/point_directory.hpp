@@ -11,11 +11,11 @@
 namespace tread::shape
 {
 
-/// Points of a surface with their normals, found again by place.
+/// Spatial hash of surface points with normals.
 class PointDirectory
 {
 public:
-    /// Cosine beyond 120 degrees: across a thin wall, not around an edge of it.
+    /// Cosine of a normal angle over 120 degrees: it occurs across a thin wall, but not around its edge.
     static constexpr double facing_away = -0.5;
 
     explicit PointDirectory(double radius)
@@ -31,8 +31,8 @@ public:
         normals_.push_back(normal);
     }
 
-    /// Calls visit(index, squared distance) for the points within the radius on the same side of the body: those that
-    /// do not face away.
+    /// Calls visit(index, squared distance) for the points within the radius on the same side of the body, whose
+    /// normals do not face away.
     template<class Visit>
     void for_each_near(const Eigen::Vector3d& position, const Eigen::Vector3d& normal, Visit visit) const
     {
@@ -73,7 +73,7 @@ private:
 
     static std::uint64_t key(const Cell& cell)
     {
-        constexpr std::int64_t half = 1 << 20; // cells to either side of the origin
+        constexpr std::int64_t half = 1 << 20; // cells on either side of the origin
         const auto low = [&](std::int64_t c) { return static_cast<std::uint64_t>(c + half) & (2 * half - 1); };
         return low(cell.x()) | low(cell.y()) << 21 | low(cell.z()) << 42;
     }

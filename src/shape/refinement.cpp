@@ -11,8 +11,8 @@ namespace tread::shape
 namespace
 {
 
-/// Halves the longest side of each triangle until none is longer than `longest`. Every side that is too long is halved
-/// in both its triangles, in whatever order, so that the mesh stays closed without their knowing of each other.
+/// Bisects the longest side of each triangle until none is longer than `longest`. A long side is bisected in both of
+/// its triangles, in any order, so that the mesh stays closed without adjacency data.
 class Refinement
 {
 public:

@@ -5,7 +5,7 @@
 namespace tread::shape
 {
 
-/// The same closed surface in triangles without a side longer than `longest` (m); the old vertices come first.
+/// Refines a closed surface until no side is longer than `longest` (m); the old vertices come first.
 TriangleMesh refined(const TriangleMesh& mesh, double longest);
 
 } // namespace tread::shape

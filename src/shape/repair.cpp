@@ -30,7 +30,7 @@ Repaired repair_mesh(const TriangleMesh& mesh)
     const Winding winding = wind_alike(result.mesh, result.report);
     close_holes(result.mesh, result.report);
     orient_parts(result.mesh, winding, result.report);
-    result.mesh = weld(result.mesh); // without the vertices that nothing uses any more
+    result.mesh = weld(result.mesh); // removes vertices that are no longer used
     return result;
 }
 

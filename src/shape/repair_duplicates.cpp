@@ -13,11 +13,11 @@ namespace tread::shape
 namespace
 {
 
-/// Triangles at one place: the first of them stands for all.
+/// Groups of coincident triangles: the first of each represents all.
 struct Groups
 {
     std::vector<std::size_t> first;   ///< triangles, in the order of the mesh
-    std::vector<std::size_t> members; ///< how many stand there
+    std::vector<std::size_t> members; ///< number of triangles in each group
 };
 
 Groups group_equal(const TriangleMesh& mesh)
@@ -45,7 +45,7 @@ Groups group_equal(const TriangleMesh& mesh)
     return groups;
 }
 
-/// Sets of groups with an even number of members that touch each other along edges.
+/// Connected sets, along edges, of groups with an even number of members.
 class Patches
 {
 public:
@@ -72,20 +72,20 @@ public:
         faces_[to] += faces_[from];
     }
 
-    /// An edge of the rim, and how many single triangles meet the patch there.
+    /// Counts an edge of the rim, at which `others` single triangles meet the patch.
     void add_rim(std::size_t at, std::size_t others)
     {
         if (others == 0) { return; }
         ++(others % 2 == 0 ? walls_ : faces_)[root(at)];
     }
 
-    /// Surface on both sides: without the patch, its rim is closed.
+    /// Whether there is surface on both sides: without the patch, its rim is closed.
     bool is_wall(std::size_t at) { return walls_[root(at)] > faces_[root(at)]; }
 
 private:
     std::vector<std::size_t> parent_;
-    std::vector<std::size_t> walls_; ///< edges of the rim with an even number of others
-    std::vector<std::size_t> faces_; ///< with an odd one
+    std::vector<std::size_t> walls_; ///< edges of the rim with an even number of single triangles
+    std::vector<std::size_t> faces_; ///< with an odd number
 };
 
 Patches find_patches(const TriangleMesh& singles, const std::vector<std::size_t>& members)

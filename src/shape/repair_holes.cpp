@@ -18,7 +18,7 @@ namespace
 using Loop      = std::vector<std::int32_t>;
 using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
-/// The sides that are missing along open edges, from vertex to vertex, sorted.
+/// Missing half edges along open edges, from vertex to vertex, sorted.
 std::vector<std::pair<std::int32_t, std::int32_t>> missing_sides(const TriangleMesh& mesh)
 {
     std::vector<std::pair<std::int32_t, std::int32_t>> sides;
@@ -33,7 +33,7 @@ std::vector<std::pair<std::int32_t, std::int32_t>> missing_sides(const TriangleM
     return sides;
 }
 
-/// Follows the missing sides; where a path meets itself, a loop is cut off it.
+/// Follows missing half edges; where a path meets itself, it splits off a loop.
 class LoopFinder
 {
 public:
@@ -72,7 +72,7 @@ private:
 
     void forget(std::int32_t vertex) { place_[static_cast<std::size_t>(vertex)] = -1; }
 
-    /// The end of the first unused side from here; -1 if there is none.
+    /// End of the first unused half edge from here; -1 if there is none.
     std::int32_t step(std::int32_t from)
     {
         const auto first = std::lower_bound(sides_.begin(), sides_.end(), std::pair(from, std::int32_t{-1}));
@@ -88,11 +88,11 @@ private:
 
     std::vector<std::pair<std::int32_t, std::int32_t>> sides_;
     std::vector<std::uint8_t>                          used_;
-    std::vector<std::int32_t>                          place_; ///< of each vertex on the path, -1 = not on it
+    std::vector<std::int32_t>                          place_; ///< position of each vertex on the path, -1 = not on it
 };
 
-/// The triangulation of least area (Barequet & Sharir 1995, Comput. Aided Geom. Des. 12:207): the cost of the part of
-/// the loop from i to j is the least over its apex k. Triangles without area cost more than all others together.
+/// Triangulation of least area (Barequet & Sharir 1995, Comput. Aided Geom. Des. 12:207): the cost of the part of the
+/// loop from i to j is the minimum over its apex k. Triangles without area cost more than all others together.
 class LeastArea
 {
 public:
@@ -158,7 +158,7 @@ private:
     std::vector<std::size_t> apex_;
 };
 
-/// About the middle of the loop, which becomes a new vertex.
+/// Triangle fan about the middle of the loop, which becomes a new vertex.
 Triangles fan(TriangleMesh& mesh, const Loop& loop)
 {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -182,7 +182,7 @@ double extent_of(const TriangleMesh& mesh, const Loop& loop)
 
 bool close(TriangleMesh& mesh, const Loop& loop, double extent)
 {
-    constexpr std::size_t most_exact = 64; // the search takes the cube of this
+    constexpr std::size_t most_exact = 64; // the search has cubic cost in this
     const std::size_t     before     = mesh.triangles.size();
     const Triangles       lid =
         loop.size() <= most_exact ? LeastArea(mesh, loop, 1e3 * extent * extent).triangles() : fan(mesh, loop);

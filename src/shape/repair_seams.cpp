@@ -34,11 +34,11 @@ std::vector<std::int32_t> end_points(const std::vector<HalfEdge>& edges)
     return vertices;
 }
 
-/// Where on its edge a vertex lies: 0 at low, 1 at high.
+/// Position of a vertex on its edge: 0 at low, 1 at high.
 using OnEdge = std::pair<double, std::int32_t>;
 
-/// For each open edge the open vertices within the tolerance of its inside, from low to high. An honest seam has about
-/// one match a vertex; where everything lies on everything the search gives up.
+/// Finds for each open edge the open vertices within the tolerance of its interior, from low to high. A genuine seam
+/// has about one match per vertex; if far more match, the search gives up.
 std::vector<std::vector<OnEdge>> match(const TriangleMesh& mesh, const std::vector<HalfEdge>& edges, double tolerance)
 {
     TriangleMesh segments{mesh.vertices, {}};
@@ -68,7 +68,7 @@ std::vector<std::vector<OnEdge>> match(const TriangleMesh& mesh, const std::vect
     return found;
 }
 
-/// Replaces the triangle of the edge by a fan from its apex to the parts of the edge.
+/// Replaces the triangle of the edge by a fan from its apex to the pieces of the edge.
 void divide(TriangleMesh& mesh, const HalfEdge& edge, const std::vector<OnEdge>& on_edge)
 {
     const auto t       = static_cast<std::size_t>(edge.triangle);
@@ -84,7 +84,7 @@ void divide(TriangleMesh& mesh, const HalfEdge& edge, const std::vector<OnEdge>&
     for (std::size_t i = 2; i < along.size(); ++i) { mesh.triangles.push_back({along[i - 1], along[i], apex}); }
 }
 
-/// Divides at most one edge of each triangle; how many.
+/// Splits at most one edge of each triangle; returns how many.
 std::int64_t split_once(TriangleMesh& mesh, double tolerance)
 {
     const std::vector<HalfEdge> edges = open_edges(mesh);
@@ -111,7 +111,7 @@ std::int64_t split_once(TriangleMesh& mesh, double tolerance)
 
 void split_seams(TriangleMesh& mesh, RepairReport& report)
 {
-    // A triangle has three edges, and one more round shows that nothing is left.
+    // A triangle has three edges, and one more round shows that nothing remains.
     for (int round = 0; round < 4; ++round)
     {
         const std::int64_t count = split_once(mesh, report.tolerance);

@@ -2,7 +2,7 @@
 
 #include "shape/repair.hpp"
 
-// The steps of repair_mesh, each of which changes the mesh and counts in the report.
+// Steps of repair_mesh. Each changes the mesh and updates the report.
 namespace tread::shape
 {
 
@@ -22,7 +22,7 @@ enum class Winding
 /// Winds triangles like their neighbours.
 Winding wind_alike(TriangleMesh& mesh, RepairReport& report);
 
-/// Turns whole parts outwards, or inwards if they are cavities.
+/// Reverses whole parts to face outwards, or inwards if they are cavities.
 void orient_parts(TriangleMesh& mesh, Winding winding, RepairReport& report);
 
 } // namespace tread::shape

@@ -15,7 +15,7 @@ namespace tread::shape
 namespace
 {
 
-/// STL and short decimals hold coordinates to single precision: what they split lies within a few roundings.
+/// STL and short decimals hold coordinates in single precision: vertices that they separate differ by a few roundings.
 double weld_tolerance(const Bounds& box)
 {
     const double coordinate = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
@@ -24,7 +24,7 @@ double weld_tolerance(const Bounds& box)
 
 using Cell = std::array<std::int64_t, 3>;
 
-/// Vertices that stand for all others within the tolerance, by cells several tolerances wide.
+/// Vertices that represent all others within the tolerance, in a hash of cells several tolerances wide.
 class Representatives
 {
 public:
@@ -36,7 +36,7 @@ public:
         first_.reserve(expected);
     }
 
-    /// The index of the representative of `place`, which becomes one itself if there is none yet.
+    /// Index of the representative of `place`; adds it if there is none yet.
     std::int32_t find_or_add(const Eigen::Vector3d& place)
     {
         const Cell from = cell_of(place - Eigen::Vector3d::Constant(tolerance_));
@@ -90,8 +90,8 @@ private:
     Eigen::Vector3d                                    low_;
     double                                             tolerance_;
     double                                             width_;
-    std::unordered_map<Cell, std::int32_t, TripleHash> first_; ///< of a cell's representatives
-    std::vector<std::int32_t>                          next_;  ///< in the same cell, -1 = none
+    std::unordered_map<Cell, std::int32_t, TripleHash> first_; ///< first representative of each cell
+    std::vector<std::int32_t>                          next_;  ///< next one in the same cell, -1 = none
 };
 
 } // namespace

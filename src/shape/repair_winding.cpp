@@ -26,7 +26,7 @@ void turn_parts(TriangleMesh& mesh, const Components& parts, const std::vector<s
     }
 }
 
-/// In how many others each part lies, all of it.
+/// Number of other parts that contain each part entirely.
 std::vector<int> depths(const TriangleMesh& mesh, const Components& parts)
 {
     std::vector<int> depth;
@@ -34,7 +34,7 @@ std::vector<int> depths(const TriangleMesh& mesh, const Components& parts)
     return depth;
 }
 
-/// Whether all parts that lie in no other one face the same way in the file.
+/// Whether all parts that no other part contains face the same way in the file.
 bool outer_parts_agree(const std::vector<int>& depth, const std::vector<std::uint8_t>& inwards)
 {
     bool any[2] = {false, false};
@@ -45,7 +45,7 @@ bool outer_parts_agree(const std::vector<int>& depth, const std::vector<std::uin
     return !(any[0] && any[1]);
 }
 
-/// Which of the parts, all facing outwards now, bound a cavity.
+/// Which parts, all facing outwards now, bound a cavity.
 std::vector<std::uint8_t> find_cavities(const std::vector<int>& depth, const std::vector<std::uint8_t>& inwards,
                                         Winding winding)
 {
@@ -75,7 +75,7 @@ Winding wind_alike(TriangleMesh& mesh, RepairReport& report)
     std::int64_t changed = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     {
-        // The fewer follow the more.
+        // The smaller group is reversed.
         const std::size_t part     = parts.of[t];
         const bool        minority = 2 * turned[part] <= size[part];
         if ((parts.turned[t] != 0) != minority) { continue; }

@@ -16,7 +16,7 @@ std::string vector_text(const Eigen::Vector3d& vector)
     return fmt::format("{:.6g} {:.6g} {:.6g}", vector.x(), vector.y(), vector.z());
 }
 
-/// "all of them exact", or how many bricks are fine.
+/// "all of them exact", or the number of fine bricks.
 std::string storage_text(const SignedDistanceGrid& sdf)
 {
     constexpr std::size_t n = SignedDistanceGrid::brick_nodes;

@@ -6,14 +6,14 @@
 #include "shape/sdf_report.hpp"
 #include "shape/template.hpp"
 
-// What `tread sdf` prints.
+// Output of `tread sdf`.
 namespace tread::shape
 {
 
-/// Geometry, mass properties, surface nodes and distance field, a line each.
+/// Describes geometry, mass properties, surface nodes and distance field, one per line.
 std::string template_text(const ShapeTemplate& form);
 
-/// A table, a line a number of cells.
+/// Table with a line for each number of cells.
 std::string convergence_text(const std::vector<SdfQuality>& qualities);
 
 } // namespace tread::shape

@@ -12,10 +12,10 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-// Angles closer than this differ by rounding alone; what decides between them must not.
+// Angles closer than this differ by rounding only, which must not decide between them.
 constexpr double tie = 1e-9;
 
-/// The ring from vertex `first` on, its angles going on beyond a turn.
+/// Ring rotated to start at vertex `first`; its angles continue beyond a turn.
 Ring starting_at(const Ring& ring, std::size_t first)
 {
     Ring turned;
@@ -28,7 +28,7 @@ Ring starting_at(const Ring& ring, std::size_t first)
     return turned;
 }
 
-/// `ring` from the vertex whose angle, modulo a turn, is nearest to `start`, counted so that it is near.
+/// Ring rotated to start at the vertex whose angle, modulo a turn, is nearest to `start`.
 Ring aligned(const Ring& ring, double start)
 {
     const auto  offset  = [&](double angle) { return std::remainder(angle - start, 2 * pi); };
@@ -43,7 +43,7 @@ Ring aligned(const Ring& ring, double start)
     return turned;
 }
 
-/// The ring with its first vertex once more at the end, a turn later.
+/// Ring with its first vertex repeated at the end, a turn later.
 Ring closed(Ring ring)
 {
     ring.vertices.push_back(ring.vertices.front());

@@ -24,8 +24,8 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-constexpr double tolerance = 0.03;  ///< relative, of what is promised
-constexpr double sought    = 0.005; ///< relative, at which the search rests
+constexpr double tolerance = 0.03;  ///< relative, of the guaranteed form
+constexpr double sought    = 0.005; ///< relative, at which the search stops
 
 Form asked_form(const scene::RockGenerator& generator)
 {
@@ -62,11 +62,11 @@ struct Rock
 {
     RockHandles     handles;
     TriangleMesh    mesh;
-    Eigen::Matrix3d axes; ///< of its extents, one a column
+    Eigen::Matrix3d axes; ///< directions of its extents, one per column
     Form            form;
 };
 
-/// Rocks of one character and one extent ratio, with as many vertices as `sphere`.
+/// Rocks of one character and one ratio of extents, with as many vertices as `sphere`.
 struct Quarry
 {
     const RockCharacter& character;
@@ -74,7 +74,7 @@ struct Quarry
     double               aspect;
     double               elongation;
 
-    /// The rock with these handles, but stretched further until it has the extents.
+    /// The rock with these handles, stretched further until it has the requested extents.
     Rock rock(const RockHandles& handles, const TriangleMesh& directions) const
     {
         constexpr int    rounds = 12;
@@ -108,7 +108,7 @@ struct Quarry
         return mass_properties(mesh).volume / mass_properties(convex_hull(mesh.vertices)).volume;
     }
 
-    /// The cut and the stretch as given, the dent such that the solidity is met, as nearly as can be.
+    /// Dent that meets the solidity as nearly as possible for the given cut and stretch.
     double dent(RockHandles handles, const TriangleMesh& directions, double wanted) const
     {
         constexpr double enough = 5e-4;
@@ -123,7 +123,7 @@ struct Quarry
         return 0.5 * (low + high);
     }
 
-    /// The rock with this cut and the solidity, from handles that are near.
+    /// The rock with this cut and the requested solidity, starting from nearby handles.
     Rock rock_of_solidity(RockHandles handles, double wanted) const
     {
         const TriangleMesh directions = rock_directions(character, handles.cut, handles.stretch, sphere);
@@ -131,7 +131,7 @@ struct Quarry
         return rock(handles, directions);
     }
 
-    /// The more is cut, the less the sphericity.
+    /// Searches the cut: a deeper cut gives a lower sphericity.
     Rock rock_of_form(double sphericity, double solidity) const
     {
         constexpr int    halvings = 14;
@@ -150,11 +150,11 @@ struct Quarry
     }
 };
 
-/// What rocks of one character can have, and what they were asked for.
+/// Attainable range of rocks of one character at the requested form.
 struct Yield
 {
     double least_solidity;
-    double least_sphericity; ///< at the solidity asked for
+    double least_sphericity; ///< at the requested solidity
     double most_sphericity;
 };
 
@@ -174,7 +174,7 @@ bool contains(const Yield& yield, const Form& wanted)
            yield.most_sphericity > wanted.sphericity * (1 - tolerance);
 }
 
-/// Searched for among rocks of few vertices; what those of many differ by is added to what is searched for.
+/// Searches among rocks of few vertices, correcting for their difference from rocks of many.
 Rock search(const Quarry& coarse, const Quarry& fine, const Form& wanted)
 {
     constexpr int rounds = 4;
@@ -194,7 +194,7 @@ Rock search(const Quarry& coarse, const Quarry& fine, const Form& wanted)
     return *best;
 }
 
-/// What was found of the characters that were drawn, for the message.
+/// Attainable ranges of all characters drawn, for the message.
 struct Draws
 {
     Yield               widest{1, 1, 0};
@@ -232,7 +232,7 @@ void add(Draws& draws, const Yield& yield)
                                  draws.widest.most_sphericity, ball));
 }
 
-/// The first of a few characters that follow from the seed whose rocks can have the form.
+/// First of a few characters derived from the seed whose rocks can have the form.
 Rock drawn_rock(std::uint64_t seed, const Form& wanted, const std::string& origin)
 {
     constexpr int      most_draws = 8;

@@ -20,7 +20,7 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Uniform on the unit sphere.
+/// Random direction, uniform on the unit sphere.
 Eigen::Vector3d direction(Random& random)
 {
     const double height = 2 * random.uniform() - 1;
@@ -29,7 +29,8 @@ Eigen::Vector3d direction(Random& random)
     return {reach * std::cos(turn), reach * std::sin(turn), height};
 }
 
-/// The most lonely of a few candidates (Mitchell 1991, Comput. Graph. 25:157): planes all round, none twice.
+/// Candidate farthest from its predecessors (Mitchell 1991, Comput. Graph. 25:157), so that planes cover all sides
+/// without repetition.
 Eigen::Vector3d lonely_direction(Random& random, const std::vector<RockCharacter::Plane>& others)
 {
     constexpr int   candidates = 8;
@@ -47,7 +48,7 @@ Eigen::Vector3d lonely_direction(Random& random, const std::vector<RockCharacter
     return best;
 }
 
-/// The cuts at one depth. A face is the ball's (0) or a plane's (from 1).
+/// The cuts at one depth. Face 0 is the ball's, faces from 1 are those of planes.
 class Cuts
 {
 public:
@@ -63,7 +64,7 @@ public:
     struct Face
     {
         std::size_t index;
-        double      radius; ///< from the centre to the face in the direction asked for
+        double      radius; ///< from the centre to the face in the given direction
     };
 
     Face face(const Eigen::Vector3d& direction) const
@@ -77,13 +78,13 @@ public:
         return nearest;
     }
 
-    /// How much nearer the second face is than the first, as inverse radii.
+    /// Difference of the inverse radii of the two faces: how much nearer the second one is.
     double difference(std::size_t first, std::size_t second, const Eigen::Vector3d& direction) const
     {
         return inverse_radius(second, direction) - inverse_radius(first, direction);
     }
 
-    /// The direction on the edge of two faces next to the one given.
+    /// Direction on the edge of two faces that is nearest to the given one.
     Eigen::Vector3d onto_edge(std::size_t first, std::size_t second, const Eigen::Vector3d& direction) const
     {
         if (first > second) { std::swap(first, second); }
@@ -109,7 +110,7 @@ private:
     std::vector<double>          distances_;
 };
 
-using Edge = std::pair<std::size_t, std::size_t>; ///< of two faces
+using Edge = std::pair<std::size_t, std::size_t>; ///< a pair of faces
 
 /// Moves vertices of a sphere onto the edges and corners of a cut ball.
 class Fitting
@@ -123,7 +124,7 @@ public:
     {
         for (const auto& [a, b, c] : sphere.triangles)
         {
-            join(a, b); // each side once, as the triangle on its other side runs it backwards
+            join(a, b); // each side once: the triangle on its other side has it reversed
             join(b, c);
             join(c, a);
         }
@@ -146,7 +147,7 @@ public:
         for (std::size_t v = 0; v < edges_.size(); ++v) { mesh.vertices[v] = fitted(v, mesh.vertices[v]); }
     }
 
-    /// Each vertex towards the middle of its neighbours as they lie on the surface, within its face or edge.
+    /// Moves each vertex towards the middle of its neighbours on the surface, within its face or edge.
     void smooth(const Eigen::Matrix3d& stretch)
     {
         const Eigen::Matrix3d        back = stretch.inverse();
@@ -172,10 +173,10 @@ public:
         }
     }
 
-    /// Puts the corners of triangles that have turned over or collapsed back where they came from, until none is left.
+    /// Moves the corners of flipped or collapsed triangles back to their original positions, until none is left.
     void unfold(const TriangleMesh& sphere)
     {
-        constexpr double flattest = 0.02; // of the area before
+        constexpr double flattest = 0.02; // of the original area
         for (bool folded = true; folded;)
         {
             folded = false;
@@ -203,7 +204,8 @@ private:
         neighbours_[static_cast<std::size_t>(a)].push_back(static_cast<std::size_t>(b));
     }
 
-    /// Onto all edges of a vertex by turns, which meet at a corner. Turns that end far off have found another corner.
+    /// Projects onto all edges of a vertex in turn, which converges to their corner. If it ends far off, it has found
+    /// another corner.
     Eigen::Vector3d fitted(std::size_t v, const Eigen::Vector3d& start) const
     {
         const auto&     edges = edges_[v];
@@ -221,7 +223,7 @@ public:
     TriangleMesh mesh;
 
 private:
-    std::vector<std::set<Edge>>           edges_; ///< that each vertex is to lie on; a corner has several
+    std::vector<std::set<Edge>>           edges_; ///< that each vertex must lie on; a corner has several
     std::vector<std::vector<std::size_t>> neighbours_;
 };
 
@@ -229,7 +231,7 @@ private:
 
 RockCharacter rock_character(std::uint64_t seed)
 {
-    // The first planes bite deepest and leave a body of few large faces; the rest chip its corners.
+    // The first planes cut deepest and leave a body of few large faces; the others chip its corners.
     constexpr int large = 4, small = 12, waves = 10;
 
     Random        random(seed);

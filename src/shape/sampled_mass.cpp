@@ -33,15 +33,15 @@ struct Moments
 };
 
 constexpr int coarse = 16; ///< cubes along the longest extent
-constexpr int halved = 3;  ///< times, at the surface
+constexpr int halved = 3;  ///< levels of subdivision at the surface
 
 struct Integrator
 {
     const MeshDistance& distance;
     Eigen::Vector3d     origin; ///< of the moments and of `centre` below
 
-    /// Adds the inner part of a cube: all or nothing where the surface is too far off to cut it; in the smallest cubes
-    /// as if the surface were a plane across an axis.
+    /// Adds the inner part of a cube: all or nothing if the surface is too far off to cut it; in the smallest cubes as
+    /// if the surface were a plane perpendicular to an axis.
     void integrate(const Eigen::Vector3d& centre, double side, int level, Moments& sum) const
     {
         const double depth = -signed_distance(distance, origin + centre);

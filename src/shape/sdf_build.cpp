@@ -18,9 +18,9 @@ namespace
 constexpr std::int32_t edge       = SignedDistanceGrid::brick_cells;
 constexpr std::int32_t edge_nodes = SignedDistanceGrid::brick_nodes;
 constexpr std::size_t  per_brick  = std::size_t{edge_nodes} * edge_nodes * edge_nodes;
-/// Fine cells beyond `reach`, of which interpolation takes the last: the contact laws look no deeper without a guard.
+/// Fine cells beyond `reach`, the last of which is for interpolation: contact laws look no deeper without a guard.
 constexpr double band_cells = 4;
-/// Bounds of magnitudes must survive rounding.
+/// Safety factor on bounds of magnitudes, for rounding.
 constexpr double bit_more = 1.001;
 
 using Index3 = std::array<std::int32_t, 3>;
@@ -45,8 +45,8 @@ std::size_t total(const Index3& counts)
            static_cast<std::size_t>(counts[2]);
 }
 
-/// Calls visit(node, value) for all nodes first + stride * (i, j, k) of the grid, rows in parallel; values in the order
-/// of the indices, x fastest.
+/// Calls visit(node, value) for all nodes first + stride * (i, j, k) of the grid, rows in parallel; values are in the
+/// order of the indices, x fastest.
 template<class Visit>
 void sample_lattice(const SignedDistanceGrid& sdf, const Index3& counts, double stride, double shift,
                     const SignedDistance& distance, const Visit& visit)
@@ -83,7 +83,7 @@ Index3 bricks_over(const SignedDistanceGrid& sdf)
     return bricks;
 }
 
-/// m, signed distance of every brick's middle.
+/// Signed distance (m) at the middle of every brick.
 std::vector<double> middles_of(const SignedDistanceGrid& sdf, const Index3& bricks, const SignedDistance& distance)
 {
     std::vector<double> middles(total(bricks));
@@ -93,7 +93,7 @@ std::vector<double> middles_of(const SignedDistanceGrid& sdf, const Index3& bric
 
 double half_diagonal(const SignedDistanceGrid& sdf) { return 0.5 * std::sqrt(3.0) * edge * sdf.spacing; }
 
-/// A fine brick and what stands around it.
+/// A fine brick and its neighbours.
 class Brick
 {
 public:
@@ -109,7 +109,7 @@ public:
         }
     }
 
-    /// Whether a node (0 to 8 along each axis) stands on a coarse brick.
+    /// Whether a node (0 to 8 along each axis) lies on a coarse brick.
     bool on_coarse(const Index3& node) const
     {
         for (std::int32_t n = 0; n < 27; ++n)
@@ -121,7 +121,7 @@ public:
         return false;
     }
 
-    /// The brick that samples a node for all that share it: the one of which it is the lowest face, if there is one.
+    /// Brick that samples a node for all that share it: the one with the node on its lowest face, if there is one.
     Index3 owner(const Index3& node) const
     {
         Index3 brick = at_;
@@ -132,7 +132,7 @@ public:
         return brick;
     }
 
-    /// m, the interpolant of the corners at a node.
+    /// Interpolant (m) of the corners at a node.
     double coarse_value(const Index3& node) const
     {
         const Index3 counts{sdf_.bricks[0] + 1, sdf_.bricks[1] + 1, sdf_.bricks[2] + 1};
@@ -203,7 +203,7 @@ float* values_of(SignedDistanceGrid& sdf, const Index3& brick)
     return sdf.values.data() + per_brick * static_cast<std::size_t>(sdf.slots[index(sdf.bricks, brick)]);
 }
 
-/// Samples what the brick owns. `within` (m) bounds every distance in it.
+/// Samples the nodes that the brick owns. `within` (m) bounds every distance in it.
 void sample_brick(SignedDistanceGrid& sdf, const Brick& brick, const SignedDistance& distance, double within)
 {
     const double step   = bit_more * sdf.spacing;
@@ -227,7 +227,7 @@ void sample_brick(SignedDistanceGrid& sdf, const Brick& brick, const SignedDista
         });
 }
 
-/// Copies what other bricks own.
+/// Copies the nodes that other bricks own.
 void share_nodes(SignedDistanceGrid& sdf, const Brick& brick)
 {
     float* values = values_of(sdf, brick.at());
@@ -258,7 +258,7 @@ void require_room(const SignedDistanceGrid& sdf, double fine)
                          "fewer sdf_cells, or finer points beside a small body"});
 }
 
-/// Bricks that are fine for the reach alone: at least half of what lies in it outside the shape's box.
+/// Lower bound on the bricks that `reach` makes fine: half of its volume outside the shape's box.
 double least_fine(const SignedDistanceGrid& sdf, double reach)
 {
     double all = 1, inner = 1;
@@ -303,7 +303,7 @@ void fill_bricks(SignedDistanceGrid& sdf, const SignedDistance& distance, double
     for (std::size_t n = 0; n < fine.size(); ++n) { share_nodes(sdf, Brick(sdf, fine[n])); }
 }
 
-/// Cells of a brick, sampled for this alone.
+/// Negative volume of a brick, in cells, sampled for this purpose only.
 double negative_cells(const SignedDistanceGrid& sdf, const Index3& brick, const SignedDistance& distance, double within)
 {
     std::vector<double> values(per_brick);

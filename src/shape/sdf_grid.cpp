@@ -13,10 +13,10 @@ namespace tread::shape
 namespace
 {
 
-/// The eight values of a cell, x fastest.
+/// Values at the eight corners of a cell, x fastest.
 using Corners = std::array<double, 8>;
 
-/// Values in memory: those of a cell's corners are `row` and `layer` apart along y and z.
+/// Values in memory; corners of a cell are `row` and `layer` apart along y and z.
 struct Block
 {
     const float* first;
@@ -61,16 +61,16 @@ Block coarse_block(const SignedDistanceGrid& sdf)
 
 double mix(double at_zero, double at_one, double fraction) { return at_zero + fraction * (at_one - at_zero); }
 
-/// A place of the grid: the point of the box nearest to the one asked for.
+/// A position in the grid: the point of the box nearest to a query point.
 struct Place
 {
     Eigen::Vector3d point; ///< in the box
     Corners         corners;
-    Eigen::Vector3d fraction; ///< in the cell, 0..1
+    Eigen::Vector3d fraction; ///< position in the cell, 0..1
     double          spacing;  ///< m, edge of the cell
 };
 
-/// Corners and fraction of `place` in the brick of fine cell `cell`.
+/// Corners and fraction of `place` in the brick that holds fine cell `cell`.
 void locate_in_brick(const SignedDistanceGrid& sdf, const Index3& cell, Place& place)
 {
     constexpr std::size_t edge = SignedDistanceGrid::brick_cells;
@@ -139,7 +139,7 @@ double negative_part(double a, double b)
     return std::min(a, b) / (std::min(a, b) - std::max(a, b));
 }
 
-/// Cells, of the `counts` first ones of a block.
+/// Negative volume, in cells, of the first `counts` cells of a block.
 double negative_cells(const Block& block, const Index3& counts)
 {
     double cells = 0;
@@ -153,7 +153,7 @@ double negative_cells(const Block& block, const Index3& counts)
     return cells;
 }
 
-/// Cells of a slab, one cell thick, of a dense grid.
+/// Negative volume, in cells, of a slab of a dense grid, one cell thick.
 double dense_slab(const SignedDistanceGrid& sdf, std::size_t k)
 {
     Block block = dense_block(sdf);
@@ -162,7 +162,7 @@ double dense_slab(const SignedDistanceGrid& sdf, std::size_t k)
                           {static_cast<std::size_t>(sdf.nodes[0] - 1), static_cast<std::size_t>(sdf.nodes[1] - 1), 1});
 }
 
-/// Cells of a slab, one brick thick. Beyond the box everything is positive.
+/// Negative volume, in cells, of a slab one brick thick. Beyond the box everything is positive.
 double brick_slab(const SignedDistanceGrid& sdf, std::size_t k)
 {
     constexpr std::size_t edge  = SignedDistanceGrid::brick_cells;
@@ -195,7 +195,7 @@ SignedDistanceGrid grid_over(const Bounds& box, int cells, double reach)
     {
         const auto   a      = static_cast<Eigen::Index>(axis);
         const double length = std::max(1.2 * box.extent()[a], box.extent()[a] + 2 * (reach + sdf.spacing));
-        // 120 % of the longest axis is a whole number of cells but for rounding, which must not add one.
+        // 120 % of the longest axis is a whole number of cells up to rounding, which must not add one.
         const auto across = static_cast<std::int32_t>(std::ceil(length / sdf.spacing - 1e-6));
         sdf.nodes[axis]   = across + 1;
         sdf.origin[a]     = middle[a] - 0.5 * sdf.spacing * across;
@@ -233,8 +233,8 @@ double enclosed_volume(const SignedDistanceGrid& sdf)
     return cells * sdf.spacing * sdf.spacing * sdf.spacing;
 }
 
-// Outside the box, the surface lies within it: the way to the surface turns by at least a right angle at the nearest
-// point of the box, so the two legs' root of squares is a lower bound of the distance, continuous at the box.
+// The surface lies within the box. From outside, the path to it bends by at least a right angle at the box's nearest
+// point, so the root of the sum of squares of its two parts is a lower bound of the distance, continuous at the box.
 double sample(const SignedDistanceGrid& sdf, const Eigen::Vector3d& point)
 {
     const Place           place = locate(sdf, point);

@@ -15,7 +15,7 @@ namespace
 
 constexpr double degrees = 180 / 3.14159265358979323846;
 
-/// Where a field should vanish. A generated sphere is the round one, not its facets.
+/// Points at which a field should vanish. For a generated sphere they lie on the exact sphere, not on its facets.
 std::vector<SurfacePoint> surface_of(const TemplateDistance& distance, const TriangleMesh& mesh)
 {
     constexpr std::size_t     count  = 20000;

@@ -17,8 +17,8 @@ struct Block
     double                     reach;
 };
 
-/// Square of the largest |gradient| of a cell's interpolant, times the spacing: at one of its corners, because the
-/// square is convex along each axis. 0 of a cell that is inside, or beyond the reach.
+/// Square of the largest |gradient| of a cell's interpolant, times the spacing: it is at a corner, because the square
+/// is convex along each axis. 0 for a cell inside the surface or beyond the reach.
 double steepest_of_cell(const float* low, std::size_t row, std::size_t layer, double reach)
 {
     const auto at = [&](std::size_t i, std::size_t j, std::size_t k)

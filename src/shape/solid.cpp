@@ -21,18 +21,18 @@ namespace tread::shape
 namespace
 {
 
-/// Where parts of a closed surface are in each other's way.
+/// Conflicts between parts of a closed surface.
 struct Meeting
 {
     std::size_t                    parts        = 0; ///< of the mesh
-    std::size_t                    inside_out   = 0; ///< parts that face inwards where there is nothing to be hollow
+    std::size_t                    inside_out   = 0; ///< parts that face inwards although no part contains them
     Eigen::Vector3d                turned_place = Eigen::Vector3d::Zero(); ///< on the first of them
     std::optional<Eigen::Vector3d> place; ///< where the surface crosses, touches or encloses itself
 };
 
 Eigen::Vector3d middle_of(const Corners& triangle) { return (triangle[0] + triangle[1] + triangle[2]) / 3; }
 
-/// How far from the surface its sides are looked at, and how deep triangles overlap at least.
+/// Offset from the surface to its two sides, and smallest depth of an overlap.
 double step_for(const TriangleMesh& mesh) { return 1e-6 * bounds(mesh).extent().maxCoeff(); }
 
 bool share_a_corner(const TriangleMesh& mesh, std::size_t one, std::size_t other)
@@ -43,7 +43,7 @@ bool share_a_corner(const TriangleMesh& mesh, std::size_t one, std::size_t other
                        { return std::find(theirs.begin(), theirs.end(), vertex) != theirs.end(); });
 }
 
-/// The first triangle that another one without a common corner crosses.
+/// First triangle that is crossed by another one without a common corner.
 std::optional<std::size_t> find_crossing(const TriangleMesh& mesh, const TriangleTree& tree, double step)
 {
     std::size_t first = mesh.triangles.size();
@@ -62,8 +62,8 @@ std::optional<std::size_t> find_crossing(const TriangleMesh& mesh, const Triangl
     return first < mesh.triangles.size() ? std::optional(first) : std::nullopt;
 }
 
-/// Counts the parts that face inwards where no part that faces outwards holds them, and finds the first of the parts
-/// that others hold though both are solid.
+/// Counts the parts that face inwards outside any part that faces outwards, and finds the first solid part that other
+/// solid parts contain.
 void judge_nesting(const TriangleMesh& mesh, const Components& parts, Meeting& meeting)
 {
     const auto                holders = find_holders(mesh, parts);
@@ -81,8 +81,8 @@ void judge_nesting(const TriangleMesh& mesh, const Components& parts, Meeting& m
     }
 }
 
-/// In the middle of a triangle the winding number is 1/2 if the part bounds the solid; another part that touches it
-/// there or holds it adds to that.
+/// Finds conflicts. In the middle of a triangle the winding number is 1/2 if the part bounds the solid; another part
+/// that touches it there or contains it adds to that.
 Meeting find_meeting(const TriangleMesh& mesh)
 {
     constexpr std::size_t samples = 256;
@@ -114,7 +114,7 @@ std::string place_text(const Eigen::Vector3d& place)
     return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", place.x(), place.y(), place.z());
 }
 
-/// Inside and mass by winding number, over the boundary of what that holds.
+/// Defines inside and mass by winding number, with the boundary of that region as surface.
 void sign_by_winding(Solid& solid, const std::string& origin)
 {
     const double finest = bounds(solid.surface).extent().maxCoeff() / 256;
@@ -138,7 +138,7 @@ void take_closed(Solid& solid, Repair repair, const std::string& origin)
     const Meeting meeting = find_meeting(solid.surface);
     if (meeting.inside_out > 0 && repair == Repair::none)
     {
-        require_watertight(solid.surface, origin); // says it better if all of it is inside out
+        require_watertight(solid.surface, origin); // has a better message if the whole mesh is inside out
         throw InputError(fmt::format("{}: {} of its {} parts are inside out, the first at {}; they must be wound "
                                      "counter-clockwise seen from outside (repair = true would turn them)",
                                      origin, meeting.inside_out, meeting.parts, place_text(meeting.turned_place)));

@@ -17,8 +17,8 @@
 #include "shape/mesh_reader.hpp"
 #include "shape/triangle.hpp"
 
-// Binary STL: 80 bytes of header, uint32 count, then 50 bytes a triangle: float32 normal and three corners, uint16;
-// all little-endian. The header may begin with "solid", so only the size tells binary from text.
+// Binary STL: 80 bytes of header, uint32 count, then 50 bytes per triangle: float32 normal and three corners, uint16;
+// all little-endian. The header may begin with "solid", so only the size distinguishes binary from text.
 namespace tread::shape
 {
 namespace

@@ -20,8 +20,8 @@ namespace tread::shape
 namespace
 {
 
-/// Halves a range of nodes across its longest extent, at a whole number of clusters, until each is one cluster: rounder
-/// runs than along a space-filling curve.
+/// Splits a range of nodes across its longest extent, at a multiple of the cluster size, until each part is one
+/// cluster: more compact clusters than along a space-filling curve.
 void split_into_clusters(const std::vector<Eigen::Vector3d>& positions, std::vector<std::size_t>::iterator first,
                          std::vector<std::size_t>::iterator last)
 {
@@ -62,7 +62,7 @@ void enclose_cluster(SurfaceNodes& nodes, std::size_t first, std::size_t last)
     nodes.cluster_radii.push_back(radius);
 }
 
-/// Orders the nodes into clusters and encloses each.
+/// Orders the nodes into clusters and computes the bounding sphere of each.
 SurfaceNodes cluster(const std::vector<Eigen::Vector3d>& positions, const std::vector<double>& areas)
 {
     std::vector<std::size_t> order(positions.size());
@@ -91,7 +91,7 @@ SurfaceNodes nodes_at_vertices(const TriangleMesh& mesh) { return cluster(mesh.v
 
 SurfaceNodes resample_to_count(const TriangleMesh& mesh, int count)
 {
-    // Of the spacing.
+    // Relative to the spacing.
     constexpr double apart = 0.2, longest = 0.5;
 
     const double                   spacing = std::sqrt(surface_area(mesh) / count);

@@ -9,7 +9,7 @@ namespace tread::shape
 namespace
 {
 
-/// Of a triangle: first + u (second - first) + v (third - first), u + v <= 1.
+/// Point of a triangle: first + u (second - first) + v (third - first), u + v <= 1.
 Eigen::Vector3d point_in(const TriangleMesh& mesh, std::size_t triangle, double u, double v)
 {
     if (u + v > 1)

@@ -16,9 +16,9 @@ struct SurfacePoint
     std::int32_t    triangle;
 };
 
-/// `count` points spread evenly by area: the i-th stands where (i + 1/2)/count of the surface lies in the triangles
-/// before it, and within the triangle by the additive sequence of the plastic number (Roberts 2018), folded in half.
-/// The same on every machine.
+/// `count` points distributed evenly by area: triangles before the i-th point cover (i + 1/2)/count of the surface;
+/// within the triangle, points follow the additive sequence of the plastic number (Roberts 2018), folded in half. The
+/// same on every machine.
 std::vector<SurfacePoint> points_on(const TriangleMesh& mesh, std::size_t count);
 
 } // namespace tread::shape

@@ -14,7 +14,7 @@ namespace tread::shape
 namespace
 {
 
-/// How many sharp edges meet at each vertex.
+/// Number of sharp edges at each vertex.
 std::vector<int> count_sharp_edges(const TriangleMesh& mesh)
 {
     const double     sharp_cosine = std::cos(40.0 / 180.0 * 3.14159265358979323846);

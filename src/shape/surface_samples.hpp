@@ -10,15 +10,15 @@
 namespace tread::shape
 {
 
-/// In the order in which they are given nodes.
+/// Sharpness of a sample, in the order in which samples receive nodes.
 enum class Sharpness
 {
-    corner, ///< where other than two sharp edges meet
-    edge,   ///< of 40 degrees and more
+    corner, ///< vertex where the number of sharp edges is not two
+    edge,   ///< dihedral angle of 40 degrees and more
     smooth
 };
 
-/// Points of a surface, closer than its nodes will be: the places that a node may take, each with the area about it.
+/// Points of a surface, denser than its nodes: the candidate positions of nodes, each with its tributary area.
 struct SurfaceSamples
 {
     std::vector<Eigen::Vector3d> positions;
@@ -27,11 +27,11 @@ struct SurfaceSamples
     std::vector<Sharpness>       kinds; ///< corners first, then edges, then the rest
 };
 
-/// Vertices of a fine mesh at least `apart` (m), corners first, then those of sharp edges. The two sides of a thin wall
-/// do not see each other.
+/// Samples vertices of a fine mesh at least `apart` (m), corners first, then those of sharp edges. Samples on the two
+/// sides of a thin wall are independent.
 SurfaceSamples surface_samples(const TriangleMesh& mesh, double apart);
 
-/// m2, a third of the triangles round each vertex.
+/// Area (m2) of each vertex: a third of its adjacent triangles.
 std::vector<double> vertex_areas(const TriangleMesh& mesh);
 
 } // namespace tread::shape

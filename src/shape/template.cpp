@@ -22,7 +22,7 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Volume pi/6 and moment of inertia 2/5 V r^2, r = 1/2 m.
+/// Exact sphere: volume pi/6 and moment of inertia 2/5 V r^2, r = 1/2 m.
 MassProperties exact_sphere() { return {pi / 6, Eigen::Vector3d::Zero(), pi / 60 * Eigen::Matrix3d::Identity()}; }
 
 struct MakeSolid
@@ -53,13 +53,14 @@ struct MakeSolid
     }
 };
 
-/// Of a mesh inscribed in the sphere of diameter 1 m, put onto that.
+/// Projects nodes of an inscribed mesh onto the sphere of diameter 1 m.
 SurfaceNodes on_sphere(SurfaceNodes nodes, const TriangleMesh& mesh)
 {
     const double ratio = pi / surface_area(mesh);
     for (double& area : nodes.areas) { area *= ratio; }
     for (Eigen::Vector3d& position : nodes.positions) { position *= 0.5 / position.norm(); }
-    // A node on a facet moves out by no more than the facet is below the sphere: its cluster's sphere grows by that.
+    // A node on a facet moves out by at most the depth of the facet below the sphere: its cluster's sphere grows by
+    // that.
     double moved = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     {

@@ -24,7 +24,7 @@ bool is_stone(const scene::Shape& shape)
     return is_sphere(shape) || std::holds_alternative<scene::RockGenerator>(shape.source);
 }
 
-/// At most a cell a node of the surface: finer than that there is nothing to see.
+/// At most one cell per surface node: nodes resolve nothing finer.
 int stone_cells(const scene::Shape& shape, const ShapeTemplate& form)
 {
     const auto*  rock    = std::get_if<scene::RockGenerator>(&shape.source);
@@ -47,7 +47,7 @@ int wall_cells(const MeshDistance& of_mesh, ShapeTemplate& form)
     return std::min(wanted, most_cells);
 }
 
-/// Least number of cells, of a sequence up to most_cells, whose volume is within the tolerance; 0 if none is.
+/// Smallest number of cells, from a sequence up to most_cells, whose volume is within the tolerance; 0 if none is.
 int cells_that_do(const ShapeTemplate& form, const SignedDistance& distance)
 {
     constexpr double step  = 1.25;

@@ -17,7 +17,7 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// m along the ray to a box; infinite if it misses.
+/// Distance (m) along the ray to a box; infinite if it misses.
 double entry(const TriangleTree::Node& node, const Eigen::Vector3d& origin, const Eigen::Vector3d& inverse)
 {
     const Eigen::Vector3d at_low  = (node.low - origin).cwiseProduct(inverse);
@@ -26,7 +26,7 @@ double entry(const TriangleTree::Node& node, const Eigen::Vector3d& origin, cons
     return in <= at_low.cwiseMax(at_high).minCoeff() ? in : infinity;
 }
 
-/// m along the ray to a triangle; infinite if it misses.
+/// Distance (m) along the ray to a triangle; infinite if it misses.
 double crossing(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& origin,
                 const Eigen::Vector3d& direction)
 {
@@ -42,7 +42,7 @@ double crossing(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vect
     return b >= 0 && c >= 0 && b + c <= 1 && t > 0 ? t : infinity;
 }
 
-/// A zero component would make the box test 0 * infinity on a box's face.
+/// A zero component would make the box test compute 0 * infinity on a box's face.
 Eigen::Vector3d inverse_of(const Eigen::Vector3d& direction)
 {
     constexpr double least = 1e-200;
@@ -56,7 +56,7 @@ RayHit first_hit(const TriangleTree& tree, const Eigen::Vector3d& origin, const 
 {
     const Eigen::Vector3d        inverse = inverse_of(direction);
     RayHit                       hit{infinity, -1};
-    std::array<std::int32_t, 64> stack; // as deep as closest_point's
+    std::array<std::int32_t, 64> stack; // as deep as that of closest_point
     std::size_t                  top = 0;
     stack[top++]                     = 0;
     while (top > 0)

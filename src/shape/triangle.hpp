@@ -9,7 +9,7 @@
 
 #include "shape/mesh.hpp"
 
-// Sizes and directions of the triangles of a mesh.
+// Areas and normals of the triangles of a mesh.
 namespace tread::shape
 {
 
@@ -31,15 +31,15 @@ inline Bounds bounds(const Corners& triangle)
             triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2])};
 }
 
-/// Normal times twice the area, m2.
+/// Unit normal times twice the area, m2.
 inline Eigen::Vector3d area_vector(const TriangleMesh& mesh, std::size_t triangle)
 {
     const Eigen::Vector3d& a = corner(mesh, triangle, 0);
     return (corner(mesh, triangle, 1) - a).cross(corner(mesh, triangle, 2) - a);
 }
 
-/// Whether the triangle has no normal: corners in single precision place the height of a sliver to some 1e-7 of its
-/// length, and below 1e-8 of it there is nothing.
+/// Whether the triangle has no usable normal: single-precision corners locate the height of a sliver to some 1e-7 of
+/// its length, and below 1e-8 nothing is left of it.
 inline bool is_degenerate(const TriangleMesh& mesh, std::size_t triangle)
 {
     constexpr double       least_height = 1e-8;
@@ -49,7 +49,7 @@ inline bool is_degenerate(const TriangleMesh& mesh, std::size_t triangle)
     return !(area_vector(mesh, triangle).norm() > least_height * longest);
 }
 
-/// m2, of the whole surface.
+/// Area (m2) of the whole surface.
 inline double surface_area(const TriangleMesh& mesh)
 {
     double twice = 0;

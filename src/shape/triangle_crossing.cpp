@@ -10,7 +10,7 @@ namespace tread::shape
 namespace
 {
 
-/// Whether the projections on the axis need be moved by no more than `slack` (m) to leave each other free.
+/// Whether moving one projection on the axis by at most `slack` (m) separates the two.
 bool apart_along(const Eigen::Vector3d& axis, const Corners& one, const Corners& other, double slack)
 {
     const auto [one_low, one_high]     = std::minmax({axis.dot(one[0]), axis.dot(one[1]), axis.dot(one[2])});
@@ -33,7 +33,7 @@ bool crosses(const Corners& one, const Corners& other, double slack)
     constexpr double      parallel = 1e-6;
     if (normal.cross(other_normal).norm() <= parallel * normal.norm() * other_normal.norm())
     {
-        // Of parallel planes, only one that both lie in.
+        // Parallel planes: crossing is possible only if the planes coincide.
         const double gap = std::abs(normal.dot(other[0] - one[0]));
         if (gap > slack * normal.norm()) { return false; }
         for (std::size_t i = 0; i < 3; ++i)

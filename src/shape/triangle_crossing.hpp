@@ -5,8 +5,8 @@
 namespace tread::shape
 {
 
-/// Whether two triangles have more than `slack` (m) in common, by separating axes: the normals, products of sides, and,
-/// for triangles of one plane, the normals of the sides in it. Neighbours in a mesh have a rim in common, no more.
+/// Whether two triangles overlap by more than `slack` (m), by separating axes: the normals, cross products of sides,
+/// and, for coplanar triangles, the in-plane normals of the sides. Neighbours in a mesh share only their rim.
 bool crosses(const Corners& one, const Corners& other, double slack);
 
 } // namespace tread::shape

@@ -39,7 +39,7 @@ struct Builder
         return static_cast<std::size_t>(tree.triangles[static_cast<std::size_t>(entry)]);
     }
 
-    /// Halves the entries at the median centre along the axis in which the centres spread most.
+    /// Splits the entries at the median centre along the axis of largest spread.
     std::int32_t split(std::int32_t first, std::int32_t last)
     {
         Eigen::Vector3d low = centres[index(first)], high = low;
@@ -86,7 +86,7 @@ struct Candidate
     Feature         feature;
 };
 
-/// By the Voronoi region that the point lies in (Ericson 2005, Real-Time Collision Detection, 5.1.5).
+/// Closest point of a triangle, by Voronoi region (Ericson 2005, Real-Time Collision Detection, 5.1.5).
 Candidate closest_on_triangle(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p)
 {
     const auto& [a, b, c]    = corners;
@@ -162,7 +162,7 @@ ClosestPoint closest_point(const TriangleTree& tree, const Eigen::Vector3d& poin
         std::int32_t node;
         double       squared_distance;
     };
-    // The halves differ by at most one triangle, so 2^31 triangles are 31 levels, with one pending sibling each.
+    // Halves differ by at most one triangle, so 2^31 triangles are 31 levels, with one pending sibling each.
     std::array<Pending, 64> stack;
     std::size_t             top = 0;
     ClosestPoint            best{point, within * within, -1, Feature::face};

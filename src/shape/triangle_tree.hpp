@@ -10,7 +10,8 @@
 
 #include "shape/mesh.hpp"
 
-// A tree of axis-aligned boxes over the triangles of a mesh, for exact closest points. Queries may run in parallel.
+// Bounding volume hierarchy (axis-aligned boxes) of a mesh's triangles, for exact closest points. Queries may run in
+// parallel.
 namespace tread::shape
 {
 
@@ -45,18 +46,18 @@ struct ClosestPoint
 {
     Eigen::Vector3d point;
     double          squared_distance; ///< m2
-    std::int32_t    triangle;         ///< -1 if nothing lies within the bound
+    std::int32_t    triangle;         ///< -1 if there is none within the bound
     Feature         feature;
 };
 
-/// The mesh must have triangles.
+/// Builds the tree. The mesh must have triangles.
 TriangleTree build_tree(const TriangleMesh& mesh);
 
-/// The point of the surface closest to `point` among those nearer than `within` (m).
+/// Point of the surface closest to `point`, if nearer than `within` (m).
 ClosestPoint closest_point(const TriangleTree& tree, const Eigen::Vector3d& point,
                            double within = std::numeric_limits<double>::infinity());
 
-/// Triangles of the mesh whose boxes meet `box`; at most `most` of them.
+/// Triangles of the mesh whose boxes overlap `box`; at most `most` of them.
 std::vector<std::int32_t> triangles_touching(const TriangleTree& tree, const Bounds& box, std::size_t most);
 
 } // namespace tread::shape

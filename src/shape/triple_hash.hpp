@@ -8,7 +8,7 @@
 namespace tread::shape
 {
 
-/// Of three 64-bit numbers; those that compare equal must have equal bits (so no -0.0 beside 0.0).
+/// Hash of three 64-bit numbers; equal numbers must have equal bits (so -0.0 and 0.0 must not mix).
 struct TripleHash
 {
     template<class T>
@@ -17,7 +17,7 @@ struct TripleHash
         std::uint64_t mixed = 0;
         for (const T& part : triple)
         {
-            // An odd factor near 2^64 over the golden ratio spreads low bits, the shift brings high ones down.
+            // An odd factor near 2^64 over the golden ratio mixes low bits, the shift brings high ones down.
             mixed = (mixed ^ std::bit_cast<std::uint64_t>(part)) * 0x9e3779b97f4a7c15u;
             mixed ^= mixed >> 29;
         }

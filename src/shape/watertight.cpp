@@ -16,7 +16,7 @@ namespace tread::shape
 namespace
 {
 
-/// How many times a defect was seen, and where first.
+/// Count of a defect, and its first position.
 struct Defect
 {
     const char*     what;

@@ -4,8 +4,8 @@
 #include "shape/generators.hpp"
 #include "shape/wheel_tread.hpp"
 
-// The drum's inside takes over the columns of the tread, so that the wall is evenly thick. Flanges, web and hub are
-// turned.
+// The inside of the drum uses the columns of the tread, so that the wall has uniform thickness. Flanges, web and hub
+// are surfaces of revolution.
 namespace tread::shape
 {
 namespace
@@ -26,7 +26,7 @@ public:
     {
     }
 
-    /// From the drum's edge to where the web, or the other half of the open drum, begins.
+    /// Appends the surface from the drum's edge to the web, or to the other half of the open drum.
     void drum()
     {
         const double edge = 0.5 * wheel_.width, stop = 0.5 * wheel_.web_thickness, flange = edge - wheel_.rim_thickness;
@@ -58,7 +58,7 @@ public:
         append(mesh_, side_, fan(last_, add_vertex(mesh_, 0, 0, at_side(top))));
     }
 
-    /// To a ring that both halves share.
+    /// Appends a band to a ring that both halves share.
     void meet(const Ring& middle) { append(mesh_, side_, band(last_, middle)); }
 
 private:
@@ -71,14 +71,14 @@ private:
         return next_ = even_ring(mesh_, count, last_.angles.front(), radius, at_side(y));
     }
 
-    /// Takes the band that ends at the next ring, which then is the last one.
+    /// Appends the band to the next ring, which then becomes the last one.
     void join(const Triangles& triangles)
     {
         append(mesh_, side_, triangles);
         last_ = next_;
     }
 
-    /// Across the wall, with the columns of the tread.
+    /// Appends the cap across the wall, with the columns of the tread.
     void cap(double edge)
     {
         const int steps = steps_over(wheel_.wall_thickness, 2 * grid_.chord);
@@ -90,7 +90,7 @@ private:
         }
     }
 
-    /// In along the cap, back along the flange's bore, and out again as far as the ring before the drum's.
+    /// Appends the flange: inwards along the cap, back along the bore, and outwards to the ring before the drum's.
     void turn_flange(double edge, double flange)
     {
         turn_face(edge, inner_radius(wheel_, edge), rim_radius(wheel_));
@@ -104,7 +104,7 @@ private:
         }
     }
 
-    /// A plane at y, from one radius in to the other.
+    /// Appends a plane at y, between two radii, inwards.
     void turn_face(double y, double from, double to)
     {
         const int steps = steps_over(from - to, grid_.chord);
@@ -115,7 +115,7 @@ private:
         }
     }
 
-    /// A cylinder from one y to the other.
+    /// Appends a cylinder between two positions y.
     void turn_side(double from, double to, double radius)
     {
         const int count = static_cast<int>(last_.vertices.size());
@@ -126,7 +126,7 @@ private:
         }
     }
 
-    /// Of a turned ring: 60 lose 0.2 % of their disc.
+    /// Number of corners of a turned ring: 60 lose 0.2 % of the disc's area.
     int corners(double radius) const { return std::max(60, steps_over(2 * pi * radius, grid_.chord)); }
 
     TriangleMesh&                mesh_;

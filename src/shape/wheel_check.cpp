@@ -14,7 +14,7 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-// Thinner than this part of the radius, a part would come near the error of the chords.
+// Parts thinner than this fraction of the radius would come near the error of the chords.
 constexpr double thinnest = 1e-3;
 
 class WheelCheck

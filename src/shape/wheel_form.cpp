@@ -10,13 +10,13 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Longest way along y from one row to the next.
+/// Largest step along y between rows.
 double row_step(const scene::WheelGenerator& wheel)
 {
     const double half = 0.5 * wheel.width;
-    // Twice a chord: triangles of the tread stay stout.
+    // Twice a chord keeps the triangles of the tread well shaped.
     double step = 2 * longest_wheel_chord * drum_radius(wheel, 0);
-    // A tenth of half the width leaves 1/400 of a parabola's height between it and its chords.
+    // A tenth of half the width leaves an error of 1/400 of the parabola's height between it and its chords.
     if (wheel.crown > 0 || wheel.grouser_shape == scene::GrouserShape::curved) { step = std::min(step, 0.1 * half); }
     const double steepest = std::abs(sweep(wheel, half)) * (wheel.grouser_shape == scene::GrouserShape::curved ? 2 : 1);
     if (steepest > 0) { step = std::min(step, half * longest_wheel_chord / steepest); }
@@ -102,7 +102,7 @@ WheelGrid wheel_grid(const scene::WheelGenerator& wheel)
     const double foot = 2 * half_angle(wheel, drum_radius(wheel, 0));
     grid.gap_columns  = steps_over(grid.pitch - foot, longest_wheel_chord);
     grid.foot_columns = wheel.grousers > 0 ? steps_over(foot, longest_wheel_chord) : 0;
-    // Steeply swept grousers have narrow rows: lower levels keep the triangles of their sides stout.
+    // Steeply swept grousers have narrow rows: lower levels keep the triangles of their sides well shaped.
     grid.levels = steps_over(wheel.grouser_height, 1.5 * grid.chord);
     return grid;
 }

@@ -10,10 +10,10 @@ namespace tread::shape
 namespace
 {
 
-/// Where a grouser's middle line is at y.
+/// Angle of a grouser's centre line at y.
 double middle_angle(const WheelGrid& grid, int pitch, double y) { return pitch * grid.pitch + sweep(grid.wheel, y); }
 
-/// Way from a grouser's middle line to its line `column`, along the circumference, m.
+/// Distance (m) along the circumference from a grouser's centre line to its line `column`.
 double across(const WheelGrid& grid, int column)
 {
     return grid.wheel.grouser_width * (static_cast<double>(column) / grid.foot_columns - 0.5);
@@ -24,7 +24,7 @@ double foot_angle(const WheelGrid& grid, double y, int column)
     return std::asin(across(grid, column) / drum_radius(grid.wheel, y));
 }
 
-/// One grouser's section at y: a slab from the drum to a flat tip, whose corners are at the outer radius.
+/// Section of one grouser at y: a slab from the drum to a flat tip, whose corners are at the outer radius.
 class Section
 {
 public:
@@ -38,7 +38,7 @@ public:
     {
     }
 
-    /// Appends to `ring` the point at a line across and a level from the drum up.
+    /// Appends to `ring` the point at a column across and a level above the drum.
     void add(Ring& ring, int column, int level) const
     {
         const double aside  = across(grid_, column);
@@ -68,7 +68,7 @@ void add_gap(Ring& ring, TriangleMesh& mesh, const WheelGrid& grid, int pitch, d
     }
 }
 
-/// Up each grouser, over its tip and down, and on along the drum to the next.
+/// Ring up each grouser, over its tip and down, and along the drum to the next.
 Ring tread_ring(TriangleMesh& mesh, const WheelGrid& grid, double y)
 {
     Ring ring;
@@ -86,8 +86,8 @@ Ring tread_ring(TriangleMesh& mesh, const WheelGrid& grid, double y)
     return ring;
 }
 
-/// The sides of a swept grouser are twisted: halved by like diagonals from foot to tip, one side gains what the other
-/// loses, and the grouser keeps its volume. Towards either end of the axle alike.
+/// Band of the tread. The sides of a swept grouser are twisted: with like diagonals from foot to tip, one side gains
+/// the volume that the other loses, and the grouser keeps its volume. Symmetric towards both ends of the axle.
 Triangles tread_band(const WheelGrid& grid, const Ring& from, const Ring& to, double middle_y)
 {
     const int each = static_cast<int>(from.vertices.size()) / grid.pitches;
@@ -103,7 +103,7 @@ Triangles tread_band(const WheelGrid& grid, const Ring& from, const Ring& to, do
                 });
 }
 
-/// A grouser's end, whose outline starts at `first` of the row, level by level; its feet are appended to `feet`.
+/// Appends a grouser's end, whose outline starts at `first` of the row, level by level; appends its feet to `feet`.
 void add_grouser_end(TriangleMesh& mesh, const WheelGrid& grid, Side side, int pitch, double y, const Ring& row,
                      std::size_t first, Ring& feet)
 {

@@ -6,17 +6,17 @@
 namespace tread::shape
 {
 
-/// Which end of the axle a surface lies towards: `right` is +y.
+/// Side of the axle that a surface faces: `right` is +y.
 enum class Side
 {
     left,
     right
 };
 
-/// Appends the surface of a side, made as if it were the right one; the left one is its mirror image.
+/// Appends the surface of a side, given as the right one; the left one is its mirror image.
 void append(TriangleMesh& mesh, Side side, const Triangles& triangles);
 
-/// Drum and grousers: where they end, across the axle.
+/// Edges of drum and grousers across the axle.
 struct TreadEdges
 {
     Ring left, right;
@@ -26,7 +26,7 @@ struct TreadEdges
 /// the columns of `drum_ring`.
 TreadEdges add_tread(TriangleMesh& mesh, const WheelGrid& grid);
 
-/// Ring with the columns of the tread, those under the grousers' feet included, at y and a radius.
+/// Ring with the columns of the tread, including those under the grousers' feet, at y and a radius.
 Ring drum_ring(TriangleMesh& mesh, const WheelGrid& grid, double y, double radius);
 
 } // namespace tread::shape

@@ -13,7 +13,7 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Sums over triangles; places are relative to an origin near them, so that shifting keeps its digits.
+/// Sums over triangles; positions are relative to a nearby origin, so that shifting keeps precision.
 struct Moments
 {
     Eigen::Vector3d area   = Eigen::Vector3d::Zero();
@@ -64,7 +64,7 @@ double seen_from_afar(const Cluster& cluster, const Eigen::Vector3d& way, double
     return (cluster.area.dot(way) + cluster.moment.trace() - outer) / (4 * pi * cubed);
 }
 
-constexpr double near = 4; ///< radii within which the children are asked
+constexpr double near = 4; ///< distance, in radii, within which the children are visited
 
 } // namespace
 
@@ -84,7 +84,7 @@ WindingTree build_winding_tree(const TriangleMesh& mesh)
     const Eigen::Vector3d origin = 0.5 * (tree.nodes[0].low + tree.nodes[0].high);
     std::vector<Moments>  moments(tree.nodes.size());
     winding.clusters.resize(tree.nodes.size());
-    // Children stand behind their parents.
+    // Children are stored after their parents.
     for (std::size_t n = tree.nodes.size(); n-- > 0;)
     {
         const TriangleTree::Node& node = tree.nodes[n];
@@ -98,7 +98,7 @@ WindingTree build_winding_tree(const TriangleMesh& mesh)
 double winding_number(const WindingTree& winding, const Eigen::Vector3d& point)
 {
     const TriangleTree&          tree = winding.tree;
-    std::array<std::int32_t, 64> stack; // as deep as closest_point's
+    std::array<std::int32_t, 64> stack; // as deep as that of closest_point
     std::size_t                  top = 0;
     double                       sum = 0;
     stack[top++]                     = 0;

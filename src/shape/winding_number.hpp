@@ -7,18 +7,19 @@
 
 #include "shape/triangle_tree.hpp"
 
-// How often a surface winds round a point: 1 inside a closed mesh and 0 outside, and something in between near the
-// holes of an open one (generalized winding number, Jacobson, Kavan & Sorkine-Hornung 2013, ACM TOG 32:33).
+// Winding number of a surface about a point: 1 inside a closed mesh and 0 outside, and in between near the holes of an
+// open one (generalized winding number, Jacobson, Kavan & Sorkine-Hornung 2013, ACM TOG 32:33).
 namespace tread::shape
 {
 
-/// The triangles of a tree node as seen from afar.
+/// Far-field moments of the triangles of a tree node.
 struct Cluster
 {
     Eigen::Vector3d area;   ///< m2, sum of the area vectors
-    Eigen::Matrix3d moment; ///< m3, sum of area vector times (middle - centre)^T: what opposite sides of a wall leave
+    Eigen::Matrix3d moment; ///< m3, sum of area vector times (middle - centre)^T: the remainder where opposite sides of
+                            ///< a wall cancel
     Eigen::Vector3d centre; ///< m, weighted by area
-    double          radius; ///< m, about the centre, of a sphere round the triangles
+    double          radius; ///< m, of a sphere about the centre that encloses the triangles
 };
 
 struct WindingTree
@@ -29,16 +30,18 @@ struct WindingTree
 
 WindingTree build_winding_tree(const TriangleMesh& mesh);
 
-/// Exact for triangles nearby; of a node further off than four times its radius the first two moments count, as in
-/// the fast winding number of Barill et al. 2018, ACM TOG 37:43. Off by at most 0.01 for the meshes of the tests.
+/// Winding number at a point. Exact for triangles nearby; a node farther off than four times its radius contributes by
+/// its first two moments, as in the fast winding number of Barill et al. 2018, ACM TOG 37:43. Error at most 0.01 for
+/// the meshes of the tests.
 double winding_number(const WindingTree& winding, const Eigen::Vector3d& point);
 
-/// The mean of both sides of a triangle of the surface, `step` (m) off its middle: 1/2 if it bounds a solid that
-/// nothing else of the surface meets there.
+/// Mean over both sides of a triangle of the surface, `step` (m) off its middle: 1/2 if it bounds a solid and no other
+/// part of the surface is there.
 double winding_number_on(const WindingTree& winding, const std::array<Eigen::Vector3d, 3>& triangle, double step);
 
-/// Part of the full sphere, -1/2 to 1/2, that a triangle covers seen from the point; positive from the side that its
-/// normal points away from (Van Oosterom & Strackee 1983, IEEE Trans. Biomed. Eng. 30:125). 0 in the triangle's plane.
+/// Fraction of the full sphere, -1/2 to 1/2, that a triangle covers seen from the point; positive from the side that
+/// its normal points away from (Van Oosterom & Strackee 1983, IEEE Trans. Biomed. Eng. 30:125). 0 in the triangle's
+/// plane.
 double covered_part(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& point);
 
 } // namespace tread::shape

@@ -16,7 +16,7 @@ enum class Backend
     cuda
 };
 
-/// Calls run(execution tag); `device`: of this process.
+/// Calls run(execution tag); `device`: that of this process.
 template<class Run>
 void on_backend(Backend backend, Run run, int device_number = 0)
 {

@@ -11,30 +11,30 @@
 #include "physics/rock_rest.hpp"
 #include "solver/dem_solver.hpp"
 
-// Prints docs/studies/contact_step.csv: the largest substep with which a settled pile that nothing damps keeps its
-// energy, beside what the stiffness of its contacts and Hertz's law tell.
+// Prints docs/studies/contact_step.csv: the largest stable substep of a settled, undamped pile, beside the estimates
+// from contact stiffness and from Hertz's law.
 namespace
 {
 
 using namespace tread;
 
-constexpr int    count = 48, block = 10; ///< substeps for which pairs hold
+constexpr int    count = 48, block = 10; ///< substeps between pair searches
 constexpr double poisson = 0.25;         ///< of test::stone
-constexpr double safety  = 0.2;          ///< of sqrt(m / sum K), as the solver takes
+constexpr double safety  = 0.2;          ///< of sqrt(m / sum K), as in the solver
 
 struct Kind
 {
     const char* name;
     const char* shape;
-    double      closed_form; ///< 1, or 0: a generated sphere meets others by its nodes
+    double      closed_form; ///< 1, or 0: a generated sphere whose contacts use its nodes
 };
 
-/// A scene, and its bodies where they are.
+/// A scene with the state of its bodies.
 struct Pile
 {
     scene::Scene scene;
     world::World world;
-    double       unit; ///< J, m g R of all bodies
+    double       unit; ///< J, m g R summed over bodies
 };
 
 Pile poured(const test::RockForms& forms, const Kind& kind)
@@ -48,7 +48,10 @@ Pile poured(const test::RockForms& forms, const Kind& kind)
     text += test::rocks_of(kind.shape, count, "rain", {0, 0, 0}, {width, width, height}) + test::phase("all", 0, 1);
     Pile pile{test::load_text(text), {}, 0};
     pile.world = world::build_world(pile.scene);
-    for (scene::Contact& contact : pile.scene.contacts) { contact.rolling_friction = 0.05; } // else balls roll on
+    for (scene::Contact& contact : pile.scene.contacts)
+    {
+        contact.rolling_friction = 0.05;
+    } // otherwise balls keep rolling
     for (shape::ShapeTemplate& form : pile.world.templates) { form.sphere_radius *= kind.closed_form; }
     for (const double mass : pile.world.bodies.mass) { pile.unit += mass * test::earth * test::rock_radius; }
     return pile;
@@ -84,15 +87,15 @@ private:
     solver::DemSolver<Cpu> rigid_;
 };
 
-/// What a pile is left with; time in s.
+/// State of a pile at rest; time in s.
 struct Rest
 {
     double kinetic; ///< over m g R
-    double contact; ///< s, least sqrt(m / sum K) as the solver has it: of contacts that touch, and that are about to
+    double contact; ///< s, least sqrt(m / sum K) as in the solver: of contacts that touch or are about to
 };
 
-/// Damped until the kinetic energy is below 1e-9 m g R, at least for `least` and at most for `longest` (s). Bodies and
-/// contacts of the pile are then those of rest.
+/// Damps until the kinetic energy is below 1e-9 m g R, for at least `least` and at most `longest` (s). Bodies and
+/// contacts of the pile are then at rest.
 Rest settle(const Cpu& cpu, Pile& pile, double least, double longest)
 {
     constexpr double free_flight = 1e-4, still = 1e-9, damping = 0.7;
@@ -117,7 +120,7 @@ Rest settle(const Cpu& cpu, Pile& pile, double least, double longest)
     return rest;
 }
 
-/// s, of the contacts that touch.
+/// Time scales (s) of touching contacts.
 struct LiveTimes
 {
     double body = std::numeric_limits<double>::infinity(); ///< least sqrt(m / sum K) of bodies
@@ -146,11 +149,11 @@ LiveTimes live_times(const Pile& pile)
     return found;
 }
 
-/// Whether the pile wins less than a thousandth of what its contacts and motion hold, in 1,000 substeps of dt (s).
+/// Whether the pile gains less than a thousandth of its contact and kinetic energy in 1,000 substeps of dt (s).
 bool keeps_energy(const Cpu& cpu, const Pile& pile, double dt)
 {
     constexpr int    substeps = 1000;
-    constexpr double touch    = 1e-12; // s: contacts as they stand
+    constexpr double touch    = 1e-12; // s: contacts at their present positions
     Run              run(cpu, pile);
     run.advance(touch, 0);
     const double              start = run.energy();
@@ -163,8 +166,8 @@ bool keeps_energy(const Cpu& cpu, const Pile& pile, double dt)
     return true;
 }
 
-/// s, the largest of a series from half of `time` (s) on, each 5 % longer, before the first that wins energy; nothing
-/// takes any: restitution 1, and friction that never slides.
+/// Largest stable substep, s, of a series that starts at half of `time` (s) and grows by 5 %: the last one before
+/// energy is gained. Nothing dissipates: restitution 1, and friction that never slides.
 double largest_stable(const Cpu& cpu, Pile pile, double time)
 {
     for (scene::Contact& contact : pile.scene.contacts)
@@ -178,14 +181,14 @@ double largest_stable(const Cpu& cpu, Pile pile, double time)
     return stable;
 }
 
-/// s, of Rayleigh's wave over a sphere (docs/theory.md#substeps).
+/// Rayleigh wave time over a sphere, s (docs/theory.md#substeps).
 double rayleigh_time(const scene::Material& stone)
 {
     const double shear = stone.young / (2 * (1 + poisson));
     return std::numbers::pi * test::rock_radius * std::sqrt(stone.density / shear) / (0.1631 * poisson + 0.8766);
 }
 
-/// s, that an impact of two of the spheres at 1 m/s lasts by Hertz: 2.943275 d/v.
+/// Duration, s, of a Hertz impact of two of the spheres at 1 m/s: 2.943275 d/v.
 double hertz_impact_time(const scene::Material& stone)
 {
     const double mass   = stone.density * 4.0 / 3 * std::numbers::pi * std::pow(test::rock_radius, 3) / 2;

@@ -18,7 +18,7 @@ namespace tread::bench
 namespace
 {
 
-constexpr double share_of_contact = 0.2; ///< a substep's of sqrt(m / sum K), as solver::choose_step takes
+constexpr double share_of_contact = 0.2; ///< of a substep over sqrt(m / sum K), as in solver::choose_step
 constexpr double damping          = 0.5; ///< while the bed settles
 
 template<class Exec>
@@ -37,18 +37,18 @@ public:
         choose_substep();
     }
 
-    /// How a bed came to rest.
+    /// Result of settling a bed.
     struct Rest
     {
-        double time;           ///< s, that it took
-        double out_of_balance; ///< sum over bodies of the net force's length, over the weight
+        double time;           ///< s, duration
+        double out_of_balance; ///< sum over bodies of the net force's magnitude, over the weight
     };
 
-    /// Until the bed is at rest, for at most `longest` (s).
+    /// Runs until the bed is at rest, for at most `longest` (s).
     Rest settle(double longest)
     {
         constexpr int    look_every = 64;   // steps
-        constexpr double at_rest    = 1e-3; // of the weight: a tenth of what a phase asks for
+        constexpr double at_rest    = 1e-3; // of the weight: a tenth of a phase's default
         const auto&      g          = scene_.domain.gravity;
         const double     weight     = rigid_.mass() * std::hypot(g[0], g[1], g[2]);
         double           at = 0, still_since = 0;
@@ -65,7 +65,7 @@ public:
         return {at, rigid_.report(at).net_force / weight};
     }
 
-    /// Goes on with the scene's second phase for so long, s.
+    /// Continues with the scene's second phase for `time` (s).
     void stir(double time)
     {
         phases_.advance(0, std::vector<double>(scene_.bodies.size(), 0.0));
@@ -77,7 +77,7 @@ public:
         }
     }
 
-    /// Searches for pairs since the start.
+    /// Number of pair searches since the start.
     std::int64_t searches() const
     {
         const auto& launches = exec_.counters->launches();
@@ -88,7 +88,7 @@ public:
     double               substep() const { return dt_; }
     solver::ContactCount contacts() { return rigid_.count_contacts(); }
 
-    /// Seconds a substep, pairs included.
+    /// Seconds per substep, including pair searches.
     double time_substeps(int steps)
     {
         const double seconds = timed(exec_,

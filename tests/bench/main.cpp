@@ -10,7 +10,7 @@
 #include "mpm.hpp"
 #include "scene.hpp"
 
-// Benchmarks: print figures, assert none.
+// Benchmarks: they print figures and check none.
 namespace
 {
 

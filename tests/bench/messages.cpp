@@ -17,13 +17,13 @@ namespace tread::bench
 namespace
 {
 
-/// What the contact of a point wants of it at the start of a step.
+/// Data that a point's contact needs at the start of a step.
 struct PointState
 {
     Vec3<double> position, velocity, support;
 };
 
-/// The rows 0 to `count` for every rank that `is_told` names but this one.
+/// Rows 0 to `count` for every other rank for which `is_told` holds.
 template<class IsTold>
 std::vector<std::vector<std::int32_t>> rows_for(const Communicator& communicator, std::int64_t count, IsTold is_told)
 {
@@ -51,7 +51,7 @@ public:
 
     const std::string& transport() const { return transport_.description(); }
 
-    /// s: a substep of ranks that share so many bodies.
+    /// Time (s) of a substep of ranks that share `bodies` bodies.
     double tell_shares(std::int64_t bodies)
     {
         decomp::Exchange<Exec> exchange(transport_, "shares");
@@ -67,7 +67,7 @@ public:
             });
     }
 
-    /// s: so many points of every rank but the first go there, and their impulses back.
+    /// Time (s) to send `points` points of every other rank to the first rank, and their impulses back.
     double gather(std::int64_t points)
     {
         const bool             owns = communicator_.rank() == 0;
@@ -94,7 +94,7 @@ public:
     }
 
 private:
-    /// The middle one of three times, each that of the slowest rank.
+    /// Median of three times, each of the slowest rank.
     template<class Round>
     double of_round(Round round)
     {

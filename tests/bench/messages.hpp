@@ -14,8 +14,8 @@ struct MessagesCase
     int                     rounds    = 200; ///< timed, three times
 };
 
-/// What the two designs of a wheel that several ranks touch send: what they tell each other of shared bodies in every
-/// substep, beside the points near the wheel that would go to one rank once a step, and their impulses back. Prints the
+/// Times the messages of two designs for a wheel touched by several ranks: exchange of shared bodies' forces in every
+/// substep, against sending the points near the wheel to one rank once per step and their impulses back. Prints the
 /// times; nothing else is computed.
 void run_messages(const Communicator& communicator, const MessagesCase& what);
 

@@ -12,7 +12,7 @@ namespace tread::bench
 enum class SandState
 {
     settled,   ///< a bed at rest between slip walls
-    collapsing ///< a column that falls apart
+    collapsing ///< a collapsing column
 };
 
 struct MpmCase
@@ -27,19 +27,19 @@ struct MpmCase
     int                  steps     = 200; ///< timed, three times
 };
 
-/// Times whole MPM steps of pure sand, ordering included, and its kernels one by one; prints points a second and the
-/// bytes a point that were allocated.
+/// Times whole MPM steps of pure sand, including ordering, and its kernels one by one. Prints points per second and
+/// allocated bytes per point.
 void run_mpm(const MpmCase& what);
 
-/// Whether `points` are each rank's or all ranks'.
+/// Whether `points` is the number on each rank or on all ranks.
 enum class Scaling
 {
     weak,
     strong
 };
 
-/// The same on all ranks of the communicator: whole steps, the parts of rank 0's step, imbalance, bytes a point. Under
-/// mpirun with one rank after the other these are the figures of weak or strong scaling.
+/// Does so on all ranks of the communicator: whole steps, the parts of rank 0's step, imbalance, bytes per point. Under
+/// mpirun with increasing numbers of ranks these are the figures of weak or strong scaling.
 void run_scaling(const Communicator& communicator, MpmCase what, Scaling scaling, decomp::TransportChoice transport);
 
 } // namespace tread::bench

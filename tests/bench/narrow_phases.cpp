@@ -8,8 +8,8 @@
 #include "base/random.hpp"
 #include "unit/kernels/dem_ray_shapes.hpp"
 
-// Prints docs/studies/narrow_phases.csv: two dented rocks meet off their centres, turned in several ways, without
-// friction and damping; by distance fields of several grids and by rays, for several counts of surface nodes.
+// Prints docs/studies/narrow_phases.csv: off-centre impacts of two dented rocks in several orientations, without
+// friction and damping; with distance fields of several grids and with rays, for several numbers of surface nodes.
 namespace
 {
 
@@ -20,9 +20,9 @@ using Scene = SolidScene<Cpu>;
 
 constexpr int    turns = 12, repeats = 3;
 constexpr double dt = 1e-5, duration = 0.04;
-constexpr int    block = 20; ///< substeps for which the pairs hold
+constexpr int    block = 20; ///< substeps between pair searches
 
-/// The two rocks of a turn just before they touch.
+/// The two rocks of one orientation just before they touch.
 std::vector<Solid> about_to_touch(const Cpu& cpu, const SolidShape& solid, std::vector<Solid> rocks)
 {
     constexpr double stride = 1e-4; // s: a tenth of a millimetre
@@ -53,7 +53,7 @@ struct Outcome
     double       energy;   ///< relative change
     double       force;    ///< N, largest
     Vec3<double> velocity; ///< m/s, of the first rock afterwards
-    double       time;     ///< s, of the processor, for all substeps
+    double       time;     ///< s of processor time, for all substeps
 };
 
 Outcome impact(const Cpu& cpu, const SolidShape& solid, const dem::RayView* rays, const std::vector<Solid>& rocks)
@@ -75,7 +75,7 @@ Outcome impact(const Cpu& cpu, const SolidShape& solid, const dem::RayView* rays
     return found;
 }
 
-/// All turns; the time of each is the shortest of its repeats.
+/// Impacts in all orientations; the time of each is the shortest of its repeats.
 std::vector<Outcome> impacts(const Cpu& cpu, const shape::ShapeTemplate& form, const dem::RayView* rays,
                              const std::vector<std::vector<Solid>>& all)
 {
@@ -134,7 +134,7 @@ int main()
         {
             print("sdf", nodes, cells, impacts(cpu, dented_rock(nodes, cells), nullptr, all), reference);
         }
-        const shape::ShapeTemplate form = dented_rock(nodes, 64); // the grid lists the nodes
+        const shape::ShapeTemplate form = dented_rock(nodes, 64); // the grid selects the nodes
         const Rays<Cpu>            rays(cpu, rays_of(form.mesh, form.nodes.positions));
         print("rays", nodes, 64, impacts(cpu, form, rays.views(), all), reference);
     }

@@ -7,7 +7,7 @@
 #include "physics/sphere_on_bed.hpp"
 
 // Prints docs/studies/point_motions.csv: a sphere or wheel on a bed with the three motions of points in the substeps;
-// with an argument, the cases that begin with it.
+// an argument selects the cases whose name begins with it.
 namespace
 {
 
@@ -26,12 +26,12 @@ test::SphereOnBed held(int points_per_cell)
     test::SphereOnBed bed;
     bed.sideways        = 0.15;
     bed.settling        = 0.1;
-    bed.free            = 0.08; // a sphere that creeps must not get to the walls
+    bed.free            = 0.08; // a creeping sphere must not reach the walls
     bed.points_per_cell = points_per_cell;
     return bed;
 }
 
-/// Long enough that the sphere slips in the second half: friction yields after about 1 mm.
+/// Long enough for the sphere to slip in the second half: friction yields after about 1 mm.
 test::SphereOnBed drawn(double speed, const std::string& law, int points_per_cell)
 {
     test::SphereOnBed bed;
@@ -48,7 +48,7 @@ test::SphereOnBed drawn(double speed, const std::string& law, int points_per_cel
     return bed;
 }
 
-/// A seventeenth of the automatic step: friction that points let go of a little in each step has more of them.
+/// A seventeenth of the automatic step: if points lose a little friction in each step, more steps lose more.
 test::SphereOnBed drawn_in_short_steps()
 {
     test::SphereOnBed bed = drawn(0.1, sand, 1);
@@ -74,7 +74,7 @@ test::SphereOnBed rolling()
     return bed;
 }
 
-/// One layer of points that a sphere and a slab which nothing moves touch from both sides.
+/// One layer of points between a sphere and a fixed slab, which both touch it.
 test::SphereOnBed between_bodies(const test::MeshFile& slab, double half_height)
 {
     test::SphereOnBed bed = held(1);
@@ -94,7 +94,7 @@ lock     = ["x", "y", "z", "roll", "pitch", "yaw"]
     return bed;
 }
 
-/// 64 points a cell: k dt^2/m_p is large for steps that the grid still carries.
+/// 64 points per cell: k dt^2/m_p is large at steps that are still stable for the grid.
 test::SphereOnBed rattling(const std::string& dt)
 {
     test::SphereOnBed bed;
@@ -141,7 +141,7 @@ void print(const Cpu& cpu, const Case& one, const std::string& motion, int subst
     }
     catch (const NumericalError&)
     {
-        std::printf(",,,,,,,\n"); // stopped, which is an answer too
+        std::printf(",,,,,,,\n"); // stopped, which is a result too
     }
     std::fflush(stdout);
 }
@@ -158,7 +158,7 @@ int main(int argc, char** argv)
     for (const Case& one : cases(slab))
     {
         if (!one.name.starts_with(wanted)) { continue; }
-        print(cpu, one, "supported", 1); // all motions are one then
+        print(cpu, one, "supported", 1); // all motions are the same with one substep
         for (const char* motion : {"supported", "ballistic", "frozen"}) { print(cpu, one, motion, 100); }
     }
     return 0;

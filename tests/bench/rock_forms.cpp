@@ -8,7 +8,7 @@
 #include "shape/form.hpp"
 #include "shape/generators.hpp"
 
-// Prints the table of docs/shapes.md: what rocks were asked for, and what 20 seeds of each recipe measure.
+// Prints the table of docs/shapes.md: requested forms of rocks, and measured forms for 20 seeds of each recipe.
 namespace
 {
 

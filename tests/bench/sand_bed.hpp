@@ -10,7 +10,7 @@
 #include "mpm.hpp"
 #include "world/world.hpp"
 
-// A bed or a column of sand on a lattice; a rank makes the points of its own pages alone.
+// A bed or a column of sand on a lattice; each rank generates only the points of its own pages.
 namespace tread::bench
 {
 
@@ -71,7 +71,7 @@ inline Vec3<double> corner_of(const MpmCase& what, const scene::Scene& scene)
     return column ? Vec3<double>(scene.domain.size[0] / 3, scene.domain.size[1] / 3, 0) : Vec3<double>::Zero();
 }
 
-/// Points [first, end) along each axis that are in one page.
+/// Range [first, end) of points along each axis in one page.
 struct PagePoints
 {
     std::int64_t first[3];
@@ -80,7 +80,7 @@ struct PagePoints
     std::int64_t count() const { return (end[0] - first[0]) * (end[1] - first[1]) * (end[2] - first[2]); }
 };
 
-/// Along one axis: where each page of the lattice begins, and past its end.
+/// Start of each page of the lattice along one axis, and one past the end.
 inline std::vector<std::pair<std::int32_t, std::int64_t>> page_starts(const mpm::GridGeometry& geometry, double corner,
                                                                       double distance, std::int64_t count)
 {
@@ -97,7 +97,7 @@ inline std::vector<std::pair<std::int32_t, std::int64_t>> page_starts(const mpm:
 
 using LatticePages = std::map<std::uint64_t, PagePoints>;
 
-/// All pages of a lattice, without a look at its points.
+/// All pages of a lattice, computed without visiting its points.
 inline LatticePages pages_of(const mpm::GridGeometry& geometry, const Vec3<double>& corner, const Lattice& lattice)
 {
     std::vector<std::pair<std::int32_t, std::int64_t>> axes[3];
@@ -130,7 +130,7 @@ inline decomp::PageGraph graph_of(const LatticePages& pages)
     return decomp::page_graph(std::move(key), std::move(load));
 }
 
-/// Walls and grid, no points.
+/// World with walls and grid, without points.
 inline world::World empty_world(const scene::Scene& scene)
 {
     world::World world{};
@@ -148,7 +148,7 @@ inline world::World empty_world(const scene::Scene& scene)
     return world;
 }
 
-/// Bytes of host memory matter: a thousand million points must fit.
+/// Memory matters: a thousand million points must fit on the host.
 inline void fill(world::HostPoints& points, const scene::Material& sand, const Vec3<double>& corner,
                  const Lattice& lattice, const std::vector<PagePoints>& pages)
 {
@@ -186,7 +186,7 @@ inline void fill(world::HostPoints& points, const scene::Material& sand, const V
     }
 }
 
-/// With the points of the pages of which owned(page key) holds.
+/// World with the points of the pages for which owned(page key) holds.
 template<class Owned>
 world::World make_world(const MpmCase& what, const scene::Scene& scene, const Lattice& lattice, Owned owned)
 {

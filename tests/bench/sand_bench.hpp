@@ -9,7 +9,7 @@
 #include "timed.hpp"
 #include "world/materials.hpp"
 
-// Sand whose steps are timed, on one rank or on several.
+// Sand for timed steps, on one rank or on several.
 namespace tread::bench
 {
 
@@ -42,7 +42,7 @@ public:
         sand_.report();
     }
 
-    /// Seconds of `steps` whole steps.
+    /// Wall time (s) of `steps` whole steps.
     double time_steps(int steps)
     {
         return timed(exec_,
@@ -52,7 +52,7 @@ public:
                      });
     }
 
-    /// Mean seconds of each kernel, over `steps` steps with a wait after each.
+    /// Prints the mean time (s) of each kernel over `steps` steps, with synchronisation after each.
     void print_kernels(int steps, double points, int rank = 0)
     {
         const char* names[]    = {"order", "P2G", "grid", "G2P", "report", "halo"};
@@ -74,7 +74,7 @@ public:
         }
         for (int k = 0; k < (ranks_ > 1 ? 6 : 5); ++k)
         {
-            if (rank > 0) { return; } // rank 0's stand for all
+            if (rank > 0) { return; } // rank 0 reports for all
             const double each = seconds[k] / steps;
             std::cout << fmt::format("    {:<7} {:9.1f} us  {:8.3f}e9 points/s\n", names[k], 1e6 * each,
                                      1e-9 * points / each);
@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    /// As solver::Simulation does where sand moves half a cell in as many steps.
+    /// As in solver::Simulation if sand moves half a cell in that many steps.
     static constexpr int report_every = 8;
 
     Exec                          exec_;

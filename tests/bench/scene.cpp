@@ -33,15 +33,15 @@ public:
     {
     }
 
-    /// Seconds of `steps` whole steps.
+    /// Wall time (s) of `steps` whole steps.
     double time_steps(int steps)
     {
-        constexpr std::int64_t no_sample = 1; // a step in which stages are not waited for
+        constexpr std::int64_t no_sample = 1; // a step in which stages are not synchronised
         clock_.begin_step(no_sample);
         return timed(exec_, [&] { run(steps, clock_); });
     }
 
-    /// Of `steps` steps with a wait after each stage.
+    /// Times of the stages over `steps` steps, with synchronisation after each stage.
     std::vector<io::StageReport> time_stages(int steps, int ranks)
     {
         solver::StageClock clock;
@@ -86,7 +86,7 @@ private:
     double                         substeps_ = 0;
 };
 
-/// The slowest rank's.
+/// Time of the slowest rank.
 double of_all(const Communicator& communicator, double seconds)
 {
     const std::vector<double> of_ranks = communicator.gather(seconds);

@@ -9,8 +9,8 @@
 #include "kernels/mpm/laws/law_kern.hpp"
 #include "kernels/mpm/laws/mid_step_kern.hpp"
 
-// What the stress could be measured by, compared on one point: figures of docs/stress_measure.md. A measure has a
-// State<Real> and step(material, state, l), l = velocity gradient x dt, and gives the Kirchhoff stress.
+// Compares stress measures on one point: figures of docs/stress_measure.md. A measure has a State<Real> and
+// step(material, state, l), with l = velocity gradient x dt, and returns the Kirchhoff stress.
 namespace
 {
 
@@ -27,7 +27,7 @@ struct TurnedState
     PlasticState<Real> plastic{};
 };
 
-/// The product's: stress turned by the increment of Hughes and Winget.
+/// The measure of tread: stress rotated by the Hughes-Winget increment.
 struct HughesWinget
 {
     static constexpr const char* name = "Hughes-Winget";
@@ -42,7 +42,7 @@ struct HughesWinget
     }
 };
 
-/// The same with l at the start of the step, as the grid gives it.
+/// Hughes-Winget with l at the start of the step, as the grid gives it.
 struct HughesWingetFromStart
 {
     template<class Real>
@@ -85,7 +85,7 @@ struct Jaumann
 template<class Real>
 struct HenckyState
 {
-    Sym3<Real>         stress = Sym3<Real>::Zero(); ///< Pa; follows from the rest
+    Sym3<Real>         stress = Sym3<Real>::Zero(); ///< Pa; derived from the rest
     Sym3<Real>         strain = Sym3<Real>::Zero(); ///< b_e - 1
     PlasticState<Real> plastic{};
 };
@@ -98,7 +98,7 @@ Sym3<Real> lower(const Mat3<Real>& m)
     return s;
 }
 
-/// Logarithmic strain of b_e, kept as b_e - 1; Kirchhoff stress C : log(b_e)/2; f = 1 + l, as the points move.
+/// Logarithmic strain of b_e, stored as b_e - 1; Kirchhoff stress C : log(b_e)/2; f = 1 + l, as the points move.
 struct Hencky
 {
     static constexpr const char* name = "Hencky, b_e - 1";
@@ -136,7 +136,7 @@ struct Hencky
     }
 };
 
-/// The same with f = (1 - l/2)^-1 (1 + l/2), which is a rotation where l is skew.
+/// Hencky with f = (1 - l/2)^-1 (1 + l/2), which is a rotation if l is skew.
 struct HenckyMidpoint
 {
     static constexpr const char* name = "Hencky, midpoint";
@@ -192,7 +192,7 @@ typename Measure::template State<Real> start(const Law<Real>& law, const Vec3<do
     return state;
 }
 
-/// Off from the start after ten turns about an oblique axis, over the stress.
+/// Deviation from the initial stress after ten turns about an oblique axis, over the stress.
 template<class Measure, class Real>
 double ten_turns(int steps_a_turn)
 {
@@ -201,7 +201,7 @@ double ten_turns(int steps_a_turn)
     const double       w    = 2 * std::numbers::pi / steps_a_turn;
     Mat3<double>       spin;
     spin << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
-    // The measures that turn by Cayley's formula turn by 2 atan(w/2): given so that the turns are whole.
+    // Measures with Cayley's formula turn by 2 atan(w/2): w is chosen so that the turns are whole.
     const bool       cayley = std::is_same_v<Measure, HughesWinget> || std::is_same_v<Measure, HenckyMidpoint>;
     const Mat3<Real> l      = ((cayley ? 2 * std::tan(w / 2) : w) * spin).template cast<Real>();
     auto             state  = start<Measure>(law, stress);
@@ -223,7 +223,7 @@ double simple_shear(double gamma, int steps)
     return state.stress[5] / law.shear_modulus;
 }
 
-/// Work of a closed cycle of strain (stretch, shear, back, back) of this amplitude, over the largest energy in it.
+/// Work of a closed strain cycle (stretch, shear, back, back) of this amplitude, over the largest energy in it.
 template<class Measure>
 double cycle_work(double amplitude, int steps)
 {
@@ -240,7 +240,7 @@ double cycle_work(double amplitude, int steps)
             Mat3<double> next  = Mat3<double>::Identity();
             next(0, 0) += amplitude * (corner[side][0] + share * (corner[side + 1][0] - corner[side][0]));
             next(0, 1) += amplitude * (corner[side][1] + share * (corner[side + 1][1] - corner[side][1]));
-            // The midpoint's gradient, whose Cayley map is the increment of f.
+            // Gradient at the midpoint, whose Cayley map is the increment of f.
             const Mat3<double> middle = 0.5 * (f + next), l = (next - f) * middle.inverse();
             const Mat3<double> plain  = (next - f) * f.inverse();
             const Sym3<double> before = state.stress;
@@ -254,7 +254,7 @@ double cycle_work(double amplitude, int steps)
     return work / largest;
 }
 
-/// tau / sigma_n of sand in simple shear of constant volume to `gamma`, from 1 kPa all round.
+/// tau / sigma_n of sand in simple shear at constant volume to `gamma`, from an isotropic 1 kPa.
 template<class Measure>
 double sheared_sand(double gamma, int steps)
 {
@@ -266,7 +266,7 @@ double sheared_sand(double gamma, int steps)
     return -state.stress[5] / state.stress[1];
 }
 
-/// ns a step of a point on one core: `strain` a step about a pressure of 1 kPa, each point by its own gradient.
+/// ns per step and point on one core: `strain` per step about a pressure of 1 kPa, each point with its own gradient.
 template<class Measure, class Real>
 double cost(const Law<Real>& law, double strain)
 {
@@ -290,7 +290,7 @@ double cost(const Law<Real>& law, double strain)
     for (int repeat = 0; repeat < 5; ++repeat)
     {
         states                  = first;
-        const std::clock_t from = std::clock(); // of this process, on a machine that others use too
+        const std::clock_t from = std::clock(); // of this process, because other processes use the machine too
         for (int n = 0; n < rounds; ++n)
         {
             for (std::size_t i = 0; i < count; ++i) { Measure::step(law, states[i], gradients[i]); }

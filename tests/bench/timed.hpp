@@ -7,7 +7,7 @@
 namespace tread::bench
 {
 
-/// Wall seconds of f() on a backend, waited for.
+/// Wall time (s) of f() on a backend, including synchronisation.
 template<class Exec, class F>
 double timed(const Exec& exec, F f)
 {

@@ -7,7 +7,7 @@
 #include "io/bed_file.hpp"
 #include "scratch_file.hpp"
 
-// Any bytes as bed.h5: an EnvironmentError or a bed whose numbers are in range, never anything else.
+// Feeds arbitrary bytes as bed.h5: the result must be an EnvironmentError or a bed whose numbers are in range.
 namespace
 {
 

@@ -9,7 +9,7 @@
 #include "shape/repair.hpp"
 #include "shape/solid.hpp"
 
-// Any bytes as a mesh file: an InputError or a mesh, never anything else. The first byte chooses the format.
+// Feeds arbitrary bytes as a mesh file: the result must be an InputError or a mesh. The first byte selects the format.
 namespace
 {
 
@@ -21,7 +21,7 @@ TriangleMesh read(std::uint8_t format, std::string_view bytes)
     return weld(format % 2 == 0 ? read_stl(bytes, "fuzz.stl") : read_obj(bytes, "fuzz.obj"));
 }
 
-/// What repair promises of any mesh: indices in range.
+/// Guarantee of repair for any mesh: indices in range.
 void require_repaired(const TriangleMesh& mesh)
 {
     const Repaired repaired = repair_mesh(mesh);
@@ -38,7 +38,7 @@ void require_repaired(const TriangleMesh& mesh)
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    // Signing a mesh samples it ten thousand times: small meshes, and not each of them.
+    // The sign of a mesh is sampled ten thousand times: only for small meshes, and not for each of them.
     constexpr std::size_t few = 12, each = 16;
 
     if (size == 0) { return 0; }

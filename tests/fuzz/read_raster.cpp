@@ -7,8 +7,8 @@
 #include "scratch_file.hpp"
 #include "world/raster.hpp"
 
-// Any bytes as a height map: an InputError or finite heights, as many as rows times columns. The first byte chooses the
-// format: 0 = PGM, 1 = CSV.
+// Feeds arbitrary bytes as a height map: the result must be an InputError or finite heights, rows times columns of
+// them. The first byte selects the format: 0 = PGM, 1 = CSV.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace tread;

@@ -7,8 +7,8 @@
 #include "scene/load.hpp"
 #include "scratch_file.hpp"
 
-// Any bytes as a scene: an InputError or a scene, never anything else. What stands before the first zero byte, if there
-// is one, is a `--set`.
+// Feeds arbitrary bytes as a scene: the result must be an InputError or a scene. Bytes before the first zero byte, if
+// there is one, are a `--set`.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace tread;

@@ -8,11 +8,11 @@
 
 #include <unistd.h>
 
-// What readers that take a path are given in place of bytes.
+// Files for readers that take a path instead of bytes.
 namespace tread::fuzz
 {
 
-/// A file in memory for this process, if there is such a place; it goes with the process.
+/// A file of this process, in memory if possible; removed when the process ends.
 class ScratchFile
 {
 public:

@@ -9,7 +9,7 @@
 #include "temporary_directory.hpp"
 #include "world/saved_bed.hpp"
 
-// Beds of rocks that are settled in one scene and start another.
+// Beds of rocks settled in one scene and loaded by another.
 namespace
 {
 
@@ -64,7 +64,7 @@ damping  = 0.3
 duration = 3.0
 )";
 
-/// The heap again, with a ball that hangs above it and comes first in all lists.
+/// The same heap, with a ball that hangs above it and comes first in all lists.
 std::string other_text(const std::string& bed)
 {
     return R"(
@@ -94,8 +94,8 @@ duration = 2.0
 
 struct Stillness
 {
-    double kinetic; ///< J, the largest
-    double slump;   ///< m, that any rock moved
+    double kinetic; ///< J, largest
+    double slump;   ///< m, largest displacement of a rock
 };
 
 template<class Exec>
@@ -120,8 +120,8 @@ Stillness watch(const Exec& exec, const scene::Scene& scene, const world::World&
     return found;
 }
 
-/// KE <= 1e-8 m g R and no slump over 1e-2 R in 2 s. The heap stands by friction: rocks that lost what their contacts
-/// remember slide until the springs have it again.
+/// Kinetic energy <= 1e-8 m g R, and displacement of at most 1e-2 R in 2 s. Friction holds the heap: rocks without
+/// their contact history slide until the tangential springs are loaded again.
 TYPED_TEST(Beds, SavedHeapStaysAtRestInAnotherScene)
 {
     const test::TemporaryDirectory folder;
@@ -145,7 +145,7 @@ TYPED_TEST(Beds, SavedHeapStaysAtRestInAnotherScene)
     }
 
     const double scale = static_cast<double>(saved.size()) * 2700 * std::acos(-1.0) / 6 * std::pow(rock_diameter, 3) *
-                         gravity * 0.5 * rock_diameter; // J, m g R of all
+                         gravity * 0.5 * rock_diameter; // J, m g R of all rocks
     const Stillness kept = watch(this->exec(), scene, world);
     world.contacts.clear();
     const Stillness forgot = watch(this->exec(), scene, world);

@@ -5,14 +5,13 @@
 
 #include "harness.hpp"
 
-// The books of a run, looked at in every step.
+// Checks the energy balance of a run in every step.
 namespace tread::test
 {
 
 inline constexpr double closes = 1e-3; ///< of the largest energy: design, section 7
 
-/// Carries the scene to its end; the largest unaccounted share of the largest energy, which the books themselves hold
-/// at any time.
+/// Runs a scene to its end; returns the largest unaccounted share of the largest energy, as the ledger computes it.
 template<class Exec>
 double largest_unaccounted(Experiment<Exec>& run)
 {

@@ -14,8 +14,8 @@ class CellMeans : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(CellMeans, test::Backends, test::BackendNames);
 
-/// A block whose points have any velocity and any stress, as the flow of sand that dilates may leave them: the power
-/// of the nodes' forces is what the laws store. Cells' mean strains are the adjoint of forces of the cells' mean
+/// A block whose points have arbitrary velocities and stresses, as in dilating flow of sand: the power of the nodal
+/// forces equals the power stored by the laws. Cell-averaged strains are the adjoint of nodal forces from cell-averaged
 /// pressure, and of no others.
 TYPED_TEST(CellMeans, ForcesDoTheWorkThatTheLawsSee)
 {
@@ -54,14 +54,14 @@ duration = 1.0
     scramble(sand.points().velocity, 0.0, 1.0);
     scramble(sand.points().stress, 0.0, 1.0e3);
     scramble(sand.points().volume_ratio, 1.0, 0.1);
-    constexpr double dt = 1e-12; // s: the forces stand still in it
+    constexpr double dt = 1e-12; // s: forces are constant during it
     sand.order();
     sand.scatter();
     sand.update_grid(dt, 0);
     sand.gather(dt);
     const solver::SandReport report = sand.report();
     const double power = report.grid[mpm::grid_power_before], stored = report.points[mpm::point_stress_power];
-    // In the step the stress grows by E grad v dt: V E (grad v)^2 dt W, grad v up to a velocity of 1 m/s over a
+    // In the step the stress grows by E grad v dt: V E (grad v)^2 dt W, with grad v up to a velocity of 1 m/s over a
     // spacing.
     const double tolerance = 8e-3 * 1e6 * 20 * 20 * dt;
     test::report("power of the forces in W", power, -stored, tolerance, "what the step adds to the stress");

@@ -11,7 +11,7 @@ class Collapse : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(Collapse, test::Backends, test::BackendNames);
 
-/// One column on a coarse grid; three aspect ratios on finer ones, and the slopes between them, are a slow test.
+/// One column on a coarse grid; the slow tests have three aspect ratios on finer ones, and their slopes.
 TYPED_TEST(Collapse, RunsOutAsFarAsSandDoes)
 {
     const test::CollapseSetup setup{1.1, 12};

@@ -9,8 +9,7 @@
 
 #include "harness.hpp"
 
-// A column of sand, one cell thick, that collapses over a rough floor and comes to rest
-// (docs/verification.md#column-collapse).
+// Collapse of a sand column, one cell thick, over a rough floor (docs/verification.md#column-collapse).
 namespace tread::test
 {
 
@@ -20,19 +19,19 @@ struct CollapseSetup
     int    cells;  ///< across the width
 };
 
-/// Over the column's width.
+/// Shape of the deposit, relative to the column's width.
 struct Deposit
 {
-    double run_out;    ///< how far beyond the column's foot 99 % of the mass end: the last grains lie alone
-    double front;      ///< how far beyond it 99.9 % end
-    double last_point; ///< how far beyond it the last point lies
+    double run_out;    ///< distance from the column's foot that contains 99 % of the mass: the last grains are isolated
+    double front;      ///< distance that contains 99.9 %
+    double last_point; ///< distance of the last point
     double height;     ///< of the sand at the wall
 };
 
 constexpr double column_width = 0.1; ///< m
 
-/// Walls at x = 0 and y are smooth, as the glass was. No PIC: it is a viscosity of some 0.02 c h, too much for a flow
-/// as thin as this one on grids as coarse as these.
+/// Walls at x = 0 and y are smooth, as the glass was. No PIC: it acts as a viscosity of some 0.02 c h, too much for a
+/// flow as thin as this on grids as coarse as these.
 inline std::string collapse_text(const CollapseSetup& setup)
 {
     const double spacing = column_width / setup.cells, height = setup.aspect * column_width;
@@ -83,8 +82,8 @@ Deposit collapse(const Exec& exec, const CollapseSetup& setup)
             x.back() / column_width - 1, top / column_width};
 }
 
-/// Run-out by Lube et al. (2005), J. Fluid Mech. 541, and Lajeunesse et al. (2005), Phys. Fluids 17: both say 1.2 a for
-/// low columns and 1.9 a^(2/3) for high ones; Lube's limits are 1.8 and 2.8.
+/// Run-out by Lube et al. (2005), J. Fluid Mech. 541, and Lajeunesse et al. (2005), Phys. Fluids 17: both give 1.2 a
+/// for low columns and 1.9 a^(2/3) for high ones; Lube's limits are 1.8 and 2.8.
 inline double expected_run_out(double aspect) { return aspect < 1.8 ? 1.2 * aspect : 1.9 * std::pow(aspect, 2.0 / 3); }
 
 /// Height at the wall: Lube a below 1.15, 0.65 a^0.4 above; Lajeunesse a below 0.7, a^(1/3) above. [lowest, highest].
@@ -100,7 +99,7 @@ inline HeightRange expected_height(double aspect)
     return {std::min(lube, lajeunesse), std::max(lube, lajeunesse)};
 }
 
-/// C5: 15 %, which is how far the two groups are from each other.
+/// C5: 15 %, the difference between the two groups.
 constexpr double collapse_tolerance = 0.15;
 
 inline void check_deposit(const CollapseSetup& setup, const Deposit& left)

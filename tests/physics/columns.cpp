@@ -7,7 +7,7 @@
 
 #include "harness.hpp"
 
-// Columns of one cell between slip walls: what stands on the floor, and how local damping brings it to rest.
+// Columns one cell wide between slip walls: hydrostatic stress above the floor, and local damping.
 namespace
 {
 
@@ -60,7 +60,7 @@ struct Column
     double              weight;     ///< N
 };
 
-/// Starts with `share` of the stress at rest, so that the rest of the load comes on in the run.
+/// Starts with `share` of the stress at rest, so that the remaining load is applied during the run.
 template<class Exec>
 Column settle(const Exec& exec, const std::string& text, double share)
 {
@@ -90,7 +90,7 @@ Column settle(const Exec& exec, const std::string& text, double share)
     return column;
 }
 
-/// Largest error of the vertical stress over that of the base, of points whose depth is in a range.
+/// Largest error of the vertical stress, over the stress at the base, of points in a range of depths.
 double worst(const Column& column, double from, double to)
 {
     double error = 0;
@@ -104,9 +104,10 @@ double worst(const Column& column, double from, double to)
 
 const std::string elastic = "model = \"elastic\"\npoisson = 0.0";
 
-/// The column from no stress at all, on either floor: hydrostatic, beside the floor as elsewhere. Between wall and half
-/// a cell a spline that vanishes with its mirror image is a straight line: the stress there is that of half a cell's
-/// height, and up to a quarter of a cell's weight off at the points. So the stress converges with first order there.
+/// The column starts without stress, on either floor, and becomes hydrostatic, also beside the floor. Between the wall
+/// and half a cell a spline that vanishes with its mirror image is a straight line: the stress there is that at half a
+/// cell's height, and off by up to a quarter of a cell's weight at the points. So the stress converges with first order
+/// there.
 TYPED_TEST(Columns, HydrostaticOnSlipAndFixedFloors)
 {
     for (const std::string floor : {"slip", "fixed"})
@@ -140,8 +141,8 @@ TYPED_TEST(Columns, HydrostaticOnSlipAndFixedFloors)
     }
 }
 
-/// Linear splines know one stress a cell, that of its middle: a quarter of a cell's weight off at the points. There is
-/// no node beyond the wall, and none is missed.
+/// Linear splines have one stress per cell, that of its middle: off by a quarter of a cell's weight at the points.
+/// There is no node beyond the wall, and none is needed.
 TYPED_TEST(Columns, HydrostaticWithLinearSplines)
 {
     for (const std::string floor : {"slip", "fixed"})
@@ -159,9 +160,9 @@ TYPED_TEST(Columns, HydrostaticWithLinearSplines)
     }
 }
 
-/// docs/verification.md#geostatic-column: K = nu / (1 - nu) if that is over Ka; sand yields, and K = Ka, if not. The
-/// last twentieth of the load comes on in the run; what overshoots, sqrt((1 - 0.7) / (1 + 0.7)) of it, comes off
-/// elastically again, so that a plastic K keeps (1 - K0 / Ka) of that: 0.5 %.
+/// docs/verification.md#geostatic-column: K = nu / (1 - nu) if that exceeds Ka; otherwise sand yields, and K = Ka. The
+/// last twentieth of the load is applied during the run; the overshoot, sqrt((1 - 0.7) / (1 + 0.7)) of it, is unloaded
+/// elastically, so that a plastic K retains (1 - K0 / Ka) of it: 0.5 %.
 TYPED_TEST(Columns, GeostaticElasticAndPlastic)
 {
     const double active = 1.0 / 3.0; // 30 degrees
@@ -230,8 +231,8 @@ duration = 0.09
                        damping);
 }
 
-/// docs/verification.md#local-damping: in its first mode all of a bar swings alike, so that Cundall's law for one mass
-/// holds for it.
+/// docs/verification.md#local-damping: in its first mode the whole bar oscillates in phase, so that Cundall's law for
+/// one mass holds.
 TYPED_TEST(Columns, LocalDampingFollowsCundallsLaw)
 {
     constexpr double            damping = 0.3;
@@ -257,7 +258,7 @@ TYPED_TEST(Columns, LocalDampingFollowsCundallsLaw)
             last = momentum;
         });
     ASSERT_GE(peaks.size(), 4);
-    // From rest to rest is half a period: half of it with force (1 - alpha), half with (1 + alpha).
+    // Between two rests is half a period: half of it with force (1 - alpha), half with (1 + alpha).
     const double half   = (crossings[3] - crossings[0]) / 3;
     const double period = 0.02 * 0.5 * (1 / std::sqrt(1 - damping) + 1 / std::sqrt(1 + damping));
     test::report("half period in s", half, period, 0.01 * period, "C8; the bar's own period is right to 0.2 %");
@@ -268,8 +269,8 @@ TYPED_TEST(Columns, LocalDampingFollowsCundallsLaw)
     EXPECT_NEAR(ratio, expected, 0.02 * expected);
 }
 
-/// docs/verification.md#local-damping: what falls freely under local damping falls with g (1 - alpha), which is why it
-/// is off then.
+/// docs/verification.md#local-damping: a free fall under local damping has the acceleration g (1 - alpha), which is why
+/// damping is off in free fall.
 TYPED_TEST(Columns, FreeFallUnderLocalDamping)
 {
     test::Experiment<TypeParam> fall(this->exec(), R"(
@@ -299,7 +300,7 @@ duration = 0.2
     fall.run();
     const solver::Census end   = fall.simulation().census();
     const double         speed = -end.sand.momentum[2] / end.sand.mass, expected = 0.7 * 9.81 * fall.time();
-    const double         tolerance = 2 * 9.81 * 0.3 * 1e-3; // the first steps start from rest, where the law is silent
+    const double tolerance = 2 * 9.81 * 0.3 * 1e-3; // the first steps start from rest, where the law has no direction
     test::report("speed in m/s", speed, expected, tolerance,
                  "docs/verification.md#local-damping: g (1 - alpha) t; the first step starts from rest");
     EXPECT_NEAR(speed, expected, tolerance);

@@ -4,7 +4,7 @@
 
 #include "lone_point.hpp"
 
-// Momentum and motion of points, to rounding.
+// Conservation of momentum and trajectories of points, to rounding.
 namespace
 {
 
@@ -16,7 +16,7 @@ class Conservation : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(Conservation, test::Backends, test::BackendNames);
 
-/// Three materials of different wave speed fall on each other: their points share nodes.
+/// Three materials with different wave speeds fall on each other: their points share nodes.
 TYPED_TEST(Conservation, MomentumOfSeveralMaterials)
 {
     for (const char* transfer : {"flip", "apic", "aflip"})
@@ -74,7 +74,7 @@ precision = "double"
     }
 }
 
-/// docs/verification.md#free-flight: x + v t, z + w t - g t (t + dt) / 2, which is symplectic Euler's own parabola.
+/// docs/verification.md#free-flight: x + v t, z + w t - g t (t + dt) / 2, the parabola of symplectic Euler.
 TYPED_TEST(Conservation, LonePointFliesAParabola)
 {
     for (const char* transfer : {"flip", "apic", "aflip"})

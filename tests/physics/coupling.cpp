@@ -43,7 +43,7 @@ TYPED_TEST(Coupling, SandCarriesTheWeightOfARoller)
     EXPECT_LT(error, 1e-10);
 }
 
-/// The count of substeps does not change what a body on sand feels (D3): frozen in all else, N = 1 and 20 agree.
+/// The number of substeps does not change the force on a body on sand (D3): with all else fixed, N = 1 and 20 agree.
 TYPED_TEST(Coupling, SubstepsDoNotChangeTheImpact)
 {
     const auto depth = [&](const std::string& substeps)
@@ -60,7 +60,7 @@ TYPED_TEST(Coupling, SubstepsDoNotChangeTheImpact)
     EXPECT_NEAR(twenty / one, 1, 0.01);
 }
 
-/// Too few substeps, fixed by the scene, are refused when the contact comes, not computed.
+/// A fixed number of substeps that is too small is refused when contact begins, not computed.
 TYPED_TEST(Coupling, TooFewFixedSubstepsAreStopped)
 {
     std::string text = test::sand_text + test::rocks_text + "[time]\ndt = 1.0e-3\nsubsteps = 1\n";

@@ -3,7 +3,7 @@
 #include "books.hpp"
 #include "order.hpp"
 
-// The books of sand and bodies together (design section 7).
+// Energy balance of sand and bodies together (design section 7).
 namespace
 {
 
@@ -15,7 +15,7 @@ class CouplingEnergy : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(CouplingEnergy, test::Backends, test::BackendNames);
 
-/// A stone ball of 15 cm, free to turn, that strikes sand at 1 m/s and slides over it; `time` are lines of that table.
+/// A stone ball of 15 cm, free to turn, that strikes sand at 1 m/s and slides over it; `time`: lines of that table.
 std::string ball_on_sand(const std::string& time)
 {
     return R"(
@@ -64,8 +64,8 @@ duration = 0.15
 )";
 }
 
-/// With the automatic step, which changes with the contacts, and with many substeps. What one side gets the other
-/// gives: momentum to rounding, though each impulse reaches the body in its substep and the sand over the step.
+/// With the automatic step, which changes with the contacts, and with many substeps. Momentum is exchanged to rounding,
+/// although each impulse acts on the body in its substep and on the sand over the step.
 TYPED_TEST(CouplingEnergy, BooksOfADroppedBallClose)
 {
     for (const std::string time : {"dt = \"auto\"", "dt = 1.0e-3\nsubsteps = 7"})
@@ -81,7 +81,7 @@ TYPED_TEST(CouplingEnergy, BooksOfADroppedBallClose)
     }
 }
 
-/// What substeps and grid see differently vanishes with the step.
+/// The difference between the work seen by substeps and by the grid vanishes with the step.
 TYPED_TEST(CouplingEnergy, CouplingFallsWithTheTimeStep)
 {
     const auto coupling = [&](const std::string& dt)

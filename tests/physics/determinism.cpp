@@ -10,7 +10,7 @@ using namespace tread;
 
 const std::string mixed_text = test::sand_text + test::rocks_text + test::thrown_roller_text;
 
-/// Positions of points and bodies after the scene's 0.05 s.
+/// Positions of points and bodies after the 0.05 s of the scene.
 template<class Exec>
 std::vector<double> final_positions(const Exec& exec)
 {

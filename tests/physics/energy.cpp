@@ -6,7 +6,7 @@
 #include "books.hpp"
 #include "order.hpp"
 
-// The sand's books: every joule has its place (design section 7).
+// Energy balance of sand (design section 7).
 namespace
 {
 
@@ -54,7 +54,7 @@ TYPED_TEST(SandEnergy, BooksOfACollapsingColumnClose)
     EXPECT_LT(error, test::closes);
 }
 
-/// 2.4 m/s, a tenth of the wave speed: strains of a tenth. At a Courant number of 0.4; the books are of second order.
+/// 2.4 m/s, a tenth of the wave speed: strains of a tenth. At a Courant number of 0.4; the balance is of second order.
 TYPED_TEST(SandEnergy, BooksOfAnImpactClose)
 {
     for (const std::string& law : {mohr_coulomb, elastic})
@@ -69,9 +69,9 @@ TYPED_TEST(SandEnergy, BooksOfAnImpactClose)
     }
 }
 
-/// A run that gains energy must show it: the same column, elastic, with one point a cell at a Courant number of 0.96,
-/// where such sand is destroyed (docs/verification.md#stability-limits: from 0.82 on), carried on without the guard
-/// that would stop it.
+/// A run that gains energy must show it: the same column, elastic, with one point per cell at a Courant number of 0.96,
+/// where such sand is unstable (docs/verification.md#stability-limits: from 0.82 on), run without the guard that would
+/// stop it.
 TYPED_TEST(SandEnergy, BooksOfAnUnstableRunDoNotClose)
 {
     constexpr double            dt = 1.65e-3;
@@ -94,7 +94,7 @@ TYPED_TEST(SandEnergy, BooksOfAnUnstableRunDoNotClose)
     EXPECT_GT(worst, 0.5);
 }
 
-/// A free bar in its first mode. Without filter the transfer's loss is the rounding-off of velocity increments, of
+/// A free bar in its first mode. Without filter the transfer loss comes from the smoothing of velocity increments, of
 /// second order in each step.
 TYPED_TEST(SandEnergy, TransferFallsWithTheTimeStep)
 {

@@ -16,9 +16,9 @@ TYPED_TEST_SUITE(FootingPhysics, test::Backends, test::BackendNames);
 
 constexpr double prandtl = 5141.6; // Pa, (2 + pi) c of 1 kPa
 
-/// Of a value at B/infinity from B/6 and B/10, C4's set-up: the second-order part of the edge's error,
-/// (O(h) / B)^2, leaves 1 to 3 % at B/6 and B/10; settlement deepens the footing, 1 % (Brinch Hansen: 1 + 0.4 D / B);
-/// waves carry 1 to 2 %.
+/// Tolerance of a value at B/infinity extrapolated from B/6 and B/10, the set-up of C4: the second-order part of the
+/// edge's error, (O(h) / B)^2, leaves 1 to 3 %; settlement deepens the footing, 1 % (Brinch Hansen: 1 + 0.4 D / B);
+/// waves contribute 1 to 2 %.
 constexpr double extrapolated = 0.06;
 
 /// Weightless clay, c = 1 kPa.
@@ -46,8 +46,8 @@ test::Footing frictional(int cells, double dilation, double cohesion)
     return footing;
 }
 
-/// docs/verification.md#strip-footing (i): q = (2 + pi) c of Prandtl, and it stays there; with every point's own
-/// volumetric strain it is more, and rises.
+/// docs/verification.md#strip-footing (i): the load reaches Prandtl's q = (2 + pi) c and stays there; with the
+/// volumetric strain of every single point it is larger, and rises.
 TYPED_TEST(FootingPhysics, UndrainedClayCarriesPrandtlsLoadWithCellAverages)
 {
     const double plateau = 0.02;
@@ -75,8 +75,8 @@ TYPED_TEST(FootingPhysics, UndrainedClayCarriesPrandtlsLoadWithCellAverages)
 }
 
 /// Weightless, c = 1 kPa, phi = psi = 20 degrees: N_c c = (N_q - 1) cot phi c (Prandtl, Reissner), with either
-/// volumetric strain. While the forces had every point's own pressure, cell averages of sand that dilates were unstable
-/// here.
+/// volumetric strain. With nodal forces from every single point's pressure, cell averages of dilating sand were
+/// unstable here.
 TYPED_TEST(FootingPhysics, CohesionAndFrictionCarryPrandtlsLoad)
 {
     const double tan   = std::tan(20 * std::numbers::pi / 180);
@@ -101,7 +101,7 @@ TYPED_TEST(FootingPhysics, CohesionAndFrictionCarryPrandtlsLoad)
     }
 }
 
-/// Column of 20 cm that falls apart, nearly incompressible.
+/// A collapsing column of 20 cm, nearly incompressible.
 std::string column(const std::string& soil, const std::string& volume_strain)
 {
     return R"(
@@ -129,7 +129,7 @@ duration = 0.15
 )";
 }
 
-/// Issue: phi = 0, c = 0 and nu -> 0.499 run, give finite states and make no energy.
+/// Issue: phi = 0, c = 0 and nu -> 0.499 run, give finite states and generate no energy.
 TYPED_TEST(FootingPhysics, LimitsOfTheLawsMakeNoEnergy)
 {
     const std::string cone        = "model = \"drucker-prager\"\ndrucker_prager_fit = \"plane-strain\"\n",
@@ -155,7 +155,7 @@ TYPED_TEST(FootingPhysics, LimitsOfTheLawsMakeNoEnergy)
                 {
                     if (++step % 50 == 0) { highest = std::max(highest, energy()); }
                 });
-            // Velocities stand half a step off the positions: m g v dt / 2, v of the free fall from the top.
+            // Velocities are half a step behind positions: m g v dt / 2, v of the free fall from the top.
             const double tolerance = mass * 9.81 * std::sqrt(2 * 9.81 * 0.2) * fall.dt();
             test::report("largest gain of energy in J, " + law + strength, highest - start, 0, tolerance,
                          "twice what half a step of falling makes; " + std::to_string(start) + " J at the start");

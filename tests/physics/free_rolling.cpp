@@ -4,7 +4,7 @@
 
 #include "harness.hpp"
 
-// A drum that rolls freely goes as far as its own rim turns, whatever the size of the points that it rolls on.
+// A freely rolling drum travels as far as its rim turns, whatever the size of the points under it.
 namespace
 {
 
@@ -18,7 +18,7 @@ TYPED_TEST_SUITE(FreeRolling, test::Backends, test::BackendNames);
 
 constexpr double radius = 0.1, rate = 5.0; ///< m, 1/s
 
-/// A drum on an elastic layer in plane strain, two cells thick, that presses it in by a few thousandths of its height.
+/// A drum on an elastic layer in plane strain, two cells thick, which it indents by a few thousandths of its height.
 std::string text(double spacing)
 {
     return fmt::format(R"(
@@ -84,7 +84,7 @@ TYPED_TEST(FreeRolling, DrumRollsOnItsOwnRadius)
             });
         const double way   = run.simulation().named_bodies()[0].position[0] - place;
         const double ratio = way / (rate * radius * (run.time() - from));
-        // At the points' centres it would roll on R + 0.3 h: 1.06, 1.03 and 1.015.
+        // With contact at the points' centres it would roll on R + 0.3 h: 1.06, 1.03 and 1.015.
         test::report(fmt::format("v / (omega R), R / h = {}", cells), ratio, 1, 5e-3,
                      "issue: 0.5 %; the layer's own strain is some thousandths");
         EXPECT_NEAR(ratio, 1, 5e-3);

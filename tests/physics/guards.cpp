@@ -8,7 +8,7 @@
 #include "harness.hpp"
 #include "solver/dem_solver.hpp"
 
-// What stops a run of bodies that has gone wrong, and what must not be missed by one that has not.
+// Guards that stop a faulty run of bodies, and contacts that a correct run must not miss.
 namespace
 {
 
@@ -49,9 +49,9 @@ duration = {}
                                           dt, substeps, bodies, duration);
 }
 
-/// A heavy ball hits a light one at rest, which leaves at twice its speed and meets a third within the same long step.
-/// The third is 5 % of a radius away, over what a search allows two bodies at rest. One step of 96 substeps must do
-/// what 96 steps of one do, and they find the pairs anew each time.
+/// A heavy ball hits a light one at rest, which leaves at twice its speed and hits a third within the same long step.
+/// The third is 5 % of a radius away, more than a search allows for two bodies at rest. One step of 96 substeps must
+/// give the result of 96 steps of one substep, each with a new pair search.
 TYPED_TEST(Guards, BodyThatIsHitWithinAStepMissesNoContact)
 {
     const std::string balls = ball("heavy", 0.1, 1000, "[1.0, 0.5, 0.5]", "[2.0, 0.0, 0.0]") +
@@ -105,7 +105,7 @@ TYPED_TEST(Guards, BodyThatLeapsOverAnotherStopsTheRunByName)
     EXPECT_NE(found.find("in a substep"), std::string::npos) << found;
 }
 
-/// What is not a number anywhere in a body's state stops the step in which it appears.
+/// NaN anywhere in a body's state stops the step in which it appears.
 TYPED_TEST(Guards, NotANumberIsNamedAtOnce)
 {
     const TypeParam   exec  = this->exec();
@@ -130,7 +130,7 @@ TYPED_TEST(Guards, NotANumberIsNamedAtOnce)
     }
 }
 
-/// The last guard: a body that nobody watched, and that is further than its search allowed.
+/// The last guard: an unchecked body that has moved farther than its pair search allowed.
 TYPED_TEST(Guards, BodyBeyondItsSearchStopsTheRunByName)
 {
     const TypeParam   exec  = this->exec();

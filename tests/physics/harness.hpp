@@ -11,7 +11,7 @@
 #include "scene_text.hpp"
 #include "solver/simulation.hpp"
 
-// A scene carried through its phases by the solver's own pieces, on either backend, with a look at every step.
+// Runs a scene through its phases with the solver's components, on either backend, with a callback after every step.
 namespace tread::test
 {
 
@@ -47,13 +47,13 @@ public:
     double              time() const { return time_; }
     double              dt() const { return step_.dt; }
 
-    /// How the last phase that ran ended.
+    /// Condition that ended the last phase.
     const tread::run::PhaseEnd& phase_end() const { return phases_.ending(); }
 
-    /// Before every step, adjust(commands) may ask of the named bodies what no phase can.
+    /// Calls adjust(commands) before every step, to give named bodies commands that no phase can.
     void steer(std::function<void(std::vector<solver::BodyCommand>&)> adjust) { adjust_ = std::move(adjust); }
 
-    /// All phases; look(time) after every step.
+    /// Runs all phases; calls look(time) after every step.
     void run(const std::function<void(double)>& look = [](double) {})
     {
         while (!phases_.finished())
@@ -69,7 +69,7 @@ public:
         }
     }
 
-    /// One step of the present phase, whether it is over or not.
+    /// Computes one step of the present phase, even if the phase is over.
     solver::TimeStep advance()
     {
         if (simulation_.measured())

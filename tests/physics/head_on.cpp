@@ -11,7 +11,7 @@ class HeadOn : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(HeadOn, test::Backends, test::BackendNames);
 
-/// The paper's 3.1 with cells of twice its edge, 8 points in each. At its own size: tests/slow.
+/// The paper's 3.1 with cells of twice its size, 8 points in each. At its own size: tests/slow.
 TYPED_TEST(HeadOn, SpheresExchangeTheirVelocities)
 {
     const auto found = test::collide<TypeParam, double>(

@@ -20,11 +20,11 @@ struct HeadOn
     double force    = 0; ///< N, the largest
     double body     = 0; ///< m/s, along x at the end
     double points   = 0; ///< m/s, of their centre of mass at the end
-    double energy   = 0; ///< largest share of the stores' change, of the energy at the start
-    double momentum = 0; ///< largest change over that of one sphere
+    double energy   = 0; ///< largest change of the total stored energy, over the energy at the start
+    double momentum = 0; ///< largest change, over the momentum of one sphere
 };
 
-/// `scene` is one of configs/paper; `overrides` as on the command line.
+/// Runs a scene of configs/paper; `overrides` as on the command line.
 template<class Exec, class Real>
 HeadOn collide(const Exec& exec, const std::string& scene, std::vector<std::string> overrides)
 {
@@ -62,8 +62,8 @@ HeadOn collide(const Exec& exec, const std::string& scene, std::vector<std::stri
     return found;
 }
 
-/// Bands of docs/verification.md#head-on-collision; the limit is Hertz's law for a rigid and an elastic sphere (24.61
-/// ms, 10.02 kN).
+/// Checks the bands of docs/verification.md#head-on-collision; the limit is Hertz's law for a rigid and an elastic
+/// sphere (24.61 ms, 10.02 kN).
 inline void expect_catalogue(const HeadOn& found, const std::string& with, double rounding)
 {
     report("duration in ms" + with, found.duration * 1e3, 24.5, 1, "docs/verification.md#head-on-collision");

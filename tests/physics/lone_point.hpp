@@ -4,11 +4,11 @@
 
 #include "harness.hpp"
 
-// One point of sand far from the origin.
+// A single sand point far from the origin.
 namespace tread::test
 {
 
-/// Scene of one point at `x` m on a line of a kilometre; `numerics` are lines of that table, `dt` and `duration` in s.
+/// Scene of one point at `x` m in a domain a kilometre long; `numerics`: lines of that table; `dt` and `duration` in s.
 inline std::string lone_point(double x, double gravity, const std::string& numerics, const std::string& dt,
                               double duration)
 {
@@ -40,7 +40,7 @@ duration = {}
                        gravity, dt, numerics, x, x + 0.025, duration);
 }
 
-/// Gives the point its velocity (m/s), and no stress.
+/// Sets the point's velocity (m/s) and zero stress.
 template<class Exec, class Real>
 void throw_it(Experiment<Exec, Real>& run, const Vec3<double>& velocity)
 {
@@ -51,7 +51,8 @@ void throw_it(Experiment<Exec, Real>& run, const Vec3<double>& velocity)
     points.stress.fill_zero();
 }
 
-/// 1 mm/s in steps of 10 us at x = 900 m: 1e-8 m a step, of which a single-precision position would keep nothing.
+/// Moves at 1 mm/s in steps of 10 us at x = 900 m: 1e-8 m a step, which a single-precision position would lose
+/// entirely.
 template<class Real, class Exec>
 void creep(const Exec& exec, const std::string& precision, int steps)
 {

@@ -2,7 +2,7 @@
 
 #include "books.hpp"
 
-// A body that is lowered onto the ground until it carries it, and one of which a share of the weight is held.
+// A body lowered onto the ground until the ground carries it, and one with part of its weight supported.
 namespace
 {
 
@@ -34,7 +34,7 @@ std::string lower(double speed, double share)
 
 const std::string rest = "[[phase]]\nname = \"rest\"\nduration = 0.1\n";
 
-/// m, that the roller has come down since the start.
+/// Descent of the roller since the start, m.
 template<class Exec>
 double sunk(test::Experiment<Exec>& run)
 {
@@ -68,7 +68,7 @@ TYPED_TEST(Lowering, EndsWhenTheSandCarriesTheShareAndTheBooksClose)
 
 TYPED_TEST(Lowering, LetsTheBodyGoAtRest)
 {
-    // Its scene gives it 1 m/s downwards when it is first released; that is not meant for a body that stands.
+    // The scene gives it 1 m/s downwards when it is first released; that does not apply to a body that stands.
     test::Experiment<TypeParam> run(this->exec(), standing_roller(lower(0.02, 1.0) + rest));
     double                      lowered = 0, fastest = 0;
     bool                        released = false;
@@ -81,8 +81,8 @@ TYPED_TEST(Lowering, LetsTheBodyGoAtRest)
             else { lowered = sunk(run); }
         });
     const double further = sunk(run) - lowered;
-    // Of what resisted the lowering, the inertia of the sand, rho c v times the area, is gone then: 1600 kg/m3 x 29 m/s
-    // x 0.02 m/s x 0.15 m x 0.1 m are 14 of 392 N.
+    // The part of the resistance to lowering that came from the inertia of the sand, rho c v times the area, is gone
+    // then: 1600 kg/m3 x 29 m/s x 0.02 m/s x 0.15 m x 0.1 m are 14 of 392 N.
     test::report("fastest after the release, m/s", fastest, 0, 0.02, "the speed of lowering: it bobs a little");
     EXPECT_LT(fastest, 0.02);
     test::report("sinks further by, of its depth", further / lowered, 14.0 / 392, 0.05, "that and bobbing");
@@ -106,8 +106,8 @@ TYPED_TEST(Lowering, SinkageDoesNotHangOnTheSpeedAndADropGoesDeeper)
     EXPECT_GT(dropped / slow, 1.2);
 }
 
-/// A ball that falls by 0.1 m to the floor of the domain; `share` of its weight acts. Contact's own error, some percent
-/// of a fall by a few overlaps, is not what is looked at here: books are compared while it falls, forces when it lies.
+/// A ball that falls by 0.1 m to the floor of the domain; `share` of its weight acts. Errors of the contact, some
+/// percent of a fall by a few overlaps, are not tested here: energies are compared during the fall, forces at rest.
 std::string ball_text(double share)
 {
     std::string text = test::steel_text;

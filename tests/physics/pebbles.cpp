@@ -5,7 +5,7 @@
 
 #include "books.hpp"
 
-// Rocks as small as the points of the bed under them, by nine samples a point and by one.
+// Rocks as small as the points of the bed under them, with nine samples per point and with one.
 namespace
 {
 
@@ -20,8 +20,8 @@ TYPED_TEST_SUITE(Pebbles, test::Backends, test::BackendNames);
 constexpr double point_radius = 0.0155; ///< m, of 0.025 m between points
 constexpr double pebble_mass  = 0.05;   ///< kg
 
-/// An elastic bed, and a pebble of the points' own size at `position` with friction; `form`, `body` and `phase` are
-/// lines of their tables.
+/// An elastic bed, and a pebble of the points' size at `position` with friction; `form`, `body` and `phase`: lines of
+/// their tables.
 std::string pebble_on_bed(double refine_below, const std::string& form, const std::string& body,
                           const std::string& phase)
 {
@@ -75,7 +75,7 @@ name = "run"
 constexpr auto ball = "{ kind = \"sphere\" }";
 constexpr auto rock = "{ kind = \"rock\", seed = 3, aspect = 0.6, sphericity = 0.8, nodes = 162 }";
 
-/// In the hollow between four points, a pebble rests on them with its weight and without a torque.
+/// In the hollow between four points, a pebble rests on them with its weight and no torque.
 TYPED_TEST(Pebbles, RestsInTheHollowWithItsWeight)
 {
     for (const double refine_below : {0.0, 3.0})
@@ -107,8 +107,8 @@ TYPED_TEST(Pebbles, RestsInTheHollowWithItsWeight)
     }
 }
 
-/// A flat rock strikes, slides and turns. What the sand gets the rock gives; what substeps and grid see differently
-/// vanishes with the step, and the samples leave nothing beside it.
+/// A flat rock strikes, slides and turns. Momentum is exchanged exactly; the difference between the work seen by
+/// substeps and by the grid vanishes with the step, and the samples add no error of their own.
 TYPED_TEST(Pebbles, BooksOfAThrownRockClose)
 {
     for (const double refine_below : {0.0, 3.0})
@@ -130,8 +130,8 @@ TYPED_TEST(Pebbles, BooksOfAThrownRockClose)
             EXPECT_GT(ledger.energy(census).friction, 0.1 * thrown_energy) << "it never slid";
             return error;
         };
-        // The rock meets single points, and which ones changes with the step: orders from neighbouring steps scatter
-        // between 0.75 and 1.3, so that one is taken over a factor of eight, and the limit from both its ends.
+        // The rock touches single points, and which ones depends on the step: orders from neighbouring steps scatter
+        // between 0.75 and 1.3, so the order is taken over a factor of eight, and the limit from both ends.
         const double coarse = unaccounted(2.0e-4), fine = unaccounted(0.25e-4);
         const double order = std::log2(coarse / fine) / 3, limit = (8 * fine - coarse) / 7;
         const auto   label = fmt::format("refine_below = {}: unaccounted over the largest energy", refine_below);

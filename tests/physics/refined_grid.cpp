@@ -4,7 +4,7 @@
 
 #include "books.hpp"
 
-// Sand on a grid with finer cells in boxes: what must not change by them.
+// Sand on a grid with finer cells in boxes: results that refinement must not change.
 namespace
 {
 
@@ -16,7 +16,7 @@ class RefinedGrid : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(RefinedGrid, test::Backends, test::BackendNames);
 
-/// A block falls through a box with two levels: its points come from coarse cells into fine and finest ones and back.
+/// A block falls through a box with two levels: its points pass from coarse cells into fine and finest ones and back.
 TYPED_TEST(RefinedGrid, BlockInFreeFlightIsAStone)
 {
     const std::string           text = R"(
@@ -120,7 +120,7 @@ duration = 0.08
 
 const std::string boxes = "refine = [[[0.2, 0.2, 0.18], [0.62, 0.6, 0.6]]]";
 
-/// Nothing but the seams disturbs a bed at rest: the splines of both levels carry linear stress.
+/// Only the seams could disturb a bed at rest: the splines of both levels represent linear stress.
 TYPED_TEST(RefinedGrid, BedStaysAtRest)
 {
     const std::string           rest = "[[phase]]\nname = \"rest\"\nduration = 0.3\n";
@@ -130,7 +130,7 @@ TYPED_TEST(RefinedGrid, BedStaysAtRest)
     run.run([&](double) { most = std::max(most, run.simulation().pace().largest_speed); });
     const solver::Census end = run.simulation().census();
     const double         sag = (start.sand.moment[2] - end.sand.moment[2]) / start.sand.mass;
-    // Steps of pressure between points of two sizes: a tenth of the weight of a coarse cell, on a modulus of 1.35 MPa.
+    // Pressure steps between points of two sizes: a tenth of the weight of a coarse cell, on a modulus of 1.35 MPa.
     const double tolerance = 0.1 * 1600 * 9.81 * 0.04 / 1.35e6 * 0.32;
     test::report("sag of the mean height in m", sag, 0, tolerance, "a tenth of a coarse cell's weight in strain");
     EXPECT_LT(std::abs(sag), tolerance);
@@ -138,7 +138,8 @@ TYPED_TEST(RefinedGrid, BedStaysAtRest)
     EXPECT_LT(most, 0.01);
 }
 
-/// The ball lands in the box and throws sand across its borders: momentum is kept to rounding, energy accounted for.
+/// The ball lands in the box and throws sand across its borders: momentum is conserved to rounding, energy accounted
+/// for.
 TYPED_TEST(RefinedGrid, BooksOfABallCloseAcrossSeams)
 {
     test::Experiment<TypeParam> run(this->exec(), bed(boxes) + ball);
@@ -150,7 +151,8 @@ TYPED_TEST(RefinedGrid, BooksOfABallCloseAcrossSeams)
     EXPECT_LT(unaccounted, test::closes);
 }
 
-/// A box around the contact is as good as fine cells everywhere: the ball goes as deep, half way from the coarse grid.
+/// A box around the contact is as good as fine cells everywhere: the ball reaches the same depth, to 15 % of the
+/// difference from the coarse grid.
 TYPED_TEST(RefinedGrid, BallGoesAsDeepAsOnFineCellsEverywhere)
 {
     const auto depth = [&](const std::string& refine, double spacing)

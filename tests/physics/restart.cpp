@@ -11,7 +11,7 @@
 #include "temporary_directory.hpp"
 #include "thrown_roller.hpp"
 
-// A run that is stopped and goes on from a checkpoint, against one that is not.
+// A run that is stopped and resumed from a checkpoint, compared with an uninterrupted one.
 namespace
 {
 
@@ -29,7 +29,7 @@ name     = "rest"
 duration = 0.5
 )";
 
-/// A scene carried on step by step, that can be saved and loaded.
+/// A scene run step by step, which can be saved and loaded.
 template<class Exec>
 class Run
 {
@@ -42,7 +42,7 @@ public:
     {
     }
 
-    /// At least so many, until the state may be saved.
+    /// Runs at least `steps` steps, until the state may be saved.
     void step(int steps)
     {
         for (int i = 0; i < steps || !simulation_.measured(); ++i)
@@ -80,7 +80,7 @@ public:
         transfer(file);
     }
 
-    /// Everything that a snapshot, the books and the next step are made of, as bytes.
+    /// All data of snapshots, ledger and the next step, as bytes.
     std::vector<std::byte> state()
     {
         std::vector<std::byte> bytes;
@@ -106,14 +106,14 @@ public:
         return bytes;
     }
 
-    /// Points that sleep.
+    /// Number of sleeping points.
     std::int64_t asleep() { return simulation_.sand().count() - simulation_.sand().view().count; }
 
     io::PointFields points() const { return simulation_.point_fields(); }
     io::BodyFields  bodies() { return simulation_.body_fields(); }
 
 private:
-    /// To the next phase, if there is one; the last goes on for ever.
+    /// Goes to the next phase, if there is one; the last one does not end.
     void pass_on()
     {
         if (const auto body = phases_.lowered(); body && simulation_.measured())
@@ -142,7 +142,7 @@ private:
     double                           time_ = 0;
 };
 
-/// Points that slept in a run.
+/// Numbers of points that slept in a run.
 struct Sleepers
 {
     std::int64_t saved;
@@ -155,7 +155,7 @@ class Restart : public test::BackendTest<Exec>
 protected:
     static constexpr int before = 150, after = 150; ///< steps; lists of points, pairs and candidates change in both
 
-    /// Gives how many points slept.
+    /// Returns the numbers of points that slept.
     Sleepers expect_same_bits(const std::string& text)
     {
         const test::TemporaryDirectory directory;
@@ -187,7 +187,7 @@ TYPED_TEST_SUITE(Restart, test::Backends, test::BackendNames);
 
 TYPED_TEST(Restart, OfSandGivesTheSameBits) { this->expect_same_bits(test::sand_text); }
 
-/// Saved while it goes down, released at half its weight after that, with a weight that grows.
+/// Saved during lowering, then released at half its weight, with a weight that grows.
 TYPED_TEST(Restart, OfABodyThatIsLoweredGivesTheSameBits)
 {
     std::string text = test::roller_text;
@@ -216,7 +216,7 @@ TYPED_TEST(Restart, OfSandRocksAndAWheelGivesTheSameBits)
     this->expect_same_bits(test::sand_text + test::rocks_text + test::thrown_roller_text);
 }
 
-/// Far from the roller: what slept was saved asleep, and other sand falls asleep or wakes after that.
+/// Far from the roller: sleeping sand is saved asleep, and other sand falls asleep or wakes afterwards.
 TYPED_TEST(Restart, OfSleepingSandGivesTheSameBits)
 {
     std::string text = test::sand_text + test::thrown_roller_text +
@@ -243,7 +243,7 @@ void perturb(const std::string& path, double distance, std::uint64_t seed)
     }
 }
 
-/// The furthest that a point or body of one run is from where the other has it, m.
+/// Largest distance, m, of a point or body between two runs.
 template<class Exec>
 double furthest(Run<Exec>& run, Run<Exec>& other)
 {
@@ -261,7 +261,7 @@ double furthest(Run<Exec>& run, Run<Exec>& other)
     return found;
 }
 
-/// Lists are made anew, as on another number of ranks: sums are taken in another order, and nothing else is different.
+/// Lists are rebuilt, as on another number of ranks: only the order of sums differs.
 TYPED_TEST(Restart, WithListsMadeAnewAgreesAsFarAsChaosLetsIt)
 {
     const std::string              text = test::sand_text + test::rocks_text;

@@ -6,13 +6,13 @@
 
 #include "rock_scenes.hpp"
 
-// What rocks do when they are left alone: the targets of rest.
+// Rocks left alone: tests that they come to rest.
 namespace tread::test
 {
 
 inline constexpr double rock_radius = 5e-3; ///< m, of the sphere of equal volume
 
-/// Bumpy rocks of 162 nodes, rounded cubes and cubes, all of the volume of a sphere of 1 m, as a scene's shapes.
+/// Bumpy rocks of 162 nodes, rounded cubes and cubes, each of the volume of a sphere of 1 m, as shapes of a scene.
 class RockForms
 {
 public:
@@ -52,7 +52,7 @@ region = {{ box = [[{}, {}, {}], [{}, {}, {}]] }}
                        kind, count, 2 * rock_radius, placement, low[0], low[1], low[2], high[0], high[1], high[2]);
 }
 
-/// Places (m) and spins (rad/s) of all rocks.
+/// Positions (m) and angular velocities (rad/s) of all rocks.
 struct RockStates
 {
     std::vector<double> position, spin;
@@ -65,9 +65,9 @@ RockStates states(Experiment& experiment)
     return {fields.position, fields.angular_velocity};
 }
 
-/// Runs a scene whose last phase leaves the rocks alone from `damped` (s) on, for `free` (s). Wanted is (issue):
-/// kinetic energy a rock of at most 1e-8 m g R once it has been free for half of the time, no way over 1e-2 R in 2 s
-/// (of that the part that `free` is), no spin, and energy that does not rise.
+/// Runs a scene whose last phase leaves the rocks undisturbed after `damped` (s), for `free` (s). Checks the targets of
+/// the issue: kinetic energy per rock of at most 1e-8 m g R after half of the free time, displacement at most 1e-2 R in
+/// 2 s (scaled by `free`), no spin, and energy that does not rise.
 template<class Exec>
 void expect_rest(const Exec& exec, const std::string& text, double damped, double free)
 {

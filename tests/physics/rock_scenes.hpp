@@ -11,13 +11,13 @@
 #include "shape/generators.hpp"
 #include "temporary_directory.hpp"
 
-// Scenes of rigid bodies alone, and the meshes that they name.
+// Scenes of rigid bodies only, and the meshes that they use.
 namespace tread::test
 {
 
 inline constexpr double earth = 9.81; ///< m/s2
 
-/// An open or walled box under gravity that is tilted by `degrees` about y: down the slope is +x.
+/// An open or walled box under gravity, tilted by `degrees` about y: downslope is +x.
 inline std::string rock_domain(const Vec3<double>& size, double degrees, const std::string& walls,
                                const std::string& numerics)
 {
@@ -55,7 +55,7 @@ restitution = {}
                        young, friction, restitution, friction, restitution);
 }
 
-/// A box, 12 triangles.
+/// Mesh of a box, 12 triangles.
 inline shape::TriangleMesh box_mesh(const Vec3<double>& half)
 {
     shape::TriangleMesh mesh;
@@ -77,7 +77,7 @@ inline shape::TriangleMesh rounded_cube_mesh()
     return mesh;
 }
 
-/// The file of a mesh, in a folder that lives as long as this.
+/// A mesh file, in a folder that exists as long as this object.
 class MeshFile
 {
 public:

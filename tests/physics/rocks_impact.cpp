@@ -3,7 +3,7 @@
 
 #include "rock_scenes.hpp"
 
-// Bodies against walls with the steps that the code chooses.
+// Bodies against walls with automatic steps.
 namespace
 {
 
@@ -33,8 +33,9 @@ velocity = [0.1, 0.0, -0.2]
            test::phase("drop", 0, 0.03);
 }
 
-/// All nodes of a face arrive in one substep, 600 times as stiff as the first touch of a corner: the step must know
-/// before. A step chosen by what had touched gained 12 J where a wheel of 170 kg met a wall with its flank.
+/// All nodes of a face touch in the same substep, 600 times as stiff as the first touch of a corner: the step must be
+/// chosen for this in advance. A step chosen from touching contacts gained 12 J when a wheel of 170 kg hit a wall with
+/// its flank.
 TYPED_TEST(RocksImpact, AFaceThatArrivesAtOnceGainsNoEnergy)
 {
     const test::MeshFile slab(test::box_mesh({0.25, 0.25, 0.05}));
@@ -56,12 +57,12 @@ TYPED_TEST(RocksImpact, AFaceThatArrivesAtOnceGainsNoEnergy)
 
 struct Rebound
 {
-    double speed = 0; ///< m/s, upwards, the largest
-    double force = 0; ///< N, the largest, of any substep's end
+    double speed = 0; ///< m/s, upwards, largest
+    double force = 0; ///< N, largest at the end of any substep
 };
 
-/// A ball of 0.1 m, a mesh with some 640 nodes, that falls at 1 m/s on a floor, or on the face of a held slab that
-/// stands `top` high.
+/// A ball of 0.1 m, a mesh with some 640 nodes, that falls at 1 m/s on a floor, or on the face of a fixed slab whose
+/// top is at `top`.
 template<class Exec>
 Rebound bounce(const Exec& exec, const std::string& slab, double top)
 {
@@ -85,7 +86,7 @@ velocity = [0.0, 0.0, -1.0]
         [&](double)
         {
             const solver::BodyRow body = fall.simulation().named_bodies()[0];
-            found.speed                = std::max(found.speed, body.velocity[2]); // before gravity takes of it
+            found.speed                = std::max(found.speed, body.velocity[2]); // before gravity reduces it
             found.force                = std::max(found.force, body.force.norm());
             fall.simulation().begin_mean();
         });
@@ -93,7 +94,7 @@ velocity = [0.0, 0.0, -1.0]
 }
 
 /// A slab's equal-volume radius R_s enters R*, where a wall's is infinite: the traction is c = sqrt(1 + R/R_s) of the
-/// wall's, and Hertz's F_max goes with c^0.4; what comes back does not depend on the stiffness.
+/// wall's, and Hertz's F_max scales with c^0.4; the rebound does not depend on the stiffness.
 TYPED_TEST(RocksImpact, MeshWallIsAsTheAnalyticOne)
 {
     const test::MeshFile file(test::box_mesh({0.3, 0.3, 0.2}));

@@ -4,7 +4,7 @@
 
 #include "rock_rest.hpp"
 
-// Rocks that lie on a plane, on a slope and on each other, damped and then left alone
+// Rocks at rest on a plane, on a slope and on each other, damped and then left alone
 // (docs/verification.md#rocks-at-rest).
 namespace
 {
@@ -17,8 +17,8 @@ class RocksAtRest : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(RocksAtRest, test::Backends, test::BackendNames);
 
-// A rock rocks about its edge some five times a second, and local damping of 0.3 leaves (1 - 0.3)/(1 + 0.3) of it a
-// cycle: after 13 cycles 1e-7 of its energy is left.
+// A rock rocks about its edge some five times a second, and local damping of 0.3 leaves (1 - 0.3)/(1 + 0.3) of its
+// energy per cycle: 1e-7 after 13 cycles.
 constexpr double damped_time = 2.6, free_time = 0.5;
 
 /// Four of each kind, apart from each other, a millimetre above a floor tilted by `degrees`.
@@ -43,7 +43,7 @@ void rest_apart(const Exec& exec, double degrees)
 TYPED_TEST(RocksAtRest, OnAPlane) { rest_apart(this->exec(), 0); }
 TYPED_TEST(RocksAtRest, OnASlopeOfTenDegrees) { rest_apart(this->exec(), 10); }
 
-/// Two of each in a bin that is one and a half rocks wide: they lie on each other.
+/// Two of each in a bin one and a half rocks wide: they lie on each other.
 TYPED_TEST(RocksAtRest, OnEachOther)
 {
     const test::RockForms forms;

@@ -5,7 +5,7 @@
 
 #include "harness.hpp"
 
-// Resistance to rolling: a ball on slopes and on the level.
+// Rolling resistance: a ball on slopes and on the level.
 namespace
 {
 
@@ -19,14 +19,14 @@ TYPED_TEST_SUITE(Rolling, test::Backends, test::BackendNames);
 
 constexpr double g = 9.81, radius = 0.05, mass = 1.3, young = 3e6, poisson = 0.3, mu_r = 0.1;
 
-/// m, by which its weight presses the ball into a floor (Hertz).
+/// Depth (m) by which the ball's weight presses it into a floor (Hertz).
 double depth_at_rest(double slope)
 {
     return std::pow(0.75 * mass * g * std::cos(slope) * (1 - poisson * poisson) / (young * std::sqrt(radius)),
                     2.0 / 3.0);
 }
 
-/// A ball that touches a floor, which gravity makes a slope of the given angle: it sinks in while it starts.
+/// A ball that touches a floor, with gravity inclined by the given slope: it sinks in as it starts.
 std::string text(double slope, double speed, double rolling, double restitution, double duration)
 {
     return fmt::format(R"(
@@ -74,7 +74,7 @@ struct Course
     double acceleration; ///< m/s2, mean of the last two thirds of the time
     double moved;        ///< m
     double spin;         ///< rad/s, at the end
-    double lost;         ///< of the energy that changed hands, unaccounted
+    double lost;         ///< unaccounted energy, over the energy exchanged
 };
 
 template<class Exec>
@@ -96,17 +96,18 @@ Course roll(const Exec& exec, const std::string& scene, double duration)
             body.angular_velocity[1], ledger.errors().energy};
 }
 
-/// m/s2, of a ball that rolls down: about the point of contact, r = R less the overlap below its centre, its inertia is
-/// m r^2 + 2/5 m R^2, and mu_r R times the load resists. At r = R: 5/7 (g sin - mu_r g cos).
+/// Acceleration, m/s2, of a ball that rolls down: about the contact point, with r = R less the overlap below its
+/// centre, its inertia is m r^2 + 2/5 m R^2, and mu_r R times the normal load resists. At r = R: 5/7 (g sin - mu_r g
+/// cos).
 double rolling_acceleration(double slope, double rolling)
 {
     const double r = radius - depth_at_rest(slope);
     return g * r * (r * std::sin(slope) - rolling * radius * std::cos(slope)) / (r * r + 0.4 * radius * radius);
 }
 
-constexpr double steps = 5e-3; ///< tolerance: contact, spring and steps are resolved to better
+constexpr double steps = 5e-3; ///< tolerance: errors of contact, spring and steps are smaller
 
-/// Slip ends at 2 v / (7 mu g) = 0.06 s, and the first swings of the contact are damped by then.
+/// Slip ends at 2 v / (7 mu g) = 0.06 s, when the first oscillations of the contact have decayed.
 TYPED_TEST(Rolling, BallOnTheLevelSlowsDown)
 {
     constexpr double duration = 0.3;
@@ -123,14 +124,15 @@ TYPED_TEST(Rolling, BallOnTheLevelSlowsDown)
     EXPECT_NEAR(free.acceleration, 0, steps * std::abs(expected));
 }
 
-/// Below atan(mu_r) the spring holds the ball, turned by at most what it yields at: 4/9 F/(K mu_r R), and K = 3/2 F/d
-/// of a Hertz contact; above, it rolls.
+/// Below atan(mu_r) the spring holds the ball, which turns by at most the yield angle: 4/9 F/(K mu_r R), with K = 3/2
+/// F/d of a Hertz contact; above, it rolls.
 TYPED_TEST(Rolling, BallStaysBelowTheAngleOfItsFrictionAndRollsAbove)
 {
-    constexpr double duration = 0.4, long_duration = 1.2; // the spring swings at 20 rad/s, damped by a third
+    constexpr double duration = 0.4, long_duration = 1.2; // the spring oscillates at 20 rad/s, damped by a third
     const double     angle = std::atan(mu_r), below = 0.9 * angle, above = 2 * angle;
     const Course     still = roll(this->exec(), text(below, 0, mu_r, 0.3, long_duration), long_duration);
-    // Twice: let go at once, the spring is stretched to twice its rest; a tenth for the time until the load is there.
+    // Twice: a load applied suddenly stretches the spring to twice its rest value; a tenth for the rise time of the
+    // load.
     const double most = 2.2 * depth_at_rest(below) / (3.375 * mu_r);
     test::report("moved in 1.2 s at 0.9 atan(mu_r), m", still.moved, 0, most, "the spring's stretch");
     test::report("speed at its end, m/s", still.speed, 0, 1e-4, "at rest");
@@ -143,14 +145,14 @@ TYPED_TEST(Rolling, BallStaysBelowTheAngleOfItsFrictionAndRollsAbove)
     EXPECT_NEAR(rolls.acceleration, expected, steps * expected);
 }
 
-/// Off, it has no arrays.
+/// Without rolling resistance its arrays do not exist.
 TYPED_TEST(Rolling, IsAbsentWhenOff)
 {
     const auto bytes = [&](double rolling)
     {
         test::Experiment<TypeParam> experiment(this->exec(), text(0, 1, rolling, 1, 0.002));
         experiment.run();
-        std::int64_t held = 0; // of this list or of the last: they change places
+        std::int64_t held = 0; // of this list or of the last: they are swapped
         for (const auto& [name, bytes_held] : this->counters.bytes())
         {
             if (name.ends_with("pair rolling moments")) { held += bytes_held; }

@@ -6,8 +6,8 @@
 
 #include "books.hpp"
 
-// Matter that turns neither swells nor slows down. Points move along straight lines, outwards by (angle a step)^2 / 2
-// of their radius in each step, and only the strain of the middle of the step tells the law so.
+// Rotating matter neither swells nor slows down. Points move along straight lines, which increases their radius by a
+// relative (angle per step)^2 / 2 in each step, and only the strain at the middle of the step accounts for it.
 namespace
 {
 
@@ -19,7 +19,7 @@ class Rotation : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(Rotation, test::Backends, test::BackendNames);
 
-constexpr double middle = 0.8; ///< m, of the axis along y that everything turns about
+constexpr double middle = 0.8; ///< m, of the axis along y of the rotation
 
 /// An elastic body without weight, one cell thick; `shape`: lines of its terrain. `numerics`: lines of that table.
 std::string turning_text(const std::string& shape, const std::string& numerics, double dt, double duration)
@@ -59,7 +59,7 @@ const std::string disc   = "region = { box = [[0.6, 0.0, 0.6], [1.0, 0.05, 1.0]]
                            "height = \"0.8 + sqrt(max(0.04 - (x - 0.8)^2, 0))\"\n"
                            "floor  = \"0.8 - sqrt(max(0.04 - (x - 0.8)^2, 0))\"";
 
-/// Sets the body turning at `rate` (1/s), without stress, and begins its books.
+/// Starts the body's rotation at `rate` (1/s), without stress, and its ledger.
 template<class Exec>
 void set_turning(test::Experiment<Exec>& run, double rate)
 {
@@ -77,7 +77,7 @@ void set_turning(test::Experiment<Exec>& run, double rate)
     run.simulation().ledger() = solver::Ledger({0, 0, 0}, run.simulation().census());
 }
 
-/// kg m2, about the axis.
+/// Moment of inertia about the axis, kg m2.
 template<class Exec>
 double inertia(test::Experiment<Exec>& run)
 {
@@ -93,9 +93,9 @@ double inertia(test::Experiment<Exec>& run)
     return total;
 }
 
-/// At 1/s: with the strain of the start of the step the area grows by rate^2 dt a second, 9.3e-3 in 19 s, and the
-/// kinetic energy falls as much. The first second is left out: the start without stress dies away. The little square
-/// takes APIC, since AFLIP's filter takes 1.5e-2 at the rim of so few cells.
+/// At 1/s: with the strain at the start of the step the area would grow by rate^2 dt per second, 9.3e-3 in 19 s, and
+/// the kinetic energy fall as much. The first second is left out, in which the transient of the unstressed start
+/// decays. The little square uses APIC, because AFLIP's filter dissipates 1.5e-2 at the rim of so few cells.
 TYPED_TEST(Rotation, SquareKeepsItsEnergyAndItsBooksClose)
 {
     struct Case
@@ -125,9 +125,9 @@ TYPED_TEST(Rotation, SquareKeepsItsEnergyAndItsBooksClose)
     }
 }
 
-/// Two turns at 10/s. Straight steps alone swell the inertia by 4 pi rate dt = 6.1e-2. Its own pull stretches a disc in
-/// plane strain by u/r = (1 - nu) rho w^2 ((3 + nu) R^2 - (1 + nu) r^2) / (8 E), with E and nu of plane strain
-/// (Timoshenko and Goodier 1970, 32); set off without stress it swings about that.
+/// Two turns at 10/s. Straight steps alone would swell the inertia by 4 pi rate dt = 6.1e-2. Centrifugal force
+/// stretches a disc in plane strain by u/r = (1 - nu) rho w^2 ((3 + nu) R^2 - (1 + nu) r^2) / (8 E), with E and nu of
+/// plane strain (Timoshenko and Goodier 1970, 32); started without stress it oscillates about that.
 TYPED_TEST(Rotation, SoftDiscKeepsItsInertia)
 {
     const double                rate = 10, turn = 2 * std::numbers::pi / rate, nu = 0.3 / 0.7, young = 1e6 / 0.91;

@@ -17,7 +17,7 @@ class Sand : public test::BackendTest<Exec>
 TYPED_TEST_SUITE(Sand, test::Backends, test::BackendNames);
 
 /// docs/verification.md#free-flight, #rotation-and-translation: a block in free flight keeps its shape, has no stress,
-/// and falls as a stone does.
+/// and falls as a rigid body.
 TYPED_TEST(Sand, BlockInFreeFlightIsAStone)
 {
     const std::string           text = R"(
@@ -48,7 +48,7 @@ duration = 0.3
     fall.run();
     const solver::Census end  = fall.simulation().census();
     const double         mass = start.sand.mass, t = fall.time();
-    // Symplectic Euler of a constant acceleration is late by half a step: g t dt / 2.
+    // Symplectic Euler of a constant acceleration lags by half a step: g t dt / 2.
     const double drop = (start.sand.moment[2] - end.sand.moment[2]) / mass, expected = 0.5 * 9.81 * t * t;
     const double tolerance = 9.81 * t * fall.dt();
     test::report("drop in m", drop, expected, tolerance, "symplectic Euler: g t dt");
@@ -70,10 +70,10 @@ struct Bar
 struct Vibration
 {
     double period; ///< s
-    double energy; ///< after ten periods, over that at the start; velocities and stresses taken at one time
+    double energy; ///< after ten periods, over that at the start; velocities and stresses at the same time
 };
 
-/// L = 1 m, c = 100 m/s, in uniaxial strain (nu = 0), fixed at x = 0, set off in its first mode.
+/// L = 1 m, c = 100 m/s, in uniaxial strain (nu = 0), fixed at x = 0, started in its first mode.
 template<class Exec>
 Vibration vibrate(const Exec& exec, const Bar& setup)
 {
@@ -117,7 +117,7 @@ duration = 0.4
     bar.run(
         [&](double time)
         {
-            if (++step % 8 != 0) { return; } // a look takes as long as a step
+            if (++step % 8 != 0) { return; } // reading back takes as long as a step
             const solver::Census    now   = bar.simulation().census();
             const solver::EnergyRow books = bar.simulation().ledger().energy(now);
             energy                        = books.kinetic_points + books.half_step + books.strain;
@@ -130,17 +130,17 @@ duration = 0.4
             last = momentum;
             then = time;
         });
-    // The momentum is a cosine: its k-th zero stands at (k - 1/2) T / 2.
+    // The momentum is a cosine: its k-th zero is at (k - 1/2) T / 2.
     return {2 * crossing / (crossings - 0.5), energy / start};
 }
 
-/// docs/verification.md#bar: fixed-free bar, T = 4 L / c, ten periods. Energy goes with the square of the amplitude.
+/// docs/verification.md#bar: fixed-free bar, T = 4 L / c, ten periods. Energy scales with the square of the amplitude.
 TYPED_TEST(Sand, BarVibratesAtItsPeriodAndKeepsItsEnergy)
 {
     struct Case
     {
         Bar         bar;
-        double      energy; ///< that it may lose or gain
+        double      energy; ///< loss or gain that is accepted
         const char* what;
         const char* why;
     };
@@ -164,7 +164,7 @@ TYPED_TEST(Sand, BarVibratesAtItsPeriodAndKeepsItsEnergy)
     }
 }
 
-/// docs/verification.md#geostatic-column: a bed at rest under its own weight stays at rest with sigma_v = rho g depth.
+/// docs/verification.md#geostatic-column: a bed under its own weight stays at rest with sigma_v = rho g depth.
 TYPED_TEST(Sand, BedAtRestStaysAtRest)
 {
     test::Experiment<TypeParam> bed(this->exec(), test::sand_text + "\n");
@@ -173,7 +173,7 @@ TYPED_TEST(Sand, BedAtRestStaysAtRest)
     const solver::Census end = bed.simulation().census();
     const double         sag = (start.sand.moment[2] - end.sand.moment[2]) / start.sand.mass;
     // Beside the floor the discrete stress is off by up to the weight of a quarter of a cell, over half a cell;
-    // undamped, the bed swings to twice the static answer to that. h = 0.05 m, M = 1.346e6 Pa.
+    // undamped, the bed oscillates to twice the static response. h = 0.05 m, M = 1.346e6 Pa.
     const double tolerance = 2 * (1600 * 9.81 * 0.0125) / 1.346e6 * 0.025;
     test::report("sag of the centre in m", sag, 0, tolerance, "a quarter cell's weight over half a cell, swinging");
     EXPECT_LT(std::abs(sag), tolerance);

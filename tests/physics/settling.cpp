@@ -57,11 +57,10 @@ tread::run::PhaseEnd settle(const Exec& exec, const std::string& text)
     return experiment.phase_end();
 }
 
-/// Slowest mode of the bed: 4 H / c = 28 ms. Damping 0.3 leaves 0.54 a cycle (docs/verification.md#local-damping).
+/// Slowest mode of the bed: 4 H / c = 28 ms. Damping 0.3 leaves 0.54 per cycle (docs/verification.md#local-damping).
 constexpr double cycle = 0.0276;
 
-/// The stress that it starts with is that of a level bed: nothing is left to settle but what one cell beside the floor
-/// is off.
+/// The initial stress is that of a level bed: only the error in one cell beside the floor is left to settle.
 TYPED_TEST(Settling, LevelBedSettlesAtOnce)
 {
     const tread::run::PhaseEnd end  = settle(this->exec(), bed_text(level, 2));
@@ -73,7 +72,8 @@ TYPED_TEST(Settling, LevelBedSettlesAtOnce)
     EXPECT_LT(end.after, most);
 }
 
-/// A heap of 20 degrees starts with a first guess only; it takes cycles to settle, and says so if it is not given them.
+/// The initial stress of a heap of 20 degrees is only a first guess; it takes cycles to settle, and a run too short for
+/// it reports that it has not settled.
 TYPED_TEST(Settling, HeapSettlesSlowlyOrSaysThatItDidNot)
 {
     const tread::run::PhaseEnd end   = settle(this->exec(), bed_text(heap, 2));

@@ -6,7 +6,7 @@
 
 #include "harness.hpp"
 
-// Sand that sleeps, beside the same that does not.
+// Sand that may sleep, compared with the same sand that may not.
 namespace
 {
 
@@ -15,7 +15,7 @@ using namespace tread;
 constexpr double spacing = 0.05; ///< m
 constexpr double length  = 3.2;  ///< m
 
-/// A trench of sand, 3.2 x 0.4 x 0.2 m, as geostatic stress has it.
+/// A trench of sand, 3.2 x 0.4 x 0.2 m, with geostatic stress.
 const std::string trench_text = R"(
 title = "trench"
 [domain]
@@ -80,12 +80,12 @@ name     = "collapse"
 duration = 0.5
 )";
 
-/// How a scene went.
+/// Result of a run.
 struct Outcome
 {
-    std::vector<double> row; ///< what is compared
+    std::vector<double> row; ///< values to compare
     double              steps    = 0;
-    double              sleeper  = 0; ///< mean share of the points that slept
+    double              sleeper  = 0; ///< mean share of sleeping points
     double              most     = 0; ///< largest
     double              energy   = 0; ///< unaccounted, over the largest exchange
     double              momentum = 0;
@@ -96,7 +96,7 @@ template<class Exec>
 class Sleep : public test::BackendTest<Exec>
 {
 protected:
-    /// `watch(experiment)` after every step.
+    /// Calls `watch(experiment)` after every step.
     template<class Watch>
     Outcome run(const std::string& text, Watch watch)
     {
@@ -128,12 +128,12 @@ protected:
         return run(text, [](auto&) {});
     }
 
-    /// Along x from the first body, m.
+    /// Distances along x of sleeping points from the first body, m.
     static std::vector<double> offsets_of_sleepers(test::Experiment<Exec>& experiment)
     {
         auto&               sand = experiment.simulation().sand();
         const double        at   = experiment.simulation().named_bodies().front().position[0];
-        const auto          x    = sand.positions(); // those that sleep come last
+        const auto          x    = sand.positions(); // sleeping points come last
         std::vector<double> offsets;
         for (auto i = static_cast<std::size_t>(sand.view().count); i < x.size(); ++i)
         {
@@ -142,7 +142,7 @@ protected:
         return offsets;
     }
 
-    /// The books close as they do without sleep.
+    /// The energy balance closes as well as without sleep.
     static void expect_balanced(const std::string& what, const Outcome& outcome, const Outcome& awake)
     {
         test::report(what + ": energy unaccounted", outcome.energy, awake.energy, 1e-3,
@@ -156,7 +156,7 @@ protected:
 };
 TYPED_TEST_SUITE(Sleep, test::Backends, test::BackendNames);
 
-/// Nothing but sand at rest: all of it falls asleep at the first look, and nothing is left to compute.
+/// Only sand at rest: all of it falls asleep at the first check, and nothing is left to compute.
 TYPED_TEST(Sleep, ABedAtRestSleepsAltogether)
 {
     const std::string text    = trench_text + "[[phase]]\nname = \"rest\"\nduration = 0.3\n";
@@ -167,8 +167,8 @@ TYPED_TEST(Sleep, ABedAtRestSleepsAltogether)
     this->expect_balanced("bed at rest", outcome, awake);
 }
 
-/// The roller drives 0.2 m, in a trench of which it stirs a fifth. What sleeps is always as far from it as it has to
-/// be, and wakes as it comes.
+/// The roller drives 0.2 m, in a trench of which it disturbs a fifth. Sleeping sand always keeps its minimum distance
+/// from it, and wakes as it approaches.
 TYPED_TEST(Sleep, ARollerFarAwayFeelsNothing)
 {
     constexpr double    reach = 0.1 + 0.4; // radius and distance
@@ -211,7 +211,8 @@ TYPED_TEST(Sleep, ARollerFarAwayFeelsNothing)
     this->expect_balanced("roller", outcome, awake);
 }
 
-/// A column collapses over a bed that sleeps: it wakes what it comes to, and lies in the end as without.
+/// A column collapses over a sleeping bed: it wakes the sand that it reaches, and the deposit is the same as without
+/// sleep.
 TYPED_TEST(Sleep, ACollapseBesideSleepingPagesGoesItsWay)
 {
     const auto profile = [](auto& experiment)
@@ -237,7 +238,7 @@ TYPED_TEST(Sleep, ACollapseBesideSleepingPagesGoesItsWay)
     this->expect_balanced("collapse", outcome, awake);
 }
 
-/// Damping is for settling: nothing sleeps in such a phase, and what slept wakes.
+/// Damping is for settling: no sand sleeps in such a phase, and sleeping sand wakes.
 TYPED_TEST(Sleep, NotInADampedPhase)
 {
     test::Experiment<TypeParam> experiment(this->exec(),

@@ -6,7 +6,7 @@
 
 #include "harness.hpp"
 
-// A long layer of sand on a rough slope; its middle does not know of its ends (docs/verification.md#layer-on-a-slope).
+// A long layer of sand on a rough slope; its ends do not influence its middle (docs/verification.md#layer-on-a-slope).
 namespace
 {
 
@@ -20,7 +20,8 @@ TYPED_TEST_SUITE(Slope, test::Backends, test::BackendNames);
 
 constexpr double gravity = 9.8, thickness = 0.1, length = 2.4;
 
-/// Sand of 30 degrees, kept for `damped` s under damping and then for `duration` s; x points down a slope of `degrees`.
+/// Sand of 30 degrees, held for `damped` s under damping and then free for `duration` s; x points down a slope of
+/// `degrees`.
 std::string slope_text(double degrees, const std::string& numerics, double damped, double duration)
 {
     const double angle = degrees * std::numbers::pi / 180;
@@ -57,7 +58,7 @@ duration = {}
                        duration);
 }
 
-/// Of the points that start in the middle sixth: mean way down the slope, m, and speed, m/s.
+/// Points that start in the middle sixth: mean displacement down the slope, m, and speed, m/s.
 struct Middle
 {
     double way = 0, speed = 0;
@@ -83,7 +84,7 @@ Middle middle(Experiment& slope)
     return mean;
 }
 
-/// Under the angle of friction it stays where it is.
+/// Below the angle of friction it does not move.
 TYPED_TEST(Slope, LayerStaysBelowItsAngle)
 {
     test::Experiment<TypeParam> slope(this->exec(), slope_text(22, "", 0.2, 0.2));
@@ -99,9 +100,9 @@ TYPED_TEST(Slope, LayerStaysBelowItsAngle)
     EXPECT_LT(std::abs(creep), most);
 }
 
-/// Over it, friction is between that of the critical state of a layer that keeps its volume (Davis 1968: tan = sin for
-/// dilation 0) and that of the Mohr-Coulomb envelope. A transfer that filters resolved shear holds a layer of five
-/// cells back: FLIP with its default filter gives 0.17 m/s2.
+/// Above it, friction is between that of the critical state of a layer of constant volume (Davis 1968: tan = sin for
+/// dilation 0) and that of the Mohr-Coulomb envelope. A transfer that filters resolved shear slows a layer of five
+/// cells: FLIP with its default filter gives 0.17 m/s2.
 TYPED_TEST(Slope, LayerAcceleratesAboveItsAngle)
 {
     test::Experiment<TypeParam> slope(this->exec(), slope_text(35, "", 0.001, 0.35));

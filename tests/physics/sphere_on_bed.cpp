@@ -15,9 +15,9 @@ TYPED_TEST_SUITE(SphereOnBed, test::Backends, test::BackendNames);
 
 constexpr double mm = 1e-3;
 
-/// docs/verification.md#points-during-the-substeps: a point that recoils freely in the substeps lets go of its
-/// tangential spring in every step, and a sphere that friction should hold creeps at 41 mm/s. Held up by the grid's
-/// acceleration, it stays as with N = 1.
+/// docs/verification.md#points-during-the-substeps: a point that recoils freely in the substeps unloads its tangential
+/// spring in every step, and a sphere that friction should hold creeps at 41 mm/s. With the grid's acceleration applied
+/// to the points, it stays as with N = 1.
 TYPED_TEST(SphereOnBed, FrictionHoldsItAgainstASidewaysForce)
 {
     test::SphereOnBed bed;
@@ -40,7 +40,7 @@ TYPED_TEST(SphereOnBed, FrictionHoldsItAgainstASidewaysForce)
     EXPECT_GT(ballistic.creep, 20 * mm);
 }
 
-/// Drawn along slowly, the sphere needs the friction's share of its weight, whatever the count of substeps.
+/// Pulled slowly, the sphere needs a force of friction times its weight, whatever the number of substeps.
 TYPED_TEST(SphereOnBed, DragIsThatOfOneSubstep)
 {
     const auto drag = [&](int substeps)
@@ -60,7 +60,7 @@ TYPED_TEST(SphereOnBed, DragIsThatOfOneSubstep)
 }
 
 /// docs/verification.md#body-at-rest-on-sand: the contact of a wheel at rest carries its weight, in every step, for any
-/// count of substeps. On sand, which comes to rest slowly: tests/slow.
+/// number of substeps. On sand, which comes to rest slowly: tests/slow.
 TYPED_TEST(SphereOnBed, BedCarriesAWheelWhateverTheSubsteps)
 {
     test::SphereOnBed bed;
@@ -72,10 +72,10 @@ TYPED_TEST(SphereOnBed, BedCarriesAWheelWhateverTheSubsteps)
     test::expect_weight_carried(this->exec(), bed);
 }
 
-/// docs/verification.md#torque-without-friction: without friction no torque about the axle of a body of revolution but
-/// by the field, a lattice (there is no analytic one), between whose nodes the gradient points past the axle by as much
-/// as h/R: 1.2 degrees at 80 cells (docs/verification.md#distance-fields). It does so to either side, so that nothing
-/// is left of it as the body turns.
+/// docs/verification.md#torque-without-friction: without friction the only torque about the axle of a body of
+/// revolution comes from the sampled distance field (there is no analytic one), between whose nodes the gradient misses
+/// the axle by as much as h/R: 1.2 degrees at 80 cells (docs/verification.md#distance-fields). It does so to either
+/// side, so that the torque averages out as the body turns.
 TYPED_TEST(SphereOnBed, FrictionlessBodyOfRevolutionFeelsNoTorque)
 {
     const auto turn = [&](const std::string& form, int cells)
@@ -93,7 +93,7 @@ TYPED_TEST(SphereOnBed, FrictionlessBodyOfRevolutionFeelsNoTorque)
         const auto most = 1.2 * std::numbers::pi / 180 * 80 / cells;
         test::report(what + ", mean", body.torque, 0, 5e-3, "docs/verification.md#torque-without-friction");
         EXPECT_LT(std::abs(body.torque), 5e-3);
-        if (form == test::drum) { return; } // its facets are felt in single steps
+        if (form == test::drum) { return; } // its facets are visible in single steps
         test::report(what + ", largest of a step", body.most_torque, 0, most,
                      "docs/verification.md#distance-fields: the largest error of the normals");
         EXPECT_LT(body.most_torque, most);

@@ -10,7 +10,7 @@
 #include "harness.hpp"
 #include "kernels/dem/bodies.hpp"
 
-// A rigid sphere or wheel on a bed: pressed sideways, drawn along, at rest
+// A rigid sphere or wheel on a bed: pushed sideways, pulled along, at rest
 // (docs/verification.md#points-during-the-substeps, docs/verification.md#sphere-on-an-elastic-bed and
 // #body-at-rest-on-sand).
 namespace tread::test
@@ -25,19 +25,19 @@ struct SphereOnBed
     int         points_per_cell = 1;
     double      width = 0.24, depth = 0.08;      ///< m, of the bed
     double      bottom    = 0;                   ///< m, height of its lower side
-    std::string beneath   = {};                  ///< tables of what carries it there
+    std::string beneath   = {};                  ///< tables of what supports the bed there
     double      radius    = 0.1;                 ///< m
-    std::string form      = "kind = \"sphere\""; ///< of the body; of radius 0.5 m at scale 1 if a sphere
+    std::string form      = "kind = \"sphere\""; ///< of the body; a sphere has radius 0.5 m at scale 1
     double      weight    = 111;                 ///< N
     double      friction  = 0.3;
-    double      sideways  = 0; ///< gravity along x over that downwards, of sphere and bed
+    double      sideways  = 0; ///< ratio of gravity along x to gravity downwards, for sphere and bed
     int         sdf_cells = 96;
     std::string motion    = "supported";
     int         substeps  = 100;
     std::string dt        = "\"auto\"";
-    double      settling  = 0.15; ///< s, brought to rest, with local damping of the bed
+    double      settling  = 0.15; ///< s, settling phase with local damping of the bed
     double      free      = 0.1;  ///< s, without any damping
-    double      speed     = 0;    ///< m/s, that it is drawn along x with in the second phase; 0 leaves it free
+    double      speed     = 0;    ///< m/s, imposed along x in the second phase; 0 leaves it free
     double      spin      = 0;    ///< rad/s about y, in the second phase
 };
 
@@ -45,7 +45,7 @@ inline constexpr double gravity_of_beds = 9.81; ///< m/s2
 
 inline std::string sphere_on_bed_text(const SphereOnBed& bed)
 {
-    // Half a spacing of points below the surface, and a point's radius above it; clear by a hundredth of a cell.
+    // Points lie half a spacing below the surface, and reach a radius above it; a hundredth of a cell of clearance.
     const double lattice  = bed.spacing / std::cbrt(bed.points_per_cell);
     const double height   = bed.bottom + bed.depth + bed.radius + (0.6204 - 0.5) * lattice + 0.01 * bed.spacing;
     const bool   sphere   = bed.form.find("sphere") != std::string::npos;
@@ -115,24 +115,24 @@ duration = {free}
                        fmt::arg("height", height), fmt::arg("settling", bed.settling), fmt::arg("free", bed.free));
 }
 
-/// What the sphere did in the second phase; forces over its weight.
+/// Motion and forces of the sphere in the second phase; forces over its weight.
 struct Watched
 {
-    double creep;       ///< m/s, along x: slope of the regression over the phase's time
-    double pull;        ///< mean of what the bed holds it back with, over the phase's second half
+    double creep;       ///< m/s, along x: slope of the regression over the phase
+    double pull;        ///< mean resistance of the bed, over the phase's second half
     double lift;        ///< likewise, upwards
     double pull_jitter; ///< standard deviation of the steps' forces there
     double jitter;      ///< likewise, upwards
-    double height;      ///< m, of the lowest point over the bed's surface, mean of the second half
-    double impulse;     ///< error of the balance over weight x time
+    double height;      ///< m, of the lowest point above the bed's surface, mean of the second half
+    double impulse;     ///< error of the momentum balance over weight x time
     double torque;      ///< mean about y over weight x radius there
-    double most_torque; ///< largest of a step there
+    double most_torque; ///< largest in a step there
     double spring;      ///< largest k dt^2/m_p of a contact
     double dt;          ///< s
 };
 
-/// Stops every way of the sphere where its speed has begun to fall: brings it to rest without a force (kinetic
-/// damping, Day 1965).
+/// Stops each degree of freedom of the sphere when its speed begins to fall, which brings it to rest without a force
+/// (kinetic damping, Day 1965).
 class KineticDamping
 {
 public:
@@ -214,11 +214,11 @@ Watched watch_sphere(
             bed.free / static_cast<double>(times.size())};
 }
 
-/// Keys of a body's form: a wheel without grousers, a body of revolution.
+/// Keys of a body's shape: a wheel without grousers, a body of revolution.
 inline const std::string drum =
     "kind = \"wheel\", radius = 0.1, width = 0.12, wall_thickness = 0.03, grousers = 0, grouser_height = 0.0";
 
-/// docs/verification.md#body-at-rest-on-sand and #momentum-balance, for 1, 10, 100 and 200 substeps.
+/// Checks docs/verification.md#body-at-rest-on-sand and #momentum-balance, for 1, 10, 100 and 200 substeps.
 template<class Exec>
 void expect_weight_carried(const Exec& exec, SphereOnBed bed)
 {

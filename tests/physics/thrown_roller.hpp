@@ -5,7 +5,7 @@
 namespace tread::test
 {
 
-/// To be appended to a scene of 0.4 x 0.4 m: a roller with grousers of 6 kg, thrown onto what is there.
+/// Appended to a scene of 0.4 x 0.4 m: a roller of 6 kg with grousers, thrown onto its contents.
 inline const std::string thrown_roller_text = R"(
 [[material]]
 name    = "steel"

@@ -5,7 +5,7 @@
 
 #include "harness.hpp"
 
-// What the transfers between points and grid keep and what they lose.
+// Conserved quantities and losses of the transfers between points and grid.
 namespace
 {
 
@@ -49,7 +49,7 @@ duration = {}
                        size, dt, numerics, material, box, duration);
 }
 
-/// Gives every point velocity(position), and no stress.
+/// Sets every point's velocity to velocity(position), and its stress to zero.
 template<class Exec, class Velocity>
 void set_off(test::Experiment<Exec>& run, Velocity velocity)
 {
@@ -67,13 +67,13 @@ void set_off(test::Experiment<Exec>& run, Velocity velocity)
 }
 
 /// docs/verification.md#bar with free ends, which need no wall: a bar of 20 cells in its first mode, T = 2 L / c = 0.02
-/// s, ten periods at Courant 0.1.
+/// s, ten periods at a Courant number of 0.1.
 TYPED_TEST(Transfers, FreeBarKeepsPeriodAndEnergy)
 {
     struct Case
     {
         const char* transfer;
-        double      least; ///< of the energy after ten periods
+        double      least; ///< smallest share of the energy after ten periods
         const char* why;
     };
     for (const Case& c :
@@ -116,7 +116,7 @@ TYPED_TEST(Transfers, FreeBarKeepsPeriodAndEnergy)
     }
 }
 
-/// Angular momentum about the vertical: of the points' velocities, and for affine points of their spin.
+/// Angular momentum about the vertical: of the points' velocities, plus their spin if they are affine.
 template<class Exec>
 double spin(test::Experiment<Exec>& run, double spacing)
 {
@@ -128,14 +128,14 @@ double spin(test::Experiment<Exec>& run, double spacing)
     for (std::size_t i = 0; i < n; ++i)
     {
         total += m[i] * (x[i] * v[n + i] - x[n + i] * v[i]);
-        // C[y][x] - C[x][y] times the quadratic spline's moment h^2/4 (Jiang et al. 2015).
+        // C[y][x] - C[x][y] times the second moment h^2/4 of the quadratic spline (Jiang et al. 2015).
         if (!affine.empty()) { total += m[i] * spacing * spacing / 4 * (affine[3 * n + i] - affine[n + i]); }
     }
     return total;
 }
 
-/// docs/verification.md#rotation-and-translation: an elastic block spins freely at 10 rad/s. APIC keeps its angular
-/// momentum for ever, FLIP over the grid's step only; what it loses between is printed.
+/// docs/verification.md#rotation-and-translation: an elastic block spins freely at 10 rad/s. APIC conserves its angular
+/// momentum indefinitely, FLIP only over the grid's step; the loss in between is printed.
 TYPED_TEST(Transfers, SpinningBlockKeepsItsAngularMomentum)
 {
     struct Case
@@ -162,7 +162,7 @@ TYPED_TEST(Transfers, SpinningBlockKeepsItsAngularMomentum)
         const solver::Census end    = block.simulation().census();
         const double         energy = (end.sand.kinetic + end.sand.strain) / start.sand.kinetic;
         const std::string    name   = std::string(c.transfer).substr(0, std::string(c.transfer).find('"'));
-        // Affine points have no spin of their own before the first step gives it to them.
+        // Affine points have no spin of their own before the first step.
         const double turn = spins.back() / spins[1] - 1, first = spins[1] / spins[0] - 1;
         test::report(fmt::format("change of angular momentum in a turn, {} (energy {:.4f})", name, energy), turn, 0,
                      c.tolerance, c.why);
@@ -175,7 +175,7 @@ TYPED_TEST(Transfers, SpinningBlockKeepsItsAngularMomentum)
     }
 }
 
-/// docs/verification.md#rotation-and-translation: 10 m/s through ten cells, without a strain.
+/// docs/verification.md#rotation-and-translation: 10 m/s through ten cells, without strain.
 TYPED_TEST(Transfers, TranslationMakesNoStress)
 {
     for (const char* transfer : {"flip", "apic", "aflip"})
@@ -193,8 +193,9 @@ TYPED_TEST(Transfers, TranslationMakesNoStress)
             {
                 worst = std::max(worst, std::abs(s));
             }
-            // A step's strain is off by v dt/h times the rounding of the slopes, 1e-14; 102 steps add up. Between
-            // linear hats the lightest node has a millionth of a point's mass, and so much more of the rounding.
+            // The strain error per step is v dt/h times the rounding of the slopes, 1e-14; 102 steps add up. Between
+            // linear hat functions the lightest node has a millionth of a point's mass, which amplifies the rounding
+            // accordingly.
             const bool   linear    = shape == std::string("linear");
             const double tolerance = 1e6 * 102 * (10 * 0x1p-11 / 0.05) * 1e-14 * (linear ? 1e6 : 1);
             test::report(fmt::format("stress in Pa, {}, {}", transfer, shape), worst, 0, tolerance,

@@ -7,7 +7,7 @@
 
 #include "harness.hpp"
 
-// Every kind of wall against blocks and beds that rest on it, slide over it or leave it.
+// Every kind of wall with blocks and beds that rest on it, slide over it or leave it.
 namespace
 {
 
@@ -21,8 +21,8 @@ TYPED_TEST_SUITE(WallsOfSand, test::Backends, test::BackendNames);
 
 constexpr double gravity = 9.81;
 
-/// An elastic block, 0.4 m x 0.2 m and one cell thick, on a floor tilted by `degrees`, down which x points. It is put
-/// there without stress and swings, which would let its sole slip and stick in turn; FLIP's filter stills that.
+/// An elastic block, 0.4 m x 0.2 m and one cell thick, on a floor tilted by `degrees`; x points downslope. It starts
+/// without stress and oscillates, which would make its base slip and stick in turn; FLIP's filter damps that.
 std::string block_text(double degrees, const std::string& walls, double duration)
 {
     const double angle = degrees * std::numbers::pi / 180;
@@ -67,7 +67,7 @@ Motion motion(Experiment& experiment)
     return {experiment.time(), now.moment / now.mass, now.momentum / now.mass};
 }
 
-/// Acceleration (m/s2) between a fifth of the run, when the block has found its stress, and its end.
+/// Acceleration (m/s2) between a fifth of the run, when the block's stress has built up, and its end.
 template<class Exec>
 Vec3<double> acceleration(const Exec& exec, double degrees, const std::string& walls, double duration)
 {
@@ -82,7 +82,7 @@ Vec3<double> acceleration(const Exec& exec, double degrees, const std::string& w
     return (late.velocity - early.velocity) / (late.time - early.time);
 }
 
-/// docs/verification.md#block-on-an-incline, #layer-on-a-slope: a block that slides has a = g (sin - mu cos).
+/// docs/verification.md#block-on-an-incline, #layer-on-a-slope: a sliding block has a = g (sin - mu cos).
 TYPED_TEST(WallsOfSand, BlockSlidesByCoulombsLaw)
 {
     for (const double degrees : {20.0, 30.0, 45.0})
@@ -96,7 +96,7 @@ TYPED_TEST(WallsOfSand, BlockSlidesByCoulombsLaw)
     }
 }
 
-/// What friction takes is its force times the way, and it stands in the books as friction.
+/// The work of friction is its force times the displacement, and the ledger accounts for it as friction.
 TYPED_TEST(WallsOfSand, FrictionIsInTheLedger)
 {
     const double                slope = std::numbers::pi / 4;
@@ -116,15 +116,16 @@ TYPED_TEST(WallsOfSand, FrictionIsInTheLedger)
     EXPECT_LT(error, 1e-10);
 }
 
-/// How far (m) the top of the block goes when its own weight shears it slowly: rho g sin H^2 / (2 G). Its mean goes two
-/// thirds as far, swings to twice that if the weight comes on at once, and bending adds to it: up to two of these.
+/// Displacement (m) of the block's top when its own weight shears it slowly: rho g sin H^2 / (2 G). Its mean moves two
+/// thirds as far, overshoots to twice that if the weight is applied at once, and bending adds to it: up to two of
+/// these.
 double top_shear(double degrees)
 {
     return 1800 * gravity * std::sin(degrees * std::numbers::pi / 180) * 0.2 * 0.2 / (2 * 1e6 / (2 * 1.2));
 }
 
-/// docs/verification.md#block-on-an-incline: under atan 0.3 = 16.7 degrees it stays, but for the shear that its own
-/// weight gives it.
+/// docs/verification.md#block-on-an-incline: below atan 0.3 = 16.7 degrees it stays, except for the shear due to its
+/// weight.
 TYPED_TEST(WallsOfSand, BlockSticksBelowTheAngleOfFriction)
 {
     test::Experiment<TypeParam> stick(this->exec(), block_text(10, "bottom = \"frictional\", friction = 0.3", 1.0));
@@ -147,7 +148,7 @@ TYPED_TEST(WallsOfSand, BlockSticksBelowTheAngleOfFriction)
     EXPECT_LT(std::abs(crept), 1e-3 * free);
 }
 
-/// slip: nothing along the wall, weight across it; fixed: holds at 45 degrees; open: is not there.
+/// slip: no force along the wall, weight across it; fixed: holds at 45 degrees; open: has no effect.
 TYPED_TEST(WallsOfSand, SlipFixedAndOpenFloors)
 {
     const double       along = gravity * std::sin(std::numbers::pi / 4);
@@ -166,7 +167,7 @@ TYPED_TEST(WallsOfSand, SlipFixedAndOpenFloors)
     EXPECT_NEAR(open[2], -along, 1e-9 * along);
 }
 
-/// A floor that does not hold lets go: a block thrown off it flies.
+/// A floor without adhesion releases the sand: a block thrown off it flies.
 TYPED_TEST(WallsOfSand, BlockLeavesTheFloor)
 {
     for (const std::string floor : {"slip", "frictional"})
@@ -190,7 +191,7 @@ TYPED_TEST(WallsOfSand, BlockLeavesTheFloor)
 }
 
 /// Cohesionless sand 0.2 m high on one wall, one cell thick and as long as its box; gravity points away from that wall
-/// if `away` > 0 and onto it otherwise.
+/// if `away` > 0 and towards it otherwise.
 std::string heap_text(const std::string& walls, const Vec3<double>& pull, double duration)
 {
     return fmt::format(R"(
@@ -220,7 +221,7 @@ duration = {}
                        pull[0], pull[2], walls, duration);
 }
 
-/// Momentum along `pull` over what free fall would give.
+/// Momentum along `pull` over that of free fall.
 template<class Exec>
 double share_of_free_fall(const Exec& exec, const std::string& walls, const Vec3<double>& pull)
 {
@@ -231,8 +232,8 @@ double share_of_free_fall(const Exec& exec, const std::string& walls, const Vec3
     return motion(fall).velocity.dot(pull) / (pull.squaredNorm() * fall.time());
 }
 
-/// Cohesionless sand that is pulled off a rough wall, upwards or sideways, goes without a force. A fixed one holds back
-/// what is beside it.
+/// Cohesionless sand pulled off a rough wall, upwards or sideways, leaves it without a force. A fixed wall retains the
+/// sand beside it.
 TYPED_TEST(WallsOfSand, SandLeavesARoughWallAndNotAFixedOne)
 {
     struct Case
@@ -254,8 +255,8 @@ TYPED_TEST(WallsOfSand, SandLeavesARoughWallAndNotAFixedOne)
     }
 }
 
-/// Under load a rough floor is a fixed one: a bed keeps the stress of its weight, and a block does not slide where
-/// Coulomb's friction of 0.3 would let it.
+/// Under load a rough floor acts as a fixed one: a bed keeps the stress of its weight, and a block does not slide where
+/// Coulomb friction of 0.3 would let it.
 TYPED_TEST(WallsOfSand, RoughFloorHoldsWhatPressesOnIt)
 {
     const auto stress = [&](const std::string& floor)
@@ -286,7 +287,7 @@ TYPED_TEST(WallsOfSand, RoughFloorHoldsWhatPressesOnIt)
     EXPECT_NEAR(moved, 0.5 * most, 0.5 * most);
 }
 
-/// A bed of 0.2 m x 0.2 m against three walls that meet in a corner; `up` turns the world upside down.
+/// A bed of 0.2 m x 0.2 m against three walls that meet in a corner; `up` inverts the vertical direction.
 std::string corner_text(int cells, bool up)
 {
     const double size = 0.05 * cells;
@@ -319,7 +320,7 @@ duration = 0.05
                        size, up ? 4.0 : -4.0, up ? size - 0.2 : 0.0, up ? size : 0.2);
 }
 
-/// High walls do what low ones do, wherever the walls fall in their pages of four nodes.
+/// High walls act like low ones, wherever the walls lie within their pages of four nodes.
 TYPED_TEST(WallsOfSand, HighWallsMirrorLowOnes)
 {
     const auto lean = [&](int cells, bool up)

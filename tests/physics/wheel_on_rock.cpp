@@ -7,7 +7,7 @@
 #include "books.hpp"
 #include "rock_scenes.hpp"
 
-// A wheel that stands astride a rock, between two of its grousers.
+// A wheel that straddles a rock, between two of its grousers.
 namespace tread
 {
 namespace
@@ -21,8 +21,8 @@ TYPED_TEST_SUITE(WheelOnRock, test::Backends, test::BackendNames);
 
 constexpr double mass = 10; // kg
 
-/// Grousers 3 cm high and 10 cm apart at their tips, over a held rock of 16 cm whose top reaches between the lowest
-/// two. As an axle would, locks keep the wheel upright; that it neither rolls nor slides off is up to the contact.
+/// Grousers 3 cm high and 10 cm apart at their tips, over a fixed rock of 16 cm whose top reaches between the lowest
+/// two. Locks keep the wheel upright, as an axle would; only the contact prevents it from rolling or sliding off.
 std::string astride(const std::string& material, const std::string& numerics = "")
 {
     return test::rock_domain({1, 1, 1}, 0, "x = \"open\", y = \"open\", bottom = \"fixed\", top = \"open\"", numerics) +
@@ -55,7 +55,7 @@ position = [0.5, 0.5, 0.2]
                        mass);
 }
 
-/// Normals of the patches between wheel and rock, towards the wheel.
+/// Normals of the patches between wheel and rock, pointing to the wheel.
 template<class Experiment>
 std::vector<Vec3<double>> patches(Experiment& run)
 {
@@ -69,9 +69,9 @@ std::vector<Vec3<double>> patches(Experiment& run)
 
 constexpr const char* held = "hold = [\"rock\"]\n";
 
-/// Two grousers press the rock from two sides. What the wheel does once nothing but its contacts damps it is measured
-/// as for rocks at rest (rock_rest.hpp), with the rock's radius for R. It rocks about the stone by the springs of its
-/// two grips against its weight, slowly: hence the stiff and dull material.
+/// Two grousers press the rock from two sides. The motion of the wheel, damped by its contacts only, is judged as for
+/// rocks at rest (rock_rest.hpp), with the rock's radius as R. It rocks slowly about the rock on the springs of its two
+/// contacts against its weight: hence the stiff material with low restitution.
 TYPED_TEST(WheelOnRock, RestsBetweenTwoGrousers)
 {
     constexpr double            settled = 0.5, free = 0.6, rock_radius = 0.08;
@@ -108,8 +108,8 @@ TYPED_TEST(WheelOnRock, RestsBetweenTwoGrousers)
     EXPECT_LT(spin, 1e-2);
 }
 
-/// The books of a landing on both grousers are of first order in the step; what the two patches lost unbooked would
-/// stay in the limit.
+/// The energy balance of a landing on both grousers is of first order in the step; unaccounted losses of the two
+/// patches would remain in the limit.
 TYPED_TEST(WheelOnRock, LandingClosesTheBooks)
 {
     const auto unaccounted = [&](double dt)

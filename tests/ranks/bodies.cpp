@@ -4,7 +4,7 @@
 #include "physics/rock_scenes.hpp"
 #include "side_by_side.hpp"
 
-// Rocks and wheels over several ranks do what they do on one.
+// Rocks and wheels on several ranks agree with a run on one rank.
 namespace tread
 {
 namespace
@@ -43,7 +43,7 @@ sdf_cells = 24
 
 std::string fixed_step(double dt) { return fmt::format("\n[time]\ndt = {}\n", dt); }
 
-/// A rock of 4 cm that slides down a slope of 40 degrees with friction of 0.5, in x, from the first rank to the last.
+/// A rock of 4 cm that slides along x down a slope of 40 degrees with friction 0.5, from the first rank to the last.
 TYPED_TEST(BodiesOfRanks, ARockSlidesOverTheirBorder)
 {
     const Vec3<double> size(0.4, 0.2, 0.2);
@@ -84,7 +84,7 @@ lock = ["roll", "pitch", "yaw"]
     }
 }
 
-/// Two rocks, each in the middle of what a rank owns; then one of them at the border.
+/// Two rocks, each in the middle of a rank's pages; then one of them at the border.
 TYPED_TEST(BodiesOfRanks, NothingIsSharedFarFromTheBorder)
 {
     const Vec3<double> size(0.8, 0.2, 0.2);
@@ -111,12 +111,12 @@ position = [{}, 0.1, 0.05]
         decomposition.owners.assign(pages.key, pages.rank);
         solver::DemSolver<TypeParam> rigid(this->exec(), scene, world, solver::make_plan(scene, world), &decomposition);
         rigid.find_pairs(2e-4);
-        const bool at_border = x > 0.3; // pages are 0.16 m wide, and begin half a spacing off the origin
+        const bool at_border = x > 0.3; // pages are 0.16 m wide, and begin half a spacing from the origin
         EXPECT_EQ(rigid.shares(), at_border && this->ranks() > 1 && test::world().rank() < 2);
     }
 }
 
-/// A heap of 1,000 rocks that slumps in x under a tilted weight of several g.
+/// A heap of 1,000 rocks that slumps along x under a tilted gravity of several g.
 std::string heap(int rocks, const std::string& form)
 {
     return R"(
@@ -144,7 +144,7 @@ const Vec3<double> heap_size(0.4, 0.13, 0.2);
 
 auto heap_slabs(int parts) { return test::slabs(heap_size[0], parts); }
 
-/// Rocks whose place belongs to another rank than it did.
+/// Number of rocks whose position now belongs to another rank.
 template<class Exec>
 int migrated(const test::SideBySide<Exec>& run, const std::vector<double>& before, const std::vector<double>& after)
 {
@@ -224,7 +224,7 @@ TYPED_TEST(BodiesOfRanks, TwoRunsGiveTheSameBits)
     }
 }
 
-/// On a bed of rocks, above the corner of four ranks; it is dropped and rolls off over the border in x.
+/// A wheel on a bed of rocks, above the corner of four ranks; it is dropped and rolls over the border in x.
 TYPED_TEST(BodiesOfRanks, AWheelRollsOnTheCornerOfFour)
 {
     const Vec3<double> size(0.4, 0.4, 0.4);

@@ -2,7 +2,7 @@
 
 #include "side_by_side.hpp"
 
-// Sand and bodies over several ranks do together what they do on one.
+// Coupled sand and bodies on several ranks agree with a run on one rank.
 namespace tread
 {
 namespace
@@ -18,8 +18,8 @@ TYPED_TEST_SUITE(CoupledRanks, test::Backends, test::BackendNames);
 
 const Vec3<double> size(0.4, 0.4, 0.6);
 
-/// Sums of as many terms in another order, in double precision, and 200 steps of a bed that does not collide: rounding
-/// of 1e-16 grows by no more than some 1e5.
+/// Sums of as many terms in another order, in double precision, and 200 steps of a bed without collisions: rounding of
+/// 1e-16 grows by at most some 1e5.
 constexpr double bound = 1e-9;
 
 template<class Exec>
@@ -39,7 +39,7 @@ void expect_as_alone(test::SideBySide<Exec>& run, int steps)
         run.alone.simulation().begin_mean();
         run.together.simulation().begin_mean();
         if (step % 10 != 0) { continue; }
-        run.alone.simulation().census(); // as a row of the time series does: points may change ranks there, too
+        run.alone.simulation().census(); // as for a row of the time series: points may change ranks there, too
         run.together.simulation().census();
     }
     const io::BodyFields one = run.alone.simulation().body_fields(), all = run.together.simulation().body_fields();
@@ -66,7 +66,7 @@ void expect_as_alone(test::SideBySide<Exec>& run, int steps)
     EXPECT_NEAR(errors_of(run.alone).momentum, errors_of(run.together).momentum, bound);
 }
 
-/// A finer bed than that of the other tests: some 75 pages.
+/// A finer bed than in the other tests: some 75 pages.
 const std::vector<std::string> fine_bed = {"grid.spacing=0.025", "phase[0].duration=1.0"};
 
 std::vector<std::string> and_also(std::vector<std::string> overrides, const std::vector<std::string>& more)
@@ -75,7 +75,7 @@ std::vector<std::string> and_also(std::vector<std::string> overrides, const std:
     return overrides;
 }
 
-/// A wheel of 4 kg that stands in the sand above the corner of four ranks, and digs itself in.
+/// A wheel of 4 kg that stands in the sand above the corner of four ranks, and digs in.
 TYPED_TEST(CoupledRanks, AWheelStandsOnTheCornerOfFour)
 {
     const scene::Scene scene =
@@ -85,7 +85,7 @@ TYPED_TEST(CoupledRanks, AWheelStandsOnTheCornerOfFour)
     expect_as_alone(run, 200);
 }
 
-/// It slides over them in x, so that points that hold it by friction change their rank.
+/// It slides over them along x, so that points that hold it by friction change rank.
 TYPED_TEST(CoupledRanks, AWheelPloughsOverTheBorders)
 {
     const scene::Scene scene = test::load_text(
@@ -95,8 +95,8 @@ TYPED_TEST(CoupledRanks, AWheelPloughsOverTheBorders)
     expect_as_alone(run, 200);
 }
 
-/// One rank has all at first, and gives of it to the others while the wheel ploughs: sand, the wheel, and what their
-/// contacts remember move together.
+/// One rank owns everything at first, and hands parts to the others while the wheel ploughs: sand, the wheel and their
+/// contact history migrate together.
 TYPED_TEST(CoupledRanks, AWheelPloughsWhilePagesChangeTheirOwner)
 {
     const scene::Scene scene =
@@ -140,7 +140,7 @@ TYPED_TEST(CoupledRanks, ASlumpKeepsItsBalance)
     EXPECT_LT(mean, 1.3) << "31 steps at up to 2 before it is due, and 1.15 from then on, are 1.24";
 }
 
-/// Rocks in sand that slumps.
+/// Rocks in slumping sand.
 TYPED_TEST(CoupledRanks, RocksAreCarriedByTheSand)
 {
     const scene::Scene scene =

@@ -5,8 +5,8 @@
 
 #include "rank_run.hpp"
 
-// What MPI is asked for by name: of a scene on one rank nothing, of sand on several what its parts need. The calls of
-// the library come here first, as MPI's profiling interface has it.
+// MPI calls of a run by name: none for a scene on one rank, and for sand on several ranks those that its parts need.
+// Calls are intercepted through MPI's profiling interface.
 namespace
 {
 
@@ -99,7 +99,7 @@ TEST(LeftOutOnRanks, OneRankAloneAsksNothingOfMpi)
     EXPECT_EQ(calls_of_steps(test::sand_text, test::Ranks::this_one), Names{});
 }
 
-/// Five steps of a bed at rest, with checksums of what goes to other ranks.
+/// Five steps of a bed at rest, with checksums of migrating points.
 TEST(LeftOutOnRanks, SandOnSeveralAsksForWhatItShares)
 {
     if (test::world().size() == 1) { GTEST_SKIP() << "one rank"; }

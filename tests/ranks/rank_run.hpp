@@ -12,11 +12,11 @@
 #include "solver/page_loads.hpp"
 #include "solver/simulation.hpp"
 
-// A scene carried on by the solver's own pieces, by all ranks together or by this one alone.
+// Runs a scene with the solver's components, on all ranks together or on this one alone.
 namespace tread::test
 {
 
-/// The rank that owns the page at such coordinates; empty: as the partitioner has it.
+/// Returns the rank that owns the page at given coordinates; empty: the partitioner's choice.
 using OwnerOf = std::function<int(mpm::Index3)>;
 
 enum class Ranks
@@ -56,13 +56,13 @@ public:
     solver::Simulation<Exec, Real>& simulation() { return *simulation_; }
     double                          time() const { return time_; }
 
-    /// Of a run on all ranks.
+    /// Transport of a run on all ranks.
     const decomp::Transport<Exec>& transport() const { return decomposition_->transport; }
 
-    /// This rank's.
+    /// Fields of this rank's points.
     io::PointFields points() { return simulation_->point_fields(); }
 
-    /// The books after a census.
+    /// Energy balance after a census.
     solver::EnergyRow energy() { return simulation_->ledger().energy(simulation_->census()); }
 
 private:
@@ -76,7 +76,7 @@ private:
         if (owner_of) { assign(owner_of); }
     }
 
-    /// All pages of the domain, and some around it.
+    /// Assigns owners to all pages of the domain, and some around it.
     void assign(const OwnerOf& owner_of)
     {
         const double                               edge = mpm::page_edge * world_.geometry.spacing;

@@ -7,8 +7,8 @@
 
 #include "rank_run.hpp"
 
-// Sand on several ranks against the same sand on one. Ranks add what they share in another order than one rank does,
-// so that they agree to rounding; points, their ids and masses agree exactly.
+// Sand on several ranks compared with the same sand on one. Ranks add shared contributions in another order than one
+// rank does, so results agree to rounding; the set of points, their ids and masses agree exactly.
 namespace
 {
 
@@ -16,7 +16,7 @@ using namespace tread;
 
 constexpr int steps = 200;
 
-/// What a scene has of its own.
+/// Parts of a scene that differ between tests.
 struct SandScene
 {
     std::string title, domain, young, box;
@@ -51,7 +51,7 @@ duration = 1.0
                        scene.title, scene.domain, scene.young, scene.cohesion, scene.box, scene.title);
 }
 
-/// A column that falls over across pages of 0.08 m; all kinds of walls.
+/// A column that collapses across pages of 0.08 m; all kinds of walls.
 std::string column_text()
 {
     return text_of({"collapse", R"(
@@ -62,7 +62,7 @@ walls   = { x = "slip", y = "frictional", bottom = "fixed", top = "slip", fricti
                     "1.0e6", "[[0.0, 0.0, 0.0], [0.16, 0.14, 0.24]]"});
 }
 
-/// A block that flies along x through page after page.
+/// A block that flies along x through many pages.
 std::string flight_text()
 {
     return text_of({"flight", R"(
@@ -73,7 +73,7 @@ walls   = { x = "slip", y = "slip", bottom = "slip", top = "slip" }
                     "3.0e5", "[[0.02, 0.04, 0.04], [0.14, 0.12, 0.12]]", "100.0"});
 }
 
-/// Where a test says who owns what, it stays so.
+/// Keeps the owners that a test assigns.
 const std::string owners_stay = "[balance]\nthreshold = 1e6\n";
 
 template<class Exec>
@@ -82,7 +82,8 @@ class RankSand : public test::BackendTest<Exec>
 protected:
     using Run = test::RankRun<Exec, double>;
 
-    /// The largest differences of this rank's points from those of one rank alone, and of the books.
+    /// Checks the largest differences of this rank's points, and of the energy balance, from those of a run on one
+    /// rank.
     void expect_agreement(Run& all, Run& alone, double rounding)
     {
         const io::PointFields    own = all.points(), reference = alone.points();
@@ -115,7 +116,7 @@ protected:
         expect_balance(all, alone);
     }
 
-    /// Momentum in kg m/s, of some 10 N over 0.1 s. What walls give is booked once, by one rank.
+    /// Checks momentum in kg m/s, of some 10 N over 0.1 s. One rank accounts for the impulse of the walls.
     void expect_balance(Run& all, Run& alone)
     {
         const solver::Census together = all.simulation().census(), expected = alone.simulation().census();
@@ -124,7 +125,7 @@ protected:
         EXPECT_LT(all.simulation().ledger().balance(together).impulse_error, 1e-12);
     }
 
-    /// Every point of the scene is on one rank.
+    /// Checks that every point of the scene is on exactly one rank.
     void expect_all_points(const io::PointFields& own, const io::PointFields& reference)
     {
         std::vector<std::int32_t> ids(own.id.begin(), own.id.end());
@@ -136,7 +137,7 @@ protected:
 
 TYPED_TEST_SUITE(RankSand, test::Backends, test::BackendNames);
 
-// 200 steps of a sum of some 1e3 terms: 1e-12 m is four orders above what is seen, and eight below the motion.
+// 200 steps of a sum of some 1e3 terms: 1e-12 m is four orders above the observed error, and eight below the motion.
 constexpr double rounding = 1e-12;
 
 TYPED_TEST(RankSand, ColumnCollapsesAsOnOneRank)
@@ -187,7 +188,7 @@ TYPED_TEST(RankSand, IsTheSameByEveryTransport)
     EXPECT_EQ(any.points().stress, host.points().stress);
 }
 
-/// Rank after rank gets the block and loses it again.
+/// Rank after rank receives the block and loses it again.
 TYPED_TEST(RankSand, RanksBecomeEmptyAndFillAgain)
 {
     const auto                slabs = [](mpm::Index3 page) { return (page.x + 2) / 2; };
@@ -235,7 +236,7 @@ TYPED_TEST(RankSand, PagesAreDealtOutAnewWhereThatPays)
     this->expect_agreement(all, alone, rounding);
 }
 
-/// Pages that no rank had go to ranks that all agree on.
+/// Pages without an owner are assigned alike on all ranks.
 TYPED_TEST(RankSand, NewPagesGetOneOwner)
 {
     typename TestFixture::Run all(this->exec(), flight_text(), test::Ranks::all);

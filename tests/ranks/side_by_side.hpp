@@ -12,11 +12,11 @@
 #include "physics/harness.hpp"
 #include "solver/page_loads.hpp"
 
-// A scene on all ranks together beside the same scene on this one alone: the answer that the ranks are held to.
+// Runs a scene on all ranks together and on this rank alone; the latter is the reference.
 namespace tread::test
 {
 
-/// The pages of a box from the origin on, of the rank that owner(centre of a page) says.
+/// Pages of a box from the origin on, owned by the rank that owner(centre of a page) returns.
 struct OwnedPages
 {
     std::vector<std::uint64_t> key;
@@ -51,22 +51,22 @@ OwnedPages pages_of(const decomp::PageLattice& lattice, const Vec3<double>& size
     return found;
 }
 
-/// Slabs along x, of equal width, for the first `parts` ranks.
+/// Slabs along x of equal width, for the first `parts` ranks.
 inline auto slabs(double length, int parts)
 {
     return [=](const Vec3<double>& at)
     { return std::clamp(static_cast<int>(std::floor(parts * at[0] / length)), 0, parts - 1); };
 }
 
-/// Quarters that meet in a corner above `centre`: as many ranks as there are, and with three the last two quarters are
-/// of one.
+/// Quarters that meet at an edge above `centre`, for as many ranks as there are; with three ranks one owns the last two
+/// quarters.
 inline auto quarters(const Vec3<double>& centre, int ranks)
 {
     return [=](const Vec3<double>& at)
     { return std::min((at[0] > centre[0] ? 1 : 0) + (at[1] > centre[1] ? 2 : 0), ranks - 1); };
 }
 
-/// The largest difference of two lists of numbers, relative to `scale`.
+/// Largest difference of two lists of numbers, relative to `scale`.
 inline double difference(const std::vector<double>& one, const std::vector<double>& other, double scale)
 {
     EXPECT_EQ(one.size(), other.size());
@@ -77,15 +77,15 @@ inline double difference(const std::vector<double>& one, const std::vector<doubl
 
 enum class Owners
 {
-    stay,  ///< as the test has them
-    change ///< where the scene's rule of balance wants that
+    stay,  ///< page owners as assigned by the test
+    change ///< repartitioned by the scene's balance rule
 };
 
 template<class Exec>
 class SideBySide
 {
 public:
-    /// owner(place) names a rank for every place of a box of this size (m) from the origin on.
+    /// owner(place) names a rank for every position in a box of this size (m) from the origin on.
     template<class Owner>
     SideBySide(const Exec& exec, const scene::Scene& scene, const Vec3<double>& size, Owner owner,
                Owners owners = Owners::stay)
@@ -96,15 +96,15 @@ public:
     {
     }
 
-    /// One step of both, of the same length and as many substeps.
+    /// Computes one step of both, with the same dt and number of substeps.
     void advance()
     {
         const solver::TimeStep one = alone.advance(), all = together.advance();
         ASSERT_EQ(one.substeps, all.substeps);
-        ASSERT_NEAR(one.dt, all.dt, 1e-9 * one.dt); // by default it follows the state, which differs by rounding
+        ASSERT_NEAR(one.dt, all.dt, 1e-9 * one.dt); // by default dt follows the state, which differs by rounding
     }
 
-    /// The rank of a place.
+    /// Owning rank of a position.
     std::int32_t owner_of(const Vec3<double>& place) const
     {
         return decomp::PageOwnership(lattice(), decomposition_.owners.keys(), decomposition_.owners.ranks())

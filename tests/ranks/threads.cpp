@@ -10,7 +10,7 @@
 
 #include "mpi_session.hpp"
 
-// How many threads a rank takes, where the ranks are on two machines: the last one is made to be on its own.
+// Number of threads of a rank if ranks are on two machines: the last rank pretends to be on its own.
 namespace
 {
 
@@ -25,7 +25,7 @@ bool& last_is_apart()
 
 } // namespace
 
-// The call of the library comes here first, as MPI's profiling interface has it.
+// Intercepts the library's call through MPI's profiling interface.
 extern "C" int MPI_Comm_split_type(MPI_Comm comm, int type, int key, MPI_Info info, MPI_Comm* part)
 {
     if (!last_is_apart()) { return PMPI_Comm_split_type(comm, type, key, info, part); }
@@ -38,7 +38,7 @@ extern "C" int MPI_Comm_split_type(MPI_Comm comm, int type, int key, MPI_Info in
 namespace
 {
 
-/// Two machines, and no OMP_NUM_THREADS until the end of the test.
+/// Two machines, and OMP_NUM_THREADS unset until the end of the test.
 class ThreadsTest : public ::testing::Test
 {
 protected:
@@ -69,7 +69,7 @@ TEST_F(ThreadsTest, ranks_of_a_machine_are_counted)
     EXPECT_EQ(world().local_size(), world().size());
 }
 
-// Only where it has two cores can a rank that is alone on its machine have more threads than cores over all ranks.
+// Only with two cores can a rank alone on its machine have more threads than cores over all ranks.
 TEST_F(ThreadsTest, cores_are_shared_with_the_ranks_of_the_machine_alone)
 {
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -79,7 +79,7 @@ TEST_F(ThreadsTest, cores_are_shared_with_the_ranks_of_the_machine_alone)
 TEST_F(ThreadsTest, what_is_asked_for_comes_first)
 {
     EXPECT_EQ(tread::run::choose_threads(world(), 7), 7);
-    // Set on one machine only: nobody waits for the others.
+    // Set on one machine only: no rank may wait for the others.
     if (is_last()) { setenv("OMP_NUM_THREADS", "3", 1); }
     const int threads = tread::run::choose_threads(world(), 0);
     EXPECT_TRUE(!is_last() || threads == omp_get_max_threads());

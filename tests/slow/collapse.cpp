@@ -17,7 +17,7 @@ struct ExpectedRunOut
     double              aspect;
     std::array<int, 3>  cells; ///< across the column's width
     test::ExpectedOrder order;
-    double              limit; ///< in widths, as it was found; the laboratories' is expected_run_out
+    double              limit; ///< in widths, as measured; that of the laboratories is expected_run_out
 };
 
 template<class Exec>
@@ -45,9 +45,9 @@ void expect_run_out(const Exec& exec, const ExpectedRunOut& expected)
         at, fronts[0], fronts[1], fronts[2], front.order, front.limit, last[0], last[1], last[2]);
 }
 
-/// docs/verification.md#column-collapse. The laboratories' run-outs (expected_run_out, right to 15 %) are met at some
-/// 20 cells a width, but the run-out grows on: without spacing it is 23, 25 and 15 % too long, which is this model's
-/// known error here.
+/// docs/verification.md#column-collapse. The run-outs of the laboratories (expected_run_out, within 15 %) are met at
+/// some 20 cells per width, but the run-out grows further with resolution: extrapolated to zero spacing it is 23, 25
+/// and 15 % too long, a known error of the model.
 TYPED_TEST(Collapse, RunOutAtThreeAspectRatios)
 {
     const std::string why = "as found; other spacings give other orders (docs/accuracy.md)";

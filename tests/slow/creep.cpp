@@ -11,7 +11,7 @@ class Creep : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(Creep, test::Backends, test::BackendNames);
 
-/// The precision of positions (design, section 4): 1 mm/s for a million steps at x = 900 m.
+/// Precision of positions (design, section 4): 1 mm/s for a million steps at x = 900 m.
 TYPED_TEST(Creep, AMillionStepsFarFromTheOriginInDouble) { test::creep<double>(this->exec(), "double", 1000000); }
 TYPED_TEST(Creep, AMillionStepsFarFromTheOriginInSingle) { test::creep<float>(this->exec(), "single", 1000000); }
 

@@ -6,7 +6,8 @@
 
 #include "order.hpp"
 
-// Footings too large for the quick tests (docs/verification.md#strip-footing): finer grids, and sand without cohesion.
+// Footings too expensive for the quick tests (docs/verification.md#strip-footing): finer grids, and sand without
+// cohesion.
 namespace
 {
 
@@ -18,7 +19,7 @@ class FootingSlow : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(FootingSlow, test::Backends, test::BackendNames);
 
-/// Pa, mean over the last quarter of the way.
+/// Mean pressure, Pa, over the last quarter of the settlement.
 template<class Exec>
 double push(const Exec& exec, const std::string& what, const test::Footing& footing)
 {
@@ -50,8 +51,8 @@ TYPED_TEST(FootingSlow, UndrainedClayConvergesToPrandtlWithCellAverages)
     EXPECT_NEAR(fit.limit, 0, 0.03);
 }
 
-/// phi = 20 degrees, c = 0, weightless under a surcharge: N_q times that, if psi = phi; if psi = 0, between the same of
-/// Davis' angle and it.
+/// phi = 20 degrees, c = 0, weightless under a surcharge: N_q times the surcharge if psi = phi; if psi = 0, between
+/// this load for Davis' angle and for phi.
 TYPED_TEST(FootingSlow, SurchargedSandCarriesReissnersLoad)
 {
     const auto n_q = [](double tan)
@@ -68,7 +69,7 @@ TYPED_TEST(FootingSlow, SurchargedSandCarriesReissnersLoad)
         footing.depth      = 1.5;
         footing.settlement = 0.025;
         footing.speed      = 0.01;
-        footing.pic_rate   = 0.1; // without it, grains without weight or cohesion ring for ever
+        footing.pic_rate   = 0.1; // without it, grains without weight or cohesion oscillate indefinitely
         footing.surcharge  = surcharge;
         double over[2];
         for (const int cells : {3, 5})
@@ -87,16 +88,16 @@ TYPED_TEST(FootingSlow, SurchargedSandCarriesReissnersLoad)
     EXPECT_LT(isochoric, exact * (1 + tolerance));
 }
 
-/// Load on dry sand at B/10, as it was found.
+/// Load on dry sand at B/10, as measured.
 struct DryLoad
 {
     const char* volume_strain;
     double      at_ten_cells; ///< Pa
 };
 
-/// phi = 30 degrees, psi = 0, c = 0, rough, nothing but weight: between Davis' angle of 26.57 degrees and the
-/// associated load (Martin 2005). N_gamma's load goes with the square of the width, which is B + O(h): its root is of
-/// first order.
+/// phi = 30 degrees, psi = 0, c = 0, rough, loaded by weight only: between the load for Davis' angle of 26.57 degrees
+/// and the associated load (Martin 2005). The N_gamma load scales with the square of the width, which is B + O(h): its
+/// root is of first order.
 TYPED_TEST(FootingSlow, DrySandWithEitherVolumeStrain)
 {
     test::Footing footing;
@@ -107,8 +108,8 @@ TYPED_TEST(FootingSlow, DrySandWithEitherVolumeStrain)
     footing.depth      = 1.5;
     footing.settlement = 0.025;
     footing.speed      = 0.005;
-    // gamma B / 2 times N_gamma: 14.75 at 30 degrees, 8.40 at 26.57 (between 6.491 at 25 and 14.75, logarithms linear);
-    // the settlement is a surcharge, of N_q = 18.4.
+    // gamma B / 2 times N_gamma: 14.75 at 30 degrees, 8.40 at 26.57 (log-linear between 6.491 at 25 and 14.75); the
+    // settlement acts as a surcharge, with N_q = 18.4.
     const double half = 0.5 * footing.weight * footing.width, davis = 8.40 * half,
                  associated = 14.75 * half + 18.4 * footing.weight * footing.settlement * footing.width;
     for (const DryLoad& expected : {DryLoad{"cell-average", 11170}, DryLoad{"point", 13530}})

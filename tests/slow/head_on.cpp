@@ -11,8 +11,8 @@ class HeadOnAtSize : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(HeadOnAtSize, test::Backends, test::BackendNames);
 
-/// The paper's 3.1 as it is, 33,552 points. Single precision adds up rounding over 2,000 steps: its momentum is within
-/// sqrt(steps x points a contact) of 6e-8.
+/// The paper's 3.1 at its own size, 33,552 points. Single precision accumulates rounding over 2,000 steps: momentum is
+/// within sqrt(steps x points per contact) of 6e-8.
 TYPED_TEST(HeadOnAtSize, OnePointACell)
 {
     const auto found = test::collide<TypeParam, float>(this->exec(), "../configs/paper/head_on_1.toml", {});

@@ -8,8 +8,8 @@
 #include "shape/template.hpp"
 #include "unit/shape/meshes.hpp"
 
-// Inside or outside, by the sign of the distance and by the sum of all solid angles, which knows neither the tree nor
-// the pseudonormals.
+// Compares inside and outside by the sign of the distance and by the sum of all solid angles, which uses neither the
+// tree nor the pseudonormals.
 namespace tread::shape
 {
 namespace

@@ -14,7 +14,7 @@
 #include "kernels/dem/pairs/displacement_tracker.hpp"
 #include "shape/sdf_grid.hpp"
 
-// The slope at which irregular rocks lie, against that of spheres of their volume.
+// Angle of repose of irregular rocks, compared with that of spheres of equal volume.
 namespace
 {
 
@@ -26,14 +26,15 @@ class Repose : public test::DemTest<Exec>
 };
 TYPED_TEST_SUITE(Repose, test::Backends, test::BackendNames);
 
-constexpr double mean = 0.01, density = 2700; ///< m, of diameters from 0.9 to 1.1 of it: equal balls would crystallise
-constexpr double young    = 2e6;              ///< Pa: overlaps reach an eighth of a radius
-constexpr double friction = 0.5, restitution = 0.5;
-constexpr int    across = 9, fence = 22, base = 64, drop = 21; ///< lengths in mean diameters
+constexpr double mean          = 0.01,
+                 density       = 2700; ///< m, of diameters from 0.9 to 1.1 of it: equal spheres would crystallise
+constexpr double      young    = 2e6;  ///< Pa: overlaps reach an eighth of a radius
+constexpr double      friction = 0.5, restitution = 0.5;
+constexpr int         across = 9, fence = 22, base = 64, drop = 21; ///< lengths in mean diameters
 constexpr std::size_t count       = 2000;
 constexpr double      fenced_time = 0.4, free_time = 0.8; // s
 
-/// Grains as a scene rains them, at a solid fraction of 0.25; template 1.
+/// Grains placed by a scene, at a solid fraction of 0.25; template 1.
 struct Grains
 {
     test::SolidShape         shape;
@@ -72,7 +73,7 @@ Grains rained(const std::string& kind)
     return grains;
 }
 
-/// The grains, and a floor of held balls, template 0, with their centres at z = 0; `length` in mean diameters.
+/// The grains, and a floor of fixed spheres, template 0, with their centres at z = 0; `length` in mean diameters.
 std::vector<test::Solid> with_floor(std::vector<test::Solid> solids, int length)
 {
     for (int i = 0; i < length * across; ++i)
@@ -85,8 +86,8 @@ std::vector<test::Solid> with_floor(std::vector<test::Solid> solids, int length)
     return solids;
 }
 
-/// Degrees, of the part from low_y to high_y (m): of the line through the highest centres in slices a diameter long,
-/// those between a fifth and four fifths of the height of the heap, neither what is left of the column's top nor the
+/// Slope in degrees between low_y and high_y (m): of the line through the highest centres in slices one diameter long,
+/// using those between a fifth and four fifths of the heap's height, without the remainder of the column's top and the
 /// toe.
 double slope_of(const std::vector<Vec3<double>>& places, double low_y, double high_y)
 {
@@ -108,9 +109,9 @@ double slope_of(const std::vector<Vec3<double>>& places, double low_y, double hi
     return -std::atan(test::slope_of(along, heights)) * 180 / std::numbers::pi;
 }
 
-/// A scene that runs as the solver does: pairs are kept until a body has moved too far, substeps follow the contacts.
-/// They are 0.4 sqrt(m / sum K), twice the solver's and a third of what is unstable (docs/studies/contact_substep.md):
-/// a slump loses nearly all of its energy.
+/// Runs a scene as the solver does: pair lists are kept until a body has moved too far, substeps follow the contacts.
+/// Substeps are 0.4 sqrt(m / sum K), twice the solver's and a third of the stability limit
+/// (docs/studies/contact_substep.md): a slump loses nearly all of its energy.
 template<class Exec>
 class Run
 {
@@ -136,7 +137,7 @@ public:
     }
 
 private:
-    static constexpr int    block   = 5;    ///< substeps between looks at the list
+    static constexpr int    block   = 5;    ///< substeps between checks of the list
     static constexpr double longest = 2e-4; ///< s
 
     void find()
@@ -201,13 +202,13 @@ void settle(const Exec& exec, Grains& grains)
     }
 }
 
-/// Degrees.
+/// Slopes in degrees.
 struct Slopes
 {
-    double whole, scatter; ///< how far the two halves of the slope, side by side, differ
+    double whole, scatter; ///< difference between the two halves of the slope, side by side
 };
 
-/// Once the fence is gone and the grains have come to rest.
+/// Removes the fence and runs until the grains are at rest.
 template<class Exec>
 Slopes slope(const Exec& exec, const std::string& kind)
 {
@@ -229,7 +230,7 @@ Slopes slope(const Exec& exec, const std::string& kind)
     return {whole, std::abs(left - right)};
 }
 
-/// 2,000 of each, behind a fence that goes, on a floor of held balls.
+/// 2,000 of each, behind a fence that is removed, on a floor of fixed spheres.
 TYPED_TEST(Repose, IrregularRocksLieSteeperThanSpheres)
 {
     const Slopes round     = slope(this->exec(), R"(kind = "sphere", nodes = 42)");

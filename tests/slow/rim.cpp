@@ -6,7 +6,7 @@
 
 #include "../physics/harness.hpp"
 
-// Sand in a rim and sand around it see each other through the grid where the wall is thinner than the grid can tell.
+// Sand inside and outside a rim interacts through the grid if the wall is too thin for the grid to resolve.
 namespace
 {
 
@@ -20,10 +20,10 @@ TYPED_TEST_SUITE(Rim, test::Backends, test::BackendNames);
 
 constexpr double radius = 0.15, wall = 0.02, speed = 0.5, settling = 0.1, duration = 0.02;
 
-/// A drum without friction that lies in sand, with sand in its lower half.
+/// A frictionless drum that lies in sand, with sand in its lower half.
 std::string drum_text(double spacing)
 {
-    const double clear = 0.65 * spacing; // a point's radius, and a little
+    const double clear = 0.65 * spacing; // a point's radius with some clearance
     return fmt::format(R"scene(
 title = "sand within and around a rim"
 [domain]
@@ -81,8 +81,8 @@ duration = {duration}
                        fmt::arg("around", radius + clear), fmt::arg("within", radius - wall - clear));
 }
 
-/// Sand around the drum is made to slide along its axle. How much of that speed the sand within, which nothing should
-/// move, has got in its middle third.
+/// Moves the sand around the drum along its axle. Returns the share of that speed that the sand inside, which nothing
+/// should move, has reached in its middle third.
 template<class Exec>
 double leaked(const Exec& exec, double spacing)
 {
@@ -114,7 +114,7 @@ double leaked(const Exec& exec, double spacing)
     return sum / count / speed;
 }
 
-/// A node of the grid that points on both sides reach passes stress on: with quadratic weights over three cells.
+/// A node reached by points on both sides transmits stress: with quadratic weights over three cells.
 TYPED_TEST(Rim, KeepsWhatIsAroundFromWhatIsWithin)
 {
     const double wide = leaked(this->exec(), 2 * wall), coarse = leaked(this->exec(), wall),
@@ -123,7 +123,7 @@ TYPED_TEST(Rim, KeepsWhatIsAroundFromWhatIsWithin)
     test::report("speed that sand within the rim got in 20 ms, over that around it, cells of half a wall", fine, 0,
                  1e-3, "2.6 cells between points on both sides: the last 0.4 of a cell of the weights' reach");
     EXPECT_LT(std::abs(fine), 1e-3);
-    EXPECT_GT(coarse, 10 * std::abs(fine)); // or there was nothing to keep out
+    EXPECT_GT(coarse, 10 * std::abs(fine)); // otherwise there would be nothing to keep out
 }
 
 } // namespace

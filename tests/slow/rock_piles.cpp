@@ -15,10 +15,10 @@ TYPED_TEST_SUITE(RockPiles, test::Backends, test::BackendNames);
 
 constexpr double damped_time = 1.2, free_time = 2.0;
 
-/// `count` rocks of each of `kinds`, rained into a bin of five by five rocks.
+/// `count` rocks of each of `kinds`, dropped into a bin of five by five rocks.
 std::string pile(const test::RockForms& forms, const std::vector<std::string>& kinds, int count)
 {
-    const double height = 0.0035 * count; // solids of 0.24
+    const double height = 0.0035 * count; // solid fraction 0.24
     std::string  text =
         test::rock_domain({0.05, 0.05, height * double(kinds.size()) + 0.05}, 0,
                           "x = \"slip\", y = \"slip\", bottom = \"fixed\", top = \"open\"", "linear_overlap = 1e-2") +

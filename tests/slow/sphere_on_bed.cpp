@@ -15,7 +15,7 @@ TYPED_TEST_SUITE(SlowSphereOnBed, test::Backends, test::BackendNames);
 
 constexpr double mm = 1e-3;
 
-/// docs/verification.md#body-at-rest-on-sand on sand, which comes to rest slowly.
+/// docs/verification.md#body-at-rest-on-sand, on sand, which comes to rest slowly.
 TYPED_TEST(SlowSphereOnBed, SandCarriesAWheelWhateverTheSubsteps)
 {
     test::SphereOnBed bed;
@@ -28,7 +28,7 @@ TYPED_TEST(SlowSphereOnBed, SandCarriesAWheelWhateverTheSubsteps)
     test::expect_weight_carried(this->exec(), bed);
 }
 
-/// A slope of 10 degrees, held by the memory of contacts, while sand is ordered in memory many times.
+/// A slope of 10 degrees, held by contact history, while sand is sorted in memory many times.
 TYPED_TEST(SlowSphereOnBed, SphereStaysOnASlopeForTenSeconds)
 {
     test::SphereOnBed bed;
@@ -47,8 +47,8 @@ TYPED_TEST(SlowSphereOnBed, SphereStaysOnASlopeForTenSeconds)
     EXPECT_GT(this->counters.launches().at("list points"), 2);
 }
 
-/// How far the bed's surface has gone down under the middle of the sphere, m: the two uppermost layers of points beside
-/// the axis, extrapolated by half a layer.
+/// Settlement of the bed's surface under the middle of the sphere, m: of the two uppermost layers of points beside the
+/// axis, extrapolated by half a layer.
 template<class Exec>
 double sunk_under_the_middle(test::Experiment<Exec>& run, const test::SphereOnBed& bed)
 {
@@ -77,8 +77,8 @@ double sunk_under_the_middle(test::Experiment<Exec>& run, const test::SphereOnBe
     return first + 0.5 * (first - second);
 }
 
-/// Hertz's approach on a layer of thickness H that sticks to its floor: the force is larger than on a half-space by
-/// 1 + 0.881 chi + 0.776 chi^2 at nu = 0.3, chi = sqrt(R delta)/H (Dimitriadis et al. 2002, Biophys. J. 82:2798).
+/// Hertz's approach on a layer of thickness H bonded to its floor: the force is larger than on a half-space by 1 +
+/// 0.881 chi + 0.776 chi^2 at nu = 0.3, chi = sqrt(R delta)/H (Dimitriadis et al. 2002, Biophys. J. 82:2798).
 double approach_on_a_layer(double force, double effective_young, double radius, double depth)
 {
     double delta = 0;
@@ -96,7 +96,7 @@ struct Approach
     double measured, expected; ///< m
 };
 
-/// R = 0.2 m and 656.8 N on 10 MPa: the contact's radius a is 20.8 mm. The bed is 20 a wide and 6 a deep, and heavy, so
+/// R = 0.2 m and 656.8 N on 10 MPa: the contact radius a is 20.8 mm. The bed is 20 a wide and 6 a deep, and heavy, so
 /// that its waves are slow and the steps long; its stress at rest is that of its weight.
 template<class Exec>
 Approach approach(const Exec& exec, int cells, int points_per_cell)
@@ -124,9 +124,9 @@ Approach approach(const Exec& exec, int cells, int points_per_cell)
     return found;
 }
 
-/// docs/verification.md#sphere-on-an-elastic-bed: 10 % with cells of a third of a. At 1 point a cell the bed is stiffer
-/// by its known half cell (a body acts as if 0.6 cells wider on every side: docs/accuracy.md, strip footings), which
-/// goes with the cells; with 8 it is not.
+/// docs/verification.md#sphere-on-an-elastic-bed: 10 % with cells of a third of a. With 1 point per cell the bed is
+/// stiffer by its known half cell (a body acts as if 0.6 cells wider on every side: docs/accuracy.md, strip footings),
+/// an error that scales with the cells; with 8 points it is not.
 TYPED_TEST(SlowSphereOnBed, SinksIntoAnElasticBedAsHertzSays)
 {
     const Approach eight = approach(this->exec(), 40, 8);

@@ -75,7 +75,7 @@ struct Drop
     double height;                 ///< m, of the fall
     double uehara;                 ///< m, depth by Uehara et al. (2003), Ambroso et al. (2005)
     double katsuragi;              ///< m, by Katsuragi and Durian (2013)
-    double shortfall;              ///< depth over 0.7 of the shallower law as it was found: 1 would be right
+    double shortfall;              ///< depth over 0.7 of the shallower law, as measured: 1 would be right
     double depth = 0, stopped = 0; ///< m, s
 };
 
@@ -92,11 +92,11 @@ void fall(const Exec& exec, Drop& drop)
         });
 }
 
-/// Of docs/verification.md#sphere-dropped-on-sand: the depth goes with the cube root of the whole fall, the faster the
-/// ball comes the sooner it stops, and its depth is between 0.7 of the shallower law and 1.3 of the deeper one. With 6
-/// cells a diameter all four depths miss the lower bound, most from no height: the ball acts as if wider by 0.6 cells
-/// on every side (docs/accuracy.md, where finer cells are deeper). That error is expected to 5 % of the bound, deeper
-/// or less deep.
+/// docs/verification.md#sphere-dropped-on-sand: the depth scales with the cube root of the total drop distance, a
+/// faster ball stops sooner, and its depth is between 0.7 of the shallower law and 1.3 of the deeper one. With 6 cells
+/// per diameter all four depths miss the lower bound, most from zero height: the ball acts as if wider by 0.6 cells on
+/// every side (docs/accuracy.md, where finer cells give larger depths). That error is expected to 5 % of the bound, in
+/// either direction.
 TYPED_TEST(SphereOnSand, DepthGoesWithTheCubeRootOfTheFall)
 {
     std::vector<Drop> drops{{0, 21.7 * mm, 32.7 * mm, 0.443},

@@ -7,7 +7,7 @@
 #include "base/errors.hpp"
 #include "physics/harness.hpp"
 
-// Bodies and sand at the edges of what a scene may ask for: stable at the automatic step, or stopped with a diagnosis.
+// Bodies and sand at the limits of what a scene may specify: stable at the automatic step, or stopped with a diagnosis.
 namespace
 {
 
@@ -30,7 +30,7 @@ struct Case
         R"(kind = "wheel", radius = 0.1, width = 0.15, wall_thickness = 0.04, grousers = 12, grouser_height = 0.01)";
     std::string diameter = ""; ///< line of the body
     double      duration = 0.03;
-    std::string may_stop = ""; ///< what a diagnosis must then say
+    std::string may_stop = ""; ///< text that a diagnosis must then contain
 };
 
 std::string row(const Vec3<double>& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
@@ -85,7 +85,7 @@ duration = {}
 
 struct Outcome
 {
-    double       held     = 0; ///< kinetic and elastic energy over all that motion, stress and fall have given so far
+    double       held = 0; ///< kinetic and elastic energy over the energy supplied so far by motion, stress and fall
     Vec3<double> position = Vec3<double>::Zero(), velocity = Vec3<double>::Zero();
     int          steps = 0;
     std::string  stopped; ///< the diagnosis
@@ -97,7 +97,7 @@ Outcome outcome(const Exec& exec, const Case& c)
     Outcome                out;
     test::Experiment<Exec> run(exec, text_of(c));
     const solver::Census   start = run.simulation().census();
-    // A body gets its velocity when the first phase lets it go.
+    // A body gets its velocity when the first phase releases it.
     const double begin = start.sand.kinetic + start.sand.strain + 0.5 * c.mass * c.velocity.squaredNorm();
     double       given = begin;
     const auto   look  = [&](double)
@@ -128,8 +128,8 @@ Outcome outcome(const Exec& exec, const Case& c)
     return out;
 }
 
-/// Tolerance 10 %: an entry overshoots by 0.2^2 of the impact's energy (a substep of 0.2 sqrt(m/K)), and census rows
-/// have velocities half a step older than positions.
+/// Tolerance 10 %: an impact overshoots by 0.2^2 of its energy (a substep of 0.2 sqrt(m/K)), and velocities of a census
+/// are half a step older than positions.
 void expect_sane(const Case& c, const Outcome& out)
 {
     EXPECT_LT(out.held, 1.1);
@@ -167,14 +167,14 @@ TYPED_TEST(CouplingStability, AnyStiffness)
     }
 }
 
-/// Against a point of 25 g.
+/// Mass ratio against a point of 25 g.
 TYPED_TEST(CouplingStability, AMillionfoldMass)
 {
     for (const double mass : {2.5e4, 2.5e-8})
     {
         Case c{fmt::format("wheel of {:g} kg", mass)};
         c.mass = mass;
-        if (mass < 1) { c.may_stop = "moves"; } // what a point weighs on it throws it off within a substep
+        if (mass < 1) { c.may_stop = "moves"; } // the weight of a point on it throws it off within a substep
         this->run(c);
     }
 }

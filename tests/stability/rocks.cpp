@@ -5,8 +5,8 @@
 #include "base/errors.hpp"
 #include "physics/rock_scenes.hpp"
 
-// Rocks at the edges of what a scene may ask for: stable at the automatic step, or stopped with a diagnosis; none goes
-// through a wall, and none gains energy.
+// Rocks at the limits of what a scene may specify: stable at the automatic step, or stopped with a diagnosis; none
+// passes through a wall, and none gains energy.
 namespace
 {
 
@@ -21,7 +21,7 @@ struct Case
     std::string  rocks    = "";
     std::string  body     = "";
     double       duration = 0.25;
-    bool         may_stop = false; ///< the law cannot carry it: it must be told
+    bool         may_stop = false; ///< the law cannot carry it, and must report so
 };
 
 std::string rained(int count, double diameter, const std::string& low, const std::string& high)
@@ -38,7 +38,7 @@ region = {{ box = [{}, {}] }}
                        count, diameter, low, high);
 }
 
-/// A clast that is let go at z (m), or thrown down.
+/// A clast released at z (m), or thrown down.
 std::string thrown(double diameter, const std::string& mass, double z, double speed)
 {
     return fmt::format(R"(
@@ -68,9 +68,9 @@ sdf_cells = 24
 
 struct Outcome
 {
-    double      rise    = 0; ///< of the mechanical energy over what it had come down to, J
-    double      kinetic = 0; ///< J, the largest
-    double      lowest  = 1; ///< m, of all centres over the floor
+    double      rise    = 0; ///< J, rise of the mechanical energy above its minimum so far
+    double      kinetic = 0; ///< J, largest
+    double      lowest  = 1; ///< m, of all centres above the floor
     double      outside = 0; ///< m, of any centre beyond a side wall
     std::string stopped;     ///< the diagnosis
 };
@@ -190,7 +190,8 @@ TYPED_TEST(RockStability, AHundredMetresASecond)
     }
 }
 
-/// A thousand grains within the width of one cell of the pair search, which a boulder just not too large for it sets.
+/// A thousand grains within one cell of the pair search, whose size is set by a boulder just below the limit for large
+/// bodies.
 TYPED_TEST(RockStability, AThousandInACell)
 {
     Case c{"1,000 rocks of 10 mm under one of 39 mm"};

@@ -5,7 +5,7 @@
 #include "base/errors.hpp"
 #include "physics/harness.hpp"
 
-// Stable, or stopped with a diagnosis: never silently wrong.
+// Sand is stable, or stopped with a diagnosis: never silently wrong.
 namespace
 {
 
@@ -60,11 +60,11 @@ struct Outcome
 {
     bool         stopped = false;
     std::int64_t steps   = 0;
-    double       largest = 0; ///< energy of the sand over what it held at the start and its deepest fall so far gave
+    double       largest = 0; ///< energy of the sand over its initial energy plus that of its deepest fall so far
     std::string  why;
 };
 
-/// c_p dt/h = courant of the scene's own solver.
+/// Courant number c_p dt/h = courant of the scene's own solver.
 template<class Exec, class Real>
 double automatic_limit(const Exec& exec, const Case& c)
 {
@@ -112,15 +112,15 @@ Outcome outcome(const Exec& exec, const Case& c)
     return out;
 }
 
-/// At and under the automatic limit. Twice what gravity gives: symplectic steps let the energy of a mode swing by
-/// (omega dt/2)^2 < 1 about its mean.
+/// At or below the automatic limit. Twice the energy from gravity: symplectic steps let the energy of a mode oscillate
+/// by (omega dt/2)^2 < 1 about its mean.
 void expect_stable(const Outcome& out)
 {
     EXPECT_FALSE(out.stopped);
     EXPECT_LT(out.largest, 2);
 }
 
-/// Above it: stopped before the energy is tenfold, or no worse.
+/// Above the limit: stopped before the energy is tenfold, or no larger than that.
 void expect_no_silent_growth(const Outcome& out)
 {
     EXPECT_LT(out.largest, 10);
@@ -143,7 +143,7 @@ template<class Exec>
 class SandStep : public test::BackendTest<Exec>
 {
 protected:
-    /// Every kind at every stiffness and number of points a cell, at `share` of the limit.
+    /// Every kind at every stiffness and number of points per cell, at `share` of the limit.
     template<class Look>
     void each(double share, const Look& look)
     {
@@ -199,7 +199,7 @@ TYPED_TEST(SandStep, DoublePrecisionIsAsStable)
     }
 }
 
-/// Nothing yields: all that appears stays.
+/// Nothing yields, so no generated energy is dissipated.
 TYPED_TEST(SandStep, ElasticBlocks)
 {
     for (const char* points : {"points_per_cell = 1", "points_per_cell = 8", "points_per_cell = 27"})

@@ -53,7 +53,7 @@ TEST_F(LauncherTest, ranks_that_know_each_other_pass)
     EXPECT_NO_THROW(require_launcher_agrees(1));
 }
 
-// A batch script sees SLURM_NTASKS of its allocation; a program that it starts by itself is one task all the same.
+// A batch script sees SLURM_NTASKS of its allocation; a program that it starts directly is a single task all the same.
 TEST_F(LauncherTest, allocation_of_many_tasks_is_not_a_launcher)
 {
     setenv("SLURM_NTASKS", "4", 1);

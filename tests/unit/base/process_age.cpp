@@ -13,7 +13,7 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double tick = 0.02; // s; the kernel's books go by hundredths
+constexpr double tick = 0.02; // s; the kernel counts in hundredths
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -25,7 +25,7 @@ TEST(ProcessAge, CountsFromBeforeTheProgramWasLoaded)
     EXPECT_GE(process_age() + tick, since_loaded);
 }
 
-/// However long that takes on a busy machine: a child is younger than the moment before it was made.
+/// A child is younger than the moment before it was forked, however long that takes on a busy machine.
 TEST(ProcessAge, OfAChildIsItsOwn)
 {
     const Clock::time_point before = Clock::now();

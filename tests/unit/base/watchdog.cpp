@@ -13,7 +13,7 @@ using namespace tread;
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
-/// Of the first bark of a watchdog with a timeout of 20 ms.
+/// First bark of a watchdog with a timeout of 20 ms.
 class Barking
 {
 public:

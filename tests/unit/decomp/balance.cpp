@@ -6,7 +6,7 @@
 #include "kernels/mpm/pages/page_key.hpp"
 #include "mpi_session.hpp"
 
-// When pages are dealt out anew.
+// Decisions to repartition.
 namespace tread::decomp
 {
 namespace
@@ -28,7 +28,7 @@ TEST(Balance, ASmallUnevennessIsLeftAlone)
 
 TEST(Balance, NothingIsDoneWhereItWouldCostMoreThanItSaves)
 {
-    EXPECT_FALSE(rule.is_due({1.3e6, 0.7e6}, 10)); // a look at METIS costs as much as 30 steps
+    EXPECT_FALSE(rule.is_due({1.3e6, 0.7e6}, 10)); // running METIS costs as much as 30 steps
     const std::vector<double> now{1.3e6, 0.7e6}, after{1e6, 1e6};
     EXPECT_TRUE(rule.is_worth(now, after, 0.3e6, 1000));
     EXPECT_FALSE(rule.is_worth(now, after, 0.3e6, 100)); // 0.3e6 x 100 steps saved; 30 x 1e6 + 20 x 0.15e6 spent
@@ -42,7 +42,7 @@ TEST(Balance, MuchThatMovesWantsMoreSteps)
     EXPECT_FALSE(rule.is_worth(now, after, 2e6, 120));
 }
 
-/// A row of 32 pages of 100 points that rank 0 has, but for the last, of which all ranks have the same share.
+/// A row of 32 pages of 100 points owned by rank 0, except the last, of which all ranks have an equal share.
 PageLoads mostly_of_the_first()
 {
     PageLoads loads;
@@ -88,7 +88,7 @@ TEST(Balance, WaitsTwiceAsLongWhereItWasNotWorthIt)
     Counters           counters;
     Decomposition<Cpu> decomposition(test::world(), Cpu{&counters}, {});
     Balance<Cpu>       balance(decomposition, 1.15);
-    PageLoads          own; // one page, which nobody can divide
+    PageLoads          own; // one page, which cannot be divided
     if (test::world().rank() == 0) { own[mpm::page_key({0, 0, 0})] = 3200; }
     balance.note(sum_of(own), 0);
     ASSERT_TRUE(balance.is_due(1000));

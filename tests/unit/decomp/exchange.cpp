@@ -7,7 +7,7 @@
 #include "backend.hpp"
 #include "mpi_session.hpp"
 
-// Rows that go from rank to rank: every one arrives, once, where it should.
+// Exchange of rows between ranks: each arrives once, at the right place.
 namespace tread::decomp
 {
 namespace
@@ -23,7 +23,7 @@ constexpr std::int32_t rows_here = 1000;
 
 using Lists = std::vector<std::vector<std::int32_t>>;
 
-/// What each rank sends to each: the same on all ranks, so that every rank knows what it should get.
+/// Rows that each rank sends to each: the same on all ranks, so that every rank knows what to expect.
 std::vector<Lists> random_lists(int ranks, unsigned seed)
 {
     std::mt19937       random(seed);
@@ -64,7 +64,7 @@ protected:
         return array;
     }
 
-    /// Of all ranks, those for this one, in the order in which they should arrive.
+    /// Rows of all ranks for this one, in their order of arrival.
     std::vector<Pair> expected(const std::vector<Lists>& lists) const
     {
         std::vector<Pair> rows;
@@ -220,7 +220,7 @@ TYPED_TEST(Exchanges, MayBeUnderWayTogetherAndEndInAnyOrder)
     Array<TypeParam, Pair> from = this->pairs();
     Array<TypeParam, Pair> of_first(this->exec(), "first", first.received());
     Array<TypeParam, Pair> of_second(this->exec(), "second", second.received());
-    for (int turn = 0; turn < 100; ++turn) // more than there are tags of a channel
+    for (int turn = 0; turn < 100; ++turn) // more than a channel has tags
     {
         first.begin(columns(from.data()));
         second.begin(columns(from.data()));

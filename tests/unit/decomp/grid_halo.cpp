@@ -7,8 +7,8 @@
 #include "kernels/mpm/transfers/scatter.hpp"
 #include "mpi_session.hpp"
 
-// What ranks bring to the nodes that they share: border pages first, the others while it travels, against all pages
-// first and then what every rank brings, gathered and added here.
+// Contributions of ranks to shared nodes, with border pages first and the others during the exchange, compared with a
+// scatter of all pages whose contributions are gathered and added here.
 namespace tread::decomp
 {
 namespace
@@ -23,7 +23,7 @@ template<class Exec>
 class GridHalos : public test::BackendTest<Exec>
 {
 protected:
-    /// Points of this rank at random in a bar of 6 m along x; the next one's begins 5.4 m further.
+    /// Random points of this rank in a bar of 6 m along x; the next rank's bar begins 5.4 m further.
     mpm::Points<Exec, double> cloud(std::int64_t count)
     {
         Random     random(17 + static_cast<std::uint64_t>(test::world().rank()));
@@ -53,7 +53,7 @@ protected:
         return {first, first + mpm::node_page_values};
     }
 
-    /// What each rank brings to each node page of its own, in the order of ranks; from tiles that are all there.
+    /// Contributions of each rank to each of its node pages, in rank order; from complete tiles.
     std::map<std::uint64_t, std::vector<Values>> brought(const mpm::Pages<Exec>& pages, const double* tiles)
     {
         const std::vector<std::uint64_t> keys = pages.node_page_key.to_host();
@@ -101,7 +101,7 @@ TYPED_TEST(GridHalos, GiveTheBitsOfAnExchangeAfterAllPages)
     mpm::scatter(this->exec(), points.view(), view, mpm::all_point_pages(view), whole.data());
     const auto                       expected = this->brought(pages, whole.data());
     const std::vector<std::uint64_t> keys     = pages.node_page_key.to_host();
-    for (int step = 0; step < 3; ++step) // as in a run: messages and lists serve many steps
+    for (int step = 0; step < 3; ++step) // as in a run: messages and lists are reused for many steps
     {
         halo.begin(view, parted.data(),
                    [&](const TypeParam& exec, const mpm::PageList& border)

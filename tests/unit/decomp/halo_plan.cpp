@@ -10,7 +10,7 @@
 #include "kernels/mpm/pages/page_key.hpp"
 #include "mpi_session.hpp"
 
-// What ranks send each other of the node pages that they share.
+// Exchange plans of shared node pages.
 namespace tread::decomp
 {
 namespace
@@ -45,7 +45,7 @@ TEST(HaloPlan, TwoRanksInARowShareWhatBothReach)
     }
     EXPECT_EQ(low.send[1], (std::vector<std::int32_t>{0, 1}));
     EXPECT_EQ(low.arrivals, (std::vector<std::int64_t>{0, 2}));
-    EXPECT_EQ(low.part, (std::vector<std::int32_t>{-1, 0, -1, 1})); // rank 0's part first, on both
+    EXPECT_EQ(low.part, (std::vector<std::int32_t>{-1, 0, -1, 1})); // rank 0's contribution first, on both
     EXPECT_EQ(high.part, (std::vector<std::int32_t>{0, -1, 1, -1}));
     EXPECT_TRUE(low.booked_elsewhere.empty());
     EXPECT_EQ(high.booked_elsewhere, (std::vector<std::int32_t>{0, 1}));
@@ -58,7 +58,7 @@ TEST(HaloPlan, RanksThatAreFarFromEachOtherShareNothing)
     EXPECT_TRUE(plan.part.empty());
 }
 
-/// The wall holds the nodes of page 4 together with those of page 3, which rank 1 does not reach.
+/// The wall ties the nodes of page 4 to those of page 3, which rank 1 does not reach.
 TEST(HaloPlan, AWallBringsThePageBesideIt)
 {
     const IsHeld                held = [](std::uint64_t page) { return mpm::page_coordinates(page).x <= 4; };
@@ -89,8 +89,8 @@ std::vector<PageKeys> random_pages(int ranks, unsigned seed)
     return all;
 }
 
-/// What plan_halo promises, on page sets without any order: each rank adds up every part of every page that it has or
-/// must have, in rank order, and one rank books it.
+/// Guarantees of plan_halo, on random page sets: each rank adds every contribution to every page that it has or needs,
+/// in rank order, and one rank accounts for it.
 TEST(HaloPlan, OfRandomPagesBringsEveryPartToWhoNeedsIt)
 {
     constexpr int ranks = 4;
@@ -105,7 +105,7 @@ TEST(HaloPlan, OfRandomPagesBringsEveryPartToWhoNeedsIt)
         {
             const HaloPlan&             plan = plans[rank];
             const std::set<std::size_t> elsewhere(plan.booked_elsewhere.begin(), plan.booked_elsewhere.end());
-            // What arrives: of each rank what it sends, rank after rank.
+            // Arrivals: the pages that each rank sends, rank after rank.
             std::vector<std::pair<std::uint64_t, std::size_t>> arrived;
             for (std::size_t other = 0; other < ranks; ++other)
             {
@@ -149,7 +149,7 @@ TEST(HaloPlan, OfRandomPagesBringsEveryPartToWhoNeedsIt)
     }
 }
 
-/// A rank sees of the others as much as its plan needs.
+/// A rank knows as many pages of the others as its plan needs.
 TEST(HaloPlan, IsTheSameFromThePagesNearby)
 {
     const auto&                 world   = test::world();

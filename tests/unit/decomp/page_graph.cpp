@@ -13,7 +13,7 @@ namespace tread::decomp
 namespace
 {
 
-/// How many nodes the stencils of two pages share, by counting them.
+/// Number of nodes that the stencils of two pages share, counted directly.
 int shared_by_count(mpm::Index3 a, mpm::Index3 b)
 {
     int        shared = 0;

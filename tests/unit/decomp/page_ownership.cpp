@@ -6,7 +6,7 @@
 #include "kernels/mpm/pages/page_key.hpp"
 #include "mpi_session.hpp"
 
-// Whose a place is, and what ranks write to each other.
+// Ownership of positions, and messages between ranks.
 namespace tread::decomp
 {
 namespace
@@ -21,7 +21,7 @@ Vec3<double> middle(std::int32_t x, std::int32_t y, std::int32_t z)
     return width * (Vec3<double>(x, y, z) + Vec3<double>::Constant(0.5)) + Vec3<double>::Constant(0.05);
 }
 
-/// Pages (0, 0, 0) to (7, 0, 0), of ranks 0, 0, 1, 1, 2, 2, 3, 3.
+/// Pages (0, 0, 0) to (7, 0, 0), owned by ranks 0, 0, 1, 1, 2, 2, 3, 3.
 PageOwnership row_of_pages()
 {
     std::vector<std::uint64_t> keys;
@@ -87,7 +87,7 @@ TEST(PageOwnership, KnowsWhereAllAroundAPageIsOneRanks)
 
 TEST(PageOwnership, ABallThatPassesACornerDoesNotReachThePageBehindIt)
 {
-    // Four pages in x and y, each of a rank of its own.
+    // Four pages in x and y, each owned by its own rank.
     PageOwnership ownership(
         lattice,
         {mpm::page_key({0, 0, 0}), mpm::page_key({1, 0, 0}), mpm::page_key({0, 1, 0}), mpm::page_key({1, 1, 0})},

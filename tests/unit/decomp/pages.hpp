@@ -7,7 +7,7 @@
 #include "decomp/page_graph.hpp"
 #include "kernels/mpm/pages/page_key.hpp"
 
-// Page sets of tests.
+// Page sets for tests.
 namespace tread::test
 {
 

@@ -11,7 +11,7 @@
 #include "mpi_session.hpp"
 #include "pages.hpp"
 
-// What partitioners return, and what is done where they fail (METIS 5.1: one part crashes it, uneven loads leave ranks
+// Results of partitioners, and fallbacks where they fail (METIS 5.1 crashes with one part, and uneven loads leave ranks
 // empty).
 namespace tread::decomp
 {
@@ -160,7 +160,7 @@ TEST(Partition, MortonChunksAreRunsOfNearlyEqualLoad)
     const PageGraph                        graph = test::block(20, 20, 3, [&](mpm::Index3) { return load(random); });
     const PageRanks                        rank  = morton_chunks(graph, 7);
     EXPECT_TRUE(std::is_sorted(rank.begin(), rank.end()));
-    // Each end of a run is off by at most half a page: a page in all, of 1200 that weigh a half on the mean.
+    // Each end of a run is off by at most half a page: one page in total, of 1200 with a mean load of a half.
     EXPECT_LT(quality_of(graph, rank, 7).imbalance, 1 + 1.0 / (1200 * 0.5 / 7));
 }
 
@@ -169,7 +169,7 @@ TEST(Partition, NamesStayWhereMostLoadIs)
     const PageGraph graph   = test::block(8, 8, 1);
     const PageRanks present = morton_chunks(graph, 4);
     PageRanks       parts   = present;
-    for (std::int32_t& part : parts) { part = (part + 1) % 4; } // the same parts under other names
+    for (std::int32_t& part : parts) { part = (part + 1) % 4; } // the same parts with other labels
     EXPECT_EQ(stay_put(parts, present, graph.load, 4), present);
 
     parts[0] = parts[63]; // one page moves

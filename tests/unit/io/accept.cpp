@@ -19,7 +19,7 @@ struct Row
     double first, second;
 };
 
-/// The row at which a bound refuses values; -2: it accepts them.
+/// Row at which a bound refuses values; -2: it accepts them.
 template<class Bound, class T>
 std::int64_t refused_at(const Bound& bound, const std::vector<T>& values)
 {

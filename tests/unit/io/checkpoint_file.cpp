@@ -49,7 +49,7 @@ TEST(CheckpointFile, GivesBackWhatItWasGiven)
     EXPECT_FALSE(reader.holds("points/volume"));
 }
 
-/// Every byte counts: of the head, of HDF5's own records, of the data.
+/// Every byte matters: of the head, of HDF5's own records, of the data.
 TEST(CheckpointFile, AnyChangedByteIsFound)
 {
     const test::TemporaryDirectory directory;

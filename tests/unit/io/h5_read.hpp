@@ -7,7 +7,7 @@
 
 #include "io/h5.hpp"
 
-// Reads back what the io room wrote, through plain HDF5 calls.
+// Reads files written by io, through plain HDF5 calls.
 namespace tread::test
 {
 

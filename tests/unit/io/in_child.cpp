@@ -14,7 +14,7 @@ namespace tread::io
 namespace
 {
 
-/// What the error of a child says.
+/// Error message of a child.
 std::string error_of(const std::function<std::string()>& work, const ChildLimits& limits = {})
 {
     try

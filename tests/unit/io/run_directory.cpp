@@ -106,7 +106,7 @@ TEST(RunDirectory, unusable_place_is_an_environment_error_and_leaves_nothing)
     EXPECT_NE(message.find("file/run"), std::string::npos) << message;
     EXPECT_EQ(code_of_create("/proc/nowhere/run", Existing::overwrite, message), ExitCode::environment);
 
-    // scene.toml cannot be written where a directory has its temporary name
+    // scene.toml cannot be written if its temporary name is taken by a directory
     fs::create_directories(directory.path("run/scene.toml.tmp"));
     std::ofstream(directory.path("run/log.txt")) << "old";
     EXPECT_EQ(code_of_create(directory.path("run"), Existing::overwrite, message), ExitCode::environment);
@@ -127,7 +127,7 @@ TEST(RunDirectory, a_lock_of_others_is_no_mark_of_a_run_and_stays)
     EXPECT_EQ(test::read_text(directory.path("run/.lock")), "of a package manager");
     EXPECT_TRUE(fs::exists(directory.path("run/checkpoints")));
 
-    fs::resize_file(directory.path("run/.lock"), 0); // an empty one says nothing, and loses nothing
+    fs::resize_file(directory.path("run/.lock"), 0); // an empty lock file names no holder, and may be overwritten
     EXPECT_EQ(code_of_create(directory.path("run"), Existing::refuse, message), ExitCode::bad_input);
     EXPECT_EQ(code_of_create(directory.path("run"), Existing::overwrite, message), ExitCode::finished);
 }
@@ -167,7 +167,7 @@ TEST(RunDirectory, what_the_run_needs_is_never_replaced)
 class Links : public ::testing::Test
 {
 protected:
-    /// A link in the run directory to a file outside, which says "mine".
+    /// Creates a link in the run directory to a file outside, which contains "mine".
     void link(const std::string& name)
     {
         fs::create_directories(directory_.path("run"));

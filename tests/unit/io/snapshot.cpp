@@ -49,7 +49,7 @@ TEST(Snapshot, points_are_vtkhdf_vertices)
     EXPECT_EQ(test::read_dataset(path, "/VTKHDF/PointData/rank").values, (std::vector<double>{0, 0}));
 }
 
-// ours: xx yy zz yz xz xy; VTK labels components xx yy zz xy yz xz.
+// Our order: xx yy zz yz xz xy; VTK labels components xx yy zz xy yz xz.
 TEST(Snapshot, stress_stands_in_the_order_that_vtk_labels)
 {
     const test::TemporaryDirectory directory;

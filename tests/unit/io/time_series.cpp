@@ -57,7 +57,7 @@ TEST(TimeSeries, many_rows_cross_chunks)
     for (std::size_t i = 0; i < 3000; ++i) { ASSERT_EQ(force.values[3 * i + 2], 3.0 * double(i)); }
 }
 
-// h5py and others lock the file that they read; a run must get past that.
+// h5py and other readers lock the file that they read; a run must not be stopped by that.
 TEST(TimeSeries, reader_with_a_lock_does_not_stop_the_run)
 {
     const test::TemporaryDirectory directory;

@@ -6,7 +6,7 @@
 
 #include "kernels/contact/candidates_kern.hpp"
 
-// The search against brute force, and what it does where there is nothing to find.
+// Candidate search compared with brute force, and its cost if there is nothing to find.
 namespace tread::test
 {
 namespace
@@ -43,7 +43,7 @@ std::vector<BodyState> moving_bodies()
             {{0.42, 0.5, 0.5}, Quat::Identity(), {0, 0, -5}, {0, 0, 0}, 1.0, 1}};
 }
 
-/// Pairs (body, point) whose exact distance is at most r_p + travels * dt * (sum of speeds), from every pair there is.
+/// Pairs (body, point) whose exact distance is at most r_p + travels * dt * (sum of speeds), from all pairs.
 template<class Scene>
 std::set<std::pair<int, int>> brute_force(const Scene& scene, const std::vector<AnalyticShape>& shapes,
                                           const std::vector<BodyState>& bodies, double travels)
@@ -76,7 +76,7 @@ std::size_t missing(const Set& wanted, const Set& found)
         std::count_if(wanted.begin(), wanted.end(), [&](const auto& pair) { return found.count(pair) == 0; }));
 }
 
-/// Candidates as pairs, having checked their order and both sets of runs.
+/// Candidates as pairs, after checking their order and both sets of runs.
 template<class Scene>
 std::set<std::pair<int, int>> checked_candidates(const Scene& scene)
 {
@@ -134,7 +134,8 @@ TYPED_TEST(ContactCandidates, NoneIsMissed)
                 found.size(), expected.size(), missing(expected, found), reached.size());
     EXPECT_GT(expected.size(), 1000u);
     EXPECT_EQ(missing(expected, found), 0u);
-    // The search keeps what is within twice the travel; 5 % more for the sampled distance being a little low at edges.
+    // The search keeps points within twice the displacement; 5 % more because the sampled distance is slightly low at
+    // edges.
     EXPECT_LE(found.size(), reached.size() + reached.size() / 20);
 }
 
@@ -186,8 +187,8 @@ TYPED_TEST(ContactCandidates, NoneIsMissedWherePointsHaveLeftTheirCells)
     EXPECT_EQ(missing(expected, checked_candidates(scene)), 0u);
 }
 
-/// A list with a skin holds for steps to come: bodies and points may come nearer by half of it in all. The other half
-/// is for the field, which between its nodes is steeper than a distance, as in a single step.
+/// A list with a skin is valid for later steps: bodies and points may approach by half of it in total. The other half
+/// accounts for the field, which between its nodes is steeper than a distance, as in a single step.
 TYPED_TEST(ContactCandidates, NoneIsMissedUntilTheSkinIsUsedUp)
 {
     const auto   shapes = two_shapes();
@@ -200,7 +201,7 @@ TYPED_TEST(ContactCandidates, NoneIsMissedUntilTheSkinIsUsedUp)
     scene.find();
     const auto found = checked_candidates(scene);
 
-    scene.numbers.dt = 0; // then what touches, wherever the bodies have gone to
+    scene.numbers.dt = 0; // then only touching pairs are found, wherever the bodies have moved
     std::mt19937                     random(6);
     std::normal_distribution<double> normal;
     std::size_t                      touching = 0;

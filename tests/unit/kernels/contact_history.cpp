@@ -8,7 +8,7 @@
 #include "backend.hpp"
 #include "kernels/contact/history_kern.hpp"
 
-// The hash table of the contact history.
+// Hash table of the contact history.
 namespace tread::test
 {
 namespace
@@ -22,7 +22,7 @@ class ContactHistory : public BackendTest<Exec>
 };
 TYPED_TEST_SUITE(ContactHistory, Backends, BackendNames);
 
-/// A record that no other key has.
+/// A record unique to its key.
 HistoryRecord record_of(std::uint64_t key)
 {
     const double low = static_cast<double>(key & 0xffffffffU), high = static_cast<double>(key >> 32);
@@ -50,7 +50,7 @@ std::vector<std::uint64_t> random_keys(std::size_t count, unsigned seed)
     return {found.begin(), found.end()};
 }
 
-/// Keys that are all looked for first in the given bin of a table for that many records.
+/// Keys whose search begins at the given bin of a table for that many records.
 std::vector<std::uint64_t> colliding_keys(std::size_t count, std::int64_t bins, std::int64_t home)
 {
     std::vector<std::uint64_t> keys;
@@ -61,7 +61,7 @@ std::vector<std::uint64_t> colliding_keys(std::size_t count, std::int64_t bins, 
     return keys;
 }
 
-/// A table on the backend, and what the host finds in it.
+/// A table in the backend's memory, and its lookups on the host.
 template<class Exec>
 class Table
 {
@@ -97,7 +97,7 @@ private:
     std::vector<contact::Tangential> tangential_;
 };
 
-/// Every key finds its record, others find none, the read-out is the sorted map of the records.
+/// Every key finds its record, other keys find none, and the read-out is the sorted map of the records.
 template<class Exec>
 void expect_as_a_map(Table<Exec>& table, std::vector<std::uint64_t> keys, const std::vector<std::uint64_t>& others)
 {
@@ -133,9 +133,9 @@ TYPED_TEST(ContactHistory, FindsWhatASortedMapFinds)
 
 TYPED_TEST(ContactHistory, NeighboursInASceneSpreadOverTheBins)
 {
-    // 100 bodies with 1000 points each, ids in a row: probes of linear probing at half load, D. Knuth, The Art of
-    // Computer Programming 3, section 6.4: (1 + 1/(1 - load)) / 2 a key found; three deviations of the mean are far
-    // less than the tenth allowed.
+    // 100 bodies with 1000 points each, with consecutive ids: probes of linear probing at half load, D. Knuth, The Art
+    // of Computer Programming 3, section 6.4: (1 + 1/(1 - load)) / 2 per key found; three standard errors of the mean
+    // are far less than the tenth allowed.
     std::vector<std::uint64_t> keys;
     for (int body = 0; body < 100; ++body)
     {

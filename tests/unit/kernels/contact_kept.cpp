@@ -15,8 +15,8 @@ class ContactKept : public ContactTest<Case>
 
 TYPED_TEST_SUITE(ContactKept, ContactCases, ContactCaseNames);
 
-/// A point pushed aside between two bodies swings between them as on two springs of Hertz's slope (closed form), and
-/// gives each what it takes from the other; a frozen one stays and says what it is pushed back with.
+/// A point displaced between two bodies oscillates as on two springs of Hertz's stiffness (closed form), with equal and
+/// opposite impulses on the bodies; a frozen point does not move and records its restoring impulse.
 TYPED_TEST(ContactKept, PointBetweenTwoBodiesSwingsAsOnTwoSprings)
 {
     using contact::PointMotion;
@@ -72,7 +72,7 @@ TYPED_TEST(ContactKept, PointBetweenTwoBodiesSwingsAsOnTwoSprings)
     }
 }
 
-/// Steps with a list that was kept are those of a search in each: same forces, same friction, same books.
+/// Steps with a reused list equal those with a search in each: same forces, same friction, same energy balance.
 TYPED_TEST(ContactKept, KeptCandidatesChangeNothing)
 {
     using Real = typename TypeParam::Real;

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-// The law of one contact against closed forms.
+// The law of a single contact, compared with closed forms.
 namespace
 {
 
@@ -71,11 +71,11 @@ TEST(PointBodyLaw, SlidingForceIsCoulombsAgainstTheMotion)
     }
     const Vec3<double> expected = -pair.friction * response.force[2] * Vec3<double>(0.6, -0.8, 0);
     EXPECT_LE((tangential.force - expected).norm(), 1e-12 * expected.norm());
-    // All work of steady sliding is lost: cap times slip.
+    // All work of steady sliding is dissipated: cap times slip.
     EXPECT_NEAR(response.dissipated, expected.norm() * 0.5 * 1e-4, 1e-12 * response.dissipated);
 }
 
-/// Work that the motion puts into the spring at constant overlap: what it stores and loses.
+/// Shears the spring at constant overlap; returns the work of the motion, stored or dissipated.
 double shear(Tangential& tangential, double overlap, double distance)
 {
     const PairConstants sticky{pair.effective_young, pair.effective_shear, 1e6,
@@ -116,7 +116,7 @@ TEST(PointBodyLaw, NoClosedCycleGainsEnergy) // docs/verification.md#closed-cycl
         {
             const Vec3<double> before = tangential.force;
             const Response     r      = point_body_response(pair, at_overlap(overlap, by), tangential, 1.0);
-            // Of the motion against the force, which a stick increment changes linearly.
+            // Work against the force, which changes linearly during a stick increment.
             if (tangential.stiffness > 0 && by.norm() > 0) { work -= 0.5 * (before + tangential.force).dot(by); }
             lost += r.dissipated;
             ASSERT_GE(r.dissipated, -1e-18);

@@ -12,12 +12,12 @@ inline const double radius = contact::point_radius(SceneNumbers{}.volume, contac
 
 inline AnalyticShape slab() { return box_shape({0.1, 0.1, 0.02}, std::numeric_limits<double>::infinity(), 40); }
 
-/// A slab under the point (0.5, 0.5, 0.3), its upper face at z = 0.3.
+/// A slab below the point (0.5, 0.5, 0.3), its upper face at z = 0.3.
 inline BodyState slab_below() { return {{0.5, 0.5, 0.28}}; }
 
 inline Vec3<double> point_over_slab(double overlap) { return {0.503, 0.497, 0.3 + radius - overlap}; }
 
-/// Points scattered in the skin of a sphere of radius 0.05 at the centre of the domain, gliding over it.
+/// Points scattered in the skin of a sphere of radius 0.05 at the centre of the domain, sliding over it.
 inline std::vector<PointState> skin(std::size_t count)
 {
     std::mt19937                           random(11);

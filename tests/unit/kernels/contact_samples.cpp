@@ -7,7 +7,7 @@
 #include "kernels/contact/history_kern.hpp"
 #include "kernels/contact/samples_kern.hpp"
 
-// Points that take nine samples of a body as small as they are.
+// Points that use nine samples against bodies as small as themselves.
 namespace tread::test
 {
 namespace
@@ -28,7 +28,7 @@ SceneNumbers sampling()
     return numbers;
 }
 
-/// A ball of the points' own size, and points in its skin, gliding over it.
+/// A ball of the points' own size, and points in its skin, sliding over it.
 BodyState pebble() { return {Vec3<double>::Constant(0.5), Quat::Identity(), {0.1, 0, 0}, {0, 30, 10}}; }
 
 std::vector<PointState> skin(std::size_t count, double deepest)
@@ -46,14 +46,14 @@ std::vector<PointState> skin(std::size_t count, double deepest)
     return sand;
 }
 
-/// A ball whose field reaches as far as points and samples stand.
+/// A ball whose field extends to all points and samples.
 AnalyticShape ball_shape(int cells)
 {
     return {Vec3<double>::Constant(2.4 * radius), radius, cells,
             [](const Vec3<double>& x) { return x.norm() - radius; }};
 }
 
-/// Hertz at distance `phi` from a body of equivalent radius `body`, with the numbers of SceneNumbers.
+/// Hertz's force at distance `phi` from a body of equivalent radius `body`, with the numbers of SceneNumbers.
 double hertz(double phi, double body)
 {
     const double overlap = radius - phi;
@@ -84,8 +84,8 @@ TYPED_TEST(ContactSamples, ForceOfABallIsTheMeanOfNine)
             expected /= 9;
             const double measured = -scene.bodies.force.to_host()[0].dot(outwards);
             // Cells of s = 0.036 R interpolate a distance whose slope changes by 2/(1.5 R) to s^2/4/(1.5 R) = 2.2e-4 R,
-            // and force ~ overlap^1.5; slopes are off by s/2/(1.5 R) = 1.2 % across, of which the outer samples' lean,
-            // at most 0.45, is seen.
+            // and force ~ overlap^1.5; slopes are off by s/2/(1.5 R) = 1.2 % across, which enters through the
+            // inclination of the outer samples, at most 0.45.
             const double tolerance = 1.5 * 2.2e-4 / overlap + 0.45 * 1.2e-2;
             if (i == 0)
             {
@@ -116,7 +116,7 @@ TYPED_TEST(ContactSamples, ActionIsReaction)
     EXPECT_LE(error, 1e-12);
 }
 
-/// A block with a groove that no point's sphere enters: its walls are met by samples alone.
+/// A block with a groove too narrow for any point's sphere: only samples touch its walls.
 AnalyticShape grooved_block()
 {
     const Vec3<double> half = Vec3<double>::Constant(2 * radius);
@@ -172,7 +172,7 @@ TYPED_TEST(ContactSamples, NoSampleInContactIsMissed)
 
 TYPED_TEST(ContactSamples, EachSampleHasItsHistory)
 {
-    // A ball of the points' size beside a large one: nine sub-ids of the first, none of the second.
+    // A ball of the points' size beside a large one: nine sub-ids for the first, none for the second.
     SceneNumbers numbers = sampling();
     numbers.motion       = contact::PointMotion::frozen;
     typename TestFixture::Scene scene(this->exec(), {ball_shape(80), sphere_shape(0.05, 40)},
@@ -193,7 +193,7 @@ TYPED_TEST(ContactSamples, EachSampleHasItsHistory)
     ASSERT_EQ(large.size(), 1u);
     EXPECT_GT(large[0], 10);
 
-    // A finer grid orders the points anew: ids stay, places change.
+    // A finer grid reorders the points: ids are kept, memory positions change.
     const auto old_ids    = scene.points.id.to_host();
     scene.numbers.spacing = 0.001;
     scene.order();
@@ -278,7 +278,7 @@ Offsets nine_offsets(const Vec3<double>& x)
     return offsets;
 }
 
-/// The whole patch, in pieces of equal area.
+/// Offsets over the whole patch, in pieces of equal area.
 Offsets patch_offsets(const Vec3<double>& x)
 {
     const auto    axes  = contact::patch_axes(x.normalized());
@@ -318,7 +318,8 @@ ForceAndCouple by_offsets(const Exact& body, const Vec3<double>& x, const Offset
 TEST(ContactSampling, NineComeCloserThanOneToTheWholePatch)
 {
     // Ball of the point's size, d = 0.4 r deep. In u = (rho / rim)^2 the force across the patch is f0 (1 - 1.13 u +
-    // 0.43 u^2 - ...): the mean of u is exact, that of u^2 is 8/9 (3/4)^4 for 1/3. That leaves -3.9 % of the mean.
+    // 0.43 u^2 - ...): the mean of u is exact, that of u^2 is 8/9 (3/4)^4 instead of 1/3. The error is -3.9 % of the
+    // mean.
     const Exact        ball  = exact_ball(radius);
     const Vec3<double> x     = 1.6 * radius * Vec3<double>(0.48, 0.6, 0.64);
     const double       whole = by_offsets(ball, x, patch_offsets(x)).force.norm(), samples = nine(ball, x).force.norm(),
@@ -329,7 +330,7 @@ TEST(ContactSampling, NineComeCloserThanOneToTheWholePatch)
     EXPECT_NEAR(samples, whole, 0.04 * whole);
 
     // Past the edge of a cube: the patch leaves the face gradually. Three rows are off by at most half a row, a sixth
-    // of the force on the face; the torque about the cube's centre by that times the arm.
+    // of the force on the face; the torque about the cube's centre by that times the lever arm.
     const Exact  cube  = exact_cube(1.5 * radius, Quat::Identity());
     const double face  = by_offsets(cube, {0, 0, 2.2 * radius}, {Vec3<double>::Zero()}).force.norm();
     double       error = 0, single_error = 0, torque_error = 0, single_torque = 0;
@@ -351,9 +352,9 @@ TEST(ContactSampling, NineComeCloserThanOneToTheWholePatch)
     EXPECT_LT(error, single_error);
 }
 
-/// Around a closed path of the point and of the body's orientation, over faces, edges and a corner of a cube of the
-/// point's size, force and torque do no work but that of what is left out: the samples' couple about the line to the
-/// body's centre, on their turns about it against the body's.
+/// Around a closed path of the point's position and the body's orientation, over faces, edges and a corner of a cube of
+/// the point's size, force and torque do no work except that of the neglected part: the samples' couple about the line
+/// to the body's centre, on the point's rotation about it relative to the body.
 TEST(ContactSampling, NoWorkAroundALoopButWhatIsLeftOut)
 {
     const int          steps = 40000;

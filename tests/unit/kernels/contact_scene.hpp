@@ -11,11 +11,11 @@
 #include "kernels/contact/substeps.hpp"
 #include "kernels/mpm/pages/order.hpp"
 
-// A few bodies with analytic shapes and a few points, for the tests of the sand-body contact.
+// A few bodies with analytic shapes and a few points, for tests of sand-body contact.
 namespace tread::test
 {
 
-/// Signed distance of a template, sampled on a grid of `cells` along the longest axis of the box grown by a fifth.
+/// Signed distance of a template, sampled on a grid of `cells` along the longest axis of the box enlarged by a fifth.
 struct AnalyticShape
 {
     AnalyticShape(const Vec3<double>& half_extent, double equivalent, int cells,
@@ -86,7 +86,7 @@ struct PointState
     Vec3<double> support  = Vec3<double>::Zero();
 };
 
-/// Material 0 = sand, 1 = bodies, 2 = walls; every pair alike.
+/// Material 0 = sand, 1 = bodies, 2 = walls; all pairs have the same properties.
 struct SceneNumbers
 {
     double               spacing       = 0.01;    ///< m, grid
@@ -126,7 +126,7 @@ public:
         order();
     }
 
-    /// Points by page and cell, as the solver does.
+    /// Orders points by page and cell, as the solver does.
     void order() { order_points(exec_, points, pages_, {numbers.spacing, shift, Vec3<double>(1, 1, 1)}, scratch_); }
 
     contact::SearchReach reach() const
@@ -149,7 +149,7 @@ public:
     }
     void begin() { begin_step(exec_, contact, points.view(), page_view(), bodies.view(), law(), reach()); }
     void begin_kept() { begin_kept_step(exec_, contact, points.view(), law()); }
-    /// Puts on the bodies what their sand does to them.
+    /// Applies the contact forces of sand to the bodies.
     void substep(double dt)
     {
         contact::substep(exec_, contact, bodies.view(), law(), dt);
@@ -180,7 +180,7 @@ public:
     }
     void finish() { finish_step(exec_, contact, points.view(), numbers.dt); }
 
-    /// What the contacts remember, by key.
+    /// Contact history records, sorted by key.
     std::vector<contact::HistoryRecord> records()
     {
         keep_history(exec_, contact);
@@ -193,7 +193,7 @@ public:
                                                    : read(exec_, summarise(exec_, contact, 1));
     }
 
-    /// Of bodies of 1 kg that meet sand alone.
+    /// Step of bodies of 1 kg that touch only sand.
     dem::BodyStep<Exec> body_step(double dt)
     {
         return {pairs, bodies.view(), {}, totals.data(), {nullptr, 0}, {{0, 0, -9.8}, 0, dt, contact.wrenches()}};
@@ -230,14 +230,14 @@ public:
         return found;
     }
 
-    /// Templates as item functions on the host see them.
+    /// Host view of a template, for item functions.
     dem::TemplateView host_template(const AnalyticShape& shape) const { return view_of(shape, shape.values.data()); }
 
     SceneNumbers                numbers;
     dem::Bodies<Exec>           bodies;
     mpm::Points<Exec, Real>     points;
     contact::PointContact<Exec> contact;
-    dem::Pairs<Exec>            pairs; ///< none are found
+    dem::Pairs<Exec>            pairs; ///< always empty
     dem::BodyTotals<Exec>       totals;
 
 private:
@@ -333,7 +333,7 @@ private:
     Array<Exec, dem::PairProperties> pairs_;
 };
 
-/// Backend and precision of the point fields.
+/// Backend and precision of point fields.
 template<class ExecType, class RealType>
 struct ContactCase
 {

@@ -9,7 +9,7 @@
 
 #include "kernels/dem/contact/sdf_kern.hpp"
 
-// Whole contact steps: forces, balance, private points, history, summaries.
+// Complete contact steps: forces, balance, private point copies, history, summaries.
 namespace tread::test
 {
 namespace
@@ -81,9 +81,9 @@ TYPED_TEST(ContactStep, WrenchIsTheSumOverContacts)
     EXPECT_NEAR(scene.bodies.stiffness.to_host()[0], stiffness, 1e-12 * stiffness);
 }
 
-/// Friction acts at the surface of a body: a point that goes with the surface of a ball that spins does not slip,
-/// however far its centre stands off, and what friction there is has the ball's own radius for an arm. The field's
-/// normal is off by a hundredth, so that the normal force is told apart from friction first.
+/// Friction acts at the surface of a body: a point that moves with the surface of a spinning ball does not slip,
+/// however far its centre is from the surface, and friction has the ball's own radius as its lever arm. The field's
+/// normal is off by a hundredth, so the normal force is separated from friction first.
 TYPED_TEST(ContactStep, FrictionActsAtTheSurface)
 {
     const double       ball_radius = 0.05, away = 0.9 * radius, rate = 10, dt = 1e-6; // no slip yet
@@ -126,7 +126,8 @@ TYPED_TEST(ContactStep, ForceOnAFlatFaceIsHertz)
     scene.substep(1e-4);
     const double expected = 4.0 / 3.0 * 1e6 * std::sqrt(radius) * std::pow(overlap, 1.5);
     const double measured = -scene.bodies.force.to_host()[0][2];
-    // fp32 SDF: 0.02 m is held to 1e-9 m, r_p of an fp32 volume to 1e-10 m; of an overlap of 1e-4 m, times 1.5.
+    // fp32 SDF: 0.02 m is exact to 1e-9 m, r_p of an fp32 volume to 1e-10 m; relative to an overlap of 1e-4 m, times
+    // 1.5.
     std::printf("[ measured ] force %.9f N, expected %.9f N, tolerance 3e-5 (fp32 SDF values)\n", measured, expected);
     EXPECT_NEAR(measured, expected, 3e-5 * expected);
 
@@ -174,10 +175,10 @@ TYPED_TEST(ContactStep, SupportedPointAtRestStays)
     const double recoil = 0.5 * force / 1e-3 * 1e-8;
     std::printf("[ measured ] moved in a step: supported %.2e, ballistic %.2e, frozen %.2e m; free recoil %.2e m\n",
                 held[0], free[0], fixed[0], recoil);
-    // Support and mass are fp32 at worst: the rest of the balance is 1e-7 of the force.
+    // Support and mass are fp32 at worst: the remaining balance is 1e-7 of the force.
     EXPECT_LE(held[0], 1e-6 * recoil);
     EXPECT_NEAR(held[2], force * 1e-4, 1e-6 * force * 1e-4);
-    EXPECT_NEAR(free[0], recoil, 0.02 * recoil); // k dt^2 / 12 m = 1 % softer while it leaves
+    EXPECT_NEAR(free[0], recoil, 0.02 * recoil); // k dt^2 / 12 m = 1 % softer while it separates
     EXPECT_EQ(fixed[0], 0);
     EXPECT_NEAR(fixed[2], force * 1e-4, 1e-12 * force);
 }
@@ -222,7 +223,7 @@ TYPED_TEST(ContactStep, HistorySurvivesTheOrderingOfPoints)
     const auto before = records();
     ASSERT_GT(before.size(), 1000u);
 
-    // A finer grid orders the points anew: ids stay, places change.
+    // A finer grid reorders the points: ids are kept, memory positions change.
     const auto old_ids    = scene.points.id.to_host();
     scene.numbers.spacing = 0.004;
     scene.order();
@@ -281,7 +282,8 @@ TYPED_TEST(ContactStep, FrictionlessBallHasNoTorque)
         for (const auto& response : scene.contact.response.to_host()) { scale += 0.05 * response.force.norm(); }
         const double measured = scene.bodies.torque.to_host()[0].norm() / scale;
         // Each tangential component of a trilinear gradient is off by up to s/(2 R), uniformly: the sum over n points
-        // of random place and weight d^1.5, d uniform (0.64 n of equal weight), has the deviation below; 3 are allowed.
+        // of random position and weight d^1.5, d uniform (0.64 n of equal weight), has the deviation below; 3 are
+        // allowed.
         const double deviation = 0.12 / cells / 0.05 * std::sqrt(2.0 / 12.0 / (0.64 * 3000));
         std::printf("[ measured ] %d cells: torque / sum(R F) %.2e, expected 0, tolerance %.1e = 3 deviations\n", cells,
                     measured, 3 * deviation);
@@ -291,7 +293,7 @@ TYPED_TEST(ContactStep, FrictionlessBallHasNoTorque)
 
 TYPED_TEST(ContactStep, SummaryLedgerClosesOverADrag)
 {
-    // A held slab is dragged sideways under frozen points: work of the drag = elastic energy gained + friction heat.
+    // A fixed slab is dragged sideways under frozen points: work of the drag = elastic energy gained + friction heat.
     SceneNumbers numbers;
     numbers.motion = contact::PointMotion::frozen;
     std::vector<PointState> sand;
@@ -335,7 +337,7 @@ TYPED_TEST(ContactStep, SummaryLedgerClosesOverADrag)
     EXPECT_NEAR(heat + stored, work, 1e-3 * work);
 }
 
-/// Work of the normal force around a closed path that enters, slides along and leaves a body.
+/// Work of the normal force along a closed path that enters, slides along and leaves a body.
 TEST(PointBodyPath, NormalForceDoesNoWorkAroundALoop)
 {
     const AnalyticShape             shape = sphere_shape(0.02, 40);

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-// Substeps of sand and bodies without the host.
+// Substeps of sand and bodies in one launch, without the host.
 namespace tread::test
 {
 namespace
@@ -19,7 +19,7 @@ class ContactSubsteps : public ContactTest<Case>
 
 TYPED_TEST_SUITE(ContactSubsteps, ContactCases, ContactCaseNames);
 
-/// Two balls, each in a crowd of over a thousand points: sums over several parts.
+/// Two balls, each among over a thousand points: sums over several parts.
 std::vector<BodyState> balls()
 {
     return {{{0.4, 0.5, 0.5}, Quat::Identity(), {0.1, 0, 0}, {0, 3, 1}},
@@ -39,7 +39,7 @@ std::vector<PointState> crowd()
     return sand;
 }
 
-/// The largest difference over the largest value.
+/// Largest difference over the largest value.
 template<class Exec>
 double difference(const Array<Exec, Vec3<double>>& one, const Array<Exec, Vec3<double>>& other)
 {
@@ -53,7 +53,7 @@ double difference(const Array<Exec, Vec3<double>>& one, const Array<Exec, Vec3<d
     return apart / largest;
 }
 
-/// The bodies in the crowd, `count` substeps in one launch and one by one.
+/// Bodies among points, with `count` substeps in one launch and one by one.
 template<class Scene, class Exec>
 void expect_the_same_in_one_launch(const Exec& exec, const std::vector<BodyState>& bodies, int count)
 {
@@ -72,8 +72,8 @@ void expect_the_same_in_one_launch(const Exec& exec, const std::vector<BodyState
         move_bodies(exec, one.body_step(dt));
     }
     EXPECT_GT((one.bodies.velocity.to_host()[0] - before[0]).norm(), 5e-5);
-    // The same operations in the same order. A compiler for GPUs may join a product and a sum in one kernel and not in
-    // another: 20 substeps of rounding, and forces that feel 1e-16 of a position as 1e-12 of an overlap.
+    // The same operations in the same order. A GPU compiler may fuse a product and a sum in one kernel and not in
+    // another: rounding over 20 substeps, and forces that amplify 1e-16 of a position to 1e-12 of an overlap.
     const bool   host  = std::is_same_v<Exec, Cpu>;
     const double limit = host ? 0.0 : 1e-10;
     const auto   same  = [&](const char* name, const auto& value, const auto& expected)
@@ -100,14 +100,14 @@ TYPED_TEST(ContactSubsteps, AreTheSameInOneLaunch)
     expect_the_same_in_one_launch<typename TestFixture::Scene>(this->exec(), balls(), 20);
 }
 
-/// A GPU moves a body that meets nothing but sand in every block.
+/// On a GPU every block moves a body that touches only sand.
 TYPED_TEST(ContactSubsteps, OfALoneBodyAreTheSameInOneLaunch)
 {
     expect_the_same_in_one_launch<typename TestFixture::Scene>(this->exec(), {balls()[0]}, 20);
     expect_the_same_in_one_launch<typename TestFixture::Scene>(this->exec(), {balls()[0]}, 21);
 }
 
-/// Before the first touch nothing acts from outside.
+/// No external force acts before the first contact.
 TYPED_TEST(ContactSubsteps, BodiesThatMeetNoSandFallFreely)
 {
     constexpr double            dt    = 1e-5;
@@ -135,7 +135,7 @@ TYPED_TEST(ContactSubsteps, BodiesThatMeetNoSandFallFreely)
     EXPECT_EQ(scene.totals.to_host()[0].sand_work, 0);
 }
 
-/// What sand does to bodies is what they do to its points.
+/// The impulse of sand on bodies equals that of the bodies on their points.
 TYPED_TEST(ContactSubsteps, ImpulseOfBodiesIsThatOfTheirSand)
 {
     constexpr double            dt    = 1e-5;

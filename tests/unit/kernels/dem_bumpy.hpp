@@ -11,11 +11,11 @@
 #include "shape/sdf_grid.hpp"
 #include "shape/surface_nodes.hpp"
 
-// A bumpy, concave body of about 1 m, whose surface is the same whatever number of nodes it carries.
+// A bumpy, concave body of about 1 m, whose surface does not depend on its number of nodes.
 namespace tread::test
 {
 
-/// m, in the unit direction n: bumps of a tenth, some 0.6 m apart.
+/// Radius (m) in the unit direction n: bumps of a tenth, some 0.6 m apart.
 inline double bumpy_radius(const Vec3<double>& n)
 {
     return 1 + 0.06 * std::sin(5 * n[0] + 1) + 0.05 * std::sin(6 * n[1] + 2) * std::cos(4 * n[2]) +
@@ -49,7 +49,7 @@ public:
                                           shape::Storage::dense);
     }
 
-    /// 162, 642 or 2562 nodes.
+    /// Shape with 162, 642 or 2562 nodes.
     SolidShape shape(int nodes) const
     {
         shape::TriangleMesh mesh = bumpy_mesh(nodes);
@@ -70,7 +70,7 @@ public:
         return found;
     }
 
-    /// One of it at this scale.
+    /// An instance at this scale.
     Solid solid(double scale, double density) const
     {
         const double cube = scale * scale * scale;
@@ -90,7 +90,7 @@ private:
 
 inline constexpr std::int32_t heap_count = 8;
 
-/// Bumpy bodies of 0.1 m that overlap each other and the ground, spinning.
+/// Spinning bumpy bodies of 0.1 m that overlap each other and the ground.
 inline std::vector<Solid> bumpy_heap(const BumpyBody& bumpy)
 {
     std::vector<Solid> solids;

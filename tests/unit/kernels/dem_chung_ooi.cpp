@@ -6,7 +6,7 @@
 
 // The impacts of Chung and Ooi (2011, Granular Matter 13:643) with exact spheres:
 // docs/verification.md#impacts-of-chung-and-ooi; their second is among the tests of the spheres. Walls are rigid, as
-// where their Young's modulus is a thousand times the ball's.
+// are theirs with a Young's modulus a thousand times the ball's.
 namespace tread::test
 {
 namespace
@@ -26,10 +26,10 @@ constexpr Material steel{"steel", 2.08e11, 0.3, 7850};
 constexpr Material polyethylene{"polyethylene", 1e9, 0.4, 1400};
 constexpr Material nylon{"nylon", 2.5e9, 0.4, 1000};
 
-// A thousand steps in a contact, of a scheme of first order.
+// A first-order scheme with a thousand steps per contact.
 constexpr double of_the_step = 1e-3;
 
-/// |found - expected| <= tolerance, all in the unit of the two.
+/// Checks |found - expected| <= tolerance, all in the same unit.
 void expect_within(const char* what, double found, double expected, double tolerance)
 {
     std::printf("%s: %.5f, expected %.5f, tolerance %.1e\n", what, found, expected, tolerance);
@@ -92,7 +92,7 @@ Throw oblique(const Material& material, double angle)
     return {material, 2.5e-3, 0.092, 0.98, 3.9 * std::cos(angle * degree), 3.9 * std::sin(angle * degree)};
 }
 
-/// Beyond 32.5 degrees they slide throughout. The arm of the spin is R less the overlap.
+/// Beyond 32.5 degrees they slide throughout. The lever arm of the spin is R less the overlap.
 TYPED_TEST(ChungOoi, Test4ObliqueImpactsThatSlide)
 {
     for (const Material& material : {aluminium_oxide, aluminium_alloy})
@@ -111,9 +111,9 @@ TYPED_TEST(ChungOoi, Test4ObliqueImpactsThatSlide)
     }
 }
 
-/// From 10 degrees on within 5 % of the catalogue's integrator, which keeps the tangential force while the contact lets
-/// go. At 5 degrees what sets the spin is that very rule (37.7 rad/s as listed): the kernels' takes energy instead of
-/// making it (A9), and turns the ball the faster by 30 %; finite elements (test 5) are further still on that side.
+/// From 10 degrees on within 5 % of the catalogue's integrator, which keeps the tangential force during unloading. At 5
+/// degrees this rule determines the spin (37.7 rad/s as listed): the rule of the kernels dissipates energy instead of
+/// generating it (A9), and gives 30 % more spin; finite elements (test 5) deviate further in that direction.
 TYPED_TEST(ChungOoi, Test4ObliqueImpactsThatGrip)
 {
     struct Listed
@@ -141,7 +141,7 @@ TYPED_TEST(ChungOoi, Test4ObliqueImpactsThatGrip)
 /// A ball of 10 um at 5 m/s, with x = v_t / (mu v_n).
 Throw small_ball(const Material& material, double x) { return {material, 1e-5, 0.3, 1, 5, x * 0.3 * 5}; }
 
-/// y = v_s' / (mu v_n): what the lowest point has of its velocity afterwards.
+/// y = v_s' / (mu v_n): tangential velocity of the lowest point after the impact.
 double slip_after(const Throw& thrown, const Rebound& found)
 {
     return (found.tangential - thrown.radius * found.spin) / (thrown.friction * thrown.normal);
@@ -165,8 +165,8 @@ TYPED_TEST(ChungOoi, Test5GrossSlipIsALine)
 }
 
 /// The curve of Maw, Barber and Fawcett at nu = 0.3 (docs/verification.md#oblique-impact) by an integrator that keeps
-/// the force, which the one here repeats; R omega' of the kernels is within 5 % of it from x = 2 on. Before, the rule
-/// of unloading counts (test 4). Finite elements (Wu) have the micro-slip that neither has.
+/// the force, which the one here reproduces; R omega' of the kernels is within 5 % of it from x = 2 on. Below, the
+/// unloading rule matters (test 4). Finite elements (Wu) include micro-slip, which neither has.
 TYPED_TEST(ChungOoi, Test5GripIsThatOfMindlinWithoutMicroSlip)
 {
     for (const auto& [x, listed] :
@@ -180,7 +180,7 @@ TYPED_TEST(ChungOoi, Test5GripIsThatOfMindlinWithoutMicroSlip)
         const Rebound shrunk = mindlin_rebound(thrown, Unloading::shrinks, 4000);
         const double  unit = thrown.friction * thrown.normal, spun = thrown.radius * found.spin / unit;
         std::printf("x = %g: ", x);
-        // of the range 7 of the curve; the catalogue's arm is R, here it is shorter by up to 6.5e-3 of R
+        // of the curve's range of 7; the catalogue's lever arm is R, here it is shorter by up to 6.5e-3 of R
         expect_within("y of the integrator that keeps", slip_after(thrown, kept), listed, 7 * 6.5e-3);
         expect_within("  y by the kernels' rule", slip_after(thrown, found), slip_after(thrown, shrunk),
                       7 * of_the_step);
@@ -202,7 +202,7 @@ TYPED_TEST(ChungOoi, Test5GripIsThatOfMindlinWithoutMicroSlip)
 /// A ball that falls at 0.2 m/s and spins.
 Throw spinning(const Material& material, double spin) { return {material, 0.1, 0.4, 0.5, 0.2, 0, spin}; }
 
-/// mu (1 + e) v_n: the change of velocity of a ball that slides on the ground throughout, m/s.
+/// mu (1 + e) v_n: velocity change of a ball that slides on the ground throughout, m/s.
 double sliding_change(const Throw& thrown) { return thrown.friction * (1 + thrown.restitution) * thrown.normal; }
 
 TYPED_TEST(ChungOoi, Test6SpinningBallOnAPlane)
@@ -232,8 +232,8 @@ TYPED_TEST(ChungOoi, Test6SpinningBallOnAPlane)
     }
 }
 
-/// The thrown ball above one of `other` radius, that comes to meet it at `rise` (m/s) with a spin of its own. The lower
-/// ball is the second body.
+/// The thrown ball above one of radius `other`, which approaches it at `rise` (m/s) with its own spin. The lower ball
+/// is the second body.
 template<class Scene, class Exec>
 std::array<Rebound, 2> meeting(const Exec& exec, const Throw& thrown, double other, double rise, double spin)
 {
@@ -253,9 +253,9 @@ std::array<Rebound, 2> meeting(const Exec& exec, const Throw& thrown, double oth
             Rebound{velocity[1][2], velocity[1][0], turning[1][1]}};
 }
 
-/// Alike, and with the same spin about the same axis, so that their surfaces run against each other, the two are each
-/// other's image through the point where they touch, which is a frictional wall to each. With opposite spins they roll
-/// on each other, and nothing turns or moves sideways.
+/// With equal properties and the same spin about the same axis, so that their surfaces move against each other, the two
+/// are point reflections of each other about the contact, which acts as a frictional wall on each. With opposite spins
+/// they roll on each other, and nothing turns or moves sideways.
 TYPED_TEST(ChungOoi, Test7EqualSpheresAreAsOneOnAPlane)
 {
     for (const Material& material : {aluminium_alloy, nylon})
@@ -266,7 +266,7 @@ TYPED_TEST(ChungOoi, Test7EqualSpheresAreAsOneOnAPlane)
             const Rebound wall   = rebound_of<typename TestFixture::Scene>(this->exec(), thrown);
             const auto    met =
                 meeting<typename TestFixture::Scene>(this->exec(), thrown, thrown.radius, thrown.normal, spin);
-            // as they move apart sideways their normal turns, by this at most, and with it the normal impulse
+            // sideways separation turns the normal by at most this, and with it the normal impulse
             const double turned = wall.tangential * undamped(thrown).duration / thrown.radius;
             const double aside  = turned * (1 + thrown.restitution) * thrown.normal;
             std::printf("%s, %g rad/s (normal turned by %.1e): ", material.name, spin, turned);
@@ -284,8 +284,8 @@ TYPED_TEST(ChungOoi, Test7EqualSpheresAreAsOneOnAPlane)
     }
 }
 
-/// Homogeneous spheres of any two sizes obey the same equation of their relative motion, which acts on 2/7 of the
-/// reduced mass: their curve is that of test 6, and what each gets goes by its mass.
+/// Homogeneous spheres of any two sizes obey the same equation of relative motion, with 2/7 of the reduced mass: their
+/// curve is that of test 6, and velocity changes are inversely proportional to mass.
 TYPED_TEST(ChungOoi, Test8UnequalSpheresFollowTheSameCurve)
 {
     for (const Material& material : {aluminium_alloy, nylon})
@@ -301,7 +301,7 @@ TYPED_TEST(ChungOoi, Test8UnequalSpheresFollowTheSameCurve)
             const double  after =
                 met[0].tangential - thrown.radius * met[0].spin - met[1].tangential - other * met[1].spin;
             std::printf("%s, %g rad/s: ", material.name, spin);
-            // the arms R - d/2 and R - d differ by the overlap, over a change of 7/2 (1 + e) = 5.25
+            // the lever arms R - d/2 and R - d differ by the overlap, over a change of 7/2 (1 + e) = 5.25
             expect_within("v_s' / (mu v_n)", after / unit, slip_after(thrown, wall), 5.25 * (of_the_step + shorter));
             if (spin < 4.2) { continue; }
             const double share = 1.0 / (1 + 1.0 / 125), rest = share / 125, change = sliding_change(thrown);

@@ -19,7 +19,7 @@ TYPED_TEST_SUITE(BodyContact, Backends, BackendNames);
 
 constexpr double radius = 0.2, density = 2000, speed = 1;
 
-/// Two spheres of docs/verification.md#hertz-impact at 1 m/s each way along a direction, just apart.
+/// Two spheres of docs/verification.md#hertz-impact at 1 m/s each along a direction, just separated.
 std::vector<Solid> head_on(const Vec3<double>& direction)
 {
     const Vec3<double> n     = direction.normalized();
@@ -105,8 +105,8 @@ TYPED_TEST(BodyContact, HeadOnSpheresApproachHertzWithTheirNodes)
 {
     constexpr double hertz = 7593.4; // F_max, A1
     constexpr int    turns = 12;
-    // Hertz takes the spheres for paraboloids; at an overlap of 11 % of R the traction law on exact spheres is 2.1 %
-    // below. Single orientations scatter about it, as a patch of radius 47 mm holds 2 and 9 nodes a side.
+    // Hertz approximates the spheres by paraboloids; at an overlap of 11 % of R the traction law on exact spheres is
+    // 2.1 % below. Single orientations scatter about it, because a patch of radius 47 mm is 2 and 9 nodes wide.
     const double limit = exact_largest_force();
     std::printf("Hertz %.1f N, the law on exact spheres %.1f N (%+.2f %%)\n", hertz, limit, 100 * (limit / hertz - 1));
     EXPECT_NEAR(limit, hertz, 0.022 * hertz);
@@ -151,7 +151,7 @@ TYPED_TEST(BodyContact, RestitutionIsTheOneAskedFor)
     EXPECT_NEAR(found.ledger, 1, 2e-3);
 }
 
-/// Boxes that meet off their centres, turned at odds: corners and edges in faces.
+/// Boxes in off-centre collisions with arbitrary orientations: corners and edges in faces.
 std::vector<Solid> off_centre_boxes()
 {
     Solid first;
@@ -200,7 +200,7 @@ TYPED_TEST(BodyContact, OffCentreImpactKeepsMomentumSpinAndEnergy)
     }
 }
 
-/// Boxes and spheres of nodes about a decimetre apart, fast enough to meet within the time.
+/// Boxes and spheres with nodes about a decimetre apart, fast enough to collide within the time.
 std::vector<Solid> fast_pair(Random& random)
 {
     const auto anywhere = [&](double size) -> Vec3<double>

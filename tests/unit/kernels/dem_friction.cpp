@@ -124,7 +124,7 @@ TYPED_TEST(BodyFriction, SlipWallsHaveNone)
     EXPECT_EQ(scene.sums().total.friction, 0);
 }
 
-/// A patch on its own, moved as a test bench would.
+/// A single patch, moved as on a test bench.
 struct Bench
 {
     dem::PairLaw law   = dem::pair_law({1e7, 8e6, 1e6, 0.0}, {1.0, 1e-3}, 10.0, 1.0);
@@ -140,7 +140,7 @@ struct Bench
 TEST(Patch, NoClosedCycleOfLoadAndShearMakesEnergy)
 {
     // docs/verification.md#closed-cycles-of-friction: shear at high stiffness, unload to half of it, shear back until
-    // the force is gone
+    // the force vanishes
     const Vec3<double> up(0, 0, 1), sideways(1, 0, 0);
     Bench              bench;
     double             put_in = 0;

@@ -6,7 +6,7 @@
 
 #include "dem_scene.hpp"
 
-// Exact spheres that meet a plane or each other, and the closed forms of it.
+// Impacts of exact spheres on a plane or each other, with closed-form solutions.
 namespace tread::test
 {
 
@@ -14,7 +14,7 @@ inline constexpr double degree = std::numbers::pi / 180;
 
 inline const dem::Plane ground{{0, 0, 1}, 0.0, false};
 
-/// `tolerance` is relative to what is expected.
+/// Checks within a relative `tolerance` of the expected value.
 inline void expect_close(const char* what, double found, double expected, double tolerance)
 {
     std::printf("%s: %.7g, expected %.7g, off by %.1e of it, tolerance %.1e\n", what, found, expected,
@@ -29,7 +29,7 @@ struct Impact
     double duration = 0; ///< s
 };
 
-/// Follows body 0 from first to last touch.
+/// Follows body 0 from first to last contact.
 template<class Scene, class Approach>
 Impact follow(Scene& scene, double dt, int steps, Approach approach)
 {
@@ -45,7 +45,7 @@ Impact follow(Scene& scene, double dt, int steps, Approach approach)
     return impact;
 }
 
-/// Of Hertz without damping: docs/verification.md#hertz-impact.
+/// Undamped Hertz impact: docs/verification.md#hertz-impact.
 inline Impact hertz_impact(double effective_young, double radius, double reduced_mass, double speed)
 {
     const double k = 4.0 / 3.0 * effective_young * std::sqrt(radius);
@@ -62,7 +62,7 @@ struct Material
     double      young, poisson, density;
 };
 
-/// A ball thrown at the ground, in the plane of x and z.
+/// A ball thrown at the ground, in the xz plane.
 struct Throw
 {
     Material material;
@@ -72,13 +72,13 @@ struct Throw
     double   spin       = 0; ///< rad/s, about y: the ball's lowest point moves along -x
 };
 
-/// After the impact.
+/// Velocities after the impact.
 struct Rebound
 {
     double normal, tangential, spin;
 };
 
-/// kg
+/// Mass of the ball, kg.
 inline double mass_of(const Throw& thrown)
 {
     return 4.0 / 3.0 * std::numbers::pi * thrown.material.density * std::pow(thrown.radius, 3);
@@ -94,14 +94,14 @@ inline SolidNumbers numbers_of(const Throw& thrown)
     return numbers;
 }
 
-/// The impact on a rigid plane with no damping: what sets the step and how far the surfaces overlap.
+/// Undamped impact on a rigid plane, which determines the step and the overlap.
 inline Impact undamped(const Throw& thrown)
 {
     const auto pair = properties(thrown.material.young, thrown.material.poisson, 1, 0, 0);
     return hertz_impact(pair.effective_young, thrown.radius, mass_of(thrown), thrown.normal);
 }
 
-/// Until body 0 is free again: a thousand steps in the time of the undamped contact.
+/// Runs until body 0 is free again: a thousand steps in the duration of the undamped contact.
 template<class Scene>
 void run_through(Scene& scene, double duration)
 {

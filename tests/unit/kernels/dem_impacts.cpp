@@ -7,7 +7,7 @@
 #include "base/random.hpp"
 #include "dem_bumpy.hpp"
 
-// Impacts of bodies that are no spheres: what they give back, and that the law takes and makes no energy.
+// Impacts of non-spherical bodies: restitution, and a law that dissipates and generates no energy.
 namespace tread::test
 {
 namespace
@@ -65,7 +65,7 @@ TYPED_TEST(Impact, RestitutionHoldsForFlatFacesAndSpheres)
         under.position = {0.01, 0.02, -0.05};
         under.locked   = dem::lock_all;
         numbers.planes = {};
-        // turned by an eighth about the normal: nodes of the two lattices do not meet
+        // turned by an eighth about the normal: nodes of the two lattices do not coincide
         under.orientation = Quat(Eigen::AngleAxisd(0.4, Vec3<double>::UnitZ()));
         typename TestFixture::Scene scene(this->exec(), {flat}, {cube, under}, numbers);
         expect("a cube's face on a held cube's", rebound(scene, 2e-6, 8000));
@@ -105,7 +105,7 @@ struct Blow
 template<class Scene>
 Blow strike(Scene& scene)
 {
-    constexpr double dt    = 4e-6; // a 5000th of the contact: the step's own error is below 1e-6
+    constexpr double dt    = 4e-6; // a 5000th of the contact duration: the step's own error is below 1e-6
     constexpr int    block = 25, blocks = 900;
     const double     before  = scene.sums().kinetic;
     bool             touched = false;
@@ -155,7 +155,7 @@ TYPED_TEST(Impact, BumpyBodiesKeepTheirEnergyInAnyOrientation)
     EXPECT_LT(fine, 0.01 * force[2]);
 }
 
-/// Places of body 0 about held body 1: at time 0 to 1 once around a closed way, in and out of contact.
+/// Positions of body 0 about fixed body 1: time 0 to 1 is once around a closed path, in and out of contact.
 Solid on_loop(const BumpyBody& body, double time)
 {
     const double angle = 2 * std::numbers::pi * time;

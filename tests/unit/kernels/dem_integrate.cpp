@@ -83,7 +83,7 @@ TYPED_TEST(RigidBody, FliesAParabola)
     body.velocity = {2, -1, 4};
     typename TestFixture::Scene scene(this->exec(), any_shape(), {body}, numbers);
     scene.run(dt, steps);
-    // symplectic Euler's own parabola: v t + g t (t + dt)/2; what is left is rounding
+    // the parabola of symplectic Euler: v t + g t (t + dt)/2; the remaining error is rounding
     const double       t        = dt * steps;
     const Vec3<double> expected = body.velocity * t + 0.5 * t * (t + dt) * numbers.gravity;
     const Vec3<double> found    = read(this->exec(), scene.bodies.position.data());
@@ -127,7 +127,7 @@ TYPED_TEST(RigidBody, LockedFreedomsKeepTheirVelocity)
     EXPECT_LT(orientation[1].angularDistance(Quat::Identity()), 1e-15);
     EXPECT_LT((totals[1].holding_impulse + force).norm(), 1e-12);
 
-    // about a fixed world axis J_yy stays what it is: omega_y = T_y t / J_yy
+    // about a fixed world axis J_yy is constant: omega_y = T_y t / J_yy
     const Mat3<double> rotation = driven.orientation.toRotationMatrix();
     const double       about_y  = (rotation * driven.inertia * rotation.transpose())(1, 1);
     EXPECT_EQ(spin[2][0], 0);
@@ -156,7 +156,8 @@ TYPED_TEST(RigidBody, LocalDampingActsOnWhoTakesPartAndIsCounted)
 
     const dem::BodySums end = scene.sums();
     EXPECT_NEAR(end.total.damping_impulse[2], alpha * 10 * 2 * t, 1e-12);
-    // gravity's work differs from m g dz by the half step of symplectic Euler: m g^2 (1 - alpha) t dt/2 and alike
+    // gravity's work differs from m g dz by the half step of symplectic Euler: m g^2 (1 - alpha) t dt/2 and similar
+    // terms
     const double lost = start.kinetic + start.potential - end.kinetic - end.potential;
     std::printf("energy lost %.6f J, counted %.6f J, tolerance %.6f J (m g^2 t dt)\n", lost, end.total.damping,
                 2 * 100 * t * dt * 2);

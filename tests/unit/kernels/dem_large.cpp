@@ -19,8 +19,8 @@ TYPED_TEST_SUITE(LargeBody, Backends, BackendNames);
 constexpr int    around = 600;
 constexpr double small  = 0.05; ///< m, beside a ball of 1 m
 
-/// A ball that spins, and `around` small ones pressed into its lower half by up to a tenth of their radius, which do
-/// not touch each other: points of a golden spiral are 0.1 m apart and more.
+/// A spinning ball, and `around` small ones pressed into its lower half by up to a tenth of their radius, which do not
+/// touch each other: points of a golden spiral are 0.1 m apart and more.
 std::vector<Solid> ball_in_gravel()
 {
     std::vector<Solid> solids{solid_sphere(1, 2000, Vec3<double>::Zero())};

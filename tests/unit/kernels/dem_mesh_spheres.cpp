@@ -7,7 +7,7 @@
 #include "base/random.hpp"
 #include "dem_impact.hpp"
 
-// Spheres of nodes in a distance field of 40 cells, the paper's, against Hertz.
+// Spheres with nodes in a distance field of 40 cells, as in the paper, compared with Hertz.
 namespace tread::test
 {
 namespace
@@ -42,7 +42,7 @@ std::vector<Solid> head_on(Random& random)
     return pair;
 }
 
-/// F_max, N: within the first 0.66 of a contact time.
+/// F_max, N: reached within the first 0.66 of a contact time.
 template<class Scene>
 double largest_force(Scene& scene, double contact)
 {
@@ -55,9 +55,9 @@ double largest_force(Scene& scene, double contact)
     return force;
 }
 
-/// A patch of radius 18 mm holds 1, 5 and 21 nodes a side: single orientations scatter about the mean by as much as
-/// 40, 10 and 2 %. The law itself on exact spheres is 1.2 % below Hertz at this overlap of 7 % (2.1 % at verification
-/// A1's 11 %, where dem_contact.cpp compares with the law).
+/// A patch of radius 18 mm is 1, 5 and 21 nodes wide: single orientations scatter about the mean by up to 40, 10 and 2
+/// %. The law itself on exact spheres is 1.2 % below Hertz at this overlap of 7 % (2.1 % at an overlap of 11 %, where
+/// dem_contact.cpp compares with the law, A1).
 TYPED_TEST(MeshSpheres, LargestForceIsHertzsOnAverage)
 {
     const auto   law   = properties(1e7, 0.3, 2, 0, 0);

@@ -5,20 +5,21 @@
 
 #include "dem_impact.hpp"
 
-// A ball's oblique impact by Hertz and Mindlin, apart from the kernels: three equations of motion in the plane.
+// Reference solution of a ball's oblique impact by Hertz and Mindlin, independent of the kernels: three equations of
+// motion in the plane.
 namespace tread::test
 {
 
-/// What becomes of the tangential force where the contact lets go and its stiffness falls.
+/// Treatment of the tangential force during unloading, when the contact's stiffness falls.
 enum class Unloading
 {
-    keeps,   ///< it stays: what most codes do; a closed cycle may make energy
+    keeps,   ///< it is kept, as in most codes; a closed cycle may generate energy
              ///< (docs/verification.md#closed-cycles-of-friction)
-    shrinks, ///< with the stiffness: what the kernels do
+    shrinks, ///< it falls with the stiffness, as in the kernels
 };
 
-/// The spring of Mindlin without micro-slip, 8 G* sqrt(R d), and the damping of the kernels (sphere_contact_kern.hpp,
-/// patch_kern.hpp), by symplectic Euler of `steps` in the time of the undamped contact.
+/// Uses Mindlin's spring without micro-slip, 8 G* sqrt(R d), and the damping of the kernels (sphere_contact_kern.hpp,
+/// patch_kern.hpp), by symplectic Euler with `steps` in the duration of the undamped contact.
 inline Rebound mindlin_rebound(const Throw& thrown, Unloading unloading, int steps)
 {
     const auto   pair = properties(thrown.material.young, thrown.material.poisson, 1, 0, 0);
@@ -47,7 +48,7 @@ inline Rebound mindlin_rebound(const Throw& thrown, Unloading unloading, int ste
     return {-rate, along, spin};
 }
 
-/// Of Hertz's pressure over an impact without damping: the mean overlap over the largest, which shortens the arm of the
+/// Mean overlap over the largest, weighted by Hertz's force over an undamped impact; it shortens the lever arm of the
 /// spin. int d F dt / (d_max int F dt) = B(7/5, 1/2) / 2.
 inline double mean_overlap() { return 0.5 * std::beta(1.4, 0.5); }
 

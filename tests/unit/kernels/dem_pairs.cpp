@@ -38,13 +38,13 @@ std::vector<Solid> crowd(int count)
     return solids;
 }
 
-/// m, of its fastest point in a step.
+/// Displacement (m) of its fastest point in a step.
 double way_of(const Solid& solid) { return step * (solid.velocity.norm() + solid.spin.norm() * solid.scale); }
 
-/// In radii, what a sphere wants for its list to last.
+/// Allowed displacement per step of a sphere's list, in radii.
 double step_of(const Solid& solid) { return std::min(way_of(solid) / solid.scale, 0.2); }
 
-/// Steps that the list of a step of one substep lasts beyond the first.
+/// Number of steps beyond the first for which the list of a step of one substep is valid.
 double steps_of(const std::vector<Solid>& solids)
 {
     double sum = 0;
@@ -53,7 +53,7 @@ double steps_of(const std::vector<Solid>& solids)
     return std::min({std::max(std::sqrt(1.5 / mean) - 1, 0.0), 0.01 / mean, 60.0});
 }
 
-/// What find_pairs promises for exact spheres, whose bounding sphere is their surface (dem::travel_of).
+/// Radius that find_pairs guarantees for exact spheres, whose bounding sphere is their surface (dem::travel_of).
 double grown(const Solid& solid, double steps)
 {
     return solid.scale + 2.1 * way_of(solid) + (0.003 + std::min(steps * step_of(solid), 0.2)) * solid.scale;
@@ -104,7 +104,8 @@ TYPED_TEST(BodyPairs, AllowForLessWhereAllBodiesMove)
     EXPECT_LT(worst, 1e-12);
 }
 
-/// As long as makes a step of 1000 substeps and their share of a search cheapest: sqrt(1.5 / (N way / R)) - 1.
+/// The number of steps that minimises the cost of 1000 substeps and their share of a search: sqrt(1.5 / (N way / R)) -
+/// 1.
 TYPED_TEST(BodyPairs, LastFewerStepsWhereSubstepsAreMany)
 {
     constexpr double   radius = 0.01, way = 1e-4 * radius;
@@ -123,7 +124,7 @@ TYPED_TEST(BodyPairs, LastFewerStepsWhereSubstepsAreMany)
     EXPECT_LT(worst, 1e-12);
 }
 
-/// A body at rest that a moving one is about to hit may soon be as fast.
+/// A body at rest may soon be as fast as a moving one that is about to hit it.
 TYPED_TEST(BodyPairs, AllowForTheMotionOfNeighboursInTheLastList)
 {
     constexpr double   radius = 0.01, speed = 0.005;
@@ -155,8 +156,8 @@ TYPED_TEST(BodyPairs, AreThoseOfBruteForce)
     EXPECT_EQ(scene.pairs.key.to_host(), expected);
 }
 
-/// What the search needs beside the list is given back, so that the substeps may take it; a list of the same pairs then
-/// holds as much as the last one.
+/// Memory of the search, except the list, is released for the substeps; a later list of the same pairs has the capacity
+/// of the last one.
 TYPED_TEST(BodyPairs, LeaveNothingOfTheSearchBehind)
 {
     typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, crowd(900), {});

@@ -20,7 +20,8 @@ TYPED_TEST_SUITE(Patches, Backends, BackendNames);
 
 constexpr double g = 9.81;
 
-/// A lattice of n x n nodes on the parallelogram of the two edges about its centre, each in the middle of its share.
+/// A lattice of n x n nodes on the parallelogram of the two edges about its centre, each node in the middle of its
+/// area.
 void add_face(SolidShape& shape, const Vec3<double>& centre, const Vec3<double>& u, const Vec3<double>& v, int n)
 {
     for (int i = 0; i < n; ++i)
@@ -33,7 +34,8 @@ void add_face(SolidShape& shape, const Vec3<double>& centre, const Vec3<double>&
     }
 }
 
-/// A U of three boxes along y: arms 0.3 m thick and 1 m apart from z = -0.5 to 0.5, with nodes where others touch it.
+/// A U of three boxes along y: arms 0.3 m thick and 1 m apart from z = -0.5 to 0.5, with nodes where other bodies touch
+/// it.
 SolidShape channel()
 {
     SolidShape shape;
@@ -63,7 +65,7 @@ SolidShape channel()
     return shape;
 }
 
-/// A block with a groove along y, whose sides stand at a right angle.
+/// A block with a groove along y, whose sides are at a right angle.
 SolidShape groove()
 {
     SolidShape shape;
@@ -91,8 +93,8 @@ std::vector<std::int32_t> runs(const Scene& scene)
     return scene.pairs.first_node.to_host();
 }
 
-/// A bar 1 mm too long for the channel, clamped between its arms: what both press it with is opposite, and friction at
-/// both ends is all that holds it.
+/// A bar 1 mm too long for the channel, clamped between its arms: their normal forces on it are opposite, and only
+/// friction at both ends holds it.
 struct Clamp
 {
     static constexpr double mass = 1000, over = 1e-3;
@@ -136,7 +138,7 @@ TYPED_TEST(Patches, ClampedBarIsHeldByFrictionAtBothEnds)
         4 * pair.effective_shear / pair.effective_young * (patches[0].stiffness + patches[1].stiffness);
     const double expected = Clamp::mass * g / stiffness, sunk = 0.1 - scene.bodies.position.to_host()[1][2];
     std::printf("sag of the clamped bar: %.6g m, expected m g over both k_t %.6g, tolerance 1 %%\n", sunk, expected);
-    EXPECT_NEAR(sunk, expected, 0.01 * expected); // K changes by what the bar's edges pass of nodes
+    EXPECT_NEAR(sunk, expected, 0.01 * expected); // K changes as the bar's edges pass nodes
     scene.run(dt, 800);
     const double crept = std::abs(0.1 - scene.bodies.position.to_host()[1][2] - sunk);
     const double spin  = scene.bodies.angular_velocity.to_host()[1].norm();
@@ -152,7 +154,7 @@ TYPED_TEST(Patches, ClampedBarIsHeldByFrictionAtBothEnds)
     EXPECT_GT(fell, 100 * sunk);
 }
 
-/// A square bar on its edge, along y, with nodes on its two lower faces; in the groove it lies on both.
+/// A square bar on its edge, along y, with nodes on its two lower faces; in the groove it rests on both.
 SolidShape diamond()
 {
     constexpr double half = 0.3, length = 1.6;
@@ -177,8 +179,8 @@ SolidShape diamond()
     return shape;
 }
 
-/// Each side of the groove presses with m g cos / sqrt 2, so that the two hold the bar up to a slope of sqrt 2 mu, and
-/// beyond it slides at g (sin - sqrt 2 mu cos). One record would let it slide from mu on.
+/// Each side of the groove presses with m g cos / sqrt 2, so that the two hold the bar up to a slope of sqrt 2 mu,
+/// beyond which it slides at g (sin - sqrt 2 mu cos). With a single record it would slide from mu on.
 TYPED_TEST(Patches, GrooveHoldsByItsWedge)
 {
     constexpr double friction = 0.3, mass = 1000, dt = 2e-4;
@@ -210,7 +212,8 @@ TYPED_TEST(Patches, GrooveHoldsByItsWedge)
     EXPECT_NEAR(slides.second, expected, 1e-3 * expected);
 }
 
-/// A bar across both arms, pulled along them, stands by one record; then that is split. Nothing may be felt.
+/// A bar across both arms, pulled along them, is held by one record, which is then split. Force and energy must not
+/// change.
 TYPED_TEST(Patches, SplitKeepsForceAndEnergy)
 {
     Solid bar    = Clamp::solids()[1];
@@ -245,7 +248,7 @@ TYPED_TEST(Patches, SplitKeepsForceAndEnergy)
     EXPECT_LT(scene.sums().kinetic, 1e-8 * bar.mass * g * 0.2);
 }
 
-/// Thrown into a groove and turning, a ball touches one side, both, one.
+/// A ball thrown into a groove, rotating, touches one side, both, one.
 struct Thrown
 {
     static std::vector<SolidShape> shapes() { return {groove(), unit_sphere(3, 64)}; }
@@ -266,8 +269,8 @@ struct Thrown
     }
 };
 
-/// The books of a step are of first order in dt (as with one record); what a split or a joint lost unbooked would stay
-/// in the limit.
+/// The energy balance of a step is of first order in dt (as with one record); unaccounted losses of a split or a merge
+/// would remain in the limit.
 TYPED_TEST(Patches, EnergyOfABallThroughAGrooveCloses)
 {
     const auto lost = [&](double dt)
@@ -293,7 +296,7 @@ TYPED_TEST(Patches, EnergyOfABallThroughAGrooveCloses)
     EXPECT_LT(std::abs(limit), 2e-4);
 }
 
-/// Nodes of every row, each row's sorted: a list is the same whatever their order.
+/// Nodes of every row, sorted per row: lists are compared regardless of order.
 template<class Scene>
 std::vector<std::vector<std::int32_t>> nodes_of_rows(const Scene& scene)
 {
@@ -307,7 +310,7 @@ std::vector<std::vector<std::int32_t>> nodes_of_rows(const Scene& scene)
     return rows;
 }
 
-/// A list of pairs that is kept, with its nodes grouped anew, is as good as a new one every time.
+/// A reused list of pairs with regrouped nodes gives the same result as a new list every time.
 TYPED_TEST(Patches, AreDealtAnewWhileAListHolds)
 {
     constexpr double dt    = 1e-4;
@@ -355,7 +358,7 @@ TYPED_TEST(Patches, AreDealtAnewWhileAListHolds)
     EXPECT_LT(off, 1e-9);
 }
 
-/// Convex bodies have one patch, and no memory for more.
+/// Convex bodies have one patch, and allocate no memory for more.
 TYPED_TEST(Patches, AreAbsentBetweenConvexBodies)
 {
     typename TestFixture::Scene scene(this->exec(), {unit_sphere(2, 32)},

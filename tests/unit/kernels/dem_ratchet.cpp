@@ -6,7 +6,7 @@
 #include "base/random.hpp"
 #include "dem_scene.hpp"
 
-// What a patch remembers must neither make energy in cycles nor lag behind bodies that turn together
+// The history of a patch must neither generate energy in cycles nor lag behind bodies that rotate together
 // (docs/verification.md#closed-cycles-of-friction).
 namespace tread::test
 {
@@ -19,7 +19,7 @@ class Ratchet : public DemTest<Exec>
 };
 TYPED_TEST_SUITE(Ratchet, Backends, BackendNames);
 
-/// One closed cycle of load, shear and twist: each two harmonics of random size and phase.
+/// A closed cycle of load, shear and twist: each the sum of two harmonics of random amplitude and phase.
 struct Cycle
 {
     double size[2], phase[2];
@@ -37,8 +37,8 @@ struct Cycle
     }
 };
 
-/// Ten thousand random cycles, some within Coulomb's cap and some beyond: the energy that friction counts as lost is
-/// that which was put in, and none is given back that was not.
+/// Ten thousand random cycles, some within Coulomb's cap and some beyond: the energy dissipated by friction equals the
+/// work put in, and no cycle returns more than that.
 TEST(PatchCycles, TenThousandMakeNoEnergy)
 {
     constexpr int      cycles = 10000, steps = 64;
@@ -62,7 +62,7 @@ TEST(PatchCycles, TenThousandMakeNoEnergy)
             const dem::Patch      before = patch;
             const dem::PatchState state{up, 1.0 * level, 2000 * level, 1e-4 * level, moved, turned, 0.0};
             const dem::Friction   friction = dem::update_patch(law, state, patch, 1.0);
-            // the spring's force goes straight from where it was, shrunk to the new stiffness, to where it is
+            // the spring's force changes linearly from its old value, scaled to the new stiffness, to its new value
             const double shrunk = std::min(1.0, state.stiffness / std::max(before.stiffness, 1e-300));
             const double slack  = std::min(1.0, patch.twist_stiffness / std::max(before.twist_stiffness, 1e-300));
             put_in -= 0.5 * (shrunk * before.tangential + patch.tangential).dot(moved) +
@@ -83,8 +83,8 @@ TEST(PatchCycles, TenThousandMakeNoEnergy)
     EXPECT_LT(std::abs(balance), 0.02);
 }
 
-/// Two spheres, pressed together and sheared, then turned as one about an axis askew to both contact and shear at
-/// 10 rad/s: the force between them turns along, and keeps its length.
+/// Two spheres, pressed together and sheared, then rotated as one about an axis oblique to both contact and shear at 10
+/// rad/s: the force between them rotates along, and keeps its magnitude.
 TYPED_TEST(Ratchet, FrictionTurnsWithTwoBodiesThatTurnTogether)
 {
     constexpr double radius = 0.1, dt = 1e-4, rate = 10;
@@ -92,7 +92,7 @@ TYPED_TEST(Ratchet, FrictionTurnsWithTwoBodiesThatTurnTogether)
     SolidNumbers     numbers;
     numbers.friction        = 10;
     const Vec3<double> axis = Vec3<double>(1, 2, -1.5).normalized();
-    // turned, so that no node stands on a face between cells of the distance field, where the gradient jumps
+    // rotated so that no node is on a face between cells of the distance field, where the gradient jumps
     const Quat         start(Eigen::AngleAxisd(0.7, Vec3<double>(3, 1, 2).normalized()));
     std::vector<Solid> solids{solid_sphere(radius, 2500, {0, 0, 0.199}), solid_sphere(radius, 2500, {0, 0, 0})};
     for (Solid& solid : solids) { solid.orientation = start; }
@@ -127,7 +127,7 @@ TYPED_TEST(Ratchet, FrictionTurnsWithTwoBodiesThatTurnTogether)
         longest                = std::max(longest, std::abs(now.norm() / shear.norm() - 1));
         askew                  = std::max(askew, std::acos(std::min(1.0, now.dot(shear) / now.norm() / shear.norm())));
     }
-    // turned by the smallest rotation of the normal, then about it: the two do not commute, (omega dt)^2/2 a step
+    // rotated by the smallest rotation of the normal, then about it: the two do not commute, (omega dt)^2/2 per step
     const double lag = 0.5 * rate * rate * dt * dt * steps;
     std::printf("length of the friction force changes by %.1e, tolerance 1e-6 "
                 "(docs/verification.md#closed-cycles-of-friction); it lags by %.1e rad, tolerance "

@@ -8,11 +8,11 @@
 #include "shape/flat_tree.hpp"
 #include "shape/template.hpp"
 
-// Shapes with meshes, for bodies that meet by rays.
+// Shapes with meshes, for bodies whose contacts use rays.
 namespace tread::test
 {
 
-/// A generated shape as the scenes of these tests take it.
+/// Converts a generated shape to the shapes of these tests.
 inline SolidShape solid_of(const shape::ShapeTemplate& form)
 {
     SolidShape solid;
@@ -40,7 +40,7 @@ inline dem::RayShape rays_of(const shape::TriangleMesh& mesh, const std::vector<
     return dem::make_ray_shape(shape::flatten(tree), nodes, shape::surface_normals(mesh, tree, nodes));
 }
 
-/// Rays of one shape in a backend's memory.
+/// Ray data of one shape in a backend's memory.
 template<class Exec>
 class Rays
 {
@@ -105,7 +105,7 @@ inline Quat random_turn(Random& random)
     return Quat(part(), part(), part(), part()).normalized();
 }
 
-/// Two rocks of one shape that meet off their centres at 1 m/s, turned at random.
+/// Two rocks of one shape in an off-centre collision at 1 m/s, with random orientations.
 inline std::vector<Solid> off_centre_rocks(const shape::ShapeTemplate& form, Random& random)
 {
     Solid first = rock_solid(form), second = first;
@@ -118,12 +118,12 @@ inline std::vector<Solid> off_centre_rocks(const shape::ShapeTemplate& form, Ran
     return {first, second};
 }
 
-/// What an impact did, once the bodies are apart again.
+/// Result of an impact, after the bodies have separated.
 struct Impact
 {
     double energy   = 0; ///< relative change
     double force    = 0; ///< N, largest
-    double exchange = 0; ///< largest contact energy over the kinetic one before
+    double exchange = 0; ///< largest contact energy over the initial kinetic energy
     double momentum = 0; ///< N s, error
     double spin     = 0; ///< N m s, error
 };

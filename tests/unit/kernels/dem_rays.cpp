@@ -9,7 +9,7 @@
 #include "shape/mesh_distance.hpp"
 #include "shape/triangle.hpp"
 
-// The narrow phase by rays: single rays against all triangles, spheres against Hertz, impacts beside distance fields.
+// Narrow phase by rays: single rays compared with all triangles, spheres with Hertz, impacts with distance fields.
 namespace tread::test
 {
 namespace
@@ -20,7 +20,7 @@ Vec3<double> random_vector(Random& random)
     return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
 }
 
-/// The first triangle, by the sides of its corners as seen along the ray; -1 if none.
+/// First triangle hit, from the sides of its corners as seen along the ray; -1 if none.
 struct BruteHit
 {
     double length   = 1e9;
@@ -83,7 +83,7 @@ TEST(RayHits, AreNotLostBetweenTriangles)
     const dem::RayShape        rays = rays_of(form.mesh, form.nodes.positions);
     const auto                 hits = [&](const Vec3<double>& to)
     {
-        // The rock is star-shaped about a point, but not about the origin: what is in between is nearer.
+        // The rock is star-shaped about a point, but not about the origin: anything in between is nearer.
         const dem::RayHit hit = first_hit(rays.view(), Vec3<double>::Zero(), to.normalized(), 1e9);
         EXPECT_GT(hit.cosine, 0);
         EXPECT_LT(hit.length, to.norm() + 1e-9);
@@ -96,7 +96,7 @@ TEST(RayHits, AreNotLostBetweenTriangles)
     }
 }
 
-/// Of edge 2 m, its faces along the axes.
+/// Cube of edge 2 m, its faces along the axes.
 shape::TriangleMesh cube_mesh()
 {
     shape::TriangleMesh cube;
@@ -151,7 +151,7 @@ struct ForceAndEnergy
 };
 
 /// The law by rays on two exact spheres at a centre distance of 2 R - approach, by quadrature over one of them: a ray
-/// from an angle a off the axis leaves at R - (D cos a - sqrt(R^2 - D^2 sin^2 a)).
+/// at an angle a from the axis exits at R - (D cos a - sqrt(R^2 - D^2 sin^2 a)).
 ForceAndEnergy exact_spheres(double approach, double linear_overlap)
 {
     const dem::PairLaw law      = dem::pair_law(properties(1e7, 0.3, 2, 0, 0), {1.0, linear_overlap}, 2 / radius, 1.0);
@@ -160,20 +160,20 @@ ForceAndEnergy exact_spheres(double approach, double linear_overlap)
     ForceAndEnergy     sum{0, 0};
     for (int i = 0; i < rings; ++i)
     {
-        const double        angle  = (i + 0.5) / rings * edge;
-        const double        aside  = distance * std::sin(angle);
-        const double        root   = std::sqrt(radius * radius - aside * aside);
-        const double        reach  = distance * std::cos(angle) - root; // of the exit, from the node's centre
-        const double        normal = (distance - reach * std::cos(angle)) / radius;
-        const double        area   = 2 * std::numbers::pi * radius * radius * std::sin(angle) * edge / rings;
-        const dem::Traction at     = dem::traction_at(law, radius - reach);
+        const double angle     = (i + 0.5) / rings * edge;
+        const double aside     = distance * std::sin(angle);
+        const double root      = std::sqrt(radius * radius - aside * aside);
+        const double reach     = distance * std::cos(angle) - root; // of the exit, from the centre of the node's sphere
+        const double normal    = (distance - reach * std::cos(angle)) / radius;
+        const double area      = 2 * std::numbers::pi * radius * radius * std::sin(angle) * edge / rings;
+        const dem::Traction at = dem::traction_at(law, radius - reach);
         sum.force += at.pressure * area * normal / (root / radius);
         sum.energy += at.energy * area;
     }
     return sum;
 }
 
-/// Largest force of a head-on impact of two spheres, each at `speed`, where all kinetic energy is in the contact.
+/// Largest force in a head-on impact of two spheres, each at `speed`, when all kinetic energy is in the contact.
 double exact_largest_force(double speed, double linear_overlap)
 {
     const double energy = solid_sphere(radius, density, {}).mass * speed * speed;
@@ -191,8 +191,8 @@ TYPED_TEST(RayContact, HeadOnSpheresApproachHertzWithTheirNodes)
     constexpr double hertz = 7593.4; // F_max, docs/verification.md#hertz-impact
     constexpr int    turns = 12;
     const double     limit = exact_largest_force(1, 1e-3);
-    // Rays leave at a slant: what is off Hertz's paraboloids is proportional to the overlap, which is 11 % of R here
-    // and 0.01^0.8 of that for a hundredth of the speed, where a force is proportional to v^1.2.
+    // Rays exit obliquely: the deviation from Hertz's paraboloids is proportional to the overlap, which is 11 % of R
+    // here and 0.01^0.8 of that at a hundredth of the speed, where forces scale with v^1.2.
     const double slow = exact_largest_force(0.01, 1e-6) / std::pow(0.01, 1.2);
     std::printf("Hertz %.1f N, rays on exact spheres %.1f N (%+.2f %%), slow %.1f N (%+.2f %%, tolerance 0.3 %%)\n",
                 hertz, limit, 100 * (limit / hertz - 1), slow, 100 * (slow / hertz - 1));
@@ -230,7 +230,7 @@ TYPED_TEST(RayContact, HeadOnSpheresApproachHertzWithTheirNodes)
     }
 }
 
-/// Two dented rocks of 0.2 m that just reach into each other, or not.
+/// Two dented rocks of 0.2 m that just overlap, or not.
 std::vector<Solid> fast_rocks(const shape::ShapeTemplate& form, Random& random)
 {
     std::vector<Solid> rocks(2, rock_solid(form));
@@ -246,7 +246,7 @@ std::vector<Solid> fast_rocks(const shape::ShapeTemplate& form, Random& random)
 
 TYPED_TEST(RayContact, NoNodeIsMissedByTheList)
 {
-    // The grid is coarse: the interpolated surface, by which nodes are listed, is centimetres off the mesh.
+    // The grid is coarse: the interpolated surface, which selects the nodes, is centimetres off the mesh.
     const shape::ShapeTemplate form = dented_rock(642, 8);
     const SolidShape           rock = solid_of(form);
     const Rays<TypeParam>      rays(this->exec(), rays_of(form.mesh, form.nodes.positions));
@@ -256,7 +256,7 @@ TYPED_TEST(RayContact, NoNodeIsMissedByTheList)
     double                     worst = 0;
     for (int trial = 0; trial < 400; ++trial)
     {
-        const double                dt = trial % 2 == 0 ? 1e-6 : 5e-4; // s: they stand still, and move 2 mm
+        const double                dt = trial % 2 == 0 ? 1e-6 : 5e-4; // s: at rest, or a displacement of 2 mm
         typename TestFixture::Scene scene(this->exec(), {rock}, fast_rocks(form, random), {});
         scene.rays = rays.views();
         scene.find(dt);
@@ -303,7 +303,7 @@ TYPED_TEST(RayContact, OffCentreImpactOfDentedRocks)
                 EXPECT_LT(found.spin, 1e-11);
                 EXPECT_GT(found.exchange, 0.1);
             }
-            // Slants and jumps of rays cost some: less than the mean over vertices, 1.2e-1 rms.
+            // Oblique rays and jumps of rays dissipate some energy: less than the mean over vertices, 1.2e-1 rms.
             if (view != nullptr) { EXPECT_LT(std::sqrt(square), 0.12); }
             std::printf("%d nodes by %s: energy changes by %.1e rms, %.1e at most; mean F_max %.1f N\n", nodes,
                         view == nullptr ? "distance field" : "rays", std::sqrt(square), largest, force);

@@ -13,7 +13,7 @@
 #include "kernels/dem/motion/move.hpp"
 #include "kernels/dem/motion/sums.hpp"
 
-// A few rigid bodies with analytic shapes and walls, for the tests of the body-body contact.
+// A few rigid bodies with analytic shapes and walls, for tests of body-body contact.
 namespace tread::test
 {
 
@@ -31,7 +31,7 @@ struct Solid
     std::int32_t  damped      = 0;
 };
 
-/// A homogeneous sphere of radius r, of unit_sphere.
+/// A homogeneous sphere of radius r; its shape is unit_sphere.
 inline Solid solid_sphere(double radius, double density, const Vec3<double>& position)
 {
     Solid solid;
@@ -49,7 +49,8 @@ inline dem::PairProperties properties(double young, double poisson, double sides
     return {young / (1 - poisson * poisson) / sides, shear / (2 - poisson) / sides, friction, zeta};
 }
 
-/// zeta of a restitution (docs/verification.md#restitution; beyond 1 the same equation's other branch), by bisection.
+/// Damping ratio zeta for a restitution (docs/verification.md#restitution; beyond 1 the same equation's other branch),
+/// by bisection.
 inline double damping_ratio(double restitution)
 {
     double low = 0, high = 3.9;
@@ -64,7 +65,7 @@ inline double damping_ratio(double restitution)
     return low;
 }
 
-/// One material; walls are rigid.
+/// Properties of the one material; walls are rigid.
 struct SolidNumbers
 {
     double                  young = 1e7, poisson = 0.3, friction = 0, zeta = 0;
@@ -104,7 +105,7 @@ public:
                 numbers.options,   rays};
     }
 
-    /// `count` substeps of dt, pairs found anew every `every` of them.
+    /// Runs `count` substeps of dt, with pairs rebuilt every `every` of them.
     void run(double dt, int count, int every = 20)
     {
         stage_bodies(exec_, pairs, bodies.view());
@@ -116,7 +117,7 @@ public:
         }
     }
 
-    /// A substep of dt without what pairs answer, if they have not been asked; alpha: of the local damping.
+    /// Moves by a substep of dt; contact forces act only if computed before. alpha: local damping.
     void move(double dt, double alpha = 0, const dem::OutsideWrenches& outside = {})
     {
         move_bodies(exec_, step(dt, alpha, outside));
@@ -129,7 +130,7 @@ public:
 
     void find(double dt, double substeps = 1) { find_pairs(exec_, pairs, bodies.view(), law(), dt, substeps); }
 
-    /// The bodies' forces as they stand: a move of no duration.
+    /// Forces on the bodies at their present positions: a move of zero duration.
     void contact(double dt)
     {
         stage_bodies(exec_, pairs, bodies.view());
@@ -140,7 +141,7 @@ public:
     dem::BodySums sums() { return sum_bodies(exec_, pairs, bodies.view(), totals, numbers.gravity); }
 
     SolidNumbers          numbers;
-    const dem::RayView*   rays = nullptr; ///< of the shapes, where bodies meet by rays
+    const dem::RayView*   rays = nullptr; ///< ray data of the shapes, if bodies meet by rays
     dem::Bodies<Exec>     bodies;
     dem::Pairs<Exec>      pairs;
     dem::BodyTotals<Exec> totals;

@@ -76,7 +76,7 @@ TEST(Sdf, IsAPositiveLowerBoundOutsideTheGrid)
     }
 }
 
-/// A hollow ball: one surface of radius 1, the other of 0.94. Exact.
+/// A hollow ball with surfaces of radius 1 and 0.94. Exact.
 double shell_distance(const Vec3<double>& x) { return std::abs(x.norm() - 0.97) - 0.03; }
 
 constexpr double point_radius = 0.02;
@@ -119,7 +119,7 @@ TEST(SdfBricks, AreReadAlikeByKernelsAndHost)
     {
         const Vec3<double> x     = point_within(random, 1.5);
         const auto         found = dem::sample_template_sdf(view, x);
-        // The same float values, in sums of another order; gradients are differences over a spacing of 0.02.
+        // The same float values, summed in another order; gradients are differences over a spacing of 0.02.
         ASSERT_NEAR(found.distance, shape::sample(sdf, x), 1e-14);
         ASSERT_LT((found.gradient - shape::sample_gradient(sdf, x)).norm(), 1e-12);
     }
@@ -145,7 +145,7 @@ TEST(SdfBricks, UncertaintyHoldsAtEveryDistance)
     EXPECT_GT(far, near);
 }
 
-/// What the search for sand's candidates relies on: no point that it leaves out can touch after its move.
+/// The search for sand candidates relies on this: no point that it excludes can touch after its displacement.
 TEST(SdfBricks, SearchBoundMissesNoContact)
 {
     const shape::SignedDistanceGrid sdf  = shell_in_bricks();
@@ -168,7 +168,7 @@ TEST(SdfBricks, SearchBoundMissesNoContact)
     }
     EXPECT_GT(touching, 10000);
     EXPECT_GT(left_out, 10000);
-    // Where points move by less than the fine cells reach, bricks cost no candidates.
+    // If points move by less than the reach of fine cells, bricks add no candidates.
     EXPECT_EQ(dem::search_bound(view, 1, point_radius, 0.005), point_radius + 0.005);
 }
 

@@ -11,22 +11,22 @@
 
 #include "backend/vector.hpp"
 
-// Analytic shapes as templates of bodies, for the tests of the body-body contact.
+// Analytic shapes as templates of bodies, for tests of body-body contact.
 namespace tread::test
 {
 
-/// One shape at scale 1: signed distance on a grid over 120 % of the box, and surface nodes.
+/// A shape at scale 1: signed distance on a grid over 120 % of the box, and surface nodes.
 struct SolidShape
 {
     double                      spacing = 0;
     Vec3<double>                origin  = Vec3<double>::Zero();
     std::array<std::int32_t, 3> nodes{};
     std::vector<float>          values;
-    std::vector<std::int32_t>   slots; ///< of a grid in bricks, with the three below: see shape::SignedDistanceGrid
+    std::vector<std::int32_t>   slots; ///< of a grid in bricks, as the three below: see shape::SignedDistanceGrid
     std::vector<float>          corners;
     std::array<std::int32_t, 3> bricks{};
     double                      fine_reach = 0;
-    double                      steepest   = std::numbers::sqrt3; ///< slope of the interpolant, at most
+    double                      steepest   = std::numbers::sqrt3; ///< upper bound on the slope of the interpolant
     std::vector<Vec3<double>>   positions;
     std::vector<double>         areas;
     std::vector<Vec3<double>>   centres; ///< of clusters
@@ -61,7 +61,7 @@ void sample_on_grid(SolidShape& shape, int cells, Distance distance)
     }
 }
 
-/// Runs of 32 nodes in the order given, which the caller made a local one.
+/// Groups nodes into runs of 32 in the given order, which must be spatially local.
 inline void make_clusters(SolidShape& shape)
 {
     constexpr std::size_t size = 32;
@@ -78,8 +78,8 @@ inline void make_clusters(SolidShape& shape)
     }
 }
 
-/// Vertices of the unit icosahedron with its triangles quartered `level` times, each with a third of the area of its
-/// triangles; the areas are made to sum to 4 pi.
+/// Vertices of the unit icosahedron subdivided `level` times, each with a third of the area of its triangles; the areas
+/// are normalised to sum to 4 pi.
 inline std::vector<std::pair<Vec3<double>, double>> icosphere_nodes(int level)
 {
     using Triangle              = std::array<std::size_t, 3>;
@@ -142,7 +142,7 @@ inline SolidShape unit_sphere(int level, int cells)
     return shape;
 }
 
-/// A sphere of radius 1 m in closed form; its nodes are only there for other shapes.
+/// An exact sphere of radius 1 m; its nodes are used only against other shapes.
 inline SolidShape exact_sphere()
 {
     SolidShape shape    = unit_sphere(1, 16);
@@ -150,7 +150,7 @@ inline SolidShape exact_sphere()
     return shape;
 }
 
-/// A box with a lattice of nodes on its faces, corners and edges included once; n intervals along each edge.
+/// A box with a lattice of nodes on its faces, n intervals along each edge; nodes on corners and edges occur once.
 inline SolidShape box_solid(const Vec3<double>& half, int n, int cells)
 {
     SolidShape shape;

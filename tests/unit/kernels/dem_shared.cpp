@@ -4,7 +4,7 @@
 
 #include "dem_bumpy.hpp"
 
-// Bodies that two ranks move together, here in one process: each answers the pairs of what it owns.
+// Bodies shared by two ranks, here in one process: each computes the pairs of the bodies that it owns.
 namespace tread::test
 {
 namespace
@@ -29,7 +29,7 @@ SolidNumbers stone()
     return numbers;
 }
 
-/// One of two ranks: it owns every other body, and all others are guests.
+/// One of two ranks: it owns every other body, and all others are ghosts.
 template<class Exec, class Scene>
 class Half
 {
@@ -66,7 +66,7 @@ public:
                 row_.data(), wrench_.data(), stiffness_.data(), nullptr};
     }
 
-    /// What would come by message.
+    /// Receives what would arrive by message.
     void receive(Half& other)
     {
         copy(exec_, wrench_.data() + count, other.wrench_.data(), count * sizeof(dem::WrenchShare));

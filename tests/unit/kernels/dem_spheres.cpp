@@ -5,8 +5,8 @@
 
 #include "dem_impact.hpp"
 
-// Exact spheres against the closed forms of docs/verification.md#contact-of-bodies; the impacts of Chung and Ooi are in
-// dem_chung_ooi.cpp.
+// Exact spheres compared with the closed forms of docs/verification.md#contact-of-bodies; the impacts of Chung and Ooi
+// are in dem_chung_ooi.cpp.
 namespace tread::test
 {
 namespace
@@ -26,7 +26,7 @@ TYPED_TEST(Spheres, HeadOnCollisionIsHertz)
     pair[1].velocity = {-1, 0, 0};
     typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, pair, {});
     const Impact impact = follow(scene, dt, 2100, [&](const auto& x) { return 2 * radius - (x[1] - x[0]).norm(); });
-    // A1, E* = E / 2 (1 - nu^2). The step is a 2000th of the contact, and the largest values lie between steps.
+    // A1, E* = E / 2 (1 - nu^2). The step is a 2000th of the contact, and the largest values occur between steps.
     expect_close("largest force, N", impact.force, 7593.4, 1e-4);
     expect_close("largest approach, m", impact.approach, 0.022065, 1e-4);
     expect_close("duration, s", impact.duration, contact, 2e-3);
@@ -72,7 +72,7 @@ TYPED_TEST(Spheres, RestitutionIsTheOneAskedFor)
     }
 }
 
-/// A ball that rests on the ground by its weight alone.
+/// A ball at rest on the ground under its own weight.
 struct Resting
 {
     Solid  ball;
@@ -124,7 +124,7 @@ TYPED_TEST(Spheres, InclineRollsOrSlips)
         const Resting               resting = resting_ball(radius, numbers, 9.8 * std::cos(tilt * degree));
         typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, {resting.ball}, numbers);
         scene.run(dt, 20000);
-        // the grip takes up its spring first, over a millisecond
+        // the contact loads its tangential spring first, over a millisecond
         expect_close("acceleration, m/s2", scene.bodies.velocity.to_host()[0][0] / time, acceleration, 2e-3);
     }
 }

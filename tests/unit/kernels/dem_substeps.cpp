@@ -4,7 +4,7 @@
 #include "dem_bumpy.hpp"
 #include "kernels/dem/motion/substeps.hpp"
 
-// Substeps that run without the host, in one launch where they are few bodies, are the same substeps.
+// Substeps in one launch without the host, for few bodies, equal substeps launched one by one.
 namespace tread::test
 {
 namespace

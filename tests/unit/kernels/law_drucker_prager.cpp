@@ -4,7 +4,8 @@
 
 #include "law_support.hpp"
 
-// Drucker-Prager: where each fit has Mohr and Coulomb's strength, and the conditions that single the return out.
+// Drucker-Prager: states in which each fit has the Mohr-Coulomb strength, and conditions that define the return
+// mapping.
 namespace
 {
 
@@ -25,7 +26,8 @@ MaterialParameters<Real> sand(const Strength& strength, ConeFit fit, double pois
     return make_material(make_elasticity<Real>(1e6, poisson, 1500), make_drucker_prager<Real>(strength, fit));
 }
 
-/// Mohr and Coulomb's largest principal pressure over the least, `cell` (Pa); sign = -1: the least over the largest.
+/// Mohr-Coulomb ratio of the largest principal pressure to the smallest, `cell` (Pa); sign = -1: of the smallest to the
+/// largest.
 double mohr_coulomb_strength(const Strength& strength, double cell, double sign)
 {
     const double sine = std::sin(radians(strength.friction_angle_deg));
@@ -33,8 +35,7 @@ double mohr_coulomb_strength(const Strength& strength, double cell, double sign)
     return n * cell + sign * 2 * strength.cohesion * std::sqrt(n);
 }
 
-/// Triaxial test at `cell` (Pa) under axial strain steps; gives the axial pressure at the end and the last lateral
-/// step.
+/// Triaxial test at `cell` (Pa) under axial strain steps: axial pressure at the end and the last lateral step.
 struct TriaxialEnd
 {
     double axial, lateral, step;
@@ -115,7 +116,7 @@ TEST(DruckerPragerPath, WithoutFrictionIsVonMises)
                                         PlasticState<double>{}, 1.0);
         const double mean     = update.stress.head<3>().sum() / 3;
         const double j2       = 0.5 * (update.stress.array().head<3>() - mean).square().sum();
-        // The hexagon of c = 100 Pa has sqrt(J2) = 2 c / sqrt 3 at its edges and c in pure shear.
+        // The hexagon for c = 100 Pa has sqrt(J2) = 2 c / sqrt 3 at its edges and c in pure shear.
         const double limit = fit == ConeFit::plane_strain ? 100 : 200 / std::numbers::sqrt3;
         expect_law("sqrt(J2), Pa", std::sqrt(j2), limit, 1e-9, "rounding of 1e5 Pa");
         expect_law("mean at any tension, Pa", mean, 1e5, 1e-9, "rounding of 1e5 Pa");
@@ -150,15 +151,15 @@ TEST(DruckerPragerPath, ApartGrainsDoNotDilate)
     expect_law("gap after isochoric shear", element.state.volume_gap, gap, 1e-14, exact);
 }
 
-/// How far returned states are from what defines them, largest over many.
+/// Largest violation of the return conditions over many states.
 struct Violation
 {
     double yield   = 0; ///< f / (sqrt(J2) + eta |m| + k)
-    double lode    = 0; ///< deviator beside the trial's, over the trial
-    double flow    = 0; ///< volumetric strain beside eta_flow times the shear, over the strain
+    double lode    = 0; ///< deviator against the trial's, over the trial
+    double flow    = 0; ///< volumetric strain against eta_flow times the shear, over the strain
     double work    = 0; ///< negative plastic work, over trial x strain
-    double balance = 0; ///< plastic work beside stress : plastic strain, over trial^2 / G
-    double again   = 0; ///< change at a second return, over the stress
+    double balance = 0; ///< plastic work against stress : plastic strain, over trial^2 / G
+    double again   = 0; ///< change in a second return, over the stress
     double shear   = 0; ///< plastic shear of a second return
     int    cone = 0, apex = 0;
 };

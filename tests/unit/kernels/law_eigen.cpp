@@ -42,7 +42,7 @@ void decompose(const Sym3<Real>& tensor, Worst& worst)
         std::max(worst.orthogonality, (axes.transpose() * axes - Mat3<double>::Identity()).norm() / epsilon);
 }
 
-/// A tensor of any size from 1 mPa to 100 MPa whose values differ by the shares `first` and `second`.
+/// A tensor of any magnitude from 1 mPa to 100 MPa whose eigenvalues differ by the shares `first` and `second`.
 template<class Real>
 Sym3<Real> tensor_with(Random& random, const Vec3<double>& values)
 {

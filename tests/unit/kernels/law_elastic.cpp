@@ -32,7 +32,7 @@ Sym3<Real> turned(int steps, double angle)
     const Vec3<double> axis = Vec3<double>(1, 2, -0.5).normalized();
     Mat3<double>       spin;
     spin << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
-    // Of Cayley's formula: each step turns by 2 atan(|w| dt / 2).
+    // Cayley's formula rotates by 2 atan(|w| dt / 2) per step.
     const Mat3<Real> gradient = (2 * std::tan(0.5 * angle / steps) * spin).template cast<Real>();
     Sym3<Real>       stress   = some_stress().template cast<Real>();
     for (int n = 0; n < steps; ++n)
@@ -113,8 +113,8 @@ TEST(ElasticLaw, PlasticStateComesBackAsItWent)
     EXPECT_EQ(update.plastic_work, 0);
 }
 
-/// Straight steps that turn by atan(a) stretch by sqrt(1 + a^2) across the axis, those along a line by 1 + a: what the
-/// gradient of the middle of the step says, that of the start does not.
+/// Straight steps that rotate by atan(a) stretch by sqrt(1 + a^2) across the axis, steps along a line by 1 + a: the
+/// gradient at the middle of the step gives this, that at the start does not.
 TEST(MidStep, StraightStepsAreSeenAsTheyStrain)
 {
     for (const double a : {1e-3, 1e-2, 0.1})

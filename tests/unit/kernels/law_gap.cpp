@@ -2,7 +2,7 @@
 
 #include "law_support.hpp"
 
-// Opening at the apex: what separates must close before it carries, and gives no energy.
+// Volume gap at the apex: separated material must close before it carries load, and returns no energy.
 namespace
 {
 
@@ -80,7 +80,7 @@ TEST(VolumeGap, CohesiveSandPaysForOpeningAndGainsNothing)
         element.strain(diagonal(-1e-4, -1e-4, -1e-4));
         EXPECT_GE(element.plastic_work, opening);
     }
-    // The strain is back at zero, and so is the stress: what was opened was closed, what was stretched is unloaded.
+    // The strain is back at zero, and so is the stress: the gap was closed, and the stretch unloaded.
     expect_law("stress at zero strain, Pa", element.stress.norm(), 0, 1e-6, rounding);
     expect_law("gap at zero strain", element.state.volume_gap, 0, 1e-12, rounding);
     element.strain(diagonal(-1e-4, -1e-4, -1e-4));

@@ -39,7 +39,7 @@ struct Triaxial
         element.stress = diagonal(-cell, -cell, -cell);
     }
 
-    /// Gives the lateral strain.
+    /// Returns the lateral strain.
     double step(double axial)
     {
         return element.strain_holding(diagonal(0, 0, axial), diagonal(1, 1, 0), 0, -pressure, 10 * std::abs(axial));
@@ -84,7 +84,7 @@ TEST(MohrCoulombPath, TriaxialExtension)
 
 TEST(MohrCoulombPath, TriaxialPlasticWorkIsWhatTheStrainDoes)
 {
-    // Stress stands still on the surface, so that all work of the strain is plastic.
+    // The stress is constant on the yield surface, so that all work of the strain is plastic.
     Triaxial test(sands[0], 1e3);
     for (int i = 0; i < 100; ++i) { test.step(-1e-4); }
     const double before = test.element.plastic_work, shear = test.element.state.plastic_shear;
@@ -108,7 +108,7 @@ TEST(MohrCoulombPath, OedometerWithActivePressureAboveElastic)
     expect_law("K = Ka", element.stress[0] / element.stress[2], (1 - sand.sine()) / (1 + sand.sine()), 1e-9, exact);
 }
 
-/// Confined compression from no stress: elastic with K0 where K0 >= Ka, and for Ka > K0 along the edge of two active
+/// Confined compression from zero stress: elastic with K0 if K0 >= Ka, and for Ka > K0 along the edge of two active
 /// planes from sigma_z = 2 c sqrt(Ka) / (Ka - K0) on, with K from sigma_r = Ka sigma_z - 2 c sqrt(Ka).
 TEST(MohrCoulombPath, OedometerOfEveryParameterSet)
 {
@@ -123,7 +123,7 @@ TEST(MohrCoulombPath, OedometerOfEveryParameterSet)
         const double strain  = flows ? onset / elastic + (end - onset) / plastic : end / elastic;
         Element      element{sand.parameters()};
         for (int i = 0; i < 1000; ++i) { element.strain(diagonal(0, 0, -strain / 1000)); }
-        // Of the step in which it first yields only the part beyond is plastic; the return takes that into account.
+        // In the step of first yield only the excess is plastic; the return accounts for that.
         expect_law("sigma_z, Pa", -element.stress[2], end, 1e-8 * end, exact);
         const double side = flows ? ka * end - 2 * sand.cohesion * std::sqrt(ka) : k0 * end;
         expect_law("sigma_r, Pa", -element.stress[0], side, 1e-8 * end, exact);

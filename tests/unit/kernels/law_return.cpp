@@ -7,7 +7,7 @@
 
 #include "law_support.hpp"
 
-// The return of Mohr-Coulomb: exact vectors, and the conditions that single it out on random states.
+// Mohr-Coulomb return mapping: exact vectors, and the conditions that define it on random states.
 namespace
 {
 
@@ -90,7 +90,7 @@ TEST(MohrCoulombReturn, InvariantBoundNeverSkipsAYieldingState)
     EXPECT_GT(skipped, elastic / 2) << "the bound should spare most decompositions";
 }
 
-/// How far a returned state is from what defines it, largest over many states.
+/// Largest violation of the return conditions over many states.
 struct Violation
 {
     double yield   = 0; ///< f / (|s1| + |s3| + c)
@@ -98,8 +98,8 @@ struct Violation
     double axes    = 0; ///< shear along the trial axes, over the trial
     double flow    = 0; ///< strain outside the cone of the active surfaces, over the strain
     double work    = 0; ///< negative plastic work, over trial x strain
-    double balance = 0; ///< plastic work beside stress : plastic strain, over trial^2 / G
-    double again   = 0; ///< change at a second return, over the stress
+    double balance = 0; ///< plastic work against stress : plastic strain, over trial^2 / G
+    double again   = 0; ///< change in a second return, over the stress
     double shear   = 0; ///< plastic shear of a second return, over the first
     int    plane = 0, right = 0, left = 0, apex = 0;
 };
@@ -171,7 +171,7 @@ void check_state(const Angles& angles, const Sym3<Real>& trial, Violation& worst
     raise(worst.work, -double(first.plastic_work) / (size * plastic.norm()));
     raise(worst.balance,
           std::abs(double(first.plastic_work) - now.dot(plastic)) * double(material.shear_modulus) / (size * size));
-    // Strains no longer than the rounding of the stress say nothing of a direction.
+    // Strains within the rounding of the stress have no meaningful direction.
     if (drop.norm() < 1e-2 * size) { return; }
     const double equal = 100 * std::numeric_limits<Real>::epsilon() * size;
     raise(worst.flow, outside_cone(angles, now, plastic, equal, worst));

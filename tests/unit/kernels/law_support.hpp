@@ -9,11 +9,11 @@
 #include "base/random.hpp"
 #include "kernels/mpm/laws/law_kern.hpp"
 
-// What the tests of the laws share.
+// Shared by the tests of the material laws.
 namespace tread::test
 {
 
-/// Prints and checks one number of a law against its closed form.
+/// Prints one number of a law and checks it against its closed form.
 inline void expect_law(const std::string& what, double measured, double expected, double tolerance, const char* why)
 {
     std::printf("  %-46s measured %.9g expected %.9g tolerance %.2g (%s)\n", what.c_str(), measured, expected,
@@ -48,7 +48,7 @@ inline Sym3<double> diagonal(double xx, double yy, double zz)
     return s;
 }
 
-/// A point of sand that is strained without spin.
+/// A sand point strained without spin.
 struct Element
 {
     mpm::MaterialParameters<double> material;
@@ -56,7 +56,7 @@ struct Element
     mpm::PlasticState<double>       state{};
     double                          plastic_work = 0; ///< J/m3
 
-    /// Strains by the increment, tensor components.
+    /// Strains by an increment of tensor components.
     void strain(const Sym3<double>& increment)
     {
         const auto update = mpm::update_stress(material, stress, state, mpm::full_matrix(increment), 1.0);
@@ -65,8 +65,8 @@ struct Element
         plastic_work += update.plastic_work;
     }
 
-    /// Strains by `increment` + x `free`, x in [-reach, reach] such that stress component `held` keeps `value`. Gives
-    /// x.
+    /// Strains by `increment` + x `free`, with x in [-reach, reach] such that stress component `held` keeps `value`.
+    /// Returns x.
     double strain_holding(const Sym3<double>& increment, const Sym3<double>& free, int held, double value, double reach)
     {
         double low = -reach, high = reach;

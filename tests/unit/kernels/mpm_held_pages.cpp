@@ -18,7 +18,7 @@ using namespace tread::mpm;
 
 constexpr double spacing = 0.1, dt = 1e-3;
 
-/// Nodes of page (0, 0, 0) that the cells of the page at `octant` below it reach, found by walking through stencils.
+/// Nodes of page (0, 0, 0) reached by the cells of the page at `octant` below it, found by walking through stencils.
 std::set<int> reached_from(int octant)
 {
     std::set<int> places;
@@ -53,7 +53,7 @@ template<class Exec>
 class HeldPagesTest : public test::BackendTest<Exec>
 {
 protected:
-    /// Points at random, with velocity and stress, in a box of some 5 x 5 x 5 pages.
+    /// Random points, with velocity and stress, in a box of some 5 x 5 x 5 pages.
     Points<Exec, double> points()
     {
         constexpr std::int64_t count = 4000;
@@ -74,7 +74,7 @@ protected:
         return points;
     }
 
-    /// kg, of the nodes that points reach, by stencils one point after the other.
+    /// Masses (kg) of the nodes that points reach, from stencils one point after the other.
     std::map<std::array<int, 3>, double> node_masses(const Points<Exec, double>& points)
     {
         const auto                           x = points.position.to_host(), mass = points.mass.to_host();
@@ -97,7 +97,7 @@ protected:
 };
 TYPED_TEST_SUITE(HeldPagesTest, test::Backends, test::BackendNames);
 
-/// A free grid in the air, so that the books are those of gravity, stress and what holds.
+/// A free grid in the air, so that the ledger contains only gravity, stress and the holding forces.
 TYPED_TEST(HeldPagesTest, StopTheNodesAndBookIt)
 {
     const auto                      exec   = this->exec();
@@ -115,7 +115,7 @@ TYPED_TEST(HeldPagesTest, StopTheNodesAndBookIt)
     tallies.fill_zero();
     asleep.assign({page_key({1, 2, 2}), page_key({2, 2, 2})});
     list_held_pages(exec, view, asleep, held, scratch.sort);
-    EXPECT_EQ(held.page.size(), 12); // two pages side by side and the upper neighbours of both
+    EXPECT_EQ(held.page.size(), 12); // two adjacent pages and the upper neighbours of both
 
     const GridStep<double> step{dt, {0.3, 0, -9.81}, 0, 1e-20, {}};
     scatter(exec, points.view(), view, all_point_pages(view), tiles.data());

@@ -46,7 +46,7 @@ TEST(Levels, ACellIsTwoOfTheNextLevel)
     }
 }
 
-/// N_i = (n_2i-2 + 3 n_2i-1 + 3 n_2i + n_2i+1) / 4, at random places.
+/// N_i = (n_2i-2 + 3 n_2i-1 + 3 n_2i + n_2i+1) / 4, at random positions.
 TEST(Levels, ASplineIsASumOfSplinesOfTheNextLevel)
 {
     Random random(2);

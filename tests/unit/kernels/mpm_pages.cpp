@@ -30,7 +30,7 @@ TEST(PageKey, RoundTripsAndOrdersNegativeCoordinates)
     EXPECT_LT(cell_key({262143 * 4, 262143 * 4, 262143 * 4}), no_page);
 }
 
-/// Sum of weights 1, of slopes 0, first moment at the point: to the rounding of the type
+/// Checks sum of weights 1, sum of slopes 0 and the first moment at the point, to the rounding of the type
 /// (docs/verification.md#rotation-and-translation).
 template<class Real>
 void expect_partition_of_unity(double shift, double tolerance)
@@ -76,7 +76,7 @@ class PagesTest : public test::BackendTest<Exec>
 protected:
     static constexpr double spacing = 0.1;
 
-    /// Points at random in a box that has negative coordinates; mass i + 1 and id i tell them apart.
+    /// Random points in a box that includes negative coordinates; mass i + 1 and id i identify them.
     Points<Exec, double> random_points(std::int64_t count)
     {
         Points<Exec, double> points(this->exec());
@@ -98,7 +98,7 @@ protected:
         return points;
     }
 
-    /// Every point is listed once, in the range of a cell where it may be.
+    /// Checks that every point is listed once, in the range of a cell that may contain it.
     void expect_listed(const Points<Exec, double>& points, const Pages<Exec>& pages, std::int64_t count)
     {
         const auto first = pages.first_point.to_host(), cells = pages.cell_first_point.to_host();
@@ -158,7 +158,7 @@ TYPED_TEST(PagesTest, EveryPointStandsInTheRangeOfItsCell)
             const auto at = page * page_cells + static_cast<std::size_t>(place_in_page(cell));
             EXPECT_GE(i, cells[at]);
             EXPECT_LT(i, cells[at + 1]);
-            EXPECT_EQ(mass[k], double(id[k] + 1)); // fields travel together
+            EXPECT_EQ(mass[k], double(id[k] + 1)); // fields are permuted together
             seen.insert(id[k]);
         }
     }
@@ -189,7 +189,7 @@ TYPED_TEST(PagesTest, NeighbourTablesAgreeBothWays)
     EXPECT_EQ(std::vector<std::uint64_t>(wanted.begin(), wanted.end()), node_key);
 }
 
-/// Points drift through several pages on a uniform grid velocity; after every step each is listed where it is, though
+/// Points drift through several pages at a uniform grid velocity; after every step each is listed in its cell, though
 /// no point moves in memory.
 TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
 {
@@ -224,7 +224,7 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
     Array<TypeParam, std::int64_t>  changed_in(this->exec(), "stirred in", 1);
     changed_in.assign({-1});
 
-    for (int step = 0; step < 6; ++step) // 1.7 spacings: within the pages that are listed
+    for (int step = 0; step < 6; ++step) // 1.7 spacings: within the listed pages
     {
         const MovesView moves{to.data(), counts.data(), changed_in.data(), step};
         sums.fill_zero();
@@ -243,14 +243,14 @@ TYPED_TEST(PagesTest, RelistedPointsStandInTheRangesOfTheirCells)
         relist_points(this->exec(), pages, moves, scratch, room);
         this->expect_listed(points, pages, count);
     }
-    EXPECT_NEAR(points.position.to_host()[0], start[0] + 6 * dt * speed, 1e-12); // in memory where it was
+    EXPECT_NEAR(points.position.to_host()[0], start[0] + 6 * dt * speed, 1e-12); // at the same index in memory
 }
 
 TYPED_TEST(PagesTest, PointsFarOutsideAreDropped)
 {
     auto points = this->random_points(100);
     auto x      = points.position.to_host();
-    x[7]        = 50;  // beyond a side
+    x[7]        = 50;  // beyond a side wall
     x[208]      = -30; // below the bottom: third plane
     points.position.assign(x);
     Pages<TypeParam>                pages(this->exec());
@@ -273,7 +273,7 @@ TYPED_TEST(PagesTest, ScatterKeepsMassMomentumAndForceFree)
     order_points(this->exec(), points, pages, this->geometry, scratch);
     const std::int64_t       page_count = pages.point_page_key.size();
     Array<TypeParam, double> tiles(this->exec(), "tiles", page_count * node_channels * tile_nodes);
-    tiles.fill_zero(); // those of pages without points are not written
+    tiles.fill_zero(); // tiles of pages without points are not written
     const PagesView view = pages.view(this->spacing, 0.5);
     scatter(this->exec(), points.view(), view, all_point_pages(view), tiles.data());
     const auto values                = tiles.to_host();
@@ -310,7 +310,7 @@ TYPED_TEST(PagesTest, ScatterKeepsMassMomentumAndForceFree)
     for (int c = 0; c < 3; ++c)
     {
         EXPECT_NEAR(totals[1 + c], momentum[c], 1e-12 * mass);
-        EXPECT_NEAR(totals[4 + c], 0, 1e-10 * largest_force); // an isolated stress field pushes nothing as a whole
+        EXPECT_NEAR(totals[4 + c], 0, 1e-10 * largest_force); // an isolated stress field exerts no net force
     }
 }
 

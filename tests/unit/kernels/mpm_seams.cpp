@@ -24,11 +24,11 @@ using namespace tread::mpm;
 constexpr double       spacing = 0.1;
 constexpr std::int64_t count   = 6000;
 
-/// A cube of random points that two boxes refine; all of the arrays of a step.
+/// A cube of random points refined by two boxes, with all arrays of a step.
 template<class Exec>
 struct RefinedCube
 {
-    /// Points stand between `low` and `high` along every axis, m.
+    /// Points lie between `low` and `high` along every axis, m.
     explicit RefinedCube(const Exec& backend, double low = 0.2, double high = 4)
         : exec(backend)
         , points(exec)
@@ -111,7 +111,7 @@ struct RefinedCube
         follow_coarser(exec, view(), geometry.refinement, seams, motion.data());
     }
 
-    /// APIC: points take the velocity and its gradient that they see.
+    /// APIC: sets the points' velocity and gradient from the nodes.
     void take_from_nodes(double dt)
     {
         const MovesView moves{to.data(), counts.data(), changed_in.data(), 0};
@@ -123,7 +123,7 @@ struct RefinedCube
             });
     }
 
-    /// Sum over pages of a kind of row.
+    /// Sum over pages of one column of rows.
     double sum(const Array<Exec, double>& rows, int width, int which) const
     {
         const std::vector<double> all = rows.to_host();
@@ -154,8 +154,8 @@ class SeamsTest : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(SeamsTest, test::Backends, test::BackendNames);
 
-/// Every free node gets the velocity of a linear field where it stands, the slave nodes nonsense: after they have
-/// followed, all points see the field and its gradient.
+/// Every free node gets the velocity of a linear field at its position, and slave nodes arbitrary values: after the
+/// slave nodes are tied, all points see the field and its gradient.
 TYPED_TEST(SeamsTest, PointsSeeALinearFieldExactly)
 {
     RefinedCube<TypeParam> cube(this->exec());
@@ -213,7 +213,7 @@ TYPED_TEST(SeamsTest, PointsSeeALinearFieldExactly)
     EXPECT_LT(worst_gradient, 1e-12);
 }
 
-/// With one velocity for all points the grid's kinetic energy is that of the points, if mass and momentum are.
+/// With one velocity for all points the grid's kinetic energy equals that of the points if mass and momentum do.
 TYPED_TEST(SeamsTest, NodesHoldTheMassOfThePoints)
 {
     RefinedCube<TypeParam> cube(this->exec());
@@ -230,7 +230,7 @@ TYPED_TEST(SeamsTest, NodesHoldTheMassOfThePoints)
     EXPECT_NEAR(cube.sum(cube.grid_rows, tally_width(grid_sums), grid_net_force), 0, 1e-9 * mass);
 }
 
-/// A block with free faces across both boxes moves as one.
+/// A block with free faces across both boxes translates as one.
 TYPED_TEST(SeamsTest, OneVelocityStaysOneVelocity)
 {
     for (const auto& [low, high] : {std::pair(0.3, 1.2), std::pair(0.9, 1.9), std::pair(2.2, 3.3)})
@@ -253,12 +253,12 @@ TYPED_TEST(SeamsTest, OneVelocityStaysOneVelocity)
     }
 }
 
-/// What the stresses' nodal forces do to the nodes' momentum is, by its work on any velocity, what the points' stress
-/// power is: the books of grid and points agree, level by level and across the seams.
+/// The work of the nodal forces of stress on any velocity equals the points' stress power: the energy balances of grid
+/// and points agree, level by level and across the seams.
 TYPED_TEST(SeamsTest, WorkOfStressIsTheSameOnBothSides)
 {
     RefinedCube<TypeParam> cube(this->exec());
-    constexpr double       dt = 1e-20; // so that neither stress nor velocity changes, of light nodes neither
+    constexpr double       dt = 1e-20; // so short that neither stress nor velocity changes, even at light nodes
     cube.bring_to_nodes(dt);
     const double force_power = cube.sum(cube.grid_rows, tally_width(grid_sums), grid_power_before);
     cube.take_from_nodes(dt);
@@ -267,7 +267,7 @@ TYPED_TEST(SeamsTest, WorkOfStressIsTheSameOnBothSides)
     EXPECT_NEAR(force_power, -stress_power, 1e-12 * std::abs(stress_power));
 }
 
-/// A point that has left the box sees what a point of the level below would see there.
+/// A point that has left the box sees the field of a point of the level below.
 TYPED_TEST(SeamsTest, SlaveNodesOutsideTheBoxAreTheCoarseField)
 {
     RefinedCube<TypeParam> cube(this->exec());

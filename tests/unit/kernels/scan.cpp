@@ -35,7 +35,7 @@ TYPED_TEST(Scan, SumOverInt32IsNamed)
     }
 }
 
-/// Many rows are shared by blocks on a GPU; a zero with a sign is the least of all there is, not the most.
+/// On a GPU many rows are shared by blocks; a signed zero must be the smallest value, not the largest.
 TYPED_TEST(Scan, LargestOfManyRows)
 {
     constexpr int       count = 10000, width = 3;

@@ -4,7 +4,7 @@
 
 #include "mpi_session.hpp"
 
-// Limits are hours away or over, so that no answer depends on how fast this machine is.
+// Limits are hours away or already exceeded, so that no result depends on the speed of this machine.
 namespace tread::run
 {
 namespace

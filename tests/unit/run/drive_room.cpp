@@ -45,7 +45,7 @@ struct Built
     std::vector<DriveRoom> rooms;
 };
 
-/// What is kept of the way: the radius and 5 % of it, and two cells of 0.05 m.
+/// Clearance kept at the end of the drive: the radius and 5 % of it, and two cells of 0.05 m.
 constexpr double kept = 1.05 * 0.1 + 2 * 0.05;
 
 TEST(DriveRoom, EndsBeforeTheWalls)
@@ -64,7 +64,7 @@ TEST(DriveRoom, EndsBeforeTheEdgeOfTheTerrain)
     std::string text = bed_text("slip", drive(1.0, 1.0));
     text.replace(text.find("[1.0, 0.4, 0.2]"), 15, "[0.8, 0.4, 0.2]");
     const Built built(text);
-    EXPECT_NEAR(built.rooms[0].front.axle, 0.8 - kept, 0.01); // the strip is looked at in sixteenths of the radius
+    EXPECT_NEAR(built.rooms[0].front.axle, 0.8 - kept, 0.01); // the strip is sampled in sixteenths of the radius
     EXPECT_NE(built.rooms[0].front.what.find("the edge of the terrain"), std::string::npos);
     const Built open(bed_text("open", drive(1.0, 1.0)));
     EXPECT_NEAR(open.rooms[0].front.axle, 1.0 - kept, 0.01);
@@ -73,7 +73,7 @@ TEST(DriveRoom, EndsBeforeTheEdgeOfTheTerrain)
 
 TEST(DriveRoom, AddsUpTheDrivesAndTellsTheDurationThatFits)
 {
-    // 0.495 m of way at 0.1 m/s: 4.95 s, 3 of them in the first drive.
+    // 0.495 m at 0.1 m/s: 4.95 s, 3 of them in the first drive.
     const Built built(bed_text("slip", drive(1.0, 3.0) + drive(1.0, 3.0, "on")));
     const auto  warnings = built.warnings();
     ASSERT_EQ(warnings.size(), 1u);
@@ -84,7 +84,7 @@ TEST(DriveRoom, AddsUpTheDrivesAndTellsTheDurationThatFits)
 TEST(DriveRoom, GoesBackwardsByTheSignOfTheSpin)
 {
     const Built built(bed_text("slip", drive(-1.0, 2.0)));
-    ASSERT_EQ(built.warnings().size(), 1u); // 0.095 m of way
+    ASSERT_EQ(built.warnings().size(), 1u); // 0.095 m of room
     EXPECT_NE(built.warnings()[0].find("the wall at x = 0 m"), std::string::npos);
     const scene::Drive& back = *built.scene.phases[1].drive;
     EXPECT_EQ(reached_end(built.rooms[0], back, kept + 0.01), nullptr);

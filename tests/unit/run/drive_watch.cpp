@@ -14,7 +14,7 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double limit    = 1; ///< m, from where the body starts
 
-/// A body on its way to the limit, looked at now and then.
+/// A body that moves towards the limit, checked at intervals.
 struct Way
 {
     DriveWatch watch;
@@ -22,7 +22,7 @@ struct Way
     double     gone     = 0; ///< m
     int        readings = 0;
 
-    /// Returns whether the place was read.
+    /// Returns whether the position was read.
     bool look(double span, double speed, double travel)
     {
         time += span;
@@ -40,13 +40,13 @@ TEST(DriveWatch, ReadsAtTheFirstLook)
     Way way;
     EXPECT_TRUE(way.look(0, 0, 0));
     EXPECT_FALSE(way.look(0.1, 1, 0.1));
-    DriveWatch goes_on; // from a checkpoint: its first look is late
+    DriveWatch goes_on; // resumed from a checkpoint: its first check is late
     goes_on.note_speed(12, 1);
     EXPECT_TRUE(goes_on.is_due());
 }
 
-/// Every look behind the limit reads the place, as if each look did: no matter how the speed changes, as long as it is
-/// at most twice what is measured before or after.
+/// Every check beyond the limit reads the position, as if each check did, however the speed changes, as long as it is
+/// at most twice the speed measured before or after.
 TEST(DriveWatch, NothingPassesTheLimitUnseen)
 {
     std::mt19937 random(7);
@@ -60,7 +60,7 @@ TEST(DriveWatch, NothingPassesTheLimitUnseen)
         while (way.gone < limit)
         {
             const double span = draw(0, 0.1), speed = draw(0, 1) < 0.1 ? 10 * fastest : draw(0, fastest);
-            const double most = (1 - 1e-9) * 2 * std::max(before, speed) * span; // rounding is no travel
+            const double most = (1 - 1e-9) * 2 * std::max(before, speed) * span; // rounding is not counted as travel
             const bool   read = way.look(span, speed, draw(0, 1) < 0.5 ? most : draw(0, most));
             ASSERT_TRUE(read || way.gone < limit) << "run " << run << ": " << way.gone << " m";
             before = speed;
@@ -68,8 +68,8 @@ TEST(DriveWatch, NothingPassesTheLimitUnseen)
     }
 }
 
-/// At a steady speed every reading comes after half of what was left: the readings of 1000 looks are about
-/// log2(1000 / 2), and 2 that the last stretch of one look takes.
+/// At a steady speed every reading comes after half of the remaining distance: 1000 checks need about log2(1000 / 2)
+/// readings, and 2 in the last interval.
 TEST(DriveWatch, ReadsSeldom)
 {
     Way way;

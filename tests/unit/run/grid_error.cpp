@@ -10,7 +10,7 @@
 #include "scene_text.hpp"
 #include "solver/pace_limits.hpp"
 
-// The error of the grid in the answers of a driven wheel.
+// Grid error in the answers of a driven wheel.
 namespace
 {
 
@@ -24,7 +24,7 @@ duration = 0.1
 drive    = { body = "roller", angular_velocity = 0.7, slip = 0.3 }
 )";
 
-/// Field and nodes count for nothing here, and take most of the time.
+/// Coarse distance field and nodes: they are irrelevant here, but take most of the time.
 std::vector<std::string> with_coarse_shape(std::vector<std::string> overrides)
 {
     overrides.emplace_back("shape.roller.sdf_cells=16");
@@ -59,8 +59,8 @@ TEST(GridError, LawsHaveTheirOrder)
     EXPECT_NEAR(law.at(law.cells_for(0.05)), 0.05, 1e-12);
 }
 
-/// At 20 cells across the patch the first-order error of the pull is 11 % of the load: a drum whose verdict was
-/// "resolved" by its cells alone is not.
+/// At 20 cells across the patch the first-order error of the pull is 11 % of the load: a drum that is "resolved" by its
+/// number of cells alone is not.
 TEST(GridError, ADrumOfTwentyCellsIsNotResolved)
 {
     const Driven run;
@@ -155,7 +155,7 @@ TEST(Grousers, GrowWithTheBody)
     EXPECT_NEAR(height("0.1") / height("0.05"), 2, 1e-9);
 }
 
-/// A patch of many cells is not enough where the grousers are smaller than a cell.
+/// A patch of many cells is not sufficient if the grousers are smaller than a cell.
 TEST(Grousers, DecideThePredictionWhereTheyAreCoarser)
 {
     Driven             run(with_grousers);
@@ -166,7 +166,7 @@ TEST(Grousers, DecideThePredictionWhereTheyAreCoarser)
     EXPECT_NEAR(seen.next, 0.02 / resolved_grouser, 1e-12);
 }
 
-/// The spacing that a prediction names has the verdict that it promises.
+/// The spacing named by a prediction has the promised verdict.
 TEST(Prediction, NamesTheSpacingOfTheNextVerdict)
 {
     Driven             run;

@@ -9,15 +9,15 @@
 #include "solver/plan.hpp"
 #include "solver/simulation.hpp"
 
-// "Leave out what a given scene does not need", told exactly: what each part of a scene allocates and launches is
-// written down, and what a scene uses is what its parts have, no less and no more. One rank calls no MPI.
+// "Leave out what a given scene does not need", tested exactly: allocations and launches of each part of a scene are
+// listed, and a scene uses exactly those of its parts. A single rank calls no MPI.
 namespace
 {
 
 using namespace tread;
 using namespace tread::test;
 
-/// Of five steps from the start.
+/// Allocations and launches in five steps from the start.
 Part used_by(const std::string& text)
 {
     const scene::Scene               scene = test::load_text(text);
@@ -70,7 +70,7 @@ TEST(LeftOut, ElasticSandWithFlip) { expect_uses(elastic_flip(), sand); }
 
 TEST(LeftOut, SandAlone) { expect_uses(test::sand_text, soil); }
 
-/// Nothing sleeps without a distance; with one, this is what looks and holds.
+/// No sand sleeps without a distance; with one, these check and hold pages.
 TEST(LeftOut, SandThatMaySleep)
 {
     const Part sleep = {{"largest speeds of pages", "marks of held pages"},
@@ -94,8 +94,8 @@ TEST(LeftOut, RocksInSand) { expect_uses(test::sand_text + within, soil + bodies
 
 TEST(LeftOut, AWheelOnSandWithRocks) { expect_uses(low_wheel() + within, soil + wheel + pairs + contact_with_sand); }
 
-/// One list holds the pages around wheels and rocks alike. A body that no sand is near has a look at its own few pages,
-/// and that is all.
+/// One list holds the pages around wheels and rocks alike. For a body without sand nearby only its own few pages are
+/// checked.
 TEST(LeftOut, BodiesFarFromSandHaveNoContactsWithIt)
 {
     std::string high = low_wheel();

@@ -11,7 +11,7 @@
 #include "scene_text.hpp"
 #include "solver/plan.hpp"
 
-// What a whole run leaves out: with and without output.
+// Parts that a whole run leaves out, with and without output.
 namespace
 {
 
@@ -23,7 +23,7 @@ struct RunUse
 {
     Part  part;
     Names calls; ///< of MPI
-    Names files; ///< of the run directory, when the run has ended
+    Names files; ///< of the run directory, after the run
     Names stages_left_out;
 };
 
@@ -62,7 +62,7 @@ RunUse use_of_run(const std::string& text, const std::vector<std::string>& overr
     return use;
 }
 
-/// What snapshots add to granular sand: the copy that they are written from.
+/// Additions of snapshots of granular sand: the copy from which they are written.
 const Part snapshots = {{"snapshot id", "snapshot material", "snapshot plastic rate", "snapshot plastic shear",
                          "snapshot position", "snapshot start", "snapshot stress", "snapshot velocity",
                          "snapshot volume ratio"},
@@ -77,7 +77,8 @@ TEST(LeftOut, CallsOfMpiAreSeen)
     expect_equal(mpi_calls(), {"MPI_Comm_dup"}, "MPI call");
 }
 
-/// The first and the last row are always there: the balances need them. Nothing else is measured, copied or written.
+/// The first and the last row are always recorded, because the balances need them. Nothing else is measured, copied or
+/// written.
 TEST(LeftOut, ARunWithoutOutput)
 {
     const RunUse use = use_of_run(sand_text, {no_rows, no_checkpoints, "phase.rest.duration=0.01"});

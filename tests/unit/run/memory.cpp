@@ -10,7 +10,7 @@
 #include "scene_text.hpp"
 #include "solver/simulation.hpp"
 
-// What a run wants of the backend's memory: told beforehand, and no more than the sand needs.
+// Backend memory of a run: estimated in advance, and no more than the sand needs.
 namespace
 {
 
@@ -18,7 +18,7 @@ using namespace tread;
 using namespace tread::run;
 using test::load_text;
 
-/// What the first steps of a scene took and left behind.
+/// Memory used by the first steps of a scene, and the final state.
 struct Trial
 {
     std::int64_t                                     peak = 0; ///< bytes
@@ -77,14 +77,14 @@ TEST(Memory, EstimateHasRoomForAllSandToSleep)
     const world::World world = world::build_world(scene);
     Counters           counters;
     const double wanted = static_cast<double>(estimate(scene, world, solver::make_plan(scene, world)).memory_bytes);
-    first_steps<float>(scene, counters, 40); // looks are taken where steps are measured
+    first_steps<float>(scene, counters, 40); // sleep is checked in steps that measure
     ASSERT_TRUE(counters.bytes().count("leaving points"));
     const double used = static_cast<double>(counters.peak_bytes());
     std::cout << "[ memory   ] estimate over use, all asleep: " << wanted / used << '\n';
     EXPECT_NEAR(wanted / used, 1, 0.1);
 }
 
-/// A pile of 1 m on a fixed floor, its low corner at (at, at, 0), in a domain of size x size x 1 m.
+/// A heap of 1 m on a fixed floor, its low corner at (at, at, 0), in a domain of size x size x 1 m.
 std::string pile(const std::string& at, const std::string& to, const std::string& size)
 {
     return fmt::format(R"(
@@ -113,14 +113,14 @@ duration = 0.05
 
 TEST(Memory, FollowsTheSandAndNotTheDomain)
 {
-    // Lengths that fp64 and whole pages hold exactly: 800.0 m is 3200 pages of 0.25 m.
+    // Lengths that fp64 and whole pages represent exactly: 800.0 m is 3200 pages of 0.25 m.
     Counters    near_counters, far_counters;
     const Trial near = first_steps<float>(load_text(pile("1.0", "2.0", "3.0")), near_counters);
     const Trial far  = first_steps<float>(load_text(pile("801.0", "802.0", "1000.0")), far_counters);
     EXPECT_EQ(near.bytes, far.bytes);
     EXPECT_EQ(near.peak, far.peak);
     EXPECT_EQ(near.launches, far.launches);
-    // 1.1e-13 m is the resolution of fp64 at 801 m: a rounding a step.
+    // 1.1e-13 m is the resolution of fp64 at 801 m: one rounding per step.
     ASSERT_EQ(near.positions.size(), far.positions.size());
     double farthest = 0;
     for (std::size_t i = 0; i < near.positions.size(); ++i)

@@ -2,7 +2,7 @@
 
 #include <mpi.h>
 
-// MPI's profiling interface: what this program and its libraries call under the names below lands here first.
+// Intercepts MPI calls of this program and its libraries through MPI's profiling interface.
 namespace tread::test
 {
 

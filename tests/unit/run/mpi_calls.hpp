@@ -6,8 +6,8 @@
 namespace tread::test
 {
 
-/// Names of the MPI functions that were called by this program since it was last cleared, of those by which ranks
-/// talk to each other. Not for several threads.
+/// Names of the communicating MPI functions that this program has called since the set was last cleared. Not
+/// thread-safe.
 std::set<std::string>& mpi_calls();
 
 } // namespace tread::test

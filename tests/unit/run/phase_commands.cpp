@@ -41,7 +41,7 @@ TEST(Phases, EquilibriumMustLast)
         test::load_text(std::string(text).replace(at, 15, "until = \"equilibrium\"\nmax_duration = 1.0"));
     PhaseClock clock(scene, {});
     EXPECT_FALSE(clock.over(0.10, 0.001));
-    EXPECT_FALSE(clock.over(0.12, 0.5)); // a break: the wait starts again
+    EXPECT_FALSE(clock.over(0.12, 0.5)); // an interruption: the waiting time starts again
     EXPECT_FALSE(clock.over(0.14, 0.001));
     EXPECT_FALSE(clock.over(0.18, 0.001));
     EXPECT_TRUE(clock.over(0.195, 0.001));

@@ -41,7 +41,7 @@ TEST(Lowering, EndsWhenTheGroundCarriesTheShare)
 {
     const scene::Scene scene = test::load_text(lowered_text("[0.0, 0.0, -9.81]", half));
     PhaseClock         clock(scene, {0.1});
-    // The ground carries all of it from 0.1 s on: the mean over the recent past passes a half after span ln 2.
+    // The ground carries the full weight from 0.1 s on: the mean over the recent past exceeds one half after span ln 2.
     const double dt = 1e-4, touch = 0.1;
     double       time = 0;
     do {

@@ -7,7 +7,7 @@
 #include "scene_text.hpp"
 #include "solver/pace_limits.hpp"
 
-// What a run saw at its worst, and what is said of it.
+// Worst values of a run's resolution figures, and the resulting verdict.
 namespace
 {
 
@@ -66,7 +66,7 @@ TEST(Extremes, KeepTheWorstStep)
     EXPECT_EQ(run.figure("point_overlap")->value, 0.2);
 }
 
-/// As a square, and the mean over the time in contact alone: 16 points for one step, 64 for three, none for a hundred.
+/// Patch as a square, averaged over the time in contact only: 16 points for one step, 64 for three, none for a hundred.
 TEST(Extremes, MeasureTheContactPatch)
 {
     Rolled run(test::roller_text);
@@ -74,11 +74,11 @@ TEST(Extremes, MeasureTheContactPatch)
     run.extremes.note({1e-3, 1, ""}, 3, run.limits, {}, touching(64, 0));
     run.extremes.note({1e-3, 1, ""}, 100, run.limits, {}, touching(0, 0));
     EXPECT_NEAR(points_across(run.extremes, run.world), std::sqrt((16 + 3 * 64) / 4.0), 1e-12);
-    // 8 points a cell are two across it.
+    // With 8 points per cell, two are across it.
     EXPECT_NEAR(run.figure("contact_cells")->value, 0.5 * std::sqrt(52.0), 1e-12);
 }
 
-/// A patch as wide as the domain is a strip: its length counts, not the square of the same area.
+/// A patch as wide as the domain is a strip: its length counts, not the side of a square of the same area.
 TEST(Extremes, MeasureTheContactPatchOfASlab)
 {
     Rolled       run(test::roller_text);
@@ -87,7 +87,7 @@ TEST(Extremes, MeasureTheContactPatchOfASlab)
     run.world.geometry.size[1] = 2 * spacing;
     EXPECT_NEAR(world::patch_side(26 * spacing * spacing, run.world), 13 * spacing, 1e-12);
     EXPECT_EQ(world::patch_side(0, run.world), 0);
-    // 8 points a cell are two across it: a strip of 2 x 13 cells.
+    // With 8 points per cell, two are across it: a strip of 2 x 13 cells.
     run.extremes.note({1e-3, 1, ""}, 1, run.limits, {}, touching(4 * 26, 0));
     EXPECT_NEAR(run.figure("contact_cells")->value, 13, 1e-12);
 }

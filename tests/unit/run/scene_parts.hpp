@@ -7,7 +7,7 @@
 
 #include "backend/counters.hpp"
 
-// What each part of a scene allocates and launches: left_out.cpp and left_out_runs.cpp hold scenes against it.
+// Allocations and launches of each part of a scene; left_out.cpp and left_out_runs.cpp compare scenes with them.
 namespace tread::test
 {
 
@@ -19,7 +19,7 @@ struct Part
     Names kernels;
 };
 
-/// All that these have counted.
+/// Everything that the counters recorded.
 inline Part used_of(const Counters& counters)
 {
     Part used;
@@ -114,13 +114,13 @@ inline const Part sand = {{"cell first point",
                            "write pages",
                            "write wall pages"}};
 
-/// What AFLIP and APIC add.
+/// Additions of AFLIP and APIC.
 inline const Part affine_velocities = {{"point affine velocity"}, {}};
 
-/// A granular material's.
+/// Additions of a granular material.
 inline const Part plastic_state = {{"point plastic rate", "point plastic shear", "point volume gap"}, {}};
 
-/// Bodies that may meet a wall or each other.
+/// Bodies that may touch a wall or each other.
 inline const Part bodies = {{"bodies by cell",
                              "bodies in contact",
                              "body activity",
@@ -193,19 +193,19 @@ inline const Part bodies = {{"bodies by cell",
                              "sum rows",
                              "write pairs"}};
 
-/// Of [[body]] tables: the recorder's.
+/// Additions of [[body]] tables for the recorder.
 inline const Part named_bodies = {{"contact impulses", "shares of weight"}, {}};
 
-/// Wheels: they may touch another body in several places.
+/// Wheels, which may touch another body at several places.
 inline const Part concave_bodies = {{"patches of pairs"}, {"group pair nodes", "pairs of several patches"}};
 
-/// Bodies that are near each other or a wall.
+/// Bodies near each other or a wall.
 inline const Part pairs = {{"last pair keys", "pair keys"}, {"count pair nodes"}};
 
-/// All substeps of these go by without sand.
+/// All substeps run without sand.
 inline const Part pairs_without_sand = {{"pair second bodies"}, {}};
 
-/// Pairs that come from the large bodies are sorted among the others.
+/// Pairs found from the large bodies are sorted into the others.
 inline const Part pairs_of_a_large_body = {{"sort scratch"}, {}};
 
 /// Sand near bodies.

@@ -66,7 +66,7 @@ TEST(Steady, LeavesOutWhatIsNotFinite)
     EXPECT_TRUE(std::isfinite(moments(made.values).mean));
 }
 
-/// 0 to 15: the parts are pairs, whose means 0.5, 2.5 ... 14.5 have a standard deviation of sqrt(24).
+/// Values 0 to 15: the parts are pairs, whose means 0.5, 2.5 ... 14.5 have a standard deviation of sqrt(24).
 TEST(Steady, MomentsAreThoseOfTheTextbook)
 {
     std::vector<double> values(16);

@@ -18,7 +18,7 @@ namespace
 using namespace tread;
 using namespace tread::run;
 
-constexpr double cell = 0.01, spacing = 0.005; // m; eight points a cell
+constexpr double cell = 0.01, spacing = 0.005; // m; eight points per cell
 
 /// 20 by 20 cells.
 world::ColumnLattice plan(double width = cell, double bin = cell)
@@ -27,7 +27,7 @@ world::ColumnLattice plan(double width = cell, double bin = cell)
     return {{count, count}, {width, width}, bin};
 }
 
-/// Points of a lattice `apart` (m) under a height, shifted against the cells.
+/// Points of a lattice with spacing `apart` (m) below a height, offset from the cells.
 void fill(world::TerrainBins& bins, const std::function<double(double, double)>& height, double apart,
           const Vec3<double>& shift)
 {
@@ -40,7 +40,7 @@ void fill(world::TerrainBins& bins, const std::function<double(double, double)>&
     }
 }
 
-/// Away from the sides, where the lattice ends within a column.
+/// Checks columns away from the sides, where the lattice ends within a column.
 template<class Look>
 void for_each_inner(const world::ColumnLattice& lattice, const std::vector<double>& heights, const Look& look)
 {
@@ -66,8 +66,8 @@ double mean_of(const world::ColumnLattice& lattice, const std::vector<double>& h
     return sum / count;
 }
 
-/// The top of a level bed is that of its uppermost points' cubes, whichever way the lattice stands to the cells and
-/// however far apart points are.
+/// The top of a level bed is that of its uppermost points' cubes, for any offset of the lattice from the cells and any
+/// spacing of the points.
 TEST(Surface, OfALevelBedIsExactForAnyLattice)
 {
     Random random(1);
@@ -87,8 +87,8 @@ TEST(Surface, OfALevelBedIsExactForAnyLattice)
     EXPECT_LT(worst, 1e-6);
 }
 
-/// Columns show the mean of their own plan: a staircase of points follows a slope to half a point, a cell to less than
-/// half a cell times the slope.
+/// Columns give the mean over their own plan: a staircase of points follows a slope to half a point, a cell to less
+/// than half a cell times the slope.
 TEST(Surface, OfASlopeIsThatUnderEachColumn)
 {
     for (const double slope : {0.1, 0.36, 0.7, 1.0})
@@ -106,8 +106,8 @@ TEST(Surface, OfASlopeIsThatUnderEachColumn)
     }
 }
 
-/// One point in a hundred floats up to 30 mm above the bed: by the highest points the surface would stand 29 mm too
-/// high.
+/// One point in a hundred floats up to 30 mm above the bed: taken from the highest points, the surface would be 29 mm
+/// too high.
 TEST(Surface, DoesNotStandOnWhatFloats)
 {
     const world::ColumnLattice lattice = plan();
@@ -132,8 +132,8 @@ TEST(Surface, OfALonePointIsNone)
     for (const double height : bins.surface()) { EXPECT_TRUE(std::isnan(height)); }
 }
 
-/// Spheres in a square lattice of layers, columns of two diameters: the surface stands where the solid of the uppermost
-/// layers would reach at the packing of those below, half a gap above their tops.
+/// Spheres in square layers, columns of two diameters: the surface is the height that the solid of the uppermost layers
+/// would reach at the packing of those below, half a gap above their tops.
 TEST(Surface, OfABedOfRocksStandsAtTheUppermostLayer)
 {
     constexpr double           radius = 0.0095, apart = 0.02;
@@ -155,7 +155,7 @@ TEST(Surface, OfABedOfRocksStandsAtTheUppermostLayer)
     EXPECT_NEAR(found, 0.16, 0.1 * apart);
 }
 
-/// Rocks in sand that leaves room for them: as high as the sand alone.
+/// Rocks in sand with room cut out for them: the surface is as high as that of sand alone.
 TEST(Surface, OfAMixtureIsThatOfItsSand)
 {
     constexpr double           radius  = 0.01;
@@ -240,7 +240,7 @@ struct OnASlope
     SurfaceMap                      map;
 };
 
-/// Not the bed's median: where the wheel stands. Tolerance: half a point spacing, by which points stand in steps.
+/// The local height at the wheel, not the bed's median. Tolerance: half a point spacing, because points lie in steps.
 TEST(Surface, UnderAWheelIsThatOfTheSlopeThere)
 {
     OnASlope setup;
@@ -257,7 +257,7 @@ TEST(Surface, UnderAWheelIsThatOfTheSlopeThere)
     }
 }
 
-/// Of the roller itself: 0.1 m over the grousers, which do not stand out.
+/// Lowest point of the roller itself: 0.1 m, its radius over the grousers, which have no height.
 TEST(Surface, TheLowestPointOfAWheelIsThatOfItsRim)
 {
     OnASlope              setup;
@@ -265,7 +265,7 @@ TEST(Surface, TheLowestPointOfAWheelIsThatOfItsRim)
     EXPECT_NEAR(roller.position[2] - roller.lowest, 0.1, 1e-12);
 }
 
-/// Of a shape that is no wheel: its mesh's, not its bounding sphere's.
+/// For a shape that is not a wheel: the lowest point of its mesh, not of its bounding sphere.
 TEST(Surface, TheLowestPointOfAShapeIsThatOfItsMesh)
 {
     std::string text = test::sand_text + test::rocks_text;
@@ -292,7 +292,7 @@ position = [0.2, 0.2, 0.4]
     EXPECT_GT(stone.lowest, 0.4 - world.bodies.scale[0] * form.bounding_radius + 1e-3) << "this shape tells them apart";
 }
 
-/// Columns that a body has pressed on stay as they were; others follow the bed.
+/// Columns on which a body has pressed keep their height; others follow the bed.
 TEST(Surface, KeepsItsHeightWhereABodyHasPressed)
 {
     OnASlope              setup;

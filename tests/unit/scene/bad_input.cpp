@@ -12,7 +12,7 @@ namespace
 
 using ::testing::HasSubstr;
 
-/// `from` in the good scene becomes `to`; the only message must start at `line` and hold `said`.
+/// Replaces `from` in the good scene by `to`; the only message must start at `line` and contain `said`.
 struct BadCase
 {
     const char* name;
@@ -246,7 +246,7 @@ TEST(BadInput, all_errors_come_at_once_in_the_order_of_the_file)
     text               = replaced(text, "count = 5", "count = \"five\"");
     text               = replaced(text, "gravity", "gravitty");
     const auto message = refusal(text);
-    // gravity is missing at its table (2) and unknown where it stands (4)
+    // gravity is missing in its table (2) and unknown at its place in the file (4)
     const std::vector<std::string> expected{"bad.toml:2: [domain] gravity: missing", "bad.toml:4: [domain] gravitty",
                                             "bad.toml:11: [material.sand] young", "bad.toml:39: [rocks[0]] count"};
     std::size_t                    place = 0;

@@ -160,7 +160,7 @@ TEST(Formula, is_arithmetic_as_written)
     EXPECT_TRUE(std::isnan(at("sqrt(y)")));
 }
 
-/// A decimal point is no matter of the machine's language.
+/// The decimal point does not depend on the machine's locale.
 TEST(Formula, does_not_follow_the_locale)
 {
     struct Comma : std::numpunct<char>

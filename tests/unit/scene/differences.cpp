@@ -35,7 +35,8 @@ TEST(Differences, AreNamedByTableIndexAndKey)
 
 TEST(Differences, TheRightAnswerMay) { EXPECT_TRUE(may_change({"reference", 0, "form", "\"none\"", "\"weight\""}, 0)); }
 
-/// But not whether any sand may, which is another state, and not of a run that has ended.
+/// Whether sand may sleep at all cannot change, because that is another state; and nothing changes in a run that has
+/// ended.
 TEST(Differences, WhenSandSleepsMay)
 {
     const Difference sooner{"sleep", 0, "distance", "20.0", "0.35"};

@@ -13,7 +13,7 @@
 namespace tread::scene::test
 {
 
-/// A directory that lives as long as the test.
+/// A directory that exists as long as the test.
 class Directory
 {
 public:
@@ -38,7 +38,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// A scene with one of each table; lines are counted by the tests from its text.
+/// A scene with one of each table; tests count lines in its text.
 inline const std::string good_scene = R"(title = "good"
 [domain]
 size = [1, 1.0, 1]
@@ -98,7 +98,7 @@ duration = 2
 drive = { body = "wheel", angular_velocity = 0.7, slip = 0.3 }
 )";
 
-/// `text` with the first `from` replaced by `to`; throws if there is none, so that no case tests the wrong thing.
+/// `text` with the first `from` replaced by `to`; throws if there is none, so that every case tests what it should.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to)
 {
     const auto place = text.find(from);
@@ -106,7 +106,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
     return text.replace(place, from.size(), to);
 }
 
-/// The message with which a scene is refused; empty if it is accepted.
+/// Error message for a scene; empty if it is accepted.
 inline std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {})
 {
     const Directory directory;

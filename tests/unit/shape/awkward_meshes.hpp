@@ -6,11 +6,11 @@
 
 #include "unit/shape/meshes.hpp"
 
-// Meshes as exporters leave them.
+// Meshes with defects that exporters produce.
 namespace tread::test
 {
 
-/// Both meshes in one, vertices apart.
+/// Concatenates two meshes without sharing vertices.
 inline shape::TriangleMesh together(shape::TriangleMesh one, const shape::TriangleMesh& other)
 {
     const auto before = static_cast<std::int32_t>(one.vertices.size());
@@ -25,7 +25,7 @@ inline shape::TriangleMesh inside_out(shape::TriangleMesh mesh)
     return mesh;
 }
 
-/// Every triangle with vertices of its own, as in an STL file before welding.
+/// Gives every triangle its own vertices, as in an STL file before welding.
 inline shape::TriangleMesh unwelded(const shape::TriangleMesh& mesh)
 {
     shape::TriangleMesh soup;
@@ -47,13 +47,13 @@ inline shape::TriangleMesh touching_boxes()
     return together(box_mesh({-1, 0, 0}, {0, 1, 1}), box_mesh({0, 0, 0}, {2, 1, 1}));
 }
 
-/// Two unit cubes with an eighth in common.
+/// Two unit cubes that overlap in an eighth of their volume.
 inline shape::TriangleMesh overlapping_cubes()
 {
     return together(box_mesh({0, 0, 0}, {1, 1, 1}), box_mesh({0.5, 0.5, 0.5}, {1.5, 1.5, 1.5}));
 }
 
-/// A cube of edge 2 whose first two faces are there twice, the second time the other way round.
+/// A cube of edge 2 whose first two faces are duplicated, with reversed orientation.
 inline shape::TriangleMesh doubled_faces()
 {
     shape::TriangleMesh mesh = cube(2);

@@ -55,8 +55,8 @@ TEST(Form, OfAnEllipsoid)
 
 TEST(Form, OfARegularTetrahedronIsThatOfItsCube)
 {
-    // Every other corner of a cube. Its least width is that between opposite edges, along the cube's axes (a face and
-    // the corner across are 2/sqrt(3) cubes apart), and so are the silhouette's, a square's.
+    // Tetrahedron on every other corner of a cube. Its smallest width is between opposite edges, along the cube's axes
+    // (a face and the opposite corner are 2/sqrt(3) cube edges apart), and so is that of its silhouette, a square.
     const TriangleMesh tetrahedron{{{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}},
                                    {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
     const double       sphericity = std::cbrt(test::pi) * std::pow(2.0, 2.0 / 3.0) / (2 * std::sqrt(3.0));
@@ -65,7 +65,7 @@ TEST(Form, OfARegularTetrahedronIsThatOfItsCube)
 
 TEST(Form, SolidityIsWhatTheHullAddsToAStar)
 {
-    // A cube with a pyramid of half its height taken out of the top: 1 - 1/6 of its hull, the cube.
+    // A cube with a pyramid of half its height removed from the top: 1 - 1/6 of its hull, the cube.
     TriangleMesh notched = test::cube(1);
     notched.triangles.erase(notched.triangles.begin() + 2, notched.triangles.begin() + 4);
     notched.vertices.emplace_back(0, 0, 0);

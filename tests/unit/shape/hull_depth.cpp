@@ -24,13 +24,13 @@ TEST(HullDepth, OfAPitIsItsDepth)
     EXPECT_NEAR(shape::hull_depth(box, {{0.5, 0, 0}, {0, 0, 0.3}, {0.1, 0, 0.4}}), 0.2, 1e-14);
 }
 
-/// What solver/device_templates.cpp tells apart: wheels with grousers, and rocks that are nearly their hulls.
+/// The distinction of solver/device_templates.cpp: wheels with grousers, and rocks that nearly fill their hulls.
 TEST(FullSizeHullDepth, TellsWheelsFromRocks)
 {
     for (const std::string& name : shape::builtin_shape_names())
     {
         scene::Shape wheel              = shape::find_shape(scene::Scene{}, name);
-        wheel.sdf_cells                 = 40; // nothing here looks at the field
+        wheel.sdf_cells                 = 40; // the field is not used here
         const shape::ShapeTemplate form = shape::make_template(wheel, "");
         EXPECT_GT(form.hull_depth, 0.05 * form.equivalent_radius) << name;
     }

@@ -17,7 +17,7 @@ double relative_error(const Matrix3d& measured, const Matrix3d& expected)
     return (measured - expected).norm() / expected.norm();
 }
 
-// Polyhedra are exact: only rounding is left.
+// Polyhedra are exact up to rounding.
 constexpr double rounding = 1e-13;
 
 TEST(MassProperties, CubeIsExact)
@@ -52,7 +52,7 @@ TEST(MassProperties, FollowsShiftAndRotation)
     for (Vector3d& vertex : moved.vertices) { vertex = turn * vertex + shift; }
     const MassProperties there = mass_properties(moved);
 
-    // Coordinates of 23 m carry rounding of 4e-15 m against a size of 1 m.
+    // Coordinates of 23 m are rounded to 4e-15 m, for a size of 1 m.
     EXPECT_NEAR(there.volume, here.volume, 1e-12);
     EXPECT_LT((there.centre - (turn * here.centre + shift)).norm(), 1e-12);
     EXPECT_LT(relative_error(there.inertia, turn * here.inertia * turn.transpose()), 1e-12);

@@ -18,7 +18,7 @@ namespace
 
 using Eigen::Vector3d;
 
-/// Uniform in the box of 120 %, and as many close to random points of the surface, on either side.
+/// Points uniform in the box of 120 %, and as many close to random points of the surface, on either side.
 std::vector<Vector3d> probes(const TriangleMesh& mesh, int count)
 {
     std::mt19937                               random(7);
@@ -64,7 +64,7 @@ TEST(FullSizeMeshDistance, SignOfAWheel) { expect_sign_of_winding(wheel_mesh({},
 
 TEST(MeshDistance, SignAtASharpVertex)
 {
-    // A needle: the closest point of what lies beyond its tip is the vertex, where single face normals disagree.
+    // A needle: the closest point to anything beyond its tip is the vertex, where single face normals disagree.
     const TriangleMesh needle{{{0.1, 0, 0}, {-0.1, 0.1, 0}, {-0.1, -0.1, 0}, {0.3, 0, 1}},
                               {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
     ASSERT_NO_THROW(require_watertight(needle, "needle"));
@@ -100,7 +100,7 @@ TEST(MeshDistance, TreeFindsWhatASearchOfAllTrianglesFinds)
             least = std::min(least, closest_point(single, point).squared_distance);
         }
         ASSERT_DOUBLE_EQ(closest_point(tree, point).squared_distance, least);
-        // A bound changes nothing as long as it is one.
+        // A valid bound does not change the result.
         ASSERT_EQ(closest_point(tree, point, 1.001 * std::sqrt(least)).squared_distance,
                   closest_point(tree, point).squared_distance);
     }
@@ -147,7 +147,7 @@ TEST(MeshDistance, MeshOfASphereApproachesTheSphere)
     double                   mean   = 0;
     constexpr int            points = 5000;
     for (int i = 0; i < points; ++i) { mean += sample(sdf, test::sphere_point(i, points)) / points; }
-    // Interpolation lifts phi by 6.0e-4 on exact values; facets with edges of 0.073 lie up to edge^2/6 = 9e-4 inside.
+    // Interpolation raises phi by 6.0e-4 for exact values; facets with edges of 0.073 lie up to edge^2/6 = 9e-4 inside.
     std::printf("mean phi on the sphere: measured %.2e, expected 6.0e-4 to 1.5e-3\n", mean);
     EXPECT_GT(mean, 6.0e-4);
     EXPECT_LT(mean, 1.5e-3);

@@ -19,7 +19,7 @@ namespace
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// A folder of its own, removed with its files.
+/// A temporary folder, removed with its files.
 class MeshFiles : public ::testing::Test
 {
 protected:

@@ -13,13 +13,13 @@
 #include "shape/mesh.hpp"
 #include "shape/triangle.hpp"
 
-// Meshes with known answers.
+// Meshes with known properties.
 namespace tread::test
 {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Axis-aligned box from `low` to `high`, two triangles a side.
+/// Axis-aligned box from `low` to `high`, two triangles per side.
 inline shape::TriangleMesh box_mesh(const Eigen::Vector3d& low, const Eigen::Vector3d& high)
 {
     shape::TriangleMesh mesh;
@@ -37,7 +37,7 @@ inline shape::TriangleMesh cube(double edge)
     return box_mesh(Eigen::Vector3d::Constant(-0.5 * edge), Eigen::Vector3d::Constant(0.5 * edge));
 }
 
-/// Vertices exactly on the ellipsoid.
+/// Ellipsoid with vertices exactly on it.
 inline shape::TriangleMesh ellipsoid(const Eigen::Vector3d& half_axes, int nodes)
 {
     shape::TriangleMesh mesh = shape::icosphere(nodes, "ellipsoid");
@@ -45,7 +45,7 @@ inline shape::TriangleMesh ellipsoid(const Eigen::Vector3d& half_axes, int nodes
     return mesh;
 }
 
-/// Points spread evenly on the unit sphere (Fibonacci lattice).
+/// Point i of `count` points distributed evenly on the unit sphere (Fibonacci lattice).
 inline Eigen::Vector3d sphere_point(int i, int count)
 {
     const double height = 1 - (2.0 * i + 1) / count;
@@ -54,7 +54,7 @@ inline Eigen::Vector3d sphere_point(int i, int count)
     return {reach * std::cos(turn), reach * std::sin(turn), height};
 }
 
-/// Times that the surface winds round the point: 1 inside, 0 outside, whatever triangle is closest. Solid angles after
+/// Winding number of the surface about the point: 1 inside, 0 outside, whatever triangle is closest. Solid angles after
 /// Van Oosterom & Strackee 1983, IEEE Trans. Biomed. Eng. 30:125.
 inline double winding_number(const shape::TriangleMesh& mesh, const Eigen::Vector3d& point)
 {
@@ -70,7 +70,7 @@ inline double winding_number(const shape::TriangleMesh& mesh, const Eigen::Vecto
     return sum / (4 * pi);
 }
 
-/// Runs f, which must throw InputError, and returns the message.
+/// Runs f, which must throw InputError, and returns its message.
 template<class F>
 std::string input_error(F f)
 {

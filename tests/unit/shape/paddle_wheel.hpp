@@ -6,7 +6,7 @@
 
 #include "unit/shape/awkward_meshes.hpp"
 
-// A wheel as it is put together in a drawing program: a solid drum, and paddles that stand in it.
+// A wheel as assembled in a drawing program: a solid drum with paddles that penetrate it.
 namespace tread::test
 {
 
@@ -52,7 +52,7 @@ inline shape::TriangleMesh paddle_mesh(const PaddleWheel& wheel, int which)
     return mesh;
 }
 
-/// The drum's triangles face outwards and the paddles' inwards.
+/// Wheel whose drum triangles face outwards and paddle triangles inwards.
 inline shape::TriangleMesh wheel_with_paddles_inside_out(const PaddleWheel& wheel)
 {
     shape::TriangleMesh mesh = drum_mesh(wheel);
@@ -60,8 +60,8 @@ inline shape::TriangleMesh wheel_with_paddles_inside_out(const PaddleWheel& whee
     return mesh;
 }
 
-/// m3: the drum is a prism of `sides` triangles; of a paddle counts what stands beyond the circle (its polygon is
-/// within 0.06 mm of that).
+/// Volume, m3: the drum is a prism of `sides` triangles; paddles count beyond the circle (the drum's polygon is within
+/// 0.06 mm of it).
 inline double volume(const PaddleWheel& wheel)
 {
     const double r = wheel.radius, t = 0.5 * wheel.thickness;

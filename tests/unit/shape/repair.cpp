@@ -51,7 +51,7 @@ TEST(Repair, WeldsVerticesThatRoundingParted)
     {
         soup.vertices[v][static_cast<Eigen::Index>(v % 3)] += v % 2 == 0 ? 5e-7 : -5e-7;
     }
-    // Each vertex moved by at most the tolerance of 2e-6: the volume by at most that times the area of 24.
+    // Each vertex moves by at most the tolerance of 2e-6: the volume by at most that times the area of 24.
     const RepairReport report = expect_closed(soup, 8, 24 * 2e-6);
     EXPECT_EQ(report.welded_vertices, 36 - 8);
     EXPECT_NEAR(report.tolerance, 2e-6, 1e-11);
@@ -83,7 +83,7 @@ TEST(Repair, DropsDuplicatesOfEitherWinding)
     tripled.triangles.push_back(tripled.triangles[3]);
     EXPECT_EQ(expect_closed(tripled, 1).dropped_duplicates, 2);
 
-    // All of it twice, as from a program that draws both sides.
+    // Everything twice, as from a program that draws both sides.
     const TriangleMesh twice = test::together(test::cube(1), test::inside_out(test::cube(1)));
     EXPECT_EQ(expect_closed(twice, 1).dropped_duplicates, 12);
 }
@@ -97,7 +97,7 @@ TEST(Repair, DropsTheWallBetweenPartsThatTouch)
 
 TEST(Repair, DividesSeams)
 {
-    // One side of the cube has a vertex more on its rim than its neighbours know of.
+    // One side of the cube has an additional vertex on its rim that its neighbours lack.
     TriangleMesh mesh = test::cube(2);
     ASSERT_EQ(mesh.triangles[4], (std::array<std::int32_t, 3>{0, 1, 5}));
     mesh.vertices.emplace_back(0.25, -1, -1);
@@ -133,17 +133,17 @@ TEST(Repair, TurnsWhatIsInsideOut)
 TEST(Repair, CavitiesKeepTheirSense)
 {
     EXPECT_EQ(expect_closed(test::nested_shells(), 8 - 1).cavities, 1);
-    // As a whole inside out: the shells still face opposite ways.
+    // Everything inside out: the shells still face opposite ways.
     const RepairReport whole = expect_closed(test::inside_out(test::nested_shells()), 8 - 1);
     EXPECT_EQ(whole.cavities, 1);
     EXPECT_EQ(whole.turned_parts, 2);
-    // A solid in a solid stays one; volumes of closed surfaces add up.
+    // A solid within a solid stays one; volumes of closed surfaces add up.
     EXPECT_EQ(expect_closed(test::together(test::cube(2), test::cube(1)), 8 + 1).cavities, 0);
 }
 
 TEST(Repair, ParityDecidesWhereTheFileSaysNothing)
 {
-    // One triangle wound wrongly: the file's senses are not to be trusted. Void in solid, solid in void.
+    // One triangle is wound wrongly, so the file's orientation is not trusted: void in solid, solid in void.
     TriangleMesh mesh = test::together(test::together(test::cube(4), test::cube(2)), test::cube(1));
     std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
     const RepairReport report = expect_closed(mesh, 64 - 8 + 1);
@@ -209,7 +209,7 @@ TriangleMesh holed_sphere(double radius)
 
 TEST(Repair, ClosesAHoleOfManyEdgesOnlyIfItIsSmall)
 {
-    // A flat lid takes off a cap of height r^2/2: pi h^2 (1 - h/3).
+    // A flat lid removes a cap of height r^2/2: pi h^2 (1 - h/3).
     const double       height = 0.5 * 0.08 * 0.08, cap = test::pi * height * height;
     const double       whole = mass_properties(icosphere(10242, "sphere")).volume;
     const RepairReport small = expect_closed(holed_sphere(0.06), whole, cap);

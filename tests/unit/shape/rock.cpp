@@ -30,7 +30,7 @@ scene::RockGenerator recipe(double aspect, double sphericity, double solidity, s
     return generator;
 }
 
-/// Measured on the finished mesh, by what measures any mesh. 3 % is what the generator promises.
+/// Largest error of the form, measured on the finished mesh as for any mesh. The generator guarantees 3 %.
 double worst_error(const scene::RockGenerator& asked)
 {
     const TriangleMesh mesh = rock_mesh(asked, "rock");
@@ -71,7 +71,7 @@ TEST(Rock, HasTheFormThatIsAskedFor)
 TEST(Rock, LiesAlongItsExtents)
 {
     const Eigen::Vector3d extent = bounds(rock_mesh(recipe(0.6, 0.88, 0.97), "rock")).extent();
-    // The search rests at 1e-3 of the extents.
+    // The search stops at 1e-3 of the extents.
     EXPECT_NEAR(extent.z() / extent.x(), 0.6, 1e-3);
     EXPECT_NEAR(extent.y() / extent.x(), 0.8, 1e-3);
 }
@@ -79,7 +79,7 @@ TEST(Rock, LiesAlongItsExtents)
 TEST(Rock, IsStarShaped)
 {
     const TriangleMesh mesh = rock_mesh(recipe(0.55, 0.8, 0.9, 4), "rock");
-    // All faces turn away from the centre: no fold, no self-intersection. It is about the middle of the extents.
+    // All faces point away from the centre: no fold, no self-intersection. The mesh is centred on its extents.
     std::size_t           away   = 0;
     const Eigen::Vector3d centre = mass_properties(mesh).centre;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -95,7 +95,7 @@ TEST(Rock, HasFacesAndSharpEdges)
     const TriangleMesh ball  = icosphere(2562, "ball");
     const auto         share = [](const TriangleMesh& of)
     {
-        // Of the surface, in triangles that lie in one plane with others that make up 1 % of it.
+        // Share of the surface in triangles that are coplanar with others, together at least 1 % of it.
         std::map<std::array<long, 3>, double> planes;
         double                                flat = 0;
         for (std::size_t t = 0; t < of.triangles.size(); ++t)
@@ -130,7 +130,7 @@ TEST(Rock, SaysWhatCanBeReached)
 {
     const std::string message = test::input_error([] { rock_mesh(recipe(0.4, 0.99, 0.98), "shape 'flat'"); });
     EXPECT_THAT(message, HasSubstr("shape 'flat': sphericity = 0.99"));
-    // That of the ellipsoid 1 : 0.7 : 0.4.
+    // Sphericity of the ellipsoid 1 : 0.7 : 0.4.
     EXPECT_THAT(message, HasSubstr("the ellipsoid of these extents has 0.89"));
     EXPECT_THAT(test::input_error([] { rock_mesh(recipe(0.7, 0.6, 0.5), "rock"); }), HasSubstr("solidity = 0.5"));
     EXPECT_THAT(test::input_error([] { rock_mesh(recipe(0.1, 0.9, 0.98), "rock"); }), HasSubstr("aspect = 0.1"));

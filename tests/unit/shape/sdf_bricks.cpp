@@ -10,7 +10,7 @@
 #include "shape/template_sdf.hpp"
 #include "unit/shape/meshes.hpp"
 
-// A grid in bricks against the dense one of the same cells, and against the exact distance.
+// A grid in bricks compared with the dense one of the same cells, and with the exact distance.
 namespace tread::shape
 {
 namespace
@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 constexpr double radius = 0.26, wall = 0.01, half_width = 0.165;
 
-/// A drum: the rectangle [radius - wall, radius] x [-half_width, half_width] turned about y. Exact.
+/// A drum: the rectangle [radius - wall, radius] x [-half_width, half_width] revolved about y. Exact.
 double drum_distance(const Vector3d& point, double)
 {
     const double around = std::hypot(point.x(), point.z());
@@ -139,7 +139,7 @@ TEST_F(Bricks, EncloseTheSameVolume)
     std::printf("volume over the exact: bricks %.6f, dense %.6f, without a grid %.6f; %.1f and %.1f MB\n",
                 found / exact, expected / exact, alone / exact, 1e-6 * static_cast<double>(bricks.bytes()),
                 1e-6 * static_cast<double>(dense.bytes()));
-    // Cells are the same, sums are not in the same order; and the last has no float rounding (6e-8 of 0.3 m in 5 mm).
+    // Cells are the same, the order of sums is not; and the latter has no float rounding (6e-8 of 0.3 m in 5 mm).
     EXPECT_NEAR(found, expected, 1e-12 * expected);
     EXPECT_NEAR(alone, expected, 1e-4 * expected);
     EXPECT_LT(bricks.bytes(), dense.bytes());

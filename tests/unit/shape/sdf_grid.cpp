@@ -11,7 +11,7 @@
 
 #include "unit/shape/meshes.hpp"
 
-// The grid and its interpolant on exact node values: what is left is the error of the interpolation alone.
+// The grid and its interpolant with exact node values: the remaining error is that of interpolation.
 namespace tread::shape
 {
 namespace
@@ -30,7 +30,7 @@ double cube_distance(const Vector3d& point)
     return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
 }
 
-/// Exact, by bisection of Eberly's equation (2013, Distance from a point to an ellipsoid): the foot y of p has
+/// Exact distance, by bisection of Eberly's equation (2013, Distance from a point to an ellipsoid): the foot y of p has
 /// y_i = a_i^2 p_i/(t + a_i^2), with the largest root t of sum (a_i p_i/(t + a_i^2))^2 = 1.
 double ellipsoid_distance(const Vector3d& point)
 {
@@ -103,9 +103,9 @@ void expect_near(const char* what, int cells, double measured, double expected, 
     EXPECT_NEAR(measured, expected, tolerance * expected) << what << " at N = " << cells;
 }
 
-// Expected numbers: an independent implementation, two digits printed (a table of the design notes). Means over its
-// random points and ours differ by 1-2 %, and rounding to two digits by up to 4 %: 8 %. Largest values depend on how
-// near a point comes to the worst place: 15 %.
+// Expected numbers: an independent implementation, printed with two digits (a table of the design notes). Means over
+// its random points and ours differ by 1-2 %, and rounding to two digits by up to 4 %: 8 %. Largest values depend on
+// how near a point comes to the worst position: 15 %.
 constexpr double of_means = 0.08, of_largest = 0.15;
 
 struct Row
@@ -183,7 +183,7 @@ TEST(SdfGrid, EnclosedVolumeConvergesWithTheSquareOfTheSpacing)
     const double coarse = error(40), fine = error(80);
     std::printf("volume error: N = 40 %.3e (expected -3.6e-3), N = 80 %.3e, ratio %.2f (expected 4)\n", coarse, fine,
                 coarse / fine);
-    // The table has -0.36 % in two digits; 10 % for its quadrature and ours.
+    // The table has -0.36 % in two digits; 10 % for the errors of both quadratures.
     EXPECT_NEAR(coarse, -3.6e-3, 0.1 * 3.6e-3);
     EXPECT_NEAR(coarse / fine, 4, 0.4);
 }
@@ -205,7 +205,7 @@ TEST(SdfGrid, GradientIsTheDerivativeOfTheInterpolantInsideAndOutside)
     std::mt19937                           random(1);
     std::uniform_real_distribution<double> coordinate(-2, 2);
     // Central differences of a function with third derivatives of at most 1/spacing^2 = 400: 400/6 step^2 = 7e-11, and
-    // rounding 1e-16/step = 1e-10. Points within a step of a cell's side, where the derivative jumps, are left out.
+    // rounding 1e-16/step = 1e-10. Points within a step of a cell's side, where the derivative jumps, are skipped.
     constexpr double step = 1e-6, tolerance = 2e-9;
     int              tested = 0;
     for (int i = 0; i < 20000; ++i)
@@ -226,8 +226,8 @@ TEST(SdfGrid, GradientIsTheDerivativeOfTheInterpolantInsideAndOutside)
     EXPECT_GT(tested, 19000);
 }
 
-/// Work of the force p(-phi) grad(phi), p(d) = sqrt(d), along straight ways between the points, over path length times
-/// the largest force met.
+/// Work of the force p(-phi) grad(phi), p(d) = sqrt(d), along straight segments between the points, over path length
+/// times the largest force on it.
 double relative_loop_work(const std::vector<Vector3d>& points, const std::function<double(const Vector3d&)>& value,
                           const std::function<Vector3d(const Vector3d&)>& gradient)
 {
@@ -271,8 +271,8 @@ TEST(SdfGrid, ForceOnAClosedLoopDoesNoWork)
     }
     std::printf("loop work: measured %.1e, expected 0, tolerance 1e-4; with a normalised gradient %.1e\n", worst,
                 worst_normalised);
-    // The quadrature has 80000 steps a loop, and is wrong by up to half a step of the largest force at each of some 150
-    // sides of cells, where the gradient jumps by a tenth of itself: 1e-4 at most.
+    // The quadrature has 80000 steps per loop, and an error of up to half a step of the largest force at each of some
+    // 150 sides of cells, where the gradient jumps by a tenth: 1e-4 at most.
     EXPECT_LT(worst, 1e-4);
     EXPECT_GT(worst_normalised, 1e-3);
 }

@@ -11,7 +11,7 @@ namespace tread::shape
 namespace
 {
 
-/// m, to a box with half sizes 1, 0.7, 0.5: flat faces, edges and corners.
+/// Distance (m) to a box with half sizes 1, 0.7, 0.5: flat faces, edges and corners.
 double box_distance(const Eigen::Vector3d& x)
 {
     const Eigen::Vector3d q = x.cwiseAbs() - Eigen::Vector3d(1, 0.7, 0.5);
@@ -22,8 +22,8 @@ class SteepestSlope : public testing::TestWithParam<Storage>
 {
 };
 
-/// No gradient outside is longer. The bound is that of whole cells: of one that an edge goes through it counts the
-/// inside too, where the nearest face changes.
+/// No gradient outside exceeds the bound. The bound covers whole cells: for a cell with an edge through it, it includes
+/// the inside, where the nearest face changes.
 TEST_P(SteepestSlope, BoundsEveryGradientOutside)
 {
     const Bounds             box{{-1, -0.7, -0.5}, {1, 0.7, 0.5}};

@@ -35,7 +35,7 @@ std::vector<Vector3d> random_points(const Bounds& box, int count)
     return points;
 }
 
-/// Against a function that knows the exact distance; `accepted` (m) for jagged lines where parts meet.
+/// Compares with an exact distance function; `accepted` (m) allows for jagged lines where parts meet.
 template<class Exact>
 void expect_distance(const Solid& solid, const Exact& exact, double accepted)
 {
@@ -98,7 +98,7 @@ TEST(Solid, OverlappingPartsCountOnce)
     const Solid solid = make_solid(test::overlapping_cubes(), Repair::none, "cubes");
     EXPECT_EQ(solid.sign, SignRule::winding_number);
     EXPECT_THAT(solid.remarks, Contains(HasSubstr("encloses itself")));
-    // Cubes that lie askew to the sampling grid: it is good to about its 128th of the extent, squared, times the area.
+    // Cubes oblique to the sampling grid: its error is about a 128th of the extent, squared, times the area.
     std::printf("volume: measured %.5f, expected 1.875, tolerance 0.1 %%\n", solid.unit.volume);
     EXPECT_NEAR(solid.unit.volume, 1.875, 1e-3 * 1.875);
     EXPECT_LT((solid.unit.centre - Vector3d::Constant(0.75)).norm(), 1e-3);
@@ -107,8 +107,8 @@ TEST(Solid, OverlappingPartsCountOnce)
     EXPECT_NEAR(solid.unit.inertia(0, 0), expected, 2e-3 * expected);
 
     const Vector3d one = Vector3d::Ones();
-    // The nearest surface outside is that of the nearer cube. Inside, seen from the notch where they meet, the union's
-    // distance is over that of either: there only the sign is known exactly.
+    // Outside, the nearest surface is that of the nearer cube. Inside, seen from the notch where they meet, the union's
+    // distance exceeds that of either: there only the sign is known exactly.
     const MeshDistance distance = prepare_distance(solid);
     double             largest  = 0;
     for (const Vector3d& p : random_points(bounds(solid.surface), 20000))
@@ -121,7 +121,7 @@ TEST(Solid, OverlappingPartsCountOnce)
     }
     std::printf("largest error outside %.2e m, accepted %.2e m (a piece)\n", largest, 1.5 / 256);
     EXPECT_LT(largest, 1.5 / 256);
-    // The corner of one cube in the middle of the other is deep inside: 1/2 from all but what is left of the surface.
+    // The corner of one cube in the middle of the other is deep inside: 1/2 from the remaining surface.
     EXPECT_NEAR(signed_distance(distance, Vector3d::Constant(0.75)), -std::sqrt(2.0) / 4, 1.5 / 256);
 }
 
@@ -136,13 +136,14 @@ TEST(Solid, TouchingBoxesAreOne)
     expect_distance(repaired, exact, 1e-12);
 }
 
-/// To the surface of the boxes (-1, 0, 0) to (0, 1, 1) and (0, 1/4, 1/4) to (1, 3/4, 3/4), which touch at x = 0.
+/// Distance to the surface of the boxes (-1, 0, 0) to (0, 1, 1) and (0, 1/4, 1/4) to (1, 3/4, 3/4), which touch at x =
+/// 0.
 double peg_distance(const Vector3d& p)
 {
     const double one = box_distance(p, {-1, 0, 0}, {0, 1, 1});
     const double two = box_distance(p, {0, 0.25, 0.25}, {1, 0.75, 0.75});
     if (one > 0 && two > 0) { return std::min(one, two); }
-    // Inside, the wall is no surface; what is left of its plane is reached at its rim.
+    // Inside, the wall is not surface; the nearest point of its plane's remaining surface is on its rim.
     const double into = std::min({p.y() - 0.25, 0.75 - p.y(), p.z() - 0.25, 0.75 - p.z()});
     if (two <= 0) { return -std::min(into, 1 - p.x()); }
     const double others = std::min({p.x() + 1, p.y(), 1 - p.y(), p.z(), 1 - p.z()});
@@ -158,7 +159,7 @@ TEST(Solid, PartsThatTouchInAPartOfAFace)
         const Solid solid = make_solid(mesh, repair, "peg");
         EXPECT_EQ(solid.sign, SignRule::winding_number);
         EXPECT_NEAR(solid.unit.volume, 1.25, 1.25e-3);
-        // The rim of the wall is jagged to a piece's length, a 256th of the extent of 2.
+        // The rim of the wall is jagged to the length of a piece, a 256th of the extent of 2.
         expect_distance(solid, peg_distance, 2.0 / 256);
     }
 }
@@ -193,8 +194,8 @@ TEST(Solid, LargeHolesAreSignedByWindingNumber)
     const Solid solid = make_solid(mesh, Repair::tried, "bowl");
     EXPECT_EQ(solid.sign, SignRule::winding_number);
     EXPECT_THAT(solid.remarks, Contains(HasSubstr("still not closed")));
-    // Where the number is 1/2 over the hole lies between the cap and the plane of its rim, which takes off
-    // pi h^2 (1 - h/3); the rim is an edge of 0.16 down the slope from z = 0.9, h = 0.1 + 0.16 sin(26 deg) = 0.17.
+    // The surface with winding number 1/2 over the hole lies between the cap and the plane of its rim, which removes pi
+    // h^2 (1 - h/3); the rim is an edge of 0.16 down the slope from z = 0.9, h = 0.1 + 0.16 sin(26 deg) = 0.17.
     const double whole = mass_properties(icosphere(642, "sphere")).volume,
                  cap   = test::pi * 0.17 * 0.17 * (1 - 0.17 / 3);
     std::printf("volume: measured %.4f, expected %.4f to %.4f\n", solid.unit.volume, whole - cap, whole);
@@ -202,7 +203,7 @@ TEST(Solid, LargeHolesAreSignedByWindingNumber)
     EXPECT_LT(solid.unit.volume, whole);
 }
 
-/// Six spheres that share most of what they hold, some three times.
+/// Six spheres that share most of their volume, in places three of them.
 TEST(Solid, PartsThatShareMostOfTheirVolumeAreTaken)
 {
     TriangleMesh rock;
@@ -218,7 +219,7 @@ TEST(Solid, PartsThatShareMostOfTheirVolumeAreTaken)
     EXPECT_LT(solid.unit.volume, 2 * one);
 }
 
-/// A bar whose far half is turned round its axis, so that the half faces inwards: 0.6 m of it hold +, 0.4 m hold -.
+/// A bar whose far half is turned about its axis, so that this half faces inwards: 0.6 m of it count +, 0.4 m count -.
 TEST(Solid, RefusesAVolumeThatIsNotThatOfItsParts)
 {
     TriangleMesh bar = test::box_mesh({0, -0.5, -0.5}, {1, 0.5, 0.5});

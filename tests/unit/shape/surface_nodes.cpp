@@ -53,8 +53,8 @@ TEST(SurfaceNodes, ClustersAreCompact)
 {
     const SurfaceNodes nodes = nodes_at_vertices(icosphere(2562, "sphere"));
     const double       mean  = total(nodes.cluster_radii) / static_cast<double>(nodes.cluster_radii.size());
-    // 32 nodes have a circumscribed radius of 3.2 spacings as a disc, 4.0 as a square, and 4.5 as a rectangle of 1 : 2,
-    // which is the longest that halving across the longest extent leaves.
+    // Clusters of 32 nodes have a circumscribed radius of 3.2 spacings as a disc, 4.0 as a square, and 4.5 as a
+    // rectangle of 1 : 2, the longest that bisection across the longest extent leaves.
     std::printf("mean cluster radius: measured %.2f spacings; square 4.0, rectangle of 1 : 2 4.5, bound 5\n",
                 mean / nodes.spacing);
     EXPECT_LT(mean, 5 * nodes.spacing);
@@ -114,10 +114,10 @@ TEST(SurfaceNodes, AreAsManyAsAskedAndNearUniform)
                     c.name, c.nodes, coefficient_of_variation(nodes.areas), c.variation, mean / nodes.spacing,
                     least / nodes.spacing);
         EXPECT_EQ(nodes.positions.size(), static_cast<std::size_t>(c.nodes));
-        // Area sums differ by rounding of 1e5 terms alone.
+        // Area sums differ only by rounding of 1e5 terms.
         EXPECT_NEAR(total(nodes.areas), surface_area(c.mesh), 1e-11 * surface_area(c.mesh));
         // Areas of cells of random points vary by 0.53 (Voronoi cells of a Poisson process in the plane). Strips of two
-        // spacings between the edges of a wheel hold one row of nodes or two, never the right number.
+        // spacings between the edges of a wheel hold one or two rows of nodes, neither of which fits.
         EXPECT_LT(coefficient_of_variation(nodes.areas), c.variation);
         EXPECT_GT(mean, 0.65 * nodes.spacing);
         EXPECT_GT(least, 0.3 * nodes.spacing);
@@ -148,7 +148,8 @@ TEST(SurfaceNodes, SharpEdgesOfARockCarryNodes)
                   });
     std::printf("rock: %.2f m of sharp edges, %.3f of that further than a spacing from a node, bound 0.02\n", length,
                 bare / length);
-    // Evenly spaced nodes along an edge leave none of it further than half a spacing away; at corners, edges share.
+    // With evenly spaced nodes along an edge no point of it is more than half a spacing from one; at corners, edges
+    // share.
     EXPECT_GT(length, 1);
     EXPECT_LT(bare, 0.02 * length);
 }
@@ -170,7 +171,7 @@ TEST(SurfaceNodes, ResamplingHasNodesOnCornersAndEdges)
             EXPECT_EQ(nearest_distance(nodes, {x, y, 0.5}), 0);
             int on_edge = 0;
             for (const Vector3d& node : nodes.positions) { on_edge += node.x() == x && node.y() == y ? 1 : 0; }
-            // As far apart as on the faces, or closer.
+            // At most as far apart as on the faces.
             EXPECT_GE(on_edge, static_cast<int>(1 / (1.7 * 0.05)));
         }
     }
@@ -185,7 +186,8 @@ TEST(SurfaceNodes, ResamplingHasNodesOnBothSidesOfAThinWall)
     {
         (nodes.positions[i].z() > 0 ? above : below) += nodes.areas[i];
     }
-    // Each side has half of 2.04 m2; only the rim of 0.02 m and half a spacing next to it may go to the other side.
+    // Each side has half of 2.04 m2; only the rim of 0.02 m and half a spacing next to it may be assigned to the other
+    // side.
     EXPECT_NEAR(above, 1.02, 0.12);
     EXPECT_NEAR(below, 1.02, 0.12);
 }
@@ -199,7 +201,8 @@ TEST(SurfaceNodes, ResampledMomentsAreThoseOfTheSurface)
         first += nodes.areas[i] * nodes.positions[i];
         second += nodes.areas[i] * nodes.positions[i].cwiseAbs2();
     }
-    // int x = 0 and int x^2 = 4 pi/3. An area moves by up to a spacing, in random directions: 0.08/sqrt(2000) = 2e-3.
+    // int x = 0 and int x^2 = 4 pi/3. An area is displaced by up to a spacing, in random directions: 0.08/sqrt(2000) =
+    // 2e-3.
     EXPECT_LT(first.norm() / (4 * test::pi), 2e-3);
     for (const double moment : {second.x(), second.y(), second.z()}) { EXPECT_NEAR(moment, 4 * test::pi / 3, 0.02); }
 }

@@ -36,9 +36,9 @@ TEST(Template, OfAFileIsRecentredAndScaled)
     EXPECT_NEAR(made.equivalent_radius, std::cbrt(3e-3 / (4 * test::pi)), 1e-12);
     EXPECT_FALSE(made.is_wheel);
     EXPECT_NEAR(total(made.nodes.areas), 2 * (0.02 + 0.005 + 0.01), 1e-12);
-    // Flats are refined by halves and thinned from there: up to a quarter off.
+    // Flat faces are refined by bisection and thinned from there: the spacing is up to a quarter off.
     EXPECT_NEAR(made.nodes.spacing, 0.2 / 40, 0.25 * 0.2 / 40);
-    // On the middle of the side x = 0.1, a plane, float node values are all the error.
+    // In the middle of the side x = 0.1, a plane, rounding of float node values is the only error.
     EXPECT_NEAR(sample(made.sdf, {0.1, 0, 0}), 0, 1e-8);
     EXPECT_NEAR(sample(made.sdf, {0.09, 0, 0}), -0.01, 1e-8);
     std::filesystem::remove(std::filesystem::path(folder) / "template_box.stl");
@@ -57,7 +57,7 @@ TEST(Template, OfARockIsCentredOnItsMass)
     EXPECT_NEAR(made.sdf_volume_ratio, 1, 0.01);
     for (const auto& node : made.nodes.positions)
     {
-        // Vertices stick out of the trilinear interpolant by less than half a cell.
+        // Vertices are outside the trilinear interpolant by less than half a cell.
         EXPECT_LT(std::abs(sample(made.sdf, node)), 0.5 * made.sdf.spacing);
     }
 }
@@ -73,7 +73,7 @@ TEST(Template, OfASphereIsTheExactSphere)
     for (const auto& node : made.nodes.positions) { EXPECT_NEAR(node.norm(), 0.5, 1e-12); }
     for (int i = 0; i < 100; ++i)
     {
-        // Between vertices too: spacing^2/(4 R) = 1.8e-4 is the interpolation's bound.
+        // Between vertices too: spacing^2/(4 R) = 1.8e-4 bounds the interpolation error.
         EXPECT_NEAR(sample(made.sdf, 0.5 * test::sphere_point(i, 100)), 0, 1.8e-4);
     }
 }
@@ -106,7 +106,7 @@ TEST(FullSizeTemplate, BuiltinWheelsKeepTheirVolumeInTheSdf)
                     name.c_str(), made.sdf.nodes[0], made.sdf.nodes[1], made.sdf.nodes[2],
                     1e-6 * static_cast<double>(made.sdf.bytes()), made.sdf_volume_ratio, made.nodes.positions.size(),
                     made.nodes.spacing);
-        // The solver warns beyond 2 %; presets stay well within.
+        // The solver warns beyond 2 %; built-in wheels stay well within.
         EXPECT_NEAR(made.sdf_volume_ratio, 1, 0.01);
         EXPECT_TRUE(made.is_wheel);
         EXPECT_EQ(made.equivalent_radius, made.wheel.radius);
@@ -165,9 +165,9 @@ TEST(Template, ConvergesWithItsCells)
         std::printf("rock, N = %d: mean |phi| %.2e of the extent, volume ratio %.4f, mean normal error %.2f degrees\n",
                     q.cells, q.mean_surface, q.volume_ratio, q.mean_normal);
     }
-    // Facets of 0.1 m a side: errors stand at the ridges between them, of which the part of the surface falls with the
-    // spacing as the error there does: second order, 4 a halving, and 1st order, 2, for the normals. A third off as the
-    // cells grow over whole facets.
+    // Facets of 0.1 m per side: errors occur at the ridges between them. The affected part of the surface decreases
+    // with the spacing, as does the error there: second order, 4 per halving, and first order, 2, for the normals. A
+    // third off, because cells grow over whole facets.
     for (std::size_t i = 1; i < qualities.size(); ++i)
     {
         EXPECT_NEAR(qualities[i - 1].mean_surface / qualities[i].mean_surface, 4, 1.4);
@@ -218,12 +218,12 @@ TEST(Template, OfOverlappingPartsIsTheirUnion)
     std::filesystem::remove(std::filesystem::path(folder) / "overlap.stl");
     EXPECT_EQ(made.sign, SignRule::winding_number);
     EXPECT_NEAR(made.unit.volume, 2.25, 2.25e-3);
-    // 2 x 1 x 1 has 10, the peg adds its four sides of 1 x 1/2. The rim is jagged to pieces of 3/256.
+    // 2 x 1 x 1 has an area of 10, the peg adds its four sides of 1 x 1/2. The rim is jagged to pieces of 3/256.
     const double rim = 2.0 * 3 / 256;
     std::printf("area: measured %.4f, expected 12, tolerance %.4f\n", total(made.nodes.areas), rim);
     EXPECT_NEAR(total(made.nodes.areas), 12, rim);
     EXPECT_NEAR(made.sdf_volume_ratio, 1, 0.02);
-    // The end of the peg in the middle of the box is no surface: the box's side is 1/2 away.
+    // The end of the peg in the middle of the box is not surface: the box's side is 1/2 away.
     EXPECT_NEAR(sample(made.sdf, Eigen::Vector3d(1, 0.5, 0.5) - made.mesh_centre), -0.5, made.sdf.spacing);
 }
 

@@ -34,7 +34,8 @@ TEST(Thickness, OfABoxIsItsShortestSide)
 
 TEST(Thickness, OfABallIsItsDiameter)
 {
-    // Chords of the facets: short of the diameter by the faceting, (edge/2)^2/R = 0.9 % at both ends with 642 nodes.
+    // Chords between facets are shorter than the diameter by the faceting, (edge/2)^2/R = 0.9 % at both ends with 642
+    // nodes.
     expect_thickness("ball", thickness_of(test::ellipsoid(Vector3d::Ones(), 642)), 2, 0.02);
 }
 
@@ -43,7 +44,7 @@ TEST(Thickness, OfAWheelIsItsGrousersOrItsWall)
     const auto wheel = [](double grouser_width) {
         return wheel_mesh({0.26, 0.33, 0.01, 48, 0.0125, grouser_width}, "wheel");
     };
-    // A grouser of parallel sides; the wall's chord between its facets is short by R (1 - cos(pi/facets)) at most.
+    // A grouser with parallel sides; the wall's chord between its facets is short by R (1 - cos(pi/facets)) at most.
     expect_thickness("grousers of 4 mm", thickness_of(wheel(0.004)), 0.004, 1e-5);
     expect_thickness("wall of 10 mm", thickness_of(wheel(0.012)), 0.01, 5e-4);
 }
@@ -112,7 +113,8 @@ TEST(SurfacePoints, AreSpreadByArea)
         on_top += point.normal.z() > 0.5 ? 1 : 0;
         in_lower_half += point.position.y() < 1 ? 1 : 0;
     }
-    // Whole sides: their share of 28 m2, to a point a triangle; parts of sides: a sequence of discrepancy 1/n or so.
+    // Whole sides: their share of 28 m2, to a point per triangle; parts of sides: a sequence with a discrepancy of
+    // about 1/n.
     std::printf("points on the top: %d, expected 200, tolerance 2; in half the box: %d, expected 1400, tolerance 20\n",
                 on_top, in_lower_half);
     EXPECT_NEAR(on_top, 200, 2);

@@ -38,7 +38,7 @@ double drum(const WheelGenerator& g, double y)
     return g.radius - (g.grousers > 0 ? g.grouser_height : 0) - g.crown * edge * edge;
 }
 
-/// Radii between which the wheel without its grousers is hollow at y.
+/// Range of radii in which the wheel without its grousers is hollow at y.
 std::pair<double, double> hollow(const WheelGenerator& g, double y)
 {
     const double away = std::abs(y), edge = 0.5 * g.width;
@@ -54,7 +54,7 @@ double sweep(const WheelGenerator& g, double y)
     return g.grouser_shape == GrouserShape::chevron ? ends * edge : ends * edge * edge;
 }
 
-/// Section at y: the profile of revolution, and a slab a grouser less the drum's segment under it.
+/// Area of the section at y: the profile of revolution, and a slab per grouser less the drum's segment under it.
 double section(const WheelGenerator& g, double y)
 {
     const auto [low, high] = hollow(g, y);
@@ -66,7 +66,7 @@ double section(const WheelGenerator& g, double y)
     return area + g.grousers * (2 * half * std::sqrt(tip * tip - half * half) - under);
 }
 
-/// Cavalieri's integral of the sections, piece by piece. Midpoints: exact to (piece/400)^2 of the crown's part.
+/// Cavalieri's integral of the sections, piece by piece. Midpoint rule: exact to (piece/400)^2 of the crown's part.
 double expected_volume(const WheelGenerator& g)
 {
     const double        edge = 0.5 * g.width;
@@ -96,7 +96,7 @@ bool is_inside(const WheelGenerator& g, const Eigen::Vector3d& point)
     return std::abs(radius * std::sin(off)) < half && radius * std::cos(off) < std::sqrt(tip * tip - half * half);
 }
 
-/// Valid by the ranges of the messages, walls and grousers of 1.5 % of the radius or more.
+/// Random parameters within the valid ranges, with walls and grousers of 1.5 % of the radius or more.
 WheelGenerator random_wheel(Random& random)
 {
     WheelGenerator g;
@@ -150,7 +150,7 @@ double largest_radius(const TriangleMesh& mesh)
     return largest;
 }
 
-/// Chords of 2 degrees take (2 pi/180)^2/6 = 0.02 % off a disc and as much of a wall; a hub of 60 corners loses 0.2 %
+/// Chords of 2 degrees remove (2 pi/180)^2/6 = 0.02 % of a disc and as much of a wall; a hub of 60 corners loses 0.2 %
 /// of its own part; a crown's chords 1/600 of its height on a radius twenty times that.
 constexpr double volume_tolerance = 2.5e-3;
 
@@ -166,7 +166,7 @@ TEST(Wheel, IsClosedStoutAndOfItsSectionsVolumeForAnyParameters)
         const MassProperties mass = mass_properties(mesh);
         worst_volume              = std::max(worst_volume, std::abs(mass.volume / expected_volume(g) - 1));
         stretched                 = std::max(stretched, worst_aspect(mesh));
-        // A single grouser is out of balance, but no wheel along its axle.
+        // A single grouser is out of balance, but no wheel is off centre along its axle.
         const double off_centre = g.grousers == 1 ? std::abs(mass.centre.y()) : mass.centre.norm();
         centre                  = std::max(centre, off_centre / g.radius);
         ASSERT_NEAR(largest_radius(mesh), g.radius, 1e-14);
@@ -177,7 +177,7 @@ TEST(Wheel, IsClosedStoutAndOfItsSectionsVolumeForAnyParameters)
         worst_volume, volume_tolerance, stretched);
     EXPECT_LT(worst_volume, volume_tolerance);
     EXPECT_LT(stretched, 15);
-    // Symmetric in exact arithmetic; sums of 1e5 terms.
+    // Symmetric in exact arithmetic; rounding of sums of 1e5 terms.
     EXPECT_LT(centre, 1e-11);
 }
 
@@ -194,7 +194,8 @@ TEST(Wheel, HasItsInsideWhereTheParametersSay)
         {
             const Eigen::Vector3d point(within(g.radius), within(0.55 * g.width), within(g.radius));
             const double          distance = signed_distance(wheel, point);
-            // Chords of 2 degrees leave 0.015 % of the radius, those of the steepest crown, of a fifth, 1/2000.
+            // Chords of 2 degrees leave an error of 0.015 % of the radius, those of the steepest crown, of a fifth,
+            // 1/2000.
             if (std::abs(distance) < 1e-3 * g.radius) { continue; }
             ++tried;
             ASSERT_EQ(distance < 0, is_inside(g, point)) << "wheel " << i << ", point " << point.transpose();
@@ -241,11 +242,11 @@ TEST(Wheel, PerseveranceIsThatOfThePaper)
     const WheelGenerator g = builtin_wheel("perseverance");
     EXPECT_EQ(g.grousers, 48);
     EXPECT_EQ(g.radius, 0.26);
-    // 0.0058 m3 in two digits of the paper.
+    // 0.0058 m3 as given with two digits in the paper.
     EXPECT_NEAR(mass_properties(wheel_mesh(g, "wheel")).volume, 0.0058, 0.01 * 0.0058);
 }
 
-/// Times that a circle about the axle enters the wheel.
+/// Number of times that a circle about the axle enters the wheel.
 int entries(const MeshDistance& wheel, double radius, double y)
 {
     constexpr int steps  = 7200;

@@ -25,7 +25,7 @@ TEST(WindingNumber, TriangleSeenFromTheCornerOfAnOctant)
     EXPECT_EQ(covered_part(face, Vector3d(1, 1, -1)), 0.0);
 }
 
-/// The largest error of the tree against the sum over all triangles, in and around the mesh.
+/// Largest error of the tree against the sum over all triangles, in and around the mesh.
 double largest_error(const TriangleMesh& mesh, int count)
 {
     const WindingTree                      winding = build_winding_tree(mesh);
@@ -54,8 +54,8 @@ TEST(WindingNumber, TreeAgreesWithTheSumOverAllTriangles)
     open.triangles.resize(open.triangles.size() / 2);
     const double rock = largest_error(rock_mesh({5, 0.6, 0.88, 642}, "rock"), 4000);
     const double half = largest_error(open, 4000), wheel = largest_error(wheel_mesh({}, "wheel"), 4000);
-    // The first term left out of a dipole at four radii is some 1/16 of it, and a dipole there covers 1/100 of the
-    // sphere; a hundred of them, of either sign, still leave less than a hundredth.
+    // The first neglected term of a dipole at four radii is some 1/16 of it, and a dipole there covers 1/100 of the
+    // sphere; a hundred of them, of either sign, still add up to less than a hundredth.
     std::printf("largest error: rock %.1e, half a rock %.1e, wheel %.1e; accepted 1e-2\n", rock, half, wheel);
     EXPECT_LT(rock, 1e-2);
     EXPECT_LT(half, 1e-2);

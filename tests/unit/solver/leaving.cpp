@@ -6,7 +6,7 @@
 #include "scene_text.hpp"
 #include "solver/simulation.hpp"
 
-// Sand that leaves through an open wall stays in the books.
+// Sand that leaves through an open wall remains in the ledger.
 namespace
 {
 
@@ -48,7 +48,7 @@ TEST(Leaving, BooksKeepWhatHasLeft)
               << books.errors().energy << '\n';
     EXPECT_LT(books.errors().mass, 1e-14);
     EXPECT_LT(books.errors().momentum, 1e-12);
-    // What leaves takes half a step of its weight's power with it: g dt / v, here 9.81 * 1e-3 / 5.
+    // Leaving sand takes along half a step of its weight's power: g dt / v, here 9.81 * 1e-3 / 5.
     EXPECT_LT(std::abs(books.errors().energy), 4e-3);
     EXPECT_NEAR(now.sand.mass, start.front().sand.mass, 1e-12 * now.sand.mass);
 }

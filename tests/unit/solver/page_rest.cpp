@@ -5,7 +5,7 @@
 #include "kernels/mpm/pages/page_key.hpp"
 #include "solver/page_rest.hpp"
 
-// Which pages may sleep: sets of pages by hand.
+// Selection of pages that may sleep, on sets of pages written by hand.
 namespace
 {
 
@@ -17,7 +17,7 @@ constexpr int      row_pages = 40;
 
 std::uint64_t page(int x) { return mpm::page_key({x, 0, 0}); }
 
-/// A row of 40 pages along x, four metres, all at rest for long, none asleep.
+/// A row of 40 pages along x, four metres, all at rest for a long time, none asleep.
 RestState quiet_row()
 {
     RestState state;
@@ -25,7 +25,7 @@ RestState quiet_row()
     return state;
 }
 
-/// The pages of `keys`, as numbers along the row, ascending.
+/// Pages of `keys` as numbers along the row, ascending.
 std::vector<int> along(const std::vector<std::uint64_t>& keys)
 {
     std::vector<int> x;
@@ -41,7 +41,7 @@ std::vector<int> range(int first, int last)
     return all;
 }
 
-/// After a look: pages change sides.
+/// State after a check: pages fall asleep or wake.
 RestState after(const RestState& before, const std::vector<std::uint64_t>& asleep)
 {
     RestState state = before;
@@ -86,9 +86,9 @@ TEST(PageRest, PagesWakeInSlicesBeforeABodyReachesThem)
     state.bodies    = {{{0.35, 0.05, 0.05}, 0.2}};
     state           = after(state, choose_asleep(rule, state));
 
-    state.bodies[0].centre[0] = 0.54; // its reach ends at 1.09 m
+    state.bodies[0].centre[0] = 0.54; // its range ends at 1.09 m
     EXPECT_EQ(along(choose_asleep(rule, state)), range(11, row_pages - 1));
-    state.bodies[0].centre[0] = 0.56; // and at 1.11 m: two pages more wake than must
+    state.bodies[0].centre[0] = 0.56; // and at 1.11 m: two pages more than necessary wake
     EXPECT_EQ(along(choose_asleep(rule, state)), range(14, row_pages - 1));
 }
 
@@ -122,7 +122,7 @@ TEST(PageRest, AChangedLoadWakesThePageAndThoseBesideIt)
     EXPECT_EQ(along(choose_asleep(rule, state)), expected);
 }
 
-/// All points are sorted when a page falls asleep: two of forty are not worth it, three are.
+/// All points are sorted when a page falls asleep: that does not pay for two of forty pages, but for three.
 TEST(PageRest, AFewPagesWaitForOthers)
 {
     const auto with_quiet = [](std::size_t pages)
@@ -135,7 +135,7 @@ TEST(PageRest, AFewPagesWaitForOthers)
     EXPECT_EQ(with_quiet(6), range(0, 2));
 }
 
-/// Above and beside count as along.
+/// Pages above and beside count like those along the row.
 TEST(PageRest, PagesAreNearInAllDirections)
 {
     RestState state;

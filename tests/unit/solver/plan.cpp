@@ -5,7 +5,7 @@
 #include "scene_text.hpp"
 #include "solver/plan.hpp"
 
-// Which stages a scene has, and why. What parts allocate and launch: left_out.cpp.
+// Stages of a scene, and their reasons. Allocations and launches of parts: left_out.cpp.
 namespace
 {
 

@@ -8,7 +8,7 @@
 #include "scene_text.hpp"
 #include "solver/dem_solver.hpp"
 
-// How long a list of pairs lasts, counted in searches.
+// Lifetime of a list of pairs, measured by the number of searches.
 namespace
 {
 
@@ -73,8 +73,8 @@ protected:
 };
 TYPED_TEST_SUITE(RigidLists, test::Backends, test::BackendNames);
 
-/// The ball goes 1 mm in two substeps, and lists of bodies at rest allow it 0.15: the look that says so is asked for
-/// after the first, and answered after the second.
+/// The ball moves 1 mm in two substeps, and lists of bodies at rest allow 0.15: the check that detects it is requested
+/// after the first substep, and read back after the second.
 TYPED_TEST(RigidLists, LookIsHeededABatchLater)
 {
     auto& rigid = *this->rigid_;
@@ -91,8 +91,8 @@ TYPED_TEST(RigidLists, LookIsHeededABatchLater)
     EXPECT_EQ(this->searches(), 2);
 }
 
-/// A list has two steps' motion. Where a step is looked at within, half a step's must be left when it begins: a list
-/// serves a second step, and not a third.
+/// A list allows for two steps' motion. If displacements are checked within a step, half a step's motion must remain
+/// when it begins: a list serves a second step, but not a third.
 TYPED_TEST(RigidLists, ListServesTwoSteps)
 {
     auto&            rigid = *this->rigid_;

@@ -19,7 +19,7 @@ using namespace tread;
 using namespace tread::solver;
 using test::load_text;
 
-/// Rocks of an aspect of 0.55 in a domain without sand; `table` ends the [[rocks]] table.
+/// Rocks of an aspect of 0.55 in a domain without sand; `table` is appended to the [[rocks]] table.
 std::string rocks_scene(const std::string& table)
 {
     return R"(
@@ -47,7 +47,7 @@ placement = "rain"
 )" + table;
 }
 
-/// The nearest that a surface node of one body comes to another body, m; every pair is asked.
+/// Smallest distance of a surface node of one body to another body, m, over all pairs.
 double nearest_node(const world::World& world)
 {
     const world::HostBodies& bodies  = world.bodies;
@@ -88,8 +88,8 @@ void expect_inside(const world::World& world, const world::Space& space)
     }
 }
 
-/// The crust of the paper's section 4 needs 23 % solids at an aspect of 0.55, which bounding spheres would not let in:
-/// theirs would fill 0.23 (R_b/R)^3, here over the 0.38 at which random spheres jam (Torquato 2002, section 12).
+/// The crust of the paper's section 4 needs 23 % solids at an aspect of 0.55, which bounding spheres would not allow:
+/// they would fill 0.23 (R_b/R)^3, here more than the 0.38 at which random spheres jam (Torquato 2002, section 12).
 TEST(Rocks, IrregularOnesPackDenserThanTheirBoundingSpheres)
 {
     const auto         scene = load_text(rocks_scene("solid_fraction = 0.24\ndiameter = 0.012\n"));
@@ -121,7 +121,7 @@ TEST(Rocks, GradedOnesNeitherOverlapNorLeaveTheirHill)
     expect_inside(world, world::rocks_space(scene, 0));
 }
 
-/// On a lattice as wide as the bounding spheres 0.2 x 0.2 x 0.1 m takes fewer rocks than asked for.
+/// On a lattice as wide as the bounding spheres 0.2 x 0.2 x 0.1 m holds fewer rocks than requested.
 TEST(Rocks, LatticesAreNarrowedUntilAllRocksFit)
 {
     const auto         text  = rocks_scene("count = 900\ndiameter = 0.012\nplacement = \"grid\"\n");
@@ -138,7 +138,7 @@ TEST(Rocks, LatticesAreNarrowedUntilAllRocksFit)
 }
 
 /// Points 25 mm apart with a contact radius of 15.5 mm, and 100 rocks of 10 mm, each on a point: of every thirty points
-/// on which a rock stands one goes for the volume of the rocks, the others are pushed off.
+/// under a rock one is removed for the volume of the rocks, the others are pushed aside.
 TEST(Rocks, StandWherePointsStood)
 {
     std::string text = test::sand_text + test::rocks_text;
@@ -157,9 +157,9 @@ TEST(Rocks, StandWherePointsStood)
     }
 }
 
-/// Sinkage of a scene without sand counts from there. Two full layers on a lattice as wide as the bounding spheres: the
-/// surface is where their solid ends at its own mean packing, which is the top of the lattice, to a bin of half a
-/// diameter.
+/// Sinkage in a scene without sand counts from this height. Two full layers on a lattice as wide as the bounding
+/// spheres: the surface is where their solid ends at its own mean packing, which is the top of the lattice, to a bin of
+/// half a diameter.
 TEST(Rocks, TheirBedIsAsHighAsItsUppermostLayer)
 {
     const auto scene_of = [](long count)
@@ -212,7 +212,7 @@ TEST(Rocks, DoNotDependOnTheNumberOfThreads)
     EXPECT_LT(one.points.size(), 4u * 8 * 8 * 8 * 8);
 }
 
-/// A wheel is asked by its surface as well: rocks stand in a ring about a pole, not outside its bounding sphere.
+/// A body with a diameter is scaled: radius and mass follow from it, and no rock touches its surface.
 TEST(Rocks, ABodyOfASizeIsScaled)
 {
     const auto         scene = load_text(rocks_scene("count = 1\ndiameter = 0.012\n") + R"(

@@ -12,8 +12,8 @@ namespace
 using namespace tread;
 using namespace tread::solver;
 
-/// A store that swings between kinetic and strain energy and is `growth` times larger after each step; `steps` steps
-/// are reported at once.
+/// Stored energy that oscillates between kinetic and strain energy and grows by the factor `growth` in each step;
+/// `steps` steps are reported at once.
 class Swing
 {
 public:
@@ -67,7 +67,7 @@ double growth_at_alarm(double growth, int steps)
 
 TEST(EnergyWatch, SeesGrowthBeforeItIsTenfold)
 {
-    // All that beats the memory, and is not tenfold between two looks.
+    // Growth faster than the memory, and less than tenfold between two checks.
     for (const double growth : {1.003, 1.01, 1.1})
     {
         EXPECT_LT(growth_at_alarm(growth, 1), 10) << growth;

@@ -13,7 +13,7 @@
 #include "world/saved_bed.hpp"
 #include "world/saved_sand.hpp"
 
-// Rocks in sand that one run settles and another starts with.
+// Rocks in sand, settled by one run and loaded by another.
 namespace
 {
 
@@ -32,8 +32,8 @@ std::string loading(const std::string& path, const std::string& more = "")
 
 struct Rest
 {
-    double kinetic = 0; ///< J, the most that there was
-    double slump   = 0; ///< m, the farthest that a rock or a point went
+    double kinetic = 0; ///< J, largest
+    double slump   = 0; ///< m, largest displacement of a rock or a point
 };
 
 class SavedSand : public ::testing::Test
@@ -136,8 +136,8 @@ TEST_F(SavedSand, ComesBackAsItWas)
     EXPECT_NEAR(sum(loaded.points.volume) / sum(world.points.volume), 1, 0.01) << "the weight presses it by less";
 }
 
-/// What contacts of sand and bodies remember is not saved. With it lost, a bed that had come to rest moves by less than
-/// a thousandth of its depth of 0.2 m, and far less than a bed that begins.
+/// The contact history of sand and bodies is not saved. Without it, a bed at rest moves by less than a thousandth of
+/// its depth of 0.2 m, and far less than a newly created bed.
 TEST_F(SavedSand, StaysAtRest)
 {
     const scene::Scene      other = load_text(loading(path));

@@ -14,8 +14,8 @@ using namespace tread;
 using namespace tread::solver;
 
 /// Points 12.5 mm apart on points 25 mm apart, 0.1 m of each, under damping for 0.2 s: slowest wave 4 H / c = 28 ms.
-/// The grid sees the mass of both alike but for where it stands in the cells of the seam: vertical stress within 1 % of
-/// the bottom's (rms of a layer of cells; 0.4 % were measured at spacings half as wide), on either side of it.
+/// The grid sees equal masses of both, except for their position in the cells of the seam: vertical stress within 1 %
+/// of the bottom's (rms of a layer of cells; 0.4 % were measured at spacings half as wide), on either side of it.
 TEST(Seam, FinerPointsOnCoarserOnesRestUnderTheirWeight)
 {
     std::string text = test::sand_text;

@@ -6,14 +6,15 @@
 #include "solver/state_file.hpp"
 #include "temporary_directory.hpp"
 
-// What a run says of its stages when it goes on from a checkpoint.
+// Report of stages for a run resumed from a checkpoint.
 namespace
 {
 
 using namespace tread;
 using namespace tread::solver;
 
-/// The parts of a run may have been on other machines: what one part's calls took says nothing of another's.
+/// The parts of a run may have run on different machines: durations of calls in one part do not predict those in
+/// another.
 TEST(StageClock, KeepsCallsAndSecondsOfThePartBefore)
 {
     const test::TemporaryDirectory folder;

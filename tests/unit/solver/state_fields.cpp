@@ -4,13 +4,13 @@
 #include "kernels/mpm/pages/pages.hpp"
 #include "kernels/mpm/points.hpp"
 
-// Checkpoints and migration go by for_each_field: an array that it leaves out would be lost there.
+// Checkpoints and migration use for_each_field: an array missing from it would be lost.
 namespace tread
 {
 namespace
 {
 
-/// Arrays that a struct of arrays has, by its size; `others` = bytes of what is none.
+/// Number of arrays in a struct of arrays, from its size; `others`: bytes of all other members.
 template<class Struct>
 std::size_t arrays_in(std::size_t others)
 {

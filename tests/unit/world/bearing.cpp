@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-// Closed forms that predict the patch of a body at rest.
+// Closed forms that predict the contact patch of a body at rest.
 namespace
 {
 
@@ -32,7 +32,7 @@ TEST(Bearing, FactorsAreThoseOfTheTables)
     EXPECT_NEAR(bearing_factors(30).weight, 15.07, 0.01); // Hansen
 }
 
-/// On clay without weight the load is (2 + pi) c times the area of the chord.
+/// On weightless clay the load is (2 + pi) c times the area of the chord.
 TEST(Bearing, CarriesAWheelOnClay)
 {
     const RoundBody wheel{0.245, 0.2, 1000};

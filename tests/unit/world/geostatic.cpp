@@ -53,8 +53,8 @@ velocity = )" +
            velocity + "\n";
 }
 
-/// Sand of 0.1 m over 0.2 m of clay: sigma_v by the weights above, and each material its own ratio: sand Ka = 1/3 over
-/// K0 = 1/4, clay K0 = 2/3. Exact on the lattice.
+/// Sand of 0.1 m over 0.2 m of clay: sigma_v from the weight above, and each material's own stress ratio: sand Ka = 1/3
+/// over K0 = 1/4, clay K0 = 2/3. Exact on the lattice.
 TEST(Geostatic, LayersOfTwoMaterials)
 {
     const World world = build_world(load_text(layers("0.2")));
@@ -72,7 +72,7 @@ TEST(Geostatic, LayersOfTwoMaterials)
     EXPECT_LT(worst, 1e-8);
 }
 
-/// What moves is not at rest: the clay carries itself alone, the sand nothing.
+/// Moving sand is not at rest: the clay carries only itself, the sand nothing.
 TEST(Geostatic, LeavesOutWhatMoves)
 {
     const World world = build_world(load_text(layers("0.2", "[0, 0, -1]")));
@@ -86,10 +86,10 @@ TEST(Geostatic, LeavesOutWhatMoves)
     EXPECT_LT(worst, 1e-8);
 }
 
-/// The vertical force on the lowest layer of points, and half of that layer, is the weight of sand and rocks. A rock
-/// hands its weight to columns, none is lost; points above a rock's centre carry none of it, those below all. Hence the
-/// sum over the lowest points of sigma_v times a point's plan is everything above their centres, if all columns have a
-/// point there.
+/// The vertical force on the lowest layer of points, plus half of that layer, is the weight of sand and rocks. A rock
+/// distributes its whole weight to columns; points above a rock's centre carry none of it, those below all. Hence the
+/// sum over the lowest points of sigma_v times a point's plan area is all the weight above their centres, if all
+/// columns have a point there.
 TEST(Geostatic, CarriesTheRocks)
 {
     const World world = build_world(load_text(test::sand_text + test::rocks_text, {"rocks[0].region.box=[[0, 0, 0.06], "
@@ -108,8 +108,8 @@ TEST(Geostatic, CarriesTheRocks)
     EXPECT_NEAR(force, weight, 1e-9 * weight);
 }
 
-/// Under the active stress a granular material is at its yield limit: a little less of it flows, a little more does
-/// not.
+/// Under the active stress a granular material is at its yield limit: slightly less lateral stress yields, slightly
+/// more does not.
 TEST(Geostatic, ActiveStressIsAtTheYieldLimit)
 {
     const std::string models[] = {"mohr-coulomb", "drucker-prager\"\ndrucker_prager_fit = \"compression",

@@ -13,8 +13,8 @@ namespace
 using namespace tread;
 using namespace tread::world;
 
-/// Mean and mean square of a distribution, by 5e4 draws, against closed forms. The mean of n draws is off by a standard
-/// normal number of sigma/sqrt(n); 4 of them happen once in 16,000 tests, and the seed is fixed.
+/// Checks mean and mean square of a distribution, from 5e4 draws, against closed forms. The mean of n draws has a
+/// standard error of sigma/sqrt(n); 4 of them occur once in 16,000 tests, and the seed is fixed.
 void check_moments(const char* name, const scene::Diameter& diameter, double mean, double square, double fourth)
 {
     constexpr int draws = 50000;
@@ -47,8 +47,8 @@ double power_moment(double n, double k, double low, double high)
     return integral(k - n) / integral(-n);
 }
 
-/// k-th moment of exp(normal(ln m, s)) cut to [low, high]: m^k exp(k^2 s^2 / 2) [Phi(b - k s) - Phi(a - k s)] over
-/// [Phi(b) - Phi(a)].
+/// k-th moment of exp(normal(ln m, s)) truncated to [low, high]: m^k exp(k^2 s^2 / 2) [Phi(b - k s) - Phi(a - k s)]
+/// over [Phi(b) - Phi(a)].
 double log_normal_moment(double m, double s, double k, double low, double high)
 {
     const auto   phi = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); };
@@ -92,7 +92,7 @@ TEST(Grading, QuantilesRiseFromSmallestToLargest)
     }
 }
 
-/// The rocks come largest first, fill the fraction to half a rock, and are the seed's.
+/// Rocks are drawn largest first, fill the fraction to half a rock, and depend only on the seed.
 TEST(Grading, DrawsFillTheFraction)
 {
     scene::Rocks rocks;
@@ -129,8 +129,8 @@ TEST(Grading, FractionsOfTooFewOrTooManyAreRefused)
     EXPECT_THROW(draw_rocks(rocks, 1, 1), InputError);
 }
 
-/// A sum of volumes that all but certainly is more than the region's is refused before a rock is drawn; one that may
-/// fit is left to the placement.
+/// A total volume that almost certainly exceeds the region's is refused before a rock is drawn; one that may fit is
+/// left to the placement.
 TEST(Grading, RocksThatAreMoreThanTheirRegionAreRefused)
 {
     scene::Rocks rocks;

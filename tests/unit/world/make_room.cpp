@@ -14,7 +14,7 @@
 #include "world/layers.hpp"
 #include "world/make_room.hpp"
 
-// Room for rocks in sand: mass is kept to a point, nothing touches, no void.
+// Room for rocks in sand: mass is conserved to a point, nothing touches, and no void is left.
 namespace
 {
 
@@ -22,7 +22,8 @@ using namespace tread;
 using namespace tread::world;
 using test::load_text;
 
-/// 23 % of rocks of 5 cm among points 12.5 mm apart, in the upper 10 cm of the bed; `table` ends the [[rocks]] table.
+/// 23 % of rocks of 5 cm among points 12.5 mm apart, in the upper 10 cm of the bed; `table` is appended to the
+/// [[rocks]] table.
 std::string filled(const std::string& table, const std::string& grid = "spacing = 0.025")
 {
     std::string text = test::sand_text + test::rocks_text;
@@ -52,7 +53,8 @@ std::int64_t touching(const scene::Scene& scene, const World& world)
     return std::count_if(covering.begin(), covering.end(), [](std::int32_t body) { return body >= 0; });
 }
 
-/// A rock takes out its own volume: the last point is whole, so that half of one is the error, and what finds no place.
+/// A rock removes its own volume of points: the last point is whole, so the error is half a point, plus the points
+/// without a place.
 void expect_room(const std::string& text, int without_place)
 {
     const auto   scene = load_text(text);
@@ -75,7 +77,7 @@ void expect_room(const std::string& text, int without_place)
 
 TEST(MakeRoom, RocksTakeTheirOwnVolumeOfSand) { expect_room(filled(""), 0); }
 
-/// Nine samples a point do not fit into every neck between rocks: of 14 500 points one finds no place.
+/// Nine samples per point do not fit into every neck between rocks: of 14 500 points one finds no place.
 TEST(MakeRoom, PointsThatTakeSamplesAreClearAsWell) { expect_room(filled("[numerics]\nrefine_below = 4.0\n"), 2); }
 
 TEST(MakeRoom, RocksAtPointsTakeTheirOwnVolumeOfSand)
@@ -84,7 +86,7 @@ TEST(MakeRoom, RocksAtPointsTakeTheirOwnVolumeOfSand)
     expect_room(text.replace(text.find("solid_fraction = 0.23"), 21, "solid_fraction = 0.1"), 0);
 }
 
-/// Half of a lattice of rocks stands above the surface of the sand.
+/// Half of a lattice of rocks lies above the surface of the sand.
 TEST(MakeRoom, OnlyWhatStandsInSandCounts)
 {
     std::string text = filled("");
@@ -116,7 +118,7 @@ TEST(MakeRoom, DoesNotDependOnTheNumberOfThreads)
     EXPECT_EQ(one.points.mass, three.points.mass);
 }
 
-/// Points 25 mm apart keep 15.5 mm off rocks of 6 mm radius: there is hardly a place left.
+/// Points 25 mm apart keep 15.5 mm from rocks of 6 mm radius: there is hardly any place left.
 std::string crowded(const std::string& table)
 {
     std::string text = filled(table, "spacing = 0.05");
@@ -163,7 +165,7 @@ TEST(MakeRoom, LargeRocksNeedNoAdvice)
     EXPECT_TRUE(layer_advice(scene, build_world(scene)).empty());
 }
 
-/// Finer points in the layer of the rocks stay there: the bed under it keeps every point where it was.
+/// Finer points in the layer of the rocks stay there: the bed below keeps every point in place.
 TEST(MakeRoom, PointsStayInTheSandOfTheirTable)
 {
     std::string text = filled("");

@@ -22,7 +22,7 @@ std::string standing(std::string text, double gap)
 
 double height_of(const std::string& text) { return build_world(test::load_text(text)).bodies.position[0][2]; }
 
-/// Least distance of the roller's surface from a point of sand's contact sphere, m.
+/// Smallest distance of the roller's surface from the contact sphere of a sand point, m.
 double clearance(const scene::Scene& scene, const World& world)
 {
     double least = 1;
@@ -40,7 +40,7 @@ TEST(OnSurface, StandsOnFlatSandByTheRadiusOfItsPoints)
     const World        world = build_world(scene);
     EXPECT_GE(clearance(scene, world), 0);
     EXPECT_LE(clearance(scene, world), 1e-4);
-    // Points stand 25 mm apart, the highest 12.5 mm under the surface, the nearest 12.5 mm beside the roller's middle.
+    // Points are 25 mm apart, the highest 12.5 mm below the surface, the nearest 12.5 mm beside the roller's middle.
     const double radius = contact::point_radius(world.points.volume[0], radius_rule(scene.numerics.point_radius));
     const double along = 0.0125, roller = 0.1;
     EXPECT_NEAR(world.bodies.position[0][2], 0.2 - 0.0125 + std::sqrt(std::pow(roller + radius, 2) - along * along),

@@ -21,7 +21,7 @@ scene::RasterFile written(const test::TemporaryDirectory& folder, const std::str
     return {folder.path(name), -1, 3, 0.001, unit_plan};
 }
 
-/// What a function that is linear in x and in y gives between samples is that function: exact but for rounding.
+/// Interpolation reproduces functions that are linear in x and in y: exact except for rounding.
 TEST(Raster, BilinearFunctionsAreExact)
 {
     const auto f    = [](double x, double y) { return 2 * x - 3 * y + 0.5 * x * y + 1; };
@@ -59,7 +59,7 @@ TEST(Raster, TheFirstRowIsAtHighY)
     EXPECT_DOUBLE_EQ(bilinear(raster, unit_plan, 0.5, 0.5), 0.0025);
 }
 
-/// low = -1 is black, high = 3 is white: three of four parts is 2.
+/// low = -1 is black, high = 3 is white: three quarters give 2.
 TEST(Raster, PicturesOfAllKindsSayTheSame)
 {
     using namespace std::string_literals;

@@ -131,7 +131,8 @@ TEST_F(SavedBed, ComesBackAsItWas)
     }
 }
 
-/// Tables in the other order turn the pair of a rock and a ball over: what is on the one is then on the other.
+/// With the tables in the other order the pair of a rock and a ball is reversed: forces on the one are then on the
+/// other.
 TEST_F(SavedBed, ContactsFollowTheOrderOfTheTables)
 {
     const World again = build_world(test::load_text(text(from("ball", path) + from("clast", path))));
@@ -142,7 +143,7 @@ TEST_F(SavedBed, ContactsFollowTheOrderOfTheTables)
     EXPECT_EQ(again.contacts[0].patch.normal, Vec3<double>(0, 0, -1));
     EXPECT_EQ(again.contacts[0].patch.torsion, 4);
     EXPECT_EQ(again.contacts[1].key, dem::pair_key(5, count + 4));
-    // The place of a patch stays where it is in the world.
+    // The position of a patch does not change in the world.
     const auto in_world = [](const World& of, std::size_t body, const Vec3<double>& place) -> Vec3<double>
     { return of.bodies.position[body] + of.bodies.orientation[body] * place; };
     EXPECT_LT((in_world(again, 1, again.contacts[0].place) - in_world(world, 1, contacts[0].place)).norm(), 1e-14);
@@ -190,8 +191,7 @@ position = )" +
 }
 
 /// A ball hides a hemisphere and the cylinder below it: 4/3 over 2/3 + 1 radius; of two, one on the other, 4/3 twice
-/// over 2/3 + 3. The columns are 1/32 of the diameter; tolerance 2 %:
-/// 812 of them stand under a disc of 804.
+/// over 2/3 + 3. The columns are 1/32 of the diameter; tolerance 2 %: 812 of them are under a disc of 804.
 TEST(Packing, FractionUnderTheVisibleSurface)
 {
     const auto fraction = [](int count, const std::string& box)
@@ -199,7 +199,7 @@ TEST(Packing, FractionUnderTheVisibleSurface)
         const World world = build_world(test::load_text(text(drawn("ball", count, box))));
         return packing_fraction(world, fields_of(world));
     };
-    // The least box: the ball's nodes must lie in it.
+    // The smallest box that contains the ball's nodes.
     const double one = fraction(1, "[[0.0, 0.0, 0.0], [0.1001, 0.1001, 0.1001]]");
     const double two = fraction(2, "[[0.0, 0.0, 0.0], [0.1001, 0.1001, 0.202]]");
     EXPECT_NEAR(one, 0.8, 0.016);

@@ -49,8 +49,8 @@ double total(const std::vector<double>& values)
     return sum;
 }
 
-/// The audit of the paper's head-on spheres (docs/verification.md#head-on-collision): R = 0.2 m, h = 0.01 m, centre on
-/// a node of the grid.
+/// Number of points of the paper's head-on spheres (docs/verification.md#head-on-collision): R = 0.2 m, h = 0.01 m,
+/// centre on a node of the grid.
 TEST(Terrain, SpheresHaveThePapersPoints)
 {
     const std::string sphere =
@@ -64,7 +64,7 @@ TEST(Terrain, SpheresHaveThePapersPoints)
 
 /// Over one wavelength 0.1 sin(2 pi x) + 0.1 has the mean 0.1: volume 0.1 m2 times the width. Points at the centres of
 /// cells: a column holds round(f/h) of them, off by at most h/2, and the errors of 100 x 2 columns at h/2 = 5 mm point
-/// spacing add as for a random walk (and cancel, since f - 0.1 is odd): 1 % of the volume is far more.
+/// spacing add as a random walk (and cancel, since f - 0.1 is odd): 1 % of the volume is ample.
 TEST(Terrain, ARippleHasItsVolume)
 {
     const auto points =
@@ -75,8 +75,8 @@ TEST(Terrain, ARippleHasItsVolume)
     for (const auto& x : points.position) { ASSERT_LT(x[2], 0.1 * std::sin(2 * pi * x[0]) + 0.1); }
 }
 
-/// The same integral by columns, which the solid fraction of rocks divides by: midpoints of a sine over its period are
-/// exact to rounding.
+/// The same integral by columns, by which the solid fraction of rocks is divided: midpoints of a sine over its period
+/// are exact to rounding.
 TEST(Terrain, VolumeOfASpaceIsItsIntegral)
 {
     const auto scene = load_text(scene_of(
@@ -91,14 +91,14 @@ TEST(Terrain, VolumeOfASpaceIsItsIntegral)
     // Inclusion and exclusion; the two boxes share [0.2, 0.3] x [0.05, 0.1] x [0.15, 0.2].
     const double boxes = 0.5 * 0.2 * 0.3 - 0.2 * 0.15 * 0.1 - 0.2 * 0.1 * 0.15 + 0.1 * 0.05 * 0.05;
     EXPECT_NEAR(volume(space(1)), boxes, 1e-12);
-    // Chords end as square roots: 512 columns leave a part in 1e-4 at most.
+    // Chords end as square roots: 512 columns leave an error of 1e-4 at most.
     const double ball = 4.0 / 3 * pi * std::pow(0.09, 3);
     std::cout << "ball: " << volume(space(2)) << " m3, expected " << ball << ", tolerance 1e-4 of it\n";
     EXPECT_NEAR(volume(space(2)), ball, 1e-4 * ball);
 }
 
-/// Two layers of the same thickness everywhere under a sloping surface: each column holds as many points of one as of
-/// the other, and they meet at the floor of the upper one.
+/// Two layers of equal thickness under a sloping surface: each column holds as many points of one as of the other, and
+/// they meet at the floor of the upper one.
 TEST(Terrain, LayersFollowTheSurface)
 {
     const auto points =
@@ -116,12 +116,12 @@ TEST(Terrain, LayersFollowTheSurface)
         ASSERT_GE(x[2], base);
         ASSERT_LT(x[2], base + 0.2);
     }
-    // 0.1 m is ten points of a column whatever the slope.
+    // 0.1 m is ten points of a column on any slope.
     EXPECT_EQ(upper, 40u * 20 * 10);
     EXPECT_EQ(points.size(), 2 * upper);
 }
 
-/// A core of sand in a ripple of clay: the core's box stands where the ripple was, and nothing stands twice.
+/// A core of sand in a ripple of clay: the core replaces the ripple in its box, and no place is filled twice.
 TEST(Terrain, ALaterTableReplacesAnEarlierOne)
 {
     const std::string ripple = "[[terrain]]\nmaterial = \"clay\"\nheight = \"0.1*sin(2*pi*x) + 0.1\"\n";

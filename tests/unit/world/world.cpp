@@ -49,7 +49,7 @@ TEST(World, ReplacedRocksOverlapNeitherSandNorEachOther)
               << " m; nearest rock node to another rock: " << nearest_node << " m, contact begins at 0\n";
     EXPECT_GE(nearest_point, reach * (1 - 1e-12));
     EXPECT_GT(nearest_node, 0);
-    EXPECT_LT(world.points.size(), 4u * 8 * 8 * 8); // some sand made way
+    EXPECT_LT(world.points.size(), 4u * 8 * 8 * 8); // some sand was removed
 }
 
 TEST(World, SampledRocksKeepClearOfTheSamples)
@@ -126,7 +126,7 @@ position = [0.2, 0.2, {}]
                               second);
 }
 
-/// Balls with one centre and one radius have no node inside each other.
+/// Balls with one centre and one radius have no node inside each other, yet must be refused.
 TEST(World, BodiesInEachOtherAreRefused)
 {
     EXPECT_THROW(build_world(load_text(two_balls(0.33))), InputError);
