@@ -11,7 +11,7 @@ sys.path.insert(0, str(ROOT / "jobs"))
 
 from tread_jobs.resources import CORE_SPEED, GPU_SPEED  # noqa: E402
 
-HEADER = ROOT / "src" / "solver" / "wall_time.hpp"
+HEADER = ROOT / "src" / "run" / "wall_time.hpp"
 
 
 def cost_of(name):
