@@ -14,7 +14,7 @@ void remove_name(const std::string& path);
 /// are replaced, not followed. EnvironmentError with the path and the reason.
 void write_atomically(const std::string& path, const std::string& text);
 
-/// As above; `before` runs once the text is on the disk and before it is renamed.
+/// Writes the file in the same way, and calls `before` when the text is on the disk and not yet renamed.
 void write_atomically(const std::string& path, const std::string& text, const std::function<void()>& before);
 
 /// Renames the finished file `from` to `to`. EnvironmentError with the path and the reason.

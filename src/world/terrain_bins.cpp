@@ -209,7 +209,7 @@ void TerrainBins::add_to_column(Column& column, double low, double high, double 
 
 void TerrainBins::add_sphere(const Vec3<double>& centre, double radius)
 {
-    // Those of the box's 4 x 4 x 4 cubes whose centres lie inside.
+    // The ball as those of its box's 4 x 4 x 4 cubes whose centres lie inside: 32.
     constexpr int    samples = 32;
     constexpr double sphere  = 4.0 / 3.0 * std::numbers::pi;
     const double     volume  = sphere * radius * radius * radius / samples;

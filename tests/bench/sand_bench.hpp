@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    /// As in solver::Simulation if sand moves half a cell in that many steps.
+    /// Number of steps between reports: that of solver::Simulation for sand that moves half a cell in as many.
     static constexpr int report_every = 8;
 
     Exec                          exec_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -145,7 +146,7 @@ struct Cloud
     Pages<Exec>        pages;
 };
 
-/// Largest difference of a channel over its largest value.
+/// Largest difference of a channel over its largest value; infinite where a node has no finite sum.
 Sums largest_differences(const NodeMap& found, NodeMap expected)
 {
     Sums worst{}, largest{};
@@ -156,8 +157,10 @@ Sums largest_differences(const NodeMap& found, NodeMap expected)
         for (std::size_t channel = 0; channel < node_channels; ++channel)
         {
             const double here = at == found.end() ? 0.0 : at->second[channel];
-            worst[channel]    = std::max(worst[channel], std::abs(here - sum[channel]));
-            largest[channel]  = std::max(largest[channel], std::abs(sum[channel]));
+            const double off  = std::abs(here - sum[channel]);
+            worst[channel] =
+                std::isfinite(off) ? std::max(worst[channel], off) : std::numeric_limits<double>::infinity();
+            largest[channel] = std::max(largest[channel], std::abs(sum[channel]));
         }
     }
     for (std::size_t channel = 0; channel < node_channels; ++channel) { worst[channel] /= largest[channel]; }
