@@ -31,13 +31,13 @@ struct BodyCommands
     /// Returns and resets the totals.
     CommandTotals take_totals() { return std::exchange(totals, {}); }
 
-    /// Saves or loads the commands and their impulse; their work and largest speed stand in bodies/steps.
+    /// Saves or loads the commands and their impulse; their work and largest speed are in bodies/steps.
     void transfer(StateFile& file);
 
     std::vector<std::optional<BodyCommand>> present;           ///< last command of each named body
     std::vector<bool>                       released;          ///< named bodies that have been free before
     double                                  heaviest      = 1; ///< largest share of a body's weight that acts
-    double                                  largest_speed = 0; ///< m/s, set by commands since Simulation has asked
+    double                                  largest_speed = 0; ///< m/s, set by commands since it was last taken
     CommandTotals                           totals;            ///< since the last report
 };
 

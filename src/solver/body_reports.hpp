@@ -27,11 +27,11 @@ struct BodyReports
 {
     BodyReports(const Exec& exec, std::int64_t bodies);
 
-    /// Saves or loads the totals where the state is exact; a load of another is a start from zero, since their
-    /// increase was accounted for when it was saved. `rebuilt_overlap` stands in bodies/steps.
+    /// Saves or loads the totals where the state is exact. Otherwise loading sets them to zero: their increase was
+    /// accounted for when the state was saved. `rebuilt_overlap` is in bodies/steps.
     void transfer(StateFile& file);
 
-    dem::BodyTotals<Exec>                         totals;   ///< what the substeps add to
+    dem::BodyTotals<Exec>                         totals;   ///< of the substeps, by body
     dem::BodyTotal                                taken{};  ///< sum of the totals at the last report
     Array<Exec, double>                           sums;     ///< BodyReportSums
     std::optional<Array<Exec, dem::BodyActivity>> activity; ///< of the requested report

@@ -201,7 +201,7 @@ double DemSolver<Exec>::carried(std::size_t body) const
     return solver::carried(state_, means_, body);
 }
 
-/// The single numbers of all parts stand in one row, bodies/steps.
+/// The single numbers of all parts are one row, bodies/steps.
 template<class Exec>
 void DemSolver<Exec>::transfer(StateFile& file)
 {

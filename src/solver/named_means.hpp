@@ -14,11 +14,11 @@ struct NamedMeans
 {
     NamedMeans(const Exec& exec, std::int64_t named);
 
-    /// What the substeps add to.
+    /// View for the substeps, which add to the impulses.
     dem::NamedImpulses view() { return {impulses.data(), impulses.size()}; }
 
     /// Saves or loads the impulses; loading a state of other ranks adds up what each of them has recorded. `time`
-    /// stands in bodies/steps.
+    /// is in bodies/steps.
     void transfer(StateFile& file);
 
     Array<Exec, dem::ContactImpulse> impulses; ///< of this rank's contacts, since begin_mean()
