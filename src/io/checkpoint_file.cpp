@@ -25,7 +25,7 @@ namespace
 
 constexpr const char*                 mark       = "tread checkpoint";
 constexpr const char*                 first_rows = "first_row"; ///< attribute of each data set
-constexpr std::array<std::int64_t, 2> schema{1, 0};             ///< a reader refuses a larger first number
+constexpr std::array<std::int64_t, 2> schema{2, 0};             ///< a reader refuses another first number
 constexpr std::int64_t                head_bytes = 512;
 
 struct Head
@@ -91,10 +91,11 @@ std::optional<std::string> damage_of_schema(const std::string& path)
 {
     const h5::File file    = h5::File::open_received(path);
     const auto     version = h5::read_numbers_attribute(file, "/", "schema_version");
-    if (version.size() == 2 && version[0] <= schema[0]) { return {}; }
     if (version.size() != 2) { return "its schema is none of this program's"; }
-    return fmt::format("its schema is {}.{}, and this program (schema {}.{}) is older", version.at(0), version.at(1),
-                       schema[0], schema[1]);
+    if (version[0] == schema[0]) { return {}; }
+    return fmt::format("its schema is {}.{}, and this program (schema {}.{}) is {}", version[0], version[1], schema[0],
+                       schema[1],
+                       version[0] > schema[0] ? "older" : "newer: go on with the version that wrote it");
 }
 
 } // namespace

@@ -127,7 +127,7 @@ std::string stage_lines(const scene::Scene& scene, const world::World& world, co
 std::string check_scene(const Communicator& communicator, const scene::Scene& scene, int ranks)
 {
     const world::World world = world::build_world(scene);
-    const solver::Plan plan  = solver::make_plan(scene, world);
+    const solver::Plan plan  = solver::make_plan(scene, world, ranks);
     const Estimate     wants = estimate(scene, world, plan);
     const auto         rooms = drive_rooms(scene, world);
     std::string        text  = warning_lines(scene, world, wants, rooms);

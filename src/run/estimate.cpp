@@ -149,7 +149,7 @@ std::int64_t snapshot_memory_per_point(const scene::Scene& scene, const solver::
     return 2 * 24 + 10 * real + 4 + 1 + (plan.plasticity ? 2 * real : 0) + snapshot_bytes_per_point(plan) + 2 * 24;
 }
 
-/// Bytes of a point's variable fields (solver/mpm_state.cpp), its id and its place in the lists.
+/// Bytes of a point's variable fields (solver/point_state.cpp), its id and its place in the lists.
 std::int64_t checkpoint_bytes_per_point(const scene::Scene& scene, const solver::Plan& plan)
 {
     const std::int64_t real = bytes_of_real(scene);

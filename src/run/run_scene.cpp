@@ -309,7 +309,7 @@ ExitCode run_scene(const Communicator& communicator, Log& log, Watchdog* watchdo
                            needed_files(scene, options, restart)};
     io::RunDirectory::require_free(communicator, place);
     const world::World world = world::build_world(scene);
-    const solver::Plan plan  = solver::make_plan(scene, world);
+    const solver::Plan plan  = solver::make_plan(scene, world, communicator.size());
     require_ranks_can(communicator, scene);
     const std::string start = start_of(communicator, restart.checkpoint);
 

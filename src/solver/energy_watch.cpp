@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/state_file.hpp"
+
 namespace tread::solver
 {
 
@@ -31,6 +33,17 @@ void EnergyWatch::add(const SandReport& sand, double dt)
     transferred_      = kept * transferred_ + half_step;
     received_         = kept * received_ + std::abs(gravity) + std::abs(contact);
     held_             = std::max({kept * held_, strain + sand.last_points[mpm::point_kinetic], floor_});
+}
+
+void EnergyWatch::transfer(StateFile& file)
+{
+    file.numbers("energy_watch/floor", accept::number(floor_, 0, accept::largest));
+    file.numbers("energy_watch/strain", strain_);
+    file.numbers("energy_watch/half_step", half_step_);
+    file.numbers("energy_watch/appeared", appeared_);
+    file.numbers("energy_watch/transferred", transferred_);
+    file.numbers("energy_watch/held", accept::number(held_, 0, accept::largest));
+    file.numbers("energy_watch/received", accept::number(received_, 0, accept::largest));
 }
 
 } // namespace tread::solver

@@ -8,6 +8,8 @@
 namespace tread::solver
 {
 
+class StateFile;
+
 /// Detects energy that appears in the sand without a source, which indicates too long a step. In an exact step the
 /// work of stress on the grid equals the decrease of strain energy less the plastic work; any excess has appeared.
 /// Velocities are known only half a step apart from stresses, and a transfer that filters strongly dissipates part of
@@ -30,6 +32,9 @@ public:
 
     /// Whether the state is wrong; true before the energy has doubled without a source.
     bool alarmed() const { return appeared() > tolerance * scale(); }
+
+    /// Saves to a checkpoint, or loads from it.
+    void transfer(StateFile& file);
 
     static constexpr double memory    = 1000; ///< steps
     static constexpr double tolerance = 0.5;

@@ -1,6 +1,9 @@
 #include "solver/extremes.hpp"
 
 #include <algorithm>
+#include <string>
+
+#include "solver/state_file.hpp"
 
 namespace tread::solver
 {
@@ -22,6 +25,20 @@ void Extremes::note(const TimeStep& step, std::int64_t steps, const PaceLimits& 
     const double span = step.dt * static_cast<double>(steps);
     touched += span;
     touching += span * static_cast<double>(contacts.live_named);
+}
+
+void Extremes::transfer(StateFile& file)
+{
+    const auto field = [&](const std::string& name, double& value)
+    { file.numbers("extremes/" + name, accept::number(value, 0, accept::largest)); };
+    field("courant", courant);
+    field("travel", travel);
+    field("spring", spring);
+    field("substep", substep);
+    field("body_overlap", body_overlap);
+    field("point_overlap", point_overlap);
+    field("touched", touched);
+    field("touching", touching);
 }
 
 } // namespace tread::solver

@@ -6,7 +6,9 @@
 namespace tread::solver
 {
 
-/// Worst values over all measurements of a run. Holds doubles only: checkpoints save it as such.
+class StateFile;
+
+/// Worst values over all measurements of a run.
 struct Extremes
 {
     double courant       = 0; ///< c_p dt/h
@@ -21,6 +23,9 @@ struct Extremes
     /// Updates from `steps` steps that end with `step`; `pace` was measured after it.
     void note(const TimeStep& step, std::int64_t steps, const PaceLimits& limits, const Pace& pace,
               const contact::Summary& contacts);
+
+    /// Saves to a checkpoint, or loads from it.
+    void transfer(StateFile& file);
 };
 
 } // namespace tread::solver

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/state_file.hpp"
+
 namespace tread::solver
 {
 namespace
@@ -113,6 +115,49 @@ BalanceRow Ledger::balance(const Census& now)
     }
     errors_.mass = std::max(errors_.mass, std::abs(row.mass - mass(start_)) / mass(start_));
     return row;
+}
+
+void Ledger::transfer(StateFile& file)
+{
+    transfer_start(file);
+    transfer_sums(file);
+    file.numbers("ledger/largest_exchange", accept::number(largest_exchange_, 0, accept::largest));
+    file.numbers("ledger/error_mass", accept::number(errors_.mass, 0, accept::largest));
+    file.numbers("ledger/error_momentum", accept::number(errors_.momentum, 0, accept::largest));
+    file.numbers("ledger/error_energy", errors_.energy);
+    file.numbers("ledger/error_transfer", errors_.transfer);
+    file.numbers("ledger/error_coupling", errors_.coupling);
+}
+
+void Ledger::transfer_start(StateFile& file)
+{
+    solver::transfer(file, "ledger/start_sand", start_.sand);
+    file.numbers("ledger/start_bodies_mass", accept::number(start_.rigid.mass, 0, accept::largest));
+    file.numbers("ledger/start_bodies_kinetic", start_.rigid.kinetic);
+    file.numbers("ledger/start_bodies_contact", start_.rigid.contact);
+    file.numbers("ledger/start_bodies_gravity", start_.rigid.gravity);
+    file.doubles("ledger/start_bodies_momentum", start_.rigid.momentum);
+    file.numbers("ledger/start_sand_contact", start_.sand_contact);
+    file.numbers("ledger/start_energy", start_energy_);
+}
+
+void Ledger::transfer_sums(StateFile& file)
+{
+    file.numbers("ledger/time", accept::number(time_, 0, accept::largest));
+    file.numbers("ledger/kinetic_points", kinetic_points_);
+    file.numbers("ledger/half_step", half_step_);
+    file.numbers("ledger/stress_half_step", stress_half_step_);
+    file.numbers("ledger/body_half_step", body_half_step_);
+    file.numbers("ledger/plastic", plastic_);
+    file.numbers("ledger/friction", friction_);
+    file.numbers("ledger/restitution", restitution_);
+    file.numbers("ledger/damping", damping_);
+    file.numbers("ledger/transfer", transfer_);
+    file.numbers("ledger/work_in", work_in_);
+    file.numbers("ledger/coupling", coupling_);
+    file.numbers("ledger/contact_energy", contact_energy_);
+    file.numbers("ledger/weight_power", weight_power_);
+    file.doubles("ledger/impulse", impulse_);
 }
 
 } // namespace tread::solver

@@ -2,10 +2,12 @@
 
 #include "backend/vector.hpp"
 #include "io/summary.hpp"
-#include "solver/mpm_solver.hpp"
+#include "solver/sand_report.hpp"
 
 namespace tread::solver
 {
+
+class StateFile;
 
 /// Sums over the bodies for one step, and the largest overlap and speed. Holds doubles only.
 struct RigidReport
@@ -89,7 +91,13 @@ public:
     BalanceRow      balance(const Census& now);
     io::ErrorReport errors() const { return errors_; }
 
+    /// Saves to a checkpoint, or loads into a ledger of the same scene.
+    void transfer(StateFile& file);
+
 private:
+    void transfer_start(StateFile& file);
+    void transfer_sums(StateFile& file);
+
     double gravity_energy(const Census& now) const;
     double stored(const Census& now) const;
 

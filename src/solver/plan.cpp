@@ -5,7 +5,7 @@
 namespace tread::solver
 {
 
-Plan make_plan(const scene::Scene& scene, const world::World& world)
+Plan make_plan(const scene::Scene& scene, const world::World& world, int ranks)
 {
     const auto plastic = [](const scene::Material& material) { return scene::is_granular(material.model); };
     const auto damped  = [](const scene::Phase& phase) { return phase.damping > 0; };
@@ -13,7 +13,7 @@ Plan make_plan(const scene::Scene& scene, const world::World& world)
     plan.sand         = world.points.size() > 0;
     plan.bodies       = world.bodies.size() > 0;
     plan.coupling     = plan.sand && plan.bodies;
-    plan.body_contact = plan.bodies && (world.bodies.size() > 1 || !world.planes.empty());
+    plan.body_contact = plan.bodies && (ranks > 1 || world.bodies.size() > 1 || !world.planes.empty());
     plan.rays         = world.bodies.size() > 1 && scene.numerics.narrow_phase == scene::NarrowPhase::rays;
     plan.plasticity   = plan.sand && std::any_of(scene.materials.begin(), scene.materials.end(), plastic);
     plan.affine       = plan.sand && scene.numerics.transfer != scene::Transfer::flip;
@@ -31,14 +31,15 @@ std::vector<Stage> stages(const scene::Scene&, const Plan& plan, int ranks)
     };
     const char* no_sand   = "no terrain of material points";
     const char* no_bodies = "no wheel and no rocks";
+    const char* meet      = ranks > 1 ? "bodies on several ranks" : "bodies that may meet each other or a wall";
     const bool  alone     = plan.body_contact && !plan.coupling;
     return {
         needs(stage::order, plan.sand, "terrain", no_sand),
         needs(stage::sleep, plan.sleep, "sleep.distance", plan.sand ? "no sleep.distance" : no_sand),
-        needs(stage::pairs, plan.body_contact, "bodies that may meet each other or a wall", no_bodies),
+        needs(stage::pairs, plan.body_contact, meet, no_bodies),
         needs(stage::candidates, plan.coupling, "sand and bodies", plan.sand ? no_bodies : no_sand),
         needs(stage::sand_contact, plan.coupling, "sand and bodies", plan.sand ? no_bodies : no_sand),
-        needs(stage::body_contact, plan.body_contact, "bodies that may meet each other or a wall",
+        needs(stage::body_contact, plan.body_contact, meet,
               plan.bodies ? "one body and no walls" : no_bodies),
         needs(stage::integrate, plan.bodies && !alone, "bodies", alone ? "part of body-body contact" : no_bodies),
         needs(stage::scatter, plan.sand, "terrain", no_sand),

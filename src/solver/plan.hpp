@@ -23,7 +23,7 @@ struct Plan
     bool sand;         ///< points, pages, grid
     bool bodies;       ///< wheels or rocks
     bool coupling;     ///< sand-body contact
-    bool body_contact; ///< body-body or body-wall contact
+    bool body_contact; ///< body-body or body-wall contact; on several ranks for all bodies: pairs decide who holds them
     bool rays;         ///< contacts between bodies use rays
     bool plasticity;   ///< return mapping
     bool affine;       ///< affine transfers (APIC, AFLIP)
@@ -33,7 +33,8 @@ struct Plan
     bool sleep; ///< sleep of sand at rest
 };
 
-Plan make_plan(const scene::Scene& scene, const world::World& world);
+/// Plans a run of a scene on `ranks` ranks.
+Plan make_plan(const scene::Scene& scene, const world::World& world, int ranks = 1);
 
 /// Lists the stages of a step on `ranks` ranks in order, as `tread check`, the log and summary.json show them.
 std::vector<Stage> stages(const scene::Scene& scene, const Plan& plan, int ranks);

@@ -31,7 +31,7 @@ public:
     /// destination rank, ascending.
     void send_records_after(const std::vector<std::vector<std::uint32_t>>& migrated_out);
 
-    /// Step 2. Finds candidates for the next steps, `span` (s) in all, if the last ones may have expired. `version`:
+    /// Step 3. Finds candidates for the next steps, `span` (s) in all, if the last ones may have expired. `version`:
     /// layout version of points and bodies. No point or body is faster than `speed` (m/s) now, nor will exceed twice
     /// that.
     void find_candidates(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,

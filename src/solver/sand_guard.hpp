@@ -3,7 +3,6 @@
 #include <string>
 
 #include "solver/energy_watch.hpp"
-#include "solver/state_file.hpp"
 #include "solver/time_step.hpp"
 
 namespace tread::solver
@@ -31,7 +30,7 @@ public:
     static constexpr double hopeless_courant = 1;
 
     /// Saves to a checkpoint, or loads from it.
-    void transfer(StateFile& file) { file.doubles("sand/energy_watch", energy_); }
+    void transfer(StateFile& file) { energy_.transfer(file); }
 
 private:
     [[noreturn]] void fail(const std::string& what, const TimeStep& step, double time) const;

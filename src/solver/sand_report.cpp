@@ -1,5 +1,7 @@
 #include "solver/sand_report.hpp"
 
+#include "solver/state_file.hpp"
+
 namespace tread::solver
 {
 namespace
@@ -11,6 +13,15 @@ double power_of(const double* grid, const double* points)
 }
 
 } // namespace
+
+void transfer(StateFile& file, const std::string& name, SandCensus& census)
+{
+    file.numbers(name + "_mass", census.mass);
+    file.numbers(name + "_kinetic", census.kinetic);
+    file.numbers(name + "_strain", census.strain);
+    file.doubles(name + "_momentum", census.momentum);
+    file.doubles(name + "_moment", census.moment);
+}
 
 double SandReport::power() const { return power_of(last_grid, last_points); }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "kernels/mpm/grid/grid.hpp"
 #include "kernels/mpm/pages/census.hpp"
@@ -9,6 +10,8 @@
 
 namespace tread::solver
 {
+
+class StateFile;
 
 /// A report as read back: sums of the grid, sums of the points, peaks of the points.
 inline constexpr int report_sums = mpm::tally_width(mpm::grid_sums) + mpm::tally_width(mpm::point_sums);
@@ -40,6 +43,9 @@ inline SandCensus census_of(const double* total)
     return {total[mpm::census_mass], total[mpm::census_kinetic], total[mpm::census_strain],
             Vec3<double>(total + mpm::census_momentum), Vec3<double>(total + mpm::census_moment)};
 }
+
+/// Saves a census to the data sets `name`_mass, `name`_kinetic and so on of a checkpoint, or loads it.
+void transfer(StateFile& file, const std::string& name, SandCensus& census);
 
 /// Report of the steps since the last one.
 struct SandReport

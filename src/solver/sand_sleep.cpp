@@ -194,7 +194,7 @@ void SandSleep<Exec, Real>::transfer(StateFile& file, const mpm::Pages<Exec>& pa
                                      SortScratch<Exec>& scratch)
 {
     file.own("sleep/asleep", asleep_, accept::all(accept::ascending(), accept::distinct()));
-    file.doubles("sleep/census", census_);
+    solver::transfer(file, "sleep/census", census_);
     file.doubles("sleep/stopped", impulse_);
     file.numbers("sleep/time", slept_, lived_);
     if (file.loads())

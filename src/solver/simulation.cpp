@@ -1,27 +1,21 @@
 #include "solver/simulation.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "backend/instantiate.hpp"
-#include "base/errors.hpp"
 #include "solver/body_reaches.hpp"
+#include "solver/contact_guards.hpp"
 #include "solver/pace_limits.hpp"
+#include "solver/state_file.hpp"
 #include "world/terrain_bins.hpp"
 
 namespace tread::solver
 {
 namespace
 {
-
-constexpr double longest_substep =
-    0.8; ///< dt/N over sqrt(m / sum K): beyond it a contact gains energy (docs/theory.md#time-step)
-constexpr double unseen_travel  = 0.5; ///< displacement of sand, in spacings, after which it is measured again
-constexpr double least_gradient = 0.5; ///< |grad phi| in contact below which a point is past the medial axis
 
 Vec3<double> vector(const scene::Vector3& v) { return {v[0], v[1], v[2]}; }
 
@@ -40,6 +34,14 @@ double speed_at_start(const scene::Scene& scene)
     return speed;
 }
 
+void require_plan_of_ranks(const Plan& plan, bool several)
+{
+    if (several && plan.bodies && !plan.body_contact)
+    {
+        throw std::logic_error("the plan of a simulation on several ranks was made for one");
+    }
+}
+
 } // namespace
 
 template<class Exec, class Real>
@@ -51,30 +53,28 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     , world_(world)
     , plan_(plan)
     , limits_(pace_limits(scene, world, plan))
-    , gravity_(vector(scene.domain.gravity))
     , weight_(free_weight(scene, world))
 {
-    pace_.largest_speed = speed_at_start(scene);
+    require_plan_of_ranks(plan, decomposition != nullptr);
+    measuring_.pace.largest_speed = speed_at_start(scene);
     if (decomposition != nullptr) { balance_.emplace(*decomposition, scene.balance.threshold); }
     if (plan.sand)
     {
         sand_.emplace(exec, scene, world, mpm::PointFields{plan.affine, plan.plasticity, plan.coupling}, decomposition);
     }
-    plan_.body_contact =
-        plan.body_contact || (plan.bodies && decomposition != nullptr); // the list decides who holds which body
-    if (plan.bodies) { rigid_.emplace(exec, scene, world, plan_, decomposition); }
+    if (plan.bodies) { rigid_.emplace(exec, scene, world, plan, decomposition); }
     if (plan.coupling)
     {
         coupling_.emplace(exec, scene, world, rigid_->templates(), rigid_->pair_table(), decomposition);
     }
-    if (plan_.body_contact)
+    if (plan.body_contact)
     {
-        rigid_->find_pairs(choose_step(scene.time, limits_, pace_, 0).dt);
+        rigid_->find_pairs(choose_step(scene.time, limits_, measuring_.pace, 0).dt);
         if (!world.contacts.empty()) { rigid_->contact(0); } // the ledger starts with the contacts' energy
-        pace_.shortest_contact = rigid_->shortest_contact();
+        measuring_.pace.shortest_contact = rigid_->shortest_contact();
     }
     const Census start = census();
-    ledger_.emplace(gravity_, start);
+    ledger_.emplace(vector(scene.domain.gravity), start);
     if (sand_) { guard_.emplace(limits_, start.sand.mass); }
 }
 
@@ -85,65 +85,71 @@ void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, d
     if (rigid_) { rigid_->command(commands); }
 }
 
+/// Preconditions: command() has set the commands of the named bodies. If measured(), `step` was chosen from pace()
+/// by choose_step; else it is the last step, or one of another length, before which it measures. Contact lists of the
+/// last step were made for the present layout_version().
 template<class Exec, class Real>
 TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& clock)
 {
-    if (rigid_) { apply_commands(step); }
-    if (unmeasured_ > 0 && step.dt != last_.dt) { measure(); } // the ledger accounts for steps of one length together
-    if (sand_) { guard_->allow(step, time); }
-    if (sand_ || balance_)
-    {
-        clock.run(exec_, stage::order, [&] { sort_and_migrate(); });
-    }
-    if (sand_ && unmeasured_ == 0 && sand_->sleep_is_due(pace_.largest_speed, damping_))
-    {
-        clock.run(exec_, stage::sleep, [&] { update_sleeping_pages(); });
-    }
-    if (unmeasured_ == 0) { find_contacts(step, clock); }
-    if (plan_.body_contact) { step.substeps = substeps_of(scene_.time, step.dt, limits_, pace_); }
-    if (step.substeps > scene::most_substeps) { rigid_->refuse_substeps(step, pace_, time); }
-    if (coupling_)
-    {
-        clock.run(exec_, stage::candidates, [&] { coupling_->begin_step(sand_->view()); });
-    }
-    if (rigid_) { substeps(step, time, clock); }
-    if (coupling_)
-    {
-        clock.run(exec_, stage::sand_contact, [&] { coupling_->finish_step(sand_->view(), step.dt); });
-    }
-    if (sand_)
-    {
-        clock.run(exec_, stage::scatter, [&] { sand_->scatter(); });
-        if (decomposition_ != nullptr)
-        {
-            clock.run(exec_, stage::halo, [&] { sand_->share(); });
-        }
-        clock.run(exec_, stage::grid, [&] { sand_->update_grid(step.dt, damping_); });
-        clock.run(exec_, stage::gather, [&] { sand_->gather(step.dt); });
-    }
-    last_      = step;
-    last_time_ = time;
-    ++steps_;
-    if (++unmeasured_ >= measure_every_)
-    {
-        clock.run(exec_, stage::measure, [&] { measure(); });
-    }
+    // 1. Commands, the Courant number; points and bodies go to their ranks, points are listed.
+    apply_commands(step);
+    measure_before_change(step.dt);
+    if (guard_) { guard_->allow(step, time); }
+    sort_and_migrate(clock);
+    // 2. Sleep.
+    update_sleeping_pages(clock);
+    // 3. Contact lists; number of substeps.
+    find_contacts(step, time, clock);
+    // 4. Contact substeps: bodies move, sand gets the contact forces.
+    move_bodies(step, time, clock);
+    // 5. and 6. P2G, grid, G2P.
+    if (sand_) { move_sand(step.dt, clock); }
+    // 7. Measurements.
+    measure_if_due(step, time, clock);
     return step;
+}
+
+/// If a command makes a body faster than the largest speed measured, contact lists are valid for this step only, and
+/// the step is shortened to its limits.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::apply_commands(TimeStep& step)
+{
+    if (!rigid_) { return; }
+    const double commanded = rigid_->take_commanded_speed();
+    if (commanded <= measuring_.pace.largest_speed) { return; }
+    if (!measured()) { measure(); }
+    measuring_.pace.largest_speed = std::max(measuring_.pace.largest_speed, commanded);
+    measuring_.every              = 1;
+    const TimeStep wanted         = choose_step(scene_.time, limits_, measuring_.pace, 0);
+    if (wanted.dt < step.dt && !scene_.time.dt) { step = wanted; }
+}
+
+/// The ledger accounts for steps of one length together.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::measure_before_change(double dt)
+{
+    if (!measured() && dt != last_.step.dt) { measure(); }
 }
 
 /// Lists points; on several ranks, migrates points and their contact records to the owners of their pages. Bodies
 /// migrate when their pairs are found next.
 template<class Exec, class Real>
-void Simulation<Exec, Real>::sort_and_migrate()
+void Simulation<Exec, Real>::sort_and_migrate(StageClock& clock)
 {
-    if (balance_ && unmeasured_ == 0 && balance_->is_due(steps_)) { repartition_pages(); }
+    if (!sand_ && !balance_) { return; }
+    clock.run(exec_, stage::order, [&] { list_points(); });
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::list_points()
+{
+    if (balance_ && measured() && balance_->is_due()) { repartition_pages(); }
     if (sand_) { sand_->order(); }
     const std::int64_t moved = sand_ ? sand_->migrated() : 0;
     if (coupling_ && moved > 0) { coupling_->send_records_after(sand_->migrated_out()); }
-    if (!balance_ || layout_version() == balanced_version_) { return; }
-    balanced_version_   = layout_version();
+    if (!balance_ || balance_->has_noted(layout_version())) { return; }
     const double points = sand_ ? static_cast<double>(sand_->count()) : 0, bodies = rigid_ ? rigid_->load() : 0;
-    balance_->note(points + bodies, moved);
+    balance_->note(layout_version(), points + bodies, moved);
 }
 
 template<class Exec, class Real>
@@ -152,117 +158,134 @@ void Simulation<Exec, Real>::repartition_pages()
     decomp::PageLoads loads;
     if (sand_) { sand_->add_loads(loads); }
     if (rigid_) { rigid_->add_loads(loads); }
-    if (balance_->repartition(loads, steps_) && sand_) { sand_->follow_owners(); }
+    if (balance_->repartition(loads) && sand_) { sand_->follow_owners(); }
 }
 
 template<class Exec, class Real>
-void Simulation<Exec, Real>::update_sleeping_pages()
+void Simulation<Exec, Real>::update_sleeping_pages(StageClock& clock)
 {
-    std::vector<BodyReach> bodies;
-    if (rigid_) { bodies = body_reaches(exec_, rigid_->view(), world_); }
-    sand_->update_sleeping_pages(bodies, damping_);
+    if (!sand_ || !measured() || !sand_->sleep_is_due(measuring_.pace.largest_speed, damping_)) { return; }
+    const auto update = [&]
+    {
+        std::vector<BodyReach> bodies;
+        if (rigid_) { bodies = body_reaches(exec_, rigid_->view(), world_); }
+        sand_->update_sleeping_pages(bodies, damping_);
+    };
+    clock.run(exec_, stage::sleep, update);
 }
 
-/// If a command makes a body faster than the largest speed measured, contact lists are valid for this step only, and
-/// the step is shortened to its limits.
+/// Contact lists stay valid until the next measurement; the number of substeps follows from the contacts listed.
 template<class Exec, class Real>
-void Simulation<Exec, Real>::apply_commands(TimeStep& step)
+void Simulation<Exec, Real>::find_contacts(TimeStep& step, double time, StageClock& clock)
 {
-    const double commanded = rigid_->take_commanded_speed();
-    if (commanded <= pace_.largest_speed) { return; }
-    if (unmeasured_ > 0) { measure(); }
-    pace_.largest_speed   = std::max(pace_.largest_speed, commanded);
-    measure_every_        = 1;
-    const TimeStep wanted = choose_step(scene_.time, limits_, pace_, 0);
-    if (wanted.dt < step.dt && !scene_.time.dt) { step = wanted; }
+    if (measured()) { list_contacts(step.dt * static_cast<double>(measuring_.every), clock); }
+    if (plan_.body_contact) { step.substeps = substeps_of(scene_.time, step.dt, limits_, measuring_.pace); }
+    if (step.substeps > scene::most_substeps) { rigid_->refuse_substeps(step, measuring_.pace, time); }
 }
 
-/// Builds contact lists that stay valid for the next `measure_every_` steps.
+/// Builds contact lists that are valid for steps of `span` (s) in all.
 template<class Exec, class Real>
-void Simulation<Exec, Real>::find_contacts(const TimeStep& step, StageClock& clock)
+void Simulation<Exec, Real>::list_contacts(double span, StageClock& clock)
 {
-    const double span = step.dt * static_cast<double>(measure_every_);
     if (plan_.body_contact)
     {
         clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs(span); });
-        pace_.shortest_contact = rigid_->shortest_contact();
+        measuring_.pace.shortest_contact = rigid_->shortest_contact();
     }
+    if (!coupling_) { return; }
+    const auto find = [&]
+    {
+        coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(), layout_version(), span,
+                                   measuring_.pace.largest_speed);
+    };
+    clock.run(exec_, stage::candidates, find);
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::move_bodies(const TimeStep& step, double time, StageClock& clock)
+{
+    if (!rigid_) { return; }
     if (coupling_)
     {
-        clock.run(exec_, stage::candidates,
-                  [&]
-                  {
-                      coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(), layout_version(), span,
-                                                 pace_.largest_speed);
-                  });
+        clock.run(exec_, stage::candidates, [&] { coupling_->begin_step(sand_->view()); });
+    }
+    run_substeps<Exec, Real>({exec_, plan_, *rigid_, coupling_ ? &*coupling_ : nullptr, damping_, why_stop_}, step,
+                             time, measuring_.pace, clock);
+    if (coupling_)
+    {
+        clock.run(exec_, stage::sand_contact, [&] { coupling_->finish_step(sand_->view(), step.dt); });
     }
 }
 
-/// Chooses the number of steps until the next measurement: no point may move more than half a cell, and the pair list
-/// must need no check. A step over its limits is measured every time.
 template<class Exec, class Real>
-void Simulation<Exec, Real>::choose_measuring()
+void Simulation<Exec, Real>::move_sand(double dt, StageClock& clock)
 {
-    measure_every_ = 1;
-    if (!sand_ || over_limit(last_, limits_, pace_)) { return; }
-    const double travel = pace_.largest_speed * last_.dt;
-    measure_every_      = static_cast<std::int64_t>(
-        std::clamp(unseen_travel * scene_.grid.finest() / travel, 1.0, static_cast<double>(most_unmeasured)));
-    if (rigid_)
+    clock.run(exec_, stage::scatter, [&] { sand_->scatter(); });
+    if (decomposition_ != nullptr)
     {
-        measure_every_ = std::min(measure_every_, rigid_->steps_without_check(last_.dt, pace_.largest_speed));
+        clock.run(exec_, stage::halo, [&] { sand_->share(); });
     }
+    clock.run(exec_, stage::grid, [&] { sand_->update_grid(dt, damping_); });
+    clock.run(exec_, stage::gather, [&] { sand_->gather(dt); });
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::measure_if_due(const TimeStep& step, double time, StageClock& clock)
+{
+    last_ = {step, time};
+    if (balance_) { balance_->pass(); }
+    if (++measuring_.unmeasured < measuring_.every) { return; }
+    clock.run(exec_, stage::measure, [&] { measure(); });
 }
 
 template<class Exec, class Real>
 void Simulation<Exec, Real>::measure()
 {
-    const TimeStep&    step  = last_;
-    const double       time  = last_time_;
-    const std::int64_t steps = std::exchange(unmeasured_, 0);
+    Pace&              pace  = measuring_.pace;
+    const std::int64_t steps = std::exchange(measuring_.unmeasured, 0);
     if (rigid_) { rigid_->request_report(); }
     if (coupling_) { coupling_->request_measure(); }
     const SandReport  sand  = sand_ ? sand_->report() : SandReport{};
-    const RigidReport rigid = rigid_ ? rigid_->report(time) : RigidReport{};
-    if (guard_) { guard_->check(sand, step, time); }
-    pace_.largest_speed  = std::max(sand.largest_speed, rigid.largest_speed);
-    pace_.overlap        = rigid.overlap;
-    const double substep = step.dt / static_cast<double>(step.substeps);
-    if (scene_.time.substeps && pace_.shortest_contact > 0 && substep > longest_substep * pace_.shortest_contact)
-    {
-        throw NumericalError(
-            fmt::format("t = {:.6g} s: a substep of {:.4g} s is {:.3g} of a body's sqrt(m / sum K), over the "
-                        "{} at which its contacts gain energy: more substeps, or a smaller dt",
-                        time, substep, substep / pace_.shortest_contact, longest_substep));
-    }
-    ContactReport losses;
-    if (coupling_)
-    {
-        coupling_->measure();
-        const contact::Summary& contacts = coupling_->summary();
-        pace_.stiffest_point             = contacts.stiffest.value;
-        losses                           = {contacts.dissipated, contacts.energy};
-        if (contacts.live > 0 && contacts.flattest.value < least_gradient)
-        {
-            throw NumericalError(fmt::format("t = {:.6g} s: point {} is so deep in body {} that its nearest surface is "
-                                             "not unique (|grad phi| = {:.2g}, "
-                                             "least {}): a smaller dt, or a finer grid beside thin walls",
-                                             time, contacts.flattest.point_id, rigid_->name(contacts.flattest.body),
-                                             contacts.flattest.value, least_gradient));
-        }
-    }
-    extremes_.note(step, steps, limits_, pace_, coupling_ ? coupling_->summary() : contact::Summary::zero());
-    unbalanced_ = weight_ > 0 ? (sand.last_grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
-    ledger_->steps(step.dt, steps, sand, rigid, losses, (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
-    if (guard_) { guard_->watch(sand, step, time); }
-    choose_measuring();
+    const RigidReport rigid = rigid_ ? rigid_->report(last_.time) : RigidReport{};
+    if (guard_) { guard_->check(sand, last_.step, last_.time); }
+    pace.largest_speed = std::max(sand.largest_speed, rigid.largest_speed);
+    pace.overlap       = rigid.overlap;
+    if (scene_.time.substeps) { require_stable_substep(last_, pace); }
+    const ContactReport contacts = coupling_ ? measure_contacts() : ContactReport{};
+    measuring_.extremes.note(last_.step, steps, limits_, pace,
+                             coupling_ ? coupling_->summary() : contact::Summary::zero());
+    measuring_.unbalanced = weight_ > 0 ? (sand.last_grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
+    ledger_->steps(last_.step.dt, steps, sand, rigid, contacts, moving_mass());
+    if (guard_) { guard_->watch(sand, last_.step, last_.time); }
+    measuring_.every = steps_to_measure();
+}
+
+template<class Exec, class Real>
+ContactReport Simulation<Exec, Real>::measure_contacts()
+{
+    coupling_->measure();
+    const contact::Summary& contacts = coupling_->summary();
+    measuring_.pace.stiffest_point   = contacts.stiffest.value;
+    require_unique_surface(contacts, [this](std::int64_t body) { return rigid_->name(body); }, last_.time);
+    return {contacts.dissipated, contacts.energy};
+}
+
+/// Number of steps until the next measurement, for which the pair list must also need no check.
+template<class Exec, class Real>
+std::int64_t Simulation<Exec, Real>::steps_to_measure() const
+{
+    if (!sand_) { return 1; }
+    const Pace&        pace  = measuring_.pace;
+    const std::int64_t steps = steps_until_measured(last_.step, limits_, pace, scene_.grid.finest());
+    if (!rigid_) { return steps; }
+    return std::min(steps, rigid_->steps_without_check(last_.step.dt, pace.largest_speed));
 }
 
 template<class Exec, class Real>
 Census Simulation<Exec, Real>::census()
 {
-    if (unmeasured_ > 0) { measure(); }
-    sort_and_migrate();
+    if (!measured()) { measure(); }
+    list_points();
     Census now;
     if (sand_) { now.sand = sand_->census(); }
     if (rigid_) { now.rigid = rigid_->census(); }
@@ -323,6 +346,24 @@ std::vector<double> Simulation<Exec, Real>::surface_heights(const world::ColumnL
         }
     }
     return bins.surface();
+}
+
+/// Bodies come in the order of a step: contact needs the positions of points and bodies.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::transfer(StateFile& file)
+{
+    if (balance_ && file.exact()) { balance_->transfer(file); }
+    if (sand_) { sand_->transfer(file, world_.points); }
+    if (rigid_) { rigid_->transfer(file); }
+    if (coupling_)
+    {
+        coupling_->transfer(
+            file, rigid_->view(),
+            {world_.bodies.size(), static_cast<std::size_t>(sand_->view().count), world_.points.size()});
+    }
+    solver::transfer(file, measuring_, last_, damping_);
+    ledger_->transfer(file);
+    if (guard_) { guard_->transfer(file); }
 }
 
 #define TREAD_INSTANTIATE(Exec, Real) template class Simulation<Exec, Real>

@@ -1,24 +1,18 @@
 #pragma once
 
-#include <functional>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "io/snapshot.hpp"
 #include "solver/body_command.hpp"
 #include "solver/body_row.hpp"
-#include "solver/dem_solver.hpp"
-#include "solver/extremes.hpp"
+#include "solver/contact_substeps.hpp"
 #include "solver/ledger.hpp"
+#include "solver/measuring.hpp"
 #include "solver/mpm_solver.hpp"
-#include "solver/plan.hpp"
-#include "solver/sand_body_coupling.hpp"
 #include "solver/sand_guard.hpp"
-#include "solver/stage_clock.hpp"
-#include "solver/time_step.hpp"
-#include "world/world.hpp"
+#include "solver/work_balance.hpp"
 
 namespace tread::solver
 {
@@ -31,9 +25,8 @@ template<class Exec, class Real>
 class Simulation
 {
 public:
-    static constexpr int most_unmeasured = 8; ///< most steps between two measurements
-
-    /// `decomposition`: ownership of pages; null on one rank.
+    /// `plan`: of a run on as many ranks; std::logic_error if it leaves out what several ranks need. `decomposition`:
+    /// ownership of pages; null on one rank.
     Simulation(const Exec& exec, const scene::Scene& scene, const world::World& world, const Plan& plan,
                decomp::Decomposition<Exec>* decomposition = nullptr);
 
@@ -43,13 +36,13 @@ public:
     const PaceLimits& limits() const { return limits_; }
 
     /// Values measured after the last step.
-    const Pace& pace() const { return pace_; }
+    const Pace& pace() const { return measuring_.pace; }
 
     /// Unbalanced force over weight in the last measured step.
-    double unbalanced() const { return unbalanced_; }
+    double unbalanced() const { return measuring_.unbalanced; }
 
     /// Worst values over all measured steps.
-    const Extremes& extremes() const { return extremes_; }
+    const Extremes& extremes() const { return measuring_.extremes; }
 
     /// Distribution of work over the ranks so far; null on one rank.
     const decomp::BalanceRow* balance() const { return balance_ ? &balance_->row() : nullptr; }
@@ -68,16 +61,16 @@ public:
 
     /// Sets a check that all ranks call together from time to time within a step of many substeps; if it returns a
     /// reason, the run stops there (StoppedInStep).
-    void set_stop_check(std::function<std::optional<std::string>()> why) { why_stop_ = std::move(why); }
+    void set_stop_check(StopCheck why) { why_stop_ = std::move(why); }
 
     /// Takes one MPM step of `step.dt`, or a shorter one where a command has made a body too fast for it, with its
     /// contact substeps (docs/theory.md#coupling). NumericalError, with cause, place and limit, when the state is no
-    /// longer valid; `time` (s) is for that message. When motion is slow, it measures every few steps only: pace() and
+    /// longer valid; `time` (s), at which the step begins, is for that message. When motion is slow, it measures every few steps only: pace() and
     /// unbalanced() are then as old as that, and contact lists and N are those of the first of these steps.
     TimeStep step(TimeStep step, double time, StageClock& clock);
 
     /// Whether pace() is of the last step; only then choose another dt.
-    bool measured() const { return unmeasured_ == 0; }
+    bool measured() const { return measuring_.unmeasured == 0; }
 
     /// Census of the present state; measures first.
     Census census();
@@ -116,20 +109,23 @@ public:
     const Ledger& ledger() const { return *ledger_; }
 
 private:
-    void transfer_balance(StateFile& file);
-    void sort_and_migrate();
-    void update_sleeping_pages();
-    void repartition_pages();
+    // Parts of a step, in order.
     void apply_commands(TimeStep& step);
-    void find_contacts(const TimeStep& step, StageClock& clock);
-    void substeps(const TimeStep& step, double time, StageClock& clock);
-    void coupled_substep(double dt, StageClock& clock);
-    void run_batch(double dt, std::int64_t done, std::int64_t count, StageClock& clock);
-    void run_substeps(double dt, std::int64_t count, StageClock& clock);
-    void check_for_stop();
-    bool in_one_launch(double dt, std::int64_t count, StageClock& clock);
-    void measure();
-    void choose_measuring();
+    void measure_before_change(double dt);
+    void sort_and_migrate(StageClock& clock);
+    void update_sleeping_pages(StageClock& clock);
+    void find_contacts(TimeStep& step, double time, StageClock& clock);
+    void move_bodies(const TimeStep& step, double time, StageClock& clock);
+    void move_sand(double dt, StageClock& clock);
+    void measure_if_due(const TimeStep& step, double time, StageClock& clock);
+
+    void          list_points();
+    void          repartition_pages();
+    void          list_contacts(double span, StageClock& clock);
+    void          measure();
+    ContactReport measure_contacts();
+    std::int64_t  steps_to_measure() const;
+    double        moving_mass() const { return (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0); }
 
     /// Layout version: cached indices stay valid while this is unchanged.
     std::int64_t layout_version() const
@@ -137,27 +133,19 @@ private:
         return (sand_ ? sand_->reorder_count() : 0) + (rigid_ ? rigid_->partition_version() : 0);
     }
 
-    Exec                                 exec_;
-    decomp::Decomposition<Exec>*         decomposition_;
-    const scene::Scene&                  scene_;
-    const world::World&                  world_;
-    Plan                                 plan_;
-    PaceLimits                           limits_;
-    Pace                                 pace_;
-    Extremes                             extremes_;
-    Vec3<double>                         gravity_;
-    double                               weight_; ///< N, of sand and rocks
-    double                               unbalanced_ = 1;
-    double                               damping_    = 0;
-    TimeStep                             last_;                 ///< the last step, and
-    double                               last_time_        = 0; ///< s, when it began
-    std::int64_t                         unmeasured_       = 0; ///< steps since the last measurement
-    std::int64_t                         measure_every_    = 1; ///< steps
-    std::int64_t                         steps_            = 0; ///< taken
-    std::int64_t                         balanced_version_ = 0; ///< layout_version() at the last update of balance_
-    std::optional<decomp::Balance<Exec>> balance_;              ///< only on several ranks
+    Exec                         exec_;
+    decomp::Decomposition<Exec>* decomposition_;
+    const scene::Scene&          scene_;
+    const world::World&          world_;
+    const Plan                   plan_;
+    PaceLimits                   limits_;
+    double                       weight_; ///< N, of sand and rocks
+    double                       damping_ = 0;
+    Measuring                    measuring_;
+    LastStep                     last_;
+    StopCheck                    why_stop_; ///< empty: no check
 
-    std::function<std::optional<std::string>()> why_stop_; ///< empty: no check
+    std::optional<WorkBalance<Exec>>            balance_; ///< only on several ranks
     std::optional<MpmSolver<Exec, Real>>        sand_;
     std::optional<DemSolver<Exec>>              rigid_;
     std::optional<SandBodyCoupling<Exec, Real>> coupling_;

@@ -27,7 +27,7 @@ public:
                decomp::Decomposition<Exec>* decomposition)
         : exec_(exec)
         , scene_(scene)
-        , plan_(solver::make_plan(scene, world))
+        , plan_(solver::make_plan(scene, world, decomposition != nullptr ? decomposition->ranks() : 1))
         , simulation_(exec, scene, world, plan_, decomposition)
         , loop_(scene, world, simulation_)
     {

@@ -36,7 +36,9 @@ public:
                decomp::Decomposition<Exec>* decomposition = nullptr)
         : scene_(std::move(scene))
         , world_(std::move(world))
-        , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_), decomposition)
+        , simulation_(exec, scene_, world_,
+                      solver::make_plan(scene_, world_, decomposition != nullptr ? decomposition->ranks() : 1),
+                      decomposition)
         , loop_(scene_, world_, simulation_)
     {
     }

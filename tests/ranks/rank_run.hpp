@@ -36,7 +36,8 @@ public:
     {
         if (ranks == Ranks::all) { decompose(exec, owner_of, transport); }
         simulation_ = std::make_unique<solver::Simulation<Exec, Real>>(
-            exec, scene_, world_, solver::make_plan(scene_, world_), decomposition_.get());
+            exec, scene_, world_, solver::make_plan(scene_, world_, decomposition_ ? test::world().size() : 1),
+            decomposition_.get());
         loop_ = std::make_unique<tread::run::TimeLoop<Exec, Real>>(scene_, world_, *simulation_);
     }
 
