@@ -52,6 +52,7 @@ template<class Exec, class Real>
 void Driver<Exec, Real>::begin_phase()
 {
     log_.info(fmt::format("phase '{}' begins at {:.6g} s", keys_of(scene_, loop_.phase).name, loop_.progress.time));
+    require_independent_axes(scene_, loop_.phase, loop_.motions, loop_.progress.time);
     output_.begin_phase();
     drive_watch_.reset();
     messages_.warned = false;

@@ -47,7 +47,7 @@ bool is_report(const PhaseRow& row)
 {
     const double kind = row.end;
     return std::isfinite(row.start) && std::isfinite(row.time) && std::isfinite(row.unbalanced) &&
-           !std::isinf(row.packing_fraction) && kind >= 0 && kind <= static_cast<double>(EndKind::end_of_bed) &&
+           !std::isinf(row.packing_fraction) && kind >= 0 && kind <= static_cast<double>(EndKind::unstopped) &&
            kind == std::floor(kind) && (row.settled == -1 || row.settled == 0 || row.settled == 1);
 }
 
@@ -148,6 +148,7 @@ void Driver<Exec, Real>::transfer(solver::StateFile& file)
     require_same_world(file);
     simulation_.transfer(file);
     run::transfer(file, scene_, loop_.phase, loop_.watch);
+    run::transfer(file, scene_, loop_.motions);
     loop_.clock.transfer(file);
     RunProgress& progress = loop_.progress;
     double       wall     = wall_time();

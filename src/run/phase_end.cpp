@@ -16,7 +16,9 @@ inline constexpr auto tread::scene::spellings<tread::run::EndKind> =
                                               {tread::run::EndKind::unsettled, "not settled"},
                                               {tread::run::EndKind::lowered, "lowered"},
                                               {tread::run::EndKind::unlowered, "not lowered"},
-                                              {tread::run::EndKind::end_of_bed, "end of the bed"}});
+                                              {tread::run::EndKind::end_of_bed, "end of the bed"},
+                                              {tread::run::EndKind::stopped, "stop reached"},
+                                              {tread::run::EndKind::unstopped, "stop not reached"}});
 
 namespace tread::run
 {
@@ -55,7 +57,8 @@ EndKind end_kind(const std::string& name)
 
 bool deserves_warning(EndKind kind)
 {
-    return kind == EndKind::unsettled || kind == EndKind::unlowered || kind == EndKind::end_of_bed;
+    return kind == EndKind::unsettled || kind == EndKind::unlowered || kind == EndKind::end_of_bed ||
+           kind == EndKind::unstopped;
 }
 
 std::string describe(const PhaseEnd& end)
@@ -76,6 +79,10 @@ std::string describe(const PhaseEnd& end)
                            end.after, 100 * end.carried, end.body);
     case EndKind::end_of_bed:
         return fmt::format("'{}' reached the end of the bed after {:.4g} s: {}", end.body, end.after, end.place);
+    case EndKind::stopped:
+        return fmt::format("'{}' reached {} after {:.4g} s", end.body, end.place, end.after);
+    case EndKind::unstopped:
+        return fmt::format("NO stop reached within its duration of {:.4g} s", end.after);
     case EndKind::duration:
         return fmt::format("after {:.4g} s", end.after);
     case EndKind::running:
@@ -124,7 +131,7 @@ void transfer(solver::StateFile& file, const scene::Scene& scene, RunningPhase& 
     auto&      carried = watch.carried;
     file.numbers("phases/now", solver::accept::number(phase.index, 0, last), phase.start,
                  solver::accept::number(watch.still_since, -solver::accept::largest, never),
-                 solver::accept::number(watch.ending.kind, 0, static_cast<double>(EndKind::end_of_bed)),
+                 solver::accept::number(watch.ending.kind, 0, static_cast<double>(EndKind::unstopped)),
                  watch.ending.after, watch.ending.unbalanced);
     file.numbers("phases/carried", carried.last, carried.carried, carried.share);
     file.common("phases/start_spins", phase.start_spins,

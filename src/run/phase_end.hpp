@@ -16,12 +16,14 @@ namespace tread::run
 enum class EndKind
 {
     running,
-    duration,  ///< ran for its whole duration
-    settled,   ///< in equilibrium
-    unsettled, ///< did not reach equilibrium within its max_duration
-    lowered,   ///< the ground carries the lowered body
-    unlowered, ///< it does not within the phase's max_duration
-    end_of_bed ///< the driven body reached the end of the bed
+    duration,   ///< ran for its whole duration
+    settled,    ///< in equilibrium
+    unsettled,  ///< did not reach equilibrium within its max_duration
+    lowered,    ///< the ground carries the lowered body
+    unlowered,  ///< it does not within the phase's max_duration
+    end_of_bed, ///< the driven body reached the end of the bed
+    stopped,    ///< a motion reached one of its stops
+    unstopped   ///< no motion reached a stop within the phase's duration
 };
 
 /// Name in summary.json: "duration", "not settled".
@@ -42,7 +44,7 @@ struct PhaseEnd
 
     std::string body    = {}; ///< body that was lowered
     double      carried = 0;  ///< share of its weight that contacts carry at the end
-    std::string place   = {}; ///< end that a drive reached
+    std::string place   = {}; ///< end that a drive reached, or stop that a motion reached
 };
 
 /// Describes the end for the log: "settled after ..."

@@ -10,6 +10,7 @@
 #include "run/drive_room.hpp"
 #include "run/wall_time.hpp"
 #include "run/warnings.hpp"
+#include "scene/motion_tables.hpp"
 
 namespace tread::run
 {
@@ -152,6 +153,14 @@ void check_phases(const scene::Scene& scene, Warnings& warnings)
         };
         if (phase.drive) { ramp("drive", phase.drive->ramp, "the wheel never reaches its speed"); }
         if (phase.weight) { ramp("weight", phase.weight->ramp, "the weight never reaches its end"); }
+        for (const scene::Motion& motion : phase.motion)
+        {
+            for (const auto& [key, course] : scene::courses_of(motion))
+            {
+                ramp(fmt::format("motion of '{}' {}", motion.body, key).c_str(), course.ramp,
+                     "its value is never reached");
+            }
+        }
         if (phase.lower && phase.lower->speed > fast_lowering)
         {
             warnings.add(table,

@@ -1,8 +1,10 @@
 #include "run/recorder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "run/motions.hpp"
 #include "run/phase_commands.hpp"
 
 namespace tread::run
@@ -33,6 +35,24 @@ std::vector<io::Column> energy_columns()
     return columns;
 }
 
+/// Whether a phase prescribes a motion of the body.
+bool is_moved(const scene::Scene& scene, const scene::Body& body)
+{
+    return std::any_of(scene.phases.begin(), scene.phases.end(),
+                       [&](const scene::Phase& phase) { return motion_of(phase, body.name) != nullptr; });
+}
+
+std::vector<io::Column> columns_of(const scene::Scene& scene, const scene::Body& body)
+{
+    std::vector<io::Column> columns = wheel_columns();
+    if (is_moved(scene, body))
+    {
+        columns.push_back({"reaction_force", 3, "N"});
+        columns.push_back({"reaction_torque", 3, "N m"});
+    }
+    return columns;
+}
+
 std::string group(const scene::Body& body) { return "/wheel/" + body.name; }
 
 } // namespace
@@ -40,7 +60,7 @@ std::string group(const scene::Body& body) { return "/wheel/" + body.name; }
 std::vector<io::SeriesTable> series_tables(const scene::Scene& scene, int ranks)
 {
     std::vector<io::SeriesTable> tables;
-    for (const scene::Body& body : scene.bodies) { tables.push_back({group(body), wheel_columns()}); }
+    for (const scene::Body& body : scene.bodies) { tables.push_back({group(body), columns_of(scene, body)}); }
     tables.push_back({"/energy", energy_columns()});
     tables.push_back(
         {"/balance", {{"time", 1, "s"}, {"mass", 1, "kg"}, {"momentum", 3, "kg m/s"}, {"impulse_error", 1, "1"}}});
@@ -89,6 +109,11 @@ void Recorder::write(double time, const std::vector<solver::BodyRow>& bodies, co
         for (const double value : {body.surface - body.lowest, slip, body.force[0], body.power})
         {
             row.push_back(value);
+        }
+        if (is_moved(scene_, scene_.bodies[b]))
+        {
+            append(row, body.reaction_force);
+            append(row, body.reaction_torque);
         }
         series_.append(group(scene_.bodies[b]), row);
     }

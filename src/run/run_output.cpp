@@ -104,6 +104,7 @@ std::vector<solver::BodyRow> RunOutput<Exec, Real>::wheel_rows()
 {
     auto bodies = loop_.simulation.named_bodies();
     surface_.press(bodies);
+    turn_reactions(bodies, place_.scene, loop_.phase, loop_.motions);
     for (std::size_t b = 0; b < bodies.size(); ++b)
     {
         bodies[b].surface = surface_.under(b, bodies[b]);

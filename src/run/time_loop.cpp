@@ -23,6 +23,30 @@ bool ends_early(PhaseEndWatch& watch, const LoopCalls& calls)
     return early.has_value();
 }
 
+/// Whether a phase with stops is over; `late`: whether it is over without them. Sets watch.ending.
+template<class Exec, class Real>
+bool ends_by_stop(TimeLoop<Exec, Real>& loop, bool late)
+{
+    PhaseEnd& end = loop.watch.ending;
+    if (late && end.kind == EndKind::duration) { end.kind = EndKind::unstopped; }
+    if (!loop.simulation.measured()) { return late; }
+    for (const scene::Motion& motion : keys_of(loop.scene, loop.phase).motion)
+    {
+        if (!motion.until) { continue; }
+        const std::size_t b = body_index(loop.scene, motion.body);
+        loop.motions.contact[b].note(loop.progress.time, loop.simulation.contact_impulse(b));
+        const BodyStart&   start = loop.motions.start[b];
+        const Vec3<double> moved = loop.simulation.place(b) - start.position;
+        const auto stop = stop_reached(motion, axes_of(motion.frame, start), moved, loop.motions.contact[b].mean);
+        if (!stop) { continue; }
+        end.kind  = EndKind::stopped;
+        end.body  = motion.body;
+        end.place = *stop;
+        return true;
+    }
+    return late;
+}
+
 template<class Exec, class Real>
 bool phase_is_over(TimeLoop<Exec, Real>& loop, const LoopCalls& calls)
 {
@@ -31,16 +55,16 @@ bool phase_is_over(TimeLoop<Exec, Real>& loop, const LoopCalls& calls)
     {
         loop.watch.carried.note(time, loop.simulation.carried(*body));
     }
-    return ends_early(loop.watch, calls) ||
-           is_over(loop.scene, loop.phase, loop.watch, time, loop.simulation.unbalanced());
+    const bool over = ends_early(loop.watch, calls) ||
+                      is_over(loop.scene, loop.phase, loop.watch, time, loop.simulation.unbalanced());
+    return has_stops(keys_of(loop.scene, loop.phase)) ? ends_by_stop(loop, over) : over;
 }
 
 /// Angular velocities (rad/s) of the named bodies about their axles.
-template<class Exec, class Real>
-std::vector<double> axle_spins(solver::Simulation<Exec, Real>& simulation)
+std::vector<double> axle_spins(const std::vector<solver::BodyRow>& bodies)
 {
     std::vector<double> spins;
-    for (const solver::BodyRow& body : simulation.named_bodies()) { spins.push_back(spin_of(body)); }
+    for (const solver::BodyRow& body : bodies) { spins.push_back(spin_of(body)); }
     return spins;
 }
 
@@ -53,6 +77,7 @@ TimeLoop<Exec, Real>::TimeLoop(const scene::Scene& run_scene, const world::World
     , simulation(run_simulation)
     , rolling_radii(tread::run::rolling_radii(run_scene, world))
     , phase(first_phase(run_scene))
+    , motions(first_motions(run_scene, world))
 {
 }
 
@@ -72,6 +97,7 @@ solver::TimeStep take_step(TimeLoop<Exec, Real>& loop, const LoopCalls& calls)
     call(calls.before_step, step);
 
     set_commands(loop.commands, loop.scene, loop.phase, loop.rolling_radii, progress.time + step.dt);
+    add_motions(loop.commands, loop.scene, loop.phase, loop.motions, progress.time + step.dt, step.dt);
     call(calls.adjust, loop.commands);
     simulation.command(loop.commands, keys_of(loop.scene, loop.phase).damping);
     step = simulation.step(step, progress.time, loop.clock);
@@ -89,9 +115,13 @@ void end_phases(TimeLoop<Exec, Real>& loop, const LoopCalls& calls)
     while (over)
     {
         call(calls.phase_ends);
-        enter_next(loop.phase, loop.progress.time, axle_spins(loop.simulation));
-        loop.watch = {.ending = loop.watch.ending};
+        PhaseEnd                           ended  = loop.watch.ending;
+        const std::vector<solver::BodyRow> bodies = loop.simulation.named_bodies();
+        enter_next(loop.phase, loop.progress.time, axle_spins(bodies));
+        loop.watch        = PhaseEndWatch{};
+        loop.watch.ending = std::move(ended);
         if (finished(loop.scene, loop.phase)) { return; }
+        begin_motions(loop.motions, loop.scene, loop.phase.index, bodies);
         call(calls.phase_begins);
         over = ends_early(loop.watch, calls);
     }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "run/motions.hpp"
 #include "run/phase_commands.hpp"
 #include "run/phase_end.hpp"
 #include "solver/simulation.hpp"
@@ -35,6 +36,7 @@ struct TimeLoop
     std::vector<double>              rolling_radii; ///< m, of the named bodies
     RunningPhase                     phase;
     PhaseEndWatch                    watch;
+    MotionState                      motions;
     RunProgress                      progress;
     solver::StageClock               clock;
     std::vector<solver::BodyCommand> commands; ///< of the present step

@@ -14,6 +14,9 @@ namespace
 
 using Place = std::tuple<std::string, std::size_t, std::string>; ///< table, index, key
 
+/// Whether a line belongs to the value of the key before it: an array with an element a line.
+bool continues(const std::string& line) { return line.rfind("  ", 0) == 0 || line.rfind(']', 0) == 0; }
+
 /// Splits a resolved scene: one key per line, in tables that start with a line in brackets.
 std::map<Place, std::string> keys_of(const std::string& resolved)
 {
@@ -22,17 +25,20 @@ std::map<Place, std::string> keys_of(const std::string& resolved)
     std::istringstream                 lines(resolved);
     std::string                        line, table;
     std::size_t                        index = 0;
+    std::string*                       last  = nullptr; // the value of the key before
     while (std::getline(lines, line))
     {
         const std::size_t equals = line.find(" = ");
-        if (!line.empty() && line.front() == '[')
+        if (last != nullptr && continues(line)) { *last += line; }
+        else if (!line.empty() && line.front() == '[')
         {
             table = line.substr(line.find_first_not_of('['), line.find(']') - line.find_first_not_of('['));
             index = seen[table]++;
         }
         else if (equals != std::string::npos)
         {
-            keys[{table, index, line.substr(0, equals)}] = line.substr(equals + 3);
+            last  = &keys[{table, index, line.substr(0, equals)}];
+            *last = line.substr(equals + 3);
         }
     }
     return keys;

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "scene/motion_tables.hpp"
+
 namespace tread::scene
 {
 namespace
@@ -40,6 +42,7 @@ std::vector<InputFile> input_files(const Scene& scene)
     }
     add_places(scene.terrain, "terrain", files);
     add_places(scene.rocks, "rocks", files);
+    add_motion_files(scene, [&](const std::string& path, const std::string& key) { files.push_back({path, key}); });
     if (!scene.reference.file.empty()) { files.push_back({scene.reference.file, "[reference] file"}); }
     return files;
 }

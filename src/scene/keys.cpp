@@ -313,6 +313,7 @@ Keys<Phase> phase_keys()
         table_key<Phase>(Presence::optional, "weight", "[[phase]] weight", &Phase::weight, weight_keys(),
                          "The share of one body's weight that acts, as if a counterweight held the rest.",
                          "all of it acts"),
+        phase_motion_key(),
     };
 }
 

@@ -47,6 +47,12 @@ Key<Rocks>   rocks_diameter_key();
 /// Position of a [[body]]: given, or on the surface below it (body_keys.cpp).
 Key<Body> body_position_key();
 
+/// Prescribed motions of a [[phase]], and the name of one in messages (motion_keys.cpp). `phase`: the phase's name
+/// there.
+Keys<Motion> motion_keys();
+Key<Phase>   phase_motion_key();
+std::string  motion_label(const std::string& phase, std::size_t index);
+
 /// Calls visit(name, meaning, member pointer, keys) for each table of a scene, in the order of writing. A member that
 /// is a vector is an array of tables.
 template<class Visit>

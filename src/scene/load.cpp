@@ -7,6 +7,7 @@
 
 #include "scene/contacts.hpp"
 #include "scene/keys.hpp"
+#include "scene/motion_tables.hpp"
 #include "scene/overrides.hpp"
 #include "scene/validate.hpp"
 
@@ -202,6 +203,7 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
     complete_beds(scene, scene.terrain, document, "terrain", problems);
     complete_beds(scene, scene.rocks, document, "rocks", problems);
     complete_reference(scene, document, problems);
+    complete_motions(scene, document, problems);
     complete_places(scene, scene.terrain, document, "terrain", problems);
     complete_places(scene, scene.rocks, document, "rocks", problems);
     validate(scene, document, problems);

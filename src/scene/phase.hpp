@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/motion.hpp"
 #include "scene/words.hpp"
 
 // Settings of a phase of simulated time, as plain data; scene.hpp describes how it is read.
@@ -52,8 +53,15 @@ struct Phase
     std::optional<Drive>       drive;
     std::optional<Lower>       lower;  ///< only with until = "lowered"
     std::optional<WeightShare> weight; ///< empty: the full weight of every body acts
+    std::vector<Motion>        motion; ///< one for each body that has one
 
     bool operator==(const Phase&) const = default;
 };
+
+/// s, simulated time after which the phase ends at the latest.
+inline double time_limit(const Phase& phase)
+{
+    return phase.until == StopRule::duration ? phase.duration : phase.max_duration;
+}
 
 } // namespace tread::scene

@@ -231,6 +231,7 @@ void validate(const Scene& scene, const Node& document, Problems& problems)
     validate_places(scene, checker);
     validate_bodies(scene, checker);
     validate_phases(scene, checker);
+    validate_motions(scene, checker);
     validate_contents(scene, checker);
     validate_cells(scene, checker);
 }

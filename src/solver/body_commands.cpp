@@ -136,7 +136,7 @@ std::optional<BodyCommand> command_of(const CommandRow& row)
 /// Accepts commands that a named body can have received.
 auto commands_that_can_be()
 {
-    constexpr double freedoms = dem::lock_all | dem::hangs;
+    constexpr double freedoms = dem::all_flags;
     const auto       flag     = [](double value) { return value == 0 || value == 1; };
     return accept::all(accept::finite(), accept::each("a command of a body",
                                                       [flag](const CommandRow& row)

@@ -66,6 +66,7 @@ std::vector<BodyRow> named_rows(BodyState<Exec>& state, const NamedMeans<Exec>& 
         const double       drop = world.bodies.scale[b] * depth_below_centre(form, orientation[b]);
         found.push_back({position[b], velocity[b], spin[b], over * impulses[b].linear, over * impulses[b].angular, axle,
                          position[b][2] - drop});
+        found.back().orientation = orientation[b];
     }
     return found;
 }

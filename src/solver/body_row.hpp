@@ -16,7 +16,10 @@ struct BodyRow
     Vec3<double> axle;             ///< unit vector, world frame
     double       lowest;           ///< m, height of the lowest point
     double       surface = 0;      ///< m, height of the terrain under the body before bodies pressed on it (SurfaceMap)
-    double       power   = 0;      ///< W, mean that the axle supplied since the last row (AxleTurn)
+    Vec3<double> reaction_force  = Vec3<double>::Zero(); ///< N, mean of what a prescribed motion exerts (Prescribed)
+    Vec3<double> reaction_torque = Vec3<double>::Zero(); ///< N m, likewise, about the centre of mass
+    Quat         orientation     = Quat::Identity();     ///< body to world
+    double       power           = 0; ///< W, mean that the axle supplied since the last row (AxleTurn)
 };
 
 /// Angular velocity (rad/s) about the axle.

@@ -19,10 +19,10 @@ namespace
 /// before they migrate, and have a radius.
 constexpr double sand_reach = mpm::page_edge + 2;
 
-constexpr double freedoms = dem::lock_all | dem::hangs; ///< all bits of BodiesView::locked
-constexpr double furthest = 1e6;   ///< m, largest accepted distance of a body from the domain's corner
-constexpr double fastest  = 1e6;   ///< m/s and rad/s: steps with faster bodies would not end
-constexpr double shortest = 1e-10; ///< s, smallest accepted sqrt(m / K) of a body with contacts of stiffness K
+constexpr double freedoms = dem::all_flags; ///< all bits of BodiesView::locked
+constexpr double furthest = 1e6;            ///< m, largest accepted distance of a body from the domain's corner
+constexpr double fastest  = 1e6;            ///< m/s and rad/s: steps with faster bodies would not end
+constexpr double shortest = 1e-10;          ///< s, smallest accepted sqrt(m / K) of a body with contacts of stiffness K
 
 void require_distinct_keys(const world::World& world)
 {

@@ -10,6 +10,7 @@
 #include "solver/body_checks.hpp"
 #include "solver/body_output.hpp"
 #include "solver/contact_records.hpp"
+#include "solver/motion_bounds.hpp"
 #include "solver/over_ranks.hpp"
 #include "solver/state_file.hpp"
 
@@ -24,7 +25,9 @@ DemSolver<Exec>::DemSolver(const Exec& exec, const scene::Scene& scene, const wo
     , lists_(exec)
     , reports_(exec, static_cast<std::int64_t>(world.bodies.size()))
     , means_(exec, world.bodies.named)
+    , prescribed_acceleration_(motion_bounds(scene, world).acceleration)
 {
+    if (plan.motions) { motions_.emplace(exec, world.bodies.named); }
     restore_contacts(state_);
 }
 
@@ -32,6 +35,7 @@ template<class Exec>
 void DemSolver<Exec>::command(const std::vector<BodyCommand>& commands)
 {
     const bool changed = apply_commands(state_, commands_, commands);
+    if (motions_) { commands_.largest_speed = std::max(commands_.largest_speed, motions_->set(state_, commands)); }
     if (changed && lists_.listed) { state_.stage(); }
 }
 
@@ -125,9 +129,10 @@ void DemSolver<Exec>::run(double dt, double damping, std::int64_t count)
 template<class Exec>
 dem::BodyStep<Exec> DemSolver<Exec>::body_step(double dt, double damping)
 {
-    return {state_.pairs,           state_.view(), state_.tables.law,
-            reports_.totals.data(), means_.view(), {state_.gravity, damping, dt},
-            state_.shared()};
+    return {state_.pairs,      state_.view(),
+            state_.tables.law, reports_.totals.data(),
+            means_.view(),     {state_.gravity, damping, dt},
+            state_.shared(),   motions_ ? motions_->view() : dem::PrescribedView{}};
 }
 
 template<class Exec>
@@ -159,13 +164,22 @@ RigidCensus DemSolver<Exec>::census()
 template<class Exec>
 std::vector<BodyRow> DemSolver<Exec>::named_bodies()
 {
-    return named_rows(state_, means_);
+    std::vector<BodyRow> rows = named_rows(state_, means_);
+    if (!motions_) { return rows; }
+    const auto reactions = motions_->mean_reactions(state_, means_.time);
+    for (std::size_t b = 0; b < rows.size(); ++b)
+    {
+        rows[b].reaction_force  = reactions[b].linear;
+        rows[b].reaction_torque = reactions[b].angular;
+    }
+    return rows;
 }
 
 template<class Exec>
 void DemSolver<Exec>::begin_mean()
 {
     solver::begin_mean(state_, means_);
+    if (motions_) { motions_->begin_mean(); }
 }
 
 template<class Exec>
@@ -201,6 +215,12 @@ double DemSolver<Exec>::carried(std::size_t body) const
     return solver::carried(state_, means_, body);
 }
 
+template<class Exec>
+Vec3<double> DemSolver<Exec>::contact_impulse(std::size_t body) const
+{
+    return solver::contact_impulse(state_, means_, body);
+}
+
 /// The single numbers of all parts are one row, bodies/steps.
 template<class Exec>
 void DemSolver<Exec>::transfer(StateFile& file)
@@ -210,6 +230,7 @@ void DemSolver<Exec>::transfer(StateFile& file)
                  reports_.rebuilt_overlap, means_.time, substep_, commands_.totals.work);
     commands_.transfer(file);
     means_.transfer(file);
+    if (motions_) { motions_->transfer(file); }
     transfer_contacts(state_, file);
     lists_.transfer(file, state_);
     reports_.transfer(file);

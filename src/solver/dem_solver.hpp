@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "solver/named_means.hpp"
 #include "solver/pair_lists.hpp"
 #include "solver/plan.hpp"
+#include "solver/prescribed_motions.hpp"
 #include "solver/time_step.hpp"
 #include "world/world.hpp"
 
@@ -134,19 +136,28 @@ public:
     /// s, integral over time since the run began of the share of a named body's weight that its contacts carried.
     double carried(std::size_t body) const;
 
+    /// N s, impulse of a named body's contacts since the run began.
+    Vec3<double> contact_impulse(std::size_t body) const;
+
     /// Saves the state to a checkpoint, or loads it into bodies of the same scene; call between two steps. Does not
     /// change later results. Contact energies are available again after the next substep.
     void transfer(StateFile& file);
 
 private:
-    MotionBound bound(double speed) const { return {speed, commands_.heaviest * state_.gravity.norm()}; }
+    MotionBound bound(double speed) const
+    {
+        return {speed, commands_.heaviest * state_.gravity.norm() + prescribed_acceleration_};
+    }
 
     BodyState<Exec>   state_;
     BodyCommands      commands_;
     PairLists<Exec>   lists_;
     BodyReports<Exec> reports_;
     NamedMeans<Exec>  means_;
-    double            substep_ = 0; ///< s, duration of the last substep
+    double            substep_ = 0;             ///< s, duration of the last substep
+    double            prescribed_acceleration_; ///< m/s2, bound on what prescribed forces cause
+
+    std::optional<PrescribedMotions<Exec>> motions_; ///< only if some phase prescribes a motion
 };
 
 } // namespace tread::solver

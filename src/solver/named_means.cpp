@@ -18,15 +18,22 @@ NamedMeans<Exec>::NamedMeans(const Exec& exec, std::int64_t named)
 template<class Exec>
 void NamedMeans<Exec>::transfer(StateFile& file)
 {
+    const std::size_t named = kept.size();
+    transfer_impulses(file, "bodies/impulse", named, impulses);
+    file.common("bodies/kept_impulse", kept, accept::all(accept::rows(named), accept::finite()));
+}
+
+template<class Exec>
+void transfer_impulses(StateFile& file, const std::string& name, std::size_t named,
+                       Array<Exec, dem::ContactImpulse>& impulses)
+{
     std::vector<dem::ContactImpulse> rows         = impulses.to_host();
-    const std::size_t                named        = kept.size();
     const auto                       of_each_rank = [named, own = file.exact()](const auto& values)
     {
         const bool whole = own || named == 0 ? values.size() == named : values.size() % named == 0;
         return whole ? accept::Verdict{} : accept::rows(named)(values);
     };
-    file.own_or_all("bodies/impulse", rows, accept::all(of_each_rank, accept::finite()));
-    file.common("bodies/kept_impulse", kept, accept::all(accept::rows(named), accept::finite()));
+    file.own_or_all(name, rows, accept::all(of_each_rank, accept::finite()));
     if (!file.loads()) { return; }
     std::vector<dem::ContactImpulse> sums(named, {Vec3<double>::Zero(), Vec3<double>::Zero()});
     const bool                       mine = file.exact() || file.communicator().rank() == 0;
@@ -47,9 +54,15 @@ std::vector<dem::ContactImpulse> summed_impulses(const BodyState<Exec>& state, c
 }
 
 template<class Exec>
+Vec3<double> contact_impulse(const BodyState<Exec>& state, const NamedMeans<Exec>& means, std::size_t body)
+{
+    return means.kept[body] + summed_impulses(state, means)[body].linear;
+}
+
+template<class Exec>
 double carried(const BodyState<Exec>& state, const NamedMeans<Exec>& means, std::size_t body)
 {
-    const Vec3<double> impulse = means.kept[body] + summed_impulses(state, means)[body].linear;
+    const Vec3<double> impulse = contact_impulse(state, means, body);
     return -impulse.dot(state.gravity) / (state.world.bodies.mass[body] * state.gravity.squaredNorm());
 }
 
@@ -64,7 +77,9 @@ void begin_mean(const BodyState<Exec>& state, NamedMeans<Exec>& means)
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template struct NamedMeans<Exec>;                                                                                  \
-    template void                             begin_mean(const BodyState<Exec>&, NamedMeans<Exec>&);                   \
+    template void transfer_impulses(StateFile&, const std::string&, std::size_t, Array<Exec, dem::ContactImpulse>&);   \
+    template Vec3<double> contact_impulse(const BodyState<Exec>&, const NamedMeans<Exec>&, std::size_t);               \
+    template void         begin_mean(const BodyState<Exec>&, NamedMeans<Exec>&);                                       \
     template std::vector<dem::ContactImpulse> summed_impulses(const BodyState<Exec>&, const NamedMeans<Exec>&);        \
     template double                           carried(const BodyState<Exec>&, const NamedMeans<Exec>&, std::size_t)
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "kernels/dem/motion/move.hpp"
@@ -26,6 +27,12 @@ struct NamedMeans
     double                           time = 0; ///< s, since begin_mean()
 };
 
+/// Saves or loads impulses on the `named` bodies; loading a state of other ranks adds up what each of them has
+/// recorded.
+template<class Exec>
+void transfer_impulses(StateFile& file, const std::string& name, std::size_t named,
+                       Array<Exec, dem::ContactImpulse>& impulses);
+
 /// Begins a new span for the means. Collective.
 template<class Exec>
 void begin_mean(const BodyState<Exec>& state, NamedMeans<Exec>& means);
@@ -33,6 +40,10 @@ void begin_mean(const BodyState<Exec>& state, NamedMeans<Exec>& means);
 /// Impulses of all ranks' contacts since begin_mean(). Collective.
 template<class Exec>
 std::vector<dem::ContactImpulse> summed_impulses(const BodyState<Exec>& state, const NamedMeans<Exec>& means);
+
+/// N s, impulse of a named body's contacts since the run began. Collective.
+template<class Exec>
+Vec3<double> contact_impulse(const BodyState<Exec>& state, const NamedMeans<Exec>& means, std::size_t body);
 
 /// s, integral over time since the run began of the share of a named body's weight that its contacts carried.
 /// Collective.

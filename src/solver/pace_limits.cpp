@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/motion_bounds.hpp"
 #include "world/materials.hpp"
 #include "world/terrain.hpp"
 
@@ -18,8 +19,11 @@ constexpr double longest_step = 0.02; ///< s, where nothing moves, so that the o
 PaceLimits pace_limits(const scene::Scene& scene, const world::World& world, const Plan& plan)
 {
     PaceLimits limits;
-    limits.gravity = Vec3<double>(scene.domain.gravity.data()).norm();
-    limits.longest = longest_step;
+    limits.gravity             = Vec3<double>(scene.domain.gravity.data()).norm();
+    limits.longest             = longest_step;
+    const MotionBounds motions = motion_bounds(scene, world);
+    limits.gravity += motions.acceleration;
+    limits.longest = std::min(limits.longest, motions.longest_step);
     if (plan.bodies)
     {
         limits.smallest_body = *std::min_element(world.bodies.radius.begin(), world.bodies.radius.end());

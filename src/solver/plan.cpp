@@ -9,6 +9,7 @@ Plan make_plan(const scene::Scene& scene, const world::World& world, int ranks)
 {
     const auto plastic = [](const scene::Material& material) { return scene::is_granular(material.model); };
     const auto damped  = [](const scene::Phase& phase) { return phase.damping > 0; };
+    const auto moved   = [](const scene::Phase& phase) { return !phase.motion.empty(); };
     Plan       plan{};
     plan.sand         = world.points.size() > 0;
     plan.bodies       = world.bodies.size() > 0;
@@ -21,6 +22,7 @@ Plan make_plan(const scene::Scene& scene, const world::World& world, int ranks)
     plan.rocks        = static_cast<std::int64_t>(world.bodies.size()) > world.bodies.named;
     plan.snapshots    = scene.output.snapshots_every > 0;
     plan.sleep        = plan.sand && scene.sleep.distance.has_value();
+    plan.motions      = std::any_of(scene.phases.begin(), scene.phases.end(), moved);
     return plan;
 }
 

@@ -30,7 +30,8 @@ struct Plan
     bool damping;      ///< local damping in some phase
     bool rocks;
     bool snapshots;
-    bool sleep; ///< sleep of sand at rest
+    bool sleep;   ///< sleep of sand at rest
+    bool motions; ///< a prescribed motion in some phase
 };
 
 /// Plans a run of a scene on `ranks` ranks.

@@ -86,6 +86,9 @@ public:
     /// valid when measured().
     double carried(std::size_t body) const { return rigid_->carried(body); }
 
+    /// N s, impulse of a named body's contacts since the run began; valid when measured().
+    Vec3<double> contact_impulse(std::size_t body) const { return rigid_->contact_impulse(body); }
+
     /// Fields of a snapshot; points are this rank's.
     void            copy_points(PointCopy<Exec, Real>& copy) const;
     io::PointFields point_fields() const;

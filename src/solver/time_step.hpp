@@ -25,7 +25,7 @@ struct PaceLimits
     double wave_speed    = 0; ///< m/s, fastest compression wave of the sand; 0 without sand
     double courant       = 0; ///< c_p dt/h: 0.4 at 1 point a cell, 0.6 at 8 and more
     double smallest_body = 0; ///< m, smallest radius; 0 without bodies
-    double gravity       = 0; ///< m/s2
+    double gravity       = 0; ///< m/s2, and what prescribed forces add to it
     double longest       = 0; ///< s, longest step allowed
 };
 

@@ -106,6 +106,7 @@ private:
     {
         simulation_.transfer(file);
         tread::run::transfer(file, scene_, loop_.phase, loop_.watch);
+        tread::run::transfer(file, scene_, loop_.motions);
         file.numbers("run", loop_.progress.time, loop_.progress.chosen.dt);
         file.text("limit", loop_.progress.chosen.limit);
     }
@@ -161,6 +162,32 @@ protected:
 TYPED_TEST_SUITE(Restart, test::Backends, test::BackendNames);
 
 TYPED_TEST(Restart, OfSandGivesTheSameBits) { this->expect_same_bits(test::sand_text); }
+
+/// Saved in the middle of ramps of velocity, torque and load, in a phase with a stop.
+TYPED_TEST(Restart, OfABodyInAMotionGivesTheSameBits)
+{
+    std::string text = test::roller_text;
+    text.replace(text.find("lock     ="), 45, "");
+    text.replace(text.find("position = [0.2, 0.2, 0.33]"), 27, "position = [0.2, 0.2, \"on surface\"]\ngap = 0.004");
+    text.replace(text.find("duration = 0.05"), 15, R"(duration = 0.05
+[[phase]]
+name     = "tow"
+duration = 0.5
+[[phase.motion]]
+body          = "roller"
+frame         = "body"
+rotation_frame = "body"
+x             = { velocity = 0.1, ramp = 0.4 }
+y             = "held"
+yaw           = "held"
+roll          = "held"
+axle          = { torque = 0.05, ramp = 0.3 }
+axle_friction = 0.01
+load          = { force = 80.0, ramp = 0.3 }
+until         = { force_z = 1000.0 })");
+    this->expect_same_bits(text);
+    EXPECT_EQ(this->phase_saved_, 1U);
+}
 
 /// Saved during lowering, then released at half its weight, with a weight that grows.
 TYPED_TEST(Restart, OfABodyThatIsLoweredGivesTheSameBits)

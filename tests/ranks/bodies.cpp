@@ -84,6 +84,61 @@ lock = ["roll", "pitch", "yaw"]
     }
 }
 
+/// A rock of 4 cm towed along x over a floor from the first rank to the last, with a torque, a carriage and a load.
+TYPED_TEST(BodiesOfRanks, ATowedRockCrossesTheirBorder)
+{
+    const Vec3<double> size(0.4, 0.2, 0.2);
+    const std::string  text = test::rock_domain(size, 0,
+                                                "x = \"open\", y = \"open\", bottom = \"fixed\", top = \"open\"", "") +
+                             test::stone(stone_young, 0.5, 0.5) + clast(642) + R"(
+[[body]]
+name = "towed"
+shape = "clast"
+material = "stone"
+density = 2700.0
+diameter = 0.04
+position = [0.14, 0.1, 0.021]
+)" + fixed_step(2e-4) + R"(
+[[phase]]
+name = "tow"
+duration = 1
+[[phase.motion]]
+body          = "towed"
+frame         = "body"
+rotation_frame = "body"
+x             = { velocity = 2.0, ramp = 0.02 }
+y             = "held"
+yaw           = "held"
+axle          = { torque = 1.0e-3, ramp = 0.01 }
+axle_friction = 1.0e-4
+load          = 2.0
+carriage      = { stiffness = 50.0, damping = 0.5, height = 0.03 }
+)";
+    const auto border = [last = this->ranks() - 1](const Vec3<double>& at) { return at[0] < 0.18 ? 0 : last; };
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(text), size, border);
+    const Vec3<double>          start   = run.alone.simulation().named_bodies().front().position;
+    double                      largest = 0, pull = 0;
+    for (int step = 0; step < 300; ++step)
+    {
+        run.advance();
+        const solver::BodyRow one = run.alone.simulation().named_bodies().front(),
+                              all = run.together.simulation().named_bodies().front();
+        pull    = std::max(pull, one.reaction_force.norm()); // N; torques are of the order of its tenth and 2 cm
+        largest = std::max({largest, (one.position - all.position).norm() / 0.04, (one.velocity - all.velocity).norm(),
+                            (one.reaction_force - all.reaction_force).norm(),
+                            100 * (one.reaction_torque - all.reaction_torque).norm()});
+        run.alone.simulation().begin_mean();
+        run.together.simulation().begin_mean();
+    }
+    std::printf("towed rock: largest difference %.3g, largest reaction %.3g N\n", largest, pull);
+    EXPECT_LT(largest, 1e-8);
+    EXPECT_GT(pull, 1);
+    if (this->ranks() > 1)
+    {
+        EXPECT_NE(run.owner_of(start), run.owner_of(run.alone.simulation().named_bodies().front().position));
+    }
+}
+
 /// Two rocks, each in the middle of a rank's pages; then one of them at the border.
 TYPED_TEST(BodiesOfRanks, NothingIsSharedFarFromTheBorder)
 {

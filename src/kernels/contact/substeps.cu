@@ -25,10 +25,11 @@ auto forces_part(PointContact<Gpu>& contact, const Respond& respond)
                                           contact.wrench_sums.data()});
 }
 
-/// Whether the scene has a single body, which touches only sand.
+/// Whether the scene has a single body without prescribed motions, which touches only sand.
 bool is_alone(const dem::BodyStep<Gpu>& step)
 {
-    return step.bodies.count == 1 && step.bodies.role == nullptr && step.pairs.key.size() == 0;
+    return step.bodies.count == 1 && step.bodies.role == nullptr && step.pairs.key.size() == 0 &&
+           step.prescribed.motion == nullptr;
 }
 
 /// Returns false if it needs more threads than are resident on the device.
@@ -38,21 +39,22 @@ bool run_alone(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw& l
     constexpr const char* name = "substeps of sand and a body";
     const Respond         respond{contact.contacts(), contact.private_points(), step.bodies, law, step.motion.dt};
     bool                  runs = false;
-    dem::moving::with_damping(step, KnownWrench{},
-                              [&]<class Move>(const Move& move)
-                              {
-                                  const auto         kernel = lone_body_kernel<Move>;
-                                  const std::int64_t blocks = (respond.points.count + lone_threads - 1) / lone_threads;
-                                  runs                      = blocks <= resident_blocks(name, kernel, lone_threads);
-                                  if (!runs) { return; }
-                                  const LoneBody<Move> lone{respond,
-                                                            contact.candidates.by_point.view(),
-                                                            law.motion,
-                                                            move,
-                                                            step.pairs.body.data(),
-                                                            contact.wrench_sums.data()};
-                                  launch_together(gpu, name, kernel, blocks, lone_threads, count, lone);
-                              });
+    dem::moving::without_motions(step, KnownWrench{},
+                                 [&]<class Move>(const Move& move)
+                                 {
+                                     const auto         kernel = lone_body_kernel<Move>;
+                                     const std::int64_t blocks =
+                                         (respond.points.count + lone_threads - 1) / lone_threads;
+                                     runs = blocks <= resident_blocks(name, kernel, lone_threads);
+                                     if (!runs) { return; }
+                                     const LoneBody<Move> lone{respond,
+                                                               contact.candidates.by_point.view(),
+                                                               law.motion,
+                                                               move,
+                                                               step.pairs.body.data(),
+                                                               contact.wrench_sums.data()};
+                                     launch_together(gpu, name, kernel, blocks, lone_threads, count, lone);
+                                 });
     return runs;
 }
 

@@ -22,6 +22,11 @@ enum LockedFreedom : std::uint32_t
     lock_all   = 63,
 
     hangs = 64, ///< locks nothing: the share BodiesView::weight of the body's weight acts
+
+    prescribed = 128, ///< locks nothing by itself: the body moves by its row of PrescribedView
+    unyielding = 256, ///< locks nothing by itself: a prescribed motion holds all degrees of freedom
+
+    all_flags = 511,
 };
 
 /// Role of a rank for a body in a parallel run. All ranks number bodies alike and hold memory for all of them, so that
@@ -59,6 +64,12 @@ struct BodiesView
 
     TREAD_HD bool is_owned(std::int64_t b) const { return role == nullptr || role[b] == role_owner; }
     TREAD_HD bool is_here(std::int64_t b) const { return role == nullptr || role[b] != role_none; }
+
+    /// Whether no force moves the body, as if its mass were infinite.
+    TREAD_HD bool is_fixed(std::int64_t b) const
+    {
+        return (locked[b] & lock_all) == lock_all || (locked[b] & unyielding) != 0;
+    }
 
     /// Returns the share of a body's weight that acts. Reads memory only for bodies with `hangs`.
     TREAD_HD double acting_weight(std::int64_t b, std::uint32_t flags) const

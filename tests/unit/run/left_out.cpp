@@ -90,6 +90,15 @@ TEST(LeftOut, AWheelOnRocks)
 
 TEST(LeftOut, AWheelOnSand) { expect_uses(low_wheel(), soil + wheel + contact_with_sand); }
 
+/// Motions add no launch.
+TEST(LeftOut, AWheelWithAPrescribedMotion)
+{
+    const Part motions = {{"prescribed motions", "reaction impulses"}, {}};
+    expect_uses(low_wheel() + "[[phase]]\nname = \"sink\"\nduration = 1.0\nmotion = [ { body = \"roller\", z = { "
+                              "velocity = -0.1 } } ]\n",
+                soil + wheel + contact_with_sand + motions);
+}
+
 TEST(LeftOut, RocksInSand) { expect_uses(test::sand_text + within, soil + bodies + pairs + contact_with_sand); }
 
 TEST(LeftOut, AWheelOnSandWithRocks) { expect_uses(low_wheel() + within, soil + wheel + pairs + contact_with_sand); }

@@ -73,7 +73,7 @@ TEST(Lowering, EndsWithAWarningAtItsMaxDuration)
 TEST(Phases, EndsHaveNames)
 {
     for (const EndKind kind : {EndKind::duration, EndKind::settled, EndKind::unsettled, EndKind::lowered,
-                               EndKind::unlowered, EndKind::end_of_bed})
+                               EndKind::unlowered, EndKind::end_of_bed, EndKind::stopped, EndKind::unstopped})
     {
         EXPECT_EQ(end_kind(name_of(kind)), kind);
     }

@@ -33,6 +33,24 @@ TEST(Differences, AreNamedByTableIndexAndKey)
     EXPECT_TRUE(differences(before, before).empty());
 }
 
+/// A resolved scene has one motion a line.
+TEST(Differences, OfEachMotionOfAPhaseCount)
+{
+    const auto text = [](double first, double second)
+    {
+        return "[[phase]]\nmotion = [\n  { body = \"a\", load = " + std::to_string(first) +
+               " },\n  { body = \"b\", load = " + std::to_string(second) + " },\n]\nname = \"tow\"\n";
+    };
+    EXPECT_TRUE(differences(text(1, 2), text(1, 2)).empty());
+    for (const auto& changed : {text(3, 2), text(1, 3)})
+    {
+        const auto found = differences(text(1, 2), changed);
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_EQ(found[0].key, "motion");
+        EXPECT_FALSE(may_change(found[0], 0));
+    }
+}
+
 TEST(Differences, TheRightAnswerMay) { EXPECT_TRUE(may_change({"reference", 0, "form", "\"none\"", "\"weight\""}, 0)); }
 
 /// Whether sand may sleep at all cannot change, because that is another state; and nothing changes in a run that has

@@ -44,8 +44,8 @@ private:
     {
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
         double             sides = 0;
-        if (bodies.locked[a] != lock_all) { sides += 1; }
-        if (b < bodies.count && bodies.locked[b] != lock_all) { sides -= 1; }
+        if (!bodies.is_fixed(a)) { sides += 1; }
+        if (b < bodies.count && !bodies.is_fixed(b)) { sides -= 1; }
         return sides * fall;
     }
 

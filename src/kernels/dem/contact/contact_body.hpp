@@ -26,7 +26,7 @@ TREAD_HD ContactBody contact_body(const BodiesView& bodies, std::int64_t b)
             bodies.scale[b],
             bodies.orientation[b],
             bodies.velocity[b],
-            bodies.locked[b] == lock_all ? 0.0 : 1.0 / bodies.mass[b],
+            bodies.is_fixed(b) ? 0.0 : 1.0 / bodies.mass[b],
             bodies.angular_velocity[b],
             bodies.shape[b],
             bodies.material[b]};

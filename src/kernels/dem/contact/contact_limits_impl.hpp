@@ -106,7 +106,7 @@ struct WriteFrequency
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const bool moves = bodies.is_owned(b) && bodies.locked[b] != lock_all;
+        const bool moves = bodies.is_owned(b) && !bodies.is_fixed(b);
         squared[b]       = moves ? std::fmax(bodies.stiffness[b], expected[b]) / bodies.mass[b] : 0.0;
     }
 };

@@ -16,7 +16,7 @@ struct ContactImpulse
 struct BodyActivity
 {
     double speed;        ///< m/s, maximum over the body's points: |v| + |omega| times the bounding radius
-    double net_force;    ///< N, |contact force + weight| of a body that is free to move, else 0
+    double net_force;    ///< N, |contact force + weight| of a body that is free to move and has no prescribed motion
     double weight_power; ///< W, power of the weight on the body
 };
 

@@ -22,7 +22,7 @@ struct Measure
         }
         activity[b].speed        = bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * bounding_radii[b];
         activity[b].weight_power = bodies.mass[b] * gravity.dot(bodies.velocity[b]);
-        const bool   fixed       = (bodies.locked[b] & lock_all) == lock_all;
+        const bool   fixed       = bodies.is_fixed(b) || (bodies.locked[b] & prescribed) != 0;
         const double share       = bodies.acting_weight(b, bodies.locked[b]);
         activity[b].net_force    = fixed ? 0.0 : (bodies.force[b] + share * bodies.mass[b] * gravity).norm();
     }

@@ -2,6 +2,7 @@
 
 #include "kernels/dem/motion/impulses.hpp"
 #include "kernels/dem/motion/outside.hpp"
+#include "kernels/dem/motion/prescribed.hpp"
 #include "kernels/dem/motion/shared.hpp"
 #include "kernels/dem/motion/totals.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
@@ -37,6 +38,8 @@ struct BodyStep
     NamedImpulses named;
     Motion        motion;
     SharedView    shared = {};
+
+    PrescribedView prescribed = {};
 };
 
 /// First part of move_bodies on several ranks: computes this rank's shares step.shared.wrench, which are then

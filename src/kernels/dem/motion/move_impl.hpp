@@ -3,6 +3,7 @@
 #include "kernels/dem/contact/body_contact_kern.hpp"
 #include "kernels/dem/motion/integrate_kern.hpp"
 #include "kernels/dem/motion/move.hpp"
+#include "kernels/dem/motion/prescribed_kern.hpp"
 
 // Item functions of move.hpp; move.cpp and move.cu provide the schedule.
 namespace tread::dem::moving
@@ -161,9 +162,24 @@ struct Together
     SharedView shared;
 };
 
+/// No body of the scene has a prescribed motion.
+struct NoMotions
+{
+    static constexpr bool act = false;
+};
+
+/// Some phase prescribes the motion of a body.
+struct Motions
+{
+    static constexpr bool act = true;
+
+    PrescribedView view;
+};
+
 /// Sums the forces on a body, adds them to its ledger, and moves it. Of the lanes that share it, the first one writes.
-/// Damping: Free or Damped; Outside: NothingOutside or SumOutside; Ranks: Alone or Together.
-template<class Damping, class Outside, class Ranks>
+/// Damping: Free or Damped; Outside: NothingOutside or SumOutside; Ranks: Alone or Together; Prescription: NoMotions or
+/// Motions.
+template<class Damping, class Outside, class Ranks, class Prescription>
 struct Move
 {
     BodiesView    bodies;
@@ -175,6 +191,7 @@ struct Move
     Damping       damping;
     Outside       outside;
     Ranks         ranks;
+    Prescription  prescription;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
@@ -193,8 +210,7 @@ struct Move
         book(b, share, contact);
         BodyTotal        unbooked;
         const double     weight = bodies.acting_weight(b, body.locked);
-        const MeanMotion mean =
-            integrate_body(body, contact, weight * gravity, damping(bodies, b), dt, *book_of(b, unbooked));
+        const MeanMotion mean   = integrate(b, body, contact, weight * gravity, *book_of(b, unbooked));
         if (weight != 1) { book_hanging((weight - 1) * body.mass * gravity, mean, *book_of(b, unbooked)); }
         if constexpr (Outside::acts) { book_outside(acting.outside, mean, *book_of(b, unbooked)); }
         store_motion(bodies, b, body);
@@ -202,6 +218,29 @@ struct Move
     }
 
 private:
+    TREAD_HD MeanMotion integrate(std::int64_t b, BodyMotion& body, const ContactWrench& contact,
+                                  const Vec3<double>& pull, BodyTotal& total) const
+    {
+        if constexpr (Prescription::act)
+        {
+            if ((body.locked & prescribed) != 0)
+            {
+                ContactImpulse   reaction{Vec3<double>::Zero(), Vec3<double>::Zero()};
+                const MeanMotion mean =
+                    integrate_prescribed(prescription.view.motion[b], body, contact, pull, dt, total, reaction);
+                if (bodies.is_owned(b)) { add(reaction, prescription.view.reaction[b]); }
+                return mean;
+            }
+        }
+        return integrate_body(body, contact, pull, damping(bodies, b), dt, total);
+    }
+
+    TREAD_HD static void add(const ContactImpulse& impulse, ContactImpulse& sum)
+    {
+        sum.linear += impulse.linear;
+        sum.angular += impulse.angular;
+    }
+
     TREAD_HD WrenchShare of_all_ranks(std::int64_t b, const WrenchShare& own) const
     {
         if constexpr (Ranks::of_several)
@@ -280,22 +319,36 @@ struct ShareWrench
     }
 };
 
-/// Calls run with the Move for the motion's damping and the ranks, and with `outside`.
+/// Calls run with the Move for given damping and prescription, for the ranks, and with `outside`.
+template<class Exec, class Outside, class Damping, class Prescription, class Run>
+void with_ranks(const BodyStep<Exec>& step, const Outside& outside, const Damping& damping,
+                const Prescription& prescription, Run run)
+{
+    const auto with = [&]<class Ranks>(const Ranks& ranks)
+    {
+        run(Move<Damping, Outside, Ranks, Prescription>{step.bodies, step.pairs.view(), step.totals, step.named,
+                                                        step.motion.gravity, step.motion.dt, damping, outside, ranks,
+                                                        prescription});
+    };
+    if (step.bodies.role == nullptr) { with(Alone{}); }
+    else { with(Together{step.shared}); }
+}
+
+/// Calls run with the Move of a scene without prescribed motions, for the damping and the ranks, and with `outside`.
+template<class Exec, class Outside, class Run>
+void without_motions(const BodyStep<Exec>& step, const Outside& outside, Run run)
+{
+    if (step.motion.damping > 0) { with_ranks(step, outside, Damped{step.motion.damping}, NoMotions{}, run); }
+    else { with_ranks(step, outside, Free{}, NoMotions{}, run); }
+}
+
+/// Calls run with the Move for the damping, the ranks and the prescribed motions, and with `outside`. With motions one
+/// Move serves any damping.
 template<class Exec, class Outside, class Run>
 void with_damping(const BodyStep<Exec>& step, const Outside& outside, Run run)
 {
-    const auto with = [&]<class Damping, class Ranks>(const Damping& damping, const Ranks& ranks)
-    {
-        run(Move<Damping, Outside, Ranks>{step.bodies, step.pairs.view(), step.totals, step.named, step.motion.gravity,
-                                          step.motion.dt, damping, outside, ranks});
-    };
-    const auto among = [&](const auto& damping)
-    {
-        if (step.bodies.role == nullptr) { with(damping, Alone{}); }
-        else { with(damping, Together{step.shared}); }
-    };
-    if (step.motion.damping > 0) { among(Damped{step.motion.damping}); }
-    else { among(Free{}); }
+    if (step.prescribed.motion == nullptr) { without_motions(step, outside, run); }
+    else { with_ranks(step, outside, Damped{step.motion.damping}, Motions{step.prescribed}, run); }
 }
 
 /// Calls run with the external wrenches.
