@@ -6,11 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "backend/counters.hpp"
-#include "backend/execution.hpp"
-#ifdef TREAD_WITH_CUDA
-#include "backend/device.hpp"
-#endif
+#include "backend/backends.hpp"
 
 // One test body for every backend: TYPED_TEST_SUITE(Name, tread::test::Backends, tread::test::BackendNames).
 // TREAD_TEST_BACKEND=cpu|cuda selects one of them; cuda is skipped if there is no device.
@@ -35,7 +31,6 @@ protected:
     Counters counters;
 };
 
-#ifdef TREAD_WITH_CUDA
 template<>
 class BackendTest<Gpu> : public ::testing::Test
 {
@@ -54,17 +49,14 @@ protected:
     std::unique_ptr<Device> device;
 };
 
-using Backends = ::testing::Types<Cpu, Gpu>;
-#else
-using Backends = ::testing::Types<Cpu>;
-#endif
+using Backends = BackendList<::testing::Types>;
 
 struct BackendNames
 {
     template<class Exec>
     static std::string GetName(int)
     {
-        return std::is_same_v<Exec, Cpu> ? "cpu" : "cuda";
+        return is_gpu<Exec> ? "cuda" : "cpu";
     }
 };
 

@@ -1,18 +1,10 @@
 #pragma once
 
 #include "backend/array.hpp"
-#ifdef TREAD_WITH_CUDA
 #include "backend/pinned.hpp"
-#endif
 
 namespace tread
 {
-
-/// Returns the host's tag of a backend: its arrays receive asynchronous copies (pinned memory for a GPU).
-inline Cpu host_side(const Cpu& cpu) { return cpu; }
-#ifdef TREAD_WITH_CUDA
-inline Pinned host_side(const Gpu& gpu) { return {gpu.counters}; }
-#endif
 
 /// Asynchronous copy of one value to the host. Several requested copies share one synchronization.
 template<class Exec, class T>
@@ -32,8 +24,8 @@ public:
     const T& get() const { return *value_.data(); }
 
 private:
-    Exec                                                exec_;
-    Array<decltype(host_side(std::declval<Exec>())), T> value_;
+    Exec                     exec_;
+    Array<HostSide<Exec>, T> value_;
 };
 
 } // namespace tread

@@ -5,11 +5,10 @@
 
 #include "backend/execution.hpp"
 
-// Exists only in builds with a CUDA compiler (TREAD_WITH_CUDA).
 namespace tread
 {
 
-/// Number of devices that this process can use; 0 also if there is no driver.
+/// Number of devices that this process can use; 0 also if there is no driver, and in builds without GPU backend.
 int device_count();
 
 struct DeviceFacts
@@ -20,6 +19,7 @@ struct DeviceFacts
     std::int64_t free_bytes;
 };
 
+/// Throws EnvironmentError if there is no such device.
 DeviceFacts device_facts(int device);
 
 /// Selects `device` for this thread and owns one stream on it. Throws EnvironmentError on failure.

@@ -25,7 +25,6 @@ public:
     void wait() const {}
 };
 
-#ifdef TREAD_WITH_CUDA
 template<>
 class Event<Gpu>
 {
@@ -43,6 +42,5 @@ private:
     Gpu         gpu_;
     CUevent_st* event_ = nullptr;
 };
-#endif
 
 } // namespace tread

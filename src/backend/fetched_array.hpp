@@ -28,8 +28,8 @@ public:
     const T* data() const { return values_.data(); }
 
 private:
-    Exec                                                exec_;
-    Array<decltype(host_side(std::declval<Exec>())), T> values_;
+    Exec                     exec_;
+    Array<HostSide<Exec>, T> values_;
 };
 
 } // namespace tread

@@ -33,7 +33,6 @@ private:
     Cpu cpu_;
 };
 
-#ifdef TREAD_WITH_CUDA
 template<>
 class SecondaryStream<Gpu>
 {
@@ -53,6 +52,5 @@ private:
     Gpu         second_;
     CUevent_st* reached_ = nullptr; ///< the event that fork and join record on one stream and wait for on the other
 };
-#endif
 
 } // namespace tread

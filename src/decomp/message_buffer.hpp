@@ -4,9 +4,7 @@
 #include <cstdint>
 
 #include "backend/array.hpp"
-#ifdef TREAD_WITH_CUDA
 #include "backend/pinned.hpp"
-#endif
 
 namespace tread::decomp
 {
@@ -21,56 +19,30 @@ enum class Carrier
 
 /// Memory accessible to both kernels and the carrier; only grows.
 template<class Exec>
-class MessageBuffer;
-
-template<>
-class MessageBuffer<Cpu>
+class MessageBuffer
 {
 public:
-    MessageBuffer(const Cpu& cpu, const char* name, Carrier)
-        : bytes_(cpu, name)
+    MessageBuffer(const Exec& exec, const char* name, Carrier carrier)
+        : carrier_(carrier)
+        , own_(exec, name)
+        , host_(host_side(exec), name)
     {
     }
 
     /// Contents are lost if the buffer has to grow.
     std::byte* reserve(std::int64_t bytes)
     {
-        bytes_.resize(bytes);
-        return bytes_.data();
-    }
-
-    std::byte* data() { return bytes_.data(); }
-
-private:
-    Array<Cpu, std::byte> bytes_;
-};
-
-#ifdef TREAD_WITH_CUDA
-template<>
-class MessageBuffer<Gpu>
-{
-public:
-    MessageBuffer(const Gpu& gpu, const char* name, Carrier carrier)
-        : carrier_(carrier)
-        , device_(gpu, name)
-        , pinned_(Pinned{gpu.counters}, name)
-    {
-    }
-
-    std::byte* reserve(std::int64_t bytes)
-    {
-        if (carrier_ == Carrier::host) { pinned_.resize(bytes); }
-        else { device_.resize(bytes); }
+        if (carrier_ == Carrier::host) { host_.resize(bytes); }
+        else { own_.resize(bytes); }
         return data();
     }
 
-    std::byte* data() { return carrier_ == Carrier::host ? pinned_.data() : device_.data(); }
+    std::byte* data() { return carrier_ == Carrier::host ? host_.data() : own_.data(); }
 
 private:
-    Carrier                  carrier_;
-    Array<Gpu, std::byte>    device_;
-    Array<Pinned, std::byte> pinned_;
+    Carrier                          carrier_;
+    Array<Exec, std::byte>           own_;
+    Array<HostSide<Exec>, std::byte> host_;
 };
-#endif
 
 } // namespace tread::decomp

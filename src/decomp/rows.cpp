@@ -1,18 +1,3 @@
+// Instantiates rows_impl.hpp for the CPU.
 #include "backend/launch.hpp"
 #include "decomp/rows_impl.hpp"
-
-namespace tread::decomp
-{
-
-void pack_rows(const Cpu& cpu, const Columns& columns, const std::int32_t* index, std::int64_t count, std::uint32_t* to)
-{
-    pack_all(cpu, columns, index, count, to);
-}
-
-void unpack_rows(const Cpu& cpu, const std::uint32_t* from, std::int64_t count, const Columns& columns,
-                 const std::int32_t* index, std::int64_t first)
-{
-    unpack_all(cpu, from, count, columns, index, first);
-}
-
-} // namespace tread::decomp

@@ -68,13 +68,13 @@ Columns columns(Row*... data)
 }
 
 /// Copies row index[k] of the columns to packed row k.
-void pack_rows(const Cpu&, const Columns& columns, const std::int32_t* index, std::int64_t count, std::uint32_t* to);
-void pack_rows(const Gpu&, const Columns& columns, const std::int32_t* index, std::int64_t count, std::uint32_t* to);
+template<class Exec>
+void pack_rows(const Exec& exec, const Columns& columns, const std::int32_t* index, std::int64_t count,
+               std::uint32_t* to);
 
 /// Copies packed row k to row index[k] of the columns, or to row first + k if `index` is null. Indices must not repeat.
-void unpack_rows(const Cpu&, const std::uint32_t* from, std::int64_t count, const Columns& columns,
-                 const std::int32_t* index, std::int64_t first);
-void unpack_rows(const Gpu&, const std::uint32_t* from, std::int64_t count, const Columns& columns,
+template<class Exec>
+void unpack_rows(const Exec& exec, const std::uint32_t* from, std::int64_t count, const Columns& columns,
                  const std::int32_t* index, std::int64_t first);
 
 } // namespace tread::decomp

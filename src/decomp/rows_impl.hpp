@@ -1,5 +1,6 @@
 #pragma once
 
+#include "backend/instantiate.hpp"
 #include "decomp/rows.hpp"
 
 // Packing and unpacking for both backends; rows.cpp and rows.cu provide for_each.
@@ -59,17 +60,24 @@ struct UnpackWord
 };
 
 template<class Exec>
-void pack_all(const Exec& exec, const Columns& columns, const std::int32_t* index, std::int64_t count,
-              std::uint32_t* to)
+void pack_rows(const Exec& exec, const Columns& columns, const std::int32_t* index, std::int64_t count,
+               std::uint32_t* to)
 {
     for_each(exec, "pack rows", count * columns.words, PackWord{columns, index, to});
 }
 
 template<class Exec>
-void unpack_all(const Exec& exec, const std::uint32_t* from, std::int64_t count, const Columns& columns,
-                const std::int32_t* index, std::int64_t first)
+void unpack_rows(const Exec& exec, const std::uint32_t* from, std::int64_t count, const Columns& columns,
+                 const std::int32_t* index, std::int64_t first)
 {
     for_each(exec, "unpack rows", count * columns.words, UnpackWord{columns, index, first, from});
 }
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void pack_rows(const Exec&, const Columns&, const std::int32_t*, std::int64_t, std::uint32_t*);           \
+    template void unpack_rows(const Exec&, const std::uint32_t*, std::int64_t, const Columns&, const std::int32_t*,    \
+                              std::int64_t)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::decomp

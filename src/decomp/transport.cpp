@@ -1,4 +1,5 @@
 #include "decomp/transport.hpp"
+#include "backend/backends.hpp"
 #include "backend/instantiate.hpp"
 
 #include <algorithm>
@@ -28,25 +29,22 @@ struct Choice
     std::string           description;
 };
 
-Choice choose(const Cpu&, const Communicator&, TransportChoice) { return {Carrier::mpi, nullptr, "MPI"}; }
-
-#ifdef TREAD_WITH_CUDA
 /// Whether the MPI library of every rank reports GPU support.
-bool mpi_knows_gpus(const Communicator& communicator)
+bool mpi_supports_gpus(const Communicator& communicator)
 {
 #if defined(OMPI_HAVE_MPI_EXT_CUDA) && OMPI_HAVE_MPI_EXT_CUDA
-    const bool knows = MPIX_Query_cuda_support() == 1;
+    const bool supports = MPIX_Query_cuda_support() == 1;
 #else
-    const bool knows = false;
+    const bool supports = false;
 #endif
-    return communicator.maximum(knows ? 0 : 1) == 0;
+    return communicator.maximum(supports ? 0 : 1) == 0;
 }
 
-Choice choose(const Gpu&, const Communicator& communicator, TransportChoice choice)
+Choice choose_for_gpus(const Communicator& communicator, TransportChoice choice)
 {
     const bool any = choice == TransportChoice::automatic;
     if (choice == TransportChoice::host) { return {Carrier::host, nullptr, "MPI through pinned host memory"}; }
-    if (choice != TransportChoice::nccl && mpi_knows_gpus(communicator))
+    if (choice != TransportChoice::nccl && mpi_supports_gpus(communicator))
     {
         return {Carrier::mpi, nullptr, "MPI from GPU memory"};
     }
@@ -65,13 +63,6 @@ Choice choose(const Gpu&, const Communicator& communicator, TransportChoice choi
                 fmt::format("MPI through pinned host memory (this MPI cannot send from GPU memory; {})", error.what())};
     }
 }
-#endif
-
-/// Whether launched work has completed when the launch returns.
-bool runs_at_once(const Cpu&) { return true; }
-#ifdef TREAD_WITH_CUDA
-bool runs_at_once(const Gpu&) { return false; }
-#endif
 
 /// Calls f(first byte, bytes) for pieces that MPI can count; they arrive in the order of sending.
 template<class F>
@@ -83,20 +74,6 @@ void for_each_piece(const MessageRange& range, F f)
     }
 }
 
-/// Never called: only GPUs use NCCL.
-void exchange_by_nccl(Transport<Cpu>&, const Cpu&, const MessageRanges&, const std::byte*, const MessageRanges&,
-                      std::byte*)
-{
-}
-
-#ifdef TREAD_WITH_CUDA
-void exchange_by_nccl(Transport<Gpu>& transport, const Gpu& gpu, const MessageRanges& out, const std::byte* from,
-                      const MessageRanges& in, std::byte* to)
-{
-    transport.nccl().exchange(gpu, out, from, in, to);
-}
-#endif
-
 } // namespace
 
 template<class Exec>
@@ -104,7 +81,7 @@ Transport<Exec>::Transport(const Communicator& communicator, const Exec& exec, T
     : communicator_(communicator)
     , exec_(exec)
 {
-    Choice chosen = choose(exec, communicator, choice);
+    Choice chosen = is_gpu<Exec> ? choose_for_gpus(communicator, choice) : Choice{Carrier::mpi, nullptr, "MPI"};
     nccl_         = std::move(chosen.nccl);
     carrier_      = chosen.carrier;
     description_  = std::move(chosen.description);
@@ -138,12 +115,12 @@ void Messages<Exec>::start(const MessageRanges& out, const MessageRanges& in)
     if (out.empty() && in.empty()) { return; }
     if (transport_->carrier() == Carrier::nccl)
     {
-        exchange_by_nccl(*transport_, exec_, out, outgoing_.data(), in, incoming_.data());
+        if constexpr (is_gpu<Exec>) { transport_->nccl().exchange(exec_, out, outgoing_.data(), in, incoming_.data()); }
         return;
     }
     leaving_ = out;
     coming_  = in;
-    if (runs_at_once(exec_)) { post(); }
+    if constexpr (!is_gpu<Exec>) { post(); }
 }
 
 template<class Exec>

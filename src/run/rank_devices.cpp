@@ -1,6 +1,5 @@
 #include "run/rank_devices.hpp"
 
-#ifdef TREAD_WITH_CUDA
 #include <set>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 
 namespace tread::run
 {
+
 int device_of_rank(const Communicator& communicator, GpuSharing sharing)
 {
     const int                      device = communicator.local_rank() % device_count();
@@ -42,4 +42,3 @@ std::vector<std::string> log_devices(const Communicator& communicator, Log& log,
 }
 
 } // namespace tread::run
-#endif

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "backend/backends.hpp"
 #include "backend/memory.hpp"
 #include "base/process_age.hpp"
 #include "base/signals.hpp"
@@ -31,37 +32,21 @@
 #include "scene/resolved.hpp"
 #include "solver/page_loads.hpp"
 #include "world/bed.hpp"
-#ifdef TREAD_WITH_CUDA
-#include "backend/device.hpp"
-#endif
 
 namespace tread::run
 {
 namespace
 {
 
-enum class Backend
-{
-    cpu,
-    cuda
-};
-
-#ifdef TREAD_WITH_CUDA
 Backend choose_backend(BackendChoice choice)
 {
     if (choice == BackendChoice::cpu) { return Backend::cpu; }
     if (device_count() > 0) { return Backend::cuda; }
     if (choice == BackendChoice::automatic) { return Backend::cpu; }
-    throw EnvironmentError("--backend cuda: this machine has no CUDA device that this process can use");
+    throw EnvironmentError(has_gpu ? "--backend cuda: this machine has no CUDA device that this process can use"
+                                   : "--backend cuda: this build has no GPU backend (no CUDA compiler was found when "
+                                     "it was made)");
 }
-#else
-Backend choose_backend(BackendChoice choice)
-{
-    if (choice != BackendChoice::cuda) { return Backend::cpu; }
-    throw EnvironmentError(
-        "--backend cuda: this build has no GPU backend (no CUDA compiler was found when it was made)");
-}
-#endif
 
 const char* name_of(Backend backend) { return backend == Backend::cpu ? "cpu" : "cuda"; }
 

@@ -20,24 +20,19 @@ std::vector<Out> rows_of(const Array<Host, T>& planes, std::int64_t count, int c
     return rows;
 }
 
-Cpu memory(const Cpu& cpu, Counters&) { return cpu; }
-#ifdef TREAD_WITH_CUDA
-Pinned memory(const Gpu&, Counters& host) { return {&host}; }
-#endif
-
 } // namespace
 
 template<class Exec, class Real>
 PointCopy<Exec, Real>::PointCopy(const Exec& exec)
-    : position_(memory(exec, host_), "snapshot position")
-    , start_(memory(exec, host_), "snapshot start")
-    , velocity_(memory(exec, host_), "snapshot velocity")
-    , stress_(memory(exec, host_), "snapshot stress")
-    , volume_ratio_(memory(exec, host_), "snapshot volume ratio")
-    , plastic_shear_(memory(exec, host_), "snapshot plastic shear")
-    , plastic_rate_(memory(exec, host_), "snapshot plastic rate")
-    , id_(memory(exec, host_), "snapshot id")
-    , material_(memory(exec, host_), "snapshot material")
+    : position_(host_side(exec, host_), "snapshot position")
+    , start_(host_side(exec, host_), "snapshot start")
+    , velocity_(host_side(exec, host_), "snapshot velocity")
+    , stress_(host_side(exec, host_), "snapshot stress")
+    , volume_ratio_(host_side(exec, host_), "snapshot volume ratio")
+    , plastic_shear_(host_side(exec, host_), "snapshot plastic shear")
+    , plastic_rate_(host_side(exec, host_), "snapshot plastic rate")
+    , id_(host_side(exec, host_), "snapshot id")
+    , material_(host_side(exec, host_), "snapshot material")
 {
 }
 

@@ -22,7 +22,7 @@ public:
     io::PointFields rows() const;
 
 private:
-    using Host = decltype(host_side(std::declval<Exec>()));
+    using Host = HostSide<Exec>;
 
     /// Position of a part of the points in these planes, and the stride in its own.
     struct Part

@@ -276,23 +276,21 @@ TYPED_TEST(Exchanges, NoticeThatLessCameThanWasPlanned)
     else { exchange.finish(columns(to.data()), 0); }
 }
 
-#ifdef TREAD_WITH_CUDA
-class Transports : public test::BackendTest<Gpu>
-{
-};
+template<class Exec>
+using Transports = test::BackendTest<Exec>;
 
-TEST_F(Transports, SayWhatTheyAre)
+TYPED_TEST_SUITE(Transports, test::Backends, test::BackendNames);
+
+TYPED_TEST(Transports, SayWhatTheyAre)
 {
-    const Transport<Gpu> any(test::world(), exec(), TransportChoice::automatic);
-    const Transport<Gpu> host(test::world(), exec(), TransportChoice::host);
+    const Transport<TypeParam> any(test::world(), this->exec(), TransportChoice::automatic);
+    const Transport<TypeParam> host(test::world(), this->exec(), TransportChoice::host);
     std::printf("automatic: %s\n", any.description().c_str());
-    EXPECT_EQ(host.carrier(), Carrier::host);
-    if (any.carrier() != Carrier::mpi)
-    {
-        EXPECT_THROW(Transport<Gpu>(test::world(), exec(), TransportChoice::mpi), EnvironmentError);
-    }
+    EXPECT_EQ(host.carrier(), is_gpu<TypeParam> ? Carrier::host : Carrier::mpi);
+    if (!is_gpu<TypeParam>) { EXPECT_EQ(any.carrier(), Carrier::mpi); }
+    if (any.carrier() == Carrier::mpi) { return; }
+    EXPECT_THROW(Transport<TypeParam>(test::world(), this->exec(), TransportChoice::mpi), EnvironmentError);
 }
-#endif
 
 } // namespace
 } // namespace tread::decomp

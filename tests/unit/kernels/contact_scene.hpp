@@ -341,12 +341,7 @@ struct ContactCase
     using Real = RealType;
 };
 
-#ifdef TREAD_WITH_CUDA
-using ContactCases = ::testing::Types<ContactCase<Cpu, float>, ContactCase<Cpu, double>, ContactCase<Gpu, float>,
-                                      ContactCase<Gpu, double>>;
-#else
-using ContactCases = ::testing::Types<ContactCase<Cpu, float>, ContactCase<Cpu, double>>;
-#endif
+using ContactCases = BackendAndRealList<::testing::Types, ContactCase>;
 
 struct ContactCaseNames
 {

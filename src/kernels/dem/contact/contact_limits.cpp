@@ -15,19 +15,4 @@ void expect_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies
     contact_limits::expect(cpu, pairs, bodies, law, gravity, dt, shared, each(pairs.key.size()), each(bodies.count));
 }
 
-void expect_shared_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const SharedView& shared)
-{
-    contact_limits::expect_of_all_ranks(cpu, pairs, shared);
-}
-
-double smallest_contact_time(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies)
-{
-    return contact_limits::contact_time(cpu, pairs, bodies);
-}
-
-const double* largest_overlap(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
-{
-    return contact_limits::overlap(cpu, pairs, bodies, law);
-}
-
 } // namespace tread::dem

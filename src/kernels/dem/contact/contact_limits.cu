@@ -17,19 +17,4 @@ void expect_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies
         [&](const char* name, const auto& item) { run(name, body_part<threads, 1>(bodies.count, pairs, item)); });
 }
 
-void expect_shared_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const SharedView& shared)
-{
-    contact_limits::expect_of_all_ranks(gpu, pairs, shared);
-}
-
-double smallest_contact_time(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies)
-{
-    return contact_limits::contact_time(gpu, pairs, bodies);
-}
-
-const double* largest_overlap(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
-{
-    return contact_limits::overlap(gpu, pairs, bodies, law);
-}
-
 } // namespace tread::dem

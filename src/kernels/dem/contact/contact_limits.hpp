@@ -22,14 +22,14 @@ void expect_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, co
                      const Vec3<double>& gravity, double dt, const SharedView& shared = {});
 
 /// Expected stiffness of shared bodies from the pairs of all ranks; call after the exchange of shares.
-void expect_shared_contacts(const Cpu&, Pairs<Cpu>& pairs, const SharedView& shared);
-void expect_shared_contacts(const Gpu&, Pairs<Gpu>& pairs, const SharedView& shared);
+template<class Exec>
+void expect_shared_contacts(const Exec& exec, Pairs<Exec>& pairs, const SharedView& shared);
 
 /// Returns the minimum of sqrt(m/K) (s) over the bodies that can move, where K is the larger of the body's present
 /// stiffness and of the expected one (expect_contacts); 0 without any contact, present or expected. Substeps of 0.2
 /// times that conserve energy (docs/theory.md#time-step).
-double smallest_contact_time(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies);
-double smallest_contact_time(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies);
+template<class Exec>
+double smallest_contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
 
 /// Returns the body with this minimum; call after smallest_contact_time.
 template<class Exec>
@@ -42,8 +42,8 @@ std::int64_t stiffest_body(const Pairs<Exec>& pairs, std::int64_t bodies)
 /// Computes the maximum over all pairs of the overlap divided by the smaller equivalent radius of the pair, since the
 /// pairs were listed; 0 if nothing touched. Returns the address of the result in the backend's memory, valid until
 /// pairs.measure is used again. Warn above 0.1, stop above 0.5.
-const double* largest_overlap(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-const double* largest_overlap(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+template<class Exec>
+const double* largest_overlap(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 /// Returns the pair with this maximum; call after largest_overlap.
 template<class Exec>

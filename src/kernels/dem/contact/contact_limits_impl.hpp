@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "backend/instantiate.hpp"
 #include "backend/reduce.hpp"
 #include "kernels/dem/contact/approach_kern.hpp"
 #include "kernels/dem/contact/contact_limits.hpp"
@@ -144,33 +145,46 @@ void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, Body
                                                   pairs.measure.data(), pairs.expected_stiffness.data(), shared});
 }
 
+} // namespace tread::dem::contact_limits
+
+namespace tread::dem
+{
+
 template<class Exec>
-void expect_of_all_ranks(const Exec& exec, Pairs<Exec>& pairs, const SharedView& shared)
+void expect_shared_contacts(const Exec& exec, Pairs<Exec>& pairs, const SharedView& shared)
 {
     for_each(exec, "expected contacts of shared bodies", shared.count,
-             ExpectTogether{shared, pairs.expected_stiffness.data()});
+             contact_limits::ExpectTogether{shared, pairs.expected_stiffness.data()});
 }
 
 template<class Exec>
-double contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+double smallest_contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     pairs.measure.resize(bodies.count + 1);
     double* largest = pairs.measure.data() + bodies.count;
     for_each(exec, "contact frequencies", bodies.count,
-             WriteFrequency{bodies, pairs.expected_stiffness.data(), pairs.measure.data()});
+             contact_limits::WriteFrequency{bodies, pairs.expected_stiffness.data(), pairs.measure.data()});
     largest_of_rows(exec, pairs.measure.data(), bodies.count, 1, largest);
     const double squared = read(exec, largest);
     return squared > 0 ? 1.0 / std::sqrt(squared) : 0.0;
 }
 
 template<class Exec>
-const double* overlap(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+const double* largest_overlap(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     const std::int64_t count = pairs.key.size();
     pairs.measure.resize(count + 1);
-    for_each(exec, "overlap ratios", count, WriteOverlap{bodies, law, pairs.view(), pairs.measure.data()});
+    for_each(exec, "overlap ratios", count,
+             contact_limits::WriteOverlap{bodies, law, pairs.view(), pairs.measure.data()});
     largest_of_rows(exec, pairs.measure.data(), count, 1, pairs.measure.data() + count);
     return pairs.measure.data() + count;
 }
 
-} // namespace tread::dem::contact_limits
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void          expect_shared_contacts(const Exec&, Pairs<Exec>&, const SharedView&);                       \
+    template double        smallest_contact_time(const Exec&, Pairs<Exec>&, const BodiesView&);                        \
+    template const double* largest_overlap(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+} // namespace tread::dem

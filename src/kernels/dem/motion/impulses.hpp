@@ -21,9 +21,8 @@ struct BodyActivity
 };
 
 /// Computes the activity of every body. Gravity in m/s2; `bounding_radii` in m, per body.
-void measure_activity(const Cpu&, const BodiesView& bodies, const double* bounding_radii, const Vec3<double>& gravity,
-                      BodyActivity* activity);
-void measure_activity(const Gpu&, const BodiesView& bodies, const double* bounding_radii, const Vec3<double>& gravity,
-                      BodyActivity* activity);
+template<class Exec>
+void measure_activity(const Exec& exec, const BodiesView& bodies, const double* bounding_radii,
+                      const Vec3<double>& gravity, BodyActivity* activity);
 
 } // namespace tread::dem

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "backend/instantiate.hpp"
 #include "kernels/dem/motion/impulses.hpp"
 
 // Steps of impulses.hpp, for both backends; impulses.cpp and impulses.cu provide for_each.
@@ -29,3 +30,20 @@ struct Measure
 };
 
 } // namespace tread::dem::impulse_steps
+
+namespace tread::dem
+{
+
+template<class Exec>
+void measure_activity(const Exec& exec, const BodiesView& bodies, const double* bounding_radii,
+                      const Vec3<double>& gravity, BodyActivity* activity)
+{
+    for_each(exec, "measure activity", bodies.count, impulse_steps::Measure{bodies, bounding_radii, gravity, activity});
+}
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void measure_activity(const Exec&, const BodiesView&, const double*, const Vec3<double>&, BodyActivity*)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+} // namespace tread::dem

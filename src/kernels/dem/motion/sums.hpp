@@ -18,9 +18,8 @@ struct BodySums
 };
 
 /// Computes the sums in a fixed order; waits for the backend. gravity in m/s2.
-BodySums sum_bodies(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyTotals<Cpu>& totals,
-                    const Vec3<double>& gravity);
-BodySums sum_bodies(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyTotals<Gpu>& totals,
+template<class Exec>
+BodySums sum_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyTotals<Exec>& totals,
                     const Vec3<double>& gravity);
 
 } // namespace tread::dem

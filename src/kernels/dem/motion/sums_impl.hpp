@@ -1,5 +1,6 @@
 #pragma once
 
+#include "backend/instantiate.hpp"
 #include "backend/reduce.hpp"
 #include "kernels/dem/motion/sums.hpp"
 
@@ -46,10 +47,16 @@ struct WriteBodyRow
     }
 };
 
-template<class Exec>
-BodySums sum(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyTotals<Exec>& totals,
-             const Vec3<double>& gravity)
+} // namespace tread::dem::sums
+
+namespace tread::dem
 {
+
+template<class Exec>
+BodySums sum_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyTotals<Exec>& totals,
+                    const Vec3<double>& gravity)
+{
+    using namespace sums;
     const std::int64_t rows = bodies.count * body_row_width, count = pairs.key.size();
     pairs.measure.resize(rows + body_row_width + body_total_width + 1);
     double* result = pairs.measure.data() + rows;
@@ -69,4 +76,10 @@ BodySums sum(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, con
     return {found.row.kinetic, found.row.potential, found.row.momentum, found.row.spin, found.contact, found.total};
 }
 
-} // namespace tread::dem::sums
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template BodySums sum_bodies(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyTotals<Exec>&,                \
+                                 const Vec3<double>&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+} // namespace tread::dem

@@ -16,7 +16,7 @@ struct DisplacementTracker
     explicit DisplacementTracker(const Exec& exec)
         : position(exec, "body position at search")
         , orientation(exec, "body orientation at search")
-        , share(exec, "body travel shares")
+        , share(exec, "body displacement shares")
     {
     }
 
@@ -26,23 +26,21 @@ struct DisplacementTracker
 };
 
 /// Stores the present positions of the bodies; call after find_pairs.
-void mark_places(const Cpu&, DisplacementTracker<Cpu>& tracker, const BodiesView& bodies);
-void mark_places(const Gpu&, DisplacementTracker<Gpu>& tracker, const BodiesView& bodies);
+template<class Exec>
+void mark_places(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies);
 
 /// Computes the displacement of every body's furthest point since mark_places as a share of the body's allowed
 /// displacement (m), and its maximum; tracker.share holds all. No pair is missing from the list while the maximum is at
 /// most 1. It is infinite for a body without a finite position. Returns the address of the maximum in the backend's
 /// memory.
-const double* largest_displacement(const Cpu&, DisplacementTracker<Cpu>& tracker, const BodiesView& bodies,
-                                   const TemplateView* templates, const double* travel);
-const double* largest_displacement(const Gpu&, DisplacementTracker<Gpu>& tracker, const BodiesView& bodies,
-                                   const TemplateView* templates, const double* travel);
+template<class Exec>
+const double* largest_displacement(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies,
+                                   const TemplateView* templates, const double* allowed);
 
 /// Computes the same share with the displacement extrapolated over the coming steps of `ahead` (s) each, plus a reserve
 /// for bodies at rest.
-const double* largest_displacement_ahead(const Cpu&, DisplacementTracker<Cpu>& tracker, const BodiesView& bodies,
-                                         const TemplateView* templates, const double* travel, double ahead);
-const double* largest_displacement_ahead(const Gpu&, DisplacementTracker<Gpu>& tracker, const BodiesView& bodies,
-                                         const TemplateView* templates, const double* travel, double ahead);
+template<class Exec>
+const double* largest_displacement_ahead(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies,
+                                         const TemplateView* templates, const double* allowed, double ahead);
 
 } // namespace tread::dem

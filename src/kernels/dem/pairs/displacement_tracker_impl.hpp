@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "backend/instantiate.hpp"
 #include "backend/reduce.hpp"
 #include "kernels/dem/pairs/displacement_tracker.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
@@ -18,7 +19,7 @@ struct Measure
     const TemplateView* templates;
     const Vec3<double>* position;
     const Quat*         orientation;
-    const double*       travel;
+    const double*       allowed; ///< m, per body
     double*             share;
 
     TREAD_HD double radius(std::int64_t b) const { return bounding_radius(bodies, templates, b); }
@@ -36,7 +37,7 @@ struct Measure
             share[b] = 0;
             return;
         }
-        const double used = way / travel[b];
+        const double used = way / allowed[b];
         share[b]          = used >= 0 ? used : std::numeric_limits<double>::infinity();
     }
 
@@ -56,21 +57,11 @@ struct MeasureAhead
 };
 
 template<class Exec>
-void mark(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies)
-{
-    const auto count = static_cast<std::size_t>(bodies.count);
-    tracker.position.resize(bodies.count);
-    tracker.orientation.resize(bodies.count);
-    copy(exec, tracker.position.data(), bodies.position, count * sizeof(Vec3<double>));
-    copy(exec, tracker.orientation.data(), bodies.orientation, count * sizeof(Quat));
-}
-
-template<class Exec>
 Measure measure(DisplacementTracker<Exec>& tracker, const BodiesView& bodies, const TemplateView* templates,
-                const double* travel)
+                const double* allowed)
 {
     tracker.share.resize(bodies.count + 1);
-    return {bodies, templates, tracker.position.data(), tracker.orientation.data(), travel, tracker.share.data()};
+    return {bodies, templates, tracker.position.data(), tracker.orientation.data(), allowed, tracker.share.data()};
 }
 
 template<class Exec, class Item>
@@ -83,3 +74,44 @@ const double* largest(const Exec& exec, DisplacementTracker<Exec>& tracker, std:
 }
 
 } // namespace tread::dem::displacement_steps
+
+namespace tread::dem
+{
+
+template<class Exec>
+void mark_places(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies)
+{
+    const auto count = static_cast<std::size_t>(bodies.count);
+    tracker.position.resize(bodies.count);
+    tracker.orientation.resize(bodies.count);
+    copy(exec, tracker.position.data(), bodies.position, count * sizeof(Vec3<double>));
+    copy(exec, tracker.orientation.data(), bodies.orientation, count * sizeof(Quat));
+}
+
+template<class Exec>
+const double* largest_displacement(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies,
+                                   const TemplateView* templates, const double* allowed)
+{
+    return displacement_steps::largest(exec, tracker, bodies.count,
+                                       displacement_steps::measure(tracker, bodies, templates, allowed));
+}
+
+template<class Exec>
+const double* largest_displacement_ahead(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies,
+                                         const TemplateView* templates, const double* allowed, double ahead)
+{
+    const displacement_steps::MeasureAhead item{displacement_steps::measure(tracker, bodies, templates, allowed),
+                                                ahead};
+    return displacement_steps::largest(exec, tracker, bodies.count, item);
+}
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void          mark_places(const Exec&, DisplacementTracker<Exec>&, const BodiesView&);                    \
+    template const double* largest_displacement(const Exec&, DisplacementTracker<Exec>&, const BodiesView&,            \
+                                                const TemplateView*, const double*);                                   \
+    template const double* largest_displacement_ahead(const Exec&, DisplacementTracker<Exec>&, const BodiesView&,      \
+                                                      const TemplateView*, const double*, double)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+} // namespace tread::dem

@@ -24,13 +24,6 @@ void hold_still(const Cpu& cpu, const PagesView& pages, const HeldPagesView& hel
     for_each_heavy(cpu, "hold still", held.count, hold_page);
 }
 
-void keep_largest_speeds(const Cpu& cpu, std::int64_t pages, const double* peaks, double* largest)
-{
-    for_each(cpu, "keep largest speeds", pages, KeepLargestSpeed{peaks, largest});
-}
-
-template void list_held_pages(const Cpu&, const PagesView&, const Array<Cpu, std::uint64_t>&, HeldPages<Cpu>&,
-                              SortScratch<Cpu>&);
 template void hold_still(const Cpu&, const PagesView&, const HeldPagesView&, const float*, const GridStep<float>&,
                          float*, double*);
 template void hold_still(const Cpu&, const PagesView&, const HeldPagesView&, const double*, const GridStep<double>&,

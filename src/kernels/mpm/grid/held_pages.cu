@@ -47,13 +47,6 @@ void hold_still(const Gpu& gpu, const PagesView& pages, const HeldPagesView& hel
                                HoldPage<Real>{pages, held, tiles, step, motion, tallies});
 }
 
-void keep_largest_speeds(const Gpu& gpu, std::int64_t pages, const double* peaks, double* largest)
-{
-    for_each(gpu, "keep largest speeds", pages, KeepLargestSpeed{peaks, largest});
-}
-
-template void list_held_pages(const Gpu&, const PagesView&, const Array<Gpu, std::uint64_t>&, HeldPages<Gpu>&,
-                              SortScratch<Gpu>&);
 template void hold_still(const Gpu&, const PagesView&, const HeldPagesView&, const float*, const GridStep<float>&,
                          float*, double*);
 template void hold_still(const Gpu&, const PagesView&, const HeldPagesView&, const double*, const GridStep<double>&,

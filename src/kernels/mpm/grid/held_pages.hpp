@@ -52,7 +52,7 @@ void hold_still(const Gpu&, const PagesView& pages, const HeldPagesView& held, c
                 const GridStep<Real>& step, Real* motion, double* tallies);
 
 /// Sets largest[page] to the maximum of itself and the page's peak_speed_squared, m2/s2.
-void keep_largest_speeds(const Cpu&, std::int64_t pages, const double* peaks, double* largest);
-void keep_largest_speeds(const Gpu&, std::int64_t pages, const double* peaks, double* largest);
+template<class Exec>
+void keep_largest_speeds(const Exec& exec, std::int64_t pages, const double* peaks, double* largest);
 
 } // namespace tread::mpm

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "backend/instantiate.hpp"
 #include "kernels/mpm/grid/held_pages_kern.hpp"
 
 // list_held_pages, for both backends; held_pages.cpp and held_pages.cu provide for_each and instantiate.
@@ -66,5 +67,18 @@ void list_held_pages(const Exec& exec, const PagesView& pages, const Array<Exec,
     for_each(exec, "write held pages", pages.node_pages,
              WriteHeldPage{around, held.marks.data(), held.page.data(), held.octants.data()});
 }
+
+template<class Exec>
+void keep_largest_speeds(const Exec& exec, std::int64_t pages, const double* peaks, double* largest)
+{
+    for_each(exec, "keep largest speeds", pages, KeepLargestSpeed{peaks, largest});
+}
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void list_held_pages(const Exec&, const PagesView&, const Array<Exec, std::uint64_t>&, HeldPages<Exec>&,  \
+                                  SortScratch<Exec>&);                                                                 \
+    template void keep_largest_speeds(const Exec&, std::int64_t, const double*, double*)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

@@ -57,19 +57,13 @@ void list_seams(const Exec& exec, const PagesView& pages, const Refinement& refi
                 SortScratch<Exec>& scratch);
 
 /// After P2G: computes the totals of the seam pages, including the parts passed on by slave nodes.
-template<class Real>
-void hand_down(const Cpu&, const PagesView& pages, const Refinement& refinement, const Real* tiles,
-               Seams<Cpu, Real>& seams);
-template<class Real>
-void hand_down(const Gpu&, const PagesView& pages, const Refinement& refinement, const Real* tiles,
-               Seams<Gpu, Real>& seams);
+template<class Exec, class Real>
+void hand_down(const Exec& exec, const PagesView& pages, const Refinement& refinement, const Real* tiles,
+               Seams<Exec, Real>& seams);
 
 /// After update_grid and update_walls: computes the motion of the slave nodes.
-template<class Real>
-void follow_coarser(const Cpu&, const PagesView& pages, const Refinement& refinement, const Seams<Cpu, Real>& seams,
-                    Real* motion);
-template<class Real>
-void follow_coarser(const Gpu&, const PagesView& pages, const Refinement& refinement, const Seams<Gpu, Real>& seams,
-                    Real* motion);
+template<class Exec, class Real>
+void follow_coarser(const Exec& exec, const PagesView& pages, const Refinement& refinement,
+                    const Seams<Exec, Real>& seams, Real* motion);
 
 } // namespace tread::mpm

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "backend/instantiate.hpp"
 #include "kernels/mpm/grid/seams_kern.hpp"
 #include "kernels/mpm/pages/numbered_pages_impl.hpp"
 #include "kernels/mpm/pages/shared_pages_impl.hpp"
@@ -164,8 +165,8 @@ void list_seams(const Exec& exec, const PagesView& pages, const Refinement& refi
 }
 
 template<class Exec, class Real>
-void hand_down_all(const Exec& exec, const PagesView& pages, const Refinement& refinement, const Real* tiles,
-                   Seams<Exec, Real>& seams)
+void hand_down(const Exec& exec, const PagesView& pages, const Refinement& refinement, const Real* tiles,
+               Seams<Exec, Real>& seams)
 {
     using namespace seam_steps;
     const std::int64_t nodes = seams.page.size() * page_cells;
@@ -181,8 +182,8 @@ void hand_down_all(const Exec& exec, const PagesView& pages, const Refinement& r
 }
 
 template<class Exec, class Real>
-void follow_all(const Exec& exec, const PagesView& pages, const Refinement& refinement, const Seams<Exec, Real>& seams,
-                Real* motion)
+void follow_coarser(const Exec& exec, const PagesView& pages, const Refinement& refinement,
+                    const Seams<Exec, Real>& seams, Real* motion)
 {
     using namespace seam_steps;
     for (int level = 1; level <= refinement.levels; ++level)
@@ -191,5 +192,13 @@ void follow_all(const Exec& exec, const PagesView& pages, const Refinement& refi
                  FollowParents<Real>{pages, refinement, level, seams.page.data(), seams.parent.data(), motion});
     }
 }
+
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void list_seams(const Exec&, const PagesView&, const Refinement&, Seams<Exec, Real>&,                     \
+                             SortScratch<Exec>&);                                                                      \
+    template void hand_down(const Exec&, const PagesView&, const Refinement&, const Real*, Seams<Exec, Real>&);        \
+    template void follow_coarser(const Exec&, const PagesView&, const Refinement&, const Seams<Exec, Real>&, Real*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

@@ -50,21 +50,15 @@ struct SharedPages
 };
 
 /// Computes SharedPages::own from the tiles.
-template<class Real>
-void sum_own_parts(const Cpu&, const PagesView& pages, const Real* tiles, SharedPages<Cpu, Real>& shared);
-template<class Real>
-void sum_own_parts(const Gpu&, const PagesView& pages, const Real* tiles, SharedPages<Gpu, Real>& shared);
+template<class Exec, class Real>
+void sum_own_parts(const Exec& exec, const PagesView& pages, const Real* tiles, SharedPages<Exec, Real>& shared);
 
 /// Computes SharedPages::total: sums the parts of every page in order. `arrived`: [parts of others][node_page_values].
-template<class Real>
-void add_parts(const Cpu&, const Real* arrived, SharedPages<Cpu, Real>& shared);
-template<class Real>
-void add_parts(const Gpu&, const Real* arrived, SharedPages<Gpu, Real>& shared);
+template<class Exec, class Real>
+void add_parts(const Exec& exec, const Real* arrived, SharedPages<Exec, Real>& shared);
 
 /// Clears the tallies (`width` numbers per node page) of pages whose tallies another process keeps.
-template<class Real>
-void clear_booked_elsewhere(const Cpu&, const SharedPages<Cpu, Real>& shared, int width, double* tallies);
-template<class Real>
-void clear_booked_elsewhere(const Gpu&, const SharedPages<Gpu, Real>& shared, int width, double* tallies);
+template<class Exec, class Real>
+void clear_booked_elsewhere(const Exec& exec, const SharedPages<Exec, Real>& shared, int width, double* tallies);
 
 } // namespace tread::mpm

@@ -65,14 +65,14 @@ struct ClearRow
 };
 
 template<class Exec, class Real>
-void sum_all_own_parts(const Exec& exec, const PagesView& pages, const Real* tiles, SharedPages<Exec, Real>& shared)
+void sum_own_parts(const Exec& exec, const PagesView& pages, const Real* tiles, SharedPages<Exec, Real>& shared)
 {
     for_each(exec, "own parts of shared pages", shared.page.size() * page_cells,
              SumOwnPart<Real>{pages, shared.page.data(), tiles, shared.own.data()});
 }
 
 template<class Exec, class Real>
-void add_all_parts(const Exec& exec, const Real* arrived, SharedPages<Exec, Real>& shared)
+void add_parts(const Exec& exec, const Real* arrived, SharedPages<Exec, Real>& shared)
 {
     for_each(
         exec, "add parts of shared pages", shared.page.size() * node_page_values,
@@ -80,7 +80,7 @@ void add_all_parts(const Exec& exec, const Real* arrived, SharedPages<Exec, Real
 }
 
 template<class Exec, class Real>
-void clear_rows(const Exec& exec, const SharedPages<Exec, Real>& shared, int width, double* tallies)
+void clear_booked_elsewhere(const Exec& exec, const SharedPages<Exec, Real>& shared, int width, double* tallies)
 {
     for_each(exec, "clear tallies booked elsewhere", shared.booked_elsewhere.size() * width,
              ClearRow{shared.booked_elsewhere.data(), width, tallies});
