@@ -3,7 +3,8 @@
 coefficient, which follows from its density, gravity and internal friction. The theory in the plane, from which its idea comes, is that of C. Li,
 T. Zhang and D. I. Goldman, Science 339, 1408 (2013). World axes: x forwards, y along the axle, z up; the sand's surface is z = 0."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -140,14 +141,19 @@ def _grouser_faces(wheel, middle, half):
     return parts
 
 
-def forces(wheel, sand, sinkage, speed, spin):
-    """(lift N, pull N, driving torque N m): means over one pitch of the grousers, of a wheel that moves at `speed` m/s and turns at `spin` rad/s."""
+@lru_cache(maxsize=16)
+def _mean_elements(wheel):
+    """The elements at all positions of the grousers in one pitch, each with its share of the area: what is linear in them is a mean over the pitch."""
     phases = np.arange(PHASES) / PHASES * 2 * np.pi / wheel.grousers if wheel.grousers else (0.0,)
-    return np.mean([_forces_at(wheel_elements(wheel, phase), wheel, sand, sinkage, speed, spin) for phase in phases], axis=0)
+    arm, normal, area = (np.concatenate(arrays) for arrays in zip(*(wheel_elements(wheel, phase) for phase in phases)))
+    lower = arm[:, 2] < 0  # the sand reaches up to the axle at most
+    return arm[lower], normal[lower], area[lower] / len(phases)
 
 
-def _forces_at(elements, wheel, sand, sinkage, speed, spin):
-    arm, normal, area = elements
+def forces(wheel, sand, sinkage, speed, spin):
+    """(lift N, pull N, driving torque N m): means over one pitch of the grousers, of a wheel that moves at `speed` m/s and turns at `spin` rad/s.
+    The sinkage is at most the outer radius."""
+    arm, normal, area = _mean_elements(replace(wheel, weight=0.0))
     position = arm + np.array([0.0, 0.0, wheel.outer_radius - sinkage])
     velocity = np.stack((speed + spin * arm[:, 2], np.zeros(len(arm)), -spin * arm[:, 0]), axis=1)
     force = area[:, None] * stress_on(sand, position, normal, velocity)
@@ -173,7 +179,7 @@ def predict(wheel, sand, rim_speed, speed):
 
 def slip_for_pull(pull_at, wanted, most=0.99):
     """The least slip in [0, most] at which `pull_at(slip)`, N, reaches `wanted`; NaN where it never does, or where the wheel is not carried."""
-    slips = np.linspace(0.0, most, 34)
+    slips = np.linspace(0.0, most, 23)
     low = None
     for slip in slips:
         pull = pull_at(slip)
@@ -187,7 +193,7 @@ def slip_for_pull(pull_at, wanted, most=0.99):
     if low is None:
         return 0.0
     high = slip
-    for _ in range(20):
+    for _ in range(14):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if pull_at(middle) < wanted else (low, middle)
     return high
