@@ -11,23 +11,21 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 if sys.version_info < (3, 11):
     sys.exit("study: error: Python 3.11 or later is needed")
 
-from tread_jobs import local
 from tread_jobs.campaign_file import parse_campaign
-from tread_jobs.cases import make_cases, without_repetition
-from tread_jobs.check import check_cases, seconds_of
+from tread_jobs.cases import without_repetition
+from tread_jobs.check import seconds_of
 from tread_jobs.directory import CampaignDirectory
 from tread_jobs.errors import CampaignError, MachineError
 from tread_jobs.files import printable, write_text
+from tread_jobs.local_campaign import all_checked, cost_of_plans, expand_into, print_states, run_missing
 from tread_jobs.resources import Site
-from tread_jobs.status import DONE, FAILED, UNFINISHED, case_states, summary_text
+from tread_jobs.status import DONE
 from tread_jobs.study_plan import DESIGNS, campaign_text, default_repeats, read_scene, read_setting, read_variation
-from tread_jobs.submission import make_submission
 
 REPORT = Path(__file__).resolve().parents[1] / "postprocess" / "work_precision.py"
 SOME_FAILED = 3
@@ -114,9 +112,7 @@ def campaign_of(options, scene, quantities):
 
 def checked_cases(campaign, program):
     """(cases, plans) of all variants; those that differ from an earlier one in nothing that counts are left out."""
-    cases = make_cases(campaign)
-    with tempfile.TemporaryDirectory() as scratch:
-        plans = check_cases(program, cases, len(cases), Path(scratch))
+    cases, plans = all_checked(campaign, program)
     plan_of = {case.digest: plan for case, plan in zip(cases, plans)}
     cases = without_repetition(cases, lambda case: plan_of[case.digest].scene or case.digest)
     return cases, [plan_of[case.digest] for case in cases]
@@ -129,33 +125,12 @@ def print_variants(cases, plans, resources):
         print(f"{case.name}  {plan.points:>9} points {plan.bodies:>6} bodies {plan.steps:9.3g} steps {plan.memory / 1e6:8.3g} MB  about {time:7.3g} s  "
               f"{varied_text(case)}")
     print(f"{len(cases)} variants, about {sum(times):.3g} s on {machine} by the model, {sum(plan.disk for plan in plans) / 1e9:.2g} GB of disk at most", flush=True)
-    return {"seconds": sum(times), "disk": sum(plan.disk for plan in plans)}
+    return cost_of_plans(plans, resources)
 
 
 def varied_text(case):
     """What the variant sets; the rest is as the scene has it."""
     return ", ".join(f"{name} {case.labels[name]}" for name in case.varied) or "the scene as it is"
-
-
-def run_missing(options, campaign, directory, program):
-    """Runs what has not finished; the states of all."""
-    with directory.locked():
-        states = case_states(directory, 900)
-        entries = [entry for entry in directory.entries() if states[entry.name].state in UNFINISHED]
-        if not entries:
-            return states
-        submission = make_submission(directory, entries, campaign.resources, Site(), program)
-        submission.write()
-        submission.record({"means": "local", "site": "", "at_once": options.jobs, "gpus": options.gpus})
-        local.LocalTasks(submission, local.slots_of(options.jobs, options.gpus if options.backend == "cuda" else 0)).run()
-        return case_states(directory, 900)
-
-
-def print_states(states):
-    print(summary_text(states))
-    for name, case in states.items():
-        if case.state == FAILED:
-            print(f"variant {name}: {printable(case.reason)}")
 
 
 def study(options):
@@ -179,17 +154,16 @@ def study(options):
         cost = print_variants(cases, plans, campaign.resources)
         if options.dry_run:
             return 0
-        with directory.locked():
-            write_text(campaign.path, campaign.text)
-            directory.write(campaign, cases, cost)
-    states = run_missing(options, campaign, directory, os.path.abspath(program))
+        expand_into(directory, campaign, cases, cost)
+    gpus = options.gpus if options.backend == "cuda" else 0
+    states = run_missing(directory, campaign, os.path.abspath(program), options.jobs, gpus)
     try:
         states = write_table(options.output / "study.csv", directory, states, quantities, options)
     except RunError as error:
-        print_states(states)
+        print_states(states, "variant")
         print(f"study: error: {printable(error)}", file=sys.stderr)
         return SOME_FAILED
-    print_states(states)
+    print_states(states, "variant")
     report = [sys.executable, str(REPORT), str(options.output / "study.csv"), "--within", str(options.within)]
     done = subprocess.run(report, stdout=subprocess.PIPE, text=True, check=False)
     write_text(options.output / "study.txt", done.stdout)

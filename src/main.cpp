@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -305,6 +306,22 @@ void add_sdf_options(CLI::App& command, SdfArguments& arguments)
     command.add_option("--write-stl", arguments.stl, "Write the surface, centred, in metres")->type_name("FILE");
 }
 
+/// Adds the commands that are scripts, with the script of each. Their options, help included, are those of the script.
+std::vector<std::pair<CLI::App*, std::string>> add_script_commands(CLI::App& app)
+{
+    std::vector<std::pair<CLI::App*, std::string>> commands{
+        {app.add_subcommand("study", "Error against run time of a scene's variants: docs/study.md"), "jobs/study.py"},
+        {app.add_subcommand("validate", "Measured wheels beside tread: docs/validation.md"), "jobs/validate.py"},
+        {app.add_subcommand("calibrate", "Constants of a scene from measured curves: docs/calibration.md"),
+         "jobs/calibrate.py"}};
+    for (auto& [command, script] : commands)
+    {
+        command->set_help_flag();
+        command->prefix_command();
+    }
+    return commands;
+}
+
 /// Requires one subcommand; throws CLI::ParseError for --help, --version and invalid arguments.
 ExitCode dispatch(CLI::App& app, int argc, char** argv)
 {
@@ -324,18 +341,17 @@ ExitCode dispatch(CLI::App& app, int argc, char** argv)
         ->check(CLI::Range(1, 4096));
     add_sdf_options(*sdf_command, sdf_arguments);
     info_command->add_option("file", info_path, "timeseries.h5, a snapshot ...")->type_name("FILE.h5")->required();
-    // Its options, help included, are those of the script.
-    CLI::App* study_command =
-        app.add_subcommand("study", "Error against run time of a scene's variants: docs/study.md");
-    study_command->set_help_flag();
-    study_command->prefix_command();
+    const std::vector<std::pair<CLI::App*, std::string>> scripts = add_script_commands(app);
     app.require_subcommand(1);
     app.parse(argc, argv);
 
     if (*run_command) { return run(run_arguments); }
     if (*check_command) { return check(check_arguments); }
     if (*sdf_command) { return sdf(sdf_arguments); }
-    if (*study_command) { become_script("jobs/study.py", study_command->remaining()); }
+    for (const auto& [command, script] : scripts)
+    {
+        if (*command) { become_script(script, command->remaining()); }
+    }
     return info(info_path);
 }
 

@@ -22,7 +22,7 @@ class Commands(CommandTest):
     def test_help_names_every_command(self):
         result = self.tread("--help")
         self.assertEqual(result.returncode, 0)
-        for command in ("run", "check", "study", "sdf", "info"):
+        for command in ("run", "check", "study", "validate", "calibrate", "sdf", "info"):
             self.assertIn(f"  {command} ", result.stdout)
             self.assertEqual(self.tread(command, "--help").returncode, 0)
 
@@ -33,6 +33,17 @@ class Commands(CommandTest):
         done = self.tread("study", scene, "--vary", "grid.spacing=0.05,0.1", "--dry-run")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("2 variants", done.stdout)
+        self.assertEqual(self.files(), ["scene.toml"])
+
+    def test_validate_and_calibrate_are_their_scripts_with_this_program(self):
+        listed = self.tread("validate", "--list")
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        self.assertIn("cmu", listed.stdout)
+        planned = self.tread("validate", "ding", "--quick", "--dry-run")
+        self.assertEqual(planned.returncode, 0, planned.stderr)
+        self.assertIn("2 runs", planned.stdout)
+        self.assertIn("--fit", self.tread("calibrate", "--help").stdout)
+        self.assertEqual(self.tread("calibrate", self.write("scene.toml", SCENE)).returncode, 2)
         self.assertEqual(self.files(), ["scene.toml"])
 
     def test_study_needs_python(self):
