@@ -45,7 +45,7 @@ void check_materials(const Scene& scene, Checker& checker)
     for (std::size_t i = 0; i < scene.terrain.size(); ++i)
     {
         check_material(scene, {"terrain", i}, scene.terrain[i].material, points,
-                       "a material of model \"elastic\" | \"mohr-coulomb\" | \"drucker-prager\"", checker);
+                       "a material whose model is not \"rigid\"", checker);
     }
     for (std::size_t i = 0; i < scene.rocks.size(); ++i)
     {
