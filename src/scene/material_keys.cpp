@@ -36,7 +36,9 @@ std::string when_granular()
     return condition;
 }
 
-bool is_drucker_prager(const Material& material) { return material.model == MaterialModel::drucker_prager; }
+bool has_cap(const Material& material) { return material.model == MaterialModel::drucker_prager_cap; }
+
+bool has_cone(const Material& material) { return material.model == MaterialModel::drucker_prager || has_cap(material); }
 
 } // namespace
 
@@ -66,7 +68,14 @@ Keys<Material> material_keys()
             word<ConeFit>({"compression", "extension", "plane-strain"}),
             "Where the cone has the strength of the friction angle and cohesion: in triaxial compression (stronger "
             "elsewhere), in triaxial extension (weaker elsewhere), or in plane strain.")
-            .when("model = \"drucker-prager\"", is_drucker_prager),
+            .when("model = \"drucker-prager\" or \"drucker-prager-cap\"", has_cone),
+        required("cap_pressure", "Pa", &Material::cap_pressure, number(between(1, 1e12)),
+                 "Pressure at which sand that was never loaded starts to compact. Sand that starts under a higher one, "
+                 "by its own weight, starts to compact at that.")
+            .when("model = \"drucker-prager-cap\"", has_cap),
+        required("cap_index", "", &Material::cap_index, number(between(1e-6, 10)),
+                 "Log volume strain of compaction that raises the cap's pressure by a factor of e.")
+            .when("model = \"drucker-prager-cap\"", has_cap),
         optional("family", "", &Material::family, name(),
                  "Contact class, looked up in [[contact]]. \"wall\" is reserved for the domain's walls.",
                  "the material's name"),

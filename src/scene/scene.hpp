@@ -100,6 +100,8 @@ struct Material
     double        cohesion           = 0; ///< Pa
     std::string   family;                 ///< contact class; default: the material's own name
     ConeFit       drucker_prager_fit = ConeFit::compression;
+    double        cap_pressure       = 0; ///< Pa, drucker-prager-cap only
+    double        cap_index          = 0; ///< log volume strain per e-fold of the cap's pressure
 
     bool operator==(const Material&) const = default;
 };

@@ -62,6 +62,7 @@ enum class MaterialKind
     ROW(elastic, "elastic", elastic)                                                                                   \
     ROW(mohr_coulomb, "mohr-coulomb", granular)                                                                        \
     ROW(drucker_prager, "drucker-prager", granular)                                                                    \
+    ROW(drucker_prager_cap, "drucker-prager-cap", granular)                                                            \
     ROW(rigid, "rigid", rigid)
 
 enum class MaterialModel

@@ -8,7 +8,9 @@ namespace tread::solver
 Plan make_plan(const scene::Scene& scene, const world::World& world)
 {
     const auto plastic = [](const scene::Material& material) { return scene::is_granular(material.model); };
-    const auto damped  = [](const scene::Phase& phase) { return phase.damping > 0; };
+    const auto capped  = [](const scene::Material& material)
+    { return material.model == scene::MaterialModel::drucker_prager_cap; };
+    const auto damped = [](const scene::Phase& phase) { return phase.damping > 0; };
     Plan       plan{};
     plan.sand         = world.points.size() > 0;
     plan.bodies       = world.bodies.size() > 0;
@@ -21,6 +23,7 @@ Plan make_plan(const scene::Scene& scene, const world::World& world)
     plan.rocks        = static_cast<std::int64_t>(world.bodies.size()) > world.bodies.named;
     plan.snapshots    = scene.output.snapshots_every > 0;
     plan.sleep        = plan.sand && scene.sleep.distance.has_value();
+    plan.cap          = plan.sand && std::any_of(scene.materials.begin(), scene.materials.end(), capped);
     return plan;
 }
 

@@ -31,6 +31,7 @@ struct Plan
     bool rocks;
     bool snapshots;
     bool sleep; ///< sleep of sand at rest
+    bool cap;   ///< points keep the pressure of a cap
 };
 
 Plan make_plan(const scene::Scene& scene, const world::World& world);

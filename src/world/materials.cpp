@@ -56,6 +56,10 @@ mpm::MaterialParameters<Real> law_of(const scene::Material& material)
     case scene::MaterialModel::drucker_prager:
         return mpm::make_material(
             elasticity, mpm::make_drucker_prager<Real>(strength(material), cone_fit(material.drucker_prager_fit)));
+    case scene::MaterialModel::drucker_prager_cap:
+        return mpm::make_material(
+            elasticity, mpm::make_drucker_prager_cap<Real>(strength(material), cone_fit(material.drucker_prager_fit),
+                                                           material.cap_pressure, material.cap_index));
     case scene::MaterialModel::elastic:
     case scene::MaterialModel::rigid:
         break;
@@ -100,6 +104,7 @@ double active_stress(const scene::Material& material, double vertical)
     switch (material.model)
     {
     case scene::MaterialModel::drucker_prager:
+    case scene::MaterialModel::drucker_prager_cap:
     {
         // sqrt(J2) = (v - h) / sqrt 3 intersects the cone k + eta (v + 2 h) / 3.
         const auto   cone = mpm::make_drucker_prager<double>(strength(material), cone_fit(material.drucker_prager_fit));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "kernels/mpm/laws/drucker_prager_cap_law_kern.hpp"
 #include "kernels/mpm/laws/drucker_prager_law_kern.hpp"
 #include "kernels/mpm/laws/elasticity.hpp"
 #include "kernels/mpm/laws/mohr_coulomb_law_kern.hpp"
@@ -14,7 +15,8 @@
 /// the case of update_stress (law_kern.hpp).
 #define TREAD_LAWS(ROW)                                                                                                \
     ROW(mohr_coulomb, MohrCoulomb)                                                                                     \
-    ROW(drucker_prager, DruckerPrager)
+    ROW(drucker_prager, DruckerPrager)                                                                                 \
+    ROW(drucker_prager_cap, DruckerPragerCap)
 
 namespace tread::mpm
 {
