@@ -39,6 +39,7 @@ std::int64_t field_bytes(const scene::Scene& scene, const solver::Plan& plan)
     std::int64_t       fields = 2 * 3 * 8 + (3 + 6 + 3) * real + 4 + 1;
     if (plan.affine) { fields += 9 * real; }
     if (plan.plasticity) { fields += 3 * real; }
+    if (plan.cap) { fields += real; }
     if (plan.coupling) { fields += 9 * real; }
     if (scene.numerics.volume_strain == scene::VolumeStrain::cell_average) { fields += 6 * real; }
     return fields;
@@ -154,7 +155,7 @@ std::int64_t checkpoint_bytes_per_point(const scene::Scene& scene, const solver:
 {
     const std::int64_t real = bytes_of_real(scene);
     return 24 + 10 * real + 4 + 4 + 1 + (plan.affine ? 9 * real : 0) + (plan.plasticity ? 3 * real : 0) +
-           (plan.coupling ? 9 * real : 0);
+           (plan.coupling ? 9 * real : 0) + (plan.cap ? real : 0);
 }
 
 /// Bytes of the page lists in a checkpoint (kernels/mpm/pages/pages.hpp).

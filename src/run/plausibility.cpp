@@ -11,6 +11,7 @@
 #include "run/wall_time.hpp"
 #include "run/warnings.hpp"
 #include "scene/motion_tables.hpp"
+#include "world/materials.hpp"
 
 namespace tread::run
 {
@@ -50,12 +51,13 @@ void check_gravity(const scene::Scene& scene, Warnings& warnings)
 /// A cohesionless bed with a slope above its friction angle slides.
 void check_slope(const scene::Scene& scene, const scene::Material& soil, Warnings& warnings)
 {
-    const auto&  g     = scene.domain.gravity;
-    const double angle = std::atan2(std::hypot(g[0], g[1]), -g[2]) * degrees;
-    if (g[2] >= 0 || soil.cohesion > 0 || soil.friction_angle_deg <= 0 || angle <= soil.friction_angle_deg) { return; }
+    const auto&  g        = scene.domain.gravity;
+    const double angle    = std::atan2(std::hypot(g[0], g[1]), -g[2]) * degrees;
+    const double friction = world::initial_friction_angle_deg(soil);
+    if (g[2] >= 0 || soil.cohesion > 0 || friction <= 0 || angle <= friction) { return; }
     warnings.add("domain", fmt::format("[domain] gravity inclines the bed by {:.3g} degrees, more than the friction "
                                        "angle of '{}' ({:.3g} degrees): the bed slides",
-                                       angle, soil.name, soil.friction_angle_deg));
+                                       angle, soil.name, friction));
 }
 
 void check_density(const scene::Material& material, const std::string& table, Warnings& warnings)

@@ -57,10 +57,6 @@ Keys<WeightShare> weight_keys()
 
 bool may_end_early(const Phase& phase) { return phase.until != StopRule::duration; }
 
-bool flows(const Material& material) { return is_granular(material.model); }
-
-bool is_drucker_prager(const Material& material) { return material.model == MaterialModel::drucker_prager; }
-
 } // namespace
 
 Keys<Scene> scene_keys()
@@ -144,38 +140,6 @@ Keys<Numerics> numerics_keys()
                  "against locking where the flow keeps its volume (undrained clay, sand that does not dilate)."),
         optional("linear_overlap", "R*", &Numerics::linear_overlap, number(between(1e-9, 0.1)),
                  "Overlap below which traction between bodies is linear; 1e-2 allows 1.8 times the step of 1e-3."),
-    };
-}
-
-Keys<Material> material_keys()
-{
-    const std::string granular = "model = \"mohr-coulomb\" or \"drucker-prager\"";
-    return {
-        required("name", "", &Material::name, name(), "Unique among materials."),
-        required("model", "", &Material::model, word<MaterialModel>(),
-                 "Constitutive model of points. Rocks and bodies take \"elastic\" or \"rigid\"; both stay rigid, and "
-                 "`young` and `poisson` set the stiffness of their contacts."),
-        optional("density", "kg/m3", &Material::density, number(density()),
-                 "Of points: in bulk. Of rocks: of the solid.", "required with [[terrain]] and [[rocks]]"),
-        optional("young", "Pa", &Material::young, number(stiffness()),
-                 "Young's modulus. Of two things that meet, walls included, one must have it.",
-                 "required unless rigid; then perfectly stiff"),
-        optional("poisson", "", &Material::poisson, number(between(0, 0.499)), "Poisson's ratio."),
-        required("friction_angle_deg", "degrees", &Material::friction_angle_deg, number(from_below(0, 90)),
-                 "Internal friction angle.")
-            .when(granular, flows),
-        optional("dilation_angle_deg", "degrees", &Material::dilation_angle_deg, number(from_below(0, 90)),
-                 "Dilation angle; at most the friction angle.")
-            .when(granular, flows),
-        optional("cohesion", "Pa", &Material::cohesion, number(strength()), "Cohesion.").when(granular, flows),
-        required(
-            "drucker_prager_fit", "", &Material::drucker_prager_fit, word<ConeFit>(),
-            "Where the cone has the strength of the friction angle and cohesion: in triaxial compression (stronger "
-            "elsewhere), in triaxial extension (weaker elsewhere), or in plane strain.")
-            .when("model = \"drucker-prager\"", is_drucker_prager),
-        optional("family", "", &Material::family, name(),
-                 "Contact class, looked up in [[contact]]. \"wall\" is reserved for the domain's walls.",
-                 "the material's name"),
     };
 }
 

@@ -30,6 +30,19 @@ void check_material(const Scene& scene, const TableAt& at, const std::string& na
     checker.report(at, "material", fmt::format("the model of \"{}\" does not suit [[{}]]", name, at.name), accepted);
 }
 
+/// Refuses a saved bed of a material whose state beds do not hold.
+void check_saved_material(const Scene& scene, std::size_t terrain, Checker& checker)
+{
+    const auto* material = find_material(scene, scene.terrain[terrain].material);
+    if (scene.terrain[terrain].from.empty() || material == nullptr) { return; }
+    const bool capped = material->model == MaterialModel::drucker_prager_cap;
+    if (!capped && material->model != MaterialModel::bolton) { return; }
+    checker.report(
+        {"terrain", terrain}, "from",
+        fmt::format("a saved bed has no {} of \"{}\"", capped ? "pressure of the cap" : "densities", material->name),
+        "no `from` with model = \"drucker-prager-cap\" or \"bolton\"");
+}
+
 std::vector<std::string> shape_names(const Scene& scene)
 {
     auto names = names_in(scene.shapes);
@@ -45,7 +58,8 @@ void check_materials(const Scene& scene, Checker& checker)
     for (std::size_t i = 0; i < scene.terrain.size(); ++i)
     {
         check_material(scene, {"terrain", i}, scene.terrain[i].material, points,
-                       "a material of model \"elastic\" | \"mohr-coulomb\" | \"drucker-prager\"", checker);
+                       "a material whose model is not \"rigid\"", checker);
+        check_saved_material(scene, i, checker);
     }
     for (std::size_t i = 0; i < scene.rocks.size(); ++i)
     {

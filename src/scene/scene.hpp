@@ -100,6 +100,13 @@ struct Material
     double        cohesion           = 0; ///< Pa
     std::string   family;                 ///< contact class; default: the material's own name
     ConeFit       drucker_prager_fit = ConeFit::compression;
+    double        cap_pressure       = 0; ///< Pa, drucker-prager-cap only
+    double        cap_index          = 0; ///< log volume strain per e-fold of the cap's pressure
+    double        relative_density   = 0; ///< bolton only, as those below
+    double        void_ratio_min     = 0;
+    double        void_ratio_max     = 0;
+    double        bolton_q           = 10; ///< strength of the grains
+    BoltonFit     bolton_fit         = BoltonFit::triaxial;
 
     bool operator==(const Material&) const = default;
 };

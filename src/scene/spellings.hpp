@@ -44,11 +44,15 @@ inline constexpr auto spellings<PointRadius> = spell<PointRadius>({{PointRadius:
                                                                    {PointRadius::semi_domain, "semi-domain"}});
 
 template<>
-inline constexpr auto
-    spellings<MaterialModel> = spell<MaterialModel>({{MaterialModel::elastic, "elastic"},
-                                                     {MaterialModel::mohr_coulomb, "mohr-coulomb"},
-                                                     {MaterialModel::drucker_prager, "drucker-prager"},
-                                                     {MaterialModel::rigid, "rigid"}});
+inline constexpr auto spellings<MaterialModel> = spell<MaterialModel>({
+#define TREAD_ROW(name, word, kind) {MaterialModel::name, word},
+    TREAD_MATERIAL_MODELS(TREAD_ROW)
+#undef TREAD_ROW
+});
+
+template<>
+inline constexpr auto spellings<BoltonFit> = spell<BoltonFit>({{BoltonFit::triaxial, "triaxial"},
+                                                               {BoltonFit::plane_strain, "plane-strain"}});
 
 template<>
 inline constexpr auto spellings<ConeFit> = spell<ConeFit>({{ConeFit::compression, "compression"},

@@ -38,6 +38,29 @@ bool needs_density(const Scene& scene, const Material& material)
            std::any_of(scene.rocks.begin(), scene.rocks.end(), uses);
 }
 
+/// The friction angle exceeds the critical one by up to 20 degrees. Loose sand that contracts while it shears has no
+/// stable elastic answer once it is nearly incompressible.
+void validate_bolton(const Material& material, const TableAt& at, Checker& checker)
+{
+    constexpr double most_friction = 60, most_poisson = 0.4;
+    if (checker.sound(at, {"void_ratio_min", "void_ratio_max"}) && material.void_ratio_min >= material.void_ratio_max)
+    {
+        checker.report(at, "void_ratio_min", fmt::format("{} is not below void_ratio_max", material.void_ratio_min),
+                       fmt::format("number below void_ratio_max = {}", material.void_ratio_max));
+    }
+    if (checker.sound(at, {"friction_angle_deg"}) && material.friction_angle_deg > most_friction)
+    {
+        checker.report(at, "friction_angle_deg",
+                       fmt::format("{} is too large for \"bolton\"", material.friction_angle_deg),
+                       fmt::format("number >= 0 and <= {} (degrees)", most_friction));
+    }
+    if (checker.sound(at, {"poisson"}) && material.poisson > most_poisson)
+    {
+        checker.report(at, "poisson", fmt::format("{} is too large for \"bolton\"", material.poisson),
+                       fmt::format("number >= 0 and <= {}", most_poisson));
+    }
+}
+
 void validate_material(const Scene& scene, const Material& material, const TableAt& at, Checker& checker)
 {
     if (checker.sound(at, {"friction_angle_deg", "dilation_angle_deg"}) &&
@@ -46,6 +69,10 @@ void validate_material(const Scene& scene, const Material& material, const Table
         checker.report(at, "dilation_angle_deg",
                        fmt::format("{} is above the friction angle", material.dilation_angle_deg),
                        fmt::format("0 to friction_angle_deg = {} (degrees)", material.friction_angle_deg));
+    }
+    if (checker.sound(at, {"model"}) && material.model == MaterialModel::bolton)
+    {
+        validate_bolton(material, at, checker);
     }
     if (checker.sound(at, {"model"}) && material.model != MaterialModel::rigid && checker.given(at, "young") == nullptr)
     {

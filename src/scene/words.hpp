@@ -50,20 +50,50 @@ enum class PointRadius
     sphere,
     semi_domain
 };
-enum class MaterialModel
+enum class MaterialKind
 {
     elastic,
-    mohr_coulomb,
-    drucker_prager,
+    granular, ///< flows: friction angle, dilation angle, cohesion, and a plastic state of the points
     rigid
 };
 
-/// Models of granular flow, with friction angle, dilation angle and cohesion.
-constexpr bool is_granular(MaterialModel model)
+/// Table of the material models: ROW(name, word in a scene, kind).
+#define TREAD_MATERIAL_MODELS(ROW)                                                                                     \
+    ROW(elastic, "elastic", elastic)                                                                                   \
+    ROW(mohr_coulomb, "mohr-coulomb", granular)                                                                        \
+    ROW(drucker_prager, "drucker-prager", granular)                                                                    \
+    ROW(drucker_prager_cap, "drucker-prager-cap", granular)                                                            \
+    ROW(bolton, "bolton", granular)                                                                                    \
+    ROW(rigid, "rigid", rigid)
+
+enum class MaterialModel
 {
-    return model == MaterialModel::mohr_coulomb || model == MaterialModel::drucker_prager;
+#define TREAD_ROW(name, word, kind) name,
+    TREAD_MATERIAL_MODELS(TREAD_ROW)
+#undef TREAD_ROW
+};
+
+constexpr MaterialKind material_kind(MaterialModel model)
+{
+    switch (model)
+    {
+#define TREAD_ROW(name, word, kind)                                                                                    \
+    case MaterialModel::name:                                                                                          \
+        return MaterialKind::kind;
+        TREAD_MATERIAL_MODELS(TREAD_ROW)
+#undef TREAD_ROW
+    }
+    return MaterialKind::elastic;
 }
 
+constexpr bool is_granular(MaterialModel model) { return material_kind(model) == MaterialKind::granular; }
+
+/// Stress states of the tests to which Bolton's friction angle is fitted.
+enum class BoltonFit
+{
+    triaxial,
+    plane_strain
+};
 /// Stress states in which the Drucker-Prager cone matches the Mohr-Coulomb hexagon.
 enum class ConeFit
 {

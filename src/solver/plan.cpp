@@ -8,8 +8,10 @@ namespace tread::solver
 Plan make_plan(const scene::Scene& scene, const world::World& world, int ranks)
 {
     const auto plastic = [](const scene::Material& material) { return scene::is_granular(material.model); };
-    const auto damped  = [](const scene::Phase& phase) { return phase.damping > 0; };
-    const auto moved   = [](const scene::Phase& phase) { return !phase.motion.empty(); };
+    const auto capped  = [](const scene::Material& material)
+    { return material.model == scene::MaterialModel::drucker_prager_cap; };
+    const auto damped = [](const scene::Phase& phase) { return phase.damping > 0; };
+    const auto moved  = [](const scene::Phase& phase) { return !phase.motion.empty(); };
     Plan       plan{};
     plan.sand         = world.points.size() > 0;
     plan.bodies       = world.bodies.size() > 0;
@@ -23,6 +25,7 @@ Plan make_plan(const scene::Scene& scene, const world::World& world, int ranks)
     plan.snapshots    = scene.output.snapshots_every > 0;
     plan.sleep        = plan.sand && scene.sleep.distance.has_value();
     plan.motions      = std::any_of(scene.phases.begin(), scene.phases.end(), moved);
+    plan.cap          = plan.sand && std::any_of(scene.materials.begin(), scene.materials.end(), capped);
     return plan;
 }
 

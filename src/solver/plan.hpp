@@ -32,6 +32,7 @@ struct Plan
     bool snapshots;
     bool sleep;   ///< sleep of sand at rest
     bool motions; ///< a prescribed motion in some phase
+    bool cap;     ///< points keep the pressure of a cap
 };
 
 /// Plans a run of a scene on `ranks` ranks.

@@ -1,5 +1,7 @@
 #include "world/bearing.hpp"
 
+#include "world/materials.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -35,7 +37,7 @@ BearingFactors bearing_factors(double friction_angle_deg)
 
 Patch bearing_patch(const scene::Material& soil, double gravity, const RoundBody& body)
 {
-    const BearingFactors factors  = bearing_factors(soil.friction_angle_deg);
+    const BearingFactors factors  = bearing_factors(initial_friction_angle_deg(soil));
     const auto           capacity = [&](const Patch& patch)
     {
         const double breadth  = std::min(patch.length, patch.width);

@@ -31,6 +31,16 @@ mpm::Strength strength(const scene::Material& material)
     return {material.friction_angle_deg, material.dilation_angle_deg, material.cohesion};
 }
 
+mpm::DensityDependence density_dependence(const scene::Material& material)
+{
+    return {material.relative_density,
+            material.void_ratio_min,
+            material.void_ratio_max,
+            material.bolton_q,
+            1,
+            material.bolton_fit == scene::BoltonFit::triaxial ? 3.0 : 5.0};
+}
+
 mpm::ConeFit cone_fit(scene::ConeFit fit)
 {
     switch (fit)
@@ -56,6 +66,12 @@ mpm::MaterialParameters<Real> law_of(const scene::Material& material)
     case scene::MaterialModel::drucker_prager:
         return mpm::make_material(
             elasticity, mpm::make_drucker_prager<Real>(strength(material), cone_fit(material.drucker_prager_fit)));
+    case scene::MaterialModel::drucker_prager_cap:
+        return mpm::make_material(
+            elasticity, mpm::make_drucker_prager_cap<Real>(strength(material), cone_fit(material.drucker_prager_fit),
+                                                           material.cap_pressure, material.cap_index));
+    case scene::MaterialModel::bolton:
+        return mpm::make_material(elasticity, mpm::make_bolton<Real>(strength(material), density_dependence(material)));
     case scene::MaterialModel::elastic:
     case scene::MaterialModel::rigid:
         break;
@@ -95,11 +111,20 @@ double hertz_factor(scene::HertzFactor factor)
     return factor == scene::HertzFactor::standard ? 1.0 : 1.0 / std::numbers::sqrt2;
 }
 
+double initial_friction_angle_deg(const scene::Material& material)
+{
+    if (material.model != scene::MaterialModel::bolton) { return material.friction_angle_deg; }
+    const auto law = mpm::make_bolton<double>(strength(material), density_dependence(material));
+    return material.friction_angle_deg +
+           law.friction_per_index * mpm::dilatancy_index(law, 1.0, 0.0) * 180 / std::numbers::pi;
+}
+
 double active_stress(const scene::Material& material, double vertical)
 {
     switch (material.model)
     {
     case scene::MaterialModel::drucker_prager:
+    case scene::MaterialModel::drucker_prager_cap:
     {
         // sqrt(J2) = (v - h) / sqrt 3 intersects the cone k + eta (v + 2 h) / 3.
         const auto   cone = mpm::make_drucker_prager<double>(strength(material), cone_fit(material.drucker_prager_fit));
@@ -107,8 +132,9 @@ double active_stress(const scene::Material& material, double vertical)
         return ((root - third) * vertical - cone.limit) / (root + 2 * third);
     }
     case scene::MaterialModel::mohr_coulomb:
+    case scene::MaterialModel::bolton:
     {
-        const double sine   = std::sin(material.friction_angle_deg * std::numbers::pi / 180);
+        const double sine   = std::sin(initial_friction_angle_deg(material) * std::numbers::pi / 180);
         const double active = (1 - sine) / (1 + sine);
         return active * vertical - 2 * material.cohesion * std::sqrt(active);
     }

@@ -18,6 +18,10 @@ std::vector<mpm::MaterialParameters<Real>> law_parameters(const scene::Scene& sc
 /// Contact properties of every pair of materials; the last row and column is the domain's wall.
 std::vector<dem::PairProperties> pair_properties(const scene::Scene& scene);
 
+/// Friction angle of a granular material at its initial density, under pressures of up to 150 kPa, degrees: that of the
+/// scene, or of the model "bolton" the angle that follows from the density.
+double initial_friction_angle_deg(const scene::Material& material);
+
 /// Smallest horizontal stress of a granular material under the vertical stress `vertical`; Pa, compression positive:
 /// triaxial compression at the yield limit.
 double active_stress(const scene::Material& material, double vertical);

@@ -32,6 +32,8 @@ struct PointsView
     Real* plastic_rate;  ///< 1/s, rate of plastic_shear in the last step
     Real* volume_gap;    ///< log volume opened at the apex that must close before compression
 
+    Real* cap_pressure; ///< Pa, pressure at which the cap flows; capped materials only, otherwise null
+
     // Coupling with bodies only, otherwise null.
     Planes<Real, 3> contact_force; ///< N, contact impulse of the step divided by dt
     Planes<Real, 3> grid_velocity; ///< m/s, interpolated at the end of the last step
@@ -44,6 +46,7 @@ struct PointFields
     bool affine;
     bool plastic;
     bool coupled;
+    bool capped = false; ///< some material has a cap
 };
 
 /// Memory of PointsView. Fields that the scene does not need are not allocated.
@@ -64,6 +67,7 @@ struct Points
         , plastic_shear(exec, "point plastic shear")
         , plastic_rate(exec, "point plastic rate")
         , volume_gap(exec, "point volume gap")
+        , cap_pressure(exec, "point cap pressure")
         , contact_force(exec, "point contact force")
         , grid_velocity(exec, "point grid velocity")
         , support(exec, "point support")
@@ -93,6 +97,7 @@ struct Points
         take(plastic_shear, 1, fields.plastic);
         take(plastic_rate, 1, fields.plastic);
         take(volume_gap, 1, fields.plastic);
+        take(cap_pressure, 1, fields.capped);
         take(contact_force, 3, fields.coupled);
         take(grid_velocity, 3, fields.coupled);
         take(support, 3, fields.coupled);
@@ -133,6 +138,7 @@ struct Points
                 plastic_shear.data(),
                 plastic_rate.data(),
                 volume_gap.data(),
+                cap_pressure.data(),
                 {contact_force.data(), stride},
                 {grid_velocity.data(), stride},
                 {support.data(), stride}};
@@ -166,6 +172,7 @@ struct Points
         visit("plastic_shear", plastic_shear, 1);
         visit("plastic_rate", plastic_rate, 1);
         visit("volume_gap", volume_gap, 1);
+        visit("cap_pressure", cap_pressure, 1);
         visit("contact_force", contact_force, 3);
         visit("grid_velocity", grid_velocity, 3);
         visit("support", support, 3);
@@ -187,6 +194,7 @@ struct Points
     Array<Exec, Real>          plastic_shear;
     Array<Exec, Real>          plastic_rate;
     Array<Exec, Real>          volume_gap;
+    Array<Exec, Real>          cap_pressure;
     Array<Exec, Real>          contact_force;
     Array<Exec, Real>          grid_velocity;
     Array<Exec, Real>          support;

@@ -55,13 +55,16 @@ struct Element
     Sym3<double>                    stress = Sym3<double>::Zero();
     mpm::PlasticState<double>       state{};
     double                          plastic_work = 0; ///< J/m3
+    double                          volume_ratio = 1;
 
     /// Strains by an increment of tensor components.
     void strain(const Sym3<double>& increment)
     {
-        const auto update = mpm::update_stress(material, stress, state, mpm::full_matrix(increment), 1.0);
-        stress            = update.stress;
-        state             = update.state;
+        state.volume_ratio = volume_ratio;
+        const auto update  = mpm::update_stress(material, stress, state, mpm::full_matrix(increment), 1.0);
+        stress             = update.stress;
+        state              = update.state;
+        volume_ratio *= std::exp(increment[0] + increment[1] + increment[2]);
         plastic_work += update.plastic_work;
     }
 

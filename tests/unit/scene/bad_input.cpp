@@ -118,9 +118,15 @@ const std::vector<BadCase> cross_cases{
     {"dilation_above_friction", "dilation_angle_deg = 5", "dilation_angle_deg = 31", 14,
      "dilation_angle_deg: 31 is above the friction angle; accepted: 0 to friction_angle_deg = 30 (degrees)"},
     {"friction_angle_of_elastic", "density = 2700.0", "density = 2700.0\nfriction_angle_deg = 3", 19,
-     "[material.rock] friction_angle_deg: may stand only with model = \"mohr-coulomb\" or \"drucker-prager\""},
+     "[material.rock] friction_angle_deg: may stand only with model = \"mohr-coulomb\" or \"drucker-prager\" or "
+     "\"drucker-prager-cap\""},
     {"cone_fit_of_mohr_coulomb", "poisson = 0.3", "poisson = 0.3\ndrucker_prager_fit = \"compression\"", 13,
-     "[material.sand] drucker_prager_fit: may stand only with model = \"drucker-prager\""},
+     "[material.sand] drucker_prager_fit: may stand only with model = \"drucker-prager\" or \"drucker-prager-cap\""},
+    {"cap_pressure_missing", "model = \"mohr-coulomb\"",
+     "model = \"drucker-prager-cap\"\ndrucker_prager_fit = \"compression\"\ncap_index = 0.01", 7,
+     "[material.sand] cap_pressure: missing; accepted: number >= 1 and <= 1e+12 (Pa)"},
+    {"cap_index_of_mohr_coulomb", "poisson = 0.3", "poisson = 0.3\ncap_index = 0.01", 13,
+     "[material.sand] cap_index: may stand only with model = \"drucker-prager-cap\""},
     {"cone_fit_missing", "model = \"mohr-coulomb\"", "model = \"drucker-prager\"", 7,
      "[material.sand] drucker_prager_fit: missing; accepted: \"compression\" | \"extension\" | \"plane-strain\""},
     {"friction_angle_missing", "friction_angle_deg = 30\ndilation_angle_deg = 5\n", "", 7,
@@ -201,6 +207,17 @@ TEST(BadInput, places_of_points_without_terrain)
     const auto bare = replaced(good_scene, terrain, "");
     EXPECT_THAT(refusal(replaced(bare, "placement = \"replace\"", "placement = \"points\"")),
                 HasSubstr("bad.toml:38: [rocks[0]] placement: \"points\" needs a [[terrain]] to replace"));
+}
+
+TEST(BadInput, saved_bed_of_a_capped_material)
+{
+    const std::string cap = "model = \"drucker-prager-cap\"\ndrucker_prager_fit = \"compression\"\ncap_index = 0.01\n"
+                            "cap_pressure = 1e4";
+    const auto        capped = replaced(good_scene, "model = \"mohr-coulomb\"", cap);
+    EXPECT_EQ(refusal(capped), "");
+    const std::string made = "region = { box = [[0, 0, 0], [1, 1, 0.2]] }\npoints_per_cell = 8\n";
+    EXPECT_THAT(refusal(replaced(capped, made, "from = \"bed.h5\"\n")),
+                HasSubstr("[terrain[0]] from: a saved bed has no pressure of the cap of \"sand\""));
 }
 
 TEST(BadFile, missing)

@@ -16,12 +16,12 @@ TREAD_HD StressUpdate<Real> update_stress(const MaterialParameters<Real>& materi
     StressUpdate<Real> update{trial, state, Real(0)};
     switch (material.law)
     {
-    case LawKind::mohr_coulomb:
-        update = respond(material, material.mohr_coulomb, trial, state, dt);
+#define TREAD_ROW(name, Constants)                                                                                     \
+    case LawKind::name:                                                                                                \
+        update = respond(material, material.name, trial, state, dt);                                                   \
         break;
-    case LawKind::drucker_prager:
-        update = respond(material, material.drucker_prager, trial, state, dt);
-        break;
+        TREAD_LAWS(TREAD_ROW)
+#undef TREAD_ROW
     case LawKind::elastic:
         return update;
     }

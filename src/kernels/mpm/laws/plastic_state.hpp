@@ -13,6 +13,8 @@ struct PlasticState
         plastic_shear; ///< sum of sqrt(2/3 e:e), e = deviatoric plastic strain increment (gamma/sqrt 3 in simple shear)
     Real plastic_rate; ///< 1/s, rate of plastic_shear in the last step
     Real volume_gap;   ///< log volume opened at the apex that must close before compression, >= 0
+    Real volume_ratio = 1; ///< volume over initial volume before the step; no law changes it
+    Real cap_pressure = 0; ///< Pa, pressure at which the cap of a capped law flows; 0 before the first step
 };
 
 /// State of a point after a step of its law.

@@ -204,8 +204,10 @@ TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t
 {
     const MaterialParameters<Real>& material = step.materials[point.material];
     const Real                      swelling = step.dt * gradient.trace(); // logarithmic volume change
-    points.volume_ratio[i] = point.volume_ratio * (Real(1) + swelling * (Real(1) + Real(0.5) * swelling));
-    const PlasticState<Real> state{point.plastic_shear, Real(0), point.volume_gap};
+    points.volume_ratio[i]          = point.volume_ratio * (Real(1) + swelling * (Real(1) + Real(0.5) * swelling));
+    const bool               capped = points.cap_pressure != nullptr;
+    const PlasticState<Real> state{point.plastic_shear, Real(0), point.volume_gap, point.volume_ratio,
+                                   capped ? points.cap_pressure[i] : Real(0)};
     const StressUpdate<Real> update = update_stress(material, point.stress, state, gradient, step.dt);
     points.stress.set(i, update.stress);
     sums[point_stress_power] += Sum(point.volume * stress_power(update.stress, gradient));
@@ -217,6 +219,7 @@ TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t
         points.volume_gap[i]    = update.state.volume_gap;
         const Real work         = update.plastic_work + update.work_to_mean;
         if (work != 0) { sums[point_plastic_work] += Sum(work * point.volume); }
+        if (capped) { points.cap_pressure[i] = update.state.cap_pressure; }
     }
     return update.stress;
 }

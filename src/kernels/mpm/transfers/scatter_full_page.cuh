@@ -219,30 +219,26 @@ struct ScatterPage
 
     __device__ void stage(std::int64_t i, Index3 cell, Real* brought) const
     {
-        const Stencil<Real> s        = stencil_above<Real>(cell, points.position.get(i), 1, pages);
-        const Real          mass     = points.mass[i];
-        const Vec3<Real>    velocity = points.velocity.get(i);
-        const Real          scale    = -points.volume[i] * Real(pages.inverse_spacing);
-        const Sym3<Real>    stress   = scale * points.stress.get(i);
-        brought[brought_mass]        = mass;
+        const Stencil<Real>    s     = stencil_above<Real>(cell, points.position.get(i), 1, pages);
+        const PointTerms<Real> terms = point_terms(points, i, Real(pages.inverse_spacing));
+        brought[brought_mass]        = terms.mass;
         for (int c = 0; c < 3; ++c)
         {
-            brought[brought_mass + 1 + c] = mass * velocity[c];
+            brought[brought_mass + 1 + c] = terms.momentum[c];
             for (int n = 0; n < 3; ++n)
             {
                 brought[brought_splines + 6 * c + 2 * n]     = s.weight[c][n];
                 brought[brought_splines + 6 * c + 2 * n + 1] = s.slope[c][n];
             }
         }
-        for (int c = 0; c < 6; ++c) { brought[brought_stress + c] = stress[c]; }
+        for (int c = 0; c < 6; ++c) { brought[brought_stress + c] = terms.stress[c]; }
         if constexpr (Brings::force) { stage_force(i, brought); }
-        if constexpr (Brings::affine) { stage_affine(i, s, mass, brought); }
+        if constexpr (Brings::affine) { stage_affine(i, s, terms.mass, brought); }
     }
 
     __device__ void stage_force(std::int64_t i, Real* brought) const
     {
-        const bool       touched = points.contact_force.data != nullptr;
-        const Vec3<Real> force   = touched ? points.contact_force.get(i) : Vec3<Real>(Vec3<Real>::Zero());
+        const Vec3<Real> force = point_force(points, i);
         for (int c = 0; c < 3; ++c) { brought[brought_force + c] = force[c]; }
     }
 
@@ -253,7 +249,7 @@ struct ScatterPage
         {
             for (int axis = 0; axis < 3; ++axis)
             {
-                const Real affine = lever * points.affine.data[(3 * c + axis) * points.affine.stride + i];
+                const Real affine                      = affine_momentum(points, i, lever, c, axis);
                 brought[brought_affine + 3 * axis + c] = affine;
                 brought[brought_mass + 1 + c] -= s.fraction[axis] * affine;
             }
