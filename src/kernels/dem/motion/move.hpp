@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/dem/joints/joint_rows.hpp"
 #include "kernels/dem/motion/impulses.hpp"
 #include "kernels/dem/motion/outside.hpp"
 #include "kernels/dem/motion/shared.hpp"
@@ -37,6 +38,7 @@ struct BodyStep
     NamedImpulses named;
     Motion        motion;
     SharedView    shared = {};
+    JointsView    joints = {}; ///< empty in a scene without joints
 };
 
 /// First part of move_bodies on several ranks: computes this rank's shares step.shared.wrench, which are then
@@ -46,8 +48,8 @@ void share_wrenches(const Gpu&, const BodyStep<Gpu>& step);
 
 /// Second half of a substep, after evaluate_contacts. Sets every body's force, torque and stiffness to the sum of the
 /// external wrenches and of its pairs' responses (if pairs were ever found); adds wall impulses, losses and the
-/// impulses of named bodies to the energy and momentum balance; and moves all bodies. Every sum has a fixed order on
-/// one backend. Allocates nothing.
+/// impulses of named bodies to the energy and momentum balance; solves the joints; and moves all bodies. Every sum has
+/// a fixed order on one backend. Allocates nothing.
 void move_bodies(const Cpu&, const BodyStep<Cpu>& step);
 void move_bodies(const Gpu&, const BodyStep<Gpu>& step);
 
