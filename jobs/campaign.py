@@ -47,7 +47,7 @@ def arguments():
                                  help="cases that `tread check` looks at, evenly spread; default 64")
         if name in ("local", "retry"):
             command.add_argument("--at-once", type=positive, metavar="N", help="tasks that run at the same time on this machine; default 1")
-            command.add_argument("--gpus", type=positive, metavar="N", help="of this machine, dealt out to the tasks; default: the cases' own")
+            command.add_argument("--gpus", type=positive, metavar="N", help="of this machine, assigned to the tasks; default: the cases' own")
         if name in ("status", "retry"):
             command.add_argument("--quiet-for", type=positive, default=900, metavar="S",
                                  help="a run elsewhere without a sign of life for so long is stale; default 900")

@@ -50,7 +50,7 @@ def arguments():
 
 
 def groups_of(table):
-    """Of the cases whose runs are there."""
+    """Groups the cases whose runs exist."""
     groups = []
     for curve in slip_curves.curves_of(table) if table.slip_axes else [_all_cases(table)]:
         labels = [f"slip {table['slip'][row]:.2g}" if table.slip_axes else _label(table, row) for row in curve.rows]

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Where the energy of a run is, and where it went, against time.
 
-What is held, what was turned into heat, and what the books cannot account for: the change of everything together, less the work that came in.
+What is held, what was turned into heat, and what is unaccounted: the change of everything together, less the work that came in.
 Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
 """
 
@@ -28,7 +28,7 @@ def arguments():
 
 
 def plot_parts(axis, energy, parts, title):
-    """Those that ever matter, largest first; values are changes for gravity, whose zero is arbitrary."""
+    """Plots the parts that ever matter, largest first; gravity as its change, because its zero is arbitrary."""
     series = {name: energy[name] - (energy[name][0] if name == "gravity" else 0.0) for name in parts}
     factor, unit = readable(np.concatenate(list(series.values())), "J")
     shown = [name for name in parts if np.abs(series[name]).max(initial=0) > 0]
@@ -47,7 +47,7 @@ def figure_of(run):
     plot_parts(axes[0, 0], energy, HELD, "held")
     plot_parts(axes[0, 1], energy, LOST, "lost since the start")
     plot_parts(axes[0, 2], {"time": energy["time"], "work_in": energy["work_in"], "rest": energy["total"] - energy["total"][0]},
-               {"work_in": "work done from outside", "rest": "unaccounted"}, "came in, and what the books leave over")
+               {"work_in": "work done from outside", "rest": "unaccounted"}, "came in, and what is unaccounted")
     figure.suptitle(run.title, fontsize=15)
     return figure
 

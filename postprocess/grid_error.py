@@ -73,7 +73,7 @@ def soil_kind(scene):
 
 
 def row_of(name, scene, laws):
-    """As it stands in measured_convergence."""
+    """Formats a row of measured_convergence."""
     numbers = ", ".join(f"{{{laws[key][order].factor:.2g}, {order}}}" for key, order in ORDERS.items())
     return f'{{"{name}", SoilKind::{soil_kind(scene)}, {{{numbers}}}}},'
 

@@ -113,7 +113,7 @@ def plot_predictions(axes, wheels, scene, factor):
 
 
 def different_wheels(curves):
-    """Of the curves; weights that are equal to 2 % are one."""
+    """Lists the different wheels of the curves; weights equal to 2 % count as one."""
     wheels = []
     for curve in curves:
         if curve.wheel and all(abs(curve.wheel.weight / wheel.weight - 1) > 0.02 for wheel in wheels):

@@ -51,7 +51,7 @@ def candidates(rows):
 
 
 def sentence(rows, within, cost=COSTS["time"]):
-    """Of one quantity: the cheapest setting within a tolerance, or why there is none to name."""
+    """Names the cheapest setting within a tolerance of one quantity, or says why there is none."""
     name, choice = rows[0].quantity, candidates(rows)
     uncertainty, reference = rows[0].uncertainty, rows[0].reference
     known = known_text(uncertainty, reference)
@@ -74,7 +74,7 @@ def known_text(uncertainty, reference):
 
 
 def sentence_of_all(study, within, cost=COSTS["time"]):
-    """Of all quantities that can be told within the tolerance together; empty if they are fewer than two."""
+    """Names the cheapest setting within the tolerance of all quantities together that can reach it; empty if they are fewer than two."""
     told = [name for name in study.quantities if study.of(name)[0].uncertainty <= within]
     if len(told) < 2:
         return ""
@@ -131,7 +131,7 @@ class Looks:
 
 
 def star_looks(study):
-    """Of variants that differ from the usual ones in one key at most: a colour a key, and the value beside it. None of others."""
+    """Returns the looks of variants that differ from the usual ones in one key at most: a colour for each key, its value as label; None for others."""
     rows = candidates(study.rows)
     usual = {key: Counter(row.settings[key] for row in rows).most_common(1)[0][0] for key in study.keys}
     differing = {row.variant: [key for key in study.keys if row.settings[key] != usual[key]] for row in rows}

@@ -161,12 +161,12 @@ ExitCode sdf_of_family(const SdfArguments& arguments, const scene::Shape& family
 
 ExitCode sdf(const SdfArguments& arguments)
 {
-    const bool in_scene     = std::filesystem::path(arguments.mesh).extension() == ".toml";
-    auto [asked, directory] = in_scene ? shape_in_scene(arguments) : mesh_or_builtin(arguments);
-    if (arguments.cells) { asked.sdf_cells = *arguments.cells; }
-    if (shape::members(asked).size() > 1) { return sdf_of_family(arguments, asked); }
+    const bool in_scene         = std::filesystem::path(arguments.mesh).extension() == ".toml";
+    auto [requested, directory] = in_scene ? shape_in_scene(arguments) : mesh_or_builtin(arguments);
+    if (arguments.cells) { requested.sdf_cells = *arguments.cells; }
+    if (shape::members(requested).size() > 1) { return sdf_of_family(arguments, requested); }
 
-    const auto  measured = shape::make_measured_template(asked, directory, [](double) { return 0.0; });
+    const auto  measured = shape::make_measured_template(requested, directory, [](double) { return 0.0; });
     const auto& form     = measured.form;
     std::cout << printable(shape::template_text(form));
     for (const std::string& warning : form.warnings) { std::cerr << "warning: " << printable(warning) << '\n'; }

@@ -66,7 +66,7 @@ def arguments():
 
 
 def heights_off(rows):
-    """Of each variant: how far its mean over the seeds is from that of the finest distance field; the bars are the standard error
+    """Returns how far the mean of each variant over the seeds is from that of the finest distance field; the bars are the standard error
     of that difference."""
     groups = defaultdict(list)
     for row in rows:

@@ -53,7 +53,7 @@ def surface_costs(table):
 
 
 def pages_around(points):
-    """Of others, beside a cube of that many points with neighbours on all sides."""
+    """Number of pages of other ranks beside a cube of that many points with neighbours on all sides."""
     edge = np.cbrt(points / POINTS_A_PAGE)
     return (edge + 2) ** 3 - edge**3
 

@@ -25,7 +25,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Cost:
-    """Of a whole campaign, at most: phases that end by themselves may end sooner."""
+    """Cost of a whole campaign, at most: phases that end by themselves may end sooner."""
 
     cases: int
     checked: int

@@ -21,7 +21,7 @@ try:
 except ImportError as missing:
     raise MachineError(f"collect needs h5py and numpy ({missing}): on Debian /usr/bin/python3 with python3-h5py") from missing
 
-# Of summary.json, with units; errors are those of the run's books.
+# Of summary.json, with units; errors are those of the run's ledger.
 NUMBERS = {"time": "s", "steps": "1", "substeps": "1", "points": "1", "bodies": "1", "wall_s": "s", "restarts": "1"}
 ERRORS = {"mass": "1", "momentum": "1", "energy": "1"}
 PROVENANCE = ("scene_hash", "version", "commit", "backend", "devices", "ranks", "start", "end")
@@ -114,7 +114,7 @@ def _text(value):
 
 
 def _csv_text(groups):
-    """As campaign.h5, with units in the header; tails of logs and words of warnings are left to it. Axes are numbers where they can be, and else labels."""
+    """Returns the contents of campaign.h5 as CSV, with units in the header, without tails of logs and texts of warnings. Axes are numbers where they can be, else labels."""
     axes = {f"axis_{name}": groups["axes"].get(name, column) for name, column in groups["labels"].items()}
     parts = (groups["case"], axes, groups["answers"], groups["summary"], groups["provenance"])
     columns = [(name, *column) for part in parts for name, column in part.items() if name not in ("tail", "warning_text")]

@@ -57,7 +57,7 @@ class LocalTasks:
 
 
 def slots_of(count, gpus):
-    """Environments of `count` tasks at a time; with GPUs, dealt out to them in turn: the first of those that this process may use."""
+    """Environments of `count` tasks at a time; with GPUs, assigned to them in turn: the first that this process may use."""
     usable = os.environ.get("CUDA_VISIBLE_DEVICES", "")
     names = (usable.split(",") if usable else [str(number) for number in range(gpus)])[:gpus]
     return [{"CUDA_VISIBLE_DEVICES": names[slot % len(names)]} if names else {} for slot in range(count)]

@@ -15,7 +15,7 @@ TOKEN = re.compile(r"[A-Za-z0-9_.:,@%/+=\[\]&|*-]*")
 
 @dataclass(frozen=True)
 class Resources:
-    """Of one case; a task of the array holds `cases_a_task` of them, side by side."""
+    """Resources of one case; a task of the array runs `cases_a_task` of them side by side."""
 
     nodes: int = 1
     ranks: int = 1
@@ -115,7 +115,7 @@ def read_site(name):
 
 
 def seconds(text):
-    """Of HH:MM:SS; 0 of anything else."""
+    """Converts HH:MM:SS to seconds; 0 for anything else."""
     found = TIME.fullmatch(text)
     return 3600 * int(found[1]) + 60 * int(found[2]) + int(found[3]) if found else 0
 

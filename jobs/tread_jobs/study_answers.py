@@ -114,7 +114,7 @@ def _known(name, quantity, run, options):
 
 
 def _numbers(summary):
-    """Of a summary.json: the verdict, and what a variant cost."""
+    """Returns the verdict and the cost of a variant from its summary.json."""
     numbers = [number_of(summary.get(name)) for name in ("points", "bodies", "steps", "substeps", "wall_s")]
     return resolution_of(summary).verdict, *numbers, number_of(summary.get("peak_device_bytes") or summary.get("peak_host_bytes"))
 

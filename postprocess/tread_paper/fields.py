@@ -72,13 +72,13 @@ def _terrain(run, number):
 
 
 def _way_of_bodies(run, number, count):
-    """Of a thinned snapshot that says how far bodies have come; UNKNOWN of any other."""
+    """Returns how far bodies have come, from a thinned snapshot that holds it; UNKNOWN for any other."""
     with h5py.File(run.path / "snapshots" / f"bodies_{number:04}.h5", "r", locking=False) as file:
         return np.linalg.norm(file["displacement"], axis=1) if "displacement" in file else np.full(count, UNKNOWN)
 
 
 def _outline(run, number):
-    """Of the named bodies in the plane of the section, lines [n, 2, 3] (m)."""
+    """Returns the outline of the named bodies in the plane of the section: lines [n, 2, 3] (m)."""
     bodies, named = run.bodies(number), len(run.scene.get("body", []))
     if bodies is None:
         return np.empty((0, 2, 3))

@@ -72,7 +72,7 @@ class History:
         return self.drive["angular_velocity"] if self.drive else 0.0
 
     def friction(self):
-        """Of the wheel on sand, else on rock: mu in mu W R."""
+        """Friction mu, as in mu W R, of the wheel on sand, else on rock."""
         ours = [contact for contact in self.run.scene.get("contact", []) if "wheel" in contact["between"] and "wall" not in contact["between"]]
         on_sand = [contact for contact in ours if any("sand" in name for name in contact["between"])]
         return (on_sand or ours)[0]["friction"]

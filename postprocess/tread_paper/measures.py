@@ -21,7 +21,7 @@ class Absent(Exception):
 
 
 class Measures:
-    """Of the runs in a directory, each in a directory of its own name."""
+    """Measures of the runs in a directory, each in a directory of its own name."""
 
     def __init__(self, folder):
         self.folder = folder

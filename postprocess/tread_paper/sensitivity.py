@@ -8,7 +8,7 @@ QUANTITIES = (("torque", 1.0, "torque [N m]"), ("drawbar_pull", 1.0, "F_x [N]"),
 
 
 def lines_of(folders):
-    """Of collected campaigns, a row for each value of their first axis: mean over the repeats, and half of what they differ by."""
+    """Makes a row for each value of the first axis of collected campaigns: mean over the repeats, and half of what they differ by."""
     lines = ["| | " + " | ".join(title for _, _, title in QUANTITIES) + " | cases |", "|---|" + "---|" * (len(QUANTITIES) + 1)]
     for folder in folders:
         table = CampaignTable(folder)

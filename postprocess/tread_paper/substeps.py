@@ -32,7 +32,7 @@ def substep_figure(measures):
 
 
 def _asked(measures, name, what):
-    """By number of substeps, of the runs that are there."""
+    """Returns a measure of the runs that exist, by number of substeps."""
     found = {}
     for number in NUMBERS:
         run = f"{name}_{number}"

@@ -73,7 +73,7 @@ def measured(row, measures):
 
 
 def verdict_of(row, numbers):
-    """Of the numbers that are there; an order needs two."""
+    """Verdict on the numbers that exist; an order needs two."""
     remark = row.get("remark", "")
     if "by_eye" in row:
         return f"read off by eye: {row['by_eye']}"

@@ -61,7 +61,7 @@ class CampaignTable:
 
     @property
     def verdicts(self):
-        """Of each case on its own resolution, [n]. UNKNOWN of all in tables that were collected before there were verdicts."""
+        """Verdict of each case on its own resolution, [n]; UNKNOWN for all in tables that hold no verdicts."""
         told = self.columns.get("verdict", np.full(len(self), UNKNOWN))
         return np.where(self["state"] == "failed", FAILED, told).astype(object)
 

@@ -4,7 +4,7 @@ import math
 
 
 def pareto_front(rows, cost, error):
-    """Those of `rows` that no other beats in both, by cost: a subset, the cheapest first. Rows whose cost or error is not a number are passed over."""
+    """Returns the rows that no other beats in both cost and error, the cheapest first. Skips rows whose cost or error is not a number."""
     front, best = [], math.inf
     known = [row for row in rows if math.isfinite(cost(row)) and math.isfinite(error(row))]
     for row in sorted(known, key=lambda row: (cost(row), error(row))):

@@ -4,7 +4,7 @@ import numpy as np
 
 
 def point_spacing(scene, points):
-    """Of neighbouring points at the start, m: from the scene, or from the room that the points take."""
+    """Spacing (m) of neighbouring points at the start: from the scene, or from the volume of the points."""
     spacing = scene.get("grid", {}).get("spacing")
     for terrain in scene.get("terrain", []):
         if "spacing" in terrain:

@@ -7,7 +7,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class History:
-    """Of a run, or of Hertz's law. Energies in J, without those that the law does not know."""
+    """History of a run, or of Hertz's law. Energies in J, without those that the law lacks."""
 
     label: str
     time: np.ndarray  # s
@@ -33,7 +33,7 @@ def body_of(scene):
 
 
 def history_of(run):
-    """Of a run with one such pair, as configs/paper/head_on_8.toml has it."""
+    """Returns the history of a run with one such pair, as in configs/paper/head_on_8.toml."""
     scene, energy = run.scene, run.energy
     body, body_mass = body_of(scene)
     ball = run.wheel(body["name"])

@@ -39,7 +39,7 @@ def _coarseness(row, keys):
 
 
 def _scatter(rows):
-    """Of perturbed repeats, in the quantity's unit; the table has it as a share of the scale of errors."""
+    """Scatter of perturbed repeats in the quantity's unit; the table has it as a share of the scale of errors."""
     scale = next((abs(row.measured - row.right) / row.error for row in rows if row.error > 0), math.nan)
     return scale * rows[0].scatter if math.isfinite(scale * rows[0].scatter) else 0.0
 

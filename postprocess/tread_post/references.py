@@ -82,7 +82,7 @@ def judge(variants, quantity, known, design):
 
 
 def known_value(value, share, text):
-    """Of an answer that is right to `share` of itself."""
+    """Makes the reference of an answer that is right to `share` of itself."""
     return Reference(value, share * abs(value), text)
 
 

@@ -104,7 +104,7 @@ class Run:
 
     @property
     def summary(self):
-        """Of a run that has ended; None while it goes on."""
+        """summary.json of a run that has ended; None while it goes on."""
         path = self.path / "summary.json"
         try:
             return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
@@ -182,7 +182,7 @@ class Run:
 
     @property
     def shapes(self):
-        """By the index that Bodies.shape holds."""
+        """Shapes by the index that Bodies.shape holds."""
         with _open(self.path / "snapshots" / "shapes.h5") as file:
             return [
                 Shape(_text(group.attrs["name"]), group["vertices"][:], group["triangles"][:])

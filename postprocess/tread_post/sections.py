@@ -14,7 +14,7 @@ def outline_of(bodies, shapes, axis, at):
 
 
 def _corners(bodies, shape, index):
-    """Of the triangles of one body, in the world: [t, 3, 3]."""
+    """Corners of the triangles of one body in the world: [t, 3, 3]."""
     vertices = rotated(bodies.orientation[index:index + 1], (bodies.scale[index] * shape.vertices)[None])[0] + bodies.position[index]
     return vertices[shape.triangles]
 

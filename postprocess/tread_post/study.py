@@ -23,7 +23,7 @@ def run_scene(options, scene, settings, folder, ends=(0,)):
 
 
 def processor_time():
-    """Of all programs that ended, s: what other work on the machine changes least."""
+    """Processor time (s) of all programs that ended, which other work on the machine changes least."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 

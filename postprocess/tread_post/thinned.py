@@ -84,7 +84,7 @@ def _thin_snapshots(run, folder, snapshots):
 
 
 def _bodies_at_last_phase(run):
-    """Of the snapshot that is nearest to the start of the last phase: what displacements of rocks count from. None without bodies, and where none is
+    """Bodies of the snapshot nearest to the start of the last phase, from which displacements of rocks count. None without bodies, and where none is
     as near as snapshots are apart: a run that went on elsewhere, from a checkpoint, has none from before it."""
     begun = run.phases[-1].start if run.phases else 0.0
     there = [bodies for bodies in map(run.bodies, run.snapshots) if bodies is not None]

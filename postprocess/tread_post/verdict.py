@@ -25,7 +25,7 @@ class Resolution:
 
 
 def resolution_of(summary):
-    """Of a summary.json as a dictionary, or None. A run that failed is `failed` whatever its figures say.
+    """Returns the verdict in a summary.json (a dictionary, or None). A run that failed is `failed` whatever its figures say.
     Raises one of DAMAGE where it is not what a run writes."""
     if not summary:
         return Resolution(UNKNOWN)

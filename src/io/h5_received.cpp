@@ -33,7 +33,7 @@ const char* name_of(H5L_type_t type)
     }
 }
 
-herr_t look_at_link(hid_t, const char* name, const H5L_info_t* info, void* finding)
+herr_t check_link(hid_t, const char* name, const H5L_info_t* info, void* finding)
 {
     if (info->type == H5L_TYPE_HARD) { return 0; }
     *static_cast<Finding*>(finding) = fmt::format("/{} is {}", name, name_of(info->type));
@@ -67,7 +67,7 @@ Finding fault_of_storage(hid_t dataset)
     return bytes <= static_cast<double>(largest_chunk) ? "" : fmt::format("is stored in chunks of {:.3g} bytes", bytes);
 }
 
-herr_t look_at_object(hid_t file, const char* name, const H5O_info_t* info, void* finding)
+herr_t check_object(hid_t file, const char* name, const H5O_info_t* info, void* finding)
 {
     if (info->type != H5O_TYPE_DATASET) { return 0; }
     const Handle dataset{H5Dopen2(file, name, H5P_DEFAULT), H5Dclose};
@@ -82,10 +82,10 @@ herr_t look_at_object(hid_t file, const char* name, const H5O_info_t* info, void
 void require_self_contained(const File& file)
 {
     Finding      finding;
-    const herr_t links = H5Lvisit(file.id(), H5_INDEX_NAME, H5_ITER_NATIVE, look_at_link, &finding);
+    const herr_t links = H5Lvisit(file.id(), H5_INDEX_NAME, H5_ITER_NATIVE, check_link, &finding);
     if (links == 0)
     {
-        check(H5Ovisit(file.id(), H5_INDEX_NAME, H5_ITER_NATIVE, look_at_object, &finding), file, "listing the file");
+        check(H5Ovisit(file.id(), H5_INDEX_NAME, H5_ITER_NATIVE, check_object, &finding), file, "listing the file");
     }
     if (finding.empty()) { check(links, file, "listing the file"); }
     if (finding.empty()) { return; }

@@ -33,7 +33,7 @@ double per_wall_second(double amount, double wall_s) { return wall_s > 0 ? amoun
 Json stages_of(const Summary& summary)
 {
     Json stages = Json::array();
-    for (const StageReport& stage : summary.stages)
+    for (const StageReport& stage : summary.cost.stages)
     {
         stages.push_back({{"name", stage.name},
                           {"on", stage.on},
@@ -128,20 +128,22 @@ Json layers_of(const BedReport& bed)
 Json resolution_of(const Summary& summary)
 {
     Json figures = Json::object();
-    for (const Figure& figure : summary.figures)
+    for (const Figure& figure : summary.resolution.figures)
     {
         figures[figure.name] = {{"value", figure.value},
                                 {"resolved", figure.resolved},
                                 {"marginal", figure.marginal},
                                 {"verdict", name_of(figure.verdict())}};
     }
-    return {{"verdict", name_of(verdict_of(summary))}, {"points_across", summary.points_across}, {"figures", figures}};
+    return {{"verdict", name_of(verdict_of(summary))},
+            {"points_across", summary.resolution.points_across},
+            {"figures", figures}};
 }
 
 Json grid_error_of(const Summary& summary)
 {
-    if (!summary.grid_error) { return {}; }
-    const GridError& error = *summary.grid_error;
+    if (!summary.resolution.grid_error) { return {}; }
+    const GridError& error = *summary.resolution.grid_error;
     return {{"load", error.load}, {"pull", error.pull}, {"torque", error.torque}, {"sinkage", error.sinkage}};
 }
 
@@ -149,14 +151,15 @@ Json grid_error_of(const Summary& summary)
 
 Verdict verdict_of(const Summary& summary)
 {
-    return summary.status == RunStatus::failed ? Verdict::under_resolved : verdict_of(summary.figures);
+    return summary.outcome.status == RunStatus::failed ? Verdict::under_resolved
+                                                       : verdict_of(summary.resolution.figures);
 }
 
 std::string verdict_line(const Summary& summary)
 {
-    if (summary.status != RunStatus::failed) { return verdict_line(summary.figures); }
+    if (summary.outcome.status != RunStatus::failed) { return verdict_line(summary.resolution.figures); }
     const std::string line   = std::string(name_of(verdict_of(summary))) + ": the run failed";
-    const std::string coarse = coarse_figures(summary.figures);
+    const std::string coarse = coarse_figures(summary.resolution.figures);
     return coarse.empty() ? line : line + "; " + coarse;
 }
 
@@ -164,49 +167,49 @@ std::string to_json(const Summary& summary)
 {
     Json json;
     json["schema"]            = {1, 0};
-    json["status"]            = name_of(summary.status);
-    json["exit_code"]         = static_cast<int>(summary.exit_code);
-    json["reason"]            = summary.reason;
-    json["scene_hash"]        = summary.scene_hash;
+    json["status"]            = name_of(summary.outcome.status);
+    json["exit_code"]         = static_cast<int>(summary.outcome.exit_code);
+    json["reason"]            = summary.outcome.reason;
+    json["scene_hash"]        = summary.run.scene_hash;
     json["version"]           = version;
     json["commit"]            = commit();
-    json["backend"]           = summary.backend;
-    json["devices"]           = summary.devices;
-    json["ranks"]             = summary.ranks;
-    json["threads"]           = summary.threads;
-    json["points"]            = summary.points;
-    json["bodies"]            = summary.bodies;
-    json["steps"]             = summary.steps;
-    json["substeps"]          = summary.substeps;
-    json["time"]              = summary.time;
-    json["wall_s"]            = summary.wall_s;
-    json["steps_per_s"]       = per_wall_second(static_cast<double>(summary.steps), summary.wall_s);
-    json["sim_per_wall"]      = per_wall_second(summary.time, summary.wall_s);
-    json["peak_device_bytes"] = summary.peak_device_bytes;
-    json["peak_host_bytes"]   = summary.peak_host_bytes;
-    json["start"]             = summary.start;
+    json["backend"]           = summary.run.backend;
+    json["devices"]           = summary.run.devices;
+    json["ranks"]             = summary.run.ranks;
+    json["threads"]           = summary.run.threads;
+    json["points"]            = summary.run.points;
+    json["bodies"]            = summary.run.bodies;
+    json["steps"]             = summary.cost.steps;
+    json["substeps"]          = summary.cost.substeps;
+    json["time"]              = summary.cost.time;
+    json["wall_s"]            = summary.cost.wall_s;
+    json["steps_per_s"]       = per_wall_second(static_cast<double>(summary.cost.steps), summary.cost.wall_s);
+    json["sim_per_wall"]      = per_wall_second(summary.cost.time, summary.cost.wall_s);
+    json["peak_device_bytes"] = summary.cost.peak_device_bytes;
+    json["peak_host_bytes"]   = summary.cost.peak_host_bytes;
+    json["start"]             = summary.run.start;
     json["end"]               = utc_now();
-    json["restarts"]          = summary.restarts;
-    json["checkpoint"]        = summary.checkpoints.newest.empty() ? Json() : Json(summary.checkpoints.newest);
-    json["checkpoints"]       = {{"written", summary.checkpoints.written},
-                                 {"bytes", summary.checkpoints.bytes},
-                                 {"seconds", summary.checkpoints.seconds}};
-    json["terrain"]           = terrain_of(summary.bed);
-    json["rocks"]             = rocks_of(summary.bed);
-    json["layers"]            = layers_of(summary.bed);
-    json["rock_share"]        = summary.bed.rock_share;
-    json["phases"]            = phases_of(summary);
-    json["asleep"]            = summary.asleep ? Json(*summary.asleep) : Json();
-    json["stages"]            = stages_of(summary);
-    json["errors"]            = {{"mass", summary.errors.mass},
-                                 {"momentum", summary.errors.momentum},
-                                 {"energy", summary.errors.energy},
-                                 {"transfer", summary.errors.transfer},
-                                 {"coupling", summary.errors.coupling}};
-    json["resolution"]        = resolution_of(summary);
-    json["answers"]           = answers_of(summary);
-    json["grid_error"]        = grid_error_of(summary);
-    json["warnings"]          = summary.warnings;
+    json["restarts"]          = summary.cost.restarts;
+    json["checkpoint"]  = summary.cost.checkpoints.newest.empty() ? Json() : Json(summary.cost.checkpoints.newest);
+    json["checkpoints"] = {{"written", summary.cost.checkpoints.written},
+                           {"bytes", summary.cost.checkpoints.bytes},
+                           {"seconds", summary.cost.checkpoints.seconds}};
+    json["terrain"]     = terrain_of(summary.bed);
+    json["rocks"]       = rocks_of(summary.bed);
+    json["layers"]      = layers_of(summary.bed);
+    json["rock_share"]  = summary.bed.rock_share;
+    json["phases"]      = phases_of(summary);
+    json["asleep"]      = summary.cost.asleep ? Json(*summary.cost.asleep) : Json();
+    json["stages"]      = stages_of(summary);
+    json["errors"]      = {{"mass", summary.errors.mass},
+                           {"momentum", summary.errors.momentum},
+                           {"energy", summary.errors.energy},
+                           {"transfer", summary.errors.transfer},
+                           {"coupling", summary.errors.coupling}};
+    json["resolution"]  = resolution_of(summary);
+    json["answers"]     = answers_of(summary);
+    json["grid_error"]  = grid_error_of(summary);
+    json["warnings"]    = summary.warnings;
     return json.dump(2) + "\n";
 }
 

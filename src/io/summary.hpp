@@ -129,20 +129,30 @@ struct BodyAnswers
     std::vector<PhaseAnswers> phases;
 };
 
-/// Summary of a run. summary.json holds these fields by these names, with schema, version, commit and `end`, the time
-/// of writing.
-struct Summary
+/// How a run ended.
+struct Outcome
 {
-    RunStatus                status    = RunStatus::finished;
-    ExitCode                 exit_code = ExitCode::finished;
-    std::string              reason; ///< why it ended
+    RunStatus   status    = RunStatus::finished;
+    ExitCode    exit_code = ExitCode::finished;
+    std::string reason; ///< why it ended
+};
+
+/// What was run, where and when.
+struct RunIdentity
+{
     std::string              scene_hash;
     std::string              backend;
     std::vector<std::string> devices;
-    int                      ranks             = 1;
-    int                      threads           = 1;
-    std::int64_t             points            = 0;
-    std::int64_t             bodies            = 0;
+    int                      ranks   = 1;
+    int                      threads = 1;
+    std::int64_t             points  = 0;
+    std::int64_t             bodies  = 0;
+    std::string              start; ///< UTC, of the first of the runs that this one continues
+};
+
+/// What a run computed and what that cost, including the runs that it continues.
+struct CostReport
+{
     std::int64_t             steps             = 0;
     std::int64_t             substeps          = 0; ///< total number
     double                   time              = 0; ///< s simulated
@@ -151,16 +161,29 @@ struct Summary
     std::int64_t             peak_host_bytes   = 0;
     std::vector<StageReport> stages;
     std::optional<double>    asleep; ///< mean share of sleeping points; null if sleep is off
-    ErrorReport              errors;
-    double                   points_across = 0; ///< the contact patch of a named body on sand; 0 = none
-    std::vector<Figure>      figures;           ///< with points_across, `resolution`
-    std::optional<GridError> grid_error;        ///< of a driven wheel's answers; null without one on granular sand
-    std::vector<std::string> warnings;          ///< suspicious settings of the scene, a sentence each
-    std::vector<PhaseReport> phases;
-    CheckpointReport         checkpoints;  ///< including those of the runs that this one continues
+    CheckpointReport         checkpoints;
     std::int64_t             restarts = 0; ///< number of times it was stopped and resumed
-    std::string              start;        ///< UTC, of the first of these runs
-    BedReport                bed;          ///< in summary.json: terrain, rocks, layers, rock_share
+};
+
+/// How well a run was resolved.
+struct ResolutionReport
+{
+    double                   points_across = 0; ///< the contact patch of a named body on sand; 0 = none
+    std::vector<Figure>      figures;
+    std::optional<GridError> grid_error; ///< of a driven wheel's answers; null without one on granular sand
+};
+
+/// Summary of a run. docs/output.md lists the keys of summary.json; each has the name of its field here.
+struct Summary
+{
+    Outcome                  outcome;
+    RunIdentity              run;
+    CostReport               cost;
+    ErrorReport              errors;
+    ResolutionReport         resolution;
+    std::vector<std::string> warnings; ///< suspicious settings of the scene, a sentence each
+    std::vector<PhaseReport> phases;
+    BedReport                bed;
     std::vector<BodyAnswers> answers;
 };
 

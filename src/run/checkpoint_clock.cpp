@@ -57,18 +57,18 @@ CheckpointClock::CheckpointClock(const scene::CheckpointOptions& options, double
                                  std::int64_t step)
     : options_(options)
     , end_(limit > 0 ? start + limit : std::numeric_limits<double>::infinity())
-    , last_look_(wall_clock())
-    , last_written_(last_look_)
+    , last_check_(wall_clock())
+    , last_written_(last_check_)
     , last_time_(time)
     , last_step_(step)
 {
 }
 
-Interruption CheckpointClock::look(const Communicator& communicator, double time, std::int64_t step)
+Interruption CheckpointClock::check(const Communicator& communicator, double time, std::int64_t step)
 {
     const double now = wall_clock();
-    slowest_         = std::max(slowest_, now - last_look_);
-    last_look_       = now;
+    slowest_         = std::max(slowest_, now - last_check_);
+    last_check_      = now;
     Wish wish        = wish_of(SignalWatch::take());
     if (communicator.rank() == 0)
     {
@@ -83,7 +83,7 @@ Interruption CheckpointClock::look(const Communicator& communicator, double time
     return {true, true, reason_of(all)};
 }
 
-std::optional<std::string> CheckpointClock::look_within_step(const Communicator& communicator) const
+std::optional<std::string> CheckpointClock::check_within_step(const Communicator& communicator) const
 {
     Wish wish = SignalWatch::stop_is_asked() ? stop_by_signal : go_on;
     if (communicator.rank() == 0 && wall_clock() + least_margin >= end_) { wish = std::max(wish, stop_by_limit); }
@@ -94,9 +94,9 @@ std::optional<std::string> CheckpointClock::look_within_step(const Communicator&
 void CheckpointClock::written(double time, std::int64_t step, double seconds)
 {
     cost_         = seconds;
-    last_written_ = last_look_ = wall_clock();
-    last_time_                 = time;
-    last_step_                 = step;
+    last_written_ = last_check_ = wall_clock();
+    last_time_                  = time;
+    last_step_                  = step;
 }
 
 } // namespace tread::run

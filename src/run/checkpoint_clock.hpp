@@ -32,10 +32,10 @@ public:
                     std::int64_t step);
 
     /// Collective: the same result on all ranks; rank 0's clock decides.
-    Interruption look(const Communicator& communicator, double time, std::int64_t step);
+    Interruption check(const Communicator& communicator, double time, std::int64_t step);
 
     /// Checks within a step whether the run must stop at once, and why. Collective: the same result on all ranks.
-    std::optional<std::string> look_within_step(const Communicator& communicator) const;
+    std::optional<std::string> check_within_step(const Communicator& communicator) const;
 
     /// Records that a checkpoint was written, and how long it took.
     void written(double time, std::int64_t step, double seconds);
@@ -48,7 +48,7 @@ private:
     double                   end_;          ///< wall_clock(); infinite without a limit
     double                   cost_    = 0;  ///< s, time to write a checkpoint
     double                   slowest_ = 0;  ///< s, longest time between two checks
-    double                   last_look_;    ///< wall_clock()
+    double                   last_check_;   ///< wall_clock()
     double                   last_written_; ///< wall_clock() of the last checkpoint, or of the start
     double                   last_time_;    ///< s simulated, at the last checkpoint, or at the start
     std::int64_t             last_step_;

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "run/phases.hpp"
+#include "run/phase_commands.hpp"
 #include "world/body_grid.hpp"
 
 namespace tread::run

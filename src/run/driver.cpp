@@ -1,6 +1,5 @@
 #include "run/driver.hpp"
 
-#include <cmath>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -9,24 +8,10 @@
 
 #include "backend/instantiate.hpp"
 #include "io/checkpoints.hpp"
-#include "io/progress.hpp"
 #include "run/resolution_figures.hpp"
 
 namespace tread::run
 {
-namespace
-{
-
-constexpr double progress_every = 5; ///< s of wall time
-
-std::vector<io::NamedMesh> meshes(const world::World& world)
-{
-    std::vector<io::NamedMesh> named;
-    for (const auto& form : world.templates) { named.push_back({form.name, form.mesh}); }
-    return named;
-}
-
-} // namespace
 
 template<class Exec, class Real>
 Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const scene::Scene& scene,
@@ -41,18 +26,12 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , directory_(directory)
     , simulation_(simulation)
     , options_(options)
-    , phases_(scene, rolling_radii(scene, world))
     , rooms_(std::move(rooms))
-    , surface_(scene, world)
+    , loop_(scene, world, simulation)
+    , output_({communicator, scene, world, plan, directory, options.provenance}, loop_)
     , wall_start_(wall_clock())
-    , said_{wall_start_, 0, 0}
+    , messages_{wall_start_}
 {
-    if (plan.snapshots)
-    {
-        io::SnapshotWriter files(communicator, directory.snapshots(), options.provenance);
-        if (plan.bodies) { files.write_shapes(meshes(world)); }
-        snapshots_.emplace(communicator, simulation.exec(), std::move(files));
-    }
     on_root(communicator, [&] { io::Checkpoints(directory_.checkpoints()).prepare(); });
 }
 
@@ -62,46 +41,60 @@ std::optional<std::string> Driver<Exec, Real>::run()
 {
     try
     {
-        std::optional<std::string> interruption = carry_on();
-        finish_files();
+        std::optional<std::string> interruption = run_to_end();
+        output_.finish();
         return interruption;
     }
     catch (const NumericalError&)
     {
-        finish_files();
+        output_.finish();
         throw;
     }
     catch (const StoppedInStep& stop)
     {
-        finish_files();
+        output_.finish();
+        const std::string& newest = history_.checkpoints.newest;
         return fmt::format("{} within step {}, of which no checkpoint can be written; the newest is {}", stop.what(),
-                           steps_ + 1,
-                           checkpoints_.newest.empty() ? "none: a restart begins anew" : checkpoints_.newest);
+                           loop_.progress.steps + 1, newest.empty() ? "none: a restart begins anew" : newest);
     }
 }
 
 template<class Exec, class Real>
-std::optional<std::string> Driver<Exec, Real>::carry_on()
+std::optional<std::string> Driver<Exec, Real>::run_to_end()
 {
     if (options_.watchdog != nullptr) { options_.watchdog->begin_steps(); } // output before the first step counts too
     if (options_.checkpoint.empty()) { start(); }
     else { resume(); }
-    interruptions_.emplace(scene_.checkpoint, options_.walltime_limit, options_.wall_start, time_, steps_);
-    interruptions_->expect(state_bytes());
-    simulation_.set_stop_check([this] { return interruptions_->look_within_step(communicator_); });
-    while (!phases_.finished())
-    {
-        const Interruption asked = look_outside();
-        if (asked.write) { write_checkpoint(); }
-        if (asked.stop) { return asked.why; }
-        advance();
-        write_due();
-        pass_on();
-    }
-    // Skip what the last step has already written.
-    if (last_row_ < steps_) { write_row(); }
-    if (last_snapshot_ < steps_) { write_snapshot(); }
-    return {};
+    const RunProgress& progress = loop_.progress;
+    checkpoint_clock_.emplace(scene_.checkpoint, options_.walltime_limit, options_.wall_start, progress.time,
+                              progress.steps);
+    checkpoint_clock_->expect(state_bytes());
+    simulation_.set_stop_check([this] { return checkpoint_clock_->check_within_step(communicator_); });
+    std::optional<std::string> interruption = run_phases(loop_, calls());
+    if (!interruption) { output_.write_last(); }
+    return interruption;
+}
+
+template<class Exec, class Real>
+LoopCalls Driver<Exec, Real>::calls()
+{
+    LoopCalls calls;
+    calls.reason_to_stop = [this] { return checkpoint_or_stop(); };
+    calls.before_step    = [this](const solver::TimeStep& step) { before_step(step); };
+    calls.after_step     = [this] { after_step(); };
+    calls.early_end      = [this] { return end_of_bed(); };
+    calls.phase_ends     = [this] { end_phase(); };
+    calls.phase_begins   = [this] { begin_phase(); };
+    return calls;
+}
+
+template<class Exec, class Real>
+void Driver<Exec, Real>::start()
+{
+    output_.begin();
+    begin_phase();
+    output_.write_row();
+    output_.write_snapshot();
 }
 
 /// Estimates the size of a checkpoint, on rank 0 with the time series.
@@ -115,169 +108,57 @@ std::int64_t Driver<Exec, Real>::state_bytes() const
            of_body * static_cast<std::int64_t>(world_.bodies.size()) + (none ? 0 : static_cast<std::int64_t>(series));
 }
 
+/// Writes a checkpoint if one is due; returns the reason if the run has to stop. Only a measured state can be saved;
+/// that takes a few steps at most.
 template<class Exec, class Real>
-void Driver<Exec, Real>::start()
+std::optional<std::string> Driver<Exec, Real>::checkpoint_or_stop()
 {
-    on_root(communicator_,
-            [&] { recorder_.emplace(directory_, scene_, world_, communicator_.size(), options_.provenance); });
-    begin_phase();
-    write_row();
-    write_snapshot();
-}
-
-/// Only a measured state can be saved; that takes a few steps at most.
-template<class Exec, class Real>
-Interruption Driver<Exec, Real>::look_outside()
-{
-    return simulation_.measured() ? interruptions_->look(communicator_, time_, steps_) : Interruption{};
+    if (!simulation_.measured()) { return {}; }
+    const Interruption due = checkpoint_clock_->check(communicator_, loop_.progress.time, loop_.progress.steps);
+    if (due.write) { write_checkpoint(); }
+    return due.stop ? std::optional<std::string>(due.why) : std::nullopt;
 }
 
 template<class Exec, class Real>
-void Driver<Exec, Real>::advance()
+void Driver<Exec, Real>::before_step(const solver::TimeStep& step)
 {
-    if (simulation_.measured())
-    {
-        step_ = solver::choose_step(scene_.time, simulation_.limits(), simulation_.pace(), step_.dt);
-    }
-    solver::TimeStep step = step_;
-    step.dt               = solver::fitted(step.dt, phases_.latest_end() - time_);
-    warn_once(step);
+    const auto warning = limit_warning(messages_, step, loop_.progress.time, simulation_.limits(), simulation_.pace());
+    if (warning) { log_.warning(*warning); }
+    loop_.clock.begin_step(loop_.progress.steps);
+}
 
-    std::vector<solver::BodyCommand> commands;
-    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) { commands.push_back(phases_.command(b, time_ + step.dt)); }
-    simulation_.command(commands, phases_.phase().damping);
-    clock_.begin_step(steps_);
-    step = simulation_.step(step, time_, clock_);
+template<class Exec, class Real>
+void Driver<Exec, Real>::after_step()
+{
     if (options_.watchdog != nullptr) { options_.watchdog->advance(); }
-    time_ += step.dt;
-    ++steps_;
-    substeps_ += step.substeps;
-    say_progress();
-}
-
-template<class Exec, class Real>
-void Driver<Exec, Real>::warn_once(const solver::TimeStep& step)
-{
-    const auto excess = solver::over_limit(step, simulation_.limits(), simulation_.pace());
-    if (!excess || warned_) { return; }
-    log_.warning(fmt::format("t = {:.6g} s: {} (said once a phase)", time_, *excess));
-    warned_ = true;
-}
-
-template<class Exec, class Real>
-void Driver<Exec, Real>::write_due()
-{
-    // Write at the first step at or past each time. A row needs a measured state and waits for the next measurement:
-    // measuring for its sake would change the steps that follow.
-    const std::int64_t rows      = multiples(time_, scene_.output.every);
-    const std::int64_t snapshots = multiples(time_, scene_.output.snapshots_every);
-    if (rows > rows_ && simulation_.measured())
-    {
-        rows_ = rows;
-        write_row();
-    }
-    if (snapshots > snapshots_due_)
-    {
-        snapshots_due_ = snapshots;
-        write_snapshot();
-    }
-}
-
-template<class Exec, class Real>
-void Driver<Exec, Real>::write_row()
-{
-    const auto write = [&]
-    {
-        const solver::Census     now     = simulation_.census();
-        const solver::EnergyRow  energy  = simulation_.ledger().energy(now);
-        const solver::BalanceRow balance = simulation_.ledger().balance(now);
-        auto                     bodies  = simulation_.named_bodies();
-        const auto*              ranks   = simulation_.balance();
-        surface_.press(bodies);
-        for (std::size_t b = 0; b < bodies.size(); ++b) { bodies[b].surface = surface_.under(b, bodies[b]); }
-        const auto on_file = [&]
-        {
-            if (ranks != nullptr) { recorder_->write_ranks(time_, *ranks); }
-            recorder_->write(time_, bodies, energy, balance);
-            if (files_are_free()) { recorder_->flush(); }
-        };
-        on_root(communicator_, on_file);
-        simulation_.begin_mean();
-    };
-    clock_.run(simulation_.exec(), solver::stage::output, write);
-    last_row_ = steps_;
-}
-
-/// Rows wait while a snapshot is being written; an error of that snapshot is thrown here.
-template<class Exec, class Real>
-bool Driver<Exec, Real>::files_are_free()
-{
-    if (!snapshots_) { return true; }
-    if (snapshots_->writing()) { return false; }
-    snapshots_->finish();
-    return true;
-}
-
-/// Waits for all snapshots, and writes the rows that waited for them.
-template<class Exec, class Real>
-void Driver<Exec, Real>::finish_files()
-{
-    if (snapshots_) { snapshots_->finish(); }
-    if (recorder_) { recorder_->flush(); }
-}
-
-template<class Exec, class Real>
-void Driver<Exec, Real>::write_snapshot()
-{
-    if (!snapshots_) { return; }
-    last_snapshot_ = steps_;
-    clock_.run(simulation_.exec(), solver::stage::snapshots, [&] { snapshots_->write(time_, simulation_); });
-}
-
-template<class Exec, class Real>
-double Driver<Exec, Real>::end_time() const
-{
-    double end = phases_.latest_end();
-    for (std::size_t p = phases_.index() + 1; p < scene_.phases.size(); ++p)
-    {
-        const scene::Phase& phase = scene_.phases[p];
-        end += phase.until == scene::StopRule::duration ? phase.duration : phase.max_duration;
-    }
-    return end;
-}
-
-template<class Exec, class Real>
-void Driver<Exec, Real>::say_progress()
-{
-    const Said   now    = standing();
-    const double passed = now.wall - said_.wall;
-    if (passed < progress_every) { return; }
-    const auto steps = static_cast<double>(now.steps - said_.steps);
-    log_.info(io::progress_line({phases_.phase().name, time_, end_time(), steps_, steps / passed,
-                                 (now.time - said_.time) / passed, step_.dt, step_.limit}));
-    said_ = now;
+    if (const auto line = progress_message(messages_, scene_, loop_.phase, loop_.progress)) { log_.info(*line); }
+    output_.after_step();
 }
 
 template<class Exec, class Real>
 void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<solver::Stage>& stages) const
 {
-    summary.steps    = steps_;
-    summary.substeps = substeps_;
-    summary.time     = time_;
-    summary.wall_s   = wall_before_ + wall_clock() - wall_start_;
-    summary.points   = communicator_.sum(simulation_.points());
-    summary.stages   = clock_.reports(stages);
-    summary.errors   = simulation_.ledger().errors();
-    summary.phases   = ended_;
-    summary.restarts = restarts_;
-    summary.asleep   = simulation_.mean_asleep();
+    summary.cost.steps    = loop_.progress.steps;
+    summary.cost.substeps = loop_.progress.substeps;
+    summary.cost.time     = loop_.progress.time;
+    summary.cost.wall_s   = wall_time();
+    summary.run.points    = communicator_.sum(simulation_.points());
+    summary.cost.stages   = loop_.clock.reports(stages);
+    summary.errors        = simulation_.ledger().errors();
+    summary.phases        = ended_;
+    summary.cost.restarts = history_.restarts;
+    summary.cost.asleep   = simulation_.mean_asleep();
 
-    summary.checkpoints   = checkpoints_;
-    summary.points_across = points_across(simulation_.extremes(), world_);
+    summary.cost.checkpoints         = history_.checkpoints;
+    summary.resolution.points_across = points_across(simulation_.extremes(), world_);
 
     const std::optional<DrivenWheel> wheel = driven_wheel(scene_, world_, plan_);
-    summary.figures = figures(simulation_.extremes(), summary.errors, simulation_.limits(), world_, plan_, wheel);
-    if (plan_.coupling) { summary.grid_error = grid_error(wheel, contact_cells(simulation_.extremes(), world_)); }
+    summary.resolution.figures =
+        figures(simulation_.extremes(), summary.errors, simulation_.limits(), world_, plan_, wheel);
+    if (plan_.coupling)
+    {
+        summary.resolution.grid_error = grid_error(wheel, contact_cells(simulation_.extremes(), world_));
+    }
 }
 
 #define TREAD_INSTANTIATE(Exec, Real) template class Driver<Exec, Real>

@@ -8,7 +8,6 @@
 #include "backend/instantiate.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/checkpoints.hpp"
-#include "io/files.hpp"
 #include "run/driver.hpp"
 #include "scene/resolved.hpp"
 #include "solver/state_file.hpp"
@@ -63,13 +62,14 @@ template<class Exec, class Real>
 void Driver<Exec, Real>::write_checkpoint()
 {
     const io::Checkpoints there(directory_.checkpoints());
-    const std::string     path  = there.path(steps_);
-    const double          start = wall_clock();
-    const auto            write = [&]
+    const std::string     path        = there.path(loop_.progress.steps);
+    const double          start       = wall_clock();
+    io::CheckpointReport& checkpoints = history_.checkpoints;
+    const auto            write       = [&]
     {
-        if (snapshots_) { snapshots_->finish(); }
+        output_.finish_snapshots();
         io::CheckpointWriter writer(communicator_, path, state_bytes());
-        writer.number("step", steps_);
+        writer.number("step", loop_.progress.steps);
         io::write_provenance(writer.file(), options_.provenance, communicator_.broadcast(io::utc_now()));
         const solver::Fidelity fidelity =
             simulation_.saves_exactly() ? solver::Fidelity::exact : solver::Fidelity::physical;
@@ -78,19 +78,20 @@ void Driver<Exec, Real>::write_checkpoint()
         solver::StateFile file(communicator_, writer, fidelity);
         transfer(file);
         const std::int64_t bytes = writer.finish();
-        checkpoints_.newest      = directory_.within(path);
-        checkpoints_.bytes += bytes;
-        ++checkpoints_.written;
+        checkpoints.newest       = directory_.within(path);
+        checkpoints.bytes += bytes;
+        ++checkpoints.written;
         on_root(communicator_, [&] { there.settle(path, static_cast<int>(scene_.checkpoint.keep)); });
         return bytes;
     };
     std::int64_t bytes = 0;
-    clock_.run_timed(solver::stage::checkpoints, [&] { bytes = write(); });
+    loop_.clock.run_timed(solver::stage::checkpoints, [&] { bytes = write(); });
     const double seconds = wall_clock() - start;
-    checkpoints_.seconds += seconds;
-    interruptions_->written(time_, steps_, seconds);
-    log_.info(fmt::format("checkpoint at {:.6g} s, step {}: {}, {:.3g} MB in {:.3g} s", time_, steps_,
-                          checkpoints_.newest, static_cast<double>(bytes) / 1e6, seconds));
+    checkpoints.seconds += seconds;
+    const RunProgress& progress = loop_.progress;
+    checkpoint_clock_->written(progress.time, progress.steps, seconds);
+    log_.info(fmt::format("checkpoint at {:.6g} s, step {}: {}, {:.3g} MB in {:.3g} s", progress.time, progress.steps,
+                          checkpoints.newest, static_cast<double>(bytes) / 1e6, seconds));
 }
 
 /// If the checkpoint is refused, restores the directory. The error may be on one rank only.
@@ -103,16 +104,17 @@ void Driver<Exec, Real>::resume()
     }
     catch (...)
     {
-        recorder_.reset();
+        output_.close();
         if (communicator_.rank() == 0) { directory_.undo(); }
         throw;
     }
-    ++restarts_;
-    rows_          = multiples(time_, scene_.output.every);
-    snapshots_due_ = multiples(time_, scene_.output.snapshots_every);
-    on_root(communicator_, [&] { io::Checkpoints(directory_.checkpoints()).remove_after(steps_); });
-    said_ = standing();
-    if (time_ >= phases_.latest_end() - 5e-10) { pass_on(); } // the scene may have shortened the phase
+    ++history_.restarts;
+    output_.resume();
+    const RunProgress& progress = loop_.progress;
+    on_root(communicator_, [&] { io::Checkpoints(directory_.checkpoints()).remove_after(progress.steps); });
+    messages_ = {wall_clock(), progress.steps, progress.time, messages_.warned};
+    // The scene may have shortened the phase.
+    if (progress.time >= latest_end(scene_, loop_.phase) - time_rounding) { end_phases(loop_, calls()); }
 }
 
 template<class Exec, class Real>
@@ -130,12 +132,13 @@ void Driver<Exec, Real>::load_checkpoint()
                   });
     solver::StateFile file(communicator_, *reader, exact ? solver::Fidelity::exact : solver::Fidelity::physical);
     transfer(file);
-    checkpoints_.newest = directory_.within(options_.checkpoint);
+    io::CheckpointReport& checkpoints = history_.checkpoints;
+    checkpoints.newest                = directory_.within(options_.checkpoint);
     // The sum saved in a checkpoint does not include that file.
-    checkpoints_.bytes += static_cast<std::int64_t>(std::filesystem::file_size(options_.checkpoint));
-    ++checkpoints_.written;
-    log_.info(fmt::format("goes on from {} at {:.6g} s, step {}, in phase '{}'{}", options_.checkpoint, time_, steps_,
-                          phases_.phase().name,
+    checkpoints.bytes += static_cast<std::int64_t>(std::filesystem::file_size(options_.checkpoint));
+    ++checkpoints.written;
+    log_.info(fmt::format("goes on from {} at {:.6g} s, step {}, in phase '{}'{}", options_.checkpoint,
+                          loop_.progress.time, loop_.progress.steps, keys_of(scene_, loop_.phase).name,
                           exact ? "" : fmt::format(" (written by {} rank(s): the same to rounding)", ranks)));
 }
 
@@ -144,26 +147,30 @@ void Driver<Exec, Real>::transfer(solver::StateFile& file)
 {
     require_same_world(file);
     simulation_.transfer(file);
-    phases_.transfer(file);
-    clock_.transfer(file);
-    double wall = wall_before_ + wall_clock() - wall_start_;
-    file.numbers("run/steps", solver::accept::number(time_, 0, latest), solver::accept::number(steps_, 0, most_steps),
-                 substeps_, solver::accept::number(step_.dt, 0, solver::accept::largest), step_.substeps, warned_, wall,
-                 restarts_);
-    surface_.transfer(file);
-    file.numbers("run/checkpoints", checkpoints_.written, checkpoints_.bytes, checkpoints_.seconds);
-    file.text("limit", step_.limit);
-    if (file.loads()) { wall_before_ = wall; }
+    run::transfer(file, scene_, loop_.phase, loop_.watch);
+    loop_.clock.transfer(file);
+    RunProgress& progress = loop_.progress;
+    double       wall     = wall_time();
+    file.numbers("run/steps", solver::accept::number(progress.time, 0, latest),
+                 solver::accept::number(progress.steps, 0, most_steps), progress.substeps,
+                 solver::accept::number(progress.chosen.dt, 0, solver::accept::largest), progress.chosen.substeps,
+                 messages_.warned, wall, history_.restarts);
+    io::CheckpointReport& checkpoints = history_.checkpoints;
+    file.numbers("run/checkpoints", checkpoints.written, checkpoints.bytes, checkpoints.seconds);
+    file.text("limit", progress.chosen.limit);
+    if (file.loads()) { history_.wall = wall; }
     std::vector<PhaseRow> ended;
     for (const io::PhaseReport& report : ended_) { ended.push_back(row_of(report)); }
-    const auto all_that_ended = [&](const std::vector<PhaseRow>& rows) {
-        return rows.size() == phases_.index() ? solver::accept::Verdict{} : solver::accept::rows(phases_.index())(rows);
+    const auto all_that_ended = [&](const std::vector<PhaseRow>& rows)
+    {
+        const std::size_t index = loop_.phase.index;
+        return rows.size() == index ? solver::accept::Verdict{} : solver::accept::rows(index)(rows);
     };
     file.common("run/phases", ended,
                 solver::accept::all(all_that_ended, solver::accept::each("the report of a phase", is_report)));
     ended_.clear();
     for (std::size_t p = 0; p < ended.size(); ++p) { ended_.push_back(report_of(scene_.phases[p].name, ended[p])); }
-    transfer_files(file);
+    output_.transfer(file, options_.checkpoint);
 }
 
 template<class Exec, class Real>
@@ -177,44 +184,6 @@ void Driver<Exec, Real>::require_same_world(solver::StateFile& file) const
         fmt::format("{}: the scene builds other points or bodies than when this was written: a file that it "
                     "names (mesh, heights, bed) has changed since",
                     options_.checkpoint));
-}
-
-/// Saves the time series as a file in the checkpoint: rows up to here are safe whatever happens to it later, and later
-/// ones are dropped on restart. Replaces nothing before all loaded data is checked.
-template<class Exec, class Real>
-void Driver<Exec, Real>::transfer_files(solver::StateFile& file)
-{
-    std::vector<double> times = snapshots_ ? snapshots_->times() : std::vector<double>{};
-    file.common("run/snapshots", times, solver::accept::all(solver::accept::finite(), solver::accept::ascending()));
-    std::vector<std::uint8_t> bytes;
-    const auto                read = [&]
-    {
-        recorder_->flush();
-        const std::string text = io::read_file(directory_.time_series());
-        bytes.assign(text.begin(), text.end());
-    };
-    if (!file.loads()) { on_root(communicator_, read); }
-    file.common("run/timeseries", bytes, solver::accept::anything());
-    if (!file.loads()) { return; }
-    const auto restore = [&]
-    {
-        const std::string received = directory_.time_series() + ".received.tmp";
-        io::write_atomically(received, std::string(bytes.begin(), bytes.end()));
-        try
-        {
-            io::require_series(received, series_tables(scene_, communicator_.size()), options_.checkpoint);
-        }
-        catch (...)
-        {
-            std::filesystem::remove(received);
-            throw;
-        }
-        io::rename_file(received, directory_.time_series());
-        recorder_.emplace(directory_, scene_, world_, communicator_.size(), options_.provenance,
-                          io::SeriesFile::continued);
-    };
-    on_root(communicator_, restore);
-    if (snapshots_) { snapshots_->resume(times); }
 }
 
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                  \

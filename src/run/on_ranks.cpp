@@ -17,9 +17,6 @@ namespace tread::run
 namespace
 {
 
-/// Time for which a failed rank waits for the others to fail as well, before it aborts the job.
-constexpr double agreement_timeout = 10; // s
-
 /// Ends this process alone; the launcher then ends the others, which may first report what they wait for.
 [[noreturn]] void end_hanging_rank(const std::string& name, const std::string& complaint)
 {

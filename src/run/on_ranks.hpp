@@ -10,6 +10,9 @@
 namespace tread::run
 {
 
+/// Time (s) for which a failed rank waits for the others to fail as well, before it ends the job alone.
+inline constexpr double agreement_timeout = 10;
+
 /// Runs a command between the start and the end of HDF5 and MPI; all ranks return its result or the exit code of its
 /// error. Rank 0 reports an error that all ranks have; an error of one rank alone is reported by that rank and ends
 /// the job.

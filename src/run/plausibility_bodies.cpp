@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "run/phases.hpp"
+#include "run/phase_commands.hpp"
 #include "run/plausibility.hpp"
 #include "run/warnings.hpp"
 #include "world/footing.hpp"

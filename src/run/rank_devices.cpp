@@ -22,7 +22,7 @@ int device_of_rank(const Communicator& communicator, GpuSharing sharing)
     return device;
 }
 
-std::vector<std::string> say_devices(const Communicator& communicator, Log& log, int device)
+std::vector<std::string> log_devices(const Communicator& communicator, Log& log, int device)
 {
     const std::string        name = device_facts(device).name;
     std::vector<std::string> names;

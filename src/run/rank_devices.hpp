@@ -15,6 +15,6 @@ namespace tread::run
 int device_of_rank(const Communicator& communicator, GpuSharing sharing);
 
 /// Collective: names every rank's device; on several ranks it also logs a line for each with rank, host and device.
-std::vector<std::string> say_devices(const Communicator& communicator, Log& log, int device);
+std::vector<std::string> log_devices(const Communicator& communicator, Log& log, int device);
 
 } // namespace tread::run

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "run/phases.hpp"
+#include "run/phase_commands.hpp"
 
 namespace tread::run
 {
@@ -77,7 +77,7 @@ void Recorder::write(double time, const std::vector<solver::BodyRow>& bodies, co
     for (std::size_t b = 0; b < bodies.size(); ++b)
     {
         const solver::BodyRow& body = bodies[b];
-        const double           spin = body.angular_velocity.dot(body.axle), rim = spin * rolling_radii_[b];
+        const double           rim  = spin_of(body) * rolling_radii_[b];
         const double           slip =
             std::abs(rim) > 1e-9 ? 1 - body.velocity[0] / rim : std::numeric_limits<double>::quiet_NaN();
         std::vector<double> row = {time};
@@ -86,7 +86,7 @@ void Recorder::write(double time, const std::vector<solver::BodyRow>& bodies, co
         append(row, body.angular_velocity);
         append(row, body.force);
         append(row, body.torque);
-        for (const double value : {body.surface - body.lowest, slip, body.force[0], -body.torque.dot(body.axle) * spin})
+        for (const double value : {body.surface - body.lowest, slip, body.force[0], body.power})
         {
             row.push_back(value);
         }

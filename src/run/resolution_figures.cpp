@@ -23,7 +23,7 @@ void add_sand(std::vector<io::Figure>& figures, const solver::Extremes& extremes
 {
     figures.push_back({"transfer_loss", std::abs(errors.transfer), 0.02, 0.1});
     figures.push_back({"margin_wave", margin(limits.courant, extremes.courant), 0.999, 0.8});
-    figures.push_back({"margin_travel", margin(solver::travel_bound, extremes.travel), 0.6, 0.3});
+    figures.push_back({"margin_travel", margin(solver::displacement_bound, extremes.displacement), 0.6, 0.3});
 }
 
 void add_contact_with_sand(std::vector<io::Figure>& figures, const solver::Extremes& extremes,

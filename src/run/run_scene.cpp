@@ -23,6 +23,7 @@
 #include "run/driver.hpp"
 #include "run/estimate.hpp"
 #include "run/left_out.hpp"
+#include "run/on_ranks.hpp"
 #include "run/plausibility.hpp"
 #include "run/rank_devices.hpp"
 #include "run/threads.hpp"
@@ -38,9 +39,6 @@ namespace tread::run
 {
 namespace
 {
-
-/// Time for which a failed rank waits for the others to fail as well.
-constexpr double agreement_timeout = 10; // s
 
 enum class Backend
 {
@@ -82,7 +80,7 @@ Backend agreed_backend(const Communicator& communicator, const scene::Scene& sce
     return backend;
 }
 
-void say_plan(Log& log, const scene::Scene& scene, const world::World& world, const std::vector<solver::Stage>& stages)
+void log_plan(Log& log, const scene::Scene& scene, const world::World& world, const std::vector<solver::Stage>& stages)
 {
     log.info(fmt::format("{} points, {} bodies ({} rocks)", world.points.size(), world.bodies.size(),
                          static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named));
@@ -154,24 +152,24 @@ ExitCode run_on(const Exec& exec, Job& job)
     try
     {
         const std::optional<std::string> interruption = driver.run();
-        job.summary.reason                            = interruption ? "stopped by " + *interruption : "all phases ran";
+        job.summary.outcome.reason                    = interruption ? "stopped by " + *interruption : "all phases ran";
         if (interruption)
         {
-            job.summary.status    = io::RunStatus::stopped;
-            job.summary.exit_code = ExitCode::stopped_early;
+            job.summary.outcome.status    = io::RunStatus::stopped;
+            job.summary.outcome.exit_code = ExitCode::stopped_early;
         }
     }
     catch (const NumericalError& error)
     {
         if (!job.communicator.all_arrive(agreement_timeout)) { throw; } // only this rank failed
         job.log.warning(error.what());
-        job.summary.status    = io::RunStatus::failed;
-        job.summary.exit_code = error.code();
-        job.summary.reason    = error.what();
+        job.summary.outcome.status    = io::RunStatus::failed;
+        job.summary.outcome.exit_code = error.code();
+        job.summary.outcome.reason    = error.what();
     }
     if (job.driver.watchdog != nullptr) { job.driver.watchdog->end_steps(); }
     driver.report(job.summary, job.stages);
-    return job.summary.exit_code;
+    return job.summary.outcome.exit_code;
 }
 
 template<class Exec>
@@ -181,15 +179,15 @@ ExitCode run_precision(const Exec& exec, Job& job)
                                                                      : run_on<Exec, double>(exec, job);
 }
 
-void say_start(Job& job)
+void log_start(Job& job)
 {
     Log& log = job.log;
     log.info(fmt::format("tread {} ({}): {}", version, commit(), job.scene.title));
-    log.info(fmt::format("backend {}, {} rank(s), {} thread(s), {} precision", job.summary.backend, job.summary.ranks,
-                         job.summary.threads,
+    log.info(fmt::format("backend {}, {} rank(s), {} thread(s), {} precision", job.summary.run.backend,
+                         job.summary.run.ranks, job.summary.run.threads,
                          job.scene.numerics.precision == scene::Precision::single_ ? "single" : "double"));
     job.summary.bed = world::describe_bed(job.scene, job.world);
-    say_plan(log, job.scene, job.world, job.stages);
+    log_plan(log, job.scene, job.world, job.stages);
     for (const Warning& warning : plausibility(job.scene, job.world, job.wants, job.rooms))
     {
         job.summary.warnings.push_back(text_of(warning));
@@ -218,7 +216,7 @@ void begin(Job& job)
     const bool goes_on = job.restart.existing == io::Existing::resume;
     job.directory      = io::RunDirectory::create(job.communicator, job.place, job.restart.lock);
     job.log.open(job.directory.log(), goes_on ? LogFile::continued : LogFile::anew);
-    say_start(job);
+    log_start(job);
     for (const std::string& remark : job.restart.remarks) { job.log.warning(remark); }
 }
 
@@ -233,8 +231,8 @@ ExitCode run_backend(Backend backend, Job& job)
         const Cpu cpu{&counters};
         require_rooms(job, "host", wanted, free_bytes(cpu));
         begin(job);
-        code                        = run_precision(cpu, job);
-        job.summary.peak_host_bytes = counters.peak_bytes();
+        code                             = run_precision(cpu, job);
+        job.summary.cost.peak_host_bytes = counters.peak_bytes();
     }
 #ifdef TREAD_WITH_CUDA
     else
@@ -243,27 +241,28 @@ ExitCode run_backend(Backend backend, Job& job)
         const Device device(number, counters);
         require_rooms(job, "device", wanted, free_bytes(device.gpu()));
         begin(job);
-        for (const std::string& name : say_devices(job.communicator, job.log, number))
+        for (const std::string& name : log_devices(job.communicator, job.log, number))
         {
-            job.summary.devices.push_back(name);
+            job.summary.run.devices.push_back(name);
         }
-        job.driver.provenance.devices = job.summary.devices;
-        code                          = run_precision(device.gpu(), job);
-        job.summary.peak_device_bytes = counters.peak_bytes();
+        job.driver.provenance.devices      = job.summary.run.devices;
+        code                               = run_precision(device.gpu(), job);
+        job.summary.cost.peak_device_bytes = counters.peak_bytes();
     }
 #endif
     return code;
 }
 
 /// Logs the answers. On rank 0, which has the time series.
-void say_answers(Job& job)
+void log_answers(Job& job)
 {
     io::Summary& summary = job.summary;
     summary.answers      = make_answers(job.scene, job.directory.time_series(), summary.phases.size());
-    if (summary.grid_error)
+    if (summary.resolution.grid_error)
     {
-        add_grid_error(job.scene, *summary.grid_error, summary.answers);
-        job.log.info("grid error: " + io::grid_error_line(*summary.grid_error, last_drive(job.scene, summary.answers)));
+        add_grid_error(job.scene, *summary.resolution.grid_error, summary.answers);
+        job.log.info("grid error: " +
+                     io::grid_error_line(*summary.resolution.grid_error, last_drive(job.scene, summary.answers)));
     }
     for (const std::string& line : answer_lines(summary.answers)) { job.log.info(line); }
 }
@@ -328,24 +327,28 @@ ExitCode run_scene(const Communicator& communicator, Log& log, Watchdog* watchdo
             io::RunDirectory::at(options.output),
             {},
             {}};
-    job.summary.scene_hash = scene::scene_hash(scene);
-    job.summary.backend    = name_of(backend);
-    job.summary.ranks      = communicator.size();
-    job.summary.threads    = threads;
-    job.summary.bodies     = static_cast<std::int64_t>(world.bodies.size());
-    job.summary.start      = start;
-    job.driver             = {{job.summary.scene_hash, job.summary.backend, {}, communicator.size(), job.summary.start},
-                              job.restart.checkpoint,
-                              wall_start,
-                              options.walltime_limit,
-                              watchdog};
-    const ExitCode code    = run_backend(backend, job);
-    log.info(fmt::format("\n{}", io::timing_table(job.summary.stages, job.summary.wall_s)));
+
+    io::RunIdentity& run = job.summary.run;
+    run                  = {scene::scene_hash(scene),
+                            name_of(backend),
+                            {},
+                            communicator.size(),
+                            threads,
+                            0,
+                            static_cast<std::int64_t>(world.bodies.size()),
+                            start};
+    job.driver           = {{run.scene_hash, run.backend, {}, run.ranks, run.start},
+                            job.restart.checkpoint,
+                            wall_start,
+                            options.walltime_limit,
+                            watchdog};
+    const ExitCode code  = run_backend(backend, job);
+    log.info(fmt::format("\n{}", io::timing_table(job.summary.cost.stages, job.summary.cost.wall_s)));
     log.info(fmt::format("errors: mass {:.3g}, momentum {:.3g}, energy {:.3g}", job.summary.errors.mass,
                          job.summary.errors.momentum, job.summary.errors.energy));
     log.info("resolution: " + io::verdict_line(job.summary));
-    if (code != ExitCode::finished) { log.info(job.summary.reason); }
-    on_root(communicator, [&] { say_answers(job); });
+    if (code != ExitCode::finished) { log.info(job.summary.outcome.reason); }
+    on_root(communicator, [&] { log_answers(job); });
     on_root(communicator, [&] { io::write_summary(job.directory.summary(), job.summary); });
     return code;
 }

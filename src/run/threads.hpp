@@ -5,8 +5,8 @@
 namespace tread::run
 {
 
-/// Collective: number of OpenMP threads of this rank: `asked`, else OMP_NUM_THREADS, else the machine's cores divided
-/// by its ranks.
-int choose_threads(const Communicator& communicator, int asked);
+/// Collective: number of OpenMP threads of this rank: `requested`, else OMP_NUM_THREADS, else the machine's cores
+/// divided by its ranks.
+int choose_threads(const Communicator& communicator, int requested);
 
 } // namespace tread::run

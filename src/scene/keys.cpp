@@ -1,5 +1,6 @@
 #include "scene/keys.hpp"
 #include "scene/ranges.hpp"
+#include "scene/spellings.hpp"
 
 namespace tread::scene
 {
@@ -8,7 +9,7 @@ namespace
 
 Keys<Walls> wall_keys()
 {
-    const auto wall = word<WallKind>({"slip", "fixed", "frictional", "open", "rough"});
+    const auto wall = word<WallKind>();
     return {
         optional("x", "", &Walls::x, wall, "Both walls normal to x."),
         optional("y", "", &Walls::y, wall, "Both walls normal to y."),
@@ -112,10 +113,10 @@ Keys<TimeOptions> time_keys()
 Keys<Numerics> numerics_keys()
 {
     return {
-        optional("precision", "", &Numerics::precision, word<Precision>({"single", "double"}),
+        optional("precision", "", &Numerics::precision, word<Precision>(),
                  "Of velocities, stresses and grid sums; positions always resolve 1e-10 m."),
         optional(
-            "transfer", "", &Numerics::transfer, word<Transfer>({"flip", "apic", "aflip"}),
+            "transfer", "", &Numerics::transfer, word<Transfer>(),
             "How velocity goes between points and grid; \"aflip\" is FLIP that also gives the grid its points' affine "
             "velocities, as APIC does: docs/transfers.md."),
         optional(
@@ -124,22 +125,21 @@ Keys<Numerics> numerics_keys()
             "of the materials of the sand holds for all of it.")
             .when("transfer = \"flip\" or \"aflip\"",
                   [](const Numerics& numerics) { return numerics.transfer != Transfer::apic; }),
-        optional("shape_functions", "", &Numerics::shape_functions, word<ShapeFunctions>({"quadratic", "linear"}),
-                 "B-splines of the grid."),
-        optional("narrow_phase", "", &Numerics::narrow_phase, word<NarrowPhase>({"sdf", "rays"}),
+        optional("shape_functions", "", &Numerics::shape_functions, word<ShapeFunctions>(), "B-splines of the grid."),
+        optional("narrow_phase", "", &Numerics::narrow_phase, word<NarrowPhase>(),
                  "How deep a surface node is in another body: by that body's distance field, or by the length of a ray "
                  "along the node's inward normal to that body's triangles: docs/rays.md."),
-        optional("point_motion", "", &Numerics::point_motion, word<PointMotion>({"supported", "ballistic", "frozen"}),
+        optional("point_motion", "", &Numerics::point_motion, word<PointMotion>(),
                  "How a point moves within the contact substeps of a step: held up by the grid's acceleration, freely, "
                  "or not at all (the paper's)."),
-        optional("hertz", "", &Numerics::hertz, word<HertzFactor>({"standard", "paper-eq7"}),
+        optional("hertz", "", &Numerics::hertz, word<HertzFactor>(),
                  "Factor of the contact force: 4/3 E* sqrt(R*) d^1.5, or the paper's Eq. 7, which is 1/sqrt(2) of it."),
-        optional("point_radius", "", &Numerics::point_radius, word<PointRadius>({"sphere", "semi-domain"}),
+        optional("point_radius", "", &Numerics::point_radius, word<PointRadius>(),
                  "Contact radius of a point: of the sphere of its initial volume V (Eq. 11), or 0.5 V^(1/3)."),
         optional("refine_below", "point radii", &Numerics::refine_below, number(pure_number()),
                  "Bodies whose sphere of equal volume has a smaller radius than this many of the largest point's are "
                  "sampled at nine places of each point's contact patch, not at its centre alone; 0: none."),
-        optional("volume_strain", "", &Numerics::volume_strain, word<VolumeStrain>({"point", "cell-average"}),
+        optional("volume_strain", "", &Numerics::volume_strain, word<VolumeStrain>(),
                  "Volumetric strain that the material law sees: each point's own, or the mean over its cell's points, "
                  "against locking where the flow keeps its volume (undrained clay, sand that does not dilate)."),
         optional("linear_overlap", "R*", &Numerics::linear_overlap, number(between(1e-9, 0.1)),
@@ -152,8 +152,7 @@ Keys<Material> material_keys()
     const std::string granular = "model = \"mohr-coulomb\" or \"drucker-prager\"";
     return {
         required("name", "", &Material::name, name(), "Unique among materials."),
-        required("model", "", &Material::model,
-                 word<MaterialModel>({"elastic", "mohr-coulomb", "drucker-prager", "rigid"}),
+        required("model", "", &Material::model, word<MaterialModel>(),
                  "Constitutive model of points. Rocks and bodies take \"elastic\" or \"rigid\"; both stay rigid, and "
                  "`young` and `poisson` set the stiffness of their contacts."),
         optional("density", "kg/m3", &Material::density, number(density()),
@@ -170,8 +169,7 @@ Keys<Material> material_keys()
             .when(granular, flows),
         optional("cohesion", "Pa", &Material::cohesion, number(strength()), "Cohesion.").when(granular, flows),
         required(
-            "drucker_prager_fit", "", &Material::drucker_prager_fit,
-            word<ConeFit>({"compression", "extension", "plane-strain"}),
+            "drucker_prager_fit", "", &Material::drucker_prager_fit, word<ConeFit>(),
             "Where the cone has the strength of the friction angle and cohesion: in triaxial compression (stronger "
             "elsewhere), in triaxial extension (weaker elsewhere), or in plane strain.")
             .when("model = \"drucker-prager\"", is_drucker_prager),
@@ -251,7 +249,7 @@ Keys<Rocks> rocks_keys()
         rocks_height_key().when(drawn, are_drawn),
         rocks_floor_key().when(drawn, are_drawn),
         optional(
-            "placement", "", &Rocks::placement, word<Placement>({"replace", "rain", "grid", "points"}),
+            "placement", "", &Rocks::placement, word<Placement>(),
             "Rocks never overlap. \"replace\": at random, in place of as much sand as the rocks have volume there; "
             "\"points\": the same, each where a point of sand stands, drawn at random; \"rain\": at random, "
             "where there is no sand, to fall from; \"grid\": on a lattice, where there is no sand."),
@@ -298,7 +296,7 @@ Keys<Phase> phase_keys()
         optional("hold", "", &Phase::hold, names(), "Bodies that do not move in this phase: names of [[body]]."),
         optional("damping", "", &Phase::damping, number(from_below(0, 1)),
                  "Local (Cundall) damping of sand and rocks; for settling only."),
-        optional("until", "", &Phase::until, word<StopRule>({"duration", "equilibrium", "lowered"}),
+        optional("until", "", &Phase::until, word<StopRule>(),
                  "What ends the phase: its time, rest of sand and rocks, or that the ground carries what is lowered."),
         required("duration", "s", &Phase::duration, number(span_of_time()), "Simulated time of the phase.")
             .when("until = \"duration\"", [](const Phase& phase) { return phase.until == StopRule::duration; }),
@@ -381,9 +379,7 @@ Keys<Sleep> sleep_keys()
 Keys<Reference> reference_keys()
 {
     return {
-        optional("form", "", &Reference::form,
-                 word<ReferenceForm>(
-                     {"none", "hertz-impact", "fixed-free-bar", "geostatic", "weight", "rolling-ball", "run-out"}),
+        optional("form", "", &Reference::form, word<ReferenceForm>(),
                  "A closed form whose answer follows from the scene, which has to be of its kind."),
         optional(
             "file", "", &Reference::file, path(),

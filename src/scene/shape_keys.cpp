@@ -1,5 +1,6 @@
 #include "scene/keys.hpp"
 #include "scene/ranges.hpp"
+#include "scene/spellings.hpp"
 
 namespace tread::scene
 {
@@ -40,8 +41,7 @@ Keys<WheelGenerator> wheel_keys()
         optional("grousers", "", &WheelGenerator::grousers, integer<int>(0, 1000), "How many."),
         optional("grouser_height", "m", &WheelGenerator::grouser_height, number(length_or_none()), "Above the drum."),
         optional("grouser_width", "m", &WheelGenerator::grouser_width, number(length()), "Along the circumference."),
-        optional("grouser_shape", "", &WheelGenerator::grouser_shape,
-                 word<GrouserShape>({"straight", "chevron", "curved"}),
+        optional("grouser_shape", "", &WheelGenerator::grouser_shape, word<GrouserShape>(),
                  "Seen from outside: along the axle, a V, or a parabola."),
         optional("grouser_sweep_deg", "deg", &WheelGenerator::grouser_sweep_deg, number(between(-60, 60)),
                  "From a grouser's middle to its ends, about the axle; positive, and rolling towards +x, the ends meet "

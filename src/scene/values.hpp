@@ -12,6 +12,7 @@
 
 #include "scene/document.hpp"
 #include "scene/scene.hpp"
+#include "scene/spelling.hpp"
 
 // Types of values in a scene: how they are read from TOML, written back, and described in messages and docs.
 namespace tread::scene
@@ -135,12 +136,23 @@ std::size_t read_word(const Node& node, const std::vector<std::string>& words);
 /// Formats a list of words as `"a" | "b"`.
 std::string list_words(const std::vector<std::string>& words);
 
-/// An enumeration; `words` are the spellings of its enumerators, in order.
+/// Words of an enumeration, in the order of its enumerators.
 template<class E>
-Value<E> word(const std::vector<std::string>& words)
+std::vector<std::string> words_of_enumeration()
 {
-    return {list_words(words), [words](const Node& node) { return static_cast<E>(read_word(node, words)); },
-            [words](const E& value) { return write_string(words.at(static_cast<std::size_t>(value))); }};
+    std::vector<std::string> words;
+    for (const Spelling<E>& spelling : spellings<E>) { words.emplace_back(spelling.word); }
+    return words;
+}
+
+/// An enumeration, by its words: spellings.hpp.
+template<class E>
+Value<E> word()
+{
+    static_assert(!spellings<E>.empty(), "include scene/spellings.hpp");
+    const std::vector<std::string> words = words_of_enumeration<E>();
+    return {list_words(words), [words](const Node& node) { return spellings<E>.at(read_word(node, words)).value; },
+            [](const E& value) { return write_string(word_of(value)); }};
 }
 
 } // namespace tread::scene

@@ -1,6 +1,6 @@
 #pragma once
 
-// Enumerations of a scene; keys.cpp and similar files spell them, in this order.
+// Enumerations of a scene; spellings.hpp has their words.
 namespace tread::scene
 {
 

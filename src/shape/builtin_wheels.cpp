@@ -18,9 +18,9 @@ namespace
 // cells the SDF encloses the mesh's volume within 1 % (measured by the unit tests); the sizes in MB are those of the
 // SDF.
 
-/// As in the paper: radius 0.26 m and volume 0.0058 m3, from which the wall follows; width 0.33 m from NASA/JPL's
-/// public m2020 robot description; 48 gently curved grousers (NASA, "Perseverance Mars Rover Gets Its Wheels and Air
-/// Brakes", 2020). Grousers of 12.5 x 4 mm and their bow of 4 degrees: assumed. 10 MB.
+/// The wheel of the paper: radius 0.26 m and volume 0.0058 m3, from which the wall follows; width 0.33 m from
+/// NASA/JPL's public m2020 robot description; 48 gently curved grousers (NASA, "Perseverance Mars Rover Gets Its Wheels
+/// and Air Brakes", 2020). Grousers of 12.5 x 4 mm and their bow of 4 degrees: assumed. 10 MB.
 scene::WheelGenerator perseverance()
 {
     scene::WheelGenerator wheel{0.26, 0.33, 0.00996, 48, 0.0125, 0.004};

@@ -27,7 +27,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double tolerance = 0.03;  ///< relative, of the guaranteed form
 constexpr double sought    = 0.005; ///< relative, at which the search stops
 
-Form asked_form(const scene::RockGenerator& generator)
+Form requested_form(const scene::RockGenerator& generator)
 {
     return {generator.aspect, generator.elongation.value_or(0.5 * (1 + generator.aspect)), generator.sphericity,
             generator.solidity};
@@ -211,14 +211,14 @@ void add(Draws& draws, const Yield& yield)
 [[noreturn]] void fail(const Draws& draws, std::uint64_t seed, const Form& wanted, double ball,
                        const std::string& origin)
 {
-    const std::string asked = fmt::format("aspect {:.4g}, elongation {:.4g}, sphericity {:.4g} and solidity {:.4g}",
-                                          wanted.aspect, wanted.elongation, wanted.sphericity, wanted.solidity);
+    const std::string requested = fmt::format("aspect {:.4g}, elongation {:.4g}, sphericity {:.4g} and solidity {:.4g}",
+                                              wanted.aspect, wanted.elongation, wanted.sphericity, wanted.solidity);
     if (draws.nearest)
     {
         const Form& form = draws.nearest->form;
         throw InputError(fmt::format("{}: no rock of seed {} with {} was found; the nearest has {:.3f}, {:.3f}, {:.3f} "
                                      "and {:.3f}",
-                                     origin, seed, asked, form.aspect, form.elongation, form.sphericity,
+                                     origin, seed, requested, form.aspect, form.elongation, form.sphericity,
                                      form.solidity));
     }
     if (draws.widest.least_solidity > wanted.solidity * (1 + tolerance))
@@ -228,7 +228,7 @@ void add(Draws& draws, const Yield& yield)
     }
     throw InputError(fmt::format("{}: sphericity = {}: with seed {}, {}, {:.3f} to {:.3f} can be reached; the "
                                  "ellipsoid of these extents has {:.3f}",
-                                 origin, wanted.sphericity, seed, asked, draws.widest.least_sphericity,
+                                 origin, wanted.sphericity, seed, requested, draws.widest.least_sphericity,
                                  draws.widest.most_sphericity, ball));
 }
 
@@ -262,7 +262,7 @@ Rock drawn_rock(std::uint64_t seed, const Form& wanted, const std::string& origi
 TriangleMesh rock_mesh(const scene::RockGenerator& generator, const std::string& origin)
 {
     check(generator, origin);
-    const Rock   rock  = drawn_rock(generator.seed, asked_form(generator), origin);
+    const Rock   rock  = drawn_rock(generator.seed, requested_form(generator), origin);
     TriangleMesh mesh  = rock.mesh;
     const double scale = std::cbrt(pi / 6 / mass_properties(mesh).volume);
     for (Eigen::Vector3d& vertex : mesh.vertices) { vertex = scale * (rock.axes.transpose() * vertex); }

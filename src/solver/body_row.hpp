@@ -16,6 +16,10 @@ struct BodyRow
     Vec3<double> axle;             ///< unit vector, world frame
     double       lowest;           ///< m, height of the lowest point
     double       surface = 0;      ///< m, height of the terrain under the body before bodies pressed on it (SurfaceMap)
+    double       power   = 0;      ///< W, mean that the axle supplied since the last row (AxleTurn)
 };
+
+/// Angular velocity (rad/s) about the axle.
+inline double spin_of(const BodyRow& row) { return row.angular_velocity.dot(row.axle); }
 
 } // namespace tread::solver

@@ -11,8 +11,8 @@ void Extremes::note(const TimeStep& step, std::int64_t steps, const PaceLimits& 
     const double shortest = pace.shortest_contact;
     if (limits.spacing > 0)
     {
-        courant = std::max(courant, limits.wave_speed * step.dt / limits.spacing);
-        travel  = std::max(travel, pace.largest_speed * step.dt / limits.spacing);
+        courant      = std::max(courant, limits.wave_speed * step.dt / limits.spacing);
+        displacement = std::max(displacement, pace.largest_speed * step.dt / limits.spacing);
     }
     spring        = std::max(spring, pace.stiffest_point * step.dt * step.dt);
     body_overlap  = std::max(body_overlap, pace.overlap);

@@ -10,7 +10,7 @@ namespace tread::solver
 struct Extremes
 {
     double courant       = 0; ///< c_p dt/h
-    double travel        = 0; ///< v dt/h
+    double displacement  = 0; ///< v dt/h
     double spring        = 0; ///< k dt^2/m_p of the stiffest sand-body contact
     double substep       = 0; ///< dt/N over sqrt(m / sum K) of the stiffest body
     double body_overlap  = 0; ///< largest overlap over the smaller radius

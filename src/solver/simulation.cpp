@@ -235,13 +235,13 @@ void Simulation<Exec, Real>::measure()
                         "{} at which its contacts gain energy: more substeps, or a smaller dt",
                         time, substep, substep / pace_.shortest_contact, longest_substep));
     }
-    ContactReport books;
+    ContactReport losses;
     if (coupling_)
     {
         coupling_->measure();
         const contact::Summary& contacts = coupling_->summary();
         pace_.stiffest_point             = contacts.stiffest.value;
-        books                            = {contacts.dissipated, contacts.energy};
+        losses                           = {contacts.dissipated, contacts.energy};
         if (contacts.live > 0 && contacts.flattest.value < least_gradient)
         {
             throw NumericalError(fmt::format("t = {:.6g} s: point {} is so deep in body {} that its nearest surface is "
@@ -253,7 +253,7 @@ void Simulation<Exec, Real>::measure()
     }
     extremes_.note(step, steps, limits_, pace_, coupling_ ? coupling_->summary() : contact::Summary::zero());
     unbalanced_ = weight_ > 0 ? (sand.last_grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
-    ledger_->steps(step.dt, steps, sand, rigid, books, (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
+    ledger_->steps(step.dt, steps, sand, rigid, losses, (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0));
     if (guard_) { guard_->watch(sand, step, time); }
     choose_measuring();
 }

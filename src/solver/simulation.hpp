@@ -126,7 +126,7 @@ private:
     void coupled_substep(double dt, StageClock& clock);
     void run_batch(double dt, std::int64_t done, std::int64_t count, StageClock& clock);
     void run_substeps(double dt, std::int64_t count, StageClock& clock);
-    void look_outside();
+    void check_for_stop();
     bool in_one_launch(double dt, std::int64_t count, StageClock& clock);
     void measure();
     void choose_measuring();

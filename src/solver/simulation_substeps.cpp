@@ -11,7 +11,7 @@ namespace
 {
 
 /// Substeps between checks for a stop request; more than a usual step has.
-constexpr std::int64_t substeps_between_looks = 1000;
+constexpr std::int64_t substeps_between_checks = 1000;
 
 } // namespace
 
@@ -39,11 +39,11 @@ void Simulation<Exec, Real>::run_batch(double dt, std::int64_t done, std::int64_
 {
     for (const std::int64_t end = done + count; done < end;)
     {
-        const std::int64_t look = (done / substeps_between_looks + 1) * substeps_between_looks;
-        const std::int64_t next = std::min(look, end);
+        const std::int64_t check = (done / substeps_between_checks + 1) * substeps_between_checks;
+        const std::int64_t next  = std::min(check, end);
         run_substeps(dt, next - done, clock);
         done = next;
-        if (done == look) { look_outside(); }
+        if (done == check) { check_for_stop(); }
     }
 }
 
@@ -62,7 +62,7 @@ void Simulation<Exec, Real>::run_substeps(double dt, std::int64_t count, StageCl
 
 /// Synchronises first: launches are asynchronous, and no time would pass between two checks.
 template<class Exec, class Real>
-void Simulation<Exec, Real>::look_outside()
+void Simulation<Exec, Real>::check_for_stop()
 {
     if (!why_stop_) { return; }
     synchronize(exec_);

@@ -36,10 +36,10 @@ Bound smallest_bound(const scene::TimeOptions& options, const PaceLimits& limits
     const bool sand = limits.wave_speed > 0;
     if (sand) { bound(limits.courant * limits.spacing / limits.wave_speed, "compression wave"); }
     const double reach = sand ? limits.spacing : limits.smallest_body;
-    if (pace.largest_speed > 0) { bound(travel_bound * reach / pace.largest_speed, "speed"); }
+    if (pace.largest_speed > 0) { bound(displacement_bound * reach / pace.largest_speed, "speed"); }
     if (limits.gravity > 0)
     {
-        bound(std::sqrt(2 * travel_bound * reach / limits.gravity), "free fall");
+        bound(std::sqrt(2 * displacement_bound * reach / limits.gravity), "free fall");
         if (limits.smallest_body > 0)
         {
             bound(std::sqrt(2 * unseen_fall * limits.smallest_body / limits.gravity), "free fall");
@@ -66,8 +66,8 @@ std::int64_t substeps_of(const scene::TimeOptions& options, double dt, const Pac
     if (limits.smallest_body > 0)
     {
         // Rounding of a dt at the same bound must not double the substeps.
-        const double travel = dt * pace.largest_speed / (travel_bound * limits.smallest_body);
-        needed              = std::max(needed, std::ceil(travel - 1e-9));
+        const double displacement = dt * pace.largest_speed / (displacement_bound * limits.smallest_body);
+        needed                    = std::max(needed, std::ceil(displacement - 1e-9));
     }
     return saturated(needed);
 }

@@ -37,7 +37,7 @@ struct TimeStep
 };
 
 inline constexpr double point_contact_bound = 0.5; ///< bound on k dt^2 / m_p, docs/theory.md#time-step
-inline constexpr double travel_bound        = 0.3; ///< v dt over the spacing, or v dt/N over the smallest body
+inline constexpr double displacement_bound  = 0.3; ///< v dt over the spacing, or v dt/N over the smallest body
 
 /// Chooses the step within the limits c_p dt/h <= courant, v dt <= 0.3 h, k dt^2/m_p <= 0.5 at the stiffest sand-body
 /// contact, dt/N <= contact_share sqrt(m / sum K), v dt/N <= 0.3 of the smallest body. It grows by at most 5 % a step.

@@ -177,30 +177,30 @@ private:
 };
 
 /// Number of trial positions left.
-struct Patience
+struct AttemptsLeft
 {
     std::int64_t for_table;
     std::int64_t for_rock = 0;
     std::int64_t outside  = 0; ///< positions outside the space, for a rock
 };
 
-bool find_place(Placer& placer, Random& random, Patience& patience)
+bool find_place(Placer& placer, Random& random, AttemptsLeft& attempts)
 {
     const scene::Box box = placer.centres();
     if (empty(box)) { return false; }
-    patience.for_rock = 50'000;
-    patience.outside  = 10'000'000;
-    while (patience.for_table > 0 && patience.for_rock > 0 && patience.outside > 0)
+    attempts.for_rock = 50'000;
+    attempts.outside  = 10'000'000;
+    while (attempts.for_table > 0 && attempts.for_rock > 0 && attempts.outside > 0)
     {
         const Vec3<double> x = random_place(box, random);
         if (!placer.centre_fits(x))
         {
-            --patience.outside;
+            --attempts.outside;
             continue;
         }
         if (placer.fits(x, random_rotation(random))) { return true; }
-        --patience.for_rock;
-        --patience.for_table;
+        --attempts.for_rock;
+        --attempts.for_table;
     }
     return false;
 }
@@ -245,7 +245,7 @@ bool turn_until_it_fits(Placer& placer, const Vec3<double>& site, Random& random
 }
 
 /// Counts consecutive sites that do not take a rock, to bound the time on fine lattices.
-struct SitePatience
+struct SiteAttempts
 {
     std::size_t outside = 0; ///< outside the space
     std::size_t taken   = 0; ///< occupied by other bodies
@@ -265,14 +265,14 @@ struct SitePatience
 template<class SiteList>
 std::size_t find_site(Placer& placer, const SiteList& sites, std::size_t site, double diameter, Random& random)
 {
-    SitePatience patience;
+    SiteAttempts attempts;
     for (; site < sites.size(); ++site)
     {
         const Vec3<double>& x       = sites[site];
         const bool          outside = !placer.centre_fits(x);
         if (!outside && turn_until_it_fits(placer, x, random)) { break; }
-        ++(outside ? patience.outside : patience.taken);
-        patience.require_more(diameter);
+        ++(outside ? attempts.outside : attempts.taken);
+        attempts.require_more(diameter);
     }
     return site;
 }
@@ -337,13 +337,13 @@ Random random_places(const scene::Rocks& rocks) { return Random(rocks.seed ^ 0x7
 std::size_t place_at_random(const scene::Scene& scene, std::size_t table, const Space& space,
                             const std::vector<RockDraw>& rocks, World& world)
 {
-    Placer   placer(scene, table, space, world);
-    Random   random = random_places(scene.rocks[table]);
-    Patience patience{100'000 + 1000 * static_cast<std::int64_t>(rocks.size())};
+    Placer       placer(scene, table, space, world);
+    Random       random = random_places(scene.rocks[table]);
+    AttemptsLeft attempts{100'000 + 1000 * static_cast<std::int64_t>(rocks.size())};
     for (std::size_t rock = 0; rock < rocks.size(); ++rock)
     {
         placer.begin(rocks[rock]);
-        if (!find_place(placer, random, patience))
+        if (!find_place(placer, random, attempts))
         {
             placer.drop();
             return rock;

@@ -36,12 +36,12 @@ std::size_t place(const scene::Scene& scene, std::size_t table, const Space& spa
     const scene::Rocks& rocks  = scene.rocks[table];
     double              solids = 0;
     for (std::size_t i = 0; i < placed; ++i) { solids += sphere_volume(drawn[i].diameter); }
-    const auto asked = rocks.count ? fmt::format("count = {}", *rocks.count)
-                                   : fmt::format("{} (solid_fraction = {})", drawn.size(), *rocks.solid_fraction);
+    const auto requested = rocks.count ? fmt::format("count = {}", *rocks.count)
+                                       : fmt::format("{} (solid_fraction = {})", drawn.size(), *rocks.solid_fraction);
     throw InputError(fmt::format(
         "[[rocks]] {} of shape '{}': only {} of {} fit without overlap into region {}, a solid "
         "fraction of {:.3f}; enlarge the region, or ask for fewer or smaller rocks",
-        table, rocks.shape, placed, asked, text_of(rocks.region), solids / volume(rocks_space(scene, table))));
+        table, rocks.shape, placed, requested, text_of(rocks.region), solids / volume(rocks_space(scene, table))));
 }
 
 } // namespace

@@ -9,7 +9,8 @@
 
 #include "timed.hpp"
 
-#include "run/phases.hpp"
+#include "run/phase_commands.hpp"
+#include "run/phase_end.hpp"
 #include "scene/load.hpp"
 #include "solver/dem_solver.hpp"
 
@@ -29,7 +30,8 @@ public:
         : exec_(exec)
         , scene_(scene)
         , rigid_(exec, scene, world, solver::make_plan(scene, world))
-        , phases_(scene, tread::run::rolling_radii(scene, world))
+        , phase_(tread::run::first_phase(scene))
+        , rolling_radii_(tread::run::rolling_radii(scene, world))
         , substeps_(substeps)
     {
         command();
@@ -47,20 +49,20 @@ public:
     /// Runs until the bed is at rest, for at most `longest` (s).
     Rest settle(double longest)
     {
-        constexpr int    look_every = 64;   // steps
-        constexpr double at_rest    = 1e-3; // of the weight: a tenth of a phase's default
-        const auto&      g          = scene_.domain.gravity;
-        const double     weight     = rigid_.mass() * std::hypot(g[0], g[1], g[2]);
+        constexpr int    check_every = 64;   // steps
+        constexpr double at_rest     = 1e-3; // of the weight: a tenth of a phase's default
+        const auto&      g           = scene_.domain.gravity;
+        const double     weight      = rigid_.mass() * std::hypot(g[0], g[1], g[2]);
         double           at = 0, still_since = 0;
         for (std::int64_t number = 1; at < longest; ++number)
         {
             step(damping);
             at += substeps_ * dt_;
             choose_substep();
-            if (number % look_every != 0) { continue; }
+            if (number % check_every != 0) { continue; }
             const double out_of_balance = rigid_.report(at).net_force / weight;
             if (!(out_of_balance <= at_rest)) { still_since = at; }
-            if (at - still_since >= tread::run::PhaseClock::equilibrium_hold) { break; }
+            if (at - still_since >= tread::run::equilibrium_hold) { break; }
         }
         return {at, rigid_.report(at).net_force / weight};
     }
@@ -68,7 +70,7 @@ public:
     /// Continues with the scene's second phase for `time` (s).
     void stir(double time)
     {
-        phases_.advance(0, std::vector<double>(scene_.bodies.size(), 0.0));
+        tread::run::enter_next(phase_, 0, std::vector<double>(scene_.bodies.size(), 0.0));
         command();
         for (double at = 0; at < time; at += substeps_ * dt_)
         {
@@ -125,10 +127,7 @@ private:
     void command()
     {
         std::vector<solver::BodyCommand> commands;
-        for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
-        {
-            commands.push_back(phases_.command(b, phases_.latest_end()));
-        }
+        tread::run::set_commands(commands, scene_, phase_, rolling_radii_, tread::run::latest_end(scene_, phase_));
         rigid_.command(commands);
     }
 
@@ -145,12 +144,13 @@ private:
         dt_                          = contact > 0 ? share_of_contact * contact : free_flight;
     }
 
-    Exec                    exec_;
-    const scene::Scene&     scene_;
-    solver::DemSolver<Exec> rigid_;
-    tread::run::PhaseClock  phases_;
-    int                     substeps_;
-    double                  dt_ = 0;
+    Exec                     exec_;
+    const scene::Scene&      scene_;
+    solver::DemSolver<Exec>  rigid_;
+    tread::run::RunningPhase phase_;
+    std::vector<double>      rolling_radii_;
+    int                      substeps_;
+    double                   dt_ = 0;
 };
 
 template<class Exec>

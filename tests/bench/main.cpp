@@ -95,8 +95,7 @@ int main(int argc, char** argv)
     add_transport(*scene_command, scene.transport);
     add_backend(*scene_command, scene.backend);
     bench::MessagesCase messages;
-    CLI::App*           messages_command =
-        app.add_subcommand("messages", "What ranks tell each other of a wheel that they share");
+    CLI::App*           messages_command = app.add_subcommand("messages", "Messages between ranks that share a wheel");
     messages_command->add_option("--rounds", messages.rounds, "Timed rounds, three times");
     add_transport(*messages_command, messages.transport);
     add_backend(*messages_command, messages.backend);

@@ -52,7 +52,7 @@ public:
     const std::string& transport() const { return transport_.description(); }
 
     /// Time (s) of a substep of ranks that share `bodies` bodies.
-    double tell_shares(std::int64_t bodies)
+    double send_shares(std::int64_t bodies)
     {
         decomp::Exchange<Exec> exchange(transport_, "shares");
         exchange.plan(rows_for(communicator_, bodies, [](int) { return true; }));
@@ -138,7 +138,7 @@ void run_messages(const Communicator& communicator, const MessagesCase& what)
         }
         for (const std::int64_t bodies : {1, 100, 1000})
         {
-            print("a substep's message, shared bodies", bodies, messages.tell_shares(bodies));
+            print("a substep's message, shared bodies", bodies, messages.send_shares(bodies));
         }
         for (const std::int64_t points : {1000, 10'000, 100'000})
         {

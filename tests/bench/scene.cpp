@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "run/phases.hpp"
+#include "run/time_loop.hpp"
 #include "scene/load.hpp"
 #include "solver/page_loads.hpp"
 #include "solver/simulation.hpp"
@@ -29,7 +29,7 @@ public:
         , scene_(scene)
         , plan_(solver::make_plan(scene, world))
         , simulation_(exec, scene, world, plan_, decomposition)
-        , phases_(scene, tread::run::rolling_radii(scene, world))
+        , loop_(scene, world, simulation_)
     {
     }
 
@@ -37,53 +37,36 @@ public:
     double time_steps(int steps)
     {
         constexpr std::int64_t no_sample = 1; // a step in which stages are not synchronised
-        clock_.begin_step(no_sample);
-        return timed(exec_, [&] { run(steps, clock_); });
+        loop_.clock.begin_step(no_sample);
+        return timed(exec_, [&] { run(steps); });
     }
 
     /// Times of the stages over `steps` steps, with synchronisation after each stage.
     std::vector<io::StageReport> time_stages(int steps, int ranks)
     {
-        solver::StageClock clock;
-        run(steps, clock);
-        return clock.reports(solver::stages(scene_, plan_, ranks));
+        loop_.clock = {};
+        run(steps);
+        return loop_.clock.reports(solver::stages(scene_, plan_, ranks));
     }
 
-    double mean_substeps() const { return substeps_ / steps_; }
+    double mean_substeps() const
+    {
+        return static_cast<double>(loop_.progress.substeps) / static_cast<double>(loop_.progress.steps);
+    }
 
     const solver::Simulation<Exec, Real>& simulation() const { return simulation_; }
 
 private:
-    void run(int steps, solver::StageClock& clock)
+    void run(int steps)
     {
-        for (int i = 0; i < steps; ++i)
-        {
-            if (simulation_.measured())
-            {
-                step_ = solver::choose_step(scene_.time, simulation_.limits(), simulation_.pace(), step_.dt);
-            }
-            std::vector<solver::BodyCommand> commands;
-            for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
-            {
-                commands.push_back(phases_.command(b, time_ + step_.dt));
-            }
-            simulation_.command(commands, phases_.phase().damping);
-            substeps_ += static_cast<double>(simulation_.step(step_, time_, clock).substeps);
-            time_ += step_.dt;
-            ++steps_;
-        }
+        for (int i = 0; i < steps; ++i) { tread::run::take_step(loop_, {}); }
     }
 
-    Exec                           exec_;
-    const scene::Scene&            scene_;
-    solver::Plan                   plan_;
-    solver::Simulation<Exec, Real> simulation_;
-    tread::run::PhaseClock         phases_;
-    solver::StageClock             clock_;
-    solver::TimeStep               step_;
-    double                         time_     = 0; ///< s
-    double                         steps_    = 0;
-    double                         substeps_ = 0;
+    Exec                             exec_;
+    const scene::Scene&              scene_;
+    solver::Plan                     plan_;
+    solver::Simulation<Exec, Real>   simulation_;
+    tread::run::TimeLoop<Exec, Real> loop_;
 };
 
 /// Time of the slowest rank.

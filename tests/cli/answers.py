@@ -49,7 +49,7 @@ class Answers(CommandTest):
         return found[0]
 
     def check_error_of_the_grid(self, answers, error):
-        """Those of pull, torque and sinkage; nothing is known of the others."""
+        """Requires estimated errors of pull, torque and sinkage; others have none."""
         self.assertEqual(answers["pull"]["estimated_error"], error["pull"] * error["load"])
         self.assertEqual(answers["pull_over_load"]["estimated_error"], error["pull"])
         for name in ("torque", "sinkage"):

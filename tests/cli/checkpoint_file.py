@@ -17,7 +17,7 @@ def step(total, word):
 
 
 def checksum(body):
-    """As src/io/checksum.cpp has it."""
+    """Checksum of src/io/checksum.cpp."""
     total = START
     for at in range(0, len(body), BLOCK_BYTES):
         block = body[at:at + BLOCK_BYTES]

@@ -31,13 +31,15 @@ class LongSteps(RestartTest):
                              r"substep takes time.contact_share = 0.001")
             self.assertIn("contact substeps, over the 1000000", result.stdout + result.stderr)
 
-    def stop_within_a_step(self, stop, *options, ranks=1):
-        """What the run said. A stop that came between two steps is tried again, later."""
+    def stop_within_a_step(self, attempts, ranks=1):
+        """What the run said. `attempts`: pairs of options and of what stops the job; a stop that came before the first step, or between
+        two steps, is tried again at another time."""
         launcher = (*MPIRUN, "-n", str(ranks)) if ranks > 1 else ()
-        for seconds in (1, 4, 16):
+        for options, stop in attempts:
             job = self.begin(MANY, "--overwrite", *options, launcher=launcher)
-            self.wait_for((self.output / "snapshots" / "points.hdf.series").exists, job)
-            stop(job, seconds)
+            while job.poll() is None and not (self.output / "snapshots" / "points.hdf.series").exists():
+                time.sleep(0.02)
+            stop(job)
             said = self.end(job, 75)
             within = re.search(r"stopped by .* within step (\d+), of which no checkpoint can be written; the newest is none", said)
             if within:
@@ -49,16 +51,21 @@ class LongSteps(RestartTest):
         return said
 
     def test_a_signal_stops_it(self):
-        def ask(job, seconds):
-            time.sleep(seconds)
-            job.send_signal(signal.SIGUSR2)
+        def ask_after(seconds):
+            def ask(job):
+                time.sleep(seconds)
+                job.send_signal(signal.SIGUSR2)
+
+            return ask
 
         for ranks in (1, 2):
-            said = self.stop_within_a_step(ask, ranks=ranks)
-            self.assertRegex(said, "stopped by (signal USR2|a signal to another rank) within step \d+")
+            said = self.stop_within_a_step([((), ask_after(seconds)) for seconds in (1, 4, 16)], ranks=ranks)
+            self.assertRegex(said, r"stopped by (signal USR2|a signal to another rank) within step \d+")
 
     def test_the_wall_time_limit_stops_it(self):
-        said = self.stop_within_a_step(lambda job, seconds: None, "--walltime-limit", "00:00:08")
+        # A step takes longer than the start of a run, so that one of these limits falls into the first step.
+        limits = [(("--walltime-limit", f"00:00:{seconds:02}"), lambda job: None) for seconds in (8, 4, 2, 1, 16)]
+        said = self.stop_within_a_step(limits)
         self.assertIn("stopped by the wall-time limit within step ", said)
 
 

@@ -208,7 +208,7 @@ class RestartTest(CommandTest):
         return self.checkpoints(output)[-1]
 
     def ends(self, output):
-        """Where points and bodies are at the end (m), by their numbers; the books close as far as rounding goes."""
+        """Positions (m) of points and bodies at the end, by number; requires that the energy balance closes to rounding."""
         self.assertEqual(self.summary(output)["status"], "finished")
         last = len(list((output / "snapshots").glob("points_*.hdf"))) - 1
         points = datasets(output / "snapshots" / f"points_{last:04}.hdf")

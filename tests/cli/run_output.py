@@ -61,6 +61,25 @@ class RunOutput(CommandTest):
             self.assertLess(wheel["position"][-1, 0], 0.5 - 1.05 * 0.06)
             self.assertLess(abs(wheel["drawbar_pull"][:]).max(), 1e3)
 
+    def test_power_is_the_mean_of_a_row(self):
+        """Within a ramp the spin grows from row to row: the mean torque acts at its mean, and not at that of the row's end."""
+        text = SCENE + BODY.replace("position = [0.2, 0.2, 0.3]", 'position = [0.2, 0.2, "on surface"]')
+        text += '\n[[phase]]\nname = "drive"\nduration = 0.04\ndrive = { body = "roller", angular_velocity = 10.0, ramp = 0.04 }\n'
+        output = self.directory / "ramp"
+        result = self.tread("run", self.write("ramp.toml", text), "--output", output, "--backend", "cpu", "--set", "time.dt=2e-4")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        with h5py.File(output / "timeseries.h5", "r") as file:
+            wheel = {name: item[:] for name, item in file["wheel/roller"].items()}
+        spin, torque = wheel["angular_velocity"][:, 1], -wheel["torque"][:, 1]
+        rows = np.flatnonzero((wheel["time"][:-1] > 0.021) & (abs(torque[1:]) > 0)) + 1
+        self.assertGreater(len(rows), 3)
+        expected = torque[rows] * 0.5 * (spin[rows - 1] + spin[rows])
+        # A step has the spin of its end: the mean of a row of 25 steps or more is half a step's growth above that of its ends.
+        step = (spin[rows] - spin[rows - 1]) / 25
+        error = abs(wheel["power"][rows] - expected) / abs(torque[rows])
+        print("mean spin: measured off by", error.max(), "rad/s, expected 0, tolerance", step.min(), "(a step's growth)")
+        self.assertTrue((error <= step).all(), (error, step))
+
     def test_a_body_that_rolls_off_an_open_bed_stops_the_run(self):
         text = SCENE.replace("gravity =", 'walls = { x = "open" }\ngravity =').replace("[0.0, 0.0, -9.81]", "[4.0, 0.0, -9.0]")
         text += BODY + '\n[[phase]]\nname = "drive"\nduration = 0.01\ndrive = { body = "roller", angular_velocity = 1.0 }\n'

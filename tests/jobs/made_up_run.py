@@ -81,7 +81,7 @@ def wheel_history(rows):
 
 
 def rank_history(rows):
-    """Sand that moves away from a rank, twice dealt out anew."""
+    """Sand that moves away from a rank, twice repartitioned."""
     time = np.linspace(0, 3, rows)
     return {
         "time": (time, "s"),
@@ -92,7 +92,7 @@ def rank_history(rows):
 
 
 def energy_history(rows):
-    """Work that comes in and is lost to plastic flow, but for a thousandth that is lost from the books."""
+    """Returns work that comes in and is lost to plastic flow, except for a thousandth that is unaccounted."""
     time = np.linspace(0, 3, rows)
     work = 30 * np.clip(time - STARTS[2], 0, None)
     columns = {name: np.zeros(rows) for name in ("kinetic_points", "kinetic_bodies", "contact", "friction", "restitution", "damping",

@@ -84,7 +84,7 @@ class Limits(unittest.TestCase):
         self.assertFalse(lost.is_limit)
 
     def test_noisy_series_of_known_order_hold_the_limit(self):
-        """Of 200 noisy series the stated uncertainty must hold the right limit in most: 1.25 |f0 - f1| is meant for 95 % (Roache)."""
+        """The stated uncertainty must hold the right limit in most of 200 noisy series: 1.25 |f0 - f1| is meant for 95 % (Roache)."""
         random, sizes = np.random.default_rng(7), np.array((0.04, 0.03, 0.02, 0.015, 0.01))
         for order in (0.7, 1.0, 2.0):
             held = named = 0

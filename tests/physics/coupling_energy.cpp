@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "books.hpp"
+#include "energy_balance.hpp"
 #include "order.hpp"
 
 // Energy balance of sand and bodies together (design section 7).
@@ -66,7 +66,7 @@ duration = 0.15
 
 /// With the automatic step, which changes with the contacts, and with many substeps. Momentum is exchanged to rounding,
 /// although each impulse acts on the body in its substep and on the sand over the step.
-TYPED_TEST(CouplingEnergy, BooksOfADroppedBallClose)
+TYPED_TEST(CouplingEnergy, BalanceOfADroppedBallCloses)
 {
     for (const std::string time : {"dt = \"auto\"", "dt = 1.0e-3\nsubsteps = 7"})
     {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "books.hpp"
+#include "energy_balance.hpp"
 #include "order.hpp"
 
 // Energy balance of sand (design section 7).
@@ -46,7 +46,7 @@ const std::string elastic      = "model = \"elastic\"\n";
 const std::string column       = "[[0.0, 0.0, 0.0], [0.2, 0.2, 0.4]]";
 const std::string dropped      = "[[0.4, 0.0, 0.3], [0.6, 0.2, 0.5]]";
 
-TYPED_TEST(SandEnergy, BooksOfACollapsingColumnClose)
+TYPED_TEST(SandEnergy, BalanceOfACollapsingColumnCloses)
 {
     test::Experiment<TypeParam> run(this->exec(), trough(mohr_coulomb, column, 0.4));
     const double                error = test::largest_unaccounted(run);
@@ -55,7 +55,7 @@ TYPED_TEST(SandEnergy, BooksOfACollapsingColumnClose)
 }
 
 /// 2.4 m/s, a tenth of the wave speed: strains of a tenth. At a Courant number of 0.4; the balance is of second order.
-TYPED_TEST(SandEnergy, BooksOfAnImpactClose)
+TYPED_TEST(SandEnergy, BalanceOfAnImpactCloses)
 {
     for (const std::string& law : {mohr_coulomb, elastic})
     {
@@ -72,22 +72,22 @@ TYPED_TEST(SandEnergy, BooksOfAnImpactClose)
 /// A run that gains energy must show it: the same column, elastic, with one point per cell at a Courant number of 0.96,
 /// where such sand is unstable (docs/verification.md#stability-limits: from 0.82 on), run without the guard that would
 /// stop it.
-TYPED_TEST(SandEnergy, BooksOfAnUnstableRunDoNotClose)
+TYPED_TEST(SandEnergy, BalanceOfAnUnstableRunDoesNotClose)
 {
     constexpr double            dt = 1.65e-3;
     test::Experiment<TypeParam> run(this->exec(), trough(elastic, column, 0.4, 1));
-    auto&                       sand  = run.simulation().sand();
-    solver::Ledger&             books = run.simulation().ledger();
-    double                      worst = 0;
+    auto&                       sand   = run.simulation().sand();
+    solver::Ledger&             ledger = run.simulation().ledger();
+    double                      worst  = 0;
     for (int step = 0; step < 40; ++step)
     {
         sand.order();
         sand.scatter();
         sand.update_grid(dt, 0);
         sand.gather(dt);
-        books.steps(dt, 1, sand.report(), {}, {}, sand.mass());
-        books.energy(run.simulation().census());
-        worst = std::max(worst, std::abs(books.errors().energy));
+        ledger.steps(dt, 1, sand.report(), {}, {}, sand.mass());
+        ledger.energy(run.simulation().census());
+        worst = std::max(worst, std::abs(ledger.errors().energy));
     }
     test::report("unaccounted over the largest energy, unstable", worst, 1, 0.5,
                  "half the largest energy or more: no closing by force");

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "backend.hpp"
-#include "run/phases.hpp"
+#include "run/time_loop.hpp"
 #include "scene_text.hpp"
 #include "solver/simulation.hpp"
 
-// Runs a scene through its phases with the solver's components, on either backend, with a callback after every step.
+// Runs a scene through its phases on either backend, with the program's loop and a callback after every step.
 namespace tread::test
 {
 
@@ -37,68 +37,42 @@ public:
         : scene_(std::move(scene))
         , world_(std::move(world))
         , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_), decomposition)
-        , phases_(scene_, tread::run::rolling_radii(scene_, world_))
+        , loop_(scene_, world_, simulation_)
     {
     }
+    Experiment(const Experiment&)            = delete;
+    Experiment& operator=(const Experiment&) = delete;
 
     Simulation&         simulation() { return simulation_; }
     const scene::Scene& scene() const { return scene_; }
     const world::World& world() const { return world_; }
-    double              time() const { return time_; }
-    double              dt() const { return step_.dt; }
+    double              time() const { return loop_.progress.time; }
+
+    /// s, length of the last step.
+    double dt() const { return loop_.progress.last_dt; }
 
     /// Condition that ended the last phase.
-    const tread::run::PhaseEnd& phase_end() const { return phases_.ending(); }
+    const tread::run::PhaseEnd& phase_end() const { return loop_.watch.ending; }
 
     /// Calls adjust(commands) before every step, to give named bodies commands that no phase can.
-    void steer(std::function<void(std::vector<solver::BodyCommand>&)> adjust) { adjust_ = std::move(adjust); }
+    void steer(std::function<void(std::vector<solver::BodyCommand>&)> adjust) { calls_.adjust = std::move(adjust); }
 
-    /// Runs all phases; calls look(time) after every step.
-    void run(const std::function<void(double)>& look = [](double) {})
+    /// Runs all phases; calls observe(time) after every step.
+    void run(const std::function<void(double)>& observe = [](double) {})
     {
-        while (!phases_.finished())
-        {
-            advance();
-            look(time_);
-            if (const auto body = phases_.lowered(); body && simulation_.measured())
-            {
-                phases_.weigh(time_, simulation_.carried(*body));
-            }
-            if (!phases_.over(time_, simulation_.unbalanced())) { continue; }
-            phases_.advance(time_, std::vector<double>(scene_.bodies.size(), 0.0));
-        }
+        calls_.after_step = [&] { observe(time()); };
+        tread::run::run_phases(loop_, calls_);
     }
 
-    /// Computes one step of the present phase, even if the phase is over.
-    solver::TimeStep advance()
-    {
-        if (simulation_.measured())
-        {
-            step_ = solver::choose_step(scene_.time, simulation_.limits(), simulation_.pace(), step_.dt);
-        }
-        step_.dt = solver::fitted(step_.dt, phases_.latest_end() - time_);
-        std::vector<solver::BodyCommand> commands;
-        for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
-        {
-            commands.push_back(phases_.command(b, time_ + step_.dt));
-        }
-        if (adjust_) { adjust_(commands); }
-        simulation_.command(commands, phases_.phase().damping);
-        const solver::TimeStep taken = simulation_.step(step_, time_, clock_);
-        time_ += taken.dt;
-        return taken;
-    }
+    /// Computes one step of the present phase, even if the phase is over; returns the step taken.
+    solver::TimeStep advance() { return tread::run::take_step(loop_, calls_); }
 
 private:
-    scene::Scene           scene_;
-    world::World           world_;
-    Simulation             simulation_;
-    tread::run::PhaseClock phases_;
-    solver::StageClock     clock_;
-    solver::TimeStep       step_;
-    double                 time_ = 0;
-
-    std::function<void(std::vector<solver::BodyCommand>&)> adjust_;
+    scene::Scene                     scene_;
+    world::World                     world_;
+    Simulation                       simulation_;
+    tread::run::TimeLoop<Exec, Real> loop_;
+    tread::run::LoopCalls            calls_;
 };
 
 /// One line of a physics test's report.

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "books.hpp"
+#include "energy_balance.hpp"
 
 // A body lowered onto the ground until the ground carries it, and one with part of its weight supported.
 namespace
@@ -41,7 +41,7 @@ double sunk(test::Experiment<Exec>& run)
     return run.world().bodies.position[0][2] - run.simulation().named_bodies()[0].position[2];
 }
 
-TYPED_TEST(Lowering, EndsWhenTheSandCarriesTheShareAndTheBooksClose)
+TYPED_TEST(Lowering, EndsWhenTheSandCarriesTheShareAndTheBalanceCloses)
 {
     for (const double share : {0.5, 1.0})
     {

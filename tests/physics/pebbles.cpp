@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "books.hpp"
+#include "energy_balance.hpp"
 
 // Rocks as small as the points of the bed under them, with nine samples per point and with one.
 namespace
@@ -109,7 +109,7 @@ TYPED_TEST(Pebbles, RestsInTheHollowWithItsWeight)
 
 /// A flat rock strikes, slides and turns. Momentum is exchanged exactly; the difference between the work seen by
 /// substeps and by the grid vanishes with the step, and the samples add no error of their own.
-TYPED_TEST(Pebbles, BooksOfAThrownRockClose)
+TYPED_TEST(Pebbles, EnergyBalanceOfAThrownRockCloses)
 {
     for (const double refine_below : {0.0, 3.0})
     {

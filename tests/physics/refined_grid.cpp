@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "books.hpp"
+#include "energy_balance.hpp"
 
 // Sand on a grid with finer cells in boxes: results that refinement must not change.
 namespace
@@ -140,7 +140,7 @@ TYPED_TEST(RefinedGrid, BedStaysAtRest)
 
 /// The ball lands in the box and throws sand across its borders: momentum is conserved to rounding, energy accounted
 /// for.
-TYPED_TEST(RefinedGrid, BooksOfABallCloseAcrossSeams)
+TYPED_TEST(RefinedGrid, EnergyBalanceOfABallClosesAcrossSeams)
 {
     test::Experiment<TypeParam> run(this->exec(), bed(boxes) + ball);
     const double                unaccounted = test::largest_unaccounted(run);

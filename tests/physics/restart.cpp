@@ -6,7 +6,7 @@
 #include "harness.hpp"
 #include "io/h5.hpp"
 #include "mpi_session.hpp"
-#include "run/phases.hpp"
+#include "run/time_loop.hpp"
 #include "solver/state_file.hpp"
 #include "temporary_directory.hpp"
 #include "thrown_roller.hpp"
@@ -38,32 +38,21 @@ public:
         : scene_(test::load_text(text))
         , world_(world::build_world(scene_))
         , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_))
-        , phases_(scene_, tread::run::rolling_radii(scene_, world_))
+        , loop_(scene_, world_, simulation_)
     {
     }
 
-    /// Runs at least `steps` steps, until the state may be saved.
+    /// Runs at least `steps` steps, until the state may be saved. The last phase does not end.
     void step(int steps)
     {
         for (int i = 0; i < steps || !simulation_.measured(); ++i)
         {
-            if (simulation_.measured())
-            {
-                step_ = solver::choose_step(scene_.time, simulation_.limits(), simulation_.pace(), step_.dt);
-            }
-            std::vector<solver::BodyCommand> commands;
-            for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
-            {
-                commands.push_back(phases_.command(b, time_ + step_.dt));
-            }
-            simulation_.command(commands, phases_.phase().damping);
-            simulation_.step(step_, time_, clock_);
-            time_ += step_.dt;
-            pass_on();
+            tread::run::take_step(loop_, {});
+            if (loop_.phase.index + 1 < scene_.phases.size()) { tread::run::end_phases(loop_, {}); }
         }
     }
 
-    std::size_t phase() const { return phases_.index(); }
+    std::size_t phase() const { return loop_.phase.index; }
 
     void save(const std::string& path)
     {
@@ -101,8 +90,8 @@ public:
         add(bodies.velocity);
         add(bodies.angular_velocity);
         const solver::EnergyRow energy = simulation_.ledger().energy(simulation_.census());
-        add(std::vector<double>{energy.total, energy.friction, energy.transfer, energy.coupling, energy.contact, time_,
-                                step_.dt, phases_.start()});
+        add(std::vector<double>{energy.total, energy.friction, energy.transfer, energy.coupling, energy.contact,
+                                loop_.progress.time, loop_.progress.chosen.dt, loop_.phase.start});
         return bytes;
     }
 
@@ -113,33 +102,19 @@ public:
     io::BodyFields  bodies() { return simulation_.body_fields(); }
 
 private:
-    /// Goes to the next phase, if there is one; the last one does not end.
-    void pass_on()
-    {
-        if (const auto body = phases_.lowered(); body && simulation_.measured())
-        {
-            phases_.weigh(time_, simulation_.carried(*body));
-        }
-        if (phases_.index() + 1 == scene_.phases.size() || !phases_.over(time_, simulation_.unbalanced())) { return; }
-        phases_.advance(time_, std::vector<double>(scene_.bodies.size(), 0.0));
-    }
-
     void transfer(solver::StateFile& file)
     {
         simulation_.transfer(file);
-        phases_.transfer(file);
-        file.numbers("run", time_, step_.dt);
-        file.text("limit", step_.limit);
+        tread::run::transfer(file, scene_, loop_.phase, loop_.watch);
+        file.numbers("run", loop_.progress.time, loop_.progress.chosen.dt);
+        file.text("limit", loop_.progress.chosen.limit);
     }
 
-    Communicator                     self_{MPI_COMM_SELF};
-    scene::Scene                     scene_;
-    world::World                     world_;
-    solver::Simulation<Exec, double> simulation_;
-    tread::run::PhaseClock           phases_;
-    solver::StageClock               clock_;
-    solver::TimeStep                 step_;
-    double                           time_ = 0;
+    Communicator                       self_{MPI_COMM_SELF};
+    scene::Scene                       scene_;
+    world::World                       world_;
+    solver::Simulation<Exec, double>   simulation_;
+    tread::run::TimeLoop<Exec, double> loop_;
 };
 
 /// Numbers of points that slept in a run.

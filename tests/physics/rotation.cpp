@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "books.hpp"
+#include "energy_balance.hpp"
 
 // Rotating matter neither swells nor slows down. Points move along straight lines, which increases their radius by a
 // relative (angle per step)^2 / 2 in each step, and only the strain at the middle of the step accounts for it.
@@ -96,7 +96,7 @@ double inertia(test::Experiment<Exec>& run)
 /// At 1/s: with the strain at the start of the step the area would grow by rate^2 dt per second, 9.3e-3 in 19 s, and
 /// the kinetic energy fall as much. The first second is left out, in which the transient of the unstressed start
 /// decays. The little square uses APIC, because AFLIP's filter dissipates 1.5e-2 at the rim of so few cells.
-TYPED_TEST(Rotation, SquareKeepsItsEnergyAndItsBooksClose)
+TYPED_TEST(Rotation, SquareKeepsItsEnergyAndTheBalanceCloses)
 {
     struct Case
     {

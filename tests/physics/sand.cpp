@@ -118,10 +118,10 @@ duration = 0.4
         [&](double time)
         {
             if (++step % 8 != 0) { return; } // reading back takes as long as a step
-            const solver::Census    now   = bar.simulation().census();
-            const solver::EnergyRow books = bar.simulation().ledger().energy(now);
-            energy                        = books.kinetic_points + books.half_step + books.strain;
-            const double momentum         = now.sand.momentum[0];
+            const solver::Census    now     = bar.simulation().census();
+            const solver::EnergyRow balance = bar.simulation().ledger().energy(now);
+            energy                          = balance.kinetic_points + balance.half_step + balance.strain;
+            const double momentum           = now.sand.momentum[0];
             if (last * momentum < 0)
             {
                 ++crossings;

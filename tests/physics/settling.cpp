@@ -64,9 +64,8 @@ constexpr double cycle = 0.0276;
 TYPED_TEST(Settling, LevelBedSettlesAtOnce)
 {
     const tread::run::PhaseEnd end  = settle(this->exec(), bed_text(level, 2));
-    const double               most = tread::run::PhaseClock::equilibrium_hold + 2 * cycle;
-    test::report("settled after, s", end.after, tread::run::PhaseClock::equilibrium_hold,
-                 most - tread::run::PhaseClock::equilibrium_hold,
+    const double               most = tread::run::equilibrium_hold + 2 * cycle;
+    test::report("settled after, s", end.after, tread::run::equilibrium_hold, most - tread::run::equilibrium_hold,
                  "the time that equilibrium must hold, and two cycles");
     EXPECT_EQ(end.kind, tread::run::EndKind::settled);
     EXPECT_LT(end.after, most);
@@ -77,16 +76,16 @@ TYPED_TEST(Settling, LevelBedSettlesAtOnce)
 TYPED_TEST(Settling, HeapSettlesSlowlyOrSaysThatItDidNot)
 {
     const tread::run::PhaseEnd end   = settle(this->exec(), bed_text(heap, 2));
-    const double               least = tread::run::PhaseClock::equilibrium_hold + cycle;
+    const double               least = tread::run::equilibrium_hold + cycle;
     test::report("settled after, s", end.after, 0.5, 0.5, "some cycles of 28 ms, each leaving 0.54");
     EXPECT_EQ(end.kind, tread::run::EndKind::settled);
     EXPECT_GT(end.after, least);
-    EXPECT_LE(end.unbalanced, tread::run::PhaseClock::equilibrium_ratio);
+    EXPECT_LE(end.unbalanced, tread::run::equilibrium_ratio);
 
     const tread::run::PhaseEnd cut = settle(this->exec(), bed_text(heap, 0.02));
     EXPECT_EQ(cut.kind, tread::run::EndKind::unsettled);
     EXPECT_NEAR(cut.after, 0.02, 1e-9);
-    EXPECT_GT(cut.unbalanced, tread::run::PhaseClock::equilibrium_ratio);
+    EXPECT_GT(cut.unbalanced, tread::run::equilibrium_ratio);
     EXPECT_NE(describe(cut).find("NOT settled"), std::string::npos);
 }
 

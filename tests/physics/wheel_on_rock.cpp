@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "books.hpp"
+#include "energy_balance.hpp"
 #include "rock_scenes.hpp"
 
 // A wheel that straddles a rock, between two of its grousers.
@@ -110,7 +110,7 @@ TYPED_TEST(WheelOnRock, RestsBetweenTwoGrousers)
 
 /// The energy balance of a landing on both grousers is of first order in the step; unaccounted losses of the two
 /// patches would remain in the limit.
-TYPED_TEST(WheelOnRock, LandingClosesTheBooks)
+TYPED_TEST(WheelOnRock, LandingClosesTheBalance)
 {
     const auto unaccounted = [&](double dt)
     {

@@ -7,7 +7,7 @@
 
 #include "backend.hpp"
 #include "mpi_session.hpp"
-#include "run/phases.hpp"
+#include "run/time_loop.hpp"
 #include "scene_text.hpp"
 #include "solver/page_loads.hpp"
 #include "solver/simulation.hpp"
@@ -33,28 +33,20 @@ public:
             decomp::TransportChoice transport = decomp::TransportChoice::automatic)
         : scene_(load_text(text))
         , world_(world::build_world(scene_))
-        , phases_(scene_, tread::run::rolling_radii(scene_, world_))
     {
         if (ranks == Ranks::all) { decompose(exec, owner_of, transport); }
         simulation_ = std::make_unique<solver::Simulation<Exec, Real>>(
             exec, scene_, world_, solver::make_plan(scene_, world_), decomposition_.get());
+        loop_ = std::make_unique<tread::run::TimeLoop<Exec, Real>>(scene_, world_, *simulation_);
     }
 
     void step(int steps)
     {
-        for (int i = 0; i < steps; ++i)
-        {
-            if (simulation_->measured())
-            {
-                step_ = solver::choose_step(scene_.time, simulation_->limits(), simulation_->pace(), step_.dt);
-            }
-            simulation_->command({}, phases_.phase().damping);
-            time_ += simulation_->step(step_, time_, clock_).dt;
-        }
+        for (int i = 0; i < steps; ++i) { tread::run::take_step(*loop_, {}); }
     }
 
     solver::Simulation<Exec, Real>& simulation() { return *simulation_; }
-    double                          time() const { return time_; }
+    double                          time() const { return loop_->progress.time; }
 
     /// Transport of a run on all ranks.
     const decomp::Transport<Exec>& transport() const { return decomposition_->transport; }
@@ -103,14 +95,11 @@ private:
         decomposition_->owners.assign(keys, ranks);
     }
 
-    scene::Scene                                    scene_;
-    world::World                                    world_;
-    tread::run::PhaseClock                          phases_;
-    std::unique_ptr<decomp::Decomposition<Exec>>    decomposition_;
-    std::unique_ptr<solver::Simulation<Exec, Real>> simulation_;
-    solver::StageClock                              clock_;
-    solver::TimeStep                                step_;
-    double                                          time_ = 0;
+    scene::Scene                                      scene_;
+    world::World                                      world_;
+    std::unique_ptr<decomp::Decomposition<Exec>>      decomposition_;
+    std::unique_ptr<solver::Simulation<Exec, Real>>   simulation_;
+    std::unique_ptr<tread::run::TimeLoop<Exec, Real>> loop_;
 };
 
 } // namespace tread::test

@@ -76,7 +76,7 @@ def _cell(name, one, values, table, x=None, y=None):
 
 
 def _label(value):
-    """Of a vector, the length with the sign of what is not zero."""
+    """Label of a value; of a vector, the length with the sign of what is not zero."""
     return str(sum(value)) if isinstance(value, list) else str(value)
 
 

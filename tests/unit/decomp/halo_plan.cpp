@@ -99,7 +99,7 @@ TEST(HaloPlan, OfRandomPagesBringsEveryPartToWhoNeedsIt)
     {
         const std::vector<PageKeys>  reached = random_pages(ranks, seed);
         std::vector<HaloPlan>        plans;
-        std::map<std::uint64_t, int> books;
+        std::map<std::uint64_t, int> counted;
         for (int rank = 0; rank < ranks; ++rank) { plans.push_back(plan_halo(rank, reached, held)); }
         for (std::size_t rank = 0; rank < ranks; ++rank)
         {
@@ -141,11 +141,11 @@ TEST(HaloPlan, OfRandomPagesBringsEveryPartToWhoNeedsIt)
                 const bool shared = at != plan.shared.end() && *at == page;
                 if (!shared || elsewhere.count(static_cast<std::size_t>(at - plan.shared.begin())) == 0)
                 {
-                    ++books[page];
+                    ++counted[page];
                 }
             }
         }
-        for (const auto& [page, times] : books) { EXPECT_EQ(times, 1); }
+        for (const auto& [page, times] : counted) { EXPECT_EQ(times, 1); }
     }
 }
 

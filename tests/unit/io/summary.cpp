@@ -46,16 +46,16 @@ TEST(Summary, answers_have_units_and_nulls_for_what_is_not_known)
 TEST(Summary, json_holds_every_field)
 {
     Summary summary;
-    summary.status    = RunStatus::failed;
-    summary.exit_code = ExitCode::numerical;
-    summary.reason    = "point 3: velocity \"too high\"";
-    summary.steps     = 200;
-    summary.time      = 0.5;
-    summary.wall_s    = 4;
-    summary.devices   = {"NVIDIA H200"};
-    summary.stages    = some_stages();
-    summary.errors    = {1e-9, 2e-3, std::numeric_limits<double>::quiet_NaN()};
-    summary.figures   = {{"contact_cells", 7, 20, 6}};
+    summary.outcome.status     = RunStatus::failed;
+    summary.outcome.exit_code  = ExitCode::numerical;
+    summary.outcome.reason     = "point 3: velocity \"too high\"";
+    summary.cost.steps         = 200;
+    summary.cost.time          = 0.5;
+    summary.cost.wall_s        = 4;
+    summary.run.devices        = {"NVIDIA H200"};
+    summary.cost.stages        = some_stages();
+    summary.errors             = {1e-9, 2e-3, std::numeric_limits<double>::quiet_NaN()};
+    summary.resolution.figures = {{"contact_cells", 7, 20, 6}};
 
     summary.phases = {{"settle", 0, 0.2, "settled", true, 1e-3, 0.6},
                       {"drive", 0.2, 0.3, "duration", std::nullopt, 0.1, std::nullopt}};
@@ -108,7 +108,7 @@ TEST(Summary, json_holds_every_field)
     EXPECT_EQ(json["status"], "failed");
     EXPECT_TRUE(json["checkpoint"].is_null());
     EXPECT_EQ(json["exit_code"], 3);
-    EXPECT_EQ(json["reason"], summary.reason);
+    EXPECT_EQ(json["reason"], summary.outcome.reason);
     EXPECT_EQ(json["steps_per_s"], 50.0);
     EXPECT_EQ(json["sim_per_wall"], 0.125);
     EXPECT_EQ(json["stages"][2]["on"], false);
@@ -127,7 +127,7 @@ TEST(Summary, json_holds_every_field)
     EXPECT_EQ(json["rocks"][0]["largest_diameter"], 0.04);
     EXPECT_TRUE(json["errors"]["energy"].is_null());
     EXPECT_TRUE(json["asleep"].is_null());
-    summary.asleep = 0.75;
+    summary.cost.asleep = 0.75;
     EXPECT_EQ(nlohmann::json::parse(to_json(summary))["asleep"], 0.75);
 }
 
@@ -135,12 +135,12 @@ TEST(Summary, log_and_file_agree_on_the_verdict_of_a_failed_run)
 {
     Summary summary;
     EXPECT_EQ(verdict_line(summary), "resolved");
-    summary.status = RunStatus::failed;
+    summary.outcome.status = RunStatus::failed;
     EXPECT_EQ(verdict_line(summary), "under-resolved: the run failed");
     EXPECT_EQ(nlohmann::json::parse(to_json(summary))["resolution"]["verdict"], "under-resolved");
-    summary.figures = {{"cells", 7, 20, 6}};
+    summary.resolution.figures = {{"cells", 7, 20, 6}};
     EXPECT_EQ(verdict_line(summary), "under-resolved: the run failed; cells 7 (resolved from 20, marginal from 6)");
-    summary.status = RunStatus::stopped;
+    summary.outcome.status = RunStatus::stopped;
     EXPECT_EQ(verdict_line(summary), "marginal: cells 7 (resolved from 20, marginal from 6)");
 }
 

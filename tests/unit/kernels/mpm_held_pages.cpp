@@ -123,7 +123,7 @@ TYPED_TEST(HeldPagesTest, StopTheNodesAndBookIt)
                 tallies.data());
     const auto free = motion.to_host();
     hold_still(exec, view, held.view(), tiles.data(), step, motion.data(), tallies.data());
-    const auto still = motion.to_host(), books = tallies.to_host();
+    const auto still = motion.to_host(), sums = tallies.to_host();
 
     const auto   keys = pages.node_page_key.to_host();
     const auto   mass = this->node_masses(points);
@@ -177,8 +177,8 @@ TYPED_TEST(HeldPagesTest, StopTheNodesAndBookIt)
         double of_steps = 0, of_last = 0;
         for (std::size_t page = 0; page < keys.size(); ++page)
         {
-            of_steps += books[page * tally_width(grid_sums) + static_cast<std::size_t>(which)];
-            of_last += books[page * tally_width(grid_sums) + static_cast<std::size_t>(grid_sums + which)];
+            of_steps += sums[page * tally_width(grid_sums) + static_cast<std::size_t>(which)];
+            of_last += sums[page * tally_width(grid_sums) + static_cast<std::size_t>(grid_sums + which)];
         }
         EXPECT_NE(of_steps, 0) << which;
         EXPECT_EQ(of_steps, of_last) << which;

@@ -19,22 +19,22 @@ scene::CheckpointOptions never()
     return options;
 }
 
-Interruption look(CheckpointClock& clock, double time = 0, std::int64_t step = 0)
+Interruption check(CheckpointClock& clock, double time = 0, std::int64_t step = 0)
 {
-    return clock.look(test::world(), time, step);
+    return clock.check(test::world(), time, step);
 }
 
 TEST(CheckpointClock, WithoutALimitNothingStops)
 {
     CheckpointClock    clock(never(), 0, wall_clock() - 100 * hour, 0, 0);
-    const Interruption asked = look(clock, 1e6, 1000000);
+    const Interruption asked = check(clock, 1e6, 1000000);
     EXPECT_FALSE(asked.write || asked.stop);
 }
 
 TEST(CheckpointClock, ALimitThatIsOverStopsAfterACheckpoint)
 {
     CheckpointClock    clock(never(), hour, wall_clock() - 2 * hour, 0, 0);
-    const Interruption asked = look(clock);
+    const Interruption asked = check(clock);
     EXPECT_TRUE(asked.write && asked.stop);
     EXPECT_EQ(asked.why, "the wall-time limit");
 }
@@ -42,11 +42,11 @@ TEST(CheckpointClock, ALimitThatIsOverStopsAfterACheckpoint)
 TEST(CheckpointClock, TheLimitLeavesTwiceWhatACheckpointTakes)
 {
     CheckpointClock clock(never(), 10 * hour, wall_clock(), 0, 0);
-    EXPECT_FALSE(look(clock).stop);
+    EXPECT_FALSE(check(clock).stop);
     clock.written(0, 0, 4 * hour);
-    EXPECT_FALSE(look(clock).stop);
+    EXPECT_FALSE(check(clock).stop);
     clock.written(0, 0, 6 * hour);
-    EXPECT_TRUE(look(clock).stop);
+    EXPECT_TRUE(check(clock).stop);
 }
 
 TEST(CheckpointClock, BeforeTheFirstItExpectsWhatItsBytesTake)
@@ -54,9 +54,9 @@ TEST(CheckpointClock, BeforeTheFirstItExpectsWhatItsBytesTake)
     constexpr std::int64_t hundred_megabytes = 100000000;
     CheckpointClock        clock(never(), 10 * hour, wall_clock(), 0, 0);
     clock.expect(hundred_megabytes * 4 * 3600);
-    EXPECT_FALSE(look(clock).stop);
+    EXPECT_FALSE(check(clock).stop);
     clock.expect(hundred_megabytes * 6 * 3600);
-    EXPECT_TRUE(look(clock).stop);
+    EXPECT_TRUE(check(clock).stop);
 }
 
 TEST(CheckpointClock, StepsAndSimulatedTimeCountFromTheLast)
@@ -65,13 +65,13 @@ TEST(CheckpointClock, StepsAndSimulatedTimeCountFromTheLast)
     options.every_steps              = 10;
     options.every_time               = 1;
     CheckpointClock clock(options, 0, wall_clock(), 5.0, 100);
-    EXPECT_FALSE(look(clock, 5.9, 109).write);
-    EXPECT_TRUE(look(clock, 5.9, 110).write);
-    EXPECT_TRUE(look(clock, 6.0, 101).write);
+    EXPECT_FALSE(check(clock, 5.9, 109).write);
+    EXPECT_TRUE(check(clock, 5.9, 110).write);
+    EXPECT_TRUE(check(clock, 6.0, 101).write);
     clock.written(6.0, 110, 0);
-    EXPECT_FALSE(look(clock, 6.9, 119).write);
-    EXPECT_TRUE(look(clock, 6.9, 120).write);
-    EXPECT_FALSE(look(clock, 6.9, 120).stop);
+    EXPECT_FALSE(check(clock, 6.9, 119).write);
+    EXPECT_TRUE(check(clock, 6.9, 120).write);
+    EXPECT_FALSE(check(clock, 6.9, 120).stop);
 }
 
 TEST(CheckpointClock, WallTimeIsDueAtOnceWhenItsIntervalIsOver)
@@ -79,7 +79,7 @@ TEST(CheckpointClock, WallTimeIsDueAtOnceWhenItsIntervalIsOver)
     scene::CheckpointOptions options = never();
     options.every_wall               = 1e-9;
     CheckpointClock clock(options, 0, wall_clock(), 0, 0);
-    EXPECT_TRUE(look(clock).write);
+    EXPECT_TRUE(check(clock).write);
 }
 
 } // namespace

@@ -23,10 +23,10 @@ struct Way
     int        readings = 0;
 
     /// Returns whether the position was read.
-    bool look(double span, double speed, double travel)
+    bool advance(double span, double speed, double distance)
     {
         time += span;
-        gone += travel;
+        gone += distance;
         watch.note_speed(time, speed);
         if (!watch.is_due()) { return false; }
         ++readings;
@@ -35,11 +35,11 @@ struct Way
     }
 };
 
-TEST(DriveWatch, ReadsAtTheFirstLook)
+TEST(DriveWatch, ReadsAtTheFirstCheck)
 {
     Way way;
-    EXPECT_TRUE(way.look(0, 0, 0));
-    EXPECT_FALSE(way.look(0.1, 1, 0.1));
+    EXPECT_TRUE(way.advance(0, 0, 0));
+    EXPECT_FALSE(way.advance(0.1, 1, 0.1));
     DriveWatch goes_on; // resumed from a checkpoint: its first check is late
     goes_on.note_speed(12, 1);
     EXPECT_TRUE(goes_on.is_due());
@@ -56,12 +56,12 @@ TEST(DriveWatch, NothingPassesTheLimitUnseen)
         Way          way;
         double       before  = 0;
         const double fastest = draw(0, 0.5);
-        way.look(0, before, 0);
+        way.advance(0, before, 0);
         while (way.gone < limit)
         {
             const double span = draw(0, 0.1), speed = draw(0, 1) < 0.1 ? 10 * fastest : draw(0, fastest);
-            const double most = (1 - 1e-9) * 2 * std::max(before, speed) * span; // rounding is not counted as travel
-            const bool   read = way.look(span, speed, draw(0, 1) < 0.5 ? most : draw(0, most));
+            const double most = (1 - 1e-9) * 2 * std::max(before, speed) * span; // rounding is not counted as distance
+            const bool   read = way.advance(span, speed, draw(0, 1) < 0.5 ? most : draw(0, most));
             ASSERT_TRUE(read || way.gone < limit) << "run " << run << ": " << way.gone << " m";
             before = speed;
         }
@@ -73,8 +73,8 @@ TEST(DriveWatch, NothingPassesTheLimitUnseen)
 TEST(DriveWatch, ReadsSeldom)
 {
     Way way;
-    way.look(0, 1, 0);
-    for (int look = 0; look < 999; ++look) { way.look(1e-3, 1, 1e-3); }
+    way.advance(0, 1, 0);
+    for (int check = 0; check < 999; ++check) { way.advance(1e-3, 1, 1e-3); }
     EXPECT_GE(way.readings, 9);
     EXPECT_LE(way.readings, 12);
 }

@@ -1,4 +1,5 @@
-#include "run/phases.hpp"
+#include "run/phase_commands.hpp"
+#include "run/phase_end.hpp"
 
 #include <cmath>
 #include <vector>
@@ -26,9 +27,9 @@ constexpr const char* half = R"({ body = "roller", speed = 0.5, share = 0.5 })";
 TEST(Lowering, PrescribesTheVelocityAlongATiltedGravity)
 {
     const scene::Scene scene = test::load_text(lowered_text("[3.0, 0.0, -4.0]", half));
-    const PhaseClock   clock(scene, {0.1});
-    EXPECT_EQ(clock.lowered(), std::size_t{0});
-    const solver::BodyCommand command = clock.command(0, 0.1);
+    const RunningPhase phase = first_phase(scene);
+    EXPECT_EQ(lowered(scene, phase), std::size_t{0});
+    const solver::BodyCommand command = command_of(scene, phase, 0, 0.1, 0.1);
     EXPECT_EQ(command.locked, std::uint32_t(dem::lock_all));
     EXPECT_EQ(command.spin, 0.0);
     ASSERT_TRUE(command.lowering);
@@ -40,32 +41,33 @@ TEST(Lowering, PrescribesTheVelocityAlongATiltedGravity)
 TEST(Lowering, EndsWhenTheGroundCarriesTheShare)
 {
     const scene::Scene scene = test::load_text(lowered_text("[0.0, 0.0, -9.81]", half));
-    PhaseClock         clock(scene, {0.1});
+    const RunningPhase phase = first_phase(scene);
+    PhaseEndWatch      watch;
     // The ground carries the full weight from 0.1 s on: the mean over the recent past exceeds one half after span ln 2.
     const double dt = 1e-4, touch = 0.1;
     double       time = 0;
     do {
         time += dt;
-        clock.weigh(time, std::max(0.0, time - touch));
-    } while (!clock.over(time, 1.0) && time < 0.5);
+        watch.carried.note(time, std::max(0.0, time - touch));
+    } while (!is_over(scene, phase, watch, time, 1.0) && time < 0.5);
     EXPECT_NEAR(time, touch + CarriedShare::span * std::log(2.0), 2 * dt);
-    EXPECT_EQ(clock.ending().kind, EndKind::lowered);
-    EXPECT_NEAR(clock.ending().carried, 0.5, dt / CarriedShare::span);
-    EXPECT_EQ(describe(clock.ending()).find("the ground carries 50"), 0u) << describe(clock.ending());
-    EXPECT_NE(describe(clock.ending()).find("of 'roller' after 0.107 s"), std::string::npos);
+    EXPECT_EQ(watch.ending.kind, EndKind::lowered);
+    EXPECT_NEAR(watch.ending.carried, 0.5, dt / CarriedShare::span);
+    EXPECT_EQ(describe(watch.ending).find("the ground carries 50"), 0u) << describe(watch.ending);
+    EXPECT_NE(describe(watch.ending).find("of 'roller' after 0.107 s"), std::string::npos);
 }
 
 TEST(Lowering, EndsWithAWarningAtItsMaxDuration)
 {
     const scene::Scene scene = test::load_text(lowered_text("[0.0, 0.0, -9.81]", half));
-    PhaseClock         clock(scene, {0.1});
-    EXPECT_DOUBLE_EQ(clock.latest_end(), 1.0);
-    EXPECT_FALSE(clock.over(0.999, 0));
-    EXPECT_TRUE(clock.over(1.0, 0));
-    EXPECT_EQ(clock.ending().kind, EndKind::unlowered);
-    EXPECT_TRUE(deserves_warning(clock.ending().kind));
-    EXPECT_EQ(describe(clock.ending()),
-              "NOT lowered after its max_duration of 1 s: the ground carries 0 % of 'roller'");
+    const RunningPhase phase = first_phase(scene);
+    PhaseEndWatch      watch;
+    EXPECT_DOUBLE_EQ(latest_end(scene, phase), 1.0);
+    EXPECT_FALSE(is_over(scene, phase, watch, 0.999, 0));
+    EXPECT_TRUE(is_over(scene, phase, watch, 1.0, 0));
+    EXPECT_EQ(watch.ending.kind, EndKind::unlowered);
+    EXPECT_TRUE(deserves_warning(watch.ending.kind));
+    EXPECT_EQ(describe(watch.ending), "NOT lowered after its max_duration of 1 s: the ground carries 0 % of 'roller'");
 }
 
 TEST(Phases, EndsHaveNames)
@@ -87,13 +89,14 @@ name     = "load"
 duration = 1.0
 weight   = { body = "roller", from = 0.2, to = 1.5, ramp = 0.5 }
 )";
-    const scene::Scene scene = test::load_text(text);
-    PhaseClock         clock(scene, {0.1});
-    EXPECT_EQ(clock.command(0, 0.01).weight, 1.0);
-    clock.advance(0.05, {0.0});
-    EXPECT_DOUBLE_EQ(clock.command(0, 0.05).weight, 0.2);
-    EXPECT_DOUBLE_EQ(clock.command(0, 0.30).weight, 0.85);
-    EXPECT_DOUBLE_EQ(clock.command(0, 0.90).weight, 1.5);
+    const scene::Scene scene  = test::load_text(text);
+    RunningPhase       phase  = first_phase(scene);
+    const auto         weight = [&](double time) { return command_of(scene, phase, 0, 0.1, time).weight; };
+    EXPECT_EQ(weight(0.01), 1.0);
+    enter_next(phase, 0.05, {0.0});
+    EXPECT_DOUBLE_EQ(weight(0.05), 0.2);
+    EXPECT_DOUBLE_EQ(weight(0.30), 0.85);
+    EXPECT_DOUBLE_EQ(weight(0.90), 1.5);
 }
 
 } // namespace

@@ -23,7 +23,7 @@ std::string thrown_out()
     return text;
 }
 
-TEST(Leaving, BooksKeepWhatHasLeft)
+TEST(Leaving, CountsWhatHasLeft)
 {
     const scene::Scene        scene = test::load_text(thrown_out());
     const world::World        world = world::build_world(scene);
@@ -41,15 +41,15 @@ TEST(Leaving, BooksKeepWhatHasLeft)
     }
     const Census now = simulation.census();
     EXPECT_EQ(simulation.points(), 0) << "at 5 m/s 0.4 m and the margin of two cells take 0.1 s, and falling less";
-    Ledger& books = simulation.ledger();
-    books.energy(now);
-    books.balance(now);
-    std::cout << "[ books    ] mass " << books.errors().mass << ", momentum " << books.errors().momentum << ", energy "
-              << books.errors().energy << '\n';
-    EXPECT_LT(books.errors().mass, 1e-14);
-    EXPECT_LT(books.errors().momentum, 1e-12);
+    Ledger& ledger = simulation.ledger();
+    ledger.energy(now);
+    ledger.balance(now);
+    std::cout << "[ ledger   ] mass " << ledger.errors().mass << ", momentum " << ledger.errors().momentum
+              << ", energy " << ledger.errors().energy << '\n';
+    EXPECT_LT(ledger.errors().mass, 1e-14);
+    EXPECT_LT(ledger.errors().momentum, 1e-12);
     // Leaving sand takes along half a step of its weight's power: g dt / v, here 9.81 * 1e-3 / 5.
-    EXPECT_LT(std::abs(books.errors().energy), 4e-3);
+    EXPECT_LT(std::abs(ledger.errors().energy), 4e-3);
     EXPECT_NEAR(now.sand.mass, start.front().sand.mass, 1e-12 * now.sand.mass);
 }
 

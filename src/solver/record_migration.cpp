@@ -1,12 +1,13 @@
+#include "solver/record_migration.hpp"
+
 #include <algorithm>
 #include <map>
 
 #include "backend/instantiate.hpp"
 #include "decomp/messages.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
-#include "solver/body_ranks.hpp"
+#include "world/world.hpp"
 
-// Contact records migrate with the body whose owner evaluates the contact.
 namespace tread::solver
 {
 namespace
@@ -57,25 +58,32 @@ void put_places_back(const std::vector<world::ContactRecord>& records, dem::Pair
 
 } // namespace
 
+std::int64_t deciding_body(const std::vector<std::int32_t>& is_large, std::uint64_t key)
+{
+    const std::int64_t a = dem::first_of(key), b = dem::second_of(key);
+    return b < static_cast<std::int64_t>(is_large.size()) ? dem::decider_of(is_large.data(), a, b) : a;
+}
+
 template<class Exec>
-void BodyRanks<Exec>::hand_over_records(dem::Pairs<Exec>& pairs, const std::vector<Holding>& decided)
+void migrate_records(const Communicator& communicator, dem::Pairs<Exec>& pairs,
+                     const std::vector<std::int32_t>& is_large, const std::vector<BodyHolding>& decided)
 {
     std::map<std::int64_t, std::size_t> moved; // destination rank by body
-    for (const Holding& body : decided)
+    for (const BodyHolding& body : decided)
     {
-        if (body.owner != communicator_.rank()) { moved[body.body] = static_cast<std::size_t>(body.owner); }
+        if (body.owner != communicator.rank()) { moved[body.body] = static_cast<std::size_t>(body.owner); }
     }
-    const bool have_places = !all(pairs.patches.last_place.size() == 0);
+    const bool have_places = communicator.maximum(pairs.patches.last_place.size() == 0 ? 0 : 1) > 0;
 
     std::vector<world::ContactRecord>              kept;
-    std::vector<std::vector<world::ContactRecord>> leaving(rank_count());
+    std::vector<std::vector<world::ContactRecord>> leaving(static_cast<std::size_t>(communicator.size()));
     for (const world::ContactRecord& record : last_records(pairs))
     {
-        const auto to = moved.find(decider(is_large_, record.key));
+        const auto to = moved.find(deciding_body(is_large, record.key));
         (to == moved.end() ? kept : leaving[to->second]).push_back(record);
     }
     const auto by_key = [](const world::ContactRecord& a, const world::ContactRecord& b) { return a.key < b.key; };
-    for (const auto& arriving : decomp::exchange_values(communicator_, leaving))
+    for (const auto& arriving : decomp::exchange_values(communicator, leaving))
     {
         const auto own = static_cast<std::ptrdiff_t>(kept.size());
         kept.insert(kept.end(), arriving.begin(), arriving.end());
@@ -86,7 +94,8 @@ void BodyRanks<Exec>::hand_over_records(dem::Pairs<Exec>& pairs, const std::vect
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
-    template void BodyRanks<Exec>::hand_over_records(dem::Pairs<Exec>&, const std::vector<Holding>&)
+    template void migrate_records(const Communicator&, dem::Pairs<Exec>&, const std::vector<std::int32_t>&,            \
+                                  const std::vector<BodyHolding>&)
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -1,0 +1,121 @@
+#include "run/time_loop.hpp"
+
+#include <utility>
+
+#include "backend/instantiate.hpp"
+
+namespace tread::run
+{
+namespace
+{
+
+/// Calls `f` if it is not empty.
+template<class F, class... Arguments>
+void call(const F& f, Arguments&&... arguments)
+{
+    if (f) { f(std::forward<Arguments>(arguments)...); }
+}
+
+bool ends_early(PhaseEndWatch& watch, const LoopCalls& calls)
+{
+    const std::optional<PhaseEnd> early = calls.early_end ? calls.early_end() : std::nullopt;
+    if (early) { watch.ending = *early; }
+    return early.has_value();
+}
+
+template<class Exec, class Real>
+bool phase_is_over(TimeLoop<Exec, Real>& loop, const LoopCalls& calls)
+{
+    const double time = loop.progress.time;
+    if (const auto body = lowered(loop.scene, loop.phase); body && loop.simulation.measured())
+    {
+        loop.watch.carried.note(time, loop.simulation.carried(*body));
+    }
+    return ends_early(loop.watch, calls) ||
+           is_over(loop.scene, loop.phase, loop.watch, time, loop.simulation.unbalanced());
+}
+
+/// Angular velocities (rad/s) of the named bodies about their axles.
+template<class Exec, class Real>
+std::vector<double> axle_spins(solver::Simulation<Exec, Real>& simulation)
+{
+    std::vector<double> spins;
+    for (const solver::BodyRow& body : simulation.named_bodies()) { spins.push_back(spin_of(body)); }
+    return spins;
+}
+
+} // namespace
+
+template<class Exec, class Real>
+TimeLoop<Exec, Real>::TimeLoop(const scene::Scene& run_scene, const world::World& world,
+                               solver::Simulation<Exec, Real>& run_simulation)
+    : scene(run_scene)
+    , simulation(run_simulation)
+    , rolling_radii(tread::run::rolling_radii(run_scene, world))
+    , phase(first_phase(run_scene))
+{
+}
+
+template<class Exec, class Real>
+solver::TimeStep take_step(TimeLoop<Exec, Real>& loop, const LoopCalls& calls)
+{
+    auto&        simulation = loop.simulation;
+    RunProgress& progress   = loop.progress;
+    if (simulation.measured())
+    {
+        progress.chosen =
+            solver::choose_step(loop.scene.time, simulation.limits(), simulation.pace(), progress.chosen.dt);
+    }
+    solver::TimeStep step = progress.chosen;
+    const double     left = latest_end(loop.scene, loop.phase) - progress.time;
+    if (left > 0) { step.dt = solver::fitted(step.dt, left); }
+    call(calls.before_step, step);
+
+    set_commands(loop.commands, loop.scene, loop.phase, loop.rolling_radii, progress.time + step.dt);
+    call(calls.adjust, loop.commands);
+    simulation.command(loop.commands, keys_of(loop.scene, loop.phase).damping);
+    step = simulation.step(step, progress.time, loop.clock);
+    progress.time += step.dt;
+    ++progress.steps;
+    progress.substeps += step.substeps;
+    progress.last_dt = step.dt;
+    return step;
+}
+
+template<class Exec, class Real>
+void end_phases(TimeLoop<Exec, Real>& loop, const LoopCalls& calls)
+{
+    bool over = phase_is_over(loop, calls);
+    while (over)
+    {
+        call(calls.phase_ends);
+        enter_next(loop.phase, loop.progress.time, axle_spins(loop.simulation));
+        loop.watch = {.ending = loop.watch.ending};
+        if (finished(loop.scene, loop.phase)) { return; }
+        call(calls.phase_begins);
+        over = ends_early(loop.watch, calls);
+    }
+}
+
+template<class Exec, class Real>
+std::optional<std::string> run_phases(TimeLoop<Exec, Real>& loop, const LoopCalls& calls)
+{
+    while (!finished(loop.scene, loop.phase))
+    {
+        if (auto reason = calls.reason_to_stop ? calls.reason_to_stop() : std::nullopt) { return reason; }
+        take_step(loop, calls);
+        call(calls.after_step);
+        end_phases(loop, calls);
+    }
+    return {};
+}
+
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template struct TimeLoop<Exec, Real>;                                                                              \
+    template solver::TimeStep           take_step(TimeLoop<Exec, Real>&, const LoopCalls&);                            \
+    template void                       end_phases(TimeLoop<Exec, Real>&, const LoopCalls&);                           \
+    template std::optional<std::string> run_phases(TimeLoop<Exec, Real>&, const LoopCalls&)
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+} // namespace tread::run
