@@ -73,8 +73,8 @@ inline constexpr double equilibrium_hold  = 0.05; ///< s for which it must stay 
 struct PhaseEndWatch
 {
     double       still_since = std::numeric_limits<double>::infinity(); ///< s, since when the bed is in equilibrium
-    CarriedShare carried;                                               ///< by the ground, of the lowered body
-    PhaseEnd     ending;                                                ///< result of the last is_over()
+    CarriedShare carried     = {};                                      ///< by the ground, of the lowered body
+    PhaseEnd     ending      = {};                                      ///< result of the last is_over()
 };
 
 /// Whether the phase is over at `time` (s); `unbalanced` = unbalanced force over the weight. Equilibrium requires it

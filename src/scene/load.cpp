@@ -160,7 +160,7 @@ void note_lines(Scene& scene, const Node& document)
     {
         if (const Node* one = find(document, table)) { scene.lines.of[table] = one->where.text; }
     }
-    for (const char* table : {"material", "contact", "shape", "terrain", "rocks", "body", "phase"})
+    for (const char* table : {"material", "contact", "shape", "terrain", "rocks", "body", "joint", "phase"})
     {
         const Node* list  = find(document, table);
         const auto* items = list != nullptr ? std::get_if<NodeArray>(&list->value) : nullptr;

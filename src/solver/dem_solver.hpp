@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "kernels/dem/motion/move.hpp"
 #include "solver/body_command.hpp"
 #include "solver/body_commands.hpp"
+#include "solver/body_joints.hpp"
 #include "solver/body_reports.hpp"
 #include "solver/body_row.hpp"
 #include "solver/body_state.hpp"
@@ -70,6 +72,9 @@ public:
     /// Step 1. Sets what the named bodies are held or driven to (apply_commands).
     void command(const std::vector<BodyCommand>& commands);
 
+    /// Step 1. Sets the motors of joints to a phase of the scene.
+    void begin_phase(std::size_t phase);
+
     /// Returns and resets the largest speed (m/s) set by commands on any rank since the last call.
     double take_commanded_speed();
 
@@ -117,10 +122,11 @@ public:
     RigidReport report(double time);
 
     /// Step 5. Output.
-    RigidCensus          census();
-    std::vector<BodyRow> named_bodies();
-    void                 begin_mean();
-    io::BodyFields       fields();
+    RigidCensus           census();
+    std::vector<BodyRow>  named_bodies();
+    std::vector<JointRow> joints() const;
+    void                  begin_mean();
+    io::BodyFields        fields();
 
     /// Records of the pairs that touched in the last step.
     std::vector<world::ContactRecord> contacts() const;
@@ -146,7 +152,10 @@ private:
     PairLists<Exec>   lists_;
     BodyReports<Exec> reports_;
     NamedMeans<Exec>  means_;
-    double            substep_ = 0; ///< s, duration of the last substep
+
+    std::optional<BodyJoints<Exec>> joints_; ///< only in a scene with joints
+
+    double substep_ = 0; ///< s, duration of the last substep
 };
 
 } // namespace tread::solver
