@@ -15,10 +15,11 @@ namespace tread::scene
 namespace
 {
 
-/// Largest number of tables in a list. A resolved scene holds all pairs of families of that many materials.
+/// Largest number of tables in a list. A resolved scene holds all pairs of families of that many materials, and each
+/// substep solves one dense system for all joints.
 std::size_t most_tables(const std::string& table)
 {
-    if (table == "material") { return 100; }
+    if (table == "material" || table == "joint") { return 100; }
     return table == "contact" ? 10'000 : 1000;
 }
 
