@@ -53,6 +53,18 @@ std::vector<io::Column> columns_of(const scene::Scene& scene, const scene::Body&
     return columns;
 }
 
+std::vector<io::Column> joint_columns()
+{
+    return {{"time", 1, "s"},
+            {"force", 3, "N"},
+            {"torque", 3, "N m"},
+            {"motor_torque", 1, "N m"},
+            {"coordinate", 1, "m or rad"},
+            {"gap", 1, "m"},
+            {"misalignment", 1, "rad"}};
+}
+
+std::string group(const scene::Joint& joint) { return "/joint/" + joint.name; }
 std::string group(const scene::Body& body) { return "/wheel/" + body.name; }
 
 } // namespace
@@ -61,6 +73,7 @@ std::vector<io::SeriesTable> series_tables(const scene::Scene& scene, int ranks)
 {
     std::vector<io::SeriesTable> tables;
     for (const scene::Body& body : scene.bodies) { tables.push_back({group(body), columns_of(scene, body)}); }
+    for (const scene::Joint& joint : scene.joints) { tables.push_back({group(joint), joint_columns()}); }
     tables.push_back({"/energy", energy_columns()});
     tables.push_back(
         {"/balance", {{"time", 1, "s"}, {"mass", 1, "kg"}, {"momentum", 3, "kg m/s"}, {"impulse_error", 1, "1"}}});
@@ -89,6 +102,19 @@ void Recorder::write_ranks(double time, const decomp::BalanceRow& balance)
 {
     series_.append("/ranks", {time, balance.imbalance, static_cast<double>(balance.repartitions),
                               static_cast<double>(balance.points_moved)});
+}
+
+void Recorder::write_joints(double time, const std::vector<solver::JointRow>& joints)
+{
+    for (std::size_t j = 0; j < joints.size(); ++j)
+    {
+        const solver::JointRow& joint = joints[j];
+        std::vector<double>     row   = {time};
+        append(row, joint.force);
+        append(row, joint.torque);
+        row.insert(row.end(), {joint.motor_torque, joint.coordinate, joint.gap, joint.misalignment});
+        series_.append(group(scene_.joints[j]), row);
+    }
 }
 
 void Recorder::write(double time, const std::vector<solver::BodyRow>& bodies, const solver::EnergyRow& energy,

@@ -6,6 +6,7 @@
 #include "io/run_directory.hpp"
 #include "io/snapshot.hpp"
 #include "io/time_series.hpp"
+#include "solver/body_joints.hpp"
 #include "solver/body_row.hpp"
 #include "solver/ledger.hpp"
 #include "world/world.hpp"
@@ -33,6 +34,8 @@ public:
 
     void write(double time, const std::vector<solver::BodyRow>& bodies, const solver::EnergyRow& energy,
                const solver::BalanceRow& balance);
+
+    void write_joints(double time, const std::vector<solver::JointRow>& joints);
 
 private:
     const scene::Scene& scene_;

@@ -125,11 +125,13 @@ void RunOutput<Exec, Real>::write_row()
         const solver::EnergyRow  energy  = simulation.ledger().energy(now);
         const solver::BalanceRow balance = simulation.ledger().balance(now);
         const auto               bodies  = wheel_rows();
+        const auto               joints  = simulation.joints();
         const auto*              ranks   = simulation.balance();
         const auto               on_file = [&]
         {
             if (ranks != nullptr) { recorder_->write_ranks(time, *ranks); }
             recorder_->write(time, bodies, energy, balance);
+            recorder_->write_joints(time, joints);
             if (files_are_free()) { recorder_->flush(); }
         };
         on_root(place_.communicator, on_file);

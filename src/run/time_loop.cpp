@@ -99,6 +99,7 @@ solver::TimeStep take_step(TimeLoop<Exec, Real>& loop, const LoopCalls& calls)
     set_commands(loop.commands, loop.scene, loop.phase, loop.rolling_radii, progress.time + step.dt);
     add_motions(loop.commands, loop.scene, loop.phase, loop.motions, progress.time + step.dt, step.dt);
     call(calls.adjust, loop.commands);
+    simulation.begin_phase(loop.phase.index);
     simulation.command(loop.commands, keys_of(loop.scene, loop.phase).damping);
     step = simulation.step(step, progress.time, loop.clock);
     progress.time += step.dt;

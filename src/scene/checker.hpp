@@ -40,6 +40,7 @@ void validate_materials(const Scene& scene, Checker& checker);
 void validate_shapes(const Scene& scene, Checker& checker);
 void validate_places(const Scene& scene, Checker& checker);
 void validate_bodies(const Scene& scene, Checker& checker);
+void validate_joints(const Scene& scene, Checker& checker);
 void validate_phases(const Scene& scene, Checker& checker);
 void validate_motions(const Scene& scene, Checker& checker);
 void validate_contents(const Scene& scene, Checker& checker);

@@ -46,7 +46,7 @@ std::map<Place, std::string> keys_of(const std::string& resolved)
 
 bool is_array(const std::string& table)
 {
-    for (const char* array : {"material", "contact", "shape", "terrain", "rocks", "body", "phase"})
+    for (const char* array : {"material", "contact", "shape", "terrain", "rocks", "body", "joint", "phase"})
     {
         if (table == array) { return true; }
     }

@@ -27,6 +27,7 @@ Keys<Shape>       shape_keys();
 Keys<Terrain>     terrain_keys();
 Keys<Rocks>       rocks_keys();
 Keys<Body>        body_keys();
+Keys<Joint>       joint_keys(); // joint_keys.cpp
 Keys<Phase>       phase_keys();
 Keys<Output>      output_keys();
 Keys<Balance>     balance_keys();
@@ -68,6 +69,8 @@ void for_each_table(Visit&& visit)
     visit("terrain", "A region filled with material points.", &Scene::terrain, terrain_keys());
     visit("rocks", "A set of rigid rocks of one shape.", &Scene::rocks, rocks_keys());
     visit("body", "A single rigid body, such as a wheel.", &Scene::bodies, body_keys());
+    visit("joint", "A joint between two rigid bodies, or a body and the world: docs/theory.md#joints.", &Scene::joints,
+          joint_keys());
     visit("phase", "A span of simulated time; phases run in the order given.", &Scene::phases, phase_keys());
     visit("output", "What is written while the run goes on.", &Scene::output, output_keys());
     visit("checkpoint", "When the state is written to `checkpoints/`, for `--restart`: docs/restart.md.",

@@ -16,10 +16,11 @@ namespace tread::scene
 namespace
 {
 
-/// Largest number of tables in a list. A resolved scene holds all pairs of families of that many materials.
+/// Largest number of tables in a list. A resolved scene holds all pairs of families of that many materials, and each
+/// substep solves one dense system for all joints.
 std::size_t most_tables(const std::string& table)
 {
-    if (table == "material") { return 100; }
+    if (table == "material" || table == "joint") { return 100; }
     return table == "contact" ? 10'000 : 1000;
 }
 
@@ -161,7 +162,7 @@ void note_lines(Scene& scene, const Node& document)
     {
         if (const Node* one = find(document, table)) { scene.lines.of[table] = one->where.text; }
     }
-    for (const char* table : {"material", "contact", "shape", "terrain", "rocks", "body", "phase"})
+    for (const char* table : {"material", "contact", "shape", "terrain", "rocks", "body", "joint", "phase"})
     {
         const Node* list  = find(document, table);
         const auto* items = list != nullptr ? std::get_if<NodeArray>(&list->value) : nullptr;

@@ -19,8 +19,8 @@ errors. All errors of a scene are reported at once, each as `file:line: [table] 
 
 Ranges are wider than what sand, rock and wheels have, so that no count made of the numbers leaves what a computer can hold. The text
 itself may have 1 MiB, 32 KiB a line, 32 brackets in each other and 32 segments in a dotted key: the parser calls itself for each level,
-and its time grows as the square of a line's length. A scene has at most 100 [[material]], 10,000 [[contact]] and 1000 of each other
-list of tables. What a scene makes (points, rocks, distance fields, maps of the surface, files that it reads) is estimated before it is made, and
+and its time grows as the square of a line's length. A scene has at most 100 [[material]], 100 [[joint]], 10,000 [[contact]]
+and 1000 of each other list of tables. What a scene makes (points, rocks, distance fields, maps of the surface, files that it reads) is estimated before it is made, and
 refused, with exit code 4 and both figures, where it is more than the memory that the machine, a control group or `ulimit -v` leaves.
 
 `--set table.key=value` sets a key as if the file said so: `--set domain.gravity=[0,0,-9.8]`, `--set material.sand.young=1e6`,

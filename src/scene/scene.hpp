@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "scene/joint.hpp"
 #include "scene/phase.hpp"
 #include "scene/words.hpp"
 
@@ -383,6 +384,7 @@ struct Scene
     std::vector<Terrain>  terrain;
     std::vector<Rocks>    rocks;
     std::vector<Body>     bodies;
+    std::vector<Joint>    joints;
     std::vector<Phase>    phases;
     Output                output;
     CheckpointOptions     checkpoint;

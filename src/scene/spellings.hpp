@@ -71,6 +71,14 @@ inline constexpr auto spellings<StopRule> = spell<StopRule>({{StopRule::duration
                                                              {StopRule::lowered, "lowered"}});
 
 template<>
+inline constexpr auto spellings<JointType> = spell<JointType>({{JointType::revolute, "revolute"},
+                                                               {JointType::prismatic, "prismatic"},
+                                                               {JointType::spherical, "spherical"},
+                                                               {JointType::fixed, "fixed"},
+                                                               {JointType::differential, "differential"},
+                                                               {JointType::spring, "spring"}});
+
+template<>
 inline constexpr auto spellings<NarrowPhase> = spell<NarrowPhase>({{NarrowPhase::sdf, "sdf"},
                                                                    {NarrowPhase::rays, "rays"}});
 

@@ -257,6 +257,7 @@ void validate(const Scene& scene, const Node& document, Problems& problems)
     validate_shapes(scene, checker);
     validate_places(scene, checker);
     validate_bodies(scene, checker);
+    validate_joints(scene, checker);
     validate_phases(scene, checker);
     validate_motions(scene, checker);
     validate_contents(scene, checker);
@@ -268,6 +269,7 @@ void validate_names(const Scene& scene, Checker& checker)
     require_unique("material", scene.materials, checker);
     require_unique("shape", scene.shapes, checker);
     require_unique("body", scene.bodies, checker);
+    require_unique("joint", scene.joints, checker);
     require_unique("phase", scene.phases, checker);
 }
 

@@ -133,6 +133,15 @@ enum class GrouserShape
     chevron,
     curved
 };
+enum class JointType
+{
+    revolute,
+    prismatic,
+    spherical,
+    fixed,
+    differential,
+    spring
+};
 /// Closed-form solutions that follow from the scene; docs/study.md lists their inputs.
 enum class ReferenceForm
 {

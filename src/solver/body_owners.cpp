@@ -1,6 +1,7 @@
 #include "solver/body_owners.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -18,6 +19,26 @@ namespace
 /// do not migrate back and forth with their contact records. The rank's search radius is enlarged by as much.
 constexpr double owner_slack = 0.25;
 
+std::vector<std::int32_t> every_rank(const Communicator& communicator)
+{
+    std::vector<std::int32_t> ranks(static_cast<std::size_t>(communicator.size()));
+    std::iota(ranks.begin(), ranks.end(), 0);
+    return ranks;
+}
+
+std::vector<std::uint8_t> jointed(const world::World& world)
+{
+    std::vector<std::uint8_t> is_jointed(world.bodies.size(), 0);
+    for (const dem::Joint& joint : world.joints)
+    {
+        for (const std::int32_t b : joint.body)
+        {
+            if (b != dem::joint_world) { is_jointed[static_cast<std::size_t>(b)] = 1; }
+        }
+    }
+    return is_jointed;
+}
+
 } // namespace
 
 BodyOwners::BodyOwners(const Communicator& communicator, const world::World& world, double sand_reach)
@@ -26,6 +47,7 @@ BodyOwners::BodyOwners(const Communicator& communicator, const world::World& wor
     , sand_reach_(sand_reach)
     , bounding_radius_(bounding_radii(world))
     , role_(world.bodies.size())
+    , is_jointed_(jointed(world))
 {
 }
 
@@ -81,9 +103,11 @@ std::vector<BodyHolding> BodyOwners::decide(const SearchedBodies& searched)
     {
         if (role_[b] != dem::role_owner) { continue; }
         const Vec3<double>& position = searched.position[b];
-        const double radius = own_reach(b) + std::max(met[searched.is_large[b] != 0 ? 0 : 1] + slack, sand_reach_);
-        if (is_inside(b, ownership_->surroundings(position, radius))) { continue; }
-        std::vector<std::int32_t> holders = ownership_->owners_near(position, radius);
+        const double radius     = own_reach(b) + std::max(met[searched.is_large[b] != 0 ? 0 : 1] + slack, sand_reach_);
+        const bool   everywhere = is_jointed_[b] != 0;
+        if (!everywhere && is_inside(b, ownership_->surroundings(position, radius))) { continue; }
+        std::vector<std::int32_t> holders =
+            everywhere ? every_rank(communicator_) : ownership_->owners_near(position, radius);
         if (holders.size() == 1 && holders.front() == communicator_.rank()) { continue; }
         decided.push_back({static_cast<std::int32_t>(b), next_owner(b, position), std::move(holders)});
     }

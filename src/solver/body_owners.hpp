@@ -75,6 +75,7 @@ private:
     std::optional<decomp::PageOwnership> ownership_;
     std::vector<double>                  bounding_radius_; ///< m, by body
     std::vector<std::int32_t>            role_;            ///< by body
+    std::vector<std::uint8_t>            is_jointed_;      ///< by body: 1 = every rank holds it, and solves its joints
     std::vector<decomp::Surroundings>    inside_;          ///< by body: last surroundings inside this rank's pages
 };
 

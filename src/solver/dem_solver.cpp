@@ -28,6 +28,7 @@ DemSolver<Exec>::DemSolver(const Exec& exec, const scene::Scene& scene, const wo
     , prescribed_acceleration_(motion_bounds(scene, world).acceleration)
 {
     if (plan.motions) { motions_.emplace(exec, world.bodies.named); }
+    if (!world.joints.empty()) { joints_.emplace(exec, scene, world); }
     restore_contacts(state_);
 }
 
@@ -37,6 +38,12 @@ void DemSolver<Exec>::command(const std::vector<BodyCommand>& commands)
     const bool changed = apply_commands(state_, commands_, commands);
     if (motions_) { commands_.largest_speed = std::max(commands_.largest_speed, motions_->set(state_, commands)); }
     if (changed && lists_.listed) { state_.stage(); }
+}
+
+template<class Exec>
+void DemSolver<Exec>::begin_phase(std::size_t phase)
+{
+    if (joints_) { commands_.largest_speed = std::max(commands_.largest_speed, joints_->begin_phase(phase)); }
 }
 
 template<class Exec>
@@ -129,10 +136,15 @@ void DemSolver<Exec>::run(double dt, double damping, std::int64_t count)
 template<class Exec>
 dem::BodyStep<Exec> DemSolver<Exec>::body_step(double dt, double damping)
 {
-    return {state_.pairs,      state_.view(),
-            state_.tables.law, reports_.totals.data(),
-            means_.view(),     {state_.gravity, damping, dt},
-            state_.shared(),   motions_ ? motions_->view() : dem::PrescribedView{}};
+    return {state_.pairs,
+            state_.view(),
+            state_.tables.law,
+            reports_.totals.data(),
+            means_.view(),
+            {state_.gravity, damping, dt},
+            state_.shared(),
+            motions_ ? motions_->view() : dem::PrescribedView{},
+            joints_ ? joints_->view() : dem::JointsView{}};
 }
 
 template<class Exec>
@@ -152,7 +164,9 @@ template<class Exec>
 RigidReport DemSolver<Exec>::report(double time)
 {
     if (!reports_.activity) { request_report(); }
-    return take_report(state_, reports_, lists_, {time, substep_, commands_.take_totals()});
+    const RigidReport report = take_report(state_, reports_, lists_, {time, substep_, commands_.take_totals()});
+    if (joints_) { joints_->check(time); }
+    return report;
 }
 
 template<class Exec>
@@ -176,10 +190,17 @@ std::vector<BodyRow> DemSolver<Exec>::named_bodies()
 }
 
 template<class Exec>
+std::vector<JointRow> DemSolver<Exec>::joints() const
+{
+    return joints_ ? joints_->rows(means_.time) : std::vector<JointRow>{};
+}
+
+template<class Exec>
 void DemSolver<Exec>::begin_mean()
 {
     solver::begin_mean(state_, means_);
     if (motions_) { motions_->begin_mean(); }
+    if (joints_) { joints_->begin_mean(); }
 }
 
 template<class Exec>
@@ -234,6 +255,7 @@ void DemSolver<Exec>::transfer(StateFile& file)
     transfer_contacts(state_, file);
     lists_.transfer(file, state_);
     reports_.transfer(file);
+    if (joints_) { joints_->transfer(file); }
 }
 
 #define TREAD_INSTANTIATE(Exec) template class DemSolver<Exec>

@@ -9,6 +9,7 @@
 #include "kernels/dem/motion/move.hpp"
 #include "solver/body_command.hpp"
 #include "solver/body_commands.hpp"
+#include "solver/body_joints.hpp"
 #include "solver/body_reports.hpp"
 #include "solver/body_row.hpp"
 #include "solver/body_state.hpp"
@@ -72,6 +73,9 @@ public:
     /// Step 1. Sets what the named bodies are held or driven to (apply_commands).
     void command(const std::vector<BodyCommand>& commands);
 
+    /// Step 1. Sets the motors of joints to a phase of the scene.
+    void begin_phase(std::size_t phase);
+
     /// Returns and resets the largest speed (m/s) set by commands on any rank since the last call.
     double take_commanded_speed();
 
@@ -119,10 +123,11 @@ public:
     RigidReport report(double time);
 
     /// Step 5. Output.
-    RigidCensus          census();
-    std::vector<BodyRow> named_bodies();
-    void                 begin_mean();
-    io::BodyFields       fields();
+    RigidCensus           census();
+    std::vector<BodyRow>  named_bodies();
+    std::vector<JointRow> joints() const;
+    void                  begin_mean();
+    io::BodyFields        fields();
 
     /// Records of the pairs that touched in the last step.
     std::vector<world::ContactRecord> contacts() const;
@@ -158,6 +163,7 @@ private:
     double            prescribed_acceleration_; ///< m/s2, bound on what prescribed forces cause
 
     std::optional<PrescribedMotions<Exec>> motions_; ///< only if some phase prescribes a motion
+    std::optional<BodyJoints<Exec>>        joints_;  ///< only in a scene with joints
 };
 
 } // namespace tread::solver

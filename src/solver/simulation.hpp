@@ -59,6 +59,12 @@ public:
     /// Sets the commands of the named bodies (held, driven, free) until the next call; `damping` is the phase's.
     void command(const std::vector<BodyCommand>& commands, double damping);
 
+    /// Sets the motors of joints to a phase of the scene.
+    void begin_phase(std::size_t phase)
+    {
+        if (rigid_) { rigid_->begin_phase(phase); }
+    }
+
     /// Sets a check that all ranks call together from time to time within a step of many substeps; if it returns a
     /// reason, the run stops there (StoppedInStep).
     void set_stop_check(StopCheck why) { why_stop_ = std::move(why); }
@@ -78,6 +84,9 @@ public:
     /// Rows of the named bodies; force and torque are means since the last begin_mean().
     std::vector<BodyRow> named_bodies();
     void                 begin_mean();
+
+    /// Rows of the joints; force and torque are means since the last begin_mean().
+    std::vector<JointRow> joints() const { return rigid_ ? rigid_->joints() : std::vector<JointRow>{}; }
 
     /// m, centre of a named body.
     Vec3<double> place(std::size_t body) const { return rigid_->place(body); }

@@ -15,6 +15,7 @@
 #include "world/layers.hpp"
 #include "world/make_room.hpp"
 #include "world/materials.hpp"
+#include "world/joints.hpp"
 #include "world/named_bodies.hpp"
 #include "world/refinement.hpp"
 #include "world/region.hpp"
@@ -271,6 +272,7 @@ World build_world(const scene::Scene& scene)
     add_rocks(scene, draws, beds, world);
     require_room_for_columns(scene, world);
     find_heights(scene, world);
+    if (!scene.joints.empty()) { world.joints = make_joints(scene, world.bodies); }
     set_geostatic_stress(scene, world.bodies, world.points);
     return world;
 }

@@ -6,6 +6,7 @@
 
 #include "backend/vector.hpp"
 #include "kernels/dem/contact/rolling_kern.hpp"
+#include "kernels/dem/joints/joint.hpp"
 #include "kernels/dem/templates.hpp"
 #include "kernels/mpm/grid/grid.hpp"
 #include "kernels/mpm/pages/order.hpp"
@@ -89,6 +90,7 @@ struct World
     HostBodies                        bodies;
     std::vector<LayerShares>          layers;   ///< for [[rocks]] tables that replace sand
     std::vector<ContactRecord>        contacts; ///< initial contacts of the bodies, by ascending key
+    std::vector<dem::Joint>           joints;   ///< of [[joint]] tables, in their order; motors as in the first phase
     double point_spacing;                       ///< m, smallest distance between neighbouring points; 0 without sand
 };
 

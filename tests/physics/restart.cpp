@@ -5,6 +5,7 @@
 #include "base/random.hpp"
 #include "harness.hpp"
 #include "io/h5.hpp"
+#include "joint_scenes.hpp"
 #include "mpi_session.hpp"
 #include "run/time_loop.hpp"
 #include "solver/state_file.hpp"
@@ -216,6 +217,13 @@ TYPED_TEST(Restart, OfRocksGivesTheSameBits)
 TYPED_TEST(Restart, OfSandRocksAndAWheelGivesTheSameBits)
 {
     this->expect_same_bits(test::sand_text + test::rocks_text + test::thrown_roller_text);
+}
+
+/// Saved while the motor works against its largest torque; a joint reaches its stop and another is held by its spring.
+TYPED_TEST(Restart, OfJointedBodiesGivesTheSameBits)
+{
+    this->expect_same_bits(test::swinging_under_gravity(1.0));
+    EXPECT_EQ(this->phase_saved_, 1u);
 }
 
 /// Far from the roller: sleeping sand is saved asleep, and other sand falls asleep or wakes afterwards.

@@ -65,7 +65,7 @@ bool worth_one_launch(const Gpu&, PointContact<Gpu>& contact, const dem::BodySte
 {
     constexpr std::int64_t few = 200000;
     return contact.candidates.body.size() < few && contact.slot_first.size() == 0 && step.law.rays == nullptr &&
-           dem::worth_one_launch(step.pairs);
+           dem::worth_one_launch(step);
 }
 
 void run_substeps(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw& law, const dem::BodyStep<Gpu>& step,

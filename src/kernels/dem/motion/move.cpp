@@ -1,4 +1,5 @@
 #include "backend/launch.hpp"
+#include "kernels/dem/joints/joints.hpp"
 #include "kernels/dem/motion/move_impl.hpp"
 
 namespace tread::dem
@@ -13,6 +14,7 @@ void share_wrenches(const Cpu& cpu, const BodyStep<Cpu>& step)
 
 void move_bodies(const Cpu& cpu, const BodyStep<Cpu>& step)
 {
+    if (step.joints.row_count > 0) { solve_joints(cpu, step); }
     moving::with_move(step,
                       [&](const auto& move) {
                           for_each(cpu, "move bodies", step.bodies.count, [=](std::int64_t b) { move(b, OneLane{}); });

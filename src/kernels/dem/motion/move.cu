@@ -1,4 +1,5 @@
 #include "kernels/dem/contact/lane_parts.cuh"
+#include "kernels/dem/joints/joints.hpp"
 #include "kernels/dem/motion/move_impl.hpp"
 
 namespace tread::dem
@@ -30,6 +31,7 @@ void share_wrenches(const Gpu& gpu, const BodyStep<Gpu>& step)
 void move_bodies(const Gpu& gpu, const BodyStep<Gpu>& step)
 {
     constexpr std::int64_t few = 10000; // too few to fill the device: several lanes gather, one moves
+    if (step.joints.row_count > 0) { solve_joints(gpu, step); }
     moving::with_move(step,
                       [&](const auto& move)
                       {

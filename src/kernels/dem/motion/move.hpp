@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/dem/joints/joint_rows.hpp"
 #include "kernels/dem/motion/impulses.hpp"
 #include "kernels/dem/motion/outside.hpp"
 #include "kernels/dem/motion/prescribed.hpp"
@@ -39,7 +40,8 @@ struct BodyStep
     Motion        motion;
     SharedView    shared = {};
 
-    PrescribedView prescribed = {};
+    PrescribedView prescribed = {}; ///< empty in a scene without motions
+    JointsView     joints     = {}; ///< empty in a scene without joints
 };
 
 /// First part of move_bodies on several ranks: computes this rank's shares step.shared.wrench, which are then
@@ -49,8 +51,8 @@ void share_wrenches(const Gpu&, const BodyStep<Gpu>& step);
 
 /// Second half of a substep, after evaluate_contacts. Sets every body's force, torque and stiffness to the sum of the
 /// external wrenches and of its pairs' responses (if pairs were ever found); adds wall impulses, losses and the
-/// impulses of named bodies to the energy and momentum balance; and moves all bodies. Every sum has a fixed order on
-/// one backend. Allocates nothing.
+/// impulses of named bodies to the energy and momentum balance; solves the joints; and moves all bodies. Every sum has
+/// a fixed order on one backend. Allocates nothing.
 void move_bodies(const Cpu&, const BodyStep<Cpu>& step);
 void move_bodies(const Gpu&, const BodyStep<Gpu>& step);
 

@@ -186,6 +186,7 @@ struct Move
     PairsView     pairs; ///< first = null: pairs were never found
     BodyTotal*    totals;
     NamedImpulses named;
+    JointWrenches joints;
     Vec3<double>  gravity; ///< m/s2
     double        dt;      ///< s
     Damping       damping;
@@ -210,7 +211,8 @@ struct Move
         book(b, share, contact);
         BodyTotal        unbooked;
         const double     weight = bodies.acting_weight(b, body.locked);
-        const MeanMotion mean   = integrate(b, body, contact, weight * gravity, *book_of(b, unbooked));
+        const MeanMotion mean   = integrate(b, body, with_joints(b, contact), weight * gravity, *book_of(b, unbooked));
+        if (joints.place != nullptr) { book_joints(b, mean, *book_of(b, unbooked)); }
         if (weight != 1) { book_hanging((weight - 1) * body.mass * gravity, mean, *book_of(b, unbooked)); }
         if constexpr (Outside::acts) { book_outside(acting.outside, mean, *book_of(b, unbooked)); }
         store_motion(bodies, b, body);
@@ -282,6 +284,24 @@ private:
         if (power != 0) { total.sand_work += dt * power; }
     }
 
+    TREAD_HD ContactWrench with_joints(std::int64_t b, const ContactWrench& contact) const
+    {
+        if (joints.place == nullptr || joints.place[b] < 0) { return contact; }
+        const JointWrench& pull = joints.wrench[joints.place[b]];
+        return {contact.force + pull.force, contact.torque + pull.torque, contact.stiffness};
+    }
+
+    /// Adds the impulse of joints, which is that of the world on the sum of all bodies, and the work of springs, motors
+    /// and limits. Ties do no work: what they do by their error is left unaccounted.
+    TREAD_HD void book_joints(std::int64_t b, const MeanMotion& mean, BodyTotal& total) const
+    {
+        if (joints.place[b] < 0) { return; }
+        const JointWrench& pull = joints.wrench[joints.place[b]];
+        total.holding_impulse += dt * pull.force;
+        total.holding_work +=
+            dt * (pull.working_force.dot(mean.velocity) + pull.working_torque.dot(mean.angular_velocity));
+    }
+
     /// Adds the work of the constraint that carries a share of the weight, as for locked degrees of freedom.
     TREAD_HD void book_hanging(const Vec3<double>& force, const MeanMotion& mean, BodyTotal& total) const
     {
@@ -327,8 +347,8 @@ void with_ranks(const BodyStep<Exec>& step, const Outside& outside, const Dampin
     const auto with = [&]<class Ranks>(const Ranks& ranks)
     {
         run(Move<Damping, Outside, Ranks, Prescription>{step.bodies, step.pairs.view(), step.totals, step.named,
-                                                        step.motion.gravity, step.motion.dt, damping, outside, ranks,
-                                                        prescription});
+                                                        step.joints.wrenches(), step.motion.gravity, step.motion.dt,
+                                                        damping, outside, ranks, prescription});
     };
     if (step.bodies.role == nullptr) { with(Alone{}); }
     else { with(Together{step.shared}); }

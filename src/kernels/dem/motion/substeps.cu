@@ -7,7 +7,7 @@ namespace tread::dem
 
 void run_substeps(const Gpu& gpu, const BodyStep<Gpu>& step, std::int64_t count)
 {
-    if (!worth_one_launch(step.pairs))
+    if (!worth_one_launch(step))
     {
         for (std::int64_t substep = 0; substep < count; ++substep)
         {

@@ -13,11 +13,11 @@ namespace tread::dem
 inline constexpr int repeat_threads = 128, repeat_blocks_an_sm = 4;
 
 /// Whether there are too few pairs to fill the device, so that launch latency would dominate a substep. Rolling
-/// resistance has a separate launch.
-inline bool worth_one_launch(Pairs<Gpu>& pairs)
+/// resistance and joints have separate launches.
+inline bool worth_one_launch(const BodyStep<Gpu>& step)
 {
     constexpr std::int64_t few = 50000;
-    return pairs.key.size() < few && !pairs.resists_rolling;
+    return step.pairs.key.size() < few && !step.pairs.resists_rolling && step.joints.row_count == 0;
 }
 
 template<class Meet>

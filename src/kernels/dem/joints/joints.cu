@@ -1,0 +1,39 @@
+#include "backend/launch.cuh"
+#include "kernels/dem/contact/warp_lanes.cuh"
+#include "kernels/dem/joints/joints_impl.hpp"
+
+namespace tread::dem
+{
+namespace
+{
+
+constexpr int joint_threads = 256;
+
+/// The threads of one block, in warps.
+struct BlockTeam
+{
+    __device__ static std::int64_t          lane() { return threadIdx.x; }
+    __device__ static std::int64_t          lanes() { return joint_threads; }
+    __device__ static std::int64_t          group() { return threadIdx.x / warp_size; }
+    __device__ static std::int64_t          groups() { return joint_threads / warp_size; }
+    __device__ static GroupLanes<warp_size> members() { return {}; }
+    __device__ static void                  sync() { __syncthreads(); }
+};
+
+template<class Solve>
+struct ByBlock
+{
+    Solve solve;
+
+    __device__ void operator()(std::int64_t) const { solve(BlockTeam{}); }
+};
+
+} // namespace
+
+void solve_joints(const Gpu& gpu, const BodyStep<Gpu>& step)
+{
+    joint_steps::with_joints(step, [&]<class Solve>(const Solve& solve)
+                             { for_each_block<joint_threads>(gpu, "joints", 1, ByBlock<Solve>{solve}); });
+}
+
+} // namespace tread::dem

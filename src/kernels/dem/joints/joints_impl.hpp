@@ -1,0 +1,130 @@
+#pragma once
+
+#include "kernels/dem/joints/joint_rows_kern.hpp"
+#include "kernels/dem/joints/joint_solve_kern.hpp"
+#include "kernels/dem/joints/joints.hpp"
+#include "kernels/dem/motion/move_impl.hpp"
+
+// One substep of all joints by one team of lanes; joints.cpp and joints.cu provide the team.
+namespace tread::dem::joint_steps
+{
+
+/// Sums the forces on the jointed bodies, solves the joints, and leaves a wrench for each body and a record for each
+/// joint. Outside: as in moving::Move.
+template<class Outside>
+struct SolveJoints
+{
+    BodiesView   bodies;
+    PairsView    pairs; ///< first = null: pairs were never found
+    Vec3<double> gravity;
+    double       dt;
+    Outside      outside;
+    SharedView   shared;
+    JointsView   joints;
+
+    template<class Team>
+    TREAD_HD void operator()(const Team& team) const
+    {
+        for (std::int64_t k = team.group(); k < joints.link_count; k += team.groups()) { free_link(k, team.members()); }
+        for (std::int64_t j = team.lane(); j < joints.joint_count; j += team.lanes())
+        {
+            joint_rows::write_rows(joints, bodies, j, dt);
+        }
+        team.sync();
+        for (std::int64_t r = team.lane(); r < joints.row_count; r += team.lanes())
+        {
+            joint_solve::respond(joints, joints.row[r]);
+        }
+        team.sync();
+        joint_solve::solve(joints, team);
+        for (std::int64_t k = team.group(); k < joints.link_count; k += team.groups())
+        {
+            write_wrench(k, team.members());
+        }
+        for (std::int64_t j = team.lane(); j < joints.joint_count; j += team.lanes()) { add_to_record(j); }
+    }
+
+private:
+    template<class Lanes>
+    TREAD_HD void free_link(std::int64_t k, const Lanes& lanes) const
+    {
+        const std::int64_t      b = joints.body[k];
+        const moving::BodyShare share =
+            pairs.first != nullptr ? moving::GatherPairs{pairs, bodies.count}(b, lanes) : moving::BodyShare::zero();
+        WrenchShare acting{outside(b, lanes), share.contact};
+        if (lanes.lane() != 0) { return; }
+        if (shared.is_shared(b)) { acting = wrench_of(shared, shared.place[b]); }
+        const double weight = bodies.acting_weight(b, bodies.locked[b]);
+        joints.link[k]      = joint_solve::free_motion(bodies, b, acting.outside + acting.pairs, weight * gravity, dt);
+    }
+
+    /// Sums the impulses on a body in the order of the rows.
+    template<class Lanes>
+    TREAD_HD void write_wrench(std::int64_t k, const Lanes& lanes) const
+    {
+        JointWrench sum{Vec3<double>::Zero(), Vec3<double>::Zero(), Vec3<double>::Zero(), Vec3<double>::Zero()};
+        for (std::int64_t r = lanes.lane(); r < joints.row_count; r += lanes.lanes())
+        {
+            const JointRow& row = joints.row[r];
+            for (int s = 0; s < row.sides; ++s)
+            {
+                if (row.link[s] != k) { continue; }
+                const Vec3<double> force = row.impulse / dt * row.linear[s], torque = row.impulse / dt * row.angular[s];
+                sum.force += force;
+                sum.torque += torque;
+                if (row.works == 0) { continue; }
+                sum.working_force += force;
+                sum.working_torque += torque;
+            }
+        }
+        moving::reduce(sum.force, lanes);
+        moving::reduce(sum.torque, lanes);
+        moving::reduce(sum.working_force, lanes);
+        moving::reduce(sum.working_torque, lanes);
+        if (lanes.lane() == 0) { joints.wrench[k] = sum; }
+    }
+
+    /// Adds the impulses of a joint's rows to its record. On the world as b they are the reaction of those on a.
+    TREAD_HD void add_to_record(std::int64_t j) const
+    {
+        const Joint& joint  = joints.joint[j];
+        JointRecord& record = joints.record[j];
+        if (joint.kind == joint_differential)
+        {
+            record.motor_impulse += joints.row[joint.first_row].impulse;
+            return;
+        }
+        const bool             on_world = joint.body[1] == joint_world;
+        const std::int32_t     link     = joints.place[joint.body[on_world ? 0 : 1]];
+        const double           sign     = on_world ? -1 : 1;
+        const joint_rows::Side side     = joint_rows::side_of(joint, on_world ? 0 : 1, bodies);
+        std::int32_t           r        = joint.first_row;
+        for (const std::int32_t end = r + joint.row_count; r < end; ++r)
+        {
+            const JointRow& row = joints.row[r];
+            for (int s = 0; s < row.sides; ++s)
+            {
+                if (row.link[s] != link) { continue; }
+                const Vec3<double> impulse = sign * row.impulse * row.linear[s];
+                record.impulse += impulse;
+                record.angular_impulse += sign * row.impulse * row.angular[s] - side.lever.cross(impulse);
+            }
+        }
+        const std::int32_t limits = (joint.parts & joint_has_limits) != 0 ? 2 : 0;
+        if ((joint.parts & joint_has_motor) != 0) { record.motor_impulse += joints.row[r - limits - 1].impulse; }
+    }
+};
+
+/// Calls run with the SolveJoints of the step.
+template<class Exec, class Run>
+void with_joints(const BodyStep<Exec>& step, Run run)
+{
+    moving::with_outside(step,
+                         [&]<class Outside>(const Outside& outside)
+                         {
+                             run(SolveJoints<Outside>{step.bodies, step.pairs.view(), step.motion.gravity,
+                                                      step.motion.dt, outside, step.shared, step.joints});
+                         });
+}
+
+} // namespace tread::dem::joint_steps

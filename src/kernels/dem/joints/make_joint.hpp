@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kernels/dem/joints/joint.hpp"
+
+namespace tread::dem
+{
+
+/// Where a joint is at the start, world frame.
+struct JointPlace
+{
+    std::array<Vec3<double>, 2> point; ///< m, of a and of b; they differ for a spring only
+    Vec3<double>                axis;  ///< of any length but 0
+};
+
+/// Makes a joint without parts between two bodies (joint_world: the world) from their poses, given for all bodies.
+Joint make_joint(JointKind kind, std::array<std::int32_t, 2> bodies, const JointPlace& place,
+                 const std::vector<Vec3<double>>& positions, const std::vector<Quat>& orientations);
+
+/// Makes the differential of two revolute joints, given by their indices.
+Joint make_differential(std::array<std::int32_t, 2> revolutes);
+
+/// Finds the joints whose rows depend on those of joints before them in the poses given, as in a loop that is closed
+/// twice. Locked bodies count as free.
+std::vector<std::size_t> dependent_joints(const std::vector<Joint>& joints, const std::vector<Vec3<double>>& positions,
+                                          const std::vector<Quat>& orientations);
+
+} // namespace tread::dem
