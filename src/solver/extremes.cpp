@@ -32,7 +32,7 @@ void Extremes::transfer(StateFile& file)
     const auto field = [&](const std::string& name, double& value)
     { file.numbers("extremes/" + name, accept::number(value, 0, accept::largest)); };
     field("courant", courant);
-    field("travel", travel);
+    field("displacement", displacement);
     field("spring", spring);
     field("substep", substep);
     field("body_overlap", body_overlap);

@@ -22,10 +22,9 @@ void add_word(CLI::App& command, const std::string& name, T& value, const std::m
     command.add_option(name, value)->transform(CLI::CheckedTransformer(words))->type_name("WORD");
 }
 
-void add_backend(CLI::App& command, bench::Backend& backend)
+void add_backend(CLI::App& command, Backend& backend)
 {
-    add_word<bench::Backend>(command, "--backend", backend,
-                             {{"cpu", bench::Backend::cpu}, {"cuda", bench::Backend::cuda}});
+    add_word<Backend>(command, "--backend", backend, {{"cpu", Backend::cpu}, {"cuda", Backend::cuda}});
 }
 
 void add_transport(CLI::App& command, decomp::TransportChoice& transport)

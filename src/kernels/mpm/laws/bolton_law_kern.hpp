@@ -43,15 +43,10 @@ struct DensityDependence
     double initial_void_ratio() const { return void_ratio_max - relative_density * (void_ratio_max - void_ratio_min); }
 };
 
-/// Limits of I_R: Bolton's data reach 4, and -R is the value of grains that hardly touch (I_D = 0).
-template<class Real>
-constexpr Real largest_dilatancy_index = Real(4);
-
-/// Bolton's lowest pressure, kPa, and dilation per index.
-template<class Real>
-constexpr Real lowest_pressure = Real(150);
-template<class Real>
-constexpr Real dilation_per_index = Real(0.3);
+/// Largest I_R of Bolton's data; the least is -R, of grains that hardly touch (I_D = 0).
+inline constexpr double largest_dilatancy_index = 4;
+inline constexpr double lowest_pressure         = 150; ///< kPa
+inline constexpr double dilation_per_index      = 0.3;
 
 /// Makes the law; `strength` has the friction angle of the critical state and the cohesion. Computed in fp64 and
 /// rounded to Real.
@@ -78,9 +73,9 @@ TREAD_HD Real dilatancy_index(const Bolton<Real>& law, Real skeleton_ratio, Real
 {
     const Real loss     = law.density_per_strain * (skeleton_ratio - Real(1));
     const Real density  = std::min(std::max(law.initial_density - loss, Real(0)), Real(1));
-    const Real pressure = std::max(-mean * Real(1e-3), lowest_pressure<Real>);
+    const Real pressure = std::max(-mean * Real(1e-3), Real(lowest_pressure));
     const Real index    = density * (law.grain_strength - std::log(pressure)) - law.offset;
-    return std::min(std::max(index, -law.offset), largest_dilatancy_index<Real>);
+    return std::min(std::max(index, -law.offset), Real(largest_dilatancy_index));
 }
 
 /// Mohr-Coulomb constants at the index I_R. The dilation angle gives the rate of volume 0.3 I_R in triaxial compression
@@ -88,7 +83,7 @@ TREAD_HD Real dilatancy_index(const Bolton<Real>& law, Real skeleton_ratio, Real
 template<class Real>
 TREAD_HD MohrCoulomb<Real> strength_at(const Bolton<Real>& law, Real index)
 {
-    const Real more = law.friction_per_index * index, rate = dilation_per_index<Real> * index;
+    const Real more = law.friction_per_index * index, rate = Real(dilation_per_index) * index;
     const Real sine   = law.sin_critical * std::cos(more) + law.cos_critical * std::sin(more);
     const Real cosine = law.cos_critical * std::cos(more) - law.sin_critical * std::sin(more);
     return {sine, cosine, rate / (Real(2) + rate), law.cohesion,
