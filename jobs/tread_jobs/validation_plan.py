@@ -37,7 +37,7 @@ def chosen_entries(names):
     for name in names:
         if name not in entries:
             raise CampaignError(f"no set '{name}'; accepted: {', '.join(entries)}")
-    return [entries[name] for name in names or entries]
+    return [entries[name] for name in dict.fromkeys(names or entries)]
 
 
 def campaign_of(entry, form, settings, resources, path):

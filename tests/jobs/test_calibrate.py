@@ -79,8 +79,9 @@ class Recovery(unittest.TestCase):
         fits = [fitted(plate_problem(seed, False)) for seed in range(40)]
         self.assertTrue(all(fit.settled for fit in fits))
         inside = np.array([covered(fit) for fit in fits]).sum(axis=0)
-        print(f"inside the 95 % intervals: measured {inside.tolist()} of 40, expected 38 or more")
-        self.assertTrue((inside >= 38).all())
+        # Of exact intervals 38 are expected, and fewer than 34 have a chance of 0.3 %.
+        print(f"inside the 95 % intervals: measured {inside.tolist()} of 40, expected 38, tolerance 4 fewer")
+        self.assertTrue((inside >= 34).all())
 
     def test_intervals_are_neither_too_narrow_nor_too_wide(self):
         inside = np.array([covered(fitted(plate_problem(seed, True))) for seed in range(1000, 1400)]).mean(axis=0)
