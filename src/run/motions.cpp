@@ -248,7 +248,7 @@ void add_motions(std::vector<solver::BodyCommand>& commands, const scene::Scene&
             prescribed_in(motion, scene.bodies[b], state.start[b], state.mass[b], gravity, {time - phase.start, dt});
         command.locked = dem::prescribed;
         if (is_unyielding(command.motion->held)) { command.locked |= dem::unyielding; }
-        commands[b]    = command;
+        commands[b] = command;
     }
 }
 

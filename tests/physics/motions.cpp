@@ -299,7 +299,7 @@ TYPED_TEST(Motions, WhatHoldsABodyOnTheBedCarriesTheRestOfItsWeight)
     const solver::BodyRow row    = drum(run);
     const double          weight = 4 * g, sum = row.force[2] + row.reaction_force[2];
     test::report("bed's force, N", row.force[2], 60, 60, "what the stop asked for, as it relaxes: above 0");
-    EXPECT_GT(row.force[2], 5);
+    EXPECT_GT(row.force[2], 0);
     test::report("bed's force and the reaction, N", sum, weight, rounding * weight, "nothing moves: rounding");
     EXPECT_NEAR(sum, weight, 1e-9 * weight);
     run.simulation().ledger().balance(run.simulation().census());
