@@ -44,8 +44,8 @@ Key<Rocks>   rocks_height_key();
 Key<Rocks>   rocks_floor_key();
 Key<Rocks>   rocks_diameter_key();
 
-/// Position of a [[body]]: given, or on the surface below it (body_keys.cpp).
-Key<Body> body_position_key();
+/// Generator of a [[shape]], with the keys of each kind (generator_keys.cpp).
+Key<Shape> generate_key();
 
 /// Calls visit(name, meaning, member pointer, keys) for each table of a scene, in the order of writing. A member that
 /// is a vector is an array of tables.
