@@ -102,11 +102,11 @@ Keys<Shape> shape_keys()
                   "by winding number. Without it such a mesh is an error. Only with `file`.",
                   ""},
                  &MeshFile::repair, boolean()),
-        optional(
-            "sdf_cells", "", &Shape::sdf_cells, integer_or("auto", 8, 1024),
-            "Cells of the signed distance field along the longest axis of its box (1.2 times the shape's). "
-            "\"auto\": 1.5 across the thinnest wall, 40 to 512, of a tool or an assembly more if they lose over 2 % of its "
-            "volume; one a surface node of a rock or sphere, 40 to 64."),
+        optional("sdf_cells", "", &Shape::sdf_cells, integer_or("auto", 8, 1024),
+                 "Cells of the signed distance field along the longest axis of its box (1.2 times the shape's). "
+                 "\"auto\": 1.5 across the thinnest wall, 40 to 512, of a tool or an assembly more if they lose over 2 "
+                 "% of its "
+                 "volume; one a surface node of a rock or sphere, 40 to 64."),
         optional(
             "node_spacing", "m", &Shape::node_spacing, number(length_or_none()),
             "Of the surface nodes; 0 leaves it to the generator, or takes a 40th of the extent of a mesh file or an "

@@ -148,7 +148,8 @@ void require_terrain_to_replace(const Scene& scene, Checker& checker)
 void require_gravity(Checker& checker)
 {
     const TableAt at{"domain"};
-    if (!checker.sound(at, {}) || checker.given(at, "gravity") != nullptr || checker.given(at, "gravity_size") != nullptr)
+    if (!checker.sound(at, {}) || checker.given(at, "gravity") != nullptr ||
+        checker.given(at, "gravity_size") != nullptr)
     {
         return;
     }

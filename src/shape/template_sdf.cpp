@@ -122,7 +122,7 @@ TemplateDistance distance_of(const scene::Shape& shape, const Solid& solid)
 
 void add_sdf(const scene::Shape& shape, const TemplateDistance& distance, double reach, ShapeTemplate& form)
 {
-    form.sdf_cells = shape.sdf_cells ? static_cast<int>(*shape.sdf_cells) : usual_cells(shape, distance, form);
+    form.sdf_cells        = shape.sdf_cells ? static_cast<int>(*shape.sdf_cells) : usual_cells(shape, distance, form);
     form.sdf              = build_sdf(bounds(form.mesh), form.sdf_cells, distance.function, reach);
     form.sdf_volume_ratio = enclosed_volume(form.sdf) / form.unit.volume;
     warn_of_volume(distance.function, form);

@@ -179,17 +179,17 @@ const std::vector<BadCase> cross_cases{
      "accepted: \"straight\" | \"chevron\" | \"curved\""},
     {"box_without_its_size", "kind = \"rock\", seed = 3", "kind = \"box\"", 31,
      "[shape.clast.generate] size: missing; accepted: [x, y, z], each a number >= 1e-06"},
-    {"plate_round_and_square", "kind = \"rock\", seed = 3", "kind = \"plate\", radius = 1, size = [1, 1], thickness = 1",
-     31, "[shape.clast] generate: both radius and size; accepted: exactly one of radius, size"},
-    {"plate_of_no_form", "kind = \"rock\", seed = 3", "kind = \"plate\", thickness = 1", 31,
-     "neither radius nor size"},
+    {"plate_round_and_square", "kind = \"rock\", seed = 3",
+     "kind = \"plate\", radius = 1, size = [1, 1], thickness = 1", 31,
+     "[shape.clast] generate: both radius and size; accepted: exactly one of radius, size"},
+    {"plate_of_no_form", "kind = \"rock\", seed = 3", "kind = \"plate\", thickness = 1", 31, "neither radius nor size"},
     {"flat_cone", "kind = \"rock\", seed = 3", "kind = \"cone\", apex_angle_deg = 180, base_radius = 0.01", 31,
      "[shape.clast.generate] apex_angle_deg: 180 is out of range; accepted: number >= 5 and <= 170 (deg)"},
     {"shaft_wider_than_its_cone", "kind = \"rock\", seed = 3",
      "kind = \"cone\", base_radius = 0.01, shaft_radius = 0.02, shaft_length = 1", 31,
      "shaft_radius = 0.02 is more than the base; accepted: 0 to base_radius = 0.01 (m)"},
-    {"shaft_without_length", "kind = \"rock\", seed = 3", "kind = \"cone\", base_radius = 0.01, shaft_radius = 0.01", 31,
-     "shaft_radius = 0.01 with shaft_length = 0; accepted: both, or neither, above 0"},
+    {"shaft_without_length", "kind = \"rock\", seed = 3", "kind = \"cone\", base_radius = 0.01, shaft_radius = 0.01",
+     31, "shaft_radius = 0.01 with shaft_length = 0; accepted: both, or neither, above 0"},
     {"ring_without_width", "kind = \"rock\", seed = 3",
      "kind = \"ring\", inner_radius = 0.1, outer_radius = 0.1, height = 0.01", 31,
      "inner_radius = 0.1 leaves no ring; accepted: at most 0.0999 (m) with outer_radius = 0.1"},
@@ -266,8 +266,9 @@ INSTANTIATE_TEST_SUITE_P(Cross, BadInput, ::testing::ValuesIn(cross_cases), case
 /// Shapes a, b, c, each an assembly of the next, and c of `last`.
 std::string chain(const std::string& last)
 {
-    return good_scene + "[[shape]]\nname = \"a\"\nassemble = [ { shape = \"b\" } ]\n[[shape]]\nname = \"b\"\nassemble = [ "
-                        "{ shape = \"viper\" }, { shape = \"c\" } ]\n[[shape]]\nname = \"c\"\nassemble = [ { shape = \"" +
+    return good_scene +
+           "[[shape]]\nname = \"a\"\nassemble = [ { shape = \"b\" } ]\n[[shape]]\nname = \"b\"\nassemble = [ "
+           "{ shape = \"viper\" }, { shape = \"c\" } ]\n[[shape]]\nname = \"c\"\nassemble = [ { shape = \"" +
            last + "\" } ]\n";
 }
 
@@ -288,7 +289,10 @@ TEST(BadInput, assemblies_of_ever_more_parts)
         for (int level = 0; level < levels; ++level)
         {
             std::string parts = ten;
-            for (auto at = parts.find("LAST"); at != std::string::npos; at = parts.find("LAST")) { parts.replace(at, 4, last); }
+            for (auto at = parts.find("LAST"); at != std::string::npos; at = parts.find("LAST"))
+            {
+                parts.replace(at, 4, last);
+            }
             last = "level" + std::to_string(level);
             scene += "[[shape]]\nname = \"" + last + "\"\nassemble = [ " + parts + " ]\n";
         }

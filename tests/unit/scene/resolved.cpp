@@ -204,7 +204,8 @@ TEST(Resolved, what_was_read_is_what_was_written)
               (MeshFile{(directory.path() / "mesh.stl").string(), 0.001, true}));
     EXPECT_EQ(std::get<MeshFile>(scene.shapes[4].source).unit, 0.3048);
     EXPECT_EQ(std::get<BoxGenerator>(scene.shapes[5].source), (BoxGenerator{{0.1, 0.2, 0.3}}));
-    EXPECT_EQ(std::get<PlateGenerator>(scene.shapes[6].source), (PlateGenerator{std::nullopt, Vector2{0.1, 0.2}, 0.01}));
+    EXPECT_EQ(std::get<PlateGenerator>(scene.shapes[6].source),
+              (PlateGenerator{std::nullopt, Vector2{0.1, 0.2}, 0.01}));
     EXPECT_EQ(std::get<PlateGenerator>(scene.shapes[7].source), (PlateGenerator{0.1, std::nullopt, 0.01}));
     EXPECT_EQ(std::get<CylinderGenerator>(scene.shapes[8].source), (CylinderGenerator{0.1, 0.5}));
     EXPECT_EQ(std::get<ConeGenerator>(scene.shapes[9].source), (ConeGenerator{60, 0.02, 0.01, 0.3}));

@@ -32,7 +32,7 @@ TEST(Slope, IsExactWhereTheGroundIsLevelOrAWall)
 TEST(Slope, LeansAgainstTheWayThatItClimbs)
 {
     const double  angle = 20 * std::acos(-1.0) / 180, way = 30 * std::acos(-1.0) / 180;
-    const Vector3 g     = gravity_on({1.62, 20, 30});
+    const Vector3 g = gravity_on({1.62, 20, 30});
     // Rounding of a product of three.
     EXPECT_NEAR(g[0], -1.62 * std::sin(angle) * std::cos(way), 1e-15);
     EXPECT_NEAR(g[1], -1.62 * std::sin(angle) * std::sin(way), 1e-15);
@@ -64,8 +64,8 @@ TEST(Slope, OfNoGravityIsWeightless)
 {
     const std::string text = replaced(good_scene, "gravity = [0, 0, -9.81]", "gravity_size = 0");
     EXPECT_THAT(refusal(replaced(text, "mass = 10", "load = 10")), HasSubstr("a load needs gravity"));
-    EXPECT_THAT(refusal(replaced(replaced(good_scene, "gravity = [0, 0, -9.81]", "gravity_size = \"Mars\""), "mass = 10",
-                                 "load = 10")),
+    EXPECT_THAT(refusal(replaced(replaced(good_scene, "gravity = [0, 0, -9.81]", "gravity_size = \"Mars\""),
+                                 "mass = 10", "load = 10")),
                 ::testing::Not(HasSubstr("a load needs gravity")));
 }
 

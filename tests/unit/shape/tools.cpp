@@ -52,7 +52,10 @@ Exact joined(const std::vector<Exact>& parts)
         sum.about_z += part.about_z;
     }
     sum.height /= sum.volume;
-    for (const Exact& part : parts) { sum.about_x += part.about_x + part.volume * std::pow(part.height - sum.height, 2); }
+    for (const Exact& part : parts)
+    {
+        sum.about_x += part.about_x + part.volume * std::pow(part.height - sum.height, 2);
+    }
     return sum;
 }
 
@@ -71,10 +74,11 @@ void expect_exact(const std::string& name, const TriangleMesh& mesh, const Exact
 {
     ASSERT_NO_THROW(require_watertight(mesh, name));
     const MassProperties mass = mass_properties(mesh);
-    std::printf("%s: %zu triangles; volume measured %.12g m3, expected %.12g; inertia about x %.12g m5, expected %.12g, "
-                "about z %.12g, expected %.12g; tolerance 1e-11 of each: rounding of sums of 5e4 terms that cancel\n",
-                name.c_str(), mesh.triangles.size(), mass.volume, exact.volume, mass.inertia(0, 0), exact.about_x,
-                mass.inertia(2, 2), exact.about_z);
+    std::printf(
+        "%s: %zu triangles; volume measured %.12g m3, expected %.12g; inertia about x %.12g m5, expected %.12g, "
+        "about z %.12g, expected %.12g; tolerance 1e-11 of each: rounding of sums of 5e4 terms that cancel\n",
+        name.c_str(), mesh.triangles.size(), mass.volume, exact.volume, mass.inertia(0, 0), exact.about_x,
+        mass.inertia(2, 2), exact.about_z);
     EXPECT_NEAR(mass.volume, exact.volume, 1e-11 * exact.volume);
     EXPECT_NEAR(mass.inertia(0, 0), exact.about_x, 1e-11 * exact.about_x);
     EXPECT_NEAR(mass.inertia(2, 2), exact.about_z, 1e-11 * exact.about_z);
@@ -158,18 +162,19 @@ TEST(Tools, ShearRingHasItsVanes)
         const TriangleMesh mesh = tool_mesh(ring);
         ASSERT_NO_THROW(require_watertight(mesh, "ring"));
         const double half = 0.5 * ring.vane_thickness, inner = ring.inner_radius, outer = ring.outer_radius;
-        const double vanes  = ring.vanes * ring.vane_height;
-        const double volume = test::pi * (outer * outer - inner * inner) * ring.height +
-                              vanes * (slab(outer, half) - slab(inner, half));
+        const double vanes = ring.vanes * ring.vane_height;
+        const double volume =
+            test::pi * (outer * outer - inner * inner) * ring.height + vanes * (slab(outer, half) - slab(inner, half));
         const double about_z =
             0.5 * test::pi * (std::pow(outer, 4) - std::pow(inner, 4)) * ring.height + vanes * vane_moment(ring);
         const MassProperties mass = mass_properties(mesh);
         // About the axis, on which the centre of mass of a ring with one vane is not.
         const double found = mass.inertia(2, 2) + mass.volume * mass.centre.head<2>().squaredNorm();
         // Chords of at most 2 degrees take 2.03e-4 of a disc and twice that of its polar moment.
-        std::printf("%d vanes, %zu triangles: volume measured %.8g m3, expected %.8g, tolerance 2.1e-4; inertia about z "
-                    "%.8g m5, expected %.8g, tolerance 4.2e-4\n",
-                    ring.vanes, mesh.triangles.size(), mass.volume, volume, found, about_z);
+        std::printf(
+            "%d vanes, %zu triangles: volume measured %.8g m3, expected %.8g, tolerance 2.1e-4; inertia about z "
+            "%.8g m5, expected %.8g, tolerance 4.2e-4\n",
+            ring.vanes, mesh.triangles.size(), mass.volume, volume, found, about_z);
         EXPECT_NEAR(mass.volume, volume, 2.1e-4 * volume);
         EXPECT_NEAR(found, about_z, 4.2e-4 * about_z);
 
@@ -189,8 +194,9 @@ TEST(Tools, ShearRingHasItsVanes)
 
 std::vector<scene::Shape> tools()
 {
-    const auto shape = [](const std::string& name, const scene::ShapeSource& source)
-    { return scene::Shape{name, source, std::nullopt, 0.0}; };
+    const auto shape = [](const std::string& name, const scene::ShapeSource& source) {
+        return scene::Shape{name, source, std::nullopt, 0.0};
+    };
     return {shape("box", scene::BoxGenerator{{0.1, 0.2, 0.15}}),
             shape("square plate", scene::PlateGenerator{std::nullopt, scene::Vector2{0.2, 0.2}, 0.01}),
             shape("disc", scene::PlateGenerator{0.1, std::nullopt, 0.01}),

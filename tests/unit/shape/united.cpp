@@ -101,13 +101,12 @@ TEST(Assembly, ScalesTurnsAndMovesItsParts)
     const double        bar = 0.4 * 0.02 * 0.02, cube = 1e-3;
     EXPECT_NEAR(form.unit.volume, bar + 2 * cube, 1e-15);
     EXPECT_NEAR(form.unit.inertia(2, 2), bar * 2 * 4e-4 / 12 + 2 * cube * 2 * 0.01 / 12, 1e-15);
-    EXPECT_NEAR(form.unit.inertia(0, 0),
-                bar * (0.16 + 4e-4) / 12 + 2 * cube * (2 * 0.01 / 12 + 0.25 * 0.25), 1e-15);
+    EXPECT_NEAR(form.unit.inertia(0, 0), bar * (0.16 + 4e-4) / 12 + 2 * cube * (2 * 0.01 / 12 + 0.25 * 0.25), 1e-15);
     EXPECT_LT((form.box.extent() - Eigen::Vector3d(0.1, 0.1, 0.6)).norm(), 1e-12);
     std::printf("field's volume %.4f of the solid's, tolerance 2 %%\n", form.sdf_volume_ratio);
     EXPECT_NEAR(form.sdf_volume_ratio, 1, 0.02);
-    // Inside the neck, where parts touch: half the bar's width, less the boundary's resolution and half a cell, by which
-    // the ridge of the field in the bar's middle is cut off.
+    // Inside the neck, where parts touch: half the bar's width, less the boundary's resolution and half a cell, by
+    // which the ridge of the field in the bar's middle is cut off.
     EXPECT_LT(sample(form.sdf, {0, 0, 0.2}), -0.01 + 0.6 / 256 + 0.5 * form.sdf.spacing);
     // Nodes on the outer edges of the cubes, which lie far from where parts meet.
     for (const Eigen::Vector3d& corner : {Eigen::Vector3d(0.05, 0.05, 0.3), Eigen::Vector3d(-0.05, 0.05, -0.3)})

@@ -18,7 +18,8 @@ namespace
 /// Sand with a body on it. `shape`: lines of its [[shape]].
 std::string standing_text(const std::string& shape)
 {
-    return fmt::format("{}{}", test::sand_text, fmt::format(R"(
+    return fmt::format("{}{}", test::sand_text,
+                       fmt::format(R"(
 [[material]]
 name    = "steel"
 model   = "elastic"
@@ -41,7 +42,7 @@ density  = 7800.0
 position = [0.2, 0.2, "on surface"]
 gap      = 0.002
 )",
-                                                            shape));
+                                   shape));
 }
 
 /// Each tool as its generator makes it, and its twin from a file of the same mesh.
@@ -49,22 +50,23 @@ TEST(ToolScenes, AreThoseOfTheirTwinsFromFiles)
 {
     const test::TemporaryDirectory folder;
     const std::string              path = folder.path("tool.stl");
-    for (const char* source :
-         {R"(generate = { kind = "box", size = [0.1, 0.08, 0.06] })",
-          R"(generate = { kind = "plate", radius = 0.06, thickness = 0.012 })",
-          R"(generate = { kind = "plate", size = [0.1, 0.12], thickness = 0.012 })",
-          R"(generate = { kind = "cylinder", radius = 0.04, length = 0.1 })",
-          R"(generate = { kind = "cone", base_radius = 0.02, shaft_radius = 0.015, shaft_length = 0.05 })",
-          R"(generate = { kind = "ring", inner_radius = 0.04, outer_radius = 0.07, height = 0.01, vanes = 6, vane_height = 0.01, vane_thickness = 0.008 })",
-          R"(generate = { kind = "tube", radius = 0.05, wall_thickness = 0.01, length = 0.06 })",
-          R"(generate = { kind = "frame", inner_size = [0.06, 0.08], height = 0.04, wall_thickness = 0.01 })",
-          R"(generate = { kind = "frame", inner_size = [0.06, 0.08], height = 0.04, wall_thickness = 0.01, floor_thickness = 0.01 })"})
+    for (
+        const char* source :
+        {R"(generate = { kind = "box", size = [0.1, 0.08, 0.06] })",
+         R"(generate = { kind = "plate", radius = 0.06, thickness = 0.012 })",
+         R"(generate = { kind = "plate", size = [0.1, 0.12], thickness = 0.012 })",
+         R"(generate = { kind = "cylinder", radius = 0.04, length = 0.1 })",
+         R"(generate = { kind = "cone", base_radius = 0.02, shaft_radius = 0.015, shaft_length = 0.05 })",
+         R"(generate = { kind = "ring", inner_radius = 0.04, outer_radius = 0.07, height = 0.01, vanes = 6, vane_height = 0.01, vane_thickness = 0.008 })",
+         R"(generate = { kind = "tube", radius = 0.05, wall_thickness = 0.01, length = 0.06 })",
+         R"(generate = { kind = "frame", inner_size = [0.06, 0.08], height = 0.04, wall_thickness = 0.01 })",
+         R"(generate = { kind = "frame", inner_size = [0.06, 0.08], height = 0.04, wall_thickness = 0.01, floor_thickness = 0.01 })"})
     {
         const World made = build_world(test::load_text(standing_text(source)));
         const auto& form = made.templates[0];
         shape::write_stl(form.mesh, path);
-        const World twin  = build_world(test::load_text(standing_text(fmt::format("file = \"{}\"", path))));
-        const auto& other = twin.templates[0];
+        const World  twin   = build_world(test::load_text(standing_text(fmt::format("file = \"{}\"", path))));
+        const auto&  other  = twin.templates[0];
         const double height = made.bodies.position[0][2];
         std::cout << source << ": " << made.bodies.mass[0] << " kg, centre at " << height << " m\n";
         // Single precision of the file: 6e-8 of 0.1 m on walls of 8 mm.
