@@ -115,7 +115,7 @@ scene::Shape named_shape(const scene::Scene& scene, const std::string& name)
     {
         for (const scene::Shape& rock : shape::members(family))
         {
-            if (rock.name == name) { return rock; }
+            if (rock.name == name && rock.name != family.name) { return rock; }
         }
     }
     return shape::find_shape(scene, name);
@@ -131,7 +131,7 @@ AskedShape shape_in_scene(const SdfArguments& arguments)
         throw InputError(
             fmt::format("{} has {} [[shape]] tables: --shape NAME says which", arguments.mesh, scene.shapes.size()));
     }
-    return {scene.shapes.front(), scene.directory};
+    return {shape::find_shape(scene, scene.shapes.front().name), scene.directory};
 }
 
 AskedShape mesh_or_builtin(const SdfArguments& arguments)

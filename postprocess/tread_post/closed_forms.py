@@ -142,9 +142,18 @@ def _rolling_answers(run):
     return {"acceleration": arm * (arm * along - resisting) / (arm**2 + 0.4 * radius**2)}
 
 
+def _leans_to_x(domain):
+    """Whether gravity, given as a vector or by a slope, has a part along x and one downwards."""
+    if "gravity_size" not in domain:
+        gravity = domain.get("gravity", [0, 0, 0])
+        return gravity[0] != 0 and gravity[2] < 0
+    slope, direction = domain.get("slope_deg", 0), domain.get("slope_direction_deg", 0)
+    return domain["gravity_size"] > 0 and 0 < abs(slope) < 90 and direction % 180 != 90
+
+
 def _rolling_needs(scene):
-    bodies, gravity = scene.get("body", []), scene.get("domain", {}).get("gravity", [0, 0, 0])
-    fits = len(bodies) == 1 and {"diameter", "mass"} <= set(bodies[0]) and gravity[0] != 0 and gravity[2] < 0
+    bodies = scene.get("body", [])
+    fits = len(bodies) == 1 and {"diameter", "mass"} <= set(bodies[0]) and _leans_to_x(scene.get("domain", {}))
     return "" if fits else "one [[body]], a sphere with diameter and mass, and gravity that leans towards x"
 
 

@@ -41,9 +41,13 @@ void validate_shapes(const Scene& scene, Checker& checker);
 void validate_places(const Scene& scene, Checker& checker);
 void validate_bodies(const Scene& scene, Checker& checker);
 void validate_joints(const Scene& scene, Checker& checker);
+void validate_assemblies(const Scene& scene, Checker& checker);
 void validate_phases(const Scene& scene, Checker& checker);
 void validate_motions(const Scene& scene, Checker& checker);
 void validate_contents(const Scene& scene, Checker& checker);
+
+/// Whether gravity was read and is zero.
+bool is_weightless(const Scene& scene, const Checker& checker);
 
 template<class T>
 std::vector<std::string> names_in(const std::vector<T>& items)

@@ -7,19 +7,6 @@ namespace tread::scene
 namespace
 {
 
-Keys<Walls> wall_keys()
-{
-    const auto wall = word<WallKind>();
-    return {
-        optional("x", "", &Walls::x, wall, "Both walls normal to x."),
-        optional("y", "", &Walls::y, wall, "Both walls normal to y."),
-        optional("bottom", "", &Walls::bottom, wall, "The wall at z = 0."),
-        optional("top", "", &Walls::top, wall, "The wall at z = size."),
-        optional("friction", "", &Walls::friction, number(coefficient()),
-                 "Coefficient of Coulomb's friction of sand with every \"frictional\" wall."),
-    };
-}
-
 Keys<Drive> drive_keys()
 {
     return {
@@ -62,21 +49,6 @@ bool may_end_early(const Phase& phase) { return phase.until != StopRule::duratio
 Keys<Scene> scene_keys()
 {
     return {optional("title", "", &Scene::title, text(), "One line for logs and reports; changes no result.")};
-}
-
-Keys<Domain> domain_keys()
-{
-    return {
-        required("size", "m", &Domain::size, vector3(length()), "Edge lengths; one corner is the origin."),
-        required("gravity", "m/s2", &Domain::gravity, vector3(acceleration()), "Acceleration of gravity."),
-        table_key<Domain>(
-            Presence::optional, "walls", "[domain] walls", &Domain::walls, wall_keys(),
-            "What the domain's faces do to sand: \"slip\" stops the normal velocity towards the wall, \"fixed\" all "
-            "velocity, so that sand cannot come off it, \"rough\" all velocity of sand that does not come off, "
-            "\"frictional\" is \"slip\" with Coulomb's friction, \"open\" lets sand leave. Rocks and bodies meet "
-            "every wall that is not open; their friction with it is that of [[contact]], none with a slip one.",
-            "see below"),
-    };
 }
 
 Keys<GridOptions> grid_keys()
@@ -225,31 +197,6 @@ Keys<Rocks> rocks_keys()
         optional("seed", "", &Rocks::seed, integer<std::uint64_t>(0),
                  "Of the random sizes, forms, places and orientations.")
             .when(drawn, are_drawn),
-    };
-}
-
-Keys<Body> body_keys()
-{
-    const std::string one_of = "exactly one of density, mass, load";
-    return {
-        required("name", "", &Body::name, name(), "Unique among bodies."),
-        required("shape", "", &Body::shape, name(),
-                 fmt::format("The name of a [[shape]], or a built-in wheel: {}.", fmt::join(builtin_wheels, ", "))),
-        required("material", "", &Body::material, name(), "The name of an elastic or rigid [[material]]."),
-        optional("diameter", "m", &Body::diameter, number_or("", length()),
-                 "Of the sphere of equal volume: scales the shape. Required for generated rocks and spheres.",
-                 "the shape's own size"),
-        optional("density", "kg/m3", &Body::density, number_or("", density()), "Of the shape's solid volume.", one_of),
-        optional("mass", "kg", &Body::mass, number_or("", mass()), "Spread evenly over the shape's volume.", one_of),
-        optional("load", "N", &Body::load, number_or("", force()), "Weight under the scene's gravity.", one_of),
-        body_position_key(),
-        optional("gap", "m", &Body::gap, number(length_or_none()), "Left between the body and what lies under it.")
-            .when("position = [x, y, \"on surface\"]", [](const Body& body) { return body.on_surface; }),
-        optional("velocity", "m/s", &Body::velocity, vector3(velocity()), "When the body is first released."),
-        optional("rolling_radius", "m", &Body::rolling_radius, number_or("auto", length()),
-                 "Radius r of the slip ratio 1 - v_x/(omega r). \"auto\": over the grousers."),
-        optional("lock", "", &Body::lock, words_of({"x", "y", "z", "roll", "pitch", "yaw"}),
-                 "Degrees of freedom in the world's axes that are held fixed."),
     };
 }
 

@@ -45,8 +45,8 @@ Key<Rocks>   rocks_height_key();
 Key<Rocks>   rocks_floor_key();
 Key<Rocks>   rocks_diameter_key();
 
-/// Position of a [[body]]: given, or on the surface below it (body_keys.cpp).
-Key<Body> body_position_key();
+/// Generator of a [[shape]], with the keys of each kind (generator_keys.cpp).
+Key<Shape> generate_key();
 
 /// Prescribed motions of a [[phase]], and the name of one in messages (motion_keys.cpp). `phase`: the phase's name
 /// there.

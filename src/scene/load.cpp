@@ -9,6 +9,7 @@
 #include "scene/keys.hpp"
 #include "scene/motion_tables.hpp"
 #include "scene/overrides.hpp"
+#include "scene/slope.hpp"
 #include "scene/validate.hpp"
 
 namespace tread::scene
@@ -80,6 +81,14 @@ void complete_materials(Scene& scene)
         const bool stiff = material.model == MaterialModel::rigid && material.young == 0;
         if (stiff) { material.young = std::numeric_limits<double>::infinity(); }
     }
+}
+
+/// Replaces a slope by its vector of gravity, which is all that a loaded scene has.
+void complete_gravity(Domain& domain)
+{
+    if (!domain.slope.gravity) { return; }
+    domain.gravity = gravity_on(domain.slope);
+    domain.slope   = {};
 }
 
 /// A pair with the wall and no given friction gets the wall's default, not the struct's.
@@ -198,6 +207,7 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
     Scene scene     = read_scene(document, problems);
     scene.directory = std::filesystem::absolute(path).parent_path().string();
     if (problems.size() > most_problems) { throw_if_any(problems); }
+    complete_gravity(scene.domain);
     complete_materials(scene);
     complete_wall_friction(scene, document);
     complete_meshes(scene, document, problems);

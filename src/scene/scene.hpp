@@ -10,14 +10,14 @@
 
 #include "scene/joint.hpp"
 #include "scene/phase.hpp"
+#include "scene/shape.hpp"
+#include "scene/vector3.hpp"
 #include "scene/words.hpp"
 
 // The scene as plain data in SI units (angles in degrees where the name says so). keys.cpp, the one table that parses,
 // validates and documents, holds defaults, units, ranges and meanings.
 namespace tread::scene
 {
-
-using Vector3 = std::array<double, 3>;
 
 struct Walls
 {
@@ -31,10 +31,21 @@ struct Walls
     bool operator==(const Walls&) const = default;
 };
 
+/// Gravity as magnitude and slope of the ground: replaces the vector in a scene file.
+struct Slope
+{
+    std::optional<double> gravity;           ///< m/s2, magnitude
+    double                angle_deg     = 0; ///< positive: the ground rises along `direction_deg`
+    double                direction_deg = 0; ///< in the ground's plane, from +x towards +y
+
+    bool operator==(const Slope&) const = default;
+};
+
 struct Domain
 {
     Vector3 size{};    ///< m; the domain is [0, size]
     Vector3 gravity{}; ///< m/s2
+    Slope   slope;     ///< empty in a loaded scene, whose gravity is a vector
     Walls   walls;
 
     bool operator==(const Domain&) const = default;
@@ -122,70 +133,6 @@ struct Contact
     double rolling_friction = 0; ///< mu_r, body-body only
 
     bool operator==(const Contact&) const = default;
-};
-
-struct RockGenerator
-{
-    std::uint64_t         seed       = 1;
-    double                aspect     = 0.75; ///< smallest over largest extent
-    double                sphericity = 0.90;
-    int                   nodes      = 162;          ///< surface nodes
-    std::optional<double> elongation = std::nullopt; ///< middle over largest extent; default: (1 + aspect)/2
-    double                solidity   = 0.98;         ///< volume over that of the convex hull
-    int                   variants   = 1;            ///< rocks in the family
-
-    bool operator==(const RockGenerator&) const = default;
-};
-
-struct SphereGenerator
-{
-    int nodes = 642;
-
-    bool operator==(const SphereGenerator&) const = default;
-};
-
-/// A rigid wheel: drum with grousers, open or with flanges, web and hub; the axle is the mesh's y axis. Lengths in
-/// metres.
-struct WheelGenerator
-{
-    double radius         = 0.26; ///< over the grousers
-    double width          = 0.33;
-    double wall_thickness = 0.0095;
-    int    grousers       = 48;
-    double grouser_height = 0.0125;
-    double grouser_width  = 0.004;
-
-    GrouserShape grouser_shape     = GrouserShape::straight;
-    double       grouser_sweep_deg = 0; ///< degrees about the axle, from a grouser's middle to its ends
-    double       crown             = 0; ///< reduction of the drum's radius at its edges; parabolic
-    double       rim_height        = 0; ///< of the flanges inside the drum's edges; 0 = none
-    double       rim_thickness     = 0;
-    double       hub_radius        = 0; ///< 0 = open rim
-    double       hub_width         = 0;
-    double       web_thickness     = 0;
-
-    bool operator==(const WheelGenerator&) const = default;
-};
-
-struct MeshFile
-{
-    std::string path;           ///< absolute, or relative to the scene file
-    double      unit   = 1.0;   ///< metres per mesh unit
-    bool        repair = false; ///< repair the mesh, and use winding numbers if it cannot be closed
-
-    bool operator==(const MeshFile&) const = default;
-};
-
-using ShapeSource = std::variant<RockGenerator, SphereGenerator, WheelGenerator, MeshFile>;
-
-struct Shape
-{
-    std::string                 name;
-    ShapeSource                 source;
-    std::optional<std::int64_t> sdf_cells; ///< along the longest axis of the 120 % box; empty = by the thinnest wall
-    double node_spacing = 0; ///< m; spacing of surface nodes; 0 = by the generator, or a 40th of the extent
-
-    bool operator==(const Shape&) const = default;
 };
 
 struct Sphere
@@ -294,6 +241,18 @@ struct Rocks
     bool operator==(const Rocks&) const = default;
 };
 
+/// Rotation of a body at the start, in one of three forms, or none: the body's axes are then the world's.
+struct Orientation
+{
+    std::optional<Vector3> axis; ///< any length but 0; with angle_deg
+    std::optional<double>  angle_deg;
+    std::optional<Matrix3> rows; ///< rows of the rotation from body to world
+    std::optional<double>  yaw_deg;
+    std::optional<double>  camber_deg;
+
+    bool operator==(const Orientation&) const = default;
+};
+
 struct Body
 {
     std::string              name;
@@ -309,6 +268,7 @@ struct Body
     Vector3                  velocity{};         ///< m/s, when first released
     std::optional<double>    rolling_radius;     ///< m; default: radius over the grousers
     std::vector<std::string> lock;               ///< world degrees of freedom held fixed: x y z roll pitch yaw
+    Orientation              orientation;        ///< at the start
 
     bool operator==(const Body&) const = default;
 };

@@ -13,8 +13,6 @@ namespace tread::scene
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
-
 template<class T>
 void require_unique(const std::string& table, const std::vector<T>& items, Checker& checker)
 {
@@ -114,26 +112,6 @@ void validate_stiffness(const Scene& scene, Checker& checker)
     for (const auto& body : scene.bodies) { check(body.material, 1); }
 }
 
-void validate_wheel(const WheelGenerator& wheel, const TableAt& at, Checker& checker)
-{
-    const auto table = checker.label(at) + ".generate";
-    for (const auto* key : {"radius", "wall_thickness", "grousers", "grouser_height", "grouser_width"})
-    {
-        if (mentions(checker.problems, table, key)) { return; }
-    }
-    if (wheel.wall_thickness + wheel.grouser_height >= wheel.radius)
-    {
-        checker.report(at, "generate", "wall and grousers leave no room in the wheel",
-                       fmt::format("wall_thickness + grouser_height < radius = {} (m)", wheel.radius));
-    }
-    const double circumference = 2 * pi * (wheel.radius - wheel.grouser_height);
-    if (wheel.grousers * wheel.grouser_width >= circumference)
-    {
-        checker.report(at, "generate", "the grousers overlap",
-                       fmt::format("grousers * grouser_width < {:.3g} (m)", circumference));
-    }
-}
-
 void validate_drive(const Phase& phase, const TableAt& at, Checker& checker)
 {
     const auto& drive = *phase.drive;
@@ -163,7 +141,7 @@ void validate_lowering(const Scene& scene, const Phase& phase, const TableAt& at
         checker.report(at, "lower", fmt::format("\"{}\" is both driven and lowered", body),
                        "a body that is not driven");
     }
-    if (scene.domain.gravity == Vector3{} && checker.sound({"domain"}, {"gravity"}))
+    if (is_weightless(scene, checker))
     {
         checker.report(at, "lower", "a body is lowered along gravity, and [domain] gravity is zero", "gravity");
     }
@@ -192,6 +170,17 @@ void require_terrain_to_replace(const Scene& scene, Checker& checker)
                            "\"rain\" | \"grid\"");
         }
     }
+}
+
+void require_gravity(Checker& checker)
+{
+    const TableAt at{"domain"};
+    if (!checker.sound(at, {}) || checker.given(at, "gravity") != nullptr ||
+        checker.given(at, "gravity_size") != nullptr)
+    {
+        return;
+    }
+    checker.report(at, "gravity", "missing", vector3(acceleration()).accepted + " (m/s2), or gravity_size");
 }
 
 /// Checks limitations of a refined grid; where its boxes may lie is checked when the world is built.
@@ -251,6 +240,7 @@ void validate_cells(const Scene& scene, Checker& checker)
 void validate(const Scene& scene, const Node& document, Problems& problems)
 {
     Checker checker{document, problems};
+    require_gravity(checker);
     validate_names(scene, checker);
     validate_references(scene, checker);
     validate_materials(scene, checker);
@@ -280,50 +270,6 @@ void validate_materials(const Scene& scene, Checker& checker)
         validate_material(scene, scene.materials[i], {"material", i}, checker);
     }
     validate_stiffness(scene, checker);
-}
-
-void validate_shapes(const Scene& scene, Checker& checker)
-{
-    for (std::size_t i = 0; i < scene.shapes.size(); ++i)
-    {
-        const TableAt at{"shape", i};
-        const bool    file     = checker.given(at, "file") != nullptr;
-        const bool    generate = checker.given(at, "generate") != nullptr;
-        if (file == generate) { checker.report(at, "", file ? "both" : "neither", "exactly one of file, generate"); }
-        for (const char* key : {"unit", "repair"})
-        {
-            if (!file && checker.given(at, key) != nullptr) { checker.report(at, key, "may stand only with `file`"); }
-        }
-        if (const auto* wheel = std::get_if<WheelGenerator>(&scene.shapes[i].source))
-        {
-            validate_wheel(*wheel, at, checker);
-        }
-    }
-}
-
-void validate_bodies(const Scene& scene, Checker& checker)
-{
-    const auto& gravity    = scene.domain.gravity;
-    const bool  weightless = gravity == Vector3{} && checker.sound({"domain"}, {"gravity"});
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    {
-        const TableAt            at{"body", i};
-        std::vector<std::string> given;
-        for (const auto* key : {"density", "mass", "load"})
-        {
-            if (checker.given(at, key) != nullptr) { given.emplace_back(key); }
-        }
-        if (given.size() != 1)
-        {
-            const auto found = given.empty() ? "none of them" : fmt::format("{}", fmt::join(given, " and "));
-            checker.report(at, given.empty() ? "density" : given.back(), "found " + found,
-                           "exactly one of density, mass, load");
-        }
-        if (weightless && checker.given(at, "load") != nullptr)
-        {
-            checker.report(at, "load", "a load needs gravity, and [domain] gravity is zero", "density or mass");
-        }
-    }
 }
 
 void validate_phases(const Scene& scene, Checker& checker)

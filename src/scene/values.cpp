@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "scene/array_values.hpp"
 #include "scene/problems.hpp"
-#include "scene/ranges.hpp"
 
 namespace tread::scene
 {
@@ -19,68 +19,6 @@ constexpr std::array<std::pair<const char*, double>, 4> length_units{
 
 constexpr const char* name_letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
 
-/// Applies `read` to each element; an error names the element's index.
-template<class Read>
-auto read_each(const NodeArray& array, const Read& read)
-{
-    std::vector<std::decay_t<decltype(read(array.front()))>> values;
-    for (std::size_t i = 0; i < array.size(); ++i)
-    {
-        try
-        {
-            values.push_back(read(array[i]));
-        }
-        catch (const BadValue& bad)
-        {
-            throw BadValue{fmt::format("element {}: {}", i, bad.what)};
-        }
-    }
-    return values;
-}
-
-template<class T, class Write>
-std::string write_array(const T& values, const Write& write)
-{
-    std::string text;
-    for (const auto& value : values) { text += (text.empty() ? "" : ", ") + write(value); }
-    return fmt::format("[{}]", text);
-}
-
-Vector3 read_vector3(const Node& node, const Range& range)
-{
-    const auto values = read_each(read_array(node, 3), [&](const Node& item) { return read_number(item, range); });
-    return {values[0], values[1], values[2]};
-}
-
-std::string write_vector3(const Vector3& value) { return write_array(value, write_number); }
-
-Box read_box(const Node& node)
-{
-    const auto corners =
-        read_each(read_array(node, 2), [](const Node& item) { return read_vector3(item, coordinate()); });
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-        if (!(corners[0][axis] < corners[1][axis])) { throw BadValue{"the box is empty"}; }
-    }
-    return Box{corners[0], corners[1]};
-}
-
-std::string write_box(const Box& value)
-{
-    return fmt::format("[{}, {}]", write_vector3(value.low), write_vector3(value.high));
-}
-
-constexpr const char* accepted_box = "[[x, y, z], [x, y, z]], the second above the first in each component";
-
-PlanExtent read_extent(const Node& node)
-{
-    const auto read_corner = [](const Node& item)
-    { return read_each(read_array(item, 2), [](const Node& number) { return read_number(number, coordinate()); }); };
-    const auto corners = read_each(read_array(node, 2), read_corner);
-    if (!(corners[0][0] < corners[1][0] && corners[0][1] < corners[1][1])) { throw BadValue{"the extent is empty"}; }
-    return {{{corners[0][0], corners[0][1]}, {corners[1][0], corners[1][1]}}};
-}
-
 const std::string& read_name(const Node& node)
 {
     const auto& text = read_string(node);
@@ -89,13 +27,6 @@ const std::string& read_name(const Node& node)
         throw BadValue{fmt::format("\"{}\" is not a name", text)};
     }
     return text;
-}
-
-const NodeArray& read_list(const Node& node)
-{
-    const auto* array = std::get_if<NodeArray>(&node.value);
-    if (array == nullptr) { throw BadValue{"wrong type: " + kind_of(node)}; }
-    return *array;
 }
 
 std::vector<std::string> distinct(std::vector<std::string> words)
@@ -155,6 +86,13 @@ const std::string& read_string(const Node& node)
     const auto* text = std::get_if<std::string>(&node.value);
     if (text == nullptr) { throw BadValue{"wrong type: " + kind_of(node)}; }
     return *text;
+}
+
+const NodeArray& read_list(const Node& node)
+{
+    const auto* array = std::get_if<NodeArray>(&node.value);
+    if (array == nullptr) { throw BadValue{"wrong type: " + kind_of(node)}; }
+    return *array;
 }
 
 const NodeArray& read_array(const Node& node, std::size_t size)
@@ -264,12 +202,6 @@ Value<int> integer_of(std::vector<int> choices)
             [](const int& value) { return fmt::format("{}", value); }};
 }
 
-Value<Vector3> vector3(Range range)
-{
-    return {"[x, y, z], each a " + range.text(), [=](const Node& node) { return read_vector3(node, range); },
-            write_vector3};
-}
-
 Value<bool> boolean()
 {
     const auto read = [](const Node& node)
@@ -328,36 +260,6 @@ Value<std::array<std::string, 2>> pair_of_names()
             },
             [](const std::array<std::string, 2>& value)
             { return value[0].empty() ? std::string() : write_array(value, write_string); }};
-}
-
-Value<std::optional<Box>> box_given()
-{
-    return {accepted_box, [](const Node& node) -> std::optional<Box> { return read_box(node); },
-            [](const std::optional<Box>& value) { return value ? write_box(*value) : std::string(); }};
-}
-
-Value<std::vector<Box>> boxes()
-{
-    constexpr std::size_t most = 100; // limit, because columns of a region are cut at the faces of each box
-    const auto            read = [](const Node& node)
-    {
-        const NodeArray& list = read_list(node);
-        if (list.size() > most) { throw BadValue{fmt::format("{} boxes", list.size())}; }
-        return read_each(list, read_box);
-    };
-    return {fmt::format("array of at most {} boxes {}", most, accepted_box), read,
-            [](const std::vector<Box>& value) { return write_array(value, write_box); }};
-}
-
-Value<std::optional<PlanExtent>> extent_given()
-{
-    const auto write = [](const std::optional<PlanExtent>& value)
-    {
-        const auto corner = [](const std::array<double, 2>& at) { return write_array(at, write_number); };
-        return value ? write_array(*value, corner) : std::string();
-    };
-    return {"[[x, y], [x, y]], the second above the first in both",
-            [](const Node& node) -> std::optional<PlanExtent> { return read_extent(node); }, write};
 }
 
 Value<double> length_unit()

@@ -58,6 +58,9 @@ std::int64_t read_integer(const Node& node, std::int64_t low, std::int64_t high)
 /// Reads a string. BadValue if `node` is not one.
 const std::string& read_string(const Node& node);
 
+/// Elements of an array. BadValue if `node` is not one.
+const NodeArray& read_list(const Node& node);
+
 /// Elements of an array. BadValue unless there are `size` of them.
 const NodeArray& read_array(const Node& node, std::size_t size);
 
@@ -83,6 +86,19 @@ Value<std::optional<std::int64_t>> integer_given(std::int64_t low, std::int64_t 
 
 /// Three numbers, each in range.
 Value<Vector3> vector3(Range range);
+
+/// Two numbers, each in range.
+Value<Vector2> vector2(Range range);
+
+/// Two numbers, each in range; absence gives an empty optional.
+Value<std::optional<Vector2>> vector2_given(Range range);
+
+/// A vector other than 0, of any length; absence of the second gives an empty optional.
+Value<Vector3>                direction();
+Value<std::optional<Vector3>> direction_given();
+
+/// Rows of a rotation, orthonormal to 1e-6; absence gives an empty optional.
+Value<std::optional<Matrix3>> rotation_given();
 
 /// true or false.
 Value<bool> boolean();

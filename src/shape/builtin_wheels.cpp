@@ -65,6 +65,18 @@ std::vector<scene::Shape> builtin_wheels()
             {"viper", viper(), 160, 0}};
 }
 
+/// Looks up the shapes of an assembly's parts, of a family of rocks its first.
+scene::Shape with_parts(const scene::Scene& scene, scene::Shape shape)
+{
+    const auto* assembly = std::get_if<scene::Assembly>(&shape.source);
+    if (assembly == nullptr) { return shape; }
+    for (const scene::AssemblyPart& part : assembly->parts)
+    {
+        shape.parts.push_back(members(find_shape(scene, part.shape)).front());
+    }
+    return shape;
+}
+
 } // namespace
 
 std::vector<std::string> builtin_shape_names()
@@ -80,7 +92,7 @@ scene::Shape find_shape(const scene::Scene& scene, const std::string& name)
     const std::vector<scene::Shape> builtins = builtin_wheels();
     known.insert(known.end(), builtins.begin(), builtins.end());
     const auto found = std::find_if(known.begin(), known.end(), [&](const scene::Shape& s) { return s.name == name; });
-    if (found != known.end()) { return *found; }
+    if (found != known.end()) { return with_parts(scene, *found); }
 
     std::vector<std::string> names;
     names.reserve(known.size());

@@ -12,14 +12,6 @@ namespace tread::shape
 namespace
 {
 
-double angle_at(const TriangleMesh& mesh, std::size_t triangle, std::size_t which)
-{
-    const Eigen::Vector3d& apex  = corner(mesh, triangle, which);
-    const Eigen::Vector3d  left  = corner(mesh, triangle, (which + 1) % 3) - apex;
-    const Eigen::Vector3d  right = corner(mesh, triangle, (which + 2) % 3) - apex;
-    return std::atan2(left.cross(right).norm(), left.dot(right));
-}
-
 std::vector<Eigen::Vector3d> face_normals(const TriangleMesh& mesh)
 {
     std::vector<Eigen::Vector3d> normals;

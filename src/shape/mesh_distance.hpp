@@ -16,8 +16,9 @@ namespace tread::shape
 /// Method that determines the sign of a distance.
 enum class SignRule
 {
-    pseudonormal,  ///< at the closest face, edge or vertex, weighted by angle (Baerentzen & Aanaes 2005, TVCG 11:243)
-    winding_number ///< negative where the winding number exceeds 1/2
+    pseudonormal,   ///< at the closest face, edge or vertex, weighted by angle (Baerentzen & Aanaes 2005, TVCG 11:243)
+    winding_number, ///< negative where the winding number exceeds 1/2
+    any_part        ///< negative inside any of several solids (united.hpp)
 };
 
 /// Precomputed data for signed distances to a mesh.

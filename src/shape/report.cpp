@@ -24,6 +24,19 @@ std::string storage_text(const SignedDistanceGrid& sdf)
     return fmt::format("{} of {} bricks fine", sdf.values.size() / (n * n * n), sdf.slots.size());
 }
 
+std::string sign_text(SignRule sign)
+{
+    switch (sign)
+    {
+    case SignRule::pseudonormal:
+        return "yes";
+    case SignRule::winding_number:
+        return "no, signed by winding number";
+    default:
+        return "each part, of whose union this is the boundary";
+    }
+}
+
 } // namespace
 
 std::string template_text(const ShapeTemplate& form)
@@ -33,8 +46,7 @@ std::string template_text(const ShapeTemplate& form)
     const auto& nodes = form.sdf.nodes;
 
     std::string text = fmt::format("shape           {}\n", form.name);
-    text += fmt::format("watertight      {}: {} vertices, {} triangles\n",
-                        form.sign == SignRule::pseudonormal ? "yes" : "no, signed by winding number",
+    text += fmt::format("watertight      {}: {} vertices, {} triangles\n", sign_text(form.sign),
                         form.mesh.vertices.size(), form.mesh.triangles.size());
     for (const std::string& remark : form.remarks) { text += fmt::format("remark          {}\n", remark); }
     text += fmt::format("extent          {} m\n", vector_text(form.box.extent()));

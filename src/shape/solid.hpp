@@ -23,8 +23,9 @@ struct Solid
     TriangleMesh             surface; ///< bounds the solid
     TriangleMesh             parts;   ///< with winding numbers: all triangles that define the inside; else empty
     SignRule                 sign;
-    MassProperties           unit;    ///< density 1, in the frame of the mesh
-    std::vector<std::string> remarks; ///< changes to the mesh and their meaning, one line each
+    MassProperties           unit;        ///< density 1, in the frame of the mesh
+    std::vector<std::string> remarks;     ///< changes to the mesh and their meaning, one line each
+    std::vector<Solid>       united = {}; ///< with SignRule::any_part: the solids that it is the union of
 };
 
 /// Makes a solid of a user's mesh. A closed one whose parts do not meet is used unchanged, with pseudonormals and exact

@@ -14,11 +14,22 @@ namespace tread::shape
 namespace
 {
 
-/// Number of sharp edges at each vertex.
-std::vector<int> count_sharp_edges(const TriangleMesh& mesh)
+/// Edges at each vertex.
+struct EdgeCounts
 {
-    const double     sharp_cosine = std::cos(40.0 / 180.0 * 3.14159265358979323846);
-    std::vector<int> counts(mesh.vertices.size(), 0);
+    std::vector<int> sharp;
+    std::vector<int> unpaired; ///< with other than two triangles, as along seams of different refinement
+};
+
+EdgeCounts count_edges(const TriangleMesh& mesh)
+{
+    const double sharp_cosine = std::cos(40.0 / 180.0 * 3.14159265358979323846);
+    EdgeCounts   counts{std::vector<int>(mesh.vertices.size(), 0), std::vector<int>(mesh.vertices.size(), 0)};
+    const auto   count = [](std::vector<int>& of, const auto& half)
+    {
+        ++of[static_cast<std::size_t>(half->low)];
+        ++of[static_cast<std::size_t>(half->high)];
+    };
     for_each_edge(sorted_half_edges(mesh),
                   [&](auto first, auto last)
                   {
@@ -26,19 +37,38 @@ std::vector<int> count_sharp_edges(const TriangleMesh& mesh)
                           area_vector(mesh, static_cast<std::size_t>(first->triangle)).normalized();
                       const Eigen::Vector3d other =
                           area_vector(mesh, static_cast<std::size_t>((last - 1)->triangle)).normalized();
-                      if (one.dot(other) >= sharp_cosine) { return; }
-                      ++counts[static_cast<std::size_t>(first->low)];
-                      ++counts[static_cast<std::size_t>(first->high)];
+                      if (last - first != 2) { count(counts.unpaired, first); }
+                      if (one.dot(other) < sharp_cosine) { count(counts.sharp, first); }
                   });
     return counts;
 }
 
+/// Sum (rad) of the angles of the triangles at each vertex: 2 pi on a smooth surface, less at a tip.
+std::vector<double> sum_angles(const TriangleMesh& mesh)
+{
+    std::vector<double> sums(mesh.vertices.size(), 0.0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            sums[static_cast<std::size_t>(mesh.triangles[t][c])] += angle_at(mesh, t, c);
+        }
+    }
+    return sums;
+}
+
 std::vector<Sharpness> sharpness(const TriangleMesh& mesh)
 {
-    std::vector<Sharpness> kinds;
-    for (const int edges : count_sharp_edges(mesh))
+    constexpr double          tip    = 1.05 * 3.14159265358979323846; ///< rad: a cone with an apex angle of 63 degrees
+    const EdgeCounts          edges  = count_edges(mesh);
+    const std::vector<double> angles = sum_angles(mesh);
+    std::vector<Sharpness>    kinds;
+    for (std::size_t v = 0; v < angles.size(); ++v)
     {
-        kinds.push_back(edges == 0 ? Sharpness::smooth : edges == 2 ? Sharpness::edge : Sharpness::corner);
+        const int  sharp   = edges.sharp[v];
+        const bool pointed = sharp == 0 && edges.unpaired[v] == 0 && angles[v] < tip;
+        const bool corner  = sharp == 1 || sharp > 2 || pointed;
+        kinds.push_back(corner ? Sharpness::corner : sharp == 2 ? Sharpness::edge : Sharpness::smooth);
     }
     return kinds;
 }

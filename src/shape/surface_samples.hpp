@@ -13,7 +13,7 @@ namespace tread::shape
 /// Sharpness of a sample, in the order in which samples receive nodes.
 enum class Sharpness
 {
-    corner, ///< vertex where the number of sharp edges is not two
+    corner, ///< vertex where the number of sharp edges is not two, or the tip of a cone of at most 63 degrees
     edge,   ///< dihedral angle of 40 degrees and more
     smooth
 };

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 #include <variant>
 
-#include <fmt/format.h>
-
-#include "shape/generators.hpp"
 #include "shape/hull_depth.hpp"
-#include "shape/solid.hpp"
+#include "shape/source_solid.hpp"
 #include "shape/surface_nodes.hpp"
 #include "shape/template_sdf.hpp"
+#include "shape/tools.hpp"
 #include "shape/triangle.hpp"
+#include "shape/united.hpp"
 
 namespace tread::shape
 {
@@ -21,37 +19,6 @@ namespace
 {
 
 constexpr double pi = 3.14159265358979323846;
-
-/// Exact sphere: volume pi/6 and moment of inertia 2/5 V r^2, r = 1/2 m.
-MassProperties exact_sphere() { return {pi / 6, Eigen::Vector3d::Zero(), pi / 60 * Eigen::Matrix3d::Identity()}; }
-
-struct MakeSolid
-{
-    std::string origin;
-    std::string directory;
-
-    Solid operator()(const scene::RockGenerator& rock) const { return closed(rock_mesh(rock, origin)); }
-    Solid operator()(const scene::SphereGenerator& sphere) const
-    {
-        Solid solid = closed(sphere_mesh(sphere, origin));
-        solid.unit  = exact_sphere();
-        return solid;
-    }
-    Solid operator()(const scene::WheelGenerator& wheel) const { return closed(wheel_mesh(wheel, origin)); }
-    Solid operator()(const scene::MeshFile& file) const
-    {
-        const std::string path = (std::filesystem::path(directory) / file.path).string();
-        return make_solid(read_mesh(path, file.unit), file.repair ? Repair::tried : Repair::none,
-                          fmt::format("{}, file {}", origin, path));
-    }
-
-    Solid closed(TriangleMesh mesh) const
-    {
-        require_watertight(mesh, origin);
-        const MassProperties unit = mass_properties(mesh);
-        return {std::move(mesh), {}, SignRule::pseudonormal, unit, {}};
-    }
-};
 
 /// Projects nodes of an inscribed mesh onto the sphere of diameter 1 m.
 SurfaceNodes on_sphere(SurfaceNodes nodes, const TriangleMesh& mesh)
@@ -86,6 +53,13 @@ struct MakeNodes
     }
     SurfaceNodes operator()(const scene::WheelGenerator& wheel) const { return resampled(wheel.radius / 32); }
     SurfaceNodes operator()(const scene::MeshFile&) const { return resampled(bounds(mesh).extent().maxCoeff() / 40); }
+    SurfaceNodes operator()(const scene::Assembly&) const { return resampled(bounds(mesh).extent().maxCoeff() / 40); }
+
+    template<class Tool>
+    SurfaceNodes operator()(const Tool& tool) const
+    {
+        return resampled(tool_spacing(tool));
+    }
 
     SurfaceNodes resampled(double usual) const { return resample(mesh, spacing > 0 ? spacing : usual); }
 };
@@ -106,17 +80,14 @@ ShapeTemplate make_template(const scene::Shape& shape, const std::string& direct
 
 MeasuredTemplate make_measured_template(const scene::Shape& shape, const std::string& directory, const Reach& reach)
 {
-    const std::string origin = fmt::format("shape '{}'", shape.name);
-
     ShapeTemplate result{};
     result.name = shape.name;
-    Solid solid = std::visit(MakeSolid{origin, directory}, shape.source);
+    Solid solid = solid_of(shape, directory);
 
     result.unit        = solid.unit;
     result.mesh_centre = result.unit.centre;
     result.unit.centre.setZero();
-    for (Eigen::Vector3d& vertex : solid.surface.vertices) { vertex -= result.mesh_centre; }
-    for (Eigen::Vector3d& vertex : solid.parts.vertices) { vertex -= result.mesh_centre; }
+    place(solid, {1, Eigen::Matrix3d::Identity(), -result.mesh_centre});
 
     result.mesh                     = solid.surface;
     result.sign                     = solid.sign;

@@ -93,7 +93,8 @@ struct ShapeTemplate
 /// Names of the built-in wheels, which a scene may use without a [[shape]] table.
 std::vector<std::string> builtin_shape_names();
 
-/// The scene's shape called `name`, or the built-in one; InputError if there is none.
+/// The scene's shape called `name`, with the shapes of its parts if it is an assembly, or the built-in one; InputError
+/// if there is none.
 scene::Shape find_shape(const scene::Scene& scene, const std::string& name);
 
 /// One shape for each rock of a family, named "clast-0", "clast-1" ..., with seeds derived from the family's; the first

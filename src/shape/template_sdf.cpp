@@ -8,6 +8,7 @@
 
 #include "shape/thickness.hpp"
 #include "shape/triangle.hpp"
+#include "shape/united.hpp"
 
 namespace tread::shape
 {
@@ -64,6 +65,24 @@ int cells_that_do(const ShapeTemplate& form, const SignedDistance& distance)
     return 0;
 }
 
+/// Cells for the thinnest wall or, where these lose over 2 % of the volume at its edges, as many more as do not.
+int volume_cells(const TemplateDistance& distance, ShapeTemplate& form)
+{
+    form.sdf_cells     = wall_cells(*distance.mesh, form);
+    const double ratio = enclosed_volume_with(bounds(form.mesh), form.sdf_cells, distance.function) / form.unit.volume;
+    if (std::abs(ratio - 1) <= volume_tolerance) { return form.sdf_cells; }
+    const int enough = cells_that_do(form, distance.function);
+    return enough > 0 ? enough : form.sdf_cells;
+}
+
+int usual_cells(const scene::Shape& shape, const TemplateDistance& distance, ShapeTemplate& form)
+{
+    if (is_stone(shape)) { return stone_cells(shape, form); }
+    const bool rim_or_file = std::holds_alternative<scene::WheelGenerator>(shape.source) ||
+                             std::holds_alternative<scene::MeshFile>(shape.source);
+    return rim_or_file ? wall_cells(*distance.mesh, form) : volume_cells(distance, form);
+}
+
 void warn_of_volume(const SignedDistance& distance, ShapeTemplate& form)
 {
     if (std::abs(form.sdf_volume_ratio - 1) <= volume_tolerance) { return; }
@@ -89,6 +108,13 @@ TemplateDistance distance_of(const scene::Shape& shape, const Solid& solid)
     {
         return {nullptr, [](const Eigen::Vector3d& point, double) { return point.norm() - 0.5; }};
     }
+    if (solid.sign == SignRule::any_part)
+    {
+        const auto united = std::make_shared<const UnitedDistance>(prepare_united_distance(solid));
+        const auto boundary =
+            std::make_shared<const MeshDistance>(MeshDistance{SignRule::any_part, united->boundary, {}, {}});
+        return {boundary, [united](const Eigen::Vector3d& point, double) { return signed_distance(*united, point); }};
+    }
     auto prepared = std::make_shared<const MeshDistance>(prepare_distance(solid));
     return {prepared, [&of = *prepared](const Eigen::Vector3d& point, double within)
             { return signed_distance(of, point, within); }};
@@ -96,8 +122,7 @@ TemplateDistance distance_of(const scene::Shape& shape, const Solid& solid)
 
 void add_sdf(const scene::Shape& shape, const TemplateDistance& distance, double reach, ShapeTemplate& form)
 {
-    if (shape.sdf_cells) { form.sdf_cells = static_cast<int>(*shape.sdf_cells); }
-    else { form.sdf_cells = is_stone(shape) ? stone_cells(shape, form) : wall_cells(*distance.mesh, form); }
+    form.sdf_cells        = shape.sdf_cells ? static_cast<int>(*shape.sdf_cells) : usual_cells(shape, distance, form);
     form.sdf              = build_sdf(bounds(form.mesh), form.sdf_cells, distance.function, reach);
     form.sdf_volume_ratio = enclosed_volume(form.sdf) / form.unit.volume;
     warn_of_volume(distance.function, form);

@@ -37,8 +37,8 @@ MeasuredTemplate make_measured_template(const scene::Shape& shape, const std::st
 
 /// Fills sdf, sdf_cells, sdf_volume_ratio, and warnings about them, of a template with mesh and unit. The number of
 /// cells is the shape's sdf_cells, or as its thinnest wall requires (at most 512), or as a stone's nodes require (40 to
-/// 64). If the volume is off by more than 2 %, the warning names a sufficient number of cells, up to 512, found by
-/// trial.
+/// 64). A tool or an assembly takes more than for its walls if they would lose over 2 % of its volume. If the volume is
+/// off by more than 2 %, the warning names a sufficient number of cells, up to 512, found by trial.
 void add_sdf(const scene::Shape& shape, const TemplateDistance& distance, double reach, ShapeTemplate& form);
 
 } // namespace tread::shape

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Core>
@@ -36,6 +37,15 @@ inline Eigen::Vector3d area_vector(const TriangleMesh& mesh, std::size_t triangl
 {
     const Eigen::Vector3d& a = corner(mesh, triangle, 0);
     return (corner(mesh, triangle, 1) - a).cross(corner(mesh, triangle, 2) - a);
+}
+
+/// Angle (rad) of a triangle at one of its corners.
+inline double angle_at(const TriangleMesh& mesh, std::size_t triangle, std::size_t which)
+{
+    const Eigen::Vector3d& apex  = corner(mesh, triangle, which);
+    const Eigen::Vector3d  left  = corner(mesh, triangle, (which + 1) % 3) - apex;
+    const Eigen::Vector3d  right = corner(mesh, triangle, (which + 2) % 3) - apex;
+    return std::atan2(left.cross(right).norm(), left.dot(right));
 }
 
 /// Whether the triangle has no usable normal: single-precision corners locate the height of a sliver to some 1e-7 of

@@ -54,6 +54,19 @@ double bounding_radius(const World& world, std::size_t body)
     return form_of(world, body).bounding_radius * world.bodies.scale[body];
 }
 
+shape::Bounds turned_box(const World& world, std::size_t body)
+{
+    const auto&        vertices = form_of(world, body).mesh.vertices;
+    const Mat3<double> turn     = world.bodies.orientation[body].toRotationMatrix();
+    shape::Bounds      box{turn * vertices.front(), turn * vertices.front()};
+    for (const Vec3<double>& vertex : vertices)
+    {
+        const Vec3<double> place = turn * vertex;
+        box                      = {box.low.cwiseMin(place), box.high.cwiseMax(place)};
+    }
+    return box;
+}
+
 double distance(const World& world, std::size_t body, const Vec3<double>& x)
 {
     const HostBodies&  bodies = world.bodies;

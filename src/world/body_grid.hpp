@@ -11,6 +11,9 @@ namespace tread::world
 
 double bounding_radius(const World& world, std::size_t body);
 
+/// Box around a body's mesh along the world's axes, about its centre of mass, m at scale 1.
+shape::Bounds turned_box(const World& world, std::size_t body);
+
 /// Signed distance (m) from a point (world frame) to a body's surface, negative inside.
 double distance(const World& world, std::size_t body, const Vec3<double>& x);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "world/body_grid.hpp"
+
 namespace tread::world
 {
 namespace
@@ -108,14 +110,14 @@ Footing footing_of(const scene::Scene& scene, const World& world, std::size_t b)
 {
     const auto&  form    = form_of(world, b);
     const double scale   = world.bodies.scale[b];
-    const auto   extent  = form.box.extent();
+    const auto   extent  = turned_box(world, b).extent();
     const double gravity = Vec3<double>(scene.domain.gravity.data()).norm();
     Footing      footing{};
     footing.body   = b;
     footing.driven = is_driven(scene, scene.bodies[b]);
     footing.load   = world.bodies.mass[b] * gravity;
     footing.radius = scale * (form.is_wheel ? form.wheel.radius : 0.5 * extent[2]);
-    footing.width  = scale * extent[1];
+    footing.width  = scale * (form.is_wheel ? form.box.extent()[1] : extent[1]);
     footing.ground = ground_under(scene, footing, world);
     footing.gap    = gap_of(footing, world);
     footing.patch  = patch_of(footing, scene, form);

@@ -10,6 +10,7 @@
 #include "world/body_grid.hpp"
 #include "world/cover.hpp"
 #include "world/on_surface.hpp"
+#include "world/orientation.hpp"
 
 namespace tread::world
 {
@@ -34,21 +35,14 @@ double body_mass(const scene::Scene& scene, const scene::Body& body, const shape
     return *body.density * form.unit.volume * std::pow(body_scale(body, form), 3);
 }
 
-/// Lowest and highest corner of a named body in the world frame, from its mesh.
-shape::Bounds world_bounds(const World& world, std::size_t body)
-{
-    const auto&         form  = world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
-    const double        scale = world.bodies.scale[body];
-    const Vec3<double>& at    = world.bodies.position[body];
-    return {scale * form.box.low + at, scale * form.box.high + at};
-}
-
 std::string body_table(const scene::Body& body) { return "body." + body.name; }
 
 void require_clear_of_walls(const scene::Body& body, std::size_t index, const World& world)
 {
-    const auto          box = world_bounds(world, index);
-    const Vec3<double>& at  = world.bodies.position[index];
+    const Vec3<double>& at     = world.bodies.position[index];
+    const double        scale  = world.bodies.scale[index];
+    const shape::Bounds turned = turned_box(world, index);
+    const shape::Bounds box{scale * turned.low + at, scale * turned.high + at};
     for (const dem::Plane& plane : world.planes)
     {
         double nearest = 0;
@@ -78,7 +72,7 @@ void add_body(const scene::Scene& scene, const scene::Body& body, World& world)
     HostBodies&        bodies = world.bodies;
     bodies.position.emplace_back(body.position[0], body.position[1], body.position[2]);
     if (body.on_surface) { bodies.position.back()[2] = out_of_the_way(scene, bodies.size()); }
-    bodies.orientation.push_back(Quat::Identity());
+    bodies.orientation.push_back(rotation_of(body.orientation));
     bodies.velocity.emplace_back(body.velocity[0], body.velocity[1], body.velocity[2]);
     bodies.mass.push_back(body_mass(scene, body, form));
     bodies.scale.push_back(scale);

@@ -99,6 +99,11 @@ class Commands(CommandTest):
         self.assertNotIn(-1, places, page)
         self.assertEqual(places, sorted(places), page)
 
+    def test_check_reports_the_slope_that_a_scene_gives(self):
+        slope = "gravity_size = 3.71\nslope_deg = 12\nslope_direction_deg = 90"
+        scene = self.write("scene.toml", SCENE.replace("gravity = [0.0, 0.0, -9.81]", slope))
+        self.assertIn("gravity 3.71 m/s2, a slope of 12 degrees that rises along [0, 1]", self.tread("check", scene).stdout)
+
     def test_check_shows_how_a_scene_falls_to_ranks(self):
         scene = self.write("scene.toml", SCENE + BODY)
         self.assertIn("partition: one rank", self.tread("check", scene).stdout)
@@ -164,6 +169,27 @@ class Commands(CommandTest):
         self.assertIn("has 2 [[shape]] tables: --shape NAME says which", self.tread("sdf", two).stderr)
         self.assertRegex(self.tread("sdf", two, "--shape", "ball").stdout, r"shape +ball\n")
         self.assertEqual(self.tread("sdf", "perseverance", "--shape", "ball").returncode, 2)
+
+    def test_sdf_of_tools_and_of_what_is_assembled_of_them(self):
+        pin = SCENE + """
+[[shape]]
+name = "pin"
+generate = { kind = "cylinder", radius = 0.01, length = 0.1 }
+[[shape]]
+name = "cross"
+sdf_cells = 64
+assemble = [ { shape = "pin" }, { shape = "pin", axis = [1, 0, 0], angle_deg = 90 } ]
+"""
+        scene = self.write("pins.toml", pin)
+        one, two = (self.tread("sdf", scene, "--shape", name) for name in ("pin", "cross"))
+        self.assertRegex(one.stdout, r"watertight +yes: \d+ vertices")
+        self.assertRegex(two.stdout, r"watertight +each part, of whose union this is the boundary: \d+ vertices")
+        self.assertIn("union of 2 solids", two.stdout)
+        volumes = [float(re.search(r"volume +(\S+) m3", text.stdout)[1]) for text in (one, two)]
+        # Steinmetz's solid, 16/3 r^3, counts once; it is 9 % of the volume and sampled to 2 %.
+        self.assertAlmostEqual(volumes[1] / (2 * volumes[0] - 16 / 3 * 1e-6), 1, delta=2e-3)
+        alone = re.sub(r"generate +=.*", 'assemble = [ { shape = "spirit", scale = 0.5 } ]', SCENE)
+        self.assertIn("union of 1 solids", self.tread("sdf", self.write("alone.toml", alone)).stdout)
 
     def test_sdf_warns_of_a_lost_volume(self):
         result = self.tread("sdf", "perseverance", "--cells", "60")

@@ -286,6 +286,10 @@ class Answers(unittest.TestCase):
         self.assertIn("mass or load", FORMS["weight"].needs({"body": [{"density": 1.0}]}))
         self.assertEqual(FORMS["weight"].needs({"body": [{"mass": 1.0}]}), "")
         self.assertIn("leans", FORMS["rolling-ball"].needs({"body": [{"diameter": 1, "mass": 1}], "domain": {"gravity": [0, 0, -9.8]}}))
+        ball = {"body": [{"diameter": 1, "mass": 1}], "domain": {"gravity_size": 9.8, "slope_deg": -5}}
+        self.assertEqual(FORMS["rolling-ball"].needs(ball), "")
+        ball["domain"]["slope_direction_deg"] = 90
+        self.assertIn("leans", FORMS["rolling-ball"].needs(ball))
 
 
 class Options(unittest.TestCase):

@@ -172,7 +172,7 @@ const std::vector<BadCase> cross_cases{
     {"both_stops", "max_duration = 1", "max_duration = 1\nduration = 1", 54,
      "[phase.settle] duration: may stand only with until = \"duration\""},
     {"mesh_and_generator", "seed = 3 }", "seed = 3 }\nfile = \"bad.toml\"", 29,
-     "accepted: exactly one of file, generate"},
+     "found file and generate; accepted: exactly one of file, generate, assemble"},
     {"unit_of_generator", "seed = 3 }", "seed = 3 }\nunit = \"mm\"", 32, "unit: may stand only with `file`"},
     {"mesh_missing", "generate = { kind = \"rock\", seed = 3 }", "file = \"none.stl\"", 31,
      "[shape.clast] file: there is no file "},
@@ -183,6 +183,75 @@ const std::vector<BadCase> cross_cases{
     {"grousers_overlap", "kind = \"rock\", seed = 3", "kind = \"wheel\", grousers = 900", 31, "the grousers overlap"},
     {"grouser_shape", "kind = \"rock\", seed = 3", "kind = \"wheel\", grouser_shape = \"zigzag\"", 31,
      "accepted: \"straight\" | \"chevron\" | \"curved\""},
+    {"box_without_its_size", "kind = \"rock\", seed = 3", "kind = \"box\"", 31,
+     "[shape.clast.generate] size: missing; accepted: [x, y, z], each a number >= 1e-06"},
+    {"plate_round_and_square", "kind = \"rock\", seed = 3",
+     "kind = \"plate\", radius = 1, size = [1, 1], thickness = 1", 31,
+     "[shape.clast] generate: both radius and size; accepted: exactly one of radius, size"},
+    {"plate_of_no_form", "kind = \"rock\", seed = 3", "kind = \"plate\", thickness = 1", 31, "neither radius nor size"},
+    {"flat_cone", "kind = \"rock\", seed = 3", "kind = \"cone\", apex_angle_deg = 180, base_radius = 0.01", 31,
+     "[shape.clast.generate] apex_angle_deg: 180 is out of range; accepted: number >= 5 and <= 170 (deg)"},
+    {"shaft_wider_than_its_cone", "kind = \"rock\", seed = 3",
+     "kind = \"cone\", base_radius = 0.01, shaft_radius = 0.02, shaft_length = 1", 31,
+     "shaft_radius = 0.02 is more than the base; accepted: 0 to base_radius = 0.01 (m)"},
+    {"shaft_without_length", "kind = \"rock\", seed = 3", "kind = \"cone\", base_radius = 0.01, shaft_radius = 0.01",
+     31, "shaft_radius = 0.01 with shaft_length = 0; accepted: both, or neither, above 0"},
+    {"ring_without_width", "kind = \"rock\", seed = 3",
+     "kind = \"ring\", inner_radius = 0.1, outer_radius = 0.1, height = 0.01", 31,
+     "inner_radius = 0.1 leaves no ring; accepted: at most 0.0999 (m) with outer_radius = 0.1"},
+    {"vanes_of_no_height", "kind = \"rock\", seed = 3",
+     "kind = \"ring\", inner_radius = 0.05, outer_radius = 0.1, height = 0.01, vanes = 8, vane_thickness = 0.002", 31,
+     "[shape.clast.generate] vane_height: missing"},
+    {"vanes_that_meet", "kind = \"rock\", seed = 3",
+     "kind = \"ring\", inner_radius = 0.05, outer_radius = 0.1, height = 0.01, vanes = 8, vane_thickness = 0.04, "
+     "vane_height = 0.01",
+     31, "vane_thickness = 0.04: the vanes meet; accepted: at most 0.03444 (m) with 8 vanes at inner_radius = 0.05"},
+    {"vane_height_without_vanes", "kind = \"rock\", seed = 3",
+     "kind = \"ring\", inner_radius = 0.05, outer_radius = 0.1, height = 0.01, vane_height = 0.01", 31,
+     "[shape.clast.generate] vane_height: may stand only with `vanes` over 0"},
+    {"solid_tube", "kind = \"rock\", seed = 3", "kind = \"tube\", radius = 0.1, wall_thickness = 0.1, length = 1", 31,
+     "wall_thickness = 0.1 is out of range; accepted: 0.0001 to 0.0999 (m) with radius = 0.1"},
+    {"tray_filled_by_its_floor", "kind = \"rock\", seed = 3",
+     "kind = \"frame\", inner_size = [0.1, 0.1], height = 0.05, wall_thickness = 0.01, floor_thickness = 0.05", 31,
+     "floor_thickness = 0.05 fills the frame; accepted: below height = 0.05 (m)"},
+    {"assembly_of_nothing", "generate = { kind = \"rock\", seed = 3 }", "assemble = []", 31,
+     "[shape.clast] assemble: 0 parts; accepted: array of 1 to 100 tables"},
+    {"assembly_of_one_table", "generate = { kind = \"rock\", seed = 3 }", "assemble = { shape = \"viper\" }", 31,
+     "[shape.clast] assemble: wrong type: a table"},
+    {"part_without_shape", "generate = { kind = \"rock\", seed = 3 }", "assemble = [ { at = [0, 0, 0] } ]", 31,
+     "[shape.clast.assemble.0] shape: missing"},
+    {"part_without_axis", "generate = { kind = \"rock\", seed = 3 }",
+     "assemble = [ { shape = \"viper\" },\n{ shape = \"viper\", axis = [0, 0, 0] } ]", 32,
+     "[shape.clast.assemble.1] axis: has no direction; accepted: [x, y, z], longer than 1e-6"},
+    {"part_unknown", "generate = { kind = \"rock\", seed = 3 }", "assemble = [ { shape = \"vipper\" } ]", 31,
+     "[shape.clast.assemble.0] shape: there is no shape called \"vipper\"; did you mean \"viper\"?"},
+    {"assembly_of_itself", "generate = { kind = \"rock\", seed = 3 }", "assemble = [ { shape = \"clast\" } ]", 31,
+     "[shape.clast.assemble.0] shape: \"clast\" would contain itself; accepted: a shape without this one in it"},
+    {"assembly_and_generator", "seed = 3 }", "seed = 3 }\nassemble = [ { shape = \"viper\" } ]", 29,
+     "found generate and assemble; accepted: exactly one of file, generate, assemble"},
+    {"axis_and_yaw", "position = [0.5", "axis = [0, 0, 1]\nangle_deg = 3\nyaw_deg = 3\nposition = [0.5", 50,
+     "[body.wheel] yaw_deg: found axis and angle_deg and yaw_deg; accepted: one of axis with angle_deg, rows, yaw_deg"},
+    {"axis_without_angle", "position = [0.5", "axis = [0, 0, 1]\nposition = [0.5", 43,
+     "[body.wheel] angle_deg: missing; `axis` needs it"},
+    {"angle_without_axis", "position = [0.5", "angle_deg = 1\nposition = [0.5", 43,
+     "[body.wheel] axis: missing; `angle_deg` needs it"},
+    {"axis_of_no_length", "position = [0.5", "axis = [0, 0, 1e-9]\nangle_deg = 1\nposition = [0.5", 48,
+     "[body.wheel] axis: has no direction"},
+    {"rows_too_long", "position = [0.5", "rows = [[1, 0, 0], [0, 1, 0], [0, 0, 1.00001]]\nposition = [0.5", 48,
+     "[body.wheel] rows: row 2 has a length of 1.00001; accepted: three rows [x, y, z], perpendicular unit vectors"},
+    {"rows_askew", "position = [0.5", "rows = [[1, 0, 0], [0.6, 0.8, 0], [0, 0, 1]]\nposition = [0.5", 48,
+     "[body.wheel] rows: rows 0 and 1 are not perpendicular: their product is 0.6"},
+    {"rows_of_a_reflection", "position = [0.5", "rows = [[1, 0, 0], [0, 1, 0], [0, 0, -1]]\nposition = [0.5", 48,
+     "[body.wheel] rows: the rows are left-handed"},
+    {"gravity_twice", "gravity = [0, 0, -9.81]", "gravity = [0, 0, -9.81]\ngravity_size = 9.81", 4,
+     "[domain] gravity: may stand only with `gravity_size` left out"},
+    {"no_gravity", "gravity = [0, 0, -9.81]", "", 2, "[domain] gravity: missing; accepted: [x, y, z]"},
+    {"slope_without_gravity", "gravity = [0, 0, -9.81]", "gravity = [0, 0, -9.81]\nslope_deg = 3", 5,
+     "[domain] slope_deg: may stand only with `gravity_size` given"},
+    {"gravity_below_zero", "gravity = [0, 0, -9.81]", "gravity_size = -9.81", 4,
+     "[domain] gravity_size: -9.81 is out of range; accepted: number >= 0 and <= 10000 (m/s2)"},
+    {"slope_beyond_a_wall", "gravity = [0, 0, -9.81]", "gravity_size = 9.81\nslope_deg = 91", 5,
+     "[domain] slope_deg: 91 is out of range; accepted: number >= -90 and <= 90 (deg)"},
     {"coarse_grid", "spacing = 0.05", "spacing = 2", 6,
      "2 is more than the domain; accepted: number >= 1e-06 and <= 1 (m)"},
     {"too_many_cells", "size = [1, 1.0, 1]\ngravity = [0, 0, -9.81]\n[grid]\nspacing = 0.05",
@@ -199,6 +268,46 @@ std::string case_name(const ::testing::TestParamInfo<BadCase>& info) { return in
 
 INSTANTIATE_TEST_SUITE_P(Key, BadInput, ::testing::ValuesIn(key_cases), case_name);
 INSTANTIATE_TEST_SUITE_P(Cross, BadInput, ::testing::ValuesIn(cross_cases), case_name);
+
+/// Shapes a, b, c, each an assembly of the next, and c of `last`.
+std::string chain(const std::string& last)
+{
+    return good_scene +
+           "[[shape]]\nname = \"a\"\nassemble = [ { shape = \"b\" } ]\n[[shape]]\nname = \"b\"\nassemble = [ "
+           "{ shape = \"viper\" }, { shape = \"c\" } ]\n[[shape]]\nname = \"c\"\nassemble = [ { shape = \"" +
+           last + "\" } ]\n";
+}
+
+TEST(BadInput, assemblies_in_a_circle)
+{
+    EXPECT_EQ(refusal(chain("clast")), "");
+    EXPECT_THAT(refusal(chain("b")), HasSubstr("bad.toml:66: [shape.c.assemble.0] shape: \"b\" would contain itself"));
+    EXPECT_THAT(refusal(chain("a")), HasSubstr("bad.toml:66: [shape.c.assemble.0] shape: \"a\" would contain itself"));
+}
+
+TEST(BadInput, assemblies_of_ever_more_parts)
+{
+    const auto text = [](int levels)
+    {
+        std::string scene = good_scene, ten;
+        for (int i = 0; i < 10; ++i) { ten += (i > 0 ? ", " : "") + std::string("{ shape = \"LAST\" }"); }
+        std::string last = "viper";
+        for (int level = 0; level < levels; ++level)
+        {
+            std::string parts = ten;
+            for (auto at = parts.find("LAST"); at != std::string::npos; at = parts.find("LAST"))
+            {
+                parts.replace(at, 4, last);
+            }
+            last = "level" + std::to_string(level);
+            scene += "[[shape]]\nname = \"" + last + "\"\nassemble = [ " + parts + " ]\n";
+        }
+        return scene;
+    };
+    EXPECT_EQ(refusal(text(3)), "");
+    // 10^4 parts in the fourth, on line 58 + 3 * 3 + 2.
+    EXPECT_THAT(refusal(text(4)), HasSubstr("bad.toml:69: [shape.level3] assemble: its parts are over 1000"));
+}
 
 TEST(BadInput, places_of_points_without_terrain)
 {

@@ -77,6 +77,33 @@ repair = true
 name = "e"
 file = "mesh.stl"
 unit = 0.3048
+[[shape]]
+name = "box"
+generate = { kind = "box", size = [0.1, 0.2, 0.3] }
+[[shape]]
+name = "square"
+generate = { kind = "plate", size = [0.1, 0.2], thickness = 0.01 }
+[[shape]]
+name = "disc"
+generate = { kind = "plate", radius = 0.1, thickness = 0.01 }
+[[shape]]
+name = "bar"
+generate = { kind = "cylinder", radius = 0.1, length = 0.5 }
+[[shape]]
+name = "cone"
+generate = { kind = "cone", apex_angle_deg = 60, base_radius = 0.02, shaft_radius = 0.01, shaft_length = 0.3 }
+[[shape]]
+name = "ring"
+generate = { kind = "ring", inner_radius = 0.05, outer_radius = 0.1, height = 0.01, vanes = 8, vane_height = 0.02, vane_thickness = 0.003 }
+[[shape]]
+name = "tube"
+generate = { kind = "tube", radius = 0.1, wall_thickness = 0.01, length = 0.5 }
+[[shape]]
+name = "tray"
+generate = { kind = "frame", inner_size = [0.1, 0.2], height = 0.05, wall_thickness = 0.01, floor_thickness = 0.02 }
+[[shape]]
+name = "rig"
+assemble = [ { shape = "viper" }, { shape = "bar", at = [0, 0.1, -0.2], axis = [1, 0, 0], angle_deg = 90, scale = 0.5 } ]
 [[terrain]]
 material = "sand"
 region = { box = [[0, 0.5, 0], [1, 1, 0.3333333333333333]] }
@@ -98,18 +125,23 @@ position = [1, 1, 1]
 velocity = [1, 2, 3]
 rolling_radius = 0.9
 lock = ["x", "yaw"]
+yaw_deg = 12.5
+camber_deg = -3
 [[body]]
 name = "two"
 shape = "perseverance"
 material = "steel"
 mass = 5
 position = [1, 1, 1]
+axis = [0, 3, 0.1]
+angle_deg = -20.25
 [[body]]
 name = "three"
 shape = "spirit"
 material = "steel"
 load = 5
 position = [1, 1, 1]
+rows = [[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]]
 [[phase]]
 name = "settle"
 hold = ["one", "two"]
@@ -171,6 +203,21 @@ TEST(Resolved, what_was_read_is_what_was_written)
     EXPECT_EQ(std::get<MeshFile>(scene.shapes[3].source),
               (MeshFile{(directory.path() / "mesh.stl").string(), 0.001, true}));
     EXPECT_EQ(std::get<MeshFile>(scene.shapes[4].source).unit, 0.3048);
+    EXPECT_EQ(std::get<BoxGenerator>(scene.shapes[5].source), (BoxGenerator{{0.1, 0.2, 0.3}}));
+    EXPECT_EQ(std::get<PlateGenerator>(scene.shapes[6].source),
+              (PlateGenerator{std::nullopt, Vector2{0.1, 0.2}, 0.01}));
+    EXPECT_EQ(std::get<PlateGenerator>(scene.shapes[7].source), (PlateGenerator{0.1, std::nullopt, 0.01}));
+    EXPECT_EQ(std::get<CylinderGenerator>(scene.shapes[8].source), (CylinderGenerator{0.1, 0.5}));
+    EXPECT_EQ(std::get<ConeGenerator>(scene.shapes[9].source), (ConeGenerator{60, 0.02, 0.01, 0.3}));
+    EXPECT_EQ(std::get<RingGenerator>(scene.shapes[10].source), (RingGenerator{0.05, 0.1, 0.01, 8, 0.02, 0.003}));
+    EXPECT_EQ(std::get<TubeGenerator>(scene.shapes[11].source), (TubeGenerator{0.1, 0.01, 0.5}));
+    EXPECT_EQ(std::get<FrameGenerator>(scene.shapes[12].source), (FrameGenerator{{0.1, 0.2}, 0.05, 0.01, 0.02}));
+    EXPECT_EQ(std::get<Assembly>(scene.shapes[13].source),
+              (Assembly{{{"viper"}, {"bar", {0, 0.1, -0.2}, {1, 0, 0}, 90, 0.5}}}));
+    EXPECT_EQ(scene.bodies[0].orientation, (Orientation{{}, {}, {}, 12.5, -3}));
+    EXPECT_EQ(scene.bodies[1].orientation, (Orientation{Vector3{0, 3, 0.1}, -20.25, {}, {}, {}}));
+    EXPECT_EQ(scene.bodies[2].orientation,
+              (Orientation{{}, {}, Matrix3{{{0.6, -0.8, 0}, {0.8, 0.6, 0}, {0, 0, 1}}}, {}, {}}));
     EXPECT_EQ(scene.rocks[0].seed, 9007199254740993u);
     EXPECT_EQ(scene.bodies[0].lock, (std::vector<std::string>{"x", "yaw"}));
     EXPECT_EQ(scene.phases[1].drive, (Drive{"one", -0.7, 0.5, -0.3}));
