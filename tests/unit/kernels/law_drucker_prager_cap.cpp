@@ -131,9 +131,10 @@ void raise(double& worst, double value) { worst = value > worst || std::isnan(va
 template<class Real>
 void check_state(const MaterialParameters<Real>& material, const Sym3<Real>& trial, Real start, Violation& worst)
 {
-    const PlasticState<Real> state{Real(0), Real(0), Real(0), start};
-    const auto               first = respond(material, material.drucker_prager_cap, trial, state, Real(1));
-    const auto         second      = respond(material, material.drucker_prager_cap, first.stress, first.state, Real(1));
+    PlasticState<Real> state{};
+    state.cap_pressure        = start;
+    const auto         first  = respond(material, material.drucker_prager_cap, trial, state, Real(1));
+    const auto         second = respond(material, material.drucker_prager_cap, first.stress, first.state, Real(1));
     const Sym3<double> before = trial.template cast<double>(), after = first.stress.template cast<double>();
     const auto&        law = material.drucker_prager_cap;
     const double       p = pressure_of(after), radius = radius_of(after), end = first.state.cap_pressure;

@@ -84,10 +84,12 @@ TREAD_HD StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const Dr
     for (int i = 0; i < 3; ++i) { update.stress[i] -= new_pressure; }
 
     const Real drop = radius - new_radius, compaction = (wanted - new_pressure) / bulk;
-    const Real plastic_shear = drop / (Real(std::numbers::sqrt3) * shear);
-    update.state             = {state.plastic_shear + plastic_shear, plastic_shear / dt, Real(0),
-                    new_pressure > cap ? new_pressure : cap};
-    update.plastic_work      = new_pressure * compaction + new_radius * drop / shear;
+    const Real plastic_shear   = drop / (Real(std::numbers::sqrt3) * shear);
+    update.state.plastic_shear = state.plastic_shear + plastic_shear;
+    update.state.plastic_rate  = plastic_shear / dt;
+    update.state.volume_gap    = 0;
+    update.state.cap_pressure  = new_pressure > cap ? new_pressure : cap;
+    update.plastic_work        = new_pressure * compaction + new_radius * drop / shear;
     return update;
 }
 
