@@ -65,8 +65,9 @@ public:
 
     /// Takes one MPM step of `step.dt`, or a shorter one where a command has made a body too fast for it, with its
     /// contact substeps (docs/theory.md#coupling). NumericalError, with cause, place and limit, when the state is no
-    /// longer valid; `time` (s), at which the step begins, is for that message. When motion is slow, it measures every few steps only: pace() and
-    /// unbalanced() are then as old as that, and contact lists and N are those of the first of these steps.
+    /// longer valid; `time` (s), at which the step begins, is for that message. When motion is slow, it measures every
+    /// few steps only: pace() and unbalanced() are then as old as that, and contact lists and N are those of the first
+    /// of these steps.
     TimeStep step(TimeStep step, double time, StageClock& clock);
 
     /// Whether pace() is of the last step; only then choose another dt.

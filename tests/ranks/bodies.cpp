@@ -109,7 +109,8 @@ position = [{}, 0.1, 0.05]
         decomp::Decomposition<TypeParam> decomposition(test::world(), this->exec(), {});
         const test::OwnedPages           pages = test::pages_of(solver::page_lattice_of(world), size, halves);
         decomposition.owners.assign(pages.key, pages.rank);
-        solver::DemSolver<TypeParam> rigid(this->exec(), scene, world, solver::make_plan(scene, world, test::world().size()), &decomposition);
+        solver::DemSolver<TypeParam> rigid(this->exec(), scene, world,
+                                           solver::make_plan(scene, world, test::world().size()), &decomposition);
         rigid.find_pairs(2e-4);
         const bool at_border = x > 0.3; // pages are 0.16 m wide, and begin half a spacing from the origin
         EXPECT_EQ(rigid.shares(), at_border && this->ranks() > 1 && test::world().rank() < 2);
