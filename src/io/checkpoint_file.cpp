@@ -94,8 +94,7 @@ std::optional<std::string> damage_of_schema(const std::string& path)
     if (version.size() != 2) { return "its schema is none of this program's"; }
     if (version[0] == schema[0]) { return {}; }
     return fmt::format("its schema is {}.{}, and this program (schema {}.{}) is {}", version[0], version[1], schema[0],
-                       schema[1],
-                       version[0] > schema[0] ? "older" : "newer: go on with the version that wrote it");
+                       schema[1], version[0] > schema[0] ? "older" : "newer: go on with the version that wrote it");
 }
 
 } // namespace

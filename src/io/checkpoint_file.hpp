@@ -75,7 +75,8 @@ private:
     h5::File file_;
 };
 
-/// Why a file cannot be used as a checkpoint: truncated, changed, of another kind or schema; empty if it can. Collective.
+/// Why a file cannot be used as a checkpoint: truncated, changed, of another kind or schema; empty if it can.
+/// Collective.
 std::optional<std::string> damage_of(const Communicator& communicator, const std::string& path);
 
 } // namespace tread::io

@@ -96,8 +96,7 @@ void run_substeps(const ContactSubsteps<Exec, Real>& parts, const TimeStep& step
         const std::int64_t next = std::min(step.substeps - done, batch);
         if (done > 0)
         {
-            clock.run(parts.exec, stage::pairs,
-                      [&] { parts.bodies.find_pairs_if_displaced(step, batch, done, time); });
+            clock.run(parts.exec, stage::pairs, [&] { parts.bodies.find_pairs_if_displaced(step, batch, done, time); });
         }
         run_batch(parts, dt, done, next, clock);
     }

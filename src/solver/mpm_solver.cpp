@@ -36,13 +36,18 @@ void MpmSolver<Exec, Real>::order()
     order_.listed   = true;
     switch (order_due(order_, tallies_.steps))
     {
-        case OrderDue::nothing: return;
-        case OrderDue::relist: relist(exec_, order_); return;
-        case OrderDue::renew:
-            relist(exec_, order_);
-            renew_if_scattered(exec_, order_, points_);
-            return;
-        case OrderDue::sort: order_in_memory(); return;
+    case OrderDue::nothing:
+        return;
+    case OrderDue::relist:
+        relist(exec_, order_);
+        return;
+    case OrderDue::renew:
+        relist(exec_, order_);
+        renew_if_scattered(exec_, order_, points_);
+        return;
+    case OrderDue::sort:
+        order_in_memory();
+        return;
     }
 }
 
@@ -173,10 +178,7 @@ SandReport MpmSolver<Exec, Real>::report()
 template<class Exec, class Real>
 void MpmSolver<Exec, Real>::request_report()
 {
-    if (ranks_)
-    {
-        ranks_->halo().clear_booked_elsewhere(mpm::tally_width(mpm::grid_sums), tallies_.grid_rows.data());
-    }
+    if (ranks_) { ranks_->halo().clear_booked_elsewhere(mpm::tally_width(mpm::grid_sums), tallies_.grid_rows.data()); }
     request_totals(exec_, tallies_, order_.pages);
     if (sleep_) { sleep_->note(tallies_.peak_rows.data()); }
     clear_tallies(tallies_);
@@ -186,8 +188,7 @@ template<class Exec, class Real>
 SandCensus MpmSolver<Exec, Real>::census()
 {
     order();
-    SandCensus census =
-        take_census(exec_, tallies_, points_.view(), pages(), laws_.materials.data(), communicator());
+    SandCensus census = take_census(exec_, tallies_, points_.view(), pages(), laws_.materials.data(), communicator());
     if (sleep_) { census = census + sleep_->census(); }
     tallies_.mass = census.mass;
     return census + census_of(tallies_.left.data());

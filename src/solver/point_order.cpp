@@ -30,9 +30,12 @@ OrderDue order_due(const PointOrder<Exec, Real>& order, std::int64_t unreported)
     if (unreported > 0) { return OrderDue::relist; }
     switch (order.cell_change)
     {
-        case mpm::CellChange::none: return OrderDue::nothing;
-        case mpm::CellChange::moved: return OrderDue::renew;
-        default: return OrderDue::sort;
+    case mpm::CellChange::none:
+        return OrderDue::nothing;
+    case mpm::CellChange::moved:
+        return OrderDue::renew;
+    default:
+        return OrderDue::sort;
     }
 }
 

@@ -18,13 +18,13 @@ struct PointOrder
     mpm::Pages<Exec>              pages;
     mpm::OrderScratch<Exec, Real> scratch;
     mpm::RelistScratch<Exec>      relist_scratch;
-    Array<Exec, std::uint16_t>    moves_to;                             ///< [points], MovesView::to
-    Array<Exec, std::int32_t>     move_counts;                          ///< [point pages][mpm::move_counts]
-    Array<Exec, std::int64_t>     changed_in;                           ///< [1], MovesView::changed_in
-    mpm::CellChange               cell_change = mpm::CellChange::lost;  ///< up to the last report
-    bool                          listed      = false;                  ///< points were listed since the last step
-    int                           relists     = 0;                      ///< relistings since the last sort in memory
-    std::int64_t                  step        = 0;                      ///< number of the last step
+    Array<Exec, std::uint16_t>    moves_to;                              ///< [points], MovesView::to
+    Array<Exec, std::int32_t>     move_counts;                           ///< [point pages][mpm::move_counts]
+    Array<Exec, std::int64_t>     changed_in;                            ///< [1], MovesView::changed_in
+    mpm::CellChange               cell_change   = mpm::CellChange::lost; ///< up to the last report
+    bool                          listed        = false;                 ///< points were listed since the last step
+    int                           relists       = 0;                     ///< relistings since the last sort in memory
+    std::int64_t                  step          = 0;                     ///< number of the last step
     std::int64_t                  reorder_count = 0; ///< a change invalidates indices into point arrays
     std::int64_t                  migrated      = 0; ///< points of all ranks that changed rank in the last listing
 };

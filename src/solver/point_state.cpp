@@ -68,7 +68,8 @@ void restore_lasting(mpm::Points<Exec, Real>& points, const world::HostPoints& b
         {
             plane[i] = static_cast<std::decay_t<decltype(*field.data())>>(value(id[i]));
         }
-        copy_from_host(points.position.exec(), field.data() + component * points.stride, plane.data(), count * sizeof(plane[0]));
+        copy_from_host(points.position.exec(), field.data() + component * points.stride, plane.data(),
+                       count * sizeof(plane[0]));
     };
     for (int c = 0; c < 3; ++c)
     {

@@ -75,7 +75,8 @@ world::HostPoints own_points(const world::World& world, const decomp::Decomposit
     return own;
 }
 
-#define TREAD_INSTANTIATE(Exec) template world::HostPoints own_points(const world::World&, const decomp::Decomposition<Exec>&)
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template world::HostPoints own_points(const world::World&, const decomp::Decomposition<Exec>&)
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

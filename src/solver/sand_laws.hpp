@@ -25,8 +25,8 @@ struct SandLaws
 {
     SandLaws(const Exec& exec, const scene::Scene& scene, const world::World& world);
 
-    Array<Exec, mpm::MaterialParameters<Real>> materials; ///< indexed by PointsView::material
-    double                                     pic_rate;  ///< 1/s, world::pic_rate
+    Array<Exec, mpm::MaterialParameters<Real>> materials;  ///< indexed by PointsView::material
+    double                                     pic_rate;   ///< 1/s, world::pic_rate
     std::optional<CellMeans<Exec, Real>>       cell_means; ///< only with cell-average volumetric strain
 };
 

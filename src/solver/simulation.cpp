@@ -267,7 +267,8 @@ ContactReport Simulation<Exec, Real>::measure_contacts()
     coupling_->measure();
     const contact::Summary& contacts = coupling_->summary();
     measuring_.pace.stiffest_point   = contacts.stiffest.value;
-    require_unique_surface(contacts, [this](std::int64_t body) { return rigid_->name(body); }, last_.time);
+    require_unique_surface(
+        contacts, [this](std::int64_t body) { return rigid_->name(body); }, last_.time);
     return {contacts.dissipated, contacts.energy};
 }
 

@@ -60,10 +60,10 @@ TEST(Plan, FindsPairsOfALoneBodyOnSeveralRanksOnly)
 
 TEST(Plan, OfOneRankIsRefusedWithADecomposition)
 {
-    const scene::Scene        scene = load_text(lone_ball);
-    const world::World        world = world::build_world(scene);
-    Counters                  counters;
-    const Cpu                 cpu{&counters};
+    const scene::Scene         scene = load_text(lone_ball);
+    const world::World         world = world::build_world(scene);
+    Counters                   counters;
+    const Cpu                  cpu{&counters};
     decomp::Decomposition<Cpu> decomposition(test::world(), cpu, {});
     const auto simulate = [&](const Plan& plan) { Simulation<Cpu, double>(cpu, scene, world, plan, &decomposition); };
     EXPECT_THROW(simulate(make_plan(scene, world)), std::logic_error);
