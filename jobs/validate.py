@@ -43,7 +43,7 @@ def arguments():
     parser.add_argument("--jobs", type=positive, default=1, metavar="N", help="runs at a time; default 1")
     parser.add_argument("--threads", type=positive, metavar="N", help="of a run; default: the machine's cores over --jobs")
     parser.add_argument("--backend", choices=("auto", "cpu", "cuda"), default="auto")
-    parser.add_argument("--gpus", type=positive, default=1, metavar="N", help="of this machine, dealt out to the runs with --backend cuda; default 1")
+    parser.add_argument("--gpus", type=positive, default=1, metavar="N", help="of this machine, assigned to the runs in turn with --backend cuda; default 1")
     parser.add_argument("--dry-run", action="store_true", help="check and list the runs and what they will cost; write and start nothing")
     parser.add_argument("--tread", default="tread", metavar="PROGRAM", help="default: tread on PATH, or the one that was called")
     parser.set_defaults(form="full")

@@ -121,7 +121,7 @@ def round_places(centre, half, number):
 
 
 class Quadratic:
-    """Of values [n, m] in unknowns [n, p]: a polynomial of second degree around a centre, of the runs within the region around it."""
+    """Polynomial of second degree for values [n, m] in unknowns [n, p] around a centre, fitted to the runs within the region around it."""
 
     def __init__(self, places, values, centre, half):
         self.centre, self.half = centre, half

@@ -41,7 +41,7 @@ def _at(place, quantity, rows):
 
 @dataclass(frozen=True)
 class Deviation:
-    """Of values from measured ones, over the points where both are known."""
+    """Deviation of values from measured ones, over the points where both are known."""
 
     points: int
     bias: float  # mean of value less measured

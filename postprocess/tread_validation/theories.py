@@ -14,7 +14,7 @@ GRAVITY = 9.81  # m/s2; all sets were measured on Earth
 
 @dataclass(frozen=True)
 class Prediction:
-    """Of one quantity at the measured points, each [n]: the first soil's value, and the least and largest of all soils. NaN where a theory has none."""
+    """One quantity at the measured points, each [n]: the first soil's value, and the least and largest of all soils. NaN where a theory has none."""
 
     value: np.ndarray
     low: np.ndarray

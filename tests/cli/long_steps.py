@@ -51,15 +51,15 @@ class LongSteps(RestartTest):
         return said
 
     def test_a_signal_stops_it(self):
-        def ask_after(seconds):
-            def ask(job):
+        def stop_after(seconds):
+            def stop(job):
                 time.sleep(seconds)
                 job.send_signal(signal.SIGUSR2)
 
-            return ask
+            return stop
 
         for ranks in (1, 2):
-            said = self.stop_within_a_step([((), ask_after(seconds)) for seconds in (1, 4, 16)], ranks=ranks)
+            said = self.stop_within_a_step([((), stop_after(seconds)) for seconds in (1, 4, 16)], ranks=ranks)
             self.assertRegex(said, r"stopped by (signal USR2|a signal to another rank) within step \d+")
 
     def test_the_wall_time_limit_stops_it(self):

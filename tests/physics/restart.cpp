@@ -271,10 +271,11 @@ double furthest(Run<Exec>& run, Run<Exec>& other)
     return found;
 }
 
-/// Lists are rebuilt, as on another number of ranks: only the order of sums differs.
+/// Lists are rebuilt, as on another number of ranks: only the order of sums differs. The number of substeps is given,
+/// since an automatic one counts contacts that may begin, and lists of another age have others.
 TYPED_TEST(Restart, WithListsMadeAnewAgreesAsFarAsChaosLetsIt)
 {
-    const std::string              text = test::sand_text + test::rocks_text;
+    const std::string              text = test::sand_text + test::rocks_text + "[time]\nsubsteps = 8\n";
     const test::TemporaryDirectory directory;
     const std::string              path = directory.path("state.h5"), moved = directory.path("moved.h5");
     constexpr int                  steps = 100;
