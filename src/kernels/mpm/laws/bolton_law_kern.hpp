@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "backend/out_of_line.hpp"
 #include "kernels/mpm/laws/mohr_coulomb_law_kern.hpp"
 
 // Mohr-Coulomb plasticity whose friction and dilation follow density and pressure by the relative dilatancy index of
@@ -94,8 +95,8 @@ TREAD_HD MohrCoulomb<Real> strength_at(const Bolton<Real>& law, Real index)
 /// step. Grains that cohesion holds in tension do not contract in shear: contraction against a tension would make
 /// energy.
 template<class Real>
-TREAD_HD StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const Bolton<Real>& law,
-                                    const Sym3<Real>& trial, const PlasticState<Real>& state, Real dt)
+TREAD_HD_OUT_OF_LINE StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const Bolton<Real>& law,
+                                                const Sym3<Real>& trial, const PlasticState<Real>& state, Real dt)
 {
     const Real         mean     = (trial[0] + trial[1] + trial[2]) * Real(1.0 / 3);
     const Real         skeleton = state.volume_ratio * std::exp(-state.volume_gap);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "backend/out_of_line.hpp"
 #include "kernels/mpm/laws/drucker_prager_law_kern.hpp"
 
 // Drucker-Prager with a compression cap that hardens (Drucker, Gibson, Henkel 1957, Trans. ASCE 122:338; planar cap and
@@ -49,8 +50,8 @@ TREAD_HD Real pressure_on_cap(Real cap, Real slope, Real stiffness, Real target)
 /// (state.cap_pressure = 0) is elastic at the cap: sand starts normally consolidated under the stress it has, at least
 /// at the law's cap_pressure.
 template<class Real>
-TREAD_HD StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const DruckerPragerCap<Real>& law,
-                                    const Sym3<Real>& trial, const PlasticState<Real>& state, Real dt)
+TREAD_HD_OUT_OF_LINE StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const DruckerPragerCap<Real>& law,
+                                                const Sym3<Real>& trial, const PlasticState<Real>& state, Real dt)
 {
     StressUpdate<Real> update   = respond(elasticity, law.cone, trial, state, dt);
     const Real         pressure = -(update.stress[0] + update.stress[1] + update.stress[2]) * Real(1.0 / 3);
