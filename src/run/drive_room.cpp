@@ -161,11 +161,6 @@ std::optional<double> time_to(Path& path, double end, double duration)
     return direction * (path.x - end) >= 0 ? std::optional<double>(duration) : std::nullopt;
 }
 
-double longest(const scene::Phase& phase)
-{
-    return phase.until == scene::StopRule::duration ? phase.duration : phase.max_duration;
-}
-
 /// Rounds down to three digits.
 double rounded_down(double time)
 {
@@ -216,23 +211,24 @@ void remark_on_body(const scene::Scene& scene, const world::World& world, const 
         const double        direction = direction_of(drive), from = x;
         const WayEnd&       end = end_ahead(room, direction);
         Path                path{drive, radius, spin, x};
-        const auto          time = direction == 0 ? std::nullopt : time_to(path, end.axle, longest(phase));
+        const auto          time = direction == 0 ? std::nullopt : time_to(path, end.axle, scene::time_limit(phase));
         x                        = time ? (direction * (from - end.axle) > 0 ? from : end.axle) : path.x;
         spin                     = drive.angular_velocity;
         if (time)
         {
             remarks.push_back(
-                {drive, fmt::format("phase '{}': '{}' has {:.3g} m to go before {}, and gets there after {:.3g} of "
-                                    "{:.4g} s{}: the phase "
-                                    "ends there; a duration of {:.3g} s fits",
-                                    phase.name, name, std::max(0.0, direction * (end.axle - from)), end.what, *time,
-                                    longest(phase), drive.slip ? "" : " if it does not slip", rounded_down(*time))});
+                {drive,
+                 fmt::format("phase '{}': '{}' has {:.3g} m to go before {}, and gets there after {:.3g} of "
+                             "{:.4g} s{}: the phase "
+                             "ends there; a duration of {:.3g} s fits",
+                             phase.name, name, std::max(0.0, direction * (end.axle - from)), end.what, *time,
+                             scene::time_limit(phase), drive.slip ? "" : " if it does not slip", rounded_down(*time))});
         }
         const auto other = obstacle(scene, world, room, from, x);
         if (other)
         {
             Path       until{drive, radius, path.spin, from};
-            const auto meets = time_to(until, other->second, longest(phase));
+            const auto meets = time_to(until, other->second, scene::time_limit(phase));
             remarks.push_back(
                 {drive,
                  fmt::format("phase '{}': '{}' may meet '{}', which stands in its way, after {:.3g} m and {:.3g} s",

@@ -13,20 +13,15 @@ void enter_next(RunningPhase& phase, double time, std::vector<double> spins)
     phase = {phase.index + 1, time, std::move(spins)};
 }
 
-double longest_duration(const scene::Phase& phase)
-{
-    return phase.until == scene::StopRule::duration ? phase.duration : phase.max_duration;
-}
-
 double latest_end(const scene::Scene& scene, const RunningPhase& phase)
 {
-    return phase.start + longest_duration(keys_of(scene, phase));
+    return phase.start + scene::time_limit(keys_of(scene, phase));
 }
 
 double latest_end_of_run(const scene::Scene& scene, const RunningPhase& phase)
 {
     double end = latest_end(scene, phase);
-    for (std::size_t p = phase.index + 1; p < scene.phases.size(); ++p) { end += longest_duration(scene.phases[p]); }
+    for (std::size_t p = phase.index + 1; p < scene.phases.size(); ++p) { end += scene::time_limit(scene.phases[p]); }
     return end;
 }
 

@@ -39,9 +39,6 @@ inline const scene::Phase& keys_of(const scene::Scene& scene, const RunningPhase
     return scene.phases[phase.index];
 }
 
-/// Longest duration (s) that a phase may have.
-double longest_duration(const scene::Phase& phase);
-
 /// Latest simulated time (s) at which the running phase ends.
 double latest_end(const scene::Scene& scene, const RunningPhase& phase);
 

@@ -135,11 +135,6 @@ void check_contacts(const scene::Scene& scene, Warnings& warnings)
     }
 }
 
-double longest(const scene::Phase& phase)
-{
-    return phase.until == scene::StopRule::duration ? phase.duration : phase.max_duration;
-}
-
 void check_phases(const scene::Scene& scene, Warnings& warnings)
 {
     constexpr double fast_lowering = 0.5; // m/s: a fall of 13 mm on Earth
@@ -148,10 +143,10 @@ void check_phases(const scene::Scene& scene, Warnings& warnings)
         const std::string table = "phase." + phase.name;
         const auto        ramp  = [&](const char* key, double time, const char* what)
         {
-            if (time <= longest(phase)) { return; }
+            if (time <= scene::time_limit(phase)) { return; }
             warnings.add(table,
                          fmt::format("[[phase]] '{}': {}.ramp = {:.4g} s is longer than the phase ({:.4g} s): {}",
-                                     phase.name, key, time, longest(phase), what));
+                                     phase.name, key, time, scene::time_limit(phase), what));
         };
         if (phase.drive) { ramp("drive", phase.drive->ramp, "the wheel never reaches its speed"); }
         if (phase.weight) { ramp("weight", phase.weight->ramp, "the weight never reaches its end"); }

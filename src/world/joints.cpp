@@ -32,6 +32,26 @@ std::int32_t side_of(const scene::Scene& scene, const std::string& name)
 
 Vec3<double> vector(const std::array<double, 3>& values) { return {values[0], values[1], values[2]}; }
 
+dem::JointKind kind_of(scene::JointType type)
+{
+    switch (type)
+    {
+    case scene::JointType::revolute:
+        return dem::joint_revolute;
+    case scene::JointType::prismatic:
+        return dem::joint_prismatic;
+    case scene::JointType::spherical:
+        return dem::joint_spherical;
+    case scene::JointType::fixed:
+        return dem::joint_fixed;
+    case scene::JointType::differential:
+        return dem::joint_differential;
+    case scene::JointType::spring:
+        break;
+    }
+    return dem::joint_spring;
+}
+
 /// Adds spring, motor and limits to a joint.
 void add_parts(const scene::Joint& from, dem::Joint& joint)
 {
@@ -71,9 +91,9 @@ dem::Joint make(const scene::Scene& scene, const scene::Joint& from, const HostB
     const bool            axial  = from.type == scene::JointType::revolute || from.type == scene::JointType::prismatic;
     const dem::JointPlace place{{vector(from.at), vector(spring ? from.to : from.at)},
                                 axial ? vector(from.axis) : Vec3<double>::UnitZ()};
-    dem::Joint            joint = dem::make_joint(static_cast<dem::JointKind>(from.type),
-                                                  {side_of(scene, from.between[0]), side_of(scene, from.between[1])}, place,
-                                                  bodies.position, bodies.orientation);
+    dem::Joint            joint =
+        dem::make_joint(kind_of(from.type), {side_of(scene, from.between[0]), side_of(scene, from.between[1])}, place,
+                        bodies.position, bodies.orientation);
     add_parts(from, joint);
     return joint;
 }
