@@ -54,6 +54,7 @@ public:
                 continue;
             }
             left_[i] = false;
+            directory_.remove(i, samples_.positions[i]);
             --count;
             for_each_crowded_by(i, [&](std::size_t other, double amount) { crowding_[other] -= amount; });
         }
@@ -77,10 +78,7 @@ private:
         directory_.for_each_near(samples_.positions[i], samples_.normals[i],
                                  [&](std::size_t other, double squared)
                                  {
-                                     if (other == i || !left_[other] || samples_.kinds[other] < samples_.kinds[i])
-                                     {
-                                         return;
-                                     }
+                                     if (other == i || samples_.kinds[other] < samples_.kinds[i]) { return; }
                                      // A sample on an edge has two neighbours, one on a face has six; by measurement, 8
                                      // spaces both alike.
                                      const double share = samples_.kinds[other] == Sharpness::smooth ? 1 : 8;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -26,9 +27,16 @@ public:
 
     void add(const Eigen::Vector3d& position, const Eigen::Vector3d& normal)
     {
-        cells_[key(cell_of(position))].push_back(positions_.size());
-        positions_.push_back(position);
-        normals_.push_back(normal);
+        cells_[key(cell_of(position))].push_back({position, normal, added_++});
+    }
+
+    /// Removes the point that was added as number `index`, at `position`.
+    void remove(std::size_t index, const Eigen::Vector3d& position)
+    {
+        std::vector<Point>& points = cells_.at(key(cell_of(position)));
+        *std::find_if(points.begin(), points.end(), [&](const Point& point) { return point.index == index; }) =
+            points.back();
+        points.pop_back();
     }
 
     /// Calls visit(index, squared distance) for the points within the radius on the same side of the body, whose
@@ -41,10 +49,13 @@ public:
         {
             const auto found = cells_.find(key(low + Cell(c & 1, (c >> 1) & 1, c >> 2)));
             if (found == cells_.end()) { continue; }
-            for (const std::size_t at : found->second)
+            for (const Point& point : found->second)
             {
-                const double squared = (positions_[at] - position).squaredNorm();
-                if (squared < squared_radius_ && normals_[at].dot(normal) >= facing_away) { visit(at, squared); }
+                const double squared = (point.position - position).squaredNorm();
+                if (squared < squared_radius_ && point.normal.dot(normal) >= facing_away)
+                {
+                    visit(point.index, squared);
+                }
             }
         }
     }
@@ -66,6 +77,13 @@ public:
 private:
     using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
 
+    struct Point
+    {
+        Eigen::Vector3d position;
+        Eigen::Vector3d normal;
+        std::size_t     index;
+    };
+
     Cell cell_of(const Eigen::Vector3d& position) const
     {
         return (position / cell_).array().floor().cast<std::int64_t>();
@@ -78,11 +96,10 @@ private:
         return low(cell.x()) | low(cell.y()) << 21 | low(cell.z()) << 42;
     }
 
-    double                                                      squared_radius_;
-    double                                                      cell_;
-    std::vector<Eigen::Vector3d>                                positions_;
-    std::vector<Eigen::Vector3d>                                normals_;
-    std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
+    double                                                squared_radius_;
+    double                                                cell_;
+    std::size_t                                           added_ = 0;
+    std::unordered_map<std::uint64_t, std::vector<Point>> cells_;
 };
 
 } // namespace tread::shape

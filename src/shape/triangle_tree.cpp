@@ -167,22 +167,22 @@ ClosestPoint closest_point(const TriangleTree& tree, const Eigen::Vector3d& poin
     std::size_t             top = 0;
     ClosestPoint            best{point, within * within, -1, Feature::face};
 
-    stack[top++] = {0, squared_distance(tree.nodes[0], point)};
-    while (top > 0)
+    Pending at{0, squared_distance(tree.nodes[0], point)};
+    while (true)
     {
-        const Pending pending = stack[--top];
-        if (pending.squared_distance >= best.squared_distance) { continue; }
-        const TriangleTree::Node& node = tree.nodes[static_cast<std::size_t>(pending.node)];
-        if (node.count > 0)
+        const TriangleTree::Node& node = tree.nodes[static_cast<std::size_t>(at.node)];
+        if (at.squared_distance < best.squared_distance && node.count == 0)
         {
-            search_leaf(tree, node, point, best);
+            Pending near{node.first, squared_distance(tree.nodes[static_cast<std::size_t>(node.first)], point)};
+            Pending far{node.first + 1, squared_distance(tree.nodes[static_cast<std::size_t>(node.first) + 1], point)};
+            if (far.squared_distance < near.squared_distance) { std::swap(near, far); }
+            if (far.squared_distance < best.squared_distance) { stack[top++] = far; }
+            at = near;
             continue;
         }
-        Pending near{node.first, squared_distance(tree.nodes[static_cast<std::size_t>(node.first)], point)};
-        Pending far{node.first + 1, squared_distance(tree.nodes[static_cast<std::size_t>(node.first) + 1], point)};
-        if (far.squared_distance < near.squared_distance) { std::swap(near, far); }
-        stack[top++] = far;
-        stack[top++] = near;
+        if (at.squared_distance < best.squared_distance) { search_leaf(tree, node, point, best); }
+        if (top == 0) { break; }
+        at = stack[--top];
     }
     return best;
 }
