@@ -59,19 +59,6 @@ TYPED_TEST(SphereOnBed, DragIsThatOfOneSubstep)
     EXPECT_NEAR(many / one, 1, 0.02);
 }
 
-/// docs/verification.md#body-at-rest-on-sand: the contact of a wheel at rest carries its weight, in every step, for any
-/// number of substeps. On sand, which comes to rest slowly: tests/slow.
-TYPED_TEST(SphereOnBed, BedCarriesAWheelWhateverTheSubsteps)
-{
-    test::SphereOnBed bed;
-    bed.form     = test::drum;
-    bed.width    = 0.22;
-    bed.depth    = 0.06;
-    bed.settling = 0.06;
-    bed.free     = 0.015;
-    test::expect_weight_carried(this->exec(), bed);
-}
-
 /// docs/verification.md#torque-without-friction: without friction the only torque about the axle of a body of
 /// revolution comes from the sampled distance field (there is no analytic one), between whose nodes the gradient misses
 /// the axle by as much as h/R: 1.2 degrees at 80 cells (docs/verification.md#distance-fields). It does so to either

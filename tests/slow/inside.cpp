@@ -17,7 +17,7 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr int count = 100000;
+constexpr int count = 20000;
 
 void expect_same_inside(const TriangleMesh& mesh, const char* name)
 {

@@ -1,0 +1,1 @@
+// Empty: its target owns the precompiled header that the programs share.
