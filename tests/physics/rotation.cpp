@@ -18,8 +18,8 @@ class Rotation : public test::BackendTest<Exec>
 TYPED_TEST_SUITE(Rotation, test::Backends, test::BackendNames);
 
 const std::string disc = "region = { box = [[0.6, 0.0, 0.6], [1.0, 0.05, 1.0]] }\n"
-                           "height = \"0.8 + sqrt(max(0.04 - (x - 0.8)^2, 0))\"\n"
-                           "floor  = \"0.8 - sqrt(max(0.04 - (x - 0.8)^2, 0))\"";
+                         "height = \"0.8 + sqrt(max(0.04 - (x - 0.8)^2, 0))\"\n"
+                         "floor  = \"0.8 - sqrt(max(0.04 - (x - 0.8)^2, 0))\"";
 
 /// Moment of inertia about the axis, kg m2.
 template<class Exec>
