@@ -57,14 +57,21 @@ def assumed_values(scene):
     return {
         "rim friction": contact.get("friction", 0.3), "modulus [Pa]": sand["young"], "density [kg/m3]": sand["density"],
         "friction angle [deg]": sand["friction_angle_deg"], "dilation angle [deg]": sand.get("dilation_angle_deg", 0.0),
-        "cohesion [Pa]": sand.get("cohesion", 0.0),
+        "cohesion [Pa]": sand.get("cohesion", 0.0), "law": sand["model"], "relative density": sand.get("relative_density", math.nan),
     }
 
 
 def differences(scene, nominal):
     """What of assumed_values differs from those of the set's own scene, in words; "" where nothing does."""
     values, own = assumed_values(scene), assumed_values(nominal)
-    return ", ".join(f"{name} {value:g}" for name, value in values.items() if abs(value - own[name]) > SAME * max(abs(value), abs(own[name])))
+    return ", ".join(f"{name} {value if isinstance(value, str) else f'{value:g}'}" for name, value in values.items() if _differ(value, own[name]))
+
+
+def _differ(value, other):
+    """Words differ unless equal, numbers by more than SAME of their size; what a law does not have is NaN and differs from nothing."""
+    if isinstance(value, str):
+        return value != other
+    return not math.isnan(value) and not abs(value - other) <= SAME * max(abs(value), abs(other))
 
 
 def row_of(measured_set, path):

@@ -5,6 +5,7 @@ import numpy as np
 from tread_validation.compare import deviation, tread_answers
 
 BEGIN, END = "<!-- written by postprocess/validation.py: begin -->", "<!-- written by postprocess/validation.py: end -->"
+LOCKED = "locked"  # of a wheel that does not turn, whose slip is no number
 SHOWN = {"drawbar_pull": ("pull", 1.0, "N", 2), "torque": ("torque", 1.0, "N m", 2), "sinkage": ("sinkage", 1e3, "mm", 1), "slip": ("slip", 1.0, "", 3)}
 
 
@@ -57,6 +58,8 @@ def _deviation_line(measured_set, curve, quantity, name, found):
 
 
 def _place(measured_set, value):
+    if np.isnan(value):
+        return LOCKED
     return f"slip {value:g}" if measured_set.against == "slip" else f"{value:g} degrees"
 
 
@@ -82,7 +85,7 @@ def _value_line(measured_set, curve, quantity, point, answers, theories):
     def with_error(value, error):
         return shown(value) + ("" if np.isnan(error) or np.isnan(value) else f" +- {shown(error)}")
 
-    cells = [f"{place:g}" if np.isfinite(place) else "locked", f"{label}{f' [{unit}]' if unit else ''}",
+    cells = [f"{place:g}" if np.isfinite(place) else LOCKED, f"{label}{f' [{unit}]' if unit else ''}",
              with_error(curve.measured.column(quantity)[point], curve.measured.column(f"{quantity}_spread")[point]),
              with_error(answers.value[point], answers.grid[point]),
              f"{shown(answers.low[point])} to {shown(answers.high[point])}" if answers.low[point] < answers.high[point] else "-",
