@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "run/phases.hpp"
-#include "solver/body_command.hpp"
-#include "solver/body_row.hpp"
+#include "solver/bodies/body_command.hpp"
+#include "solver/bodies/body_row.hpp"
 #include "world/world.hpp"
 
 // Prescribed motions of the running phase: what bodies are commanded to, and the stops that end the phase.

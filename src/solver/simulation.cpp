@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "backend/instantiate.hpp"
-#include "solver/body_reaches.hpp"
-#include "solver/contact_guards.hpp"
+#include "solver/bodies/body_reaches.hpp"
+#include "solver/ledger/contact_guards.hpp"
 #include "solver/pace_limits.hpp"
 #include "solver/state_file.hpp"
 #include "world/terrain_bins.hpp"

@@ -6,7 +6,7 @@
 
 #include "backend.hpp"
 #include "scene_text.hpp"
-#include "solver/dem_solver.hpp"
+#include "solver/bodies/dem_solver.hpp"
 
 // Lifetime of a list of pairs, measured by the number of searches.
 namespace
