@@ -70,7 +70,7 @@ BodyReports<Exec>::BodyReports(const Exec& exec, std::int64_t bodies)
     : totals(exec, "body totals", bodies)
     , sums(exec, "body sums", sizeof(BodyReportSums) / sizeof(double))
     , sums_on_host(exec, "body sums on the host")
-    , displacement_on_host(exec, "body travel on the host")
+    , displacement_on_host(exec, "body displacement on the host")
     , overlap_on_host(exec, "body overlap on the host")
 {
     clear(*this);
@@ -107,7 +107,7 @@ void request_report(BodyState<Exec>& state, BodyReports<Exec>& reports, PairList
     if (!lists.checked_within_step)
     {
         reports.displacement_on_host.request(dem::largest_displacement(exec, lists.displacements, state.view(),
-                                                                       law.templates, state.pairs.travel.data()));
+                                                                       law.templates, state.pairs.displacement.allowed.data()));
     }
     reports.overlap_on_host.request(dem::largest_overlap(exec, state.pairs, state.view(), law));
 }

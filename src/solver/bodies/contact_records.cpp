@@ -59,7 +59,7 @@ template<class Exec>
 RecordArrays chosen_records(const BodyState<Exec>& state, const RecordArrays& all, const StateFile& file)
 {
     std::vector<std::size_t> order;
-    const auto               is_large = state.pairs.is_large.to_host();
+    const auto               is_large = state.pairs.sizes.is_large.to_host();
     for (std::size_t p = 0; p < all.key.size(); ++p)
     {
         if (file.exact() || decides(state, is_large, all.key[p])) { order.push_back(p); }
@@ -87,7 +87,7 @@ void restore_contacts(BodyState<Exec>& state)
     records.rolling.reserve(contacts.size());
     records.place.reserve(contacts.size());
     bool       several  = false;
-    const auto is_large = state.pairs.is_large.to_host();
+    const auto is_large = state.pairs.sizes.is_large.to_host();
     for (const world::ContactRecord& contact : contacts)
     {
         if (!decides(state, is_large, contact.key)) { continue; }

@@ -221,7 +221,7 @@ ContactCount DemSolver<Exec>::count_contacts()
     const std::vector<double> stiffness = state_.pairs.answers.stiffness.to_host();
     const auto live = std::count_if(stiffness.begin(), stiffness.end(), [](double value) { return value > 0; });
     return {static_cast<double>(stiffness.size()), static_cast<double>(live),
-            static_cast<double>(state_.pairs.node.size())};
+            static_cast<double>(state_.pairs.nodes.node.size())};
 }
 
 template<class Exec>

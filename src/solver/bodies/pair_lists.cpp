@@ -36,7 +36,7 @@ template<class Exec>
 const double* displacement_ahead(BodyState<Exec>& state, PairLists<Exec>& lists, double ahead)
 {
     return dem::largest_displacement_ahead(state.exec, lists.displacements, state.view(), state.tables.law.templates,
-                                           state.pairs.travel.data(), ahead);
+                                           state.pairs.displacement.allowed.data(), ahead);
 }
 
 /// Changes nothing before the list is known to be valid on all ranks.
@@ -70,7 +70,7 @@ void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double sub
         state.ranks->shared().exchange_speeds();
     }
     dem::request_displacement(exec, pairs, state.view(), law, dt, state.shared());
-    if (state.ranks) { state.ranks->sum_wanted_travel(pairs); }
+    if (state.ranks) { state.ranks->sum_wanted_displacement(pairs); }
     dem::allow_displacement(exec, pairs, state.view(), law, dt, substeps);
     if (state.ranks)
     {
@@ -189,18 +189,18 @@ void PairLists<Exec>::transfer(StateFile& file, BodyState<Exec>& state)
         { return !listed && values.empty() ? accept::Verdict{} : accept::all(accept::rows(rows), bound)(values); };
     };
     std::vector<double>       peaks = pairs.peak.to_host();
-    std::vector<std::int32_t> first = pairs.first_node.to_host();
+    std::vector<std::int32_t> first = pairs.nodes.first.to_host();
     file.own("pairs/peak", peaks, of_each(keys.size(), accept::finite()));
-    file.own("pairs/travel", pairs.travel, of_each(count, accept::not_negative()));
+    file.own("pairs/travel", pairs.displacement.allowed, of_each(count, accept::not_negative()));
     file.own("pairs/first_node", first, of_each(keys.size() + 1, accept::cuts()));
     const std::size_t nodes = first.empty() ? 0 : static_cast<std::size_t>(std::max(first.back(), 0));
-    file.own("pairs/node", pairs.node, accept::all(accept::rows(nodes), accepted_nodes(state.world, keys, first)));
+    file.own("pairs/node", pairs.nodes.node, accept::all(accept::rows(nodes), accepted_nodes(state.world, keys, first)));
     file.own("pairs/several_first", pairs.patches.several,
              accept::all(accept::ascending(), accept::index(keys.size())));
     file.own("bodies/position_at_search", displacements.position, of_each(count, accept::finite()));
     file.own("bodies/orientation_at_search", displacements.orientation, of_each(count, accept::unit_quaternions()));
     if (!file.loads() || !listed) { return; }
-    pairs.first_node.assign(first);
+    pairs.nodes.first.assign(first);
     dem::resume_list(state.exec, pairs, state.view());
     pairs.peak.assign(peaks);
 }

@@ -18,7 +18,7 @@ struct PairLists
 {
     explicit PairLists(const Exec& exec)
         : displacements(exec)
-        , lookahead(exec, "body travel ahead on the host")
+        , lookahead(exec, "body displacement ahead on the host")
         , lookahead_done(exec)
     {
     }

@@ -9,7 +9,7 @@ namespace tread::solver
 namespace
 {
 
-constexpr double unseen_travel = 0.5; ///< displacement of sand, in spacings, after which it is measured again
+constexpr double unmeasured_displacement = 0.5; ///< displacement of sand, in spacings, after which it is measured again
 constexpr double largest_speed = 1e7; ///< m/s: steps with a larger one would not end
 
 } // namespace
@@ -17,9 +17,9 @@ constexpr double largest_speed = 1e7; ///< m/s: steps with a larger one would no
 std::int64_t steps_until_measured(const TimeStep& step, const PaceLimits& limits, const Pace& pace, double spacing)
 {
     if (over_limit(step, limits, pace)) { return 1; }
-    const double travel = pace.largest_speed * step.dt;
+    const double displacement = pace.largest_speed * step.dt;
     return static_cast<std::int64_t>(
-        std::clamp(unseen_travel * spacing / travel, 1.0, static_cast<double>(Measuring::most_steps)));
+        std::clamp(unmeasured_displacement * spacing / displacement, 1.0, static_cast<double>(Measuring::most_steps)));
 }
 
 void transfer(StateFile& file, Measuring& measuring, LastStep& last, double& damping)

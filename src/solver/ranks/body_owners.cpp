@@ -87,7 +87,7 @@ bool BodyOwners::is_inside(std::size_t body, const decomp::Surroundings& around)
 
 std::vector<BodyHolding> BodyOwners::decide(const SearchedBodies& searched)
 {
-    const auto own_reach = [&](std::size_t b) { return bounding_radius_[b] + searched.travel[b]; };
+    const auto own_reach = [&](std::size_t b) { return bounding_radius_[b] + searched.allowed_displacement[b]; };
     double     met[2]    = {}; // m, largest search radius of all bodies, and of small ones
     for (std::size_t b = 0; b < role_.size(); ++b)
     {

@@ -16,8 +16,8 @@ namespace tread::solver
 struct SearchedBodies
 {
     const Vec3<double>*              position; ///< m
-    const double*                    travel;   ///< m, allowed displacement until the next search for pairs
-    const std::vector<std::int32_t>& is_large; ///< Pairs::is_large
+    const double*                    allowed_displacement; ///< m, until the next search for pairs
+    const std::vector<std::int32_t>& is_large; ///< dem::BodySizes::is_large
 };
 
 /// Roles of this rank for the bodies of a scene, and the decision who owns and who holds each body, on the host. A body

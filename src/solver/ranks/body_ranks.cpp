@@ -17,7 +17,7 @@ BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const wor
     , owners_(decomposition.communicator, world, sand_reach)
     , shared_(decomposition.transport)
     , position_(exec_, "body positions on the host")
-    , travel_(exec_, "body travel on the host")
+    , allowed_(exec_, "body allowed displacement on the host")
     , states_(decomposition.transport, "states of bodies")
     , arriving_(exec_, "bodies arriving")
 {
@@ -28,7 +28,7 @@ BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const wor
 }
 
 template<class Exec>
-void BodyRanks<Exec>::sum_wanted_travel(dem::Pairs<Exec>& pairs) const
+void BodyRanks<Exec>::sum_wanted_displacement(dem::Pairs<Exec>& pairs) const
 {
     double wanted = read(exec_, pairs.measure.data());
     decomp::combine(communicator(), &wanted, 1, 0);
@@ -44,7 +44,7 @@ void BodyRanks<Exec>::assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>&
     const dem::BodiesView          view      = bodies.view();
     send_states(states_to_send(decided), exchanged.arriving,
                 decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.force,
-                                view.torque, view.stiffness, view.locked, pairs.travel.data()));
+                                view.torque, view.stiffness, view.locked, pairs.displacement.allowed.data()));
     owners_.take_roles(decided, exchanged.held);
     bodies.role.assign(owners_.roles());
     if (owners_.owner_has_changed(decided)) { migrate_records(communicator(), pairs, is_large_, decided); }
@@ -55,10 +55,10 @@ template<class Exec>
 std::vector<BodyHolding> BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs)
 {
     position_.request(bodies.position);
-    travel_.request(pairs.travel);
-    if (is_large_.empty()) { is_large_ = pairs.is_large.to_host(); }
+    allowed_.request(pairs.displacement.allowed);
+    if (is_large_.empty()) { is_large_ = pairs.sizes.is_large.to_host(); }
     synchronize(exec_);
-    return owners_.decide({position_.data(), travel_.data(), is_large_});
+    return owners_.decide({position_.data(), allowed_.data(), is_large_});
 }
 
 /// Bodies whose state this rank sends, by destination.

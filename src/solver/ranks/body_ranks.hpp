@@ -29,7 +29,7 @@ public:
 
     /// Sums the requested displacements of all ranks' bodies. Call between dem::request_displacement and
     /// dem::allow_displacement.
-    void sum_wanted_travel(dem::Pairs<Exec>& pairs) const;
+    void sum_wanted_displacement(dem::Pairs<Exec>& pairs) const;
 
     /// Moves bodies, with their contact records, to the ranks that now own them, and sends ghosts to the ranks where
     /// they may be in contact. Call between dem::allow_displacement and dem::list_pairs.
@@ -60,7 +60,7 @@ private:
     BodyOwners                       owners_;
     SharedBodies<Exec>               shared_;
     FetchedArray<Exec, Vec3<double>> position_; ///< m
-    FetchedArray<Exec, double>       travel_;   ///< m
+    FetchedArray<Exec, double>       allowed_;   ///< m
     std::vector<std::int32_t>        is_large_; ///< by body, from Pairs; empty before assign_owners()
     decomp::Exchange<Exec>           states_;
     Array<Exec, std::int32_t>        arriving_;

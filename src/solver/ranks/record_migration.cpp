@@ -16,9 +16,9 @@ namespace
 template<class Exec>
 std::vector<world::ContactRecord> last_records(const dem::Pairs<Exec>& pairs)
 {
-    const std::vector<std::uint64_t>  keys    = pairs.last_key.to_host();
-    const std::vector<dem::Patch>     patches = pairs.last_patch.to_host();
-    const std::vector<dem::Rolling>   rolling = pairs.last_rolling.to_host();
+    const std::vector<std::uint64_t>  keys    = pairs.last.key.to_host();
+    const std::vector<dem::Patch>     patches = pairs.last.patch.to_host();
+    const std::vector<dem::Rolling>   rolling = pairs.last.rolling.to_host();
     const std::vector<Vec3<double>>   places  = pairs.patches.last_place.to_host();
     std::vector<world::ContactRecord> records;
     records.reserve(keys.size());
@@ -42,9 +42,9 @@ void put_back(const std::vector<world::ContactRecord>& records, dem::Pairs<Exec>
         patches.push_back(record.patch);
         rolling.push_back(record.rolling);
     }
-    pairs.last_key.assign(keys);
-    pairs.last_patch.assign(patches);
-    if (pairs.resists_rolling) { pairs.last_rolling.assign(rolling); }
+    pairs.last.key.assign(keys);
+    pairs.last.patch.assign(patches);
+    if (pairs.resists_rolling) { pairs.last.rolling.assign(rolling); }
 }
 
 template<class Exec>

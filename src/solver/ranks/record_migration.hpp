@@ -11,10 +11,10 @@
 namespace tread::solver
 {
 
-/// Body of a pair whose owner evaluates the contact. `is_large`: Pairs::is_large, one entry per body.
+/// Body of a pair whose owner evaluates the contact. `is_large`: dem::BodySizes::is_large, one entry per body.
 std::int64_t deciding_body(const std::vector<std::int32_t>& is_large, std::uint64_t key);
 
-/// Sends records of the previous list (Pairs::last_key) to the new owners of bodies that leave this rank, and merges
+/// Sends records of the previous list (Pairs::last) to the new owners of bodies that leave this rank, and merges
 /// those that arrive. Collective.
 template<class Exec>
 void migrate_records(const Communicator& communicator, dem::Pairs<Exec>& pairs,

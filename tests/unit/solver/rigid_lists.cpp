@@ -63,7 +63,7 @@ protected:
 
     std::int64_t searches() const
     {
-        const auto found = this->counters.launches().find("body reach");
+        const auto found = this->counters.launches().find("body search radii");
         return found == this->counters.launches().end() ? 0 : found->second;
     }
 

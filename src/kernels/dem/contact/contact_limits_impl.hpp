@@ -141,7 +141,7 @@ void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, Body
     each_pair("anticipated contacts",
               AnticipatePair{bodies, law, pairs.view(), 2 * dt, 0.5 * dt * gravity, pairs.measure.data()});
     pairs.expected_stiffness.resize(bodies.count);
-    each_body("expected contacts", ExpectContacts{bodies, law, pairs.view(), pairs.node_area.data(),
+    each_body("expected contacts", ExpectContacts{bodies, law, pairs.view(), pairs.sizes.node_area.data(),
                                                   pairs.measure.data(), pairs.expected_stiffness.data(), shared});
 }
 

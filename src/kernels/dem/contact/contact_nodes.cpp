@@ -23,7 +23,7 @@ void count_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bo
                     {
                         const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
                         for_each_pair(cpu, "count pair nodes", pairs.key.size(),
-                                      contact_nodes::CountNodes<Meet>{walk, pairs.first_node.data()});
+                                      contact_nodes::CountNodes<Meet>{walk, pairs.nodes.first.data()});
                     });
 }
 
@@ -35,20 +35,20 @@ void list_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bod
                         const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
                         for_each_pair(
                             cpu, "write pair nodes", pairs.key.size(),
-                            contact_nodes::WriteNodes<Meet>{walk, pairs.first_node.data(), pairs.node.data()});
+                            contact_nodes::WriteNodes<Meet>{walk, pairs.nodes.first.data(), pairs.nodes.node.data()});
                     });
 }
 
 void look_up_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    if (pairs.node.size() == 0) { return; }
+    if (pairs.nodes.node.size() == 0) { return; }
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
                         const contact_nodes::LookUp<Meet> look_up{meet, bodies.count, law, pairs.view()};
                         constexpr std::int64_t            worth_threads = 128; // about a millisecond
                         for_each_heavy(
-                            cpu, "nodes found", node_words(pairs.node.size()),
+                            cpu, "nodes found", node_words(pairs.nodes.node.size()),
                             [=](std::int64_t word) { look_up(word, OneLane{}); }, worth_threads);
                     });
 }

@@ -15,7 +15,7 @@ void count_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bo
                     {
                         const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
                         for_each_group<node_lanes>(gpu, "count pair nodes", pairs.key.size(),
-                                                   contact_nodes::CountNodes<Meet>{walk, pairs.first_node.data()});
+                                                   contact_nodes::CountNodes<Meet>{walk, pairs.nodes.first.data()});
                     });
 }
 
@@ -27,7 +27,7 @@ void list_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bod
                         const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
                         for_each_group<node_lanes>(
                             gpu, "write pair nodes", pairs.key.size(),
-                            contact_nodes::WriteNodes<Meet>{walk, pairs.first_node.data(), pairs.node.data()});
+                            contact_nodes::WriteNodes<Meet>{walk, pairs.nodes.first.data(), pairs.nodes.node.data()});
                     });
 }
 
@@ -45,20 +45,20 @@ struct HasManyNodes
 
 void list_pairs_of_many_nodes(const Gpu& gpu, Pairs<Gpu>& pairs)
 {
-    pairs.many.resize(0);
-    if (pairs.node.size() == 0) { return; }
-    select(gpu, "pairs of many nodes", pairs.key.size(), HasManyNodes{pairs.view()}, pairs.found, pairs.sort,
-           pairs.many);
+    pairs.nodes.many.resize(0);
+    if (pairs.nodes.node.size() == 0) { return; }
+    select(gpu, "pairs of many nodes", pairs.key.size(), HasManyNodes{pairs.view()}, pairs.search.found, pairs.sort,
+           pairs.nodes.many);
 }
 
 void look_up_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    if (pairs.node.size() == 0) { return; }
+    if (pairs.nodes.node.size() == 0) { return; }
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
                         const contact_nodes::LookUp<Meet> look_up{meet, bodies.count, law, pairs.view()};
-                        for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.node.size()), look_up);
+                        for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.nodes.node.size()), look_up);
                     });
 }
 

@@ -23,7 +23,7 @@ struct WriteSpeed
 };
 
 /// The previous list, for the neighbours of each body.
-struct LastPairs
+struct LastNeighbours
 {
     const std::uint64_t* key;
     const std::int32_t*  first; ///< as in PairsView; null if there was no list
@@ -37,7 +37,7 @@ struct FastestNear
 {
     std::int64_t        bodies; ///< number of bodies
     const std::int32_t* is_large;
-    LastPairs           last;
+    LastNeighbours           last;
     const double*       speed;
 
     TREAD_HD double operator()(std::int64_t b) const
@@ -77,28 +77,28 @@ struct FastestNearOfAllRanks
     }
 };
 
-/// Computes Travel::more of an owned body. Near: FastestNear or FastestNearOfAllRanks.
+/// Computes SearchDisplacement::per_step of an owned body. Near: FastestNear or FastestNearOfAllRanks.
 template<class Near>
-struct WriteMore
+struct WritePerStep
 {
     BodiesView          bodies;
     const TemplateView* templates;
     double              dt;
     const double*       speed;
     Near                near;
-    double*             more;
+    double*             per_step;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        more[b] =
-            bodies.is_owned(b) ? travel_of(bounding_radius(bodies, templates, b), speed[b], near(b), dt).more : 0.0;
+        per_step[b] =
+            bodies.is_owned(b) ? search_displacement(bounding_radius(bodies, templates, b), speed[b], near(b), dt).per_step : 0.0;
     }
 };
 
 template<class Near>
-WriteMore(BodiesView, const TemplateView*, double, const double*, Near, double*) -> WriteMore<Near>;
+WritePerStep(BodiesView, const TemplateView*, double, const double*, Near, double*) -> WritePerStep<Near>;
 
-struct WriteReach
+struct WriteAllowed
 {
     BodiesView          bodies;
     const TemplateView* templates;
@@ -106,62 +106,62 @@ struct WriteReach
     double              dt;
     double              substeps;
     const double*       speed;
-    const double*       more;
-    const double*       sum; ///< sum of `more`
-    double*             travel;
-    double*             reach;
+    const double*       per_step;
+    const double*       sum; ///< sum of `per_step`
+    double*             allowed;
+    double*             search_radius;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
         const double radius = bounding_radius(bodies, templates, b);
-        const double least  = travel_of(radius, speed[b], speed[b], dt).least;
+        const double least  = search_displacement(radius, speed[b], speed[b], dt).least;
         const double steps  = steps_to_last(*sum / static_cast<double>(bodies.count), substeps);
-        travel[b]           = radius * (least + std::fmin(steps * more[b], most_more));
-        reach[b]            = is_large[b] != 0 ? 0.0 : radius + travel[b];
+        allowed[b]           = radius * (least + std::fmin(steps * per_step[b], most_per_step));
+        search_radius[b]            = is_large[b] != 0 ? 0.0 : radius + allowed[b];
     }
 };
 
 /// Recomputes the search radius of bodies whose allowed displacement came from their owner.
-struct WriteReachAgain
+struct UpdateSearchRadius
 {
     BodiesView          bodies;
     const TemplateView* templates;
     const std::int32_t* is_large;
-    const double*       travel;
-    double*             reach;
+    const double*       allowed;
+    double*             search_radius;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
         const bool small = bodies.is_here(b) && is_large[b] == 0;
-        reach[b]         = small ? bounding_radius(bodies, templates, b) + travel[b] : 0.0;
+        search_radius[b]         = small ? bounding_radius(bodies, templates, b) + allowed[b] : 0.0;
     }
 };
 
 template<class Exec>
 FastestNear fastest_near(Pairs<Exec>& pairs, const BodiesView& bodies)
 {
-    const LastPairs last{pairs.last_key.data(), pairs.first.data(), pairs.by_second.data(), pairs.second.data()};
-    return {bodies.count, pairs.is_large.data(), last, pairs.speed.data()};
+    const LastNeighbours last{pairs.last.key.data(), pairs.of_body.first.data(), pairs.of_body.by_second.data(), pairs.of_body.second.data()};
+    return {bodies.count, pairs.sizes.is_large.data(), last, pairs.displacement.speed.data()};
 }
 
 template<class Exec>
 void write_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    pairs.travel.resize(bodies.count);
-    pairs.reach.resize(bodies.count);
-    pairs.speed.resize(bodies.count);
-    pairs.more_travel.resize(bodies.count);
+    pairs.displacement.allowed.resize(bodies.count);
+    pairs.displacement.search_radius.resize(bodies.count);
+    pairs.displacement.speed.resize(bodies.count);
+    pairs.displacement.per_step.resize(bodies.count);
     pairs.measure.resize(1);
-    for_each(exec, "body speeds", bodies.count, WriteSpeed{bodies, law.templates, pairs.speed.data()});
+    for_each(exec, "body speeds", bodies.count, WriteSpeed{bodies, law.templates, pairs.displacement.speed.data()});
 }
 
 /// Recomputes search radii on several ranks: ghosts receive their allowed displacement from their owners.
 template<class Exec>
-void reach_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+void update_search_radii(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     if (bodies.role == nullptr) { return; }
-    for_each(exec, "reach of bodies here", bodies.count,
-             WriteReachAgain{bodies, law.templates, pairs.is_large.data(), pairs.travel.data(), pairs.reach.data()});
+    for_each(exec, "search radii of bodies here", bodies.count,
+             UpdateSearchRadius{bodies, law.templates, pairs.sizes.is_large.data(), pairs.displacement.allowed.data(), pairs.displacement.search_radius.data()});
 }
 
 } // namespace pair_steps
@@ -181,21 +181,21 @@ void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView
     const auto write = [&](const auto& near)
     {
         for_each(exec, "body motion", bodies.count,
-                 WriteMore{bodies, law.templates, dt, pairs.speed.data(), near, pairs.more_travel.data()});
+                 WritePerStep{bodies, law.templates, dt, pairs.displacement.speed.data(), near, pairs.displacement.per_step.data()});
     };
     if (bodies.role == nullptr) { write(fastest_near(pairs, bodies)); }
     else { write(FastestNearOfAllRanks{fastest_near(pairs, bodies), shared}); }
-    sum_rows(exec, pairs.more_travel.data(), bodies.count, 1, pairs.measure.data());
+    sum_rows(exec, pairs.displacement.per_step.data(), bodies.count, 1, pairs.measure.data());
 }
 
 template<class Exec>
 void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                         double substeps)
 {
-    for_each(exec, "body reach", bodies.count,
-             pair_steps::WriteReach{bodies, law.templates, pairs.is_large.data(), dt, substeps, pairs.speed.data(),
-                                    pairs.more_travel.data(), pairs.measure.data(), pairs.travel.data(),
-                                    pairs.reach.data()});
+    for_each(exec, "body search radii", bodies.count,
+             pair_steps::WriteAllowed{bodies, law.templates, pairs.sizes.is_large.data(), dt, substeps, pairs.displacement.speed.data(),
+                                    pairs.displacement.per_step.data(), pairs.measure.data(), pairs.displacement.allowed.data(),
+                                    pairs.displacement.search_radius.data()});
 }
 
 } // namespace tread::dem
