@@ -116,7 +116,7 @@ TREAD_HD std::int64_t lookups(const SearchBody& body, const mpm::PagesView& page
 }
 
 /// Returns the point page of lookup `i` of the box, or -1.
-TREAD_HD std::int64_t look_up(const PageBox& box, const mpm::PagesView& pages, std::int64_t i)
+TREAD_HD std::int64_t lookup_page(const PageBox& box, const mpm::PagesView& pages, std::int64_t i)
 {
     if (box.pages() < pages.point_pages)
     {
@@ -126,17 +126,17 @@ TREAD_HD std::int64_t look_up(const PageBox& box, const mpm::PagesView& pages, s
 }
 
 /// Returns the point page of lookup `i` on all levels for a body, or -1.
-TREAD_HD std::int64_t look_up(const SearchBody& body, const mpm::PagesView& pages, const SearchReach& reach,
+TREAD_HD std::int64_t lookup_page(const SearchBody& body, const mpm::PagesView& pages, const SearchReach& reach,
                               std::int64_t i)
 {
     for (int level = 0; level < pages.levels; ++level)
     {
         const PageBox      box = page_box(body, pages, level, reach);
         const std::int64_t own = lookups(box, pages.point_pages);
-        if (i < own) { return look_up(box, pages, i); }
+        if (i < own) { return lookup_page(box, pages, i); }
         i -= own;
     }
-    return look_up(page_box(body, pages, pages.levels, reach), pages, i);
+    return lookup_page(page_box(body, pages, pages.levels, reach), pages, i);
 }
 
 /// Whether x is in the body-frame bounding box, extended by `margin` along each of the body's axes.

@@ -121,7 +121,7 @@ void BodyOwners::take_roles(const std::vector<BodyHolding>& decided, const std::
     for (const BodyHolding& body : held)
     {
         const bool own                             = body.owner == communicator_.rank();
-        role_[static_cast<std::size_t>(body.body)] = own ? dem::role_owner : dem::role_guest;
+        role_[static_cast<std::size_t>(body.body)] = own ? dem::role_owner : dem::role_ghost;
     }
 }
 

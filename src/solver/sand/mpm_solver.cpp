@@ -178,7 +178,7 @@ SandReport MpmSolver<Exec, Real>::report()
 template<class Exec, class Real>
 void MpmSolver<Exec, Real>::request_report()
 {
-    if (ranks_) { ranks_->halo().clear_booked_elsewhere(mpm::tally_width(mpm::grid_sums), tallies_.grid_rows.data()); }
+    if (ranks_) { ranks_->halo().clear_tallied_elsewhere(mpm::tally_width(mpm::grid_sums), tallies_.grid_rows.data()); }
     request_totals(exec_, tallies_, order_.pages);
     if (sleep_) { sleep_->note(tallies_.peak_rows.data()); }
     clear_tallies(tallies_);

@@ -25,7 +25,7 @@ TEST(HullDepth, OfAPitIsItsDepth)
 }
 
 /// The distinction of solver/bodies/device_templates.cpp: wheels with grousers, and rocks that nearly fill their hulls.
-TEST(FullSizeHullDepth, TellsWheelsFromRocks)
+TEST(FullSizeHullDepth, DistinguishesWheelsFromRocks)
 {
     for (const std::string& name : shape::builtin_shape_names())
     {

@@ -7,7 +7,7 @@ namespace tread::dem
 
 void evaluate_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    look_up_nodes(cpu, pairs, bodies, law);
+    evaluate_nodes(cpu, pairs, bodies, law);
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {

@@ -19,7 +19,7 @@ void answer_pairs(const Gpu& gpu, const body_contact::AnswerPair<Meet>& answer)
 void evaluate_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
     constexpr std::int64_t few = 50000; // too few to fill the device
-    look_up_nodes(gpu, pairs, bodies, law);
+    evaluate_nodes(gpu, pairs, bodies, law);
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {

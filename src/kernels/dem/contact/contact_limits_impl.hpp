@@ -137,7 +137,7 @@ void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, Body
 {
     pairs.measure.resize(pairs.key.size());
     law.rays = nullptr; // rays give no distance outside
-    look_up_nodes(exec, pairs, bodies, law);
+    evaluate_nodes(exec, pairs, bodies, law);
     each_pair("anticipated contacts",
               AnticipatePair{bodies, law, pairs.view(), 2 * dt, 0.5 * dt * gravity, pairs.measure.data()});
     pairs.expected_stiffness.resize(bodies.count);

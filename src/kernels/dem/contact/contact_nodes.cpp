@@ -39,17 +39,17 @@ void list_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bod
                     });
 }
 
-void look_up_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+void evaluate_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     if (pairs.nodes.node.size() == 0) { return; }
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
-                        const contact_nodes::LookUp<Meet> look_up{meet, bodies.count, law, pairs.view()};
+                        const contact_nodes::EvaluateNodes<Meet> evaluate{meet, bodies.count, law, pairs.view()};
                         constexpr std::int64_t            worth_threads = 128; // about a millisecond
                         for_each_heavy(
                             cpu, "nodes found", node_words(pairs.nodes.node.size()),
-                            [=](std::int64_t word) { look_up(word, OneLane{}); }, worth_threads);
+                            [=](std::int64_t word) { evaluate(word, OneLane{}); }, worth_threads);
                     });
 }
 

@@ -51,14 +51,14 @@ void list_pairs_of_many_nodes(const Gpu& gpu, Pairs<Gpu>& pairs)
            pairs.nodes.many);
 }
 
-void look_up_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+void evaluate_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     if (pairs.nodes.node.size() == 0) { return; }
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
-                        const contact_nodes::LookUp<Meet> look_up{meet, bodies.count, law, pairs.view()};
-                        for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.nodes.node.size()), look_up);
+                        const contact_nodes::EvaluateNodes<Meet> evaluate{meet, bodies.count, law, pairs.view()};
+                        for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.nodes.node.size()), evaluate);
                     });
 }
 

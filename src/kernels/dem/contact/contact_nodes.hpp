@@ -34,7 +34,7 @@ inline void list_pairs_of_many_nodes(const Cpu&, Pairs<Cpu>&) {}
 void        list_pairs_of_many_nodes(const Gpu&, Pairs<Gpu>& pairs);
 
 /// Computes pairs.nodes.found and inside for every listed node at the bodies' present positions.
-void look_up_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-void look_up_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+void evaluate_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+void evaluate_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 } // namespace tread::dem

@@ -132,7 +132,7 @@ struct WriteNodes
 
 /// Evaluates the nodes of one word of pairs.inside.
 template<class Meet>
-struct LookUp
+struct EvaluateNodes
 {
     Meet         meet;
     std::int64_t bodies; ///< number of bodies

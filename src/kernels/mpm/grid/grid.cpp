@@ -32,7 +32,7 @@ void update_grid(const Cpu& cpu, const PagesView& pages, const WallPagesView<Rea
                 write_motion(update_node(step, node_at(at, place), channels, node, sum), here + place);
             }
         }
-        for (int s = 0; s < grid_sums; ++s) { book(tallies + page * tally_width(grid_sums), grid_sums, s, sum[s]); }
+        for (int s = 0; s < grid_sums; ++s) { add_to_new_step(tallies + page * tally_width(grid_sums), grid_sums, s, sum[s]); }
     };
     for_each_heavy(cpu, "update grid", pages.node_pages, update_page);
 }
@@ -69,7 +69,7 @@ void update_walls(const Cpu& cpu, const PagesView& pages, const WallPagesView<Re
             finish_wall_node(step, nodes[region_item(region, place)], here + place, sum);
         }
         double* row = tallies + page * tally_width(grid_sums);
-        for (int s = 0; s < grid_sums; ++s) { book_more(row, grid_sums, s, sum[s]); }
+        for (int s = 0; s < grid_sums; ++s) { add_to_same_step(row, grid_sums, s, sum[s]); }
     };
     for_each_heavy(cpu, "update walls", wall_pages.count, update_page);
 }

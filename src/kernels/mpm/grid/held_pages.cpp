@@ -18,7 +18,7 @@ void hold_still(const Cpu& cpu, const PagesView& pages, const HeldPagesView& hel
             hold_place(pages, held, number, place, tiles, step, motion, sum);
         }
         double* row = tallies + std::int64_t{held.page[number]} * tally_width(grid_sums);
-        for (int s = 0; s < grid_sums; ++s) { book_more(row, grid_sums, s, sum[s]); }
+        for (int s = 0; s < grid_sums; ++s) { add_to_same_step(row, grid_sums, s, sum[s]); }
         for (int c = 0; c < 3; ++c) { held.impulse[3 * number + c] += sum[grid_wall_impulse + c]; }
     };
     for_each_heavy(cpu, "hold still", held.count, hold_page);

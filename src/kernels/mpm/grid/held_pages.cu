@@ -30,7 +30,7 @@ struct HoldPage
         block_sum<page_cells, grid_sums>(sum, shared,
                                          [=](int s, double value)
                                          {
-                                             book_more(row, grid_sums, s, value);
+                                             add_to_same_step(row, grid_sums, s, value);
                                              const int c = s - grid_wall_impulse;
                                              if (c >= 0) { impulse[c] += value; }
                                          });

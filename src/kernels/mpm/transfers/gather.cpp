@@ -65,7 +65,7 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
 #pragma omp atomic write
         *moves.changed_in = moves.step;
     }
-    for (int s = 0; s < point_sums; ++s) { book(tally, point_sums, s, sums[s]); }
+    for (int s = 0; s < point_sums; ++s) { add_to_new_step(tally, point_sums, s, sums[s]); }
 }
 
 } // namespace

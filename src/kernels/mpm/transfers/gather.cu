@@ -202,7 +202,7 @@ struct GatherPage
         if (threadIdx.x < move_counts) { count[threadIdx.x] = 0; }
         double*      row    = tallies + page * tally_width(point_sums);
         double*      most   = peaks + page * point_peaks;
-        const double booked = threadIdx.x < point_sums ? row[threadIdx.x] : 0;
+        const double tallied = threadIdx.x < point_sums ? row[threadIdx.x] : 0;
         const double before = threadIdx.x < point_peaks ? most[threadIdx.x] : 0;
         at += threadIdx.x;
         Listed       next     = listed(at, end);
@@ -232,7 +232,7 @@ struct GatherPage
         block_sum<threads, point_sums>(sum, shared_sums,
                                        [=](int s, double value)
                                        {
-                                           row[s]              = booked + value;
+                                           row[s]              = tallied + value;
                                            row[point_sums + s] = value;
                                        });
         block_largest<threads, point_peaks>(peak, shared_peaks,
