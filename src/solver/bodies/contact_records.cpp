@@ -21,8 +21,8 @@ bool decides(const BodyState<Exec>& state, const std::vector<std::int32_t>& is_l
     return !state.ranks || state.owns(deciding_body(is_large, key));
 }
 
-/// Accepts keys of two bodies, or of a body and a wall; with `listed`, in ascending order.
-auto accepted_keys(const world::World& world, bool listed)
+/// Accepts keys of two bodies, or of a body and a wall.
+auto accepted_keys(const world::World& world)
 {
     const auto        bodies = static_cast<std::int64_t>(world.bodies.size());
     const auto        sides  = bodies + static_cast<std::int64_t>(world.planes.size());
@@ -32,11 +32,7 @@ auto accepted_keys(const world::World& world, bool listed)
         const std::int64_t a = dem::first_of(key), b = dem::second_of(key);
         return a < bodies && a < b && b < sides;
     };
-    return [=](const std::vector<std::uint64_t>& values) -> accept::Verdict
-    {
-        if (auto refusal = accept::each(pair, is_key)(values)) { return refusal; }
-        return listed ? accept::ascending()(values) : accept::Verdict{};
-    };
+    return accept::each(pair, is_key);
 }
 
 /// Records of pairs as they are in memory, an array each.
@@ -136,7 +132,9 @@ void transfer_contacts(BodyState<Exec>& state, StateFile& file)
     records.rolling.resize(records.key.size(), dem::no_rolling());
     records.place.resize(records.key.size(), Vec3<double>::Zero());
     file.numbers("pairs/several", with_places);
-    file.own_or_all("pairs/key", records.key, accepted_keys(state.world, file.exact()));
+    const auto keys = accepted_keys(state.world);
+    if (file.exact()) { file.own_or_all("pairs/key", records.key, accept::all(keys, accept::ascending())); }
+    else { file.own_or_all("pairs/key", records.key, keys); }
     const auto of_each_pair = accept::all(accept::rows(records.key.size()), accept::finite());
     file.own_or_all("pairs/patch", records.patch, of_each_pair);
     file.own_or_all("pairs/rolling", records.rolling, of_each_pair);

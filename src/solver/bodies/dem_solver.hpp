@@ -33,13 +33,15 @@ struct ContactCount
     double nodes;
 };
 
-/// Rigid bodies of a scene on one backend: puts together the parts that work on a BodyState. A step is
+/// Rigid bodies of a scene on one backend: puts together the parts that work on a BodyState. Its part in a step, by the
+/// numbers of ARCHITECTURE.md, is
 ///
-/// 1. command: BodyCommands set what named bodies are held or driven to;
-/// 2. find_pairs: PairLists renew the list of pairs;
-/// 3. contact and move, or run: the substeps, with find_pairs_if_displaced between batches of them;
-/// 4. request_report and report: BodyReports sum up the steps since the last report;
-/// 5. named_bodies, fields, census, contacts: the output (body_output.hpp, contact_records.hpp).
+/// - 1, command: BodyCommands set what named bodies are held or driven to;
+/// - 3, find_pairs: PairLists renew the list of pairs;
+/// - 4, contact and move, or run: the substeps, with find_pairs_if_displaced between batches of them;
+/// - 7, request_report and report: BodyReports sum up the steps since the last report.
+///
+/// Output is named_bodies, fields, census and contacts (body_output.hpp, contact_records.hpp).
 template<class Exec>
 class DemSolver
 {
@@ -79,7 +81,7 @@ public:
     /// Returns and resets the largest speed (m/s) set by commands on any rank since the last call.
     double take_commanded_speed();
 
-    /// Step 2. Lists pairs of bodies, and of bodies and walls, that may touch within dt (update_pairs).
+    /// Step 3. Lists pairs of bodies, and of bodies and walls, that may touch within dt (update_pairs).
     void find_pairs(double dt);
 
     /// Passes changes made through view() on to the contacts. find_pairs and command do this themselves.
@@ -105,7 +107,7 @@ public:
     /// check for the next two batches.
     void find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time);
 
-    // Step 3. One substep.
+    // Step 4. One substep.
     void contact(double dt);
     void move(double dt, double damping, const dem::OutsideWrenches& outside = {});
     /// Calls contact and move `count` times, for bodies that touch only each other and walls.
@@ -115,14 +117,14 @@ public:
     dem::BodyStep<Exec> body_step(double dt, double damping);
     void                count_substeps(double dt, std::int64_t count);
 
-    /// Step 4. Requests the report early, so that one synchronisation serves several readbacks.
+    /// Step 7. Requests the report early, so that one synchronisation serves several readbacks.
     void request_report();
 
     /// Report of the step; synchronises. NumericalError when a contact is deeper than its law allows, or a body's
     /// position is not finite; `time` (s) is for that message.
     RigidReport report(double time);
 
-    /// Step 5. Output.
+    /// Output at present.
     RigidCensus           census();
     std::vector<BodyRow>  named_bodies();
     std::vector<JointRow> joints() const;
