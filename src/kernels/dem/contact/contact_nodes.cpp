@@ -1,3 +1,4 @@
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/dem/contact/contact_nodes_impl.hpp"
 
@@ -16,7 +17,8 @@ void for_each_pair(const Cpu& cpu, const char* name, std::int64_t pairs, const I
 
 } // namespace
 
-void count_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void count_contact_nodes(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
@@ -27,7 +29,8 @@ void count_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bo
                     });
 }
 
-void list_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void list_contact_nodes(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
@@ -39,7 +42,14 @@ void list_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bod
                     });
 }
 
-void evaluate_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+/// Nothing to list: one lane handles any pair.
+template<class Exec>
+void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>&)
+{
+}
+
+template<class Exec>
+void evaluate_nodes(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     if (pairs.nodes.node.size() == 0) { return; }
     by_narrow_phase(law,
@@ -52,5 +62,13 @@ void evaluate_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies,
                             [=](std::int64_t word) { evaluate(word, OneLane{}); }, worth_threads);
                     });
 }
+
+#define TREAD_INSTANTIATE(Exec) \
+    template void count_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&); \
+    template void list_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&); \
+    template void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>&); \
+    template void evaluate_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

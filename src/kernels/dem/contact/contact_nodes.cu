@@ -1,3 +1,4 @@
+#include "backend/instantiate.hpp"
 #include "kernels/dem/contact/contact_nodes_impl.hpp"
 #include "kernels/dem/contact/warp_lanes.cuh"
 #include "kernels/dem/pairs/select.hpp"
@@ -8,7 +9,8 @@ namespace tread::dem
 /// Number of lanes that share a pair: they process a cluster of nodes at a time.
 constexpr int node_lanes = 32;
 
-void count_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void count_contact_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
@@ -19,7 +21,8 @@ void count_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bo
                     });
 }
 
-void list_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void list_contact_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
@@ -43,7 +46,8 @@ struct HasManyNodes
 
 } // namespace
 
-void list_pairs_of_many_nodes(const Gpu& gpu, Pairs<Gpu>& pairs)
+template<class Exec>
+void list_pairs_of_many_nodes(const Exec& gpu, Pairs<Exec>& pairs)
 {
     pairs.nodes.many.resize(0);
     if (pairs.nodes.node.size() == 0) { return; }
@@ -51,7 +55,8 @@ void list_pairs_of_many_nodes(const Gpu& gpu, Pairs<Gpu>& pairs)
            pairs.nodes.many);
 }
 
-void evaluate_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void evaluate_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     if (pairs.nodes.node.size() == 0) { return; }
     by_narrow_phase(law,
@@ -61,5 +66,13 @@ void evaluate_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies,
                         for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.nodes.node.size()), evaluate);
                     });
 }
+
+#define TREAD_INSTANTIATE(Exec) \
+    template void count_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&); \
+    template void list_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&); \
+    template void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>&); \
+    template void evaluate_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

@@ -9,12 +9,12 @@ namespace tread::dem
 {
 
 /// Sets pairs.nodes.first[p] to the number of nodes of pair p, or to -1 for exact spheres, which touch without nodes.
-void count_contact_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-void count_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+template<class Exec>
+void count_contact_nodes(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 /// Fills pairs.nodes.node; pairs.nodes.first must already hold the start of each pair's run.
-void list_contact_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-void list_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+template<class Exec>
+void list_contact_nodes(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 /// Pairs with more listed nodes than this, and pairs in several patches, get lanes of their own on a GPU, because other
 /// pairs would wait for them.
@@ -30,11 +30,11 @@ TREAD_HD bool has_many_nodes(const PairsView& pairs, std::int64_t p)
 }
 
 /// Fills pairs.nodes.many once the list of pairs is complete; does nothing on the CPU.
-inline void list_pairs_of_many_nodes(const Cpu&, Pairs<Cpu>&) {}
-void        list_pairs_of_many_nodes(const Gpu&, Pairs<Gpu>& pairs);
+template<class Exec>
+void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>& pairs);
 
 /// Computes pairs.nodes.found and inside for every listed node at the bodies' present positions.
-void evaluate_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-void evaluate_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+template<class Exec>
+void evaluate_nodes(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 } // namespace tread::dem

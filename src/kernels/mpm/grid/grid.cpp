@@ -1,13 +1,14 @@
 #include "kernels/mpm/grid/grid.hpp"
 
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/mpm/grid/wall_step_kern.hpp"
 
 namespace tread::mpm
 {
 
-template<class Real>
-void update_grid(const Cpu& cpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+template<class Exec, class Real>
+void update_grid(const Exec& cpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
                  const SharedPagesView<Real>& shared_pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
                  double* tallies)
 {
@@ -37,8 +38,8 @@ void update_grid(const Cpu& cpu, const PagesView& pages, const WallPagesView<Rea
     for_each_heavy(cpu, "update grid", pages.node_pages, update_page);
 }
 
-template<class Real>
-void update_walls(const Cpu& cpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+template<class Exec, class Real>
+void update_walls(const Exec& cpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
                   const GridStep<Real>& step, Real* motion, double* tallies)
 {
     const auto update_page = [=](std::int64_t number)
@@ -74,13 +75,10 @@ void update_walls(const Cpu& cpu, const PagesView& pages, const WallPagesView<Re
     for_each_heavy(cpu, "update walls", wall_pages.count, update_page);
 }
 
-template void update_grid(const Cpu&, const PagesView&, const WallPagesView<float>&, const SharedPagesView<float>&,
-                          const float*, const GridStep<float>&, float*, double*);
-template void update_grid(const Cpu&, const PagesView&, const WallPagesView<double>&, const SharedPagesView<double>&,
-                          const double*, const GridStep<double>&, double*, double*);
-template void update_walls(const Cpu&, const PagesView&, const WallPagesView<float>&, const GridStep<float>&, float*,
-                           double*);
-template void update_walls(const Cpu&, const PagesView&, const WallPagesView<double>&, const GridStep<double>&, double*,
-                           double*);
+#define TREAD_INSTANTIATE(Exec, Real) \
+    template void update_grid(const Exec&, const PagesView&, const WallPagesView<Real>&, const SharedPagesView<Real>&, const Real*, const GridStep<Real>&, Real*, double*); \
+    template void update_walls(const Exec&, const PagesView&, const WallPagesView<Real>&, const GridStep<Real>&, Real*, double*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

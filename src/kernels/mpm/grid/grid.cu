@@ -3,6 +3,7 @@
 #include <cuda_pipeline.h>
 
 #include "backend/block_sum.cuh"
+#include "backend/instantiate.hpp"
 #include "backend/launch.cuh"
 #include "kernels/mpm/grid/wall_step_kern.hpp"
 
@@ -229,8 +230,8 @@ struct UpdateWallPage
 
 } // namespace
 
-template<class Real>
-void update_grid(const Gpu& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+template<class Exec, class Real>
+void update_grid(const Exec& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
                  const SharedPagesView<Real>& shared_pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
                  double* tallies)
 {
@@ -239,21 +240,18 @@ void update_grid(const Gpu& gpu, const PagesView& pages, const WallPagesView<Rea
         UpdatePages<Real>{pages, wall_pages, shared_pages, tiles, step, motion, tallies});
 }
 
-template<class Real>
-void update_walls(const Gpu& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+template<class Exec, class Real>
+void update_walls(const Exec& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
                   const GridStep<Real>& step, Real* motion, double* tallies)
 {
     for_each_block<wall_threads>(gpu, "update walls", wall_pages.count,
                                  UpdateWallPage<Real>{pages, wall_pages, step, motion, tallies});
 }
 
-template void update_grid(const Gpu&, const PagesView&, const WallPagesView<float>&, const SharedPagesView<float>&,
-                          const float*, const GridStep<float>&, float*, double*);
-template void update_grid(const Gpu&, const PagesView&, const WallPagesView<double>&, const SharedPagesView<double>&,
-                          const double*, const GridStep<double>&, double*, double*);
-template void update_walls(const Gpu&, const PagesView&, const WallPagesView<float>&, const GridStep<float>&, float*,
-                           double*);
-template void update_walls(const Gpu&, const PagesView&, const WallPagesView<double>&, const GridStep<double>&, double*,
-                           double*);
+#define TREAD_INSTANTIATE(Exec, Real) \
+    template void update_grid(const Exec&, const PagesView&, const WallPagesView<Real>&, const SharedPagesView<Real>&, const Real*, const GridStep<Real>&, Real*, double*); \
+    template void update_walls(const Exec&, const PagesView&, const WallPagesView<Real>&, const GridStep<Real>&, Real*, double*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

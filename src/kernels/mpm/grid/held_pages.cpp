@@ -1,13 +1,14 @@
 #include "kernels/mpm/grid/held_pages.hpp"
 
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/mpm/grid/held_pages_impl.hpp"
 
 namespace tread::mpm
 {
 
-template<class Real>
-void hold_still(const Cpu& cpu, const PagesView& pages, const HeldPagesView& held, const Real* tiles,
+template<class Exec, class Real>
+void hold_still(const Exec& cpu, const PagesView& pages, const HeldPagesView& held, const Real* tiles,
                 const GridStep<Real>& step, Real* motion, double* tallies)
 {
     const auto hold_page = [=](std::int64_t number)
@@ -24,9 +25,9 @@ void hold_still(const Cpu& cpu, const PagesView& pages, const HeldPagesView& hel
     for_each_heavy(cpu, "hold still", held.count, hold_page);
 }
 
-template void hold_still(const Cpu&, const PagesView&, const HeldPagesView&, const float*, const GridStep<float>&,
-                         float*, double*);
-template void hold_still(const Cpu&, const PagesView&, const HeldPagesView&, const double*, const GridStep<double>&,
-                         double*, double*);
+#define TREAD_INSTANTIATE(Exec, Real) \
+    template void hold_still(const Exec&, const PagesView&, const HeldPagesView&, const Real*, const GridStep<Real>&, Real*, double*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm
