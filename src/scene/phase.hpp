@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,6 +63,14 @@ struct Phase
 inline double time_limit(const Phase& phase)
 {
     return phase.until == StopRule::duration ? phase.duration : phase.max_duration;
+}
+
+/// Motion of a body in a phase; null if it has none.
+inline const Motion* motion_of(const Phase& phase, const std::string& body)
+{
+    const auto at = std::find_if(phase.motion.begin(), phase.motion.end(),
+                                 [&](const Motion& motion) { return motion.body == body; });
+    return at == phase.motion.end() ? nullptr : &*at;
 }
 
 } // namespace tread::scene

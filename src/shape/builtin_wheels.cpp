@@ -1,10 +1,10 @@
-#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/errors.hpp"
+#include "scene/named.hpp"
 #include "scene/problems.hpp"
 #include "shape/template.hpp"
 
@@ -91,8 +91,8 @@ scene::Shape find_shape(const scene::Scene& scene, const std::string& name)
     std::vector<scene::Shape>       known    = scene.shapes;
     const std::vector<scene::Shape> builtins = builtin_wheels();
     known.insert(known.end(), builtins.begin(), builtins.end());
-    const auto found = std::find_if(known.begin(), known.end(), [&](const scene::Shape& s) { return s.name == name; });
-    if (found != known.end()) { return with_parts(scene, *found); }
+    const std::size_t found = scene::index_of(known, name);
+    if (found < known.size()) { return with_parts(scene, known[found]); }
 
     std::vector<std::string> names;
     names.reserve(known.size());

@@ -1,6 +1,5 @@
 #include "world/joints.hpp"
 
-#include <algorithm>
 #include <numbers>
 #include <string>
 
@@ -9,6 +8,7 @@
 #include "base/errors.hpp"
 #include "kernels/dem/joints/make_joint.hpp"
 #include "scene/lines.hpp"
+#include "scene/named.hpp"
 
 namespace tread::world
 {
@@ -17,17 +17,16 @@ namespace
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Index of the item of this name; the scene was validated.
-template<class T>
-std::int32_t index_of(const std::vector<T>& items, const std::string& name)
+/// Index of the joint of this name; the scene was validated.
+std::int32_t joint_index(const scene::Scene& scene, const std::string& name)
 {
-    const auto at = std::find_if(items.begin(), items.end(), [&](const T& item) { return item.name == name; });
-    return static_cast<std::int32_t>(at - items.begin());
+    return static_cast<std::int32_t>(scene::index_of(scene.joints, name));
 }
 
 std::int32_t side_of(const scene::Scene& scene, const std::string& name)
 {
-    return name == scene::world_side ? dem::joint_world : index_of(scene.bodies, name);
+    if (name == scene::world_side) { return dem::joint_world; }
+    return static_cast<std::int32_t>(scene::index_of(scene.bodies, name));
 }
 
 Vec3<double> vector(const std::array<double, 3>& values) { return {values[0], values[1], values[2]}; }
@@ -85,7 +84,7 @@ dem::Joint make(const scene::Scene& scene, const scene::Joint& from, const HostB
 {
     if (from.type == scene::JointType::differential)
     {
-        return dem::make_differential({index_of(scene.joints, from.joints[0]), index_of(scene.joints, from.joints[1])});
+        return dem::make_differential({joint_index(scene, from.joints[0]), joint_index(scene, from.joints[1])});
     }
     const bool            spring = from.type == scene::JointType::spring;
     const bool            axial  = from.type == scene::JointType::revolute || from.type == scene::JointType::prismatic;
@@ -132,7 +131,7 @@ void set_motors(const scene::Scene& scene, std::size_t phase, std::vector<dem::J
         const auto& motor = scene.joints[j].motor;
         if (!motor) { continue; }
         const bool begun =
-            motor->from.empty() || phase >= static_cast<std::size_t>(index_of(scene.phases, motor->from));
+            motor->from.empty() || phase >= scene::index_of(scene.phases, motor->from);
         joints[j].speed = begun ? motor->speed : 0;
     }
 }

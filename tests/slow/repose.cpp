@@ -144,8 +144,8 @@ private:
     {
         const dem::BodiesView bodies = scene_.bodies.view();
         const dem::BodyLaw    law    = scene_.law();
-        double* const         travel = scene_.pairs.travel.data();
-        if (!listed_ || read(exec_, largest_displacement_ahead(exec_, displacements_, bodies, law.templates, travel,
+        double* const         allowed = scene_.pairs.displacement.allowed.data();
+        if (!listed_ || read(exec_, largest_displacement_ahead(exec_, displacements_, bodies, law.templates, allowed,
                                                                block * dt_)) > 1)
         {
             scene_.find(block * dt_);

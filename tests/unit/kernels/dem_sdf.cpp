@@ -152,13 +152,13 @@ TEST(SdfBricks, SearchBoundMissesNoContact)
     const dem::TemplateView         view = view_of(sdf);
     Random                          random(7);
     int                             touching = 0, left_out = 0;
-    for (const double travel : {0.01, 0.1, 1.0})
+    for (const double displacement : {0.01, 0.1, 1.0})
     {
-        const double bound = dem::search_bound(view, 1, point_radius, travel);
+        const double bound = dem::search_bound(view, 1, point_radius, displacement);
         for (int i = 0; i < 200000; ++i)
         {
             const Vec3<double> start   = point_within(random, 1.2);
-            const Vec3<double> end     = start + 0.5 * travel * point_within(random, 1).normalized();
+            const Vec3<double> end     = start + 0.5 * displacement * point_within(random, 1).normalized();
             const bool         touches = dem::sample_template_sdf(view, end).distance < point_radius;
             touching += touches ? 1 : 0;
             const bool found = dem::sample_template_sdf(view, start).distance <= bound;

@@ -71,7 +71,7 @@ TEST(DriveRoom, EndsBeforeTheEdgeOfTheTerrain)
     EXPECT_NE(open.rooms[0].front.what.find("the edge of the terrain"), std::string::npos);
 }
 
-TEST(DriveRoom, AddsUpTheDrivesAndTellsTheDurationThatFits)
+TEST(DriveRoom, AddsUpTheDrivesAndGivesTheDurationThatFits)
 {
     // 0.495 m at 0.1 m/s: 4.95 s, 3 of them in the first drive.
     const Built built(bed_text("slip", drive(1.0, 3.0) + drive(1.0, 3.0, "on")));

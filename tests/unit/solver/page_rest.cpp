@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/mpm/pages/page_key.hpp"
-#include "solver/page_rest.hpp"
+#include "solver/sand/page_rest.hpp"
 
 // Selection of pages that may sleep, on sets of pages written by hand.
 namespace

@@ -164,13 +164,13 @@ TREAD_HD double sdf_uncertainty(const TemplateView& shape, double scale, double 
 }
 
 /// Upper bound of the interpolant at every position from which a point can come within `radius` of the interpolated
-/// surface when it moves by at most half of `travel`, m, and at every nearer position.
-/// The slope of the interpolant is at most sqrt(3) where cells are exact: there radius + travel is a bound. A path that
+/// surface when it moves by at most half of `displacement`, m, and at every nearer position.
+/// The slope of the interpolant is at most sqrt(3) where cells are exact: there radius + displacement is a bound. A path that
 /// leaves this region starts at sdf_fine_reach or beyond; to end within `radius`, that distance must be below the sum
-/// below. In that case the distance at the start (at most radius + uncertainty + travel/2) and its error are added.
-TREAD_HD double search_bound(const TemplateView& shape, double scale, double radius, double travel)
+/// below. In that case the distance at the start (at most radius + uncertainty + displacement/2) and its error are added.
+TREAD_HD double search_bound(const TemplateView& shape, double scale, double radius, double displacement)
 {
-    const double bound = radius + travel, at_surface = surface_uncertainty(shape, scale);
+    const double bound = radius + displacement, at_surface = surface_uncertainty(shape, scale);
     if (shape.sdf_slots == nullptr || bound + at_surface <= scale * shape.sdf_fine_reach) { return bound; }
     return bound + at_surface + cell_uncertainty(brick_cells * shape.sdf_spacing) * scale;
 }
