@@ -4,7 +4,7 @@
 
 #include "backend/instantiate.hpp"
 #include "kernels/dem/contact/sdf_kern.hpp"
-#include "shape/sdf_grid.hpp"
+#include "shape/distance/sdf_grid.hpp"
 
 namespace tread::solver
 {

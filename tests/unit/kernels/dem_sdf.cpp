@@ -7,7 +7,7 @@
 #include "base/random.hpp"
 #include "dem_scene.hpp"
 #include "kernels/dem/contact/sdf_kern.hpp"
-#include "shape/sdf_grid.hpp"
+#include "shape/distance/sdf_grid.hpp"
 
 namespace tread::test
 {
