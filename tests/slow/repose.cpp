@@ -12,7 +12,7 @@
 #include "../statistics.hpp"
 #include "../unit/kernels/dem_ray_shapes.hpp"
 #include "kernels/dem/pairs/displacement_tracker.hpp"
-#include "shape/sdf_grid.hpp"
+#include "shape/distance/sdf_grid.hpp"
 
 // Angle of repose of irregular rocks, compared with that of spheres of equal volume.
 namespace

@@ -4,7 +4,7 @@
 
 #include "backend/instantiate.hpp"
 #include "kernels/dem/contact/sdf_kern.hpp"
-#include "shape/sdf_grid.hpp"
+#include "shape/distance/sdf_grid.hpp"
 
 namespace tread::solver
 {
@@ -30,17 +30,17 @@ std::size_t append(std::vector<T>& to, const std::vector<T>& from)
 dem::TemplateView measures(const shape::ShapeTemplate& form)
 {
     dem::TemplateView view{};
-    view.sdf_origin          = form.sdf.origin;
-    view.sdf_spacing         = form.sdf.spacing;
-    view.sdf_inverse_spacing = 1 / form.sdf.spacing;
-    view.sdf_steepest        = shape::steepest_slope(form.sdf);
-    view.sdf_nodes[0]        = form.sdf.nodes[0];
-    view.sdf_nodes[1]        = form.sdf.nodes[1];
-    view.sdf_nodes[2]        = form.sdf.nodes[2];
-    view.sdf_bricks[0]       = form.sdf.bricks[0];
-    view.sdf_bricks[1]       = form.sdf.bricks[1];
-    view.sdf_bricks[2]       = form.sdf.bricks[2];
-    view.sdf_fine_reach      = form.sdf.fine_reach;
+    view.sdf.origin          = form.sdf.origin;
+    view.sdf.spacing         = form.sdf.spacing;
+    view.sdf.inverse_spacing = 1 / form.sdf.spacing;
+    view.sdf.steepest        = shape::steepest_slope(form.sdf);
+    view.sdf.nodes[0]        = form.sdf.nodes[0];
+    view.sdf.nodes[1]        = form.sdf.nodes[1];
+    view.sdf.nodes[2]        = form.sdf.nodes[2];
+    view.sdf.bricks[0]       = form.sdf.bricks[0];
+    view.sdf.bricks[1]       = form.sdf.bricks[1];
+    view.sdf.bricks[2]       = form.sdf.bricks[2];
+    view.sdf.fine_reach      = form.sdf.fine_reach;
     view.node_count          = static_cast<std::int32_t>(form.nodes.positions.size());
     view.cluster_count       = static_cast<std::int32_t>(form.nodes.cluster_centres.size());
     view.low                 = form.box.low;
@@ -95,9 +95,9 @@ DeviceTemplates<Exec>::DeviceTemplates(const Exec& exec, const std::vector<shape
     for (std::size_t t = 0; t < templates.size(); ++t)
     {
         dem::TemplateView view = measures(templates[t]);
-        view.sdf_values        = sdf_values_.data() + starts[t].sdf;
-        view.sdf_slots         = templates[t].sdf.slots.empty() ? nullptr : sdf_slots_.data() + starts[t].slot;
-        view.sdf_corners       = sdf_corners_.data() + starts[t].corner;
+        view.sdf.values        = sdf_values_.data() + starts[t].sdf;
+        view.sdf.slots         = templates[t].sdf.slots.empty() ? nullptr : sdf_slots_.data() + starts[t].slot;
+        view.sdf.corners       = sdf_corners_.data() + starts[t].corner;
         view.node_positions    = node_positions_.data() + starts[t].node;
         view.node_areas        = node_areas_.data() + starts[t].node;
         view.cluster_centres   = cluster_centres_.data() + starts[t].cluster;

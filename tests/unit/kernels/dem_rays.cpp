@@ -5,9 +5,9 @@
 
 #include "base/random.hpp"
 #include "dem_ray_shapes.hpp"
-#include "shape/generators.hpp"
-#include "shape/mesh_distance.hpp"
-#include "shape/triangle.hpp"
+#include "shape/distance/mesh_distance.hpp"
+#include "shape/generators/generators.hpp"
+#include "shape/mesh/triangle.hpp"
 
 // Narrow phase by rays: single rays compared with all triangles, spheres with Hertz, impacts with distance fields.
 namespace tread::test

@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "shape/generators.hpp"
-#include "shape/mass_properties.hpp"
-#include "shape/mesh_distance.hpp"
+#include "shape/distance/mesh_distance.hpp"
+#include "shape/generators/generators.hpp"
+#include "shape/solids/mass_properties.hpp"
 #include "shape/surface_nodes.hpp"
 #include "shape/template.hpp"
 #include "unit/shape/meshes.hpp"
