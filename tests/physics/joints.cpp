@@ -64,6 +64,61 @@ TYPED_TEST(JointScenes, MotorTurnsFromItsPhaseOn)
     EXPECT_LE(axle.motor_torque, torque * (1 + 1e-12));
 }
 
+/// Energy and momentum that the ledger cannot account for, at most; a row of a joint does no work but by its error.
+template<class Exec>
+void expect_closed(test::Experiment<Exec>& run)
+{
+    const solver::Census now = run.simulation().census();
+    run.simulation().ledger().energy(now);
+    run.simulation().ledger().balance(now);
+    const io::ErrorReport errors = run.simulation().ledger().errors();
+    test::report("energy unaccounted", errors.energy, 0, 1e-6, "docs/theory.md#energy-balance");
+    test::report("momentum unaccounted", errors.momentum, 0, 1e-9, "docs/theory.md#energy-balance");
+    EXPECT_LT(std::abs(errors.energy), 1e-6);
+    EXPECT_LT(errors.momentum, 1e-9);
+}
+
+/// The first ball is led along x and cannot turn: it takes the second along. By the momentum of both, the mean reaction
+/// along x is (10 + 10) kg x 0.4 m/s / 0.4 s = 20 N, that along z both weights; and the second ball's weight, 0.2 m
+/// from the first, turns it by 10 kg g x 0.2 m about y, which pitch answers with the opposite torque.
+TYPED_TEST(JointScenes, AMotionLeadsABodyWithAJoint)
+{
+    constexpr double            mass = 20, speed = 0.4, span = 0.4, g = 9.81, rounding = 1e-8;
+    test::Experiment<TypeParam> run(this->exec(),
+                                    test::moved_text(span, "x = { velocity = 0.4, ramp = 0.4 }, y = \"held\", z = "
+                                                           "\"held\", roll = \"held\", pitch = \"held\", yaw = "
+                                                           "\"held\""));
+    run.run();
+    const auto          bodies = run.simulation().named_bodies();
+    const Vec3<double>& force  = bodies[0].reaction_force;
+    test::report("speed of the follower (m/s)", bodies[1].velocity[0], speed, rounding, "its row is solved exactly");
+    test::report("reaction along x (N)", force[0], mass * speed / span, rounding, "the momentum of both");
+    test::report("reaction along z (N)", force[2], mass * g, 1e-6, "the weight of both");
+    test::report("reaction about y (N m)", bodies[0].reaction_torque[1], -10 * g * 0.2, 1e-6, "the weight's moment");
+    EXPECT_NEAR(bodies[1].velocity[0], speed, rounding);
+    EXPECT_NEAR(force[0], mass * speed / span, rounding);
+    EXPECT_NEAR(force[2], mass * g, 1e-6);
+    EXPECT_NEAR(bodies[0].reaction_torque[1], -10 * g * 0.2, 1e-6);
+    EXPECT_LT(run.simulation().joints()[0].gap, 1e-9);
+    expect_closed(run);
+}
+
+/// Free along z alone: both balls rise with (300 N - 20 kg g) / 20 kg.
+TYPED_TEST(JointScenes, AMotionLiftsABodyWithAJointByAForce)
+{
+    constexpr double            mass = 20, force = 300, span = 0.2, g = 9.81;
+    const double                speed = (force / mass - g) * span;
+    test::Experiment<TypeParam> run(this->exec(), test::moved_text(span, "x = \"held\", y = \"held\", z = { force = "
+                                                                         "300.0 }, roll = \"held\", pitch = \"held\", "
+                                                                         "yaw = \"held\""));
+    run.run();
+    const auto bodies = run.simulation().named_bodies();
+    test::report("velocity of both (m/s)", bodies[0].velocity[2], speed, 1e-9, "the impulse is exact");
+    EXPECT_NEAR(bodies[0].velocity[2], speed, 1e-9);
+    EXPECT_NEAR(bodies[1].velocity[2], speed, 1e-9);
+    expect_closed(run);
+}
+
 TYPED_TEST(JointScenes, AJointThatDriftsStopsTheRunByName)
 {
     std::string       text = test::swinging_under_gravity(1.0);

@@ -122,9 +122,6 @@ INSTANTIATE_TEST_SUITE_P(
                  "[joint.strut]: neither stiffness nor damping"},
         BadJoint{"spring_without_length", "at = [0.2, 0.5, 1]", "at = [0.2, 0.5, 0.8]",
                  "[joint.strut] to: the ends of the spring are the same"},
-        BadJoint{"moved_by_a_phase", "drive = { body = \"wheel\", angular_velocity = 0.7, slip = 0.3 }",
-                 "motion = [{ body = \"frame\", x = \"held\" }]",
-                 "[joint.axle] between: `motion` of phase 'drive' moves \"frame\""},
         BadJoint{"two_of_a_name", "name = \"pin\"", "name = \"axle\"", "\"axle\" is also the name of [[joint]] 0"},
         BadJoint{"body_called_world", "name = \"frame\"", "name = \"world\"", "[body.world] name: \"world\" is what"}),
     [](const auto& bad) { return bad.param.name; });
@@ -135,6 +132,12 @@ TEST(Joints, with_a_motor_need_a_side_that_moves)
         replaced(replaced(jointed, "hold = [\"wheel\"]", "hold = [\"wheel\", \"frame\"]"),
                  "drive = { body = \"wheel\", angular_velocity = 0.7, slip = 0.3 }", "hold = [\"wheel\", \"frame\"]");
     EXPECT_THAT(refusal(held), HasSubstr("[joint.axle] motor: both sides are held in every phase"));
+    const std::string turned =
+        replaced(replaced(jointed, "hold = [\"wheel\"]", "hold = [\"wheel\", \"frame\"]"),
+                 "drive = { body = \"wheel\", angular_velocity = 0.7, slip = 0.3 }",
+                 "hold = [\"wheel\"]\nmotion = [{ body = \"frame\", roll = \"held\", yaw = \"held\", "
+                 "axle = { velocity = 1 } }]");
+    EXPECT_THAT(refusal(turned), HasSubstr("[joint.axle] motor: both sides are held in every phase"));
 }
 
 } // namespace
