@@ -60,8 +60,8 @@ Keys<Joint> joint_keys()
                  "so that a rover's body pitches by the mean of its rockers. \"spring\": spring and damper along the "
                  "line between two points."),
         required("between", "", &Joint::between, pair_of_names(),
-                 "Two bodies, or \"world\" and a body. The second moves against the first. Jointed bodies still touch "
-                 "each other: leave a gap between their shapes.")
+                 "Two bodies, or \"world\" and a body. The second moves against the first. They do not touch "
+                 "each other, unless by a spring alone: their shapes may overlap.")
             .when(tied, ties_bodies),
         required("at", "m", &Joint::at, vector3(coordinate()),
                  "Place of the joint at the start; of a spring: its end on the first body.")

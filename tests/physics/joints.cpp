@@ -119,6 +119,18 @@ TYPED_TEST(JointScenes, AMotionLiftsABodyWithAJointByAForce)
     expect_closed(run);
 }
 
+/// Balls of 0.1 m whose centres are 0.06 m apart: without the joint the scene would be refused.
+TYPED_TEST(JointScenes, JointedBodiesDoNotTouch)
+{
+    std::string       text  = test::moved_text(0.1, "x = { velocity = 0.1 }");
+    const std::string apart = "position = [1.2, 0.5, 0.8]";
+    text.replace(text.find(apart), apart.size(), "position = [1.06, 0.5, 0.8]");
+    test::Experiment<TypeParam> run(this->exec(), text);
+    run.run();
+    for (const solver::BodyRow& body : run.simulation().named_bodies()) { EXPECT_EQ(body.force.norm(), 0); }
+    expect_closed(run);
+}
+
 TYPED_TEST(JointScenes, AJointThatDriftsStopsTheRunByName)
 {
     std::string       text = test::swinging_under_gravity(1.0);

@@ -84,7 +84,9 @@ void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, cons
                             pairs.cell_body.data(),
                             pairs.large.data(),
                             pairs.large.size(),
-                            pairs.is_large.data()};
+                            pairs.is_large.data(),
+                            pairs.jointed.data(),
+                            pairs.jointed.size()};
     const std::int64_t items = bodies.count * PairSearch::parts;
     pairs.found.resize(items + 1);
     for_each(exec, "count pairs", items + 1, CountPairs{search, pairs.found.data()});

@@ -96,6 +96,7 @@ struct Pairs
         , expected_stiffness(exec, "body expected stiffness")
         , large(exec, "large bodies")
         , is_large(exec, "large body marks")
+        , jointed(exec, "pairs of jointed bodies")
         , node_area(exec, "body node area")
         , last_key(exec, "last pair keys")
         , last_patch(exec, "last pair patches")
@@ -140,9 +141,10 @@ struct Pairs
     Array<Exec, Rolling>       rolling;            ///< empty unless resists_rolling
     Array<Exec, double>        expected_stiffness; ///< N/m, per body (contact_limits.hpp)
 
-    Array<Exec, std::int32_t> large;     ///< bodies that are not in the cell grid
-    Array<Exec, std::int32_t> is_large;  ///< per body
-    Array<Exec, double>       node_area; ///< m2, mean node area of each body
+    Array<Exec, std::int32_t>  large;     ///< bodies that are not in the cell grid
+    Array<Exec, std::int32_t>  is_large;  ///< per body
+    Array<Exec, std::uint64_t> jointed;   ///< keys of pairs that never touch, ascending; set once
+    Array<Exec, double>        node_area; ///< m2, mean node area of each body
 
     Array<Exec, std::uint64_t> last_key;
     Array<Exec, Patch>         last_patch;
