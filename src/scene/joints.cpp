@@ -80,6 +80,24 @@ void check_motor(const Scene& scene, const Joint& joint, const TableAt& at, Chec
     }
 }
 
+/// Settings of motors in a phase name joints with a motor, each once.
+void check_settings(const Scene& scene, const Phase& phase, const TableAt& at, Checker& checker)
+{
+    const std::vector<std::string> names = names_in(scene.joints);
+    for (auto setting = phase.motors.begin(); setting != phase.motors.end(); ++setting)
+    {
+        checker.require_known(at, "motors", setting->joint, names, "[[joint]]");
+        const Joint* joint = find_joint(scene, setting->joint);
+        if (joint != nullptr && !joint->motor)
+        {
+            checker.report(at, "motors", fmt::format("\"{}\" has no motor", setting->joint), "a joint with a motor");
+        }
+        const bool again = std::any_of(phase.motors.begin(), setting,
+                                       [&](const MotorSetting& before) { return before.joint == setting->joint; });
+        if (again) { checker.report(at, "motors", fmt::format("\"{}\" twice", setting->joint), "one setting each"); }
+    }
+}
+
 void check_differential(const Scene& scene, const Joint& joint, const TableAt& at, Checker& checker)
 {
     if (!checker.sound(at, {"joints"})) { return; }
@@ -117,6 +135,10 @@ void validate_joints(const Scene& scene, Checker& checker)
         else { check_sides(scene, joint, at, checker); }
         check_geometry(joint, at, checker);
         check_motor(scene, joint, at, checker);
+    }
+    for (std::size_t i = 0; i < scene.phases.size(); ++i)
+    {
+        if (checker.sound({"phase", i}, {"motors"})) { check_settings(scene, scene.phases[i], {"phase", i}, checker); }
     }
 }
 

@@ -76,8 +76,7 @@ void add_parts(const scene::Joint& from, dem::Joint& joint)
     if (from.motor)
     {
         joint.parts |= dem::joint_has_motor;
-        joint.most_effort = from.motor->max_torque;
-        joint.gain        = from.motor->gain.value_or(0);
+        joint.gain = from.motor->gain.value_or(0);
     }
 }
 
@@ -133,7 +132,17 @@ void set_motors(const scene::Scene& scene, std::size_t phase, std::vector<dem::J
         if (!motor) { continue; }
         const bool begun =
             motor->from.empty() || phase >= static_cast<std::size_t>(index_of(scene.phases, motor->from));
-        joints[j].speed = begun ? motor->speed : 0;
+        joints[j].speed       = begun ? motor->speed : 0;
+        joints[j].most_effort = motor->max_torque;
+    }
+    for (std::size_t p = 0; p < std::min(phase + 1, scene.phases.size()); ++p)
+    {
+        for (const scene::MotorSetting& setting : scene.phases[p].motors)
+        {
+            dem::Joint& joint = joints[static_cast<std::size_t>(index_of(scene.joints, setting.joint))];
+            joint.speed       = setting.speed;
+            joint.most_effort = setting.max_torque.value_or(joint.most_effort);
+        }
     }
 }
 

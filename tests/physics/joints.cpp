@@ -131,6 +131,22 @@ TYPED_TEST(JointScenes, JointedBodiesDoNotTouch)
     expect_closed(run);
 }
 
+/// A phase that follows turns the motor the other way, with less torque.
+TYPED_TEST(JointScenes, APhaseSetsSpeedAndTorqueOfAMotor)
+{
+    const std::string           text = test::swinging_text(0.1) + R"([[phase]]
+name = "back"
+duration = 0.05
+motors = [ { joint = "axle", speed = -6.0, max_torque = 0.2 } ]
+)";
+    test::Experiment<TypeParam> chain(this->exec(), text);
+    chain.run();
+    const double spin     = chain.simulation().named_bodies()[2].angular_velocity[1];
+    const double expected = (0.1 * 0.3 - 0.05 * 0.2) / inertia_of(chain.world(), 2);
+    test::report("spin after 0.3 N m for 0.1 s and -0.2 N m for 0.05 s", spin, expected, 1e-6, "constant torques");
+    EXPECT_NEAR(spin, expected, 1e-6);
+}
+
 TYPED_TEST(JointScenes, AJointThatDriftsStopsTheRunByName)
 {
     std::string       text = test::swinging_under_gravity(1.0);
