@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "kernels/dem/joints/make_joint.hpp"
 #include "scene/lines.hpp"
+#include "world/joint_motions.hpp"
 
 namespace tread::world
 {
@@ -120,6 +121,7 @@ std::vector<dem::Joint> make_joints(const scene::Scene& scene, const HostBodies&
     joints.reserve(scene.joints.size());
     for (const scene::Joint& joint : scene.joints) { joints.push_back(make(scene, joint, bodies)); }
     require_independent(scene, joints, bodies);
+    require_consistent_motions(scene, joints, bodies);
     set_motors(scene, 0, joints);
     return joints;
 }

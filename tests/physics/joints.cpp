@@ -165,6 +165,26 @@ TYPED_TEST(JointScenes, AJointThatDriftsStopsTheRunByName)
     }
 }
 
+/// The weld leaves the follower no velocity along x but the 0.4 m/s of the ball that leads it.
+TEST(JointWorlds, RefuseMotionsThatPullAJointApart)
+{
+    const std::string led = test::moved_text(0.1, "x = { velocity = 0.4 }, roll = \"held\", pitch = \"held\", yaw = "
+                                                  "\"held\" }, { body = \"follower\", x = \"held\"");
+    try
+    {
+        world::build_world(test::load_text(led));
+        FAIL() << "the world was built";
+    }
+    catch (const InputError& error)
+    {
+        EXPECT_THAT(error.what(), HasSubstr("scene.toml:"));
+        EXPECT_THAT(error.what(), HasSubstr("[[phase]] 'move': motion: it pulls [[joint]] 'weld' apart"));
+    }
+    const std::string alike = test::moved_text(0.1, "x = { velocity = 0.4 }, roll = \"held\", pitch = \"held\", yaw = "
+                                                    "\"held\" }, { body = \"follower\", x = { velocity = 0.4 }");
+    EXPECT_NO_THROW(world::build_world(test::load_text(alike)));
+}
+
 TEST(JointWorlds, RefuseALoopThatIsClosedTwice)
 {
     const std::string text = test::swinging_text(0.1) + R"(
