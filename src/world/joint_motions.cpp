@@ -132,8 +132,8 @@ void require_consistent_motions(const scene::Scene& scene, const std::vector<dem
         if (!apart.empty())
         {
             throw InputError(scene::line_of(scene, "phase." + phase.name) +
-                             fmt::format("[[phase]] '{}': motion: it pulls [[joint]] '{}' apart: the velocities that it "
-                                         "prescribes differ from those that joints and other motions leave",
+                             fmt::format("[[phase]] '{}': motion: it pulls [[joint]] '{}' apart: what it prescribes "
+                                         "differs from what joints and other motions leave",
                                          phase.name, scene.joints[apart.front()].name));
         }
         if (!holds_joints(phase, scene)) { return; }

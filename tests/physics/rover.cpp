@@ -53,11 +53,11 @@ Loads statics(double n, double t)
         hung_along += part.mass * (part.x - bogie_x);
         hung_up += part.mass * (part.z - bogie_z);
     }
-    Eigen::Matrix3d system;
-    system << 1, 1, 1, front, middle, rear, 0, middle - bogie_x, rear - bogie_x;
+    Eigen::Matrix3d equations;
+    equations << 1, 1, 1, front, middle, rear, 0, middle - bogie_x, rear - bogie_x;
     const Eigen::Vector3d moments(0.5 * mass * n, 0.5 * (n * along - t * up),
                                   -bogie_z * 0.5 * mass * t + n * hung_along - t * hung_up);
-    const Eigen::Vector3d loads = system.inverse() * moments;
+    const Eigen::Vector3d loads = equations.inverse() * moments;
     return {loads[0], loads[1], loads[2]};
 }
 

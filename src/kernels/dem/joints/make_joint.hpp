@@ -36,9 +36,11 @@ struct GivenRate
     double       rate;    ///< m/s or rad/s
 };
 
-/// Indices of the joints that given rates pull apart: a row of theirs depends on given directions and on rows before it,
-/// and they give it a rate other than 0.
-std::vector<std::size_t> joints_pulled_apart(const std::vector<Joint>& joints, const std::vector<Vec3<double>>& positions,
-                                             const std::vector<Quat>& orientations, const std::vector<GivenRate>& given);
+/// Finds the joints that given rates pull apart: a row of theirs depends on given directions and on rows before it, and
+/// they give it a rate other than 0.
+std::vector<std::size_t> joints_pulled_apart(const std::vector<Joint>&        joints,
+                                             const std::vector<Vec3<double>>& positions,
+                                             const std::vector<Quat>&         orientations,
+                                             const std::vector<GivenRate>&    given);
 
 } // namespace tread::dem
