@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <ostream>
 
 #include <gmock/gmock.h>
@@ -133,6 +134,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadJoint{"two_of_a_name", "name = \"pin\"", "name = \"axle\"", "\"axle\" is also the name of [[joint]] 0"},
         BadJoint{"body_called_world", "name = \"frame\"", "name = \"world\"", "[body.world] name: \"world\" is what"}),
     [](const auto& bad) { return bad.param.name; });
+
+TEST(Joints, of_the_rovers_that_come_with_the_code_are_read)
+{
+    int scenes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("../configs/rover"))
+    {
+        if (entry.path().extension() != ".toml") { continue; }
+        EXPECT_FALSE(load_scene(entry.path().string(), {}).joints.empty()) << entry.path();
+        ++scenes;
+    }
+    EXPECT_EQ(scenes, 7);
+}
 
 TEST(Joints, have_motors_that_phases_set)
 {
