@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/joint.hpp"
 #include "scene/motion.hpp"
 #include "scene/words.hpp"
 
@@ -55,6 +56,7 @@ struct Phase
     std::optional<Lower>       lower;  ///< only with until = "lowered"
     std::optional<WeightShare> weight; ///< empty: the full weight of every body acts
     std::vector<Motion>        motion; ///< one for each body that has one
+    std::vector<MotorSetting>  motors; ///< of joints; they last until another phase sets them
 
     bool operator==(const Phase&) const = default;
 };

@@ -9,6 +9,7 @@
 #include "kernels/dem/joints/make_joint.hpp"
 #include "scene/lines.hpp"
 #include "scene/named.hpp"
+#include "world/joint_motions.hpp"
 
 namespace tread::world
 {
@@ -75,8 +76,7 @@ void add_parts(const scene::Joint& from, dem::Joint& joint)
     if (from.motor)
     {
         joint.parts |= dem::joint_has_motor;
-        joint.most_effort = from.motor->max_torque;
-        joint.gain        = from.motor->gain.value_or(0);
+        joint.gain = from.motor->gain.value_or(0);
     }
 }
 
@@ -120,6 +120,7 @@ std::vector<dem::Joint> make_joints(const scene::Scene& scene, const HostBodies&
     joints.reserve(scene.joints.size());
     for (const scene::Joint& joint : scene.joints) { joints.push_back(make(scene, joint, bodies)); }
     require_independent(scene, joints, bodies);
+    require_consistent_motions(scene, joints, bodies);
     set_motors(scene, 0, joints);
     return joints;
 }
@@ -132,7 +133,17 @@ void set_motors(const scene::Scene& scene, std::size_t phase, std::vector<dem::J
         if (!motor) { continue; }
         const bool begun =
             motor->from.empty() || phase >= scene::index_of(scene.phases, motor->from);
-        joints[j].speed = begun ? motor->speed : 0;
+        joints[j].speed       = begun ? motor->speed : 0;
+        joints[j].most_effort = motor->max_torque;
+    }
+    for (std::size_t p = 0; p < std::min(phase + 1, scene.phases.size()); ++p)
+    {
+        for (const scene::MotorSetting& setting : scene.phases[p].motors)
+        {
+            dem::Joint& joint = joints[scene::index_of(scene.joints, setting.joint)];
+            joint.speed       = setting.speed;
+            joint.most_effort = setting.max_torque.value_or(joint.most_effort);
+        }
     }
 }
 

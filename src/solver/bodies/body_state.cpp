@@ -1,5 +1,6 @@
 #include "solver/bodies/body_state.hpp"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -77,6 +78,20 @@ void upload(BodyState<Exec>& state)
     bodies.stiffness.fill_zero();
 }
 
+/// Keys of the pairs of bodies that a joint ties, ascending: their shapes may overlap, as those of a wheel and its axle.
+std::vector<std::uint64_t> jointed_pairs(const std::vector<dem::Joint>& joints)
+{
+    std::vector<std::uint64_t> keys;
+    for (const dem::Joint& joint : joints)
+    {
+        const auto [a, b] = std::minmax(joint.body[0], joint.body[1]);
+        if (joint.kind != dem::joint_spring && a != dem::joint_world) { keys.push_back(dem::pair_key(a, b)); }
+    }
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    return keys;
+}
+
 /// Accepts contact stiffnesses of bodies that do not require endless substeps.
 auto accepted_stiffness(const world::HostBodies& bodies)
 {
@@ -129,6 +144,7 @@ BodyState<Exec>::BodyState(const Exec& backend, const scene::Scene& of_scene, co
     upload(*this);
     pairs.resists_rolling = tables.rolling;
     pairs.patches.wanted  = tables.templates.concave();
+    if (!world.joints.empty()) { pairs.jointed.assign(jointed_pairs(world.joints)); }
     if (has_contact) { dem::classify_bodies(exec, pairs, bodies.view(), tables.law.templates); }
     if (decomposition != nullptr)
     {

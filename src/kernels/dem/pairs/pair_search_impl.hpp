@@ -84,7 +84,9 @@ void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, cons
                             pairs.search.cell_body.data(),
                             pairs.sizes.large.data(),
                             pairs.sizes.large.size(),
-                            pairs.sizes.is_large.data()};
+                            pairs.sizes.is_large.data(),
+                            pairs.jointed.data(),
+                            pairs.jointed.size()};
     const std::int64_t items = bodies.count * PairSearch::parts;
     pairs.search.found.resize(items + 1);
     for_each(exec, "count pairs", items + 1, CountPairs{search, pairs.search.found.data()});

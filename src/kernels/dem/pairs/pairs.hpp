@@ -201,6 +201,7 @@ struct Pairs
         , last(exec)
         , body(exec, "bodies in contact")
         , expected_stiffness(exec, "body expected stiffness")
+        , jointed(exec, "pairs of jointed bodies")
         , sizes(exec)
         , displacement(exec)
         , search(exec)
@@ -247,6 +248,7 @@ struct Pairs
     // The bodies.
     Array<Exec, ContactBody>  body;
     Array<Exec, double>       expected_stiffness; ///< N/m, per body (contact_limits.hpp)
+    Array<Exec, std::uint64_t> jointed; ///< keys of pairs that never touch, ascending; set once
     BodySizes<Exec>           sizes;
     AllowedDisplacement<Exec> displacement;
 

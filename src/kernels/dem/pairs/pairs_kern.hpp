@@ -143,6 +143,8 @@ struct PairSearch
     const std::int32_t*  large;
     std::int64_t         large_count;
     const std::int32_t*  is_large;
+    const std::uint64_t* jointed; ///< keys of pairs that never touch, ascending
+    std::int64_t         jointed_count;
 
     TREAD_HD bool is_sphere(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
 
@@ -151,10 +153,11 @@ struct PairSearch
         return bodies.is_owned(decider_of(is_large, a, b)) && bodies.is_here(a) && bodies.is_here(b);
     }
 
-    /// Whether two bodies may touch; the bounding sphere of an exact sphere is its surface.
+    /// Whether two bodies may touch; the bounding sphere of an exact sphere is its surface. a < b.
     TREAD_HD bool near(std::int64_t a, std::int64_t b) const
     {
         return may_touch(bodies, law.templates, allowed_displacement, a, b) &&
+               find_sorted(jointed, jointed_count, pair_key(a, b)) < 0 &&
                ((is_sphere(a) && is_sphere(b)) || surfaces_near(bodies, law.templates, allowed_displacement, a, b));
     }
 
