@@ -112,7 +112,7 @@ def _loaded(sinkage, pressure):
 
 def _solve(residuals, start):
     """(values, covariance, degrees of freedom) of the least squares."""
-    found = least_squares(residuals, start, x_scale="jac")
+    found = least_squares(residuals, start, x_scale="jac", ftol=1e-12, xtol=1e-12, gtol=1e-12)
     freedom = len(found.fun) - len(start)
     normal = found.jac.T @ found.jac
     if not found.success or freedom < 1 or np.linalg.cond(normal) > 1e14:
