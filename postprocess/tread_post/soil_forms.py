@@ -88,19 +88,18 @@ def _oedometer_answers(run):
     return {"modulus": young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))}
 
 
-def _needs(models, bodies=1):
-    """The check of a scene for a first material of one of `models`, a box of sand, and bodies."""
+def _needs(model, bodies=1):
+    """The check of a scene for a box of sand of that model, and for so many bodies."""
     def needs(scene):
-        materials = {material.get("name"): material for material in scene.get("material", [])}
-        terrain = scene.get("terrain", [{}])
-        model = materials.get(terrain[0].get("material"), {}).get("model")
-        fits = model in models and "box" in terrain[0].get("region", {}) and len(scene.get("body", [])) >= bodies
-        return "" if fits else f"a box of [[terrain]] of a material with model {' or '.join(models)}, and {bodies} [[body]] or more"
+        models = {material.get("name"): material.get("model") for material in scene.get("material", [])}
+        terrain = (scene.get("terrain") or [{}])[0]
+        fits = models.get(terrain.get("material")) == model and "box" in terrain.get("region", {}) and len(scene.get("body", [])) >= bodies
+        return "" if fits else f"a first [[terrain]] that fills a box with a material of model \"{model}\", and {bodies} [[body]] or more"
 
     return needs
 
 
-PLASTIC = ("mohr-coulomb",)
+PLASTIC = "mohr-coulomb"
 _BETWEEN = ClosedForm("between both bounds of bearing capacity: 0 is the lower one, 1 the upper one", {"capacity": Quantity("1", _capacity, "")},
                       lambda run: {"capacity": 0.5}, 1.0, _needs(PLASTIC))
 _RATIO = Quantity("1", _plateau("stress_ratio"), "mean of the last quarter")
@@ -121,7 +120,7 @@ SOIL_FORMS = {
         _triaxial_answers, 0.0, _needs(PLASTIC, 2)),
     "oedometer": ClosedForm(
         "E (1 - nu) / ((1 + nu)(1 - 2 nu))", {"modulus": Quantity("Pa", lambda run: oedometer_modulus(curves_of(run)[0]), "", reads_points=True)},
-        _oedometer_answers, 0.0, _needs(("elastic",))),
+        _oedometer_answers, 0.0, _needs("elastic")),
     "repose": ClosedForm(
         "the friction angle", {"angle": Quantity("deg", lambda run: curves_of(run)[0].facts["angle_deg"], "", reads_points=True)},
         lambda run: {"angle": soil_of(run)["friction_angle_deg"]}, 0.0, _needs(PLASTIC, 0)),

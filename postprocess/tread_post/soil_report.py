@@ -159,7 +159,7 @@ def _draw_fits(axis, curves, constants, panel):
         fitted = model_of(curve, constants)
         if fitted is not None:
             axis.plot(factors[across][0] * curve[across], factors[up][0] * fitted, color="black", linewidth=0.8)
-        if curve.test in ("plate-sinkage", "cone-penetration") and soil_of(run)["model"] in PLASTIC:
+        if curve.test in ("plate-sinkage", "cone-penetration") and soil_of(run)["model"] == PLASTIC:
             for bound in bounds_along(run, curve):
                 load, other = ("pressure", "sinkage") if curve.test == "plate-sinkage" else ("cone_index", "depth")
                 drawn = {load: factors[load][0] * bound, other: factors[other][0] * curve[other]}
