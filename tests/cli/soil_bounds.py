@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Twins of the soil tests that take minutes: plates and cone lie between both bounds of bearing capacity, the others at their closed forms, and the order of
-convergence of the triaxial test and the shear box is printed: docs/soil_tests.md."""
+"""Twins of the soil tests that take minutes: plates and cone lie between both bounds of bearing capacity, the others at their closed forms:
+docs/soil_tests.md."""
 
 import unittest
 
