@@ -129,12 +129,7 @@ DriveRoom room_of(const scene::Scene& scene, const world::World& world, std::siz
     const Rim           rim    = rim_of(world, body);
     const auto          ground = ground_of(world, start, rim);
     const double        keep   = (1 + margin_share) * rim.reach + margin_cells * scene.grid.spacing;
-    return {body,
-            start[0],
-            rim.reach,
-            rim.depth,
-            way_end(scene, ground, keep, -1),
-            way_end(scene, ground, keep, 1),
+    return {body,  start[0], rim.reach, rim.depth, way_end(scene, ground, keep, -1), way_end(scene, ground, keep, 1),
             ground};
 }
 

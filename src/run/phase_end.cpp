@@ -100,10 +100,10 @@ void CarriedShare::note(double time, double integral)
 
 bool is_over(const scene::Scene& scene, const RunningPhase& phase, PhaseEndWatch& watch, double time, double unbalanced)
 {
-    const scene::Phase& keys = keys_of(scene, phase);
-    const bool          late = time >= latest_end(scene, phase) - time_rounding;
+    const scene::Phase& keys        = keys_of(scene, phase);
+    const bool          late        = time >= latest_end(scene, phase) - time_rounding;
     const auto          end_if_late = [&](EndKind kind) { return late ? kind : EndKind::running; };
-    watch.ending             = {EndKind::running, time - phase.start, unbalanced};
+    watch.ending                    = {EndKind::running, time - phase.start, unbalanced};
     switch (keys.until)
     {
     case scene::StopRule::duration:
@@ -115,8 +115,7 @@ bool is_over(const scene::Scene& scene, const RunningPhase& phase, PhaseEndWatch
         watch.ending.kind    = is_lowered(*keys.lower, watch) ? EndKind::lowered : end_if_late(EndKind::unlowered);
         break;
     case scene::StopRule::equilibrium:
-        watch.ending.kind =
-            has_settled(watch, time, unbalanced) ? EndKind::settled : end_if_late(EndKind::unsettled);
+        watch.ending.kind = has_settled(watch, time, unbalanced) ? EndKind::settled : end_if_late(EndKind::unsettled);
         break;
     }
     return watch.ending.kind != EndKind::running;

@@ -138,7 +138,11 @@ Key<Phase> phase_motors_key()
         for (const MotorSetting& setting : phase.motors) { list += "\n  " + write_inline(keys, setting) + ","; }
         return list.empty() ? list : "[" + list + "\n]";
     };
-    return {text, Presence::optional, [](const Phase&) { return true; }, read, write,
+    return {text,
+            Presence::optional,
+            [](const Phase&) { return true; },
+            read,
+            write,
             {describe("[[phase]] motors", "", keys)}};
 }
 

@@ -91,7 +91,7 @@ struct Rates
               &turn_frame        = motion.rotation_frame == scene::MotionFrame::body ? own : world;
         for (std::size_t c = 0; c < 3; ++c)
         {
-            const auto column = static_cast<Eigen::Index>(c);
+            const auto  column = static_cast<Eigen::Index>(c);
             const auto &along = motion.translation[c], &about = motion.rotation[c];
             if (is_given(along)) { move(b, frame.col(column), rate_of(along)); }
             if (is_given(about)) { turn(b, turn_frame.col(column), rate_of(about)); }

@@ -131,8 +131,7 @@ void set_motors(const scene::Scene& scene, std::size_t phase, std::vector<dem::J
     {
         const auto& motor = scene.joints[j].motor;
         if (!motor) { continue; }
-        const bool begun =
-            motor->from.empty() || phase >= scene::index_of(scene.phases, motor->from);
+        const bool begun      = motor->from.empty() || phase >= scene::index_of(scene.phases, motor->from);
         joints[j].speed       = begun ? motor->speed : 0;
         joints[j].most_effort = motor->max_torque;
     }

@@ -81,7 +81,7 @@ inline std::string swinging_under_gravity(double duration)
 /// the first.
 inline std::string moved_text(double duration, const std::string& motion)
 {
-    std::string text = steel_text + R"(
+    std::string       text = steel_text + R"(
 [time]
 dt = 1e-3
 substeps = 20

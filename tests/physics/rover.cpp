@@ -33,12 +33,12 @@ using Loads = std::array<double, 3>; ///< N, normal force on a front, a middle a
 Loads statics(double n, double t)
 {
     using namespace test::curiosity;
-    const std::array<test::RoverPart, 6> all = {{{chassis.mass, chassis.x, chassis.z},
-                                                 {2 * rocker.mass, rocker.x, rocker.z},
-                                                 {2 * bogie.mass, bogie.x, bogie.z},
-                                                 {2 * wheel, front, radius},
-                                                 {2 * wheel, middle, radius},
-                                                 {2 * wheel, rear, radius}}};
+    const std::array<test::RoverPart, 6> all  = {{{chassis.mass, chassis.x, chassis.z},
+                                                  {2 * rocker.mass, rocker.x, rocker.z},
+                                                  {2 * bogie.mass, bogie.x, bogie.z},
+                                                  {2 * wheel, front, radius},
+                                                  {2 * wheel, middle, radius},
+                                                  {2 * wheel, rear, radius}}};
     const std::array<test::RoverPart, 3> hung = {{bogie, {wheel, middle, radius}, {wheel, rear, radius}}};
 
     double mass = 0, along = 0, up = 0, hung_along = 0, hung_up = 0;
@@ -135,9 +135,8 @@ TYPED_TEST(Rovers, StandsOnAPlaneAsStaticsSay)
 TYPED_TEST(Rovers, StandsOnARampOfTenDegreesByItsRearBrakesAsStaticsSay)
 {
     constexpr double            g = 3.72, duration = 2.5, slope = 10 * 3.14159265358979 / 180;
-    test::Experiment<TypeParam> rover(this->exec(),
-                                      test::six_wheels("gravity_size = 3.72\nslope_deg = 10.0", duration,
-                                                       "motor = { speed = 0, max_torque = 1000 }"));
+    test::Experiment<TypeParam> rover(this->exec(), test::six_wheels("gravity_size = 3.72\nslope_deg = 10.0", duration,
+                                                                     "motor = { speed = 0, max_torque = 1000 }"));
     const Loads                 expected = statics(g * std::cos(slope), g * std::sin(slope));
     // By hand, in units of g: 145.6, 123.7 and 173.3 kg.
     EXPECT_NEAR(expected[0] / g, 145.6, 0.1);

@@ -19,11 +19,11 @@ struct RoverPart
 /// Curiosity's lengths (configs/rover/README.md); uprights count to rockers and bogies.
 namespace curiosity
 {
-inline constexpr double                   radius = 0.25, front = 1.095, middle = -0.089, rear = -1.163;
-inline constexpr double                   pivot_x = 0.214, pivot_z = 0.8754, bogie_x = -0.54, bogie_z = 0.6433;
-inline constexpr RoverPart                chassis{735, 0.05, 0.9}, rocker{31, 0.28, 0.8}, bogie{21, -0.626, 0.6};
-inline constexpr double                   wheel   = 10; ///< kg
-inline constexpr std::array<double, 3>    axles   = {front, middle, rear};
+inline constexpr double                     radius = 0.25, front = 1.095, middle = -0.089, rear = -1.163;
+inline constexpr double                     pivot_x = 0.214, pivot_z = 0.8754, bogie_x = -0.54, bogie_z = 0.6433;
+inline constexpr RoverPart                  chassis{735, 0.05, 0.9}, rocker{31, 0.28, 0.8}, bogie{21, -0.626, 0.6};
+inline constexpr double                     wheel = 10; ///< kg
+inline constexpr std::array<double, 3>      axles = {front, middle, rear};
 inline constexpr std::array<const char*, 3> names = {"front", "middle", "rear"};
 } // namespace curiosity
 
@@ -121,7 +121,7 @@ inline std::string six_wheels(const std::string& gravity, double duration, const
 inline std::string four_wheels_before_a_step(double duration)
 {
     constexpr double  x = 1.2, y = 2, radius = 0.25, half = 0.7, drop = 1e-4;
-    std::string       text = rover_head("gravity = [0.0, 0.0, -3.72]", 6), joints;
+    std::string       text  = rover_head("gravity = [0.0, 0.0, -3.72]", 6), joints;
     const std::string drive = "motor = { speed = 1.6, max_torque = 60, gain = 200 }";
     text += rover_body("chassis", "chassis", 150, x, y, 0.9);
     for (const double side : {1.0, -1.0})
@@ -135,11 +135,10 @@ inline std::string four_wheels_before_a_step(double duration)
     {
         for (const double side : {1.0, -1.0})
         {
-            const std::string hand = side > 0 ? "left" : "right",
-                              name = (end > 0 ? "front_" : "rear_") + hand;
+            const std::string hand = side > 0 ? "left" : "right", name = (end > 0 ? "front_" : "rear_") + hand;
             text += rover_body(name, "ball", 10, x + end * half, y + 1.0 * side, radius + drop);
-            joints += rover_joint("axle_" + name, "rocker_" + hand, name, x + end * half, y + 1.0 * side,
-                                  radius + drop, drive);
+            joints += rover_joint("axle_" + name, "rocker_" + hand, name, x + end * half, y + 1.0 * side, radius + drop,
+                                  drive);
         }
     }
     text += "[[contact]]\nbetween = [\"wheel\", \"wheel\"]\nfriction = 1.0\nrestitution = 0.1\n"

@@ -374,7 +374,7 @@ TYPED_TEST(BodiesOfRanks, AMotionLeadsAJointedBodyOverTheirBorder)
     const Vec3<double> size(4, 1, 1);
     const auto         border = [last = this->ranks() - 1](const Vec3<double>& at) { return at[0] < 1.1 ? 0 : last; };
     const std::string  text   = test::moved_text(1.0, "x = { velocity = 0.8, ramp = 0.1 }, z = \"held\", roll = "
-                                                          "\"held\", yaw = \"held\"");
+                                                         "\"held\", yaw = \"held\"");
     test::SideBySide<TypeParam> run(this->exec(), test::load_text(text), size, border);
     expect_joints_as_alone(run, 50);
 }

@@ -142,8 +142,8 @@ private:
 
     void find()
     {
-        const dem::BodiesView bodies = scene_.bodies.view();
-        const dem::BodyLaw    law    = scene_.law();
+        const dem::BodiesView bodies  = scene_.bodies.view();
+        const dem::BodyLaw    law     = scene_.law();
         double* const         allowed = scene_.pairs.displacement.allowed.data();
         if (!listed_ || read(exec_, largest_displacement_ahead(exec_, displacements_, bodies, law.templates, allowed,
                                                                block * dt_)) > 1)

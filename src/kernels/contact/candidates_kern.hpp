@@ -127,7 +127,7 @@ TREAD_HD std::int64_t lookup_page(const PageBox& box, const mpm::PagesView& page
 
 /// Returns the point page of lookup `i` on all levels for a body, or -1.
 TREAD_HD std::int64_t lookup_page(const SearchBody& body, const mpm::PagesView& pages, const SearchReach& reach,
-                              std::int64_t i)
+                                  std::int64_t i)
 {
     for (int level = 0; level < pages.levels; ++level)
     {

@@ -13,8 +13,8 @@ bool worth_one_launch(const Exec&, PointContact<Exec>&, const dem::BodyStep<Exec
 }
 
 template<class Exec>
-void run_substeps(const Exec& cpu, PointContact<Exec>& contact, const PointBodyLaw& law, const dem::BodyStep<Exec>& step,
-                  std::int64_t count)
+void run_substeps(const Exec& cpu, PointContact<Exec>& contact, const PointBodyLaw& law,
+                  const dem::BodyStep<Exec>& step, std::int64_t count)
 {
     for (std::int64_t done = 0; done < count; ++done)
     {
@@ -24,9 +24,10 @@ void run_substeps(const Exec& cpu, PointContact<Exec>& contact, const PointBodyL
     }
 }
 
-#define TREAD_INSTANTIATE(Exec) \
-    template bool worth_one_launch(const Exec&, PointContact<Exec>&, const dem::BodyStep<Exec>&); \
-    template void run_substeps(const Exec&, PointContact<Exec>&, const PointBodyLaw&, const dem::BodyStep<Exec>&, std::int64_t)
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template bool worth_one_launch(const Exec&, PointContact<Exec>&, const dem::BodyStep<Exec>&);                      \
+    template void run_substeps(const Exec&, PointContact<Exec>&, const PointBodyLaw&, const dem::BodyStep<Exec>&,      \
+                               std::int64_t)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -71,8 +71,8 @@ bool worth_one_launch(const Exec&, PointContact<Exec>& contact, const dem::BodyS
 }
 
 template<class Exec>
-void run_substeps(const Exec& gpu, PointContact<Exec>& contact, const PointBodyLaw& law, const dem::BodyStep<Exec>& step,
-                  std::int64_t count)
+void run_substeps(const Exec& gpu, PointContact<Exec>& contact, const PointBodyLaw& law,
+                  const dem::BodyStep<Exec>& step, std::int64_t count)
 {
     if (contact.candidates.body.size() == 0)
     {
@@ -106,9 +106,10 @@ void run_substeps(const Exec& gpu, PointContact<Exec>& contact, const PointBodyL
                               });
 }
 
-#define TREAD_INSTANTIATE(Exec) \
-    template bool worth_one_launch(const Exec&, PointContact<Exec>&, const dem::BodyStep<Exec>&); \
-    template void run_substeps(const Exec&, PointContact<Exec>&, const PointBodyLaw&, const dem::BodyStep<Exec>&, std::int64_t)
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template bool worth_one_launch(const Exec&, PointContact<Exec>&, const dem::BodyStep<Exec>&);                      \
+    template void run_substeps(const Exec&, PointContact<Exec>&, const PointBodyLaw&, const dem::BodyStep<Exec>&,      \
+                               std::int64_t)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -106,8 +106,8 @@ void request_report(BodyState<Exec>& state, BodyReports<Exec>& reports, PairList
     const dem::BodyLaw& law = state.tables.law;
     if (!lists.checked_within_step)
     {
-        reports.displacement_on_host.request(dem::largest_displacement(exec, lists.displacements, state.view(),
-                                                                       law.templates, state.pairs.displacement.allowed.data()));
+        reports.displacement_on_host.request(dem::largest_displacement(
+            exec, lists.displacements, state.view(), law.templates, state.pairs.displacement.allowed.data()));
     }
     reports.overlap_on_host.request(dem::largest_overlap(exec, state.pairs, state.view(), law));
 }

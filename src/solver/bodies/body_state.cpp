@@ -78,7 +78,8 @@ void upload(BodyState<Exec>& state)
     bodies.stiffness.fill_zero();
 }
 
-/// Keys of the pairs of bodies that a joint ties, ascending: their shapes may overlap, as those of a wheel and its axle.
+/// Keys of the pairs of bodies that a joint ties, ascending: their shapes may overlap, as those of a wheel and its
+/// axle.
 std::vector<std::uint64_t> jointed_pairs(const std::vector<dem::Joint>& joints)
 {
     std::vector<std::uint64_t> keys;

@@ -194,7 +194,8 @@ void PairLists<Exec>::transfer(StateFile& file, BodyState<Exec>& state)
     file.own("pairs/travel", pairs.displacement.allowed, of_each(count, accept::not_negative()));
     file.own("pairs/first_node", first, of_each(keys.size() + 1, accept::cuts()));
     const std::size_t nodes = first.empty() ? 0 : static_cast<std::size_t>(std::max(first.back(), 0));
-    file.own("pairs/node", pairs.nodes.node, accept::all(accept::rows(nodes), accepted_nodes(state.world, keys, first)));
+    file.own("pairs/node", pairs.nodes.node,
+             accept::all(accept::rows(nodes), accepted_nodes(state.world, keys, first)));
     file.own("pairs/several_first", pairs.patches.several,
              accept::all(accept::ascending(), accept::index(keys.size())));
     file.own("bodies/position_at_search", displacements.position, of_each(count, accept::finite()));

@@ -10,7 +10,7 @@ namespace
 {
 
 constexpr double unmeasured_displacement = 0.5; ///< displacement of sand, in spacings, after which it is measured again
-constexpr double largest_speed = 1e7; ///< m/s: steps with a larger one would not end
+constexpr double largest_speed           = 1e7; ///< m/s: steps with a larger one would not end
 
 } // namespace
 

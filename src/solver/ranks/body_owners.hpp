@@ -15,9 +15,9 @@ namespace tread::solver
 /// Data of the last search for pairs that the distribution of bodies depends on, on the host; one entry per body.
 struct SearchedBodies
 {
-    const Vec3<double>*              position; ///< m
+    const Vec3<double>*              position;             ///< m
     const double*                    allowed_displacement; ///< m, until the next search for pairs
-    const std::vector<std::int32_t>& is_large; ///< dem::BodySizes::is_large
+    const std::vector<std::int32_t>& is_large;             ///< dem::BodySizes::is_large
 };
 
 /// Roles of this rank for the bodies of a scene, and the decision who owns and who holds each body, on the host. A body

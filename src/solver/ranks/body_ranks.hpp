@@ -60,7 +60,7 @@ private:
     BodyOwners                       owners_;
     SharedBodies<Exec>               shared_;
     FetchedArray<Exec, Vec3<double>> position_; ///< m
-    FetchedArray<Exec, double>       allowed_;   ///< m
+    FetchedArray<Exec, double>       allowed_;  ///< m
     std::vector<std::int32_t>        is_large_; ///< by body, from Pairs; empty before assign_owners()
     decomp::Exchange<Exec>           states_;
     Array<Exec, std::int32_t>        arriving_;

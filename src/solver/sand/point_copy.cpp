@@ -1,5 +1,5 @@
-#include "backend/instantiate.hpp"
 #include "solver/sand/point_copy.hpp"
+#include "backend/instantiate.hpp"
 
 namespace tread::solver
 {

@@ -150,10 +150,9 @@ TEST(Joints, of_the_rovers_that_come_with_the_code_are_read)
 TEST(Joints, have_motors_that_phases_set)
 {
     const Directory   directory;
-    const std::string text =
-        replaced(jointed, "drive = { body = \"wheel\", angular_velocity = 0.7, slip = 0.3 }",
-                 "motors = [{ joint = \"axle\", speed = -1.5, max_torque = 3 }]");
-    const Scene scene = load_scene(directory.write("scene.toml", text), {});
+    const std::string text  = replaced(jointed, "drive = { body = \"wheel\", angular_velocity = 0.7, slip = 0.3 }",
+                                       "motors = [{ joint = \"axle\", speed = -1.5, max_torque = 3 }]");
+    const Scene       scene = load_scene(directory.write("scene.toml", text), {});
     ASSERT_EQ(scene.phases.back().motors.size(), 1u);
     EXPECT_EQ(scene.phases.back().motors[0], (MotorSetting{"axle", -1.5, 3}));
     EXPECT_EQ(load_scene(directory.write("again.toml", resolved_toml(scene)), {}), scene);

@@ -24,7 +24,7 @@ void evaluate_contacts(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bo
              body_contact::ResistRolling{bodies.count, law, pairs.view(), dt});
 }
 
-#define TREAD_INSTANTIATE(Exec) \
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
     template void evaluate_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, double)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

@@ -17,8 +17,9 @@ void expect_contacts(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodi
     contact_limits::expect(cpu, pairs, bodies, law, gravity, dt, shared, each(pairs.key.size()), each(bodies.count));
 }
 
-#define TREAD_INSTANTIATE(Exec) \
-    template void expect_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, const Vec3<double>&, double, const SharedView&)
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void expect_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, const Vec3<double>&,   \
+                                  double, const SharedView&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -19,8 +19,9 @@ void expect_contacts(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodi
         [&](const char* name, const auto& item) { run(name, body_part<threads, 1>(bodies.count, pairs, item)); });
 }
 
-#define TREAD_INSTANTIATE(Exec) \
-    template void expect_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, const Vec3<double>&, double, const SharedView&)
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void expect_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, const Vec3<double>&,   \
+                                  double, const SharedView&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -63,14 +63,15 @@ void evaluate_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodie
                     [&]<class Meet>(const Meet& meet)
                     {
                         const contact_nodes::EvaluateNodes<Meet> evaluate{meet, bodies.count, law, pairs.view()};
-                        for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.nodes.node.size()), evaluate);
+                        for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.nodes.node.size()),
+                                                         evaluate);
                     });
 }
 
-#define TREAD_INSTANTIATE(Exec) \
-    template void count_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&); \
-    template void list_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&); \
-    template void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>&); \
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void count_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                   \
+    template void list_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                    \
+    template void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>&);                                                 \
     template void evaluate_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

@@ -3,8 +3,8 @@
 #include "kernels/dem/pairs/pairs.hpp"
 
 // Lists of the nodes of every pair that may enter the other body, in the order of the template's nodes, those of the
-// first body first. The list is complete while no body moves further than pairs.displacement.allowed. Pairs of exact spheres, and of
-// a sphere and a wall, have no nodes.
+// first body first. The list is complete while no body moves further than pairs.displacement.allowed. Pairs of exact
+// spheres, and of a sphere and a wall, have no nodes.
 namespace tread::dem
 {
 

@@ -36,9 +36,9 @@ void regroup_patches(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodi
     patches::regroup(pairs, bodies, law, groups_of<warp_size>(gpu));
 }
 
-#define TREAD_INSTANTIATE(Exec) \
-    template void split_patches(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&); \
-    template bool patch_rows_suffice(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&); \
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void split_patches(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                         \
+    template bool patch_rows_suffice(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                    \
     template void regroup_patches(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

@@ -218,8 +218,9 @@ bool write_rows(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
                         pairs.resists_rolling ? pairs.last.rolling.data() : nullptr,
                         patches.last_place.size() > 0 ? patches.last_place.data() : nullptr};
     run("group pair nodes", count + 1,
-        CountRows{
-            {bodies, law, pairs.view(), pairs.sizes.node_area.data(), patches.group.data()}, last, patches.first.data()});
+        CountRows{{bodies, law, pairs.view(), pairs.sizes.node_area.data(), patches.group.data()},
+                  last,
+                  patches.first.data()});
     const std::int64_t rows = exclusive_scan(exec, patches.first, pairs.sort);
     if (rows == count) { return false; }
     patches.key.resize(rows);
@@ -250,8 +251,8 @@ void split(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const
         pair_steps::order_again(exec, pairs, bodies);
     }
     else { pairs.patches.place.resize(0); }
-    select(exec, "pairs of several patches", pairs.key.size(), FirstOfSeveral{bodies, law, pairs.view()}, pairs.search.found,
-           pairs.sort, pairs.patches.several);
+    select(exec, "pairs of several patches", pairs.key.size(), FirstOfSeveral{bodies, law, pairs.view()},
+           pairs.search.found, pairs.sort, pairs.patches.several);
 }
 
 /// Whether the rows of every pair suffice; `run` as in split.

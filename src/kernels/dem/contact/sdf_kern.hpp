@@ -165,9 +165,10 @@ TREAD_HD double sdf_uncertainty(const TemplateView& shape, double scale, double 
 
 /// Upper bound of the interpolant at every position from which a point can come within `radius` of the interpolated
 /// surface when it moves by at most half of `displacement`, m, and at every nearer position.
-/// The slope of the interpolant is at most sqrt(3) where cells are exact: there radius + displacement is a bound. A path that
-/// leaves this region starts at fine_reach or beyond; to end within `radius`, that distance must be below the sum
-/// below. In that case the distance at the start (at most radius + uncertainty + displacement/2) and its error are added.
+/// The slope of the interpolant is at most sqrt(3) where cells are exact: there radius + displacement is a bound. A
+/// path that leaves this region starts at fine_reach or beyond; to end within `radius`, that distance must be below the
+/// sum below. In that case the distance at the start (at most radius + uncertainty + displacement/2) and its error are
+/// added.
 TREAD_HD double search_bound(const TemplateView& shape, double scale, double radius, double displacement)
 {
     const double bound = radius + displacement, at_surface = surface_uncertainty(shape, scale);

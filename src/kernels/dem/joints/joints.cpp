@@ -117,8 +117,7 @@ void solve_joints(const Exec& cpu, const BodyStep<Exec>& step)
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 
-#define TREAD_INSTANTIATE(Exec) \
-    template void solve_joints(const Exec&, const BodyStep<Exec>&)
+#define TREAD_INSTANTIATE(Exec) template void solve_joints(const Exec&, const BodyStep<Exec>&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -38,8 +38,7 @@ void solve_joints(const Exec& gpu, const BodyStep<Exec>& step)
                              { for_each_block<joint_threads>(gpu, "joints", 1, ByBlock<Solve>{solve}); });
 }
 
-#define TREAD_INSTANTIATE(Exec) \
-    template void solve_joints(const Exec&, const BodyStep<Exec>&)
+#define TREAD_INSTANTIATE(Exec) template void solve_joints(const Exec&, const BodyStep<Exec>&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

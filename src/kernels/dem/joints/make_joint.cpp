@@ -97,10 +97,7 @@ void for_each_tie(const std::vector<Joint>& joints, std::vector<Vec3<double>> po
     bodies.orientation = orientations.data();
     for (std::size_t j = 0; j < joints.size(); ++j)
     {
-        for (const JointRow& row : tied_rows(joints, j, bodies, place))
-        {
-            visit(j, direction_of(row, place.size()));
-        }
+        for (const JointRow& row : tied_rows(joints, j, bodies, place)) { visit(j, direction_of(row, place.size())); }
     }
 }
 
@@ -152,14 +149,13 @@ std::vector<std::size_t> dependent_joints(const std::vector<Joint>& joints, cons
 
 std::vector<std::size_t> joints_pulled_apart(const std::vector<Joint>&        joints,
                                              const std::vector<Vec3<double>>& positions,
-                                             const std::vector<Quat>&         orientations,
-                                             const std::vector<GivenRate>&    given)
+                                             const std::vector<Quat>& orientations, const std::vector<GivenRate>& given)
 {
     KnownRates known;
     double     largest = 0;
     for (const GivenRate& one : given)
     {
-        Eigen::VectorXd direction = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * positions.size()));
+        Eigen::VectorXd direction              = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * positions.size()));
         direction.segment<3>(6 * one.body)     = one.linear;
         direction.segment<3>(6 * one.body + 3) = one.angular;
         known.add(direction, one.rate);

@@ -43,8 +43,8 @@ void move_bodies(const Exec& gpu, const BodyStep<Exec>& step)
                       });
 }
 
-#define TREAD_INSTANTIATE(Exec) \
-    template void share_wrenches(const Exec&, const BodyStep<Exec>&); \
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void share_wrenches(const Exec&, const BodyStep<Exec>&);                                                  \
     template void move_bodies(const Exec&, const BodyStep<Exec>&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

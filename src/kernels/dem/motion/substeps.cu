@@ -32,8 +32,7 @@ void run_substeps(const Exec& gpu, const BodyStep<Exec>& step, std::int64_t coun
                     });
 }
 
-#define TREAD_INSTANTIATE(Exec) \
-    template void run_substeps(const Exec&, const BodyStep<Exec>&, std::int64_t)
+#define TREAD_INSTANTIATE(Exec) template void run_substeps(const Exec&, const BodyStep<Exec>&, std::int64_t)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -37,7 +37,7 @@ struct FastestNear
 {
     std::int64_t        bodies; ///< number of bodies
     const std::int32_t* is_large;
-    LastNeighbours           last;
+    LastNeighbours      last;
     const double*       speed;
 
     TREAD_HD double operator()(std::int64_t b) const
@@ -90,8 +90,9 @@ struct WritePerStep
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        per_step[b] =
-            bodies.is_owned(b) ? search_displacement(bounding_radius(bodies, templates, b), speed[b], near(b), dt).per_step : 0.0;
+        per_step[b] = bodies.is_owned(b)
+                          ? search_displacement(bounding_radius(bodies, templates, b), speed[b], near(b), dt).per_step
+                          : 0.0;
     }
 };
 
@@ -116,8 +117,8 @@ struct WriteAllowed
         const double radius = bounding_radius(bodies, templates, b);
         const double least  = search_displacement(radius, speed[b], speed[b], dt).least;
         const double steps  = steps_to_last(*sum / static_cast<double>(bodies.count), substeps);
-        allowed[b]           = radius * (least + std::fmin(steps * per_step[b], most_per_step));
-        search_radius[b]            = is_large[b] != 0 ? 0.0 : radius + allowed[b];
+        allowed[b]          = radius * (least + std::fmin(steps * per_step[b], most_per_step));
+        search_radius[b]    = is_large[b] != 0 ? 0.0 : radius + allowed[b];
     }
 };
 
@@ -133,14 +134,15 @@ struct UpdateSearchRadius
     TREAD_HD void operator()(std::int64_t b) const
     {
         const bool small = bodies.is_here(b) && is_large[b] == 0;
-        search_radius[b]         = small ? bounding_radius(bodies, templates, b) + allowed[b] : 0.0;
+        search_radius[b] = small ? bounding_radius(bodies, templates, b) + allowed[b] : 0.0;
     }
 };
 
 template<class Exec>
 FastestNear fastest_near(Pairs<Exec>& pairs, const BodiesView& bodies)
 {
-    const LastNeighbours last{pairs.last.key.data(), pairs.of_body.first.data(), pairs.of_body.by_second.data(), pairs.of_body.second.data()};
+    const LastNeighbours last{pairs.last.key.data(), pairs.of_body.first.data(), pairs.of_body.by_second.data(),
+                              pairs.of_body.second.data()};
     return {bodies.count, pairs.sizes.is_large.data(), last, pairs.displacement.speed.data()};
 }
 
@@ -161,7 +163,8 @@ void update_search_radii(const Exec& exec, Pairs<Exec>& pairs, const BodiesView&
 {
     if (bodies.role == nullptr) { return; }
     for_each(exec, "search radii of bodies here", bodies.count,
-             UpdateSearchRadius{bodies, law.templates, pairs.sizes.is_large.data(), pairs.displacement.allowed.data(), pairs.displacement.search_radius.data()});
+             UpdateSearchRadius{bodies, law.templates, pairs.sizes.is_large.data(), pairs.displacement.allowed.data(),
+                                pairs.displacement.search_radius.data()});
 }
 
 } // namespace pair_steps
@@ -181,7 +184,8 @@ void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView
     const auto write = [&](const auto& near)
     {
         for_each(exec, "body motion", bodies.count,
-                 WritePerStep{bodies, law.templates, dt, pairs.displacement.speed.data(), near, pairs.displacement.per_step.data()});
+                 WritePerStep{bodies, law.templates, dt, pairs.displacement.speed.data(), near,
+                              pairs.displacement.per_step.data()});
     };
     if (bodies.role == nullptr) { write(fastest_near(pairs, bodies)); }
     else { write(FastestNearOfAllRanks{fastest_near(pairs, bodies), shared}); }
@@ -193,9 +197,10 @@ void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& 
                         double substeps)
 {
     for_each(exec, "body search radii", bodies.count,
-             pair_steps::WriteAllowed{bodies, law.templates, pairs.sizes.is_large.data(), dt, substeps, pairs.displacement.speed.data(),
-                                    pairs.displacement.per_step.data(), pairs.measure.data(), pairs.displacement.allowed.data(),
-                                    pairs.displacement.search_radius.data()});
+             pair_steps::WriteAllowed{bodies, law.templates, pairs.sizes.is_large.data(), dt, substeps,
+                                      pairs.displacement.speed.data(), pairs.displacement.per_step.data(),
+                                      pairs.measure.data(), pairs.displacement.allowed.data(),
+                                      pairs.displacement.search_radius.data()});
 }
 
 } // namespace tread::dem

@@ -68,7 +68,8 @@ double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
     pairs.search.cell_key.resize(bodies.count);
     pairs.search.cell_body.resize(bodies.count);
     for_each(exec, "body cells", bodies.count,
-             WriteCell{bodies, pairs.sizes.is_large.data(), cell_size, pairs.search.cell_key.data(), pairs.search.cell_body.data()});
+             WriteCell{bodies, pairs.sizes.is_large.data(), cell_size, pairs.search.cell_key.data(),
+                       pairs.search.cell_body.data()});
     sort_by_key(exec, pairs.search.cell_key, pairs.search.cell_body, pairs.sort);
     return cell_size;
 }

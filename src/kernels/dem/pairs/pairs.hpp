@@ -69,9 +69,9 @@ struct PairsView
     ContactBody*         body;      ///< record of every body
 
     const double*       allowed_displacement; ///< m, of every body, for which the list is valid
-    const std::int32_t* first_node; ///< [pairs + 1], first node of each pair's run of nodes that may touch
-    const std::int32_t* node;       ///< i of the first body, ~i of the second
-    const std::int32_t* many;       ///< pairs with more than many_nodes nodes (contact_nodes.hpp)
+    const std::int32_t* first_node;           ///< [pairs + 1], first node of each pair's run of nodes that may touch
+    const std::int32_t* node;                 ///< i of the first body, ~i of the second
+    const std::int32_t* many;                 ///< pairs with more than many_nodes nodes (contact_nodes.hpp)
     std::int64_t        many_count;
     const std::int32_t* pair_of_node;
     std::int64_t        node_count;
@@ -246,11 +246,11 @@ struct Pairs
     bool                       resists_rolling = false; ///< whether some pair of materials has rolling friction
 
     // The bodies.
-    Array<Exec, ContactBody>  body;
-    Array<Exec, double>       expected_stiffness; ///< N/m, per body (contact_limits.hpp)
-    Array<Exec, std::uint64_t> jointed; ///< keys of pairs that never touch, ascending; set once
-    BodySizes<Exec>           sizes;
-    AllowedDisplacement<Exec> displacement;
+    Array<Exec, ContactBody>   body;
+    Array<Exec, double>        expected_stiffness; ///< N/m, per body (contact_limits.hpp)
+    Array<Exec, std::uint64_t> jointed;            ///< keys of pairs that never touch, ascending; set once
+    BodySizes<Exec>            sizes;
+    AllowedDisplacement<Exec>  displacement;
 
     // Scratch memory.
     PairSearchScratch<Exec> search;
@@ -271,8 +271,8 @@ void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 
 /// Finds every pair of bodies, and of body and wall, that may touch within the next dt (s, of the MPM step), and the
 /// nodes of each pair that may enter the other body (contact_nodes.hpp). The lists are complete while no point of a
-/// body moves further than pairs.displacement.allowed. Patches of pairs that stay in the list are kept. `substeps`: number of
-/// substeps of such a step; it sets how many steps the list should remain valid.
+/// body moves further than pairs.displacement.allowed. Patches of pairs that stay in the list are kept. `substeps`:
+/// number of substeps of such a step; it sets how many steps the list should remain valid.
 template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                 double substeps = 1);

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "kernels/dem/contact/contact_nodes.hpp"
-#include "kernels/dem/pairs/pair_search_impl.hpp"
 #include "kernels/dem/pairs/allowed_displacement_impl.hpp"
+#include "kernels/dem/pairs/pair_search_impl.hpp"
 
 // Steps of find_pairs, for both backends; pairs.cpp and pairs.cu provide for_each and instantiate.
 namespace tread::dem
@@ -175,13 +175,15 @@ void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
     pairs.of_body.by_second.resize(count);
     pairs.peak.resize(count);
     pairs.search.second_key.resize(count);
-    for_each(exec, "renew pairs", count, Renew{pairs.view(), pairs.search.second_key.data(), pairs.of_body.by_second.data()});
+    for_each(exec, "renew pairs", count,
+             Renew{pairs.view(), pairs.search.second_key.data(), pairs.of_body.by_second.data()});
     sort_by_key(exec, pairs.search.second_key, pairs.of_body.by_second, pairs.sort, bits_below(most_bodies));
 
     pairs.of_body.first.resize(bodies.count + 1);
     pairs.of_body.second.resize(bodies.count + 1);
     for_each(exec, "pairs of bodies", bodies.count + 1,
-             WriteRuns{count, pairs.key.data(), pairs.search.second_key.data(), pairs.of_body.first.data(), pairs.of_body.second.data()});
+             WriteRuns{count, pairs.key.data(), pairs.search.second_key.data(), pairs.of_body.first.data(),
+                       pairs.of_body.second.data()});
 }
 
 /// Removes the pairs without any node that may touch, and orders the rest: bounding spheres meet far more often than
@@ -198,8 +200,8 @@ void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesVie
     pairs.search.second_key.resize(kept);
     pairs.of_body.by_second.resize(kept + 1);
     for_each(exec, "keep pairs", count + 1,
-             KeepPairs{count, pairs.key.data(), pairs.nodes.first.data(), pairs.search.found.data(), pairs.search.second_key.data(),
-                       pairs.of_body.by_second.data()});
+             KeepPairs{count, pairs.key.data(), pairs.nodes.first.data(), pairs.search.found.data(),
+                       pairs.search.second_key.data(), pairs.of_body.by_second.data()});
     pairs.key.swap(pairs.search.second_key);
     pairs.nodes.first.swap(pairs.of_body.by_second);
     release_memory(pairs.search.second_key, pairs.of_body.by_second, pairs.search.found);
@@ -297,7 +299,8 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     release_memory(pairs.of_body.by_second);
     const double cell_size = fill_cells(exec, pairs, bodies);
     search(exec, pairs, bodies, law, cell_size);
-    release_memory(pairs.displacement.search_radius, pairs.displacement.speed, pairs.displacement.per_step, pairs.search.cell_key, pairs.search.cell_body, pairs.search.found);
+    release_memory(pairs.displacement.search_radius, pairs.displacement.speed, pairs.displacement.per_step,
+                   pairs.search.cell_key, pairs.search.cell_body, pairs.search.found);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
     if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }

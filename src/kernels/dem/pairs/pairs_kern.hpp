@@ -30,7 +30,7 @@ TREAD_HD double bounding_radius(const BodiesView& bodies, const TemplateView* te
 /// Displacement of any point of a body until the pairs are found again, in bounding radii.
 struct SearchDisplacement
 {
-    double least; ///< expected displacement over steps_ahead, plus the skin
+    double least;    ///< expected displacement over steps_ahead, plus the skin
     double per_step; ///< additional displacement for each step that a list lasts beyond the first
 };
 
@@ -60,13 +60,14 @@ TREAD_HD double steps_to_last(double mean, double substeps)
 /// Size of a body in the search.
 struct SearchRadius
 {
-    double bounding; ///< m, radius of the bounding sphere
+    double bounding;     ///< m, radius of the bounding sphere
     double displacement; ///< m
 
     TREAD_HD double total() const { return bounding + displacement; }
 };
 
-TREAD_HD SearchRadius search_radius(const BodiesView& bodies, const TemplateView* templates, const double* allowed, std::int64_t b)
+TREAD_HD SearchRadius search_radius(const BodiesView& bodies, const TemplateView* templates, const double* allowed,
+                                    std::int64_t b)
 {
     return {bounding_radius(bodies, templates, b), allowed[b]};
 }
@@ -96,7 +97,8 @@ TREAD_HD bool surface_near(const BodiesView& bodies, const TemplateView* templat
 TREAD_HD bool surfaces_near(const BodiesView& bodies, const TemplateView* templates, const double* allowed,
                             std::int64_t a, std::int64_t b)
 {
-    const SearchRadius of_a = search_radius(bodies, templates, allowed, a), of_b = search_radius(bodies, templates, allowed, b);
+    const SearchRadius of_a = search_radius(bodies, templates, allowed, a),
+                       of_b = search_radius(bodies, templates, allowed, b);
     return surface_near(bodies, templates, a, bodies.position[b], of_b.total() + of_a.displacement) &&
            surface_near(bodies, templates, b, bodies.position[a], of_a.total() + of_b.displacement);
 }
@@ -137,8 +139,8 @@ struct PairSearch
     BodiesView           bodies;
     BodyLaw              law;
     const double*        allowed_displacement; ///< m, of every body
-    double               cell_size; ///< m, at least twice the maximum search radius in the grid
-    const std::uint64_t* cell_key;  ///< ascending
+    double               cell_size;            ///< m, at least twice the maximum search radius in the grid
+    const std::uint64_t* cell_key;             ///< ascending
     const std::int32_t*  cell_body;
     const std::int32_t*  large;
     std::int64_t         large_count;

@@ -33,7 +33,10 @@ void update_grid(const Exec& cpu, const PagesView& pages, const WallPagesView<Re
                 write_motion(update_node(step, node_at(at, place), channels, node, sum), here + place);
             }
         }
-        for (int s = 0; s < grid_sums; ++s) { add_to_new_step(tallies + page * tally_width(grid_sums), grid_sums, s, sum[s]); }
+        for (int s = 0; s < grid_sums; ++s)
+        {
+            add_to_new_step(tallies + page * tally_width(grid_sums), grid_sums, s, sum[s]);
+        }
     };
     for_each_heavy(cpu, "update grid", pages.node_pages, update_page);
 }
@@ -75,9 +78,11 @@ void update_walls(const Exec& cpu, const PagesView& pages, const WallPagesView<R
     for_each_heavy(cpu, "update walls", wall_pages.count, update_page);
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
-    template void update_grid(const Exec&, const PagesView&, const WallPagesView<Real>&, const SharedPagesView<Real>&, const Real*, const GridStep<Real>&, Real*, double*); \
-    template void update_walls(const Exec&, const PagesView&, const WallPagesView<Real>&, const GridStep<Real>&, Real*, double*)
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void update_grid(const Exec&, const PagesView&, const WallPagesView<Real>&, const SharedPagesView<Real>&, \
+                              const Real*, const GridStep<Real>&, Real*, double*);                                     \
+    template void update_walls(const Exec&, const PagesView&, const WallPagesView<Real>&, const GridStep<Real>&,       \
+                               Real*, double*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -46,7 +46,7 @@ struct UpdatePages
         const std::int32_t          tile      = has_tile ? pages.point_page_of[octants * page + lane] : -1;
         const std::int32_t          wall_page = wall_pages.number(page);
         double*                     row       = tallies + page * tally_width(grid_sums);
-        const double                tallied    = lane < grid_sums ? row[lane] : 0;
+        const double                tallied   = lane < grid_sums ? row[lane] : 0;
         fetch_parts(tile, lane, parts);
         const bool     points = tile >= 0 && pages.first_point[tile] < pages.first_point[tile + 1];
         const unsigned filled = __ballot_sync(all_lanes, points);
@@ -248,9 +248,11 @@ void update_walls(const Exec& gpu, const PagesView& pages, const WallPagesView<R
                                  UpdateWallPage<Real>{pages, wall_pages, step, motion, tallies});
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
-    template void update_grid(const Exec&, const PagesView&, const WallPagesView<Real>&, const SharedPagesView<Real>&, const Real*, const GridStep<Real>&, Real*, double*); \
-    template void update_walls(const Exec&, const PagesView&, const WallPagesView<Real>&, const GridStep<Real>&, Real*, double*)
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void update_grid(const Exec&, const PagesView&, const WallPagesView<Real>&, const SharedPagesView<Real>&, \
+                              const Real*, const GridStep<Real>&, Real*, double*);                                     \
+    template void update_walls(const Exec&, const PagesView&, const WallPagesView<Real>&, const GridStep<Real>&,       \
+                               Real*, double*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -53,7 +53,7 @@ void update_grid(const Exec&, const PagesView& pages, const WallPagesView<Real>&
 /// Completes the nodes within one spacing of a wall: the splines' velocity vanishes on the wall's plane for every
 /// linear profile, whatever components the wall constrains (wall_kern.hpp). Adds to the tallies of the wall pages.
 template<class Exec, class Real>
-void update_walls(const Exec&, const PagesView& pages, const WallPagesView<Real>& wall_pages, const GridStep<Real>& step,
-                  Real* motion, double* tallies);
+void update_walls(const Exec&, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+                  const GridStep<Real>& step, Real* motion, double* tallies);
 
 } // namespace tread::mpm

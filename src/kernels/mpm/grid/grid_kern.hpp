@@ -113,7 +113,7 @@ TREAD_HD NodeEnd<Real> finish_node(const GridStep<Real>& step, Real mass, const 
 /// Adds the energy and impulse of walls at a node whose velocity without walls is `moved`.
 template<class Real, class Sum>
 TREAD_HD void account_walls(Real mass, const Vec3<Real>& before, const Vec3<Real>& moved, const Vec3<Real>& after,
-                         Sum* sums)
+                            Sum* sums)
 {
     const Vec3<Real> impulse = mass * (after - moved);
     sums[grid_wall_loss] -= Sum(Real(0.5) * impulse.dot(before + after));

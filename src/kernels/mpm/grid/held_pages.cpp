@@ -25,8 +25,9 @@ void hold_still(const Exec& cpu, const PagesView& pages, const HeldPagesView& he
     for_each_heavy(cpu, "hold still", held.count, hold_page);
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
-    template void hold_still(const Exec&, const PagesView&, const HeldPagesView&, const Real*, const GridStep<Real>&, Real*, double*)
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void hold_still(const Exec&, const PagesView&, const HeldPagesView&, const Real*, const GridStep<Real>&,  \
+                             Real*, double*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

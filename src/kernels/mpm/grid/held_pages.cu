@@ -48,8 +48,9 @@ void hold_still(const Exec& gpu, const PagesView& pages, const HeldPagesView& he
                                HoldPage<Real>{pages, held, tiles, step, motion, tallies});
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
-    template void hold_still(const Exec&, const PagesView&, const HeldPagesView&, const Real*, const GridStep<Real>&, Real*, double*)
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void hold_still(const Exec&, const PagesView&, const HeldPagesView&, const Real*, const GridStep<Real>&,  \
+                             Real*, double*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -23,8 +23,9 @@ void take_census(const Exec& cpu, const PointsView<Real>& points, const PagesVie
     for_each_heavy(cpu, "census", pages.point_pages, count_page);
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
-    template void take_census(const Exec&, const PointsView<Real>&, const PagesView&, const MaterialParameters<Real>*, double*)
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void take_census(const Exec&, const PointsView<Real>&, const PagesView&, const MaterialParameters<Real>*, \
+                              double*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

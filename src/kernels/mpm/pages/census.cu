@@ -44,8 +44,9 @@ void take_census(const Exec& gpu, const PointsView<Real>& points, const PagesVie
     for_each_block<census_threads>(gpu, "census", pages.point_pages, CountPage<Real>{points, pages, materials, rows});
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
-    template void take_census(const Exec&, const PointsView<Real>&, const PagesView&, const MaterialParameters<Real>*, double*)
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void take_census(const Exec&, const PointsView<Real>&, const PagesView&, const MaterialParameters<Real>*, \
+                              double*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

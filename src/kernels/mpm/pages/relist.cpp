@@ -70,7 +70,10 @@ void relist_page(const Relisting& job, std::int64_t page)
 } // namespace
 
 template<class Exec>
-bool may_have_changed_cells(const Exec&, const MovesView& moves) { return moves.any_changed_cell(); }
+bool may_have_changed_cells(const Exec&, const MovesView& moves)
+{
+    return moves.any_changed_cell();
+}
 
 template<class Exec>
 void start_pages(const Exec& cpu, const PagesView& old, const MovesView& moves, RelistScratch<Exec>& scratch)
@@ -87,9 +90,9 @@ void relist_pages(const Exec& cpu, const Relisting& job)
 
 template void relist_points(const Cpu&, Pages<Cpu>&, const MovesView&, RelistScratch<Cpu>&, Array<Cpu, std::uint64_t>&);
 
-#define TREAD_INSTANTIATE(Exec) \
-    template bool may_have_changed_cells(const Exec&, const MovesView&); \
-    template void start_pages(const Exec&, const PagesView&, const MovesView&, RelistScratch<Exec>&); \
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template bool may_have_changed_cells(const Exec&, const MovesView&);                                               \
+    template void start_pages(const Exec&, const PagesView&, const MovesView&, RelistScratch<Exec>&);                  \
     template void relist_pages(const Exec&, const Relisting&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

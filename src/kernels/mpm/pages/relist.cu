@@ -166,7 +166,10 @@ void start_pages(const Exec& gpu, const PagesView& old, const MovesView& moves, 
 }
 
 template<class Exec>
-bool may_have_changed_cells(const Exec&, const MovesView&) { return true; }
+bool may_have_changed_cells(const Exec&, const MovesView&)
+{
+    return true;
+}
 
 template<class Exec>
 void relist_pages(const Exec& gpu, const Relisting& job)
@@ -177,9 +180,9 @@ void relist_pages(const Exec& gpu, const Relisting& job)
 
 template void relist_points(const Gpu&, Pages<Gpu>&, const MovesView&, RelistScratch<Gpu>&, Array<Gpu, std::uint64_t>&);
 
-#define TREAD_INSTANTIATE(Exec) \
-    template bool may_have_changed_cells(const Exec&, const MovesView&); \
-    template void start_pages(const Exec&, const PagesView&, const MovesView&, RelistScratch<Exec>&); \
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template bool may_have_changed_cells(const Exec&, const MovesView&);                                               \
+    template void start_pages(const Exec&, const PagesView&, const MovesView&, RelistScratch<Exec>&);                  \
     template void relist_pages(const Exec&, const Relisting&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

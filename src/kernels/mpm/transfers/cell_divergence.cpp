@@ -24,8 +24,9 @@ void average_divergence(const Exec& cpu, const PointsView<Real>& points, const P
     for_each_heavy(cpu, "cell divergence", list.count, average_page);
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
-    template void average_divergence(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&, const Real*, Real, Real*)
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void average_divergence(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&,          \
+                                     const Real*, Real, Real*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

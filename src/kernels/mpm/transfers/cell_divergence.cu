@@ -44,8 +44,9 @@ void average_divergence(const Exec& gpu, const PointsView<Real>& points, const P
                                AveragePage<Real>{points, pages, list, motion, dt, cell_divergence});
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
-    template void average_divergence(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&, const Real*, Real, Real*)
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void average_divergence(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&,          \
+                                     const Real*, Real, Real*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

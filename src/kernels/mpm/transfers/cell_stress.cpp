@@ -21,7 +21,7 @@ void share_pressure(const Exec& cpu, const PointsView<Real>& points, const Pages
     for_each_heavy(cpu, "cell pressure", pages.point_pages, share_page);
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
     template void share_pressure(const Exec&, const PointsView<Real>&, const PagesView&, const Planes<Real, 6>&)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

@@ -15,7 +15,7 @@ void share_pressure(const Exec& gpu, const PointsView<Real>& points, const Pages
              [=] __device__(std::int64_t cell) { share_cell_pressure(points, pages, cell, shared); });
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
     template void share_pressure(const Exec&, const PointsView<Real>&, const PagesView&, const Planes<Real, 6>&)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

@@ -89,8 +89,9 @@ void gather(const Exec& cpu, const PointsView<Real>& points, const PagesView& pa
     else { launch(WithoutMoment{}); }
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
-    template void gather(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&, const Real*, const GatherStep<Real>&, const MovesView&, double*, double*)
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void gather(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&, const Real*,         \
+                         const GatherStep<Real>&, const MovesView&, double*, double*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -201,10 +201,10 @@ struct GatherPage
         __shared__ double                 shared_peaks[threads / 32 * point_peaks];
         __shared__ std::int32_t count[move_counts];
         if (threadIdx.x < move_counts) { count[threadIdx.x] = 0; }
-        double*      row    = tallies + page * tally_width(point_sums);
-        double*      most   = peaks + page * point_peaks;
+        double*      row     = tallies + page * tally_width(point_sums);
+        double*      most    = peaks + page * point_peaks;
         const double tallied = threadIdx.x < point_sums ? row[threadIdx.x] : 0;
-        const double before = threadIdx.x < point_peaks ? most[threadIdx.x] : 0;
+        const double before  = threadIdx.x < point_peaks ? most[threadIdx.x] : 0;
         at += threadIdx.x;
         Listed       next     = listed(at, end);
         std::uint8_t material = fetch(next, at < end, waiting);
@@ -295,8 +295,9 @@ void gather(const Exec& gpu, const PointsView<Real>& points, const PagesView& pa
     else { with_threads(std::integral_constant<int, 64>{}); }
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
-    template void gather(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&, const Real*, const GatherStep<Real>&, const MovesView&, double*, double*)
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void gather(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&, const Real*,         \
+                         const GatherStep<Real>&, const MovesView&, double*, double*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

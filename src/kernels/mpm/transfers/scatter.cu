@@ -40,7 +40,7 @@ void scatter(const Exec& gpu, const PointsView<Real>& points, const PagesView& p
     else { with_force(std::false_type{}); }
 }
 
-#define TREAD_INSTANTIATE(Exec, Real) \
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
     template void scatter(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&, Real*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
