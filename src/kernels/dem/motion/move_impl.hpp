@@ -209,12 +209,12 @@ struct Move
         if (lanes.lane() != 0) { return; }
         const ContactWrench contact = acting.outside + acting.pairs;
         account_contacts(b, share, contact);
-        BodyTotal        discarded;
+        BodyTotal        unused;
         const double     weight = bodies.acting_weight(b, body.locked);
-        const MeanMotion mean = integrate(b, body, with_joints(b, contact), weight * gravity, *total_of(b, discarded));
-        if (joints.place != nullptr) { account_joints(b, mean, *total_of(b, discarded)); }
-        if (weight != 1) { account_carried_weight((weight - 1) * body.mass * gravity, mean, *total_of(b, discarded)); }
-        if constexpr (Outside::acts) { account_outside(acting.outside, mean, *total_of(b, discarded)); }
+        const MeanMotion mean = integrate(b, body, with_joints(b, contact), weight * gravity, *total_of(b, unused));
+        if (joints.place != nullptr) { account_joints(b, mean, *total_of(b, unused)); }
+        if (weight != 1) { account_carried_weight((weight - 1) * body.mass * gravity, mean, *total_of(b, unused)); }
+        if constexpr (Outside::acts) { account_outside(acting.outside, mean, *total_of(b, unused)); }
         store_motion(bodies, b, body);
         if (pairs.body != nullptr) { show(body, shown, pairs.body + b); }
     }
@@ -254,11 +254,11 @@ private:
 
     /// Returns the body's totals; the owner accounts for a ghost's motion. One call integrates both kinds, because a
     /// compiler may round two calls differently.
-    TREAD_HD BodyTotal* total_of(std::int64_t b, BodyTotal& discarded) const
+    TREAD_HD BodyTotal* total_of(std::int64_t b, BodyTotal& unused) const
     {
         if constexpr (Ranks::of_several)
         {
-            if (!bodies.is_owned(b)) { return &discarded; }
+            if (!bodies.is_owned(b)) { return &unused; }
         }
         return totals + b;
     }
