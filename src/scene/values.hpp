@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -157,6 +158,7 @@ template<class E>
 std::vector<std::string> words_of_enumeration()
 {
     std::vector<std::string> words;
+    words.reserve(std::size(spellings<E>));
     for (const Spelling<E>& spelling : spellings<E>) { words.emplace_back(spelling.word); }
     return words;
 }

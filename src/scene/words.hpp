@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 // Enumerations of a scene; spellings.hpp has their words.
 namespace tread::scene
 {
@@ -75,15 +78,10 @@ enum class MaterialModel
 
 constexpr MaterialKind material_kind(MaterialModel model)
 {
-    switch (model)
-    {
-#define TREAD_ROW(name, word, kind)                                                                                    \
-    case MaterialModel::name:                                                                                          \
-        return MaterialKind::kind;
-        TREAD_MATERIAL_MODELS(TREAD_ROW)
+#define TREAD_ROW(name, word, kind) MaterialKind::kind,
+    constexpr std::array kinds{TREAD_MATERIAL_MODELS(TREAD_ROW)};
 #undef TREAD_ROW
-    }
-    return MaterialKind::elastic;
+    return kinds[static_cast<std::size_t>(model)];
 }
 
 constexpr bool is_granular(MaterialModel model) { return material_kind(model) == MaterialKind::granular; }

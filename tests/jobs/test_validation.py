@@ -68,6 +68,13 @@ class Campaigns(unittest.TestCase):
                        if scene_of(case)["shape"][0]["generate"]["grousers"] == curve.wheel["grousers"]}
                 self.assertEqual(run, possible, curve.name)
 
+    def test_another_law_is_named_with_its_density(self):
+        for name in ("mgru3", "ding"):
+            own = tomllib.loads((ROOT / "configs/validation/scenes" / f"{name}.toml").read_text())
+            other = tomllib.loads((ROOT / "configs/validation/scenes" / f"{name}_density.toml").read_text())
+            self.assertIn("law bolton", differences(other, own))
+            self.assertEqual(differences(other, other), "")
+
     def test_the_first_of_what_is_assumed_is_the_scene(self):
         for measured_set in SETS.values():
             cases = make_cases(read_campaign(measured_set.campaign))

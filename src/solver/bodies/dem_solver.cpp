@@ -164,7 +164,7 @@ template<class Exec>
 RigidReport DemSolver<Exec>::report(double time)
 {
     if (!reports_.activity) { request_report(); }
-    const RigidReport report = take_report(state_, reports_, lists_, {time, substep_, commands_.take_totals()});
+    RigidReport report = take_report(state_, reports_, lists_, {time, substep_, commands_.take_totals()});
     if (joints_) { joints_->check(time); }
     return report;
 }

@@ -37,7 +37,8 @@ template<class Real>
 struct MaterialParameters : Elasticity<Real>
 {
     LawKind law = LawKind::elastic;
-#define TREAD_ROW(name, Constants) Constants<Real> name{};
+// A type and the name of a member take no parentheses.
+#define TREAD_ROW(name, Constants) Constants<Real> name{}; // NOLINT(bugprone-macro-parentheses)
     TREAD_LAWS(TREAD_ROW)
 #undef TREAD_ROW
 };
