@@ -39,7 +39,7 @@ TREAD_HD Vec3<double> angular_velocity_held(const HeldSpin& spin, const Mat3<dou
         return across.inverse() * spin.rate;
     }
     const Mat3<double> inverse = rotation * inverse_inertia * rotation.transpose();
-    const Vec3<double> free    = inverse * momentum;
+    Vec3<double>       free    = inverse * momentum;
     if (spin.held == 0) { return free; }
     Mat3<double> response = spin.axes.transpose() * inverse * spin.axes;
     Vec3<double> missing  = spin.rate - spin.axes.transpose() * free;
@@ -79,7 +79,8 @@ TREAD_HD Vec3<double> translate_prescribed(const Prescribed& motion, BodyMotion&
     {
         if (is_locked(motion.held, lock_x, c)) { along[c] = motion.velocity[c]; }
     }
-    const Vec3<double> after = motion.frame * along, mean = 0.5 * (before + after);
+    const Vec3<double> after   = motion.frame * along;
+    Vec3<double>       mean    = 0.5 * (before + after);
     const Vec3<double> impulse = body.mass * (after - before) - dt * outer;
     total.holding_impulse += impulse;
     total.holding_work += impulse.dot(mean);
@@ -128,7 +129,7 @@ TREAD_HD Vec3<double> rotate_prescribed(const Prescribed& motion, BodyMotion& bo
     body.angular_velocity         = angular_velocity_held(last, at_end, inverse, momentum);
     const Vec3<double> reached    = at_end * (inertia * (at_end.transpose() * body.angular_velocity));
     const Vec3<double> after_kick = at_start * (inertia * (at_start.transpose() * kicked));
-    const Vec3<double> mean       = 0.5 * (before + kicked);
+    Vec3<double>       mean       = 0.5 * (before + kicked);
     const bool         is_held    = first.held != 0;
     const Vec3<double> kick_impulse =
         is_held ? Vec3<double>(after_kick - momentum) : Vec3<double>(Vec3<double>::Zero());
