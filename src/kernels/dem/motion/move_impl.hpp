@@ -227,8 +227,8 @@ private:
         {
             if ((body.locked & prescribed) != 0)
             {
-                ContactImpulse   reaction{Vec3<double>::Zero(), Vec3<double>::Zero()};
-                const MeanMotion mean =
+                ContactImpulse reaction{Vec3<double>::Zero(), Vec3<double>::Zero()};
+                MeanMotion     mean =
                     integrate_prescribed(prescription.view.motion[b], body, contact, pull, dt, total, reaction);
                 if (bodies.is_owned(b)) { add(reaction, prescription.view.reaction[b]); }
                 return mean;

@@ -39,7 +39,7 @@ TREAD_HD Vec3<double> angular_velocity_held(const HeldSpin& spin, const Mat3<dou
         return across.inverse() * spin.rate;
     }
     const Mat3<double> inverse = rotation * inverse_inertia * rotation.transpose();
-    const Vec3<double> free    = inverse * momentum;
+    Vec3<double>       free    = inverse * momentum;
     if (spin.held == 0) { return free; }
     Mat3<double> response = spin.axes.transpose() * inverse * spin.axes;
     Vec3<double> missing  = spin.rate - spin.axes.transpose() * free;
@@ -113,7 +113,7 @@ TREAD_HD Vec3<double> translate_prescribed(const Prescribed& motion, BodyMotion&
 {
     const Vec3<double> before = body.velocity, outer = contact + body.mass * gravity;
     const Vec3<double> after   = velocity_after(motion, body.position[2], before, outer, body.mass, dt);
-    const Vec3<double> mean    = 0.5 * (before + after);
+    Vec3<double>       mean    = 0.5 * (before + after);
     const Vec3<double> impulse = body.mass * (after - before) - dt * outer;
     total.holding_impulse += impulse;
     total.holding_work += impulse.dot(mean);
@@ -178,7 +178,7 @@ TREAD_HD Vec3<double> rotate_prescribed(const Prescribed& motion, BodyMotion& bo
     body.angular_velocity         = angular_velocity_held(last, at_end, inverse, kick.momentum);
     const Vec3<double> reached    = at_end * (inertia * (at_end.transpose() * body.angular_velocity));
     const Vec3<double> after_kick = at_start * (inertia * (at_start.transpose() * kicked));
-    const Vec3<double> mean       = 0.5 * (before + kicked);
+    Vec3<double>       mean       = 0.5 * (before + kicked);
     const bool         is_held    = first.held != 0;
     const Vec3<double> kick_impulse =
         is_held ? Vec3<double>(after_kick - kick.momentum) : Vec3<double>(Vec3<double>::Zero());
