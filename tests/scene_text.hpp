@@ -76,6 +76,7 @@ poisson = 0.3
 name      = "roller"
 generate  = { kind = "wheel", radius = 0.1, width = 0.15, wall_thickness = 0.04, grousers = 0, grouser_height = 0.0 }
 sdf_cells = 48
+node_spacing = 0.0125
 [[body]]
 name     = "roller"
 shape    = "roller"

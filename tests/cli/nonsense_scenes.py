@@ -49,6 +49,7 @@ friction = 0.4
 name      = "wheel"
 generate  = { kind = "wheel", radius = 0.15, width = 0.15, wall_thickness = 0.04, grousers = 0, grouser_height = 0.0 }
 sdf_cells = 24
+node_spacing = 0.02
 
 [[terrain]]
 material = "sand"
