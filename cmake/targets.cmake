@@ -29,8 +29,7 @@ if(TREAD_SANITIZE)
 endif()
 
 # tread_precompile(TARGET HEADERS...): these, and what all files read, are compiled once for the files of a target, unless they
-# are few. Measured: with the simulation among them, a physics test compiles in a third of the time. What lacks an include is
-# found by clang-tidy, for which ci/full precompiles nothing.
+# are few. A file of src that lacks an include is found by clang-tidy, for which ci/full precompiles nothing.
 function(tread_precompile target)
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "[.]cpp$")

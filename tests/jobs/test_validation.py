@@ -73,6 +73,7 @@ class Campaigns(unittest.TestCase):
             own = tomllib.loads((ROOT / "configs/validation/scenes" / f"{name}.toml").read_text())
             other = tomllib.loads((ROOT / "configs/validation/scenes" / f"{name}_density.toml").read_text())
             self.assertIn("law bolton", differences(other, own))
+            self.assertIn(f"relative density {other['material'][0]['relative_density']:g}", differences(other, own))
             self.assertEqual(differences(other, other), "")
 
     def test_the_first_of_what_is_assumed_is_the_scene(self):

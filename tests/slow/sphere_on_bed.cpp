@@ -15,29 +15,32 @@ TYPED_TEST_SUITE(SlowSphereOnBed, test::Backends, test::BackendNames);
 
 constexpr double mm = 1e-3;
 
+test::SphereOnBed drum_on_bed()
+{
+    test::SphereOnBed bed;
+    bed.form  = test::drum;
+    bed.width = 0.22;
+    bed.depth = 0.06;
+    return bed;
+}
+
 /// docs/verification.md#body-at-rest-on-sand: the contact of a wheel at rest carries its weight, in every step, for any
 /// number of substeps.
 TYPED_TEST(SlowSphereOnBed, BedCarriesAWheelWhateverTheSubsteps)
 {
-    test::SphereOnBed bed;
-    bed.form     = test::drum;
-    bed.width    = 0.22;
-    bed.depth    = 0.06;
-    bed.settling = 0.06;
-    bed.free     = 0.015;
+    test::SphereOnBed bed = drum_on_bed();
+    bed.settling          = 0.06;
+    bed.free              = 0.015;
     test::expect_weight_carried(this->exec(), bed);
 }
 
 /// docs/verification.md#body-at-rest-on-sand, on sand, which comes to rest slowly.
 TYPED_TEST(SlowSphereOnBed, SandCarriesAWheelWhateverTheSubsteps)
 {
-    test::SphereOnBed bed;
-    bed.law      = "model = \"mohr-coulomb\"\nfriction_angle_deg = 35.0";
-    bed.form     = test::drum;
-    bed.width    = 0.22;
-    bed.depth    = 0.06;
-    bed.settling = 0.55;
-    bed.free     = 0.05;
+    test::SphereOnBed bed = drum_on_bed();
+    bed.law               = "model = \"mohr-coulomb\"\nfriction_angle_deg = 35.0";
+    bed.settling          = 0.55;
+    bed.free              = 0.05;
     test::expect_weight_carried(this->exec(), bed);
 }
 
