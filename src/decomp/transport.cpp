@@ -3,6 +3,7 @@
 #include "backend/instantiate.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #if __has_include(<mpi-ext.h>)
@@ -54,7 +55,8 @@ Choice choose_for_gpus(const Communicator& communicator, TransportChoice choice)
     }
     try
     {
-        return {Carrier::nccl, std::make_unique<Nccl>(communicator), "NCCL"};
+        auto nccl = std::make_unique<Nccl>(communicator);
+        return {Carrier::nccl, std::move(nccl), "NCCL"};
     }
     catch (const EnvironmentError& error)
     {

@@ -1,5 +1,6 @@
 #include "run/time_loop.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "backend/instantiate.hpp"
@@ -65,8 +66,8 @@ bool phase_is_over(TimeLoop<Exec, Real>& loop, const LoopCalls& calls)
 /// Angular velocities (rad/s) of the named bodies about their axles.
 std::vector<double> axle_spins(const std::vector<solver::BodyRow>& bodies)
 {
-    std::vector<double> spins;
-    for (const solver::BodyRow& body : bodies) { spins.push_back(spin_of(body)); }
+    std::vector<double> spins(bodies.size());
+    std::transform(bodies.begin(), bodies.end(), spins.begin(), solver::spin_of);
     return spins;
 }
 
