@@ -27,7 +27,8 @@ inline constexpr std::array<double, 3>      axles = {front, middle, rear};
 inline constexpr std::array<const char*, 3> names = {"front", "middle", "rear"};
 } // namespace curiosity
 
-inline std::string rover_head(const std::string& gravity, double length)
+/// `contact_share`: at the default of 0.2 a standing rover leaves 1 % of its energy unaccounted.
+inline std::string rover_head(const std::string& gravity, double length, double contact_share = 0.1)
 {
     return fmt::format(R"(
 title = "rover"
@@ -35,6 +36,8 @@ title = "rover"
 size    = [{}, 4.0, 2.0]
 {}
 walls   = {{ x = "open", y = "open", bottom = "fixed", top = "open" }}
+[time]
+contact_share = {}
 [[material]]
 name    = "wheel"
 model   = "elastic"
@@ -55,7 +58,7 @@ generate = {{ kind = "box", size = [1.5, 1.0, 0.5] }}
 name     = "beam"
 generate = {{ kind = "box", size = [1.0, 0.05, 0.06] }}
 )",
-                       length, gravity);
+                       length, gravity, contact_share);
 }
 
 inline std::string rover_body(const std::string& name, const std::string& shape, double mass, double x, double y,
@@ -79,11 +82,12 @@ inline const std::string differential_text =
 
 /// Six wheels on a rocker-bogie; `brake`: the axle's keys of the rear wheels. Wheels turn freely otherwise. Bodies 5 to
 /// 10 are the wheels: front left, front right, middle left, ...
-inline std::string six_wheels(const std::string& gravity, double duration, const std::string& brake = "")
+inline std::string six_wheels(const std::string& gravity, double duration, const std::string& brake = "",
+                              double contact_share = 0.1)
 {
     using namespace curiosity;
     constexpr double x = 2, y = 2, drop = 1e-4;
-    std::string      text = rover_head(gravity, 4), joints;
+    std::string      text = rover_head(gravity, 4, contact_share), joints;
     text += rover_body("chassis", "chassis", chassis.mass, x + chassis.x, y, chassis.z);
     for (const RoverPart& part : {rocker, bogie})
     {
