@@ -60,8 +60,8 @@ TEST(DriveRoom, EndsBeforeTheWalls)
     EXPECT_TRUE(built.warnings().empty());
 }
 
-/// Sums by hand: of a drum of radius r and half width w, a yaw of 60 degrees shows r cos 60 + w sin 60 along x, and a camber
-/// of 30 degrees r cos 30 + w sin 30 downwards.
+/// Sums by hand: of a drum of radius r and half width w, a yaw of 60 degrees shows r cos 60 + w sin 60 along x, and a
+/// camber of 30 degrees r cos 30 + w sin 30 downwards.
 TEST(DriveRoom, LooksAtABodyAsItIsTurned)
 {
     const auto turned = [](const std::string& angle)

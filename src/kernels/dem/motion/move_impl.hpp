@@ -211,7 +211,7 @@ struct Move
         account_contacts(b, share, contact);
         BodyTotal        unused;
         const double     weight = bodies.acting_weight(b, body.locked);
-        const MeanMotion mean = integrate(b, body, with_joints(b, contact), weight * gravity, *total_of(b, unused));
+        const MeanMotion mean   = integrate(b, body, with_joints(b, contact), weight * gravity, *total_of(b, unused));
         if (joints.place != nullptr) { account_joints(b, mean, *total_of(b, unused)); }
         if (weight != 1) { account_carried_weight((weight - 1) * body.mass * gravity, mean, *total_of(b, unused)); }
         if constexpr (Outside::acts) { account_outside(acting.outside, mean, *total_of(b, unused)); }
