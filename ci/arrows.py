@@ -4,7 +4,7 @@ import pathlib
 import re
 import sys
 
-# What a room may include, beside itself. `kernels` stands for its shared headers; sub-rooms of mpm and of dem see each other.
+# What a room may include, beside itself. `kernels` stands for its shared headers; sub-rooms of mpm, of dem and of solver see each other.
 BELOW = {
     "base": [],
     "backend": ["base"],
@@ -24,7 +24,7 @@ BELOW = {
 
 
 def room_of(folder):
-    """kernels/mpm/laws is a sub-room of kernels/mpm."""
+    """kernels/mpm/laws is a sub-room of kernels/mpm, solver/bodies one of solver."""
     parts = folder.split("/")
     return "/".join(parts[:2]) if parts[0] == "kernels" else parts[0]
 

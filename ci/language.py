@@ -17,11 +17,14 @@ GONE = (
     (r"\b(deal|dealt|deals) out\b", "partition, repartition, assign"),
     (r"\b[Bb]ooks\b|\bBooksOf\w*", "ledger, energy balance"),
     (r"\bheed\w*", "apply"),
-    (r"\b(look_outside|look_who_\w+|look_within_\w+)\b", "check_*, update_*"),
+    (r"\b(look_outside|look_up\w*|look_who_\w+|look_within_\w+)\b", "check_*, update_*, evaluate_*, find_*"),
     (r"\b(grant_travel|travel_bound)\b", "allow_displacement, displacement_bound"),
     (r"\b(Patience|patience)\b", "timeout, attempts"),
     (r"\b(Said|said_|say_\w+)\b", "log_*, messages"),
     (r"\bgive_back\b", "release_memory"),
+    (r"\brole_guest\b", "role_ghost"),
+    (r"\b(book_\w+|booked\w*|unbooked)\b", "account_*, tally_*"),
+    (r"\b(more_travel|travel_of|\w*wanted_travel|reach_of)\b", "allowed displacement, search radius"),
 )
 BARE = re.compile(r'^\s*(?:///|(?:\w+ )?""")\s*(Of|Those|As|By)\b')
 

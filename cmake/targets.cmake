@@ -39,8 +39,8 @@ function(tread_precompile target)
   endif()
 endfunction()
 
-# tread_room(NAME [LINK targets...] [PRECOMPILE headers...]): one folder, one target. Takes every .cpp of the folder and, with
-# CUDA, every .cu.
+# tread_room(NAME [LINK targets...] [PRECOMPILE headers...]): one room, one target. Takes every .cpp of the folder and of its
+# sub-folders and, with CUDA, every .cu.
 function(tread_room name)
   cmake_parse_arguments(ROOM "" "" "LINK;PRECOMPILE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)

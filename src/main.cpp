@@ -24,7 +24,7 @@
 #include "run/on_ranks.hpp"
 #include "run/run_scene.hpp"
 #include "scene/load.hpp"
-#include "shape/form.hpp"
+#include "shape/generators/form.hpp"
 #include "shape/report.hpp"
 #include "shape/template.hpp"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "physics/harness.hpp"
-#include "shape/mesh.hpp"
+#include "shape/mesh/mesh.hpp"
 #include "temporary_directory.hpp"
 #include "unit/shape/meshes.hpp"
 

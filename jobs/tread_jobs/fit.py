@@ -50,7 +50,7 @@ class Problem:
 
 
 class FitError(Exception):
-    """The runs cannot tell the parameters; the message says why."""
+    """The runs do not determine the parameters; the message says why."""
 
 
 @dataclass(frozen=True)

@@ -71,7 +71,7 @@ def _measured_once(quantity):
 
 
 def _variants(entries, states, quantities, directory):
-    """States by name and Variants of those that can be read: what is damaged, or tells a quantity no answer, has failed."""
+    """States by name and Variants of those that can be read: what is damaged, or gives a quantity no answer, has failed."""
     manifest, variants, states = directory.manifest, [], dict(states)
     for entry in (entry for entry in entries if states[entry.name].state == DONE):
         try:
@@ -102,7 +102,7 @@ def _is_perturbed(entry, axes):
 
 
 def _known(name, quantity, run, options):
-    """What the user says is right, else the scene's closed form or file; None where the variants have to tell."""
+    """What the user says is right, else the scene's closed form or file; None where the variants have to give it."""
     if name in options.known:
         return known_value(options.known[name], 0.0, "as given")
     table = run.scene.get("reference", {})

@@ -1,23 +1,14 @@
 """The right answers that `[reference] form` names, from the scene of a run, and how the run's own are read."""
 
 import math
-from dataclasses import dataclass
-from typing import Callable
 
 import numpy as np
 
+from tread_post.closed_form import ClosedForm
 from tread_post.hertz_impact import hertz, history_of
 from tread_post.quantities import QUANTITIES, Quantity, body_name
 from tread_post.run import RunError
-
-
-@dataclass(frozen=True)
-class ClosedForm:
-    text: str
-    quantities: dict[str, Quantity]
-    answers: Callable  # of a Run: {quantity: value}
-    uncertainty: float  # share of the answers that they are right to
-    needs: Callable  # of a scene, as written: what it lacks to be of this kind, in words; "" if nothing
+from tread_post.soil_forms import SOIL_FORMS
 
 
 # A rigid sphere against an elastic one.
@@ -201,4 +192,5 @@ FORMS = {
     "run-out": ClosedForm(
         "1.2 a of two laboratories, right to 15 %", {"run_out": Quantity("1", _run_out, "", reads_points=True)}, _run_out_answers, 0.15,
         _column_needs),
+    **SOIL_FORMS,
 }

@@ -77,7 +77,7 @@ void GridHalo<Exec, Real>::plan(mpm::Pages<Exec>& pages, const mpm::GridWalls& w
     shared_.number_of.assign(numbers);
     shared_.first_part.assign(halo.first_part);
     shared_.part.assign(halo.part);
-    shared_.booked_elsewhere.assign(picked(places, halo.booked_elsewhere));
+    shared_.tallied_elsewhere.assign(picked(places, halo.tallied_elsewhere));
 
     std::vector<std::int32_t> rows;
     std::vector<Route>        to, from;
@@ -131,9 +131,9 @@ void GridHalo<Exec, Real>::finish()
 }
 
 template<class Exec, class Real>
-void GridHalo<Exec, Real>::clear_booked_elsewhere(int width, double* tallies)
+void GridHalo<Exec, Real>::clear_tallied_elsewhere(int width, double* tallies)
 {
-    mpm::clear_booked_elsewhere(decomposition_.transport.exec(), shared_, width, tallies);
+    mpm::clear_tallied_elsewhere(decomposition_.transport.exec(), shared_, width, tallies);
 }
 
 #define TREAD_INSTANTIATE(Exec, Real) template class GridHalo<Exec, Real>

@@ -44,7 +44,7 @@ public:
     mpm::SharedPagesView<Real> view() const { return shared_.view(); }
 
     /// Clears the tallies of node pages (`width` numbers each) that another rank accounts for.
-    void clear_booked_elsewhere(int width, double* tallies);
+    void clear_tallied_elsewhere(int width, double* tallies);
 
     std::int64_t pages() const { return shared_.page.size(); }
 

@@ -89,7 +89,7 @@ void list_parts(int rank, const std::vector<PageKeys>& reached, const std::vecto
             before += static_cast<std::int64_t>(incoming[other].size());
         }
         plan.first_part.push_back(static_cast<std::int32_t>(plan.part.size()));
-        if (lowest != rank) { plan.booked_elsewhere.push_back(static_cast<std::int32_t>(number)); }
+        if (lowest != rank) { plan.tallied_elsewhere.push_back(static_cast<std::int32_t>(number)); }
     }
 }
 

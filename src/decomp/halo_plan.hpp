@@ -29,7 +29,7 @@ struct HaloPlan
     /// for this rank's own.
     std::vector<std::int32_t> part;
     /// Numbers in `shared` of pages that another rank accounts for: the lowest rank that reaches a page does.
-    std::vector<std::int32_t> booked_elsewhere;
+    std::vector<std::int32_t> tallied_elsewhere;
 };
 
 /// `reached[r]`: node pages that points of rank r may reach, ascending; complete for this rank, for others at least

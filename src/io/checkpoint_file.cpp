@@ -65,7 +65,7 @@ std::int64_t bytes_of(const std::string& path)
 
 std::string temporary(const std::string& path) { return path + ".tmp"; }
 
-/// Why the file is damaged, as far as the head and its length tell.
+/// Why the file is damaged, as far as the head and its length show.
 std::optional<std::string> damage_of_head(const std::string& path, const std::optional<Head>& head)
 {
     if (!head) { return "it is no checkpoint, or its first bytes are damaged"; }

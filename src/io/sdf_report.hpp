@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "shape/sdf_report.hpp"
+#include "shape/distance/sdf_report.hpp"
 
 namespace tread::io
 {

@@ -7,7 +7,7 @@
 
 #include "base/communicator.hpp"
 #include "io/provenance.hpp"
-#include "shape/mesh.hpp"
+#include "shape/mesh/mesh.hpp"
 
 namespace tread::io
 {

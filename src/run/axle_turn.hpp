@@ -1,7 +1,7 @@
 #pragma once
 
-#include "solver/body_command.hpp"
-#include "solver/body_row.hpp"
+#include "solver/bodies/body_command.hpp"
+#include "solver/bodies/body_row.hpp"
 
 namespace tread::run
 {

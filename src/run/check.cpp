@@ -13,7 +13,7 @@
 #include "run/prediction.hpp"
 #include "run/wall_time.hpp"
 #include "scene/resolved.hpp"
-#include "solver/page_loads.hpp"
+#include "solver/ranks/page_loads.hpp"
 #include "world/bed.hpp"
 #include "world/footing.hpp"
 #include "world/layers.hpp"

@@ -20,23 +20,30 @@ constexpr double margin_share  = 0.05; ///< margin over the body's reach
 constexpr double deepest_below = 0.1;  ///< depth below the terrain's floor over the reach: walls are penetrated less
 constexpr int    path_parts    = 4000; ///< intervals of a drive that are examined in turn
 
-/// Half extents of a body that turns about its axle.
+/// Half extents of a body that turns about its axle, m, along the axes of the world.
 struct Rim
 {
-    double reach; ///< m
+    double reach; ///< along x
     double half_width;
+    double depth;
 };
 
 Rim rim_of(const world::World& world, std::size_t body)
 {
-    const auto& form = world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
-    Rim         rim{};
+    const auto&        form = world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
+    const Vec3<double> axle = world.bodies.orientation[body] * Vec3<double>::UnitY();
+    Vec3<double>       most = Vec3<double>::Zero();
     for (const Vec3<double>& vertex : form.mesh.vertices)
     {
-        rim.reach      = std::max(rim.reach, world.bodies.scale[body] * std::hypot(vertex[0], vertex[2]));
-        rim.half_width = std::max(rim.half_width, world.bodies.scale[body] * std::abs(vertex[1]));
+        const double radius = std::hypot(vertex[0], vertex[2]), aside = std::abs(vertex[1]);
+        for (int c = 0; c < 3; ++c)
+        {
+            const double across = std::sqrt(std::max(0.0, 1 - axle[c] * axle[c]));
+            most[c]             = std::max(most[c], across * radius + std::abs(axle[c]) * aside);
+        }
     }
-    return rim;
+    most *= world.bodies.scale[body];
+    return {most[0], most[1], most[2]};
 }
 
 /// Calls visit(centre, half size) for each point of sand and each rock.
@@ -122,7 +129,8 @@ DriveRoom room_of(const scene::Scene& scene, const world::World& world, std::siz
     const Rim           rim    = rim_of(world, body);
     const auto          ground = ground_of(world, start, rim);
     const double        keep   = (1 + margin_share) * rim.reach + margin_cells * scene.grid.spacing;
-    return {body, start[0], rim.reach, way_end(scene, ground, keep, -1), way_end(scene, ground, keep, 1), ground};
+    return {body,  start[0], rim.reach, rim.depth, way_end(scene, ground, keep, -1), way_end(scene, ground, keep, 1),
+            ground};
 }
 
 double direction_of(const scene::Drive& drive)
@@ -278,7 +286,7 @@ double distance_to_leave(const DriveRoom& room, const Vec3<double>& axle)
     if (!room.ground) { return infinity; }
     const DriveRoom::Ground& ground = *room.ground;
     return std::min({axle[0] - ground.low_x, ground.high_x - axle[0], axle[1] - ground.low_y, ground.high_y - axle[1],
-                     axle[2] - room.reach - ground.floor + deepest_below * room.reach});
+                     axle[2] - room.depth - ground.floor + deepest_below * room.depth});
 }
 
 bool has_left(const DriveRoom& room, const Vec3<double>& axle) { return distance_to_leave(room, axle) < 0; }

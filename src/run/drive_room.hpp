@@ -23,7 +23,8 @@ struct DriveRoom
 {
     std::size_t body;  ///< index of a [[body]]
     double      start; ///< m, x of the axle
-    double      reach; ///< m, distance from the axle to the farthest point of the rim
+    double      reach; ///< m along x, from the axle to the farthest point of the rim as placed
+    double      depth; ///< m downwards, likewise
     WayEnd      back;  ///< towards low x
     WayEnd      front;
 

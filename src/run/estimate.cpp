@@ -17,8 +17,8 @@
 #include "kernels/mpm/pages/moves.hpp"
 #include "kernels/mpm/pages/pages.hpp"
 #include "kernels/mpm/transfers/gather.hpp"
+#include "solver/ledger/sand_guard.hpp"
 #include "solver/pace_limits.hpp"
-#include "solver/sand_guard.hpp"
 
 namespace tread::run
 {
@@ -52,7 +52,7 @@ std::int64_t bytes_per_point(const scene::Scene& scene, const solver::Plan& plan
     return field_bytes(scene, plan) + lists + keys + sort;
 }
 
-/// Extra bytes of a point when all fall asleep at one check (solver/sand_sleep.cpp): a place among the sleeping
+/// Extra bytes of a point when all fall asleep at one check (solver/sand/sand_sleep.cpp): a place among the sleeping
 /// points, which have an eighth to spare, the packed row that moves it there, and the list of moved points.
 std::int64_t sleep_bytes_per_point(const scene::Scene& scene, const solver::Plan& plan)
 {
@@ -119,7 +119,7 @@ PageCounts count_pages(const world::World& world)
             static_cast<std::int64_t>(nodes.size()), std::count_if(nodes.begin(), nodes.end(), held)};
 }
 
-/// Bytes of tiles, lists and sums of the pages (kernels/mpm/pages/pages.hpp, solver/mpm_solver.cpp), and of their
+/// Bytes of tiles, lists and sums of the pages (kernels/mpm/pages/pages.hpp, solver/sand/mpm_solver.cpp), and of their
 /// keys.
 std::int64_t page_bytes(const scene::Scene& scene, const PageCounts& pages)
 {
@@ -143,14 +143,14 @@ std::int64_t snapshot_bytes_per_point(const solver::Plan& plan)
     return 24 + 12 + 12 + 24 + 4 + 4 + 4 + (plan.plasticity ? 8 : 0) + 8 + 8 + 1;
 }
 
-/// Bytes of a point in the copy for a snapshot (solver/point_copy.hpp), and in its rows.
+/// Bytes of a point in the copy for a snapshot (solver/sand/point_copy.hpp), and in its rows.
 std::int64_t snapshot_memory_per_point(const scene::Scene& scene, const solver::Plan& plan)
 {
     const std::int64_t real = bytes_of_real(scene);
     return 2 * 24 + 10 * real + 4 + 1 + (plan.plasticity ? 2 * real : 0) + snapshot_bytes_per_point(plan) + 2 * 24;
 }
 
-/// Bytes of a point's variable fields (solver/point_state.cpp), its id and its place in the lists.
+/// Bytes of a point's variable fields (solver/sand/point_state.cpp), its id and its place in the lists.
 std::int64_t checkpoint_bytes_per_point(const scene::Scene& scene, const solver::Plan& plan)
 {
     const std::int64_t real = bytes_of_real(scene);

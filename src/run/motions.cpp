@@ -10,6 +10,7 @@
 #include "run/phase_commands.hpp"
 #include "run/phase_end.hpp"
 #include "scene/motion_tables.hpp"
+#include "scene/named.hpp"
 #include "scene/time_table.hpp"
 #include "solver/state_file.hpp"
 
@@ -167,20 +168,6 @@ void begin_motions(MotionState& state, const scene::Scene& scene, std::size_t ph
     state.contact.assign(state.contact.size(), {});
 }
 
-std::size_t body_index(const scene::Scene& scene, const std::string& body)
-{
-    const auto at = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                 [&](const scene::Body& candidate) { return candidate.name == body; });
-    return static_cast<std::size_t>(at - scene.bodies.begin());
-}
-
-const scene::Motion* motion_of(const scene::Phase& phase, const std::string& body)
-{
-    const auto at = std::find_if(phase.motion.begin(), phase.motion.end(),
-                                 [&](const scene::Motion& motion) { return motion.body == body; });
-    return at == phase.motion.end() ? nullptr : &*at;
-}
-
 Mat3<double> axes_of(scene::MotionFrame frame, const BodyStart& start)
 {
     return frame == scene::MotionFrame::world ? Mat3<double>(Mat3<double>::Identity())
@@ -193,7 +180,7 @@ void require_independent_axes(const scene::Scene& scene, const RunningPhase& pha
     constexpr double least = 1e-3; ///< volume that the axle and two unit vectors of held axes span
     for (const scene::Motion& motion : keys_of(scene, phase).motion)
     {
-        const std::size_t b    = body_index(scene, motion.body);
+        const std::size_t b    = scene::index_of(scene.bodies, motion.body);
         Mat3<double>      axes = axes_of(motion.rotation_frame, state.start[b]);
         axes.col(1)            = state.start[b].orientation * Vec3<double>::UnitY();
         const bool aside       = holds(motion.rotation[0]) && holds(motion.rotation[2]);
@@ -242,7 +229,7 @@ void add_motions(std::vector<solver::BodyCommand>& commands, const scene::Scene&
     const Vec3<double> gravity(scene.domain.gravity.data());
     for (const scene::Motion& motion : keys_of(scene, phase).motion)
     {
-        const std::size_t   b = body_index(scene, motion.body);
+        const std::size_t   b = scene::index_of(scene.bodies, motion.body);
         solver::BodyCommand command;
         command.motion =
             prescribed_in(motion, scene.bodies[b], state.start[b], state.mass[b], gravity, {time - phase.start, dt});
@@ -286,7 +273,7 @@ void turn_reactions(std::vector<solver::BodyRow>& rows, const scene::Scene& scen
     const scene::Phase& keys = scene.phases[std::min(phase.index, scene.phases.size() - 1)]; // the last row follows it
     for (std::size_t b = 0; b < rows.size(); ++b)
     {
-        const scene::Motion* motion = motion_of(keys, scene.bodies[b].name);
+        const scene::Motion* motion = scene::motion_of(keys, scene.bodies[b].name);
         solver::BodyRow&     row    = rows[b];
         if (motion == nullptr)
         {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "run/phases.hpp"
-#include "solver/body_command.hpp"
-#include "solver/body_row.hpp"
+#include "solver/bodies/body_command.hpp"
+#include "solver/bodies/body_row.hpp"
 #include "world/world.hpp"
 
 // Prescribed motions of the running phase: what bodies are commanded to, and the stops that end the phase.
@@ -52,12 +52,6 @@ MotionState first_motions(const scene::Scene& scene, const world::World& world);
 /// Begins a phase with bodies as in `rows`. A body that is released for the first time has the scene's velocity.
 void begin_motions(MotionState& state, const scene::Scene& scene, std::size_t phase,
                    const std::vector<solver::BodyRow>& rows);
-
-/// Index of the named body called `body`.
-std::size_t body_index(const scene::Scene& scene, const std::string& body);
-
-/// Motion of a body in a phase; null if it has none.
-const scene::Motion* motion_of(const scene::Phase& phase, const std::string& body);
 
 /// Directions of the axes of a motion of a body, as columns.
 Mat3<double> axes_of(scene::MotionFrame frame, const BodyStart& start);

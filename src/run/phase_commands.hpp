@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "run/phases.hpp"
-#include "solver/body_command.hpp"
+#include "solver/bodies/body_command.hpp"
 #include "world/world.hpp"
 
 namespace tread::run

@@ -27,19 +27,14 @@ namespace
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Returns the end of a phase that lowers a body.
-EndKind lowering_end(const scene::Lower& lower, const PhaseEndWatch& watch, bool late)
-{
-    if (watch.carried.share >= lower.share) { return EndKind::lowered; }
-    return late ? EndKind::unlowered : EndKind::running;
-}
+/// Whether the ground carries the wanted share of a body that is lowered.
+bool is_lowered(const scene::Lower& lower, const PhaseEndWatch& watch) { return watch.carried.share >= lower.share; }
 
-/// Returns the end of a phase that waits for equilibrium.
-EndKind settling_end(PhaseEndWatch& watch, double time, double unbalanced, bool late)
+/// Notes whether the state is near equilibrium at `time`; returns whether it has been for long enough.
+bool has_settled(PhaseEndWatch& watch, double time, double unbalanced)
 {
     watch.still_since = unbalanced > equilibrium_ratio ? never : std::min(watch.still_since, time);
-    if (time - watch.still_since >= equilibrium_hold) { return EndKind::settled; }
-    return late ? EndKind::unsettled : EndKind::running;
+    return time - watch.still_since >= equilibrium_hold;
 }
 
 } // namespace
@@ -105,21 +100,22 @@ void CarriedShare::note(double time, double integral)
 
 bool is_over(const scene::Scene& scene, const RunningPhase& phase, PhaseEndWatch& watch, double time, double unbalanced)
 {
-    const scene::Phase& keys = keys_of(scene, phase);
-    const bool          late = time >= latest_end(scene, phase) - time_rounding;
-    watch.ending             = {EndKind::running, time - phase.start, unbalanced};
+    const scene::Phase& keys        = keys_of(scene, phase);
+    const bool          late        = time >= latest_end(scene, phase) - time_rounding;
+    const auto          end_if_late = [&](EndKind kind) { return late ? kind : EndKind::running; };
+    watch.ending                    = {EndKind::running, time - phase.start, unbalanced};
     switch (keys.until)
     {
     case scene::StopRule::duration:
-        watch.ending.kind = late ? EndKind::duration : EndKind::running;
+        watch.ending.kind = end_if_late(EndKind::duration);
         break;
     case scene::StopRule::lowered:
         watch.ending.body    = keys.lower->body;
         watch.ending.carried = watch.carried.share;
-        watch.ending.kind    = lowering_end(*keys.lower, watch, late);
+        watch.ending.kind    = is_lowered(*keys.lower, watch) ? EndKind::lowered : end_if_late(EndKind::unlowered);
         break;
     case scene::StopRule::equilibrium:
-        watch.ending.kind = settling_end(watch, time, unbalanced, late);
+        watch.ending.kind = has_settled(watch, time, unbalanced) ? EndKind::settled : end_if_late(EndKind::unsettled);
         break;
     }
     return watch.ending.kind != EndKind::running;

@@ -39,7 +39,7 @@ std::vector<io::Column> energy_columns()
 bool is_moved(const scene::Scene& scene, const scene::Body& body)
 {
     return std::any_of(scene.phases.begin(), scene.phases.end(),
-                       [&](const scene::Phase& phase) { return motion_of(phase, body.name) != nullptr; });
+                       [&](const scene::Phase& phase) { return scene::motion_of(phase, body.name) != nullptr; });
 }
 
 std::vector<io::Column> columns_of(const scene::Scene& scene, const scene::Body& body)

@@ -6,9 +6,9 @@
 #include "io/run_directory.hpp"
 #include "io/snapshot.hpp"
 #include "io/time_series.hpp"
-#include "solver/body_joints.hpp"
-#include "solver/body_row.hpp"
-#include "solver/ledger.hpp"
+#include "solver/bodies/body_joints.hpp"
+#include "solver/bodies/body_row.hpp"
+#include "solver/ledger/ledger.hpp"
 #include "world/world.hpp"
 
 namespace tread::run

@@ -11,7 +11,7 @@ namespace
 /// Automatic step over the step taken: 1 for automatic steps, less where steps are longer.
 double margin(double automatic, double taken) { return taken > 0 ? automatic / taken : 1e9; }
 
-void add_books(std::vector<io::Figure>& figures, const io::ErrorReport& errors)
+void add_ledger_errors(std::vector<io::Figure>& figures, const io::ErrorReport& errors)
 {
     figures.push_back({"mass_error", errors.mass, 1e-6, 1e-3});
     figures.push_back({"momentum_error", errors.momentum, 1e-4, 1e-2});
@@ -74,7 +74,7 @@ std::vector<io::Figure> figures(const solver::Extremes& extremes, const io::Erro
                                 const std::optional<DrivenWheel>& wheel)
 {
     std::vector<io::Figure> figures;
-    add_books(figures, errors);
+    add_ledger_errors(figures, errors);
     if (plan.sand) { add_sand(figures, extremes, errors, limits); }
     if (plan.coupling) { add_contact_with_sand(figures, extremes, errors, world, plan); }
     if (plan.bodies) { add_bodies(figures, extremes, world); }

@@ -5,7 +5,7 @@
 
 #include "io/summary.hpp"
 #include "run/grid_error.hpp"
-#include "solver/extremes.hpp"
+#include "solver/ledger/extremes.hpp"
 #include "solver/plan.hpp"
 #include "world/world.hpp"
 

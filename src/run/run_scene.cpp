@@ -30,7 +30,7 @@
 #include "run/threads.hpp"
 #include "scene/input_files.hpp"
 #include "scene/resolved.hpp"
-#include "solver/page_loads.hpp"
+#include "solver/ranks/page_loads.hpp"
 #include "world/bed.hpp"
 
 namespace tread::run

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solver/body_row.hpp"
+#include "solver/bodies/body_row.hpp"
 #include "world/terrain_bins.hpp"
 
 namespace tread::solver

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "backend/instantiate.hpp"
+#include "scene/named.hpp"
 
 namespace tread::run
 {
@@ -24,17 +25,16 @@ bool ends_early(PhaseEndWatch& watch, const LoopCalls& calls)
     return early.has_value();
 }
 
-/// Whether a phase with stops is over; `late`: whether it is over without them. Sets watch.ending.
+/// Whether a body has reached a stop of the running phase; then sets watch.ending.
 template<class Exec, class Real>
-bool ends_by_stop(TimeLoop<Exec, Real>& loop, bool late)
+bool ends_by_stop(TimeLoop<Exec, Real>& loop)
 {
     PhaseEnd& end = loop.watch.ending;
-    if (late && end.kind == EndKind::duration) { end.kind = EndKind::unstopped; }
-    if (!loop.simulation.measured()) { return late; }
+    if (!loop.simulation.measured()) { return false; }
     for (const scene::Motion& motion : keys_of(loop.scene, loop.phase).motion)
     {
         if (!motion.until) { continue; }
-        const std::size_t b = body_index(loop.scene, motion.body);
+        const std::size_t b = scene::index_of(loop.scene.bodies, motion.body);
         loop.motions.contact[b].note(loop.progress.time, loop.simulation.contact_impulse(b));
         const BodyStart&   start = loop.motions.start[b];
         const Vec3<double> moved = loop.simulation.place(b) - start.position;
@@ -45,7 +45,7 @@ bool ends_by_stop(TimeLoop<Exec, Real>& loop, bool late)
         end.place = *stop;
         return true;
     }
-    return late;
+    return false;
 }
 
 template<class Exec, class Real>
@@ -58,7 +58,9 @@ bool phase_is_over(TimeLoop<Exec, Real>& loop, const LoopCalls& calls)
     }
     const bool over = ends_early(loop.watch, calls) ||
                       is_over(loop.scene, loop.phase, loop.watch, time, loop.simulation.unbalanced());
-    return has_stops(keys_of(loop.scene, loop.phase)) ? ends_by_stop(loop, over) : over;
+    if (!has_stops(keys_of(loop.scene, loop.phase))) { return over; }
+    if (over && loop.watch.ending.kind == EndKind::duration) { loop.watch.ending.kind = EndKind::unstopped; }
+    return ends_by_stop(loop) || over;
 }
 
 /// Angular velocities (rad/s) of the named bodies about their axles.

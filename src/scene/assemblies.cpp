@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "scene/checker.hpp"
 #include "scene/keys.hpp"
+#include "scene/named.hpp"
 
 // Checks of assemblies: their parts exist, none contains itself, and all together are few enough to be made.
 namespace tread::scene
@@ -18,14 +18,6 @@ constexpr std::int64_t most_parts = 1000; ///< of an assembly, when its parts ar
 const Assembly* assembly_of(const Scene& scene, std::size_t shape)
 {
     return std::get_if<Assembly>(&scene.shapes[shape].source);
-}
-
-std::optional<std::size_t> index_of(const Scene& scene, const std::string& name)
-{
-    const auto found =
-        std::find_if(scene.shapes.begin(), scene.shapes.end(), [&](const Shape& shape) { return shape.name == name; });
-    if (found == scene.shapes.end()) { return std::nullopt; }
-    return static_cast<std::size_t>(found - scene.shapes.begin());
 }
 
 /// Reports a problem at the name of a part.
@@ -76,15 +68,16 @@ struct PartWalk
         for (std::size_t p = 0; assembly != nullptr && p < assembly->parts.size(); ++p)
         {
             const std::string& name = assembly->parts[p].shape;
-            const auto         part = index_of(scene, name);
-            if (part && states[*part] == State::open)
+            const std::size_t  part = index_of(scene.shapes, name);
+            const bool         made = part < scene.shapes.size(); // else it is built in
+            if (made && states[part] == State::open)
             {
                 report_part(shape, p, fmt::format("\"{}\" would contain itself", name),
                             "a shape without this one in it", checker);
                 return false;
             }
-            if (part && states[*part] == State::unseen && !visit(*part)) { return false; }
-            counts[shape] = std::min(counts[shape] + (part ? counts[*part] : 1), most_parts + 1);
+            if (made && states[part] == State::unseen && !visit(part)) { return false; }
+            counts[shape] = std::min(counts[shape] + (made ? counts[part] : 1), most_parts + 1);
         }
         states[shape] = State::done;
         return true;

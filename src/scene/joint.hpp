@@ -24,6 +24,16 @@ struct Motor
     bool operator==(const Motor&) const = default;
 };
 
+/// What a motor does from a phase on.
+struct MotorSetting
+{
+    std::string           joint;
+    double                speed = 0;  ///< rad/s
+    std::optional<double> max_torque; ///< N m; empty: as before
+
+    bool operator==(const MotorSetting&) const = default;
+};
+
 /// Lowest and highest value of a joint's coordinate, m or degrees.
 using JointLimits = std::array<double, 2>;
 

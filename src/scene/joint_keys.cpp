@@ -45,6 +45,18 @@ Keys<Motor> motor_keys()
     };
 }
 
+Keys<MotorSetting> motor_setting_keys()
+{
+    return {
+        required("joint", "", &MotorSetting::joint, name(),
+                 "The name of a [[joint]] with a `motor`. One setting a joint and phase."),
+        required("speed", "rad/s", &MotorSetting::speed, number(spin()),
+                 "Of its second body against the first, from this phase on until another one sets it."),
+        optional("max_torque", "N m", &MotorSetting::max_torque, number_or("", above_up_to(0, 1e12)),
+                 "Largest torque, likewise.", "as before"),
+    };
+}
+
 } // namespace
 
 Keys<Joint> joint_keys()
@@ -60,8 +72,8 @@ Keys<Joint> joint_keys()
                  "so that a rover's body pitches by the mean of its rockers. \"spring\": spring and damper along the "
                  "line between two points."),
         required("between", "", &Joint::between, pair_of_names(),
-                 "Two bodies, or \"world\" and a body. The second moves against the first. Jointed bodies still touch "
-                 "each other: leave a gap between their shapes.")
+                 "Two bodies, or \"world\" and a body. The second moves against the first. They do not touch "
+                 "each other, unless by a spring alone: their shapes may overlap.")
             .when(tied, ties_bodies),
         required("at", "m", &Joint::at, vector3(coordinate()),
                  "Place of the joint at the start; of a spring: its end on the first body.")
@@ -95,6 +107,43 @@ Keys<Joint> joint_keys()
         optional("drift", "m and rad", &Joint::drift, number(above_up_to(0, 1)),
                  "The error of the joint's place or direction at which the run stops."),
     };
+}
+
+Key<Phase> phase_motors_key()
+{
+    const auto    keys = motor_setting_keys();
+    const KeyText text{"motors",
+                       "",
+                       "they go on",
+                       "array of tables, see [[phase]] motors",
+                       "What motors of joints do from this phase on.",
+                       ""};
+    auto          read = [=](const Node& node, const std::string& table, Phase& phase, Problems& problems)
+    {
+        const auto* array = std::get_if<NodeArray>(&node.value);
+        if (array == nullptr)
+        {
+            problems.push_back({node.where, table, text.name, "wrong type: " + kind_of(node), text.accepted});
+            return;
+        }
+        phase.motors.resize(array->size());
+        for (std::size_t i = 0; i < array->size(); ++i)
+        {
+            read_table((*array)[i], fmt::format("{}.motors[{}]", table, i), keys, phase.motors[i], problems);
+        }
+    };
+    auto write = [=](const Phase& phase)
+    {
+        std::string list;
+        for (const MotorSetting& setting : phase.motors) { list += "\n  " + write_inline(keys, setting) + ","; }
+        return list.empty() ? list : "[" + list + "\n]";
+    };
+    return {text,
+            Presence::optional,
+            [](const Phase&) { return true; },
+            read,
+            write,
+            {describe("[[phase]] motors", "", keys)}};
 }
 
 } // namespace tread::scene

@@ -17,9 +17,20 @@ const Joint* find_joint(const Scene& scene, const std::string& name)
     return found == scene.joints.end() ? nullptr : &*found;
 }
 
+/// Whether a motion holds or prescribes all rotation.
+bool turns_as_told(const Motion& motion)
+{
+    const auto told = [](const AxisMotion& axis)
+    { return axis.kind == AxisKind::held || axis.kind == AxisKind::velocity; };
+    return told(motion.rotation[0]) && told(motion.rotation[2]) && (told(motion.rotation[1]) || told(motion.axle));
+}
+
+/// Whether no torque turns a side of a joint in a phase.
 bool is_held(const Phase& phase, const std::string& side)
 {
-    return side == world_side || std::find(phase.hold.begin(), phase.hold.end(), side) != phase.hold.end();
+    const bool moved = std::any_of(phase.motion.begin(), phase.motion.end(),
+                                   [&](const Motion& motion) { return motion.body == side && turns_as_told(motion); });
+    return moved || side == world_side || std::find(phase.hold.begin(), phase.hold.end(), side) != phase.hold.end();
 }
 
 void check_sides(const Scene& scene, const Joint& joint, const TableAt& at, Checker& checker)
@@ -65,24 +76,25 @@ void check_motor(const Scene& scene, const Joint& joint, const TableAt& at, Chec
     if (held && !scene.phases.empty() && checker.sound(at, {"between"}))
     {
         checker.report(at, "motor", "both sides are held in every phase",
-                       "a body that `hold` of a phase does not name");
+                       "a body that `hold` or `motion` of some phase leaves free to turn");
     }
 }
 
-/// Joints see no held direction of a motion, and would pull against it.
-void check_moved(const Scene& scene, const Joint& joint, const TableAt& at, Checker& checker)
+/// Settings of motors in a phase name joints with a motor, each once.
+void check_settings(const Scene& scene, const Phase& phase, const TableAt& at, Checker& checker)
 {
-    if (!checker.sound(at, {"between"})) { return; }
-    for (const Phase& phase : scene.phases)
+    const std::vector<std::string> names = names_in(scene.joints);
+    for (auto setting = phase.motors.begin(); setting != phase.motors.end(); ++setting)
     {
-        for (const std::string& side : joint.between)
+        checker.require_known(at, "motors", setting->joint, names, "[[joint]]");
+        const Joint* joint = find_joint(scene, setting->joint);
+        if (joint != nullptr && !joint->motor)
         {
-            const bool moves = std::any_of(phase.motion.begin(), phase.motion.end(),
-                                           [&](const Motion& motion) { return motion.body == side; });
-            if (!moves) { continue; }
-            checker.report(at, "between", fmt::format("`motion` of phase '{}' moves \"{}\"", phase.name, side),
-                           "bodies without a `motion`; a joint's own `motor` drives them");
+            checker.report(at, "motors", fmt::format("\"{}\" has no motor", setting->joint), "a joint with a motor");
         }
+        const bool again = std::any_of(phase.motors.begin(), setting,
+                                       [&](const MotorSetting& before) { return before.joint == setting->joint; });
+        if (again) { checker.report(at, "motors", fmt::format("\"{}\" twice", setting->joint), "one setting each"); }
     }
 }
 
@@ -121,9 +133,12 @@ void validate_joints(const Scene& scene, Checker& checker)
         const TableAt at{"joint", i};
         if (joint.type == JointType::differential) { check_differential(scene, joint, at, checker); }
         else { check_sides(scene, joint, at, checker); }
-        check_moved(scene, joint, at, checker);
         check_geometry(joint, at, checker);
         check_motor(scene, joint, at, checker);
+    }
+    for (std::size_t i = 0; i < scene.phases.size(); ++i)
+    {
+        if (checker.sound({"phase", i}, {"motors"})) { check_settings(scene, scene.phases[i], {"phase", i}, checker); }
     }
 }
 

@@ -225,6 +225,7 @@ Keys<Phase> phase_keys()
                          "The share of one body's weight that acts, as if a counterweight held the rest.",
                          "all of it acts"),
         phase_motion_key(),
+        phase_motors_key(),
     };
 }
 

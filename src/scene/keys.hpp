@@ -54,6 +54,9 @@ Keys<Motion> motion_keys();
 Key<Phase>   phase_motion_key();
 std::string  motion_label(const std::string& phase, std::size_t index);
 
+/// Settings of motors in a [[phase]] (joint_keys.cpp).
+Key<Phase> phase_motors_key();
+
 /// Calls visit(name, meaning, member pointer, keys) for each table of a scene, in the order of writing. A member that
 /// is a vector is an array of tables.
 template<class Visit>

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "scene/joint.hpp"
 #include "scene/motion.hpp"
 #include "scene/words.hpp"
 
@@ -54,6 +56,7 @@ struct Phase
     std::optional<Lower>       lower;  ///< only with until = "lowered"
     std::optional<WeightShare> weight; ///< empty: the full weight of every body acts
     std::vector<Motion>        motion; ///< one for each body that has one
+    std::vector<MotorSetting>  motors; ///< of joints; they last until another phase sets them
 
     bool operator==(const Phase&) const = default;
 };
@@ -62,6 +65,14 @@ struct Phase
 inline double time_limit(const Phase& phase)
 {
     return phase.until == StopRule::duration ? phase.duration : phase.max_duration;
+}
+
+/// Motion of a body in a phase; null if it has none.
+inline const Motion* motion_of(const Phase& phase, const std::string& body)
+{
+    const auto at = std::find_if(phase.motion.begin(), phase.motion.end(),
+                                 [&](const Motion& motion) { return motion.body == body; });
+    return at == phase.motion.end() ? nullptr : &*at;
 }
 
 } // namespace tread::scene

@@ -95,6 +95,13 @@ inline constexpr auto
                                                      {ReferenceForm::geostatic, "geostatic"},
                                                      {ReferenceForm::weight, "weight"},
                                                      {ReferenceForm::rolling_ball, "rolling-ball"},
-                                                     {ReferenceForm::run_out, "run-out"}});
+                                                     {ReferenceForm::run_out, "run-out"},
+                                                     {ReferenceForm::plate_sinkage, "plate-sinkage"},
+                                                     {ReferenceForm::cone_penetration, "cone-penetration"},
+                                                     {ReferenceForm::direct_shear, "direct-shear"},
+                                                     {ReferenceForm::ring_shear, "ring-shear"},
+                                                     {ReferenceForm::triaxial, "triaxial"},
+                                                     {ReferenceForm::oedometer, "oedometer"},
+                                                     {ReferenceForm::repose, "repose"}});
 
 } // namespace tread::scene

@@ -149,7 +149,14 @@ enum class ReferenceForm
     geostatic,
     weight,
     rolling_ball,
-    run_out
+    run_out,
+    plate_sinkage,
+    cone_penetration,
+    direct_shear,
+    ring_shear,
+    triaxial,
+    oedometer,
+    repose
 };
 
 } // namespace tread::scene

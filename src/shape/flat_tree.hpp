@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "shape/triangle.hpp"
-#include "shape/triangle_tree.hpp"
+#include "shape/mesh/triangle.hpp"
+#include "shape/mesh/triangle_tree.hpp"
 
 // Template data for ray queries.
 namespace tread::shape

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "shape/convex_hull.hpp"
-#include "shape/triangle.hpp"
+#include "shape/mesh/convex_hull.hpp"
+#include "shape/mesh/triangle.hpp"
 
 namespace tread::shape
 {

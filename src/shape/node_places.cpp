@@ -8,7 +8,7 @@
 #include <queue>
 #include <utility>
 
-#include "shape/point_directory.hpp"
+#include "shape/mesh/point_directory.hpp"
 
 namespace tread::shape
 {

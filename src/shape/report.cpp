@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "shape/form.hpp"
+#include "shape/generators/form.hpp"
 
 namespace tread::shape
 {

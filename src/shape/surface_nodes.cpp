@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "shape/mesh/refinement.hpp"
+#include "shape/mesh/triangle.hpp"
 #include "shape/node_places.hpp"
-#include "shape/refinement.hpp"
 #include "shape/surface_samples.hpp"
-#include "shape/triangle.hpp"
 
 namespace tread::shape
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "shape/mesh.hpp"
+#include "shape/mesh/mesh.hpp"
 #include "shape/template.hpp"
 
 namespace tread::shape

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <numeric>
 
-#include "shape/half_edges.hpp"
-#include "shape/point_directory.hpp"
-#include "shape/triangle.hpp"
+#include "shape/mesh/half_edges.hpp"
+#include "shape/mesh/point_directory.hpp"
+#include "shape/mesh/triangle.hpp"
 
 namespace tread::shape
 {

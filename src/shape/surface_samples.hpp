@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "shape/mesh.hpp"
+#include "shape/mesh/mesh.hpp"
 
 namespace tread::shape
 {

@@ -5,13 +5,13 @@
 #include <utility>
 #include <variant>
 
+#include "shape/distance/template_sdf.hpp"
+#include "shape/generators/tools.hpp"
 #include "shape/hull_depth.hpp"
-#include "shape/source_solid.hpp"
+#include "shape/mesh/triangle.hpp"
+#include "shape/solids/source_solid.hpp"
+#include "shape/solids/united.hpp"
 #include "shape/surface_nodes.hpp"
-#include "shape/template_sdf.hpp"
-#include "shape/tools.hpp"
-#include "shape/triangle.hpp"
-#include "shape/united.hpp"
 
 namespace tread::shape
 {

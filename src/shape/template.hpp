@@ -11,9 +11,9 @@
 #include <Eigen/Core>
 
 #include "scene/scene.hpp"
-#include "shape/mass_properties.hpp"
-#include "shape/mesh.hpp"
-#include "shape/mesh_distance.hpp"
+#include "shape/distance/mesh_distance.hpp"
+#include "shape/mesh/mesh.hpp"
+#include "shape/solids/mass_properties.hpp"
 
 namespace tread::shape
 {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/motion_bounds.hpp"
+#include "solver/bodies/motion_bounds.hpp"
 #include "world/materials.hpp"
 #include "world/terrain.hpp"
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "backend/instantiate.hpp"
-#include "solver/body_reaches.hpp"
-#include "solver/contact_guards.hpp"
+#include "solver/bodies/body_reaches.hpp"
+#include "solver/ledger/contact_guards.hpp"
 #include "solver/pace_limits.hpp"
 #include "solver/state_file.hpp"
 #include "world/terrain_bins.hpp"
@@ -34,9 +34,10 @@ double speed_at_start(const scene::Scene& scene)
     return speed;
 }
 
-void require_plan_of_ranks(const Plan& plan, bool several)
+/// Throws if the plan leaves out what bodies need on several ranks.
+void require_plan_of_ranks(const Plan& plan)
 {
-    if (several && plan.bodies && !plan.body_contact)
+    if (plan.bodies && !plan.body_contact)
     {
         throw std::logic_error("the plan of a simulation on several ranks was made for one");
     }
@@ -55,7 +56,7 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     , limits_(pace_limits(scene, world, plan))
     , weight_(free_weight(scene, world))
 {
-    require_plan_of_ranks(plan, decomposition != nullptr);
+    if (decomposition != nullptr) { require_plan_of_ranks(plan); }
     measuring_.pace.largest_speed = speed_at_start(scene);
     if (decomposition != nullptr) { balance_.emplace(*decomposition, scene.balance.threshold); }
     if (plan.sand)

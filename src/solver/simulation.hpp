@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "io/snapshot.hpp"
-#include "solver/body_command.hpp"
-#include "solver/body_row.hpp"
-#include "solver/contact_substeps.hpp"
-#include "solver/ledger.hpp"
-#include "solver/measuring.hpp"
-#include "solver/mpm_solver.hpp"
-#include "solver/sand_guard.hpp"
-#include "solver/work_balance.hpp"
+#include "solver/bodies/body_command.hpp"
+#include "solver/bodies/body_row.hpp"
+#include "solver/coupling/contact_substeps.hpp"
+#include "solver/ledger/ledger.hpp"
+#include "solver/ledger/measuring.hpp"
+#include "solver/ledger/sand_guard.hpp"
+#include "solver/ranks/work_balance.hpp"
+#include "solver/sand/mpm_solver.hpp"
 
 namespace tread::solver
 {

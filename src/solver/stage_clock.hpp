@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "backend/backends.hpp"
 #include "backend/memory.hpp"
 #include "io/summary.hpp"
 #include "solver/plan.hpp"
@@ -82,8 +83,12 @@ private:
 
     static constexpr std::int64_t gpu_sample = 17; ///< steps; not a multiple of the number of steps between two reports
 
-    bool sampled(const Cpu&) const { return true; }
-    bool sampled(const Gpu&) const { return step_ % gpu_sample == 0; }
+    /// Whether stages of this step are timed.
+    template<class Exec>
+    bool sampled(const Exec&) const
+    {
+        return !is_gpu<Exec> || step_ % gpu_sample == 0;
+    }
 
     std::int64_t                            step_ = 0;
     std::map<std::string, Row, std::less<>> rows_;

@@ -1,6 +1,5 @@
 #include "world/joints.hpp"
 
-#include <algorithm>
 #include <numbers>
 #include <string>
 
@@ -9,6 +8,8 @@
 #include "base/errors.hpp"
 #include "kernels/dem/joints/make_joint.hpp"
 #include "scene/lines.hpp"
+#include "scene/named.hpp"
+#include "world/joint_motions.hpp"
 
 namespace tread::world
 {
@@ -17,17 +18,16 @@ namespace
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Index of the item of this name; the scene was validated.
-template<class T>
-std::int32_t index_of(const std::vector<T>& items, const std::string& name)
+/// Index of the joint of this name; the scene was validated.
+std::int32_t joint_index(const scene::Scene& scene, const std::string& name)
 {
-    const auto at = std::find_if(items.begin(), items.end(), [&](const T& item) { return item.name == name; });
-    return static_cast<std::int32_t>(at - items.begin());
+    return static_cast<std::int32_t>(scene::index_of(scene.joints, name));
 }
 
 std::int32_t side_of(const scene::Scene& scene, const std::string& name)
 {
-    return name == scene::world_side ? dem::joint_world : index_of(scene.bodies, name);
+    if (name == scene::world_side) { return dem::joint_world; }
+    return static_cast<std::int32_t>(scene::index_of(scene.bodies, name));
 }
 
 Vec3<double> vector(const std::array<double, 3>& values) { return {values[0], values[1], values[2]}; }
@@ -76,8 +76,7 @@ void add_parts(const scene::Joint& from, dem::Joint& joint)
     if (from.motor)
     {
         joint.parts |= dem::joint_has_motor;
-        joint.most_effort = from.motor->max_torque;
-        joint.gain        = from.motor->gain.value_or(0);
+        joint.gain = from.motor->gain.value_or(0);
     }
 }
 
@@ -85,7 +84,7 @@ dem::Joint make(const scene::Scene& scene, const scene::Joint& from, const HostB
 {
     if (from.type == scene::JointType::differential)
     {
-        return dem::make_differential({index_of(scene.joints, from.joints[0]), index_of(scene.joints, from.joints[1])});
+        return dem::make_differential({joint_index(scene, from.joints[0]), joint_index(scene, from.joints[1])});
     }
     const bool            spring = from.type == scene::JointType::spring;
     const bool            axial  = from.type == scene::JointType::revolute || from.type == scene::JointType::prismatic;
@@ -121,6 +120,7 @@ std::vector<dem::Joint> make_joints(const scene::Scene& scene, const HostBodies&
     joints.reserve(scene.joints.size());
     for (const scene::Joint& joint : scene.joints) { joints.push_back(make(scene, joint, bodies)); }
     require_independent(scene, joints, bodies);
+    require_consistent_motions(scene, joints, bodies);
     set_motors(scene, 0, joints);
     return joints;
 }
@@ -131,9 +131,18 @@ void set_motors(const scene::Scene& scene, std::size_t phase, std::vector<dem::J
     {
         const auto& motor = scene.joints[j].motor;
         if (!motor) { continue; }
-        const bool begun =
-            motor->from.empty() || phase >= static_cast<std::size_t>(index_of(scene.phases, motor->from));
-        joints[j].speed = begun ? motor->speed : 0;
+        const bool begun      = motor->from.empty() || phase >= scene::index_of(scene.phases, motor->from);
+        joints[j].speed       = begun ? motor->speed : 0;
+        joints[j].most_effort = motor->max_torque;
+    }
+    for (std::size_t p = 0; p < std::min(phase + 1, scene.phases.size()); ++p)
+    {
+        for (const scene::MotorSetting& setting : scene.phases[p].motors)
+        {
+            dem::Joint& joint = joints[scene::index_of(scene.joints, setting.joint)];
+            joint.speed       = setting.speed;
+            joint.most_effort = setting.max_torque.value_or(joint.most_effort);
+        }
     }
 }
 

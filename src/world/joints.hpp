@@ -13,7 +13,7 @@ namespace tread::world
 /// twice, so that their forces are not determined.
 std::vector<dem::Joint> make_joints(const scene::Scene& scene, const HostBodies& bodies);
 
-/// Sets the speeds of the motors in a phase of the scene.
+/// Sets speeds and largest torques of the motors to those of a phase of the scene.
 void set_motors(const scene::Scene& scene, std::size_t phase, std::vector<dem::Joint>& joints);
 
 } // namespace tread::world

@@ -125,6 +125,19 @@ bool overlap(const World& world, std::size_t one, std::size_t other)
            (clings(world, one, other, deepest) && clings(world, other, one, deepest));
 }
 
+/// Whether a joint ties two bodies, which then do not touch.
+bool are_jointed(const scene::Scene& scene, std::size_t a, std::size_t b)
+{
+    const std::string &one = scene.bodies[a].name, &other = scene.bodies[b].name;
+    return std::any_of(scene.joints.begin(), scene.joints.end(),
+                       [&](const scene::Joint& joint)
+                       {
+                           const auto& sides = joint.between;
+                           return joint.type != scene::JointType::spring &&
+                                  ((sides[0] == one && sides[1] == other) || (sides[0] == other && sides[1] == one));
+                       });
+}
+
 void require_clear_of_each_other(const scene::Scene& scene, const World& world)
 {
     for (std::size_t b = 1; b < scene.bodies.size(); ++b)
@@ -132,7 +145,8 @@ void require_clear_of_each_other(const scene::Scene& scene, const World& world)
         for (std::size_t a = 0; a < b; ++a)
         {
             const double far = bounding_radius(world, a) + bounding_radius(world, b);
-            if ((world.bodies.position[a] - world.bodies.position[b]).norm() > far || !overlap(world, a, b))
+            if ((world.bodies.position[a] - world.bodies.position[b]).norm() > far || are_jointed(scene, a, b) ||
+                !overlap(world, a, b))
             {
                 continue;
             }

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
+#include "scene/named.hpp"
 #include "world/body_grid.hpp"
 #include "world/rocks.hpp"
 
@@ -197,15 +198,14 @@ std::vector<RockDraw> SavedBeds::draws(std::size_t table) const
     for (const std::size_t rock : taken(table))
     {
         const std::string& member = file.kinds[static_cast<std::size_t>(file.kind[rock])].member;
-        const auto         at =
-            std::find_if(family.begin(), family.end(), [&](const scene::Shape& shape) { return shape.name == member; });
-        if (at == family.end())
+        const std::size_t  at     = scene::index_of(family, member);
+        if (at == family.size())
         {
             refuse(table, fmt::format("the bed's rock \"{}\" is none of shape \"{}\", which has {} variants; accepted: "
                                       "the shape that the bed was made with",
                                       member, scene_.rocks[table].shape, family.size()));
         }
-        drawn.push_back({file.diameter[rock], static_cast<std::int32_t>(at - family.begin())});
+        drawn.push_back({file.diameter[rock], static_cast<std::int32_t>(at)});
     }
     return drawn;
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "physics/rock_rest.hpp"
-#include "solver/dem_solver.hpp"
+#include "solver/bodies/dem_solver.hpp"
 
 // Prints docs/studies/contact_step.csv: the largest stable substep of a settled, undamped pile, beside the estimates
 // from contact stiffness and from Hertz's law.

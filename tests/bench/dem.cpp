@@ -12,7 +12,7 @@
 #include "run/phase_commands.hpp"
 #include "run/phase_end.hpp"
 #include "scene/load.hpp"
-#include "solver/dem_solver.hpp"
+#include "solver/bodies/dem_solver.hpp"
 
 namespace tread::bench
 {

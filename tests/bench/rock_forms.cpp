@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "base/errors.hpp"
-#include "shape/form.hpp"
-#include "shape/generators.hpp"
+#include "shape/generators/form.hpp"
+#include "shape/generators/generators.hpp"
 
 // Prints the table of docs/shapes.md: requested forms of rocks, and measured forms for 20 seeds of each recipe.
 namespace

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "sand_bed.hpp"
-#include "solver/mpm_solver.hpp"
+#include "solver/sand/mpm_solver.hpp"
 #include "timed.hpp"
 #include "world/materials.hpp"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "sand_bench.hpp"
-#include "solver/page_loads.hpp"
+#include "solver/ranks/page_loads.hpp"
 
 namespace tread::bench
 {

@@ -9,7 +9,7 @@
 
 #include "run/time_loop.hpp"
 #include "scene/load.hpp"
-#include "solver/page_loads.hpp"
+#include "solver/ranks/page_loads.hpp"
 #include "solver/simulation.hpp"
 #include "timed.hpp"
 

@@ -104,7 +104,7 @@ class Restart(RestartTest):
             checkpoint = self.stop_after_a_checkpoint(text, self.directory / f"on-{first}", backend=first)
             self.check_agreement(text, checkpoint, {second: {"backend": second}}, backend=first)
 
-    def test_check_tells_how_much_disk_a_run_takes(self):
+    def test_check_states_how_much_disk_a_run_takes(self):
         text = SCENE.replace("spacing = 0.05", "spacing = 0.025")
         told = self.tread("check", self.write("scene.toml", text), "--set=checkpoint.keep=2").stdout
         self.run_scene(text, self.output, EVERY_FEW_STEPS, "--set=checkpoint.keep=2")

@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "base/errors.hpp"
-#include "shape/mesh_reader.hpp"
-#include "shape/repair.hpp"
-#include "shape/solid.hpp"
+#include "shape/mesh/mesh_reader.hpp"
+#include "shape/repair/repair.hpp"
+#include "shape/solids/solid.hpp"
 
 // Feeds arbitrary bytes as a mesh file: the result must be an InputError or a mesh. The first byte selects the format.
 namespace

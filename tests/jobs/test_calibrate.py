@@ -112,7 +112,7 @@ class Recovery(unittest.TestCase):
         outside = Problem(PARAMETERS, plate_force(5e7, 33.0, PLACES), np.full(len(PLACES), np.nan), lambda number, unknowns: plate_values(unknowns))
         self.assertTrue(fitted(outside).at_bound[0])
 
-    def test_what_the_data_cannot_tell_is_refused(self):
+    def test_what_the_data_do_not_determine_is_refused(self):
         """A product of two constants is one constant."""
         both = (Parameter("a", 1.0, 2.0), Parameter("b", 1.0, 2.0))
         problem = Problem(both, np.full(8, 2.25), np.full(8, np.nan), lambda number, u: np.repeat(u[:, :1] + u[:, 1:], 8, axis=1))

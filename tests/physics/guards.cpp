@@ -6,7 +6,7 @@
 
 #include "base/errors.hpp"
 #include "harness.hpp"
-#include "solver/dem_solver.hpp"
+#include "solver/bodies/dem_solver.hpp"
 
 // Guards that stop a faulty run of bodies, and contacts that a correct run must not miss.
 namespace

@@ -77,4 +77,39 @@ inline std::string swinging_under_gravity(double duration)
     return text.replace(text.find(none), none.size(), "gravity = [0.0, 0.0, -9.81]");
 }
 
+/// Two balls of 10 kg under gravity, the second welded to the first at its side, and a last phase with this motion of
+/// the first.
+inline std::string moved_text(double duration, const std::string& motion)
+{
+    std::string       text = steel_text + R"(
+[time]
+dt = 1e-3
+substeps = 20
+[[body]]
+name = "led"
+shape = "ball"
+material = "steel"
+diameter = 0.1
+mass = 10
+position = [1.0, 0.5, 0.8]
+[[body]]
+name = "follower"
+shape = "ball"
+material = "steel"
+diameter = 0.1
+mass = 10
+position = [1.2, 0.5, 0.8]
+[[joint]]
+name = "weld"
+type = "fixed"
+between = ["led", "follower"]
+at = [1.1, 0.5, 0.8]
+[[phase]]
+name = "move"
+)";
+    const std::string none = "gravity = [0.0, 0.0, 0.0]";
+    text.replace(text.find(none), none.size(), "gravity = [0.0, 0.0, -9.81]");
+    return text + "duration = " + std::to_string(duration) + "\nmotion = [ { body = \"led\", " + motion + " } ]\n";
+}
+
 } // namespace tread::test

@@ -64,6 +64,89 @@ TYPED_TEST(JointScenes, MotorTurnsFromItsPhaseOn)
     EXPECT_LE(axle.motor_torque, torque * (1 + 1e-12));
 }
 
+/// Energy and momentum that the ledger cannot account for, at most; a row of a joint does no work but by its error.
+template<class Exec>
+void expect_closed(test::Experiment<Exec>& run)
+{
+    const solver::Census now = run.simulation().census();
+    run.simulation().ledger().energy(now);
+    run.simulation().ledger().balance(now);
+    const io::ErrorReport errors = run.simulation().ledger().errors();
+    test::report("energy unaccounted", errors.energy, 0, 1e-6, "docs/theory.md#energy-balance");
+    test::report("momentum unaccounted", errors.momentum, 0, 1e-9, "docs/theory.md#energy-balance");
+    EXPECT_LT(std::abs(errors.energy), 1e-6);
+    EXPECT_LT(errors.momentum, 1e-9);
+}
+
+/// The first ball is led along x and cannot turn: it takes the second along. By the momentum of both, the mean reaction
+/// along x is (10 + 10) kg x 0.4 m/s / 0.4 s = 20 N, that along z both weights; and the second ball's weight, 0.2 m
+/// from the first, turns it by 10 kg g x 0.2 m about y, which pitch answers with the opposite torque.
+TYPED_TEST(JointScenes, AMotionLeadsABodyWithAJoint)
+{
+    constexpr double            mass = 20, speed = 0.4, span = 0.4, g = 9.81, rounding = 1e-8;
+    test::Experiment<TypeParam> run(this->exec(),
+                                    test::moved_text(span, "x = { velocity = 0.4, ramp = 0.4 }, y = \"held\", z = "
+                                                           "\"held\", roll = \"held\", pitch = \"held\", yaw = "
+                                                           "\"held\""));
+    run.run();
+    const auto          bodies = run.simulation().named_bodies();
+    const Vec3<double>& force  = bodies[0].reaction_force;
+    test::report("speed of the follower (m/s)", bodies[1].velocity[0], speed, rounding, "its row is solved exactly");
+    test::report("reaction along x (N)", force[0], mass * speed / span, rounding, "the momentum of both");
+    test::report("reaction along z (N)", force[2], mass * g, 1e-6, "the weight of both");
+    test::report("reaction about y (N m)", bodies[0].reaction_torque[1], -10 * g * 0.2, 1e-6, "the weight's moment");
+    EXPECT_NEAR(bodies[1].velocity[0], speed, rounding);
+    EXPECT_NEAR(force[0], mass * speed / span, rounding);
+    EXPECT_NEAR(force[2], mass * g, 1e-6);
+    EXPECT_NEAR(bodies[0].reaction_torque[1], -10 * g * 0.2, 1e-6);
+    EXPECT_LT(run.simulation().joints()[0].gap, 1e-9);
+    expect_closed(run);
+}
+
+/// Free along z alone: both balls rise with (300 N - 20 kg g) / 20 kg.
+TYPED_TEST(JointScenes, AMotionLiftsABodyWithAJointByAForce)
+{
+    constexpr double            mass = 20, force = 300, span = 0.2, g = 9.81;
+    const double                speed = (force / mass - g) * span;
+    test::Experiment<TypeParam> run(this->exec(), test::moved_text(span, "x = \"held\", y = \"held\", z = { force = "
+                                                                         "300.0 }, roll = \"held\", pitch = \"held\", "
+                                                                         "yaw = \"held\""));
+    run.run();
+    const auto bodies = run.simulation().named_bodies();
+    test::report("velocity of both (m/s)", bodies[0].velocity[2], speed, 1e-9, "the impulse is exact");
+    EXPECT_NEAR(bodies[0].velocity[2], speed, 1e-9);
+    EXPECT_NEAR(bodies[1].velocity[2], speed, 1e-9);
+    expect_closed(run);
+}
+
+/// Balls of 0.1 m whose centres are 0.06 m apart: without the joint the scene would be refused.
+TYPED_TEST(JointScenes, JointedBodiesDoNotTouch)
+{
+    std::string       text  = test::moved_text(0.1, "x = { velocity = 0.1 }");
+    const std::string apart = "position = [1.2, 0.5, 0.8]";
+    text.replace(text.find(apart), apart.size(), "position = [1.06, 0.5, 0.8]");
+    test::Experiment<TypeParam> run(this->exec(), text);
+    run.run();
+    for (const solver::BodyRow& body : run.simulation().named_bodies()) { EXPECT_EQ(body.force.norm(), 0); }
+    expect_closed(run);
+}
+
+/// A phase that follows turns the motor the other way, with less torque.
+TYPED_TEST(JointScenes, APhaseSetsSpeedAndTorqueOfAMotor)
+{
+    const std::string           text = test::swinging_text(0.1) + R"([[phase]]
+name = "back"
+duration = 0.05
+motors = [ { joint = "axle", speed = -6.0, max_torque = 0.2 } ]
+)";
+    test::Experiment<TypeParam> chain(this->exec(), text);
+    chain.run();
+    const double spin     = chain.simulation().named_bodies()[2].angular_velocity[1];
+    const double expected = (0.1 * 0.3 - 0.05 * 0.2) / inertia_of(chain.world(), 2);
+    test::report("spin after 0.3 N m for 0.1 s and -0.2 N m for 0.05 s", spin, expected, 1e-6, "constant torques");
+    EXPECT_NEAR(spin, expected, 1e-6);
+}
+
 TYPED_TEST(JointScenes, AJointThatDriftsStopsTheRunByName)
 {
     std::string       text = test::swinging_under_gravity(1.0);
@@ -80,6 +163,26 @@ TYPED_TEST(JointScenes, AJointThatDriftsStopsTheRunByName)
         EXPECT_THAT(error.what(), HasSubstr("joint 'elbow' has an error of"));
         EXPECT_THAT(error.what(), HasSubstr("over its drift of 1e-12"));
     }
+}
+
+/// The weld leaves the follower no velocity along x but the 0.4 m/s of the ball that leads it.
+TEST(JointWorlds, RefuseMotionsThatPullAJointApart)
+{
+    const std::string led = test::moved_text(0.1, "x = { velocity = 0.4 }, roll = \"held\", pitch = \"held\", yaw = "
+                                                  "\"held\" }, { body = \"follower\", x = \"held\"");
+    try
+    {
+        world::build_world(test::load_text(led));
+        FAIL() << "the world was built";
+    }
+    catch (const InputError& error)
+    {
+        EXPECT_THAT(error.what(), HasSubstr("scene.toml:"));
+        EXPECT_THAT(error.what(), HasSubstr("[[phase]] 'move': motion: it pulls [[joint]] 'weld' apart"));
+    }
+    const std::string alike = test::moved_text(0.1, "x = { velocity = 0.4 }, roll = \"held\", pitch = \"held\", yaw = "
+                                                    "\"held\" }, { body = \"follower\", x = { velocity = 0.4 }");
+    EXPECT_NO_THROW(world::build_world(test::load_text(alike)));
 }
 
 TEST(JointWorlds, RefuseALoopThatIsClosedTwice)

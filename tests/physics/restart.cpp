@@ -226,6 +226,13 @@ TYPED_TEST(Restart, OfJointedBodiesGivesTheSameBits)
     EXPECT_EQ(this->phase_saved_, 1u);
 }
 
+/// Saved while a motion tows a body on whose weld another one swings.
+TYPED_TEST(Restart, OfABodyWithAMotionAndAJointGivesTheSameBits)
+{
+    this->expect_same_bits(test::moved_text(1.0, "x = { velocity = 0.4, ramp = 0.8 }, z = \"held\", roll = \"held\", "
+                                                 "yaw = \"held\""));
+}
+
 /// Far from the roller: sleeping sand is saved asleep, and other sand falls asleep or wakes afterwards.
 TYPED_TEST(Restart, OfSleepingSandGivesTheSameBits)
 {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "harness.hpp"
-#include "shape/generators.hpp"
+#include "shape/generators/generators.hpp"
 #include "temporary_directory.hpp"
 
 // Scenes of rigid bodies only, and the meshes that they use.

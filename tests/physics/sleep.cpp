@@ -146,9 +146,9 @@ protected:
     static void expect_balanced(const std::string& what, const Outcome& outcome, const Outcome& awake)
     {
         test::report(what + ": energy unaccounted", outcome.energy, awake.energy, 1e-3,
-                     "what falls asleep gives its motion up, and that is booked; without sleep as said");
+                     "what falls asleep gives its motion up, and the ledger accounts for it; without sleep as said");
         test::report(what + ": momentum error", outcome.momentum, awake.momentum, 1e-6,
-                     "what holds the sleeping sand is booked as a wall's impulse; fp64");
+                     "what holds the sleeping sand is accounted for as a wall's impulse; fp64");
         EXPECT_LT(outcome.energy, std::max(1e-3, 2 * awake.energy));
         EXPECT_LT(outcome.momentum, std::max(1e-6, 2 * awake.momentum));
         EXPECT_LT(outcome.mass, 1e-12);

@@ -9,7 +9,7 @@
 #include "mpi_session.hpp"
 #include "run/time_loop.hpp"
 #include "scene_text.hpp"
-#include "solver/page_loads.hpp"
+#include "solver/ranks/page_loads.hpp"
 #include "solver/simulation.hpp"
 
 // Runs a scene with the solver's components, on all ranks together or on this one alone.

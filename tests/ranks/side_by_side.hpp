@@ -10,7 +10,7 @@
 
 #include "mpi_session.hpp"
 #include "physics/harness.hpp"
-#include "solver/page_loads.hpp"
+#include "solver/ranks/page_loads.hpp"
 
 // Runs a scene on all ranks together and on this rank alone; the latter is the reference.
 namespace tread::test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shape/mesh_distance.hpp"
+#include "shape/distance/mesh_distance.hpp"
 #include "shape/template.hpp"
 #include "unit/shape/meshes.hpp"
 

@@ -12,7 +12,7 @@
 #include "../statistics.hpp"
 #include "../unit/kernels/dem_ray_shapes.hpp"
 #include "kernels/dem/pairs/displacement_tracker.hpp"
-#include "shape/sdf_grid.hpp"
+#include "shape/distance/sdf_grid.hpp"
 
 // Angle of repose of irregular rocks, compared with that of spheres of equal volume.
 namespace
@@ -142,10 +142,10 @@ private:
 
     void find()
     {
-        const dem::BodiesView bodies = scene_.bodies.view();
-        const dem::BodyLaw    law    = scene_.law();
-        double* const         travel = scene_.pairs.travel.data();
-        if (!listed_ || read(exec_, largest_displacement_ahead(exec_, displacements_, bodies, law.templates, travel,
+        const dem::BodiesView bodies  = scene_.bodies.view();
+        const dem::BodyLaw    law     = scene_.law();
+        double* const         allowed = scene_.pairs.displacement.allowed.data();
+        if (!listed_ || read(exec_, largest_displacement_ahead(exec_, displacements_, bodies, law.templates, allowed,
                                                                block * dt_)) > 1)
         {
             scene_.find(block * dt_);

@@ -104,7 +104,7 @@ class Program:
         self.path, self.backend, self.threads = str(path), backend, threads
 
     def first_step(self, scene_path):
-        """(s, "") as `tread check` tells it; or (None, why the scene is refused)."""
+        """(s, "") as `tread check` reports it; or (None, why the scene is refused)."""
         done = subprocess.run([self.path, "check", scene_path], capture_output=True, text=True, check=False, timeout=300)
         if done.returncode != 0:
             return None, done.stderr.strip()

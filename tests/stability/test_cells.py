@@ -45,11 +45,11 @@ class Judging(unittest.TestCase):
         self.assertEqual(self.judge(1), ("wrong", False))
         self.assertEqual(self.judge(75, steps=3), ("wrong", False))
 
-    def test_an_error_that_the_run_tells_is_not_silent(self):
+    def test_an_error_that_the_run_reports_is_not_silent(self):
         self.assertEqual(self.judge(0, energy=0.2, verdict="under-resolved"), ("told", False))
         self.assertEqual(self.judge(0, energy=-0.2, verdict="marginal"), ("wrong", False))
-        telling = dataclasses.replace(CELL, allowed={"told": "energy_error"})
-        self.assertEqual(self.judge(0, energy=0.2, verdict="under-resolved", cell=telling), ("told", True))
+        reporting = dataclasses.replace(CELL, allowed={"told": "energy_error"})
+        self.assertEqual(self.judge(0, energy=0.2, verdict="under-resolved", cell=reporting), ("told", True))
 
     def test_a_stop_wants_its_diagnosis_in_time(self):
         self.assertEqual(self.judge(3, reason="t = 1 s: point 3 is too deep"), ("stopped", True))

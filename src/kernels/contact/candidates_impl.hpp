@@ -32,7 +32,7 @@ struct Lookup
     std::int64_t page; ///< -1 = no points
 };
 
-struct LookUpPages
+struct PageLookups
 {
     dem::BodiesView          bodies;
     const dem::TemplateView* templates;
@@ -43,22 +43,22 @@ struct LookUpPages
     TREAD_HD Lookup operator()(std::int64_t i) const
     {
         const std::int64_t b = owner_of(first, bodies.count, i);
-        return {b, contact::look_up(search_body(bodies, templates, b, reach), pages, reach, i - first[b])};
+        return {b, contact::lookup_page(search_body(bodies, templates, b, reach), pages, reach, i - first[b])};
     }
 };
 
 struct MarkPages
 {
-    LookUpPages   look_up;
+    PageLookups   page_lookups;
     std::int64_t  lookups;
     std::int32_t* marks; ///< [lookups + 1]
 
-    TREAD_HD void operator()(std::int64_t i) const { marks[i] = i < lookups && look_up(i).page >= 0; }
+    TREAD_HD void operator()(std::int64_t i) const { marks[i] = i < lookups && page_lookups(i).page >= 0; }
 };
 
 struct WritePairs
 {
-    LookUpPages         look_up;
+    PageLookups         page_lookups;
     const std::int32_t* place; ///< [lookups + 1], after the scan
     std::int32_t*       pair_body;
     std::int32_t*       pair_page;
@@ -66,7 +66,7 @@ struct WritePairs
     TREAD_HD void operator()(std::int64_t i) const
     {
         if (place[i + 1] == place[i]) { return; }
-        const Lookup found  = look_up(i);
+        const Lookup found  = page_lookups(i);
         pair_body[place[i]] = static_cast<std::int32_t>(found.body);
         pair_page[place[i]] = static_cast<std::int32_t>(found.page);
     }
@@ -195,16 +195,16 @@ std::int64_t find_page_pairs(const Exec& exec, Candidates<Exec>& c, const mpm::P
     const std::int64_t lookups = exclusive_scan(exec, c.box_first, c.sort);
     if (lookups == 0) { return 0; }
 
-    const LookUpPages look_up{bodies, templates, pages, reach, c.box_first.data()};
+    const PageLookups page_lookups{bodies, templates, pages, reach, c.box_first.data()};
     c.pair_first.resize(lookups + 1);
-    for_each(exec, "find contact pages", lookups + 1, MarkPages{look_up, lookups, c.pair_first.data()});
+    for_each(exec, "find contact pages", lookups + 1, MarkPages{page_lookups, lookups, c.pair_first.data()});
     const std::int64_t pairs = exclusive_scan(exec, c.pair_first, c.sort);
     if (pairs == 0) { return 0; }
 
     c.pair_body.resize(pairs);
     c.pair_page.resize(pairs);
     for_each(exec, "write contact pages", lookups,
-             WritePairs{look_up, c.pair_first.data(), c.pair_body.data(), c.pair_page.data()});
+             WritePairs{page_lookups, c.pair_first.data(), c.pair_body.data(), c.pair_page.data()});
     return pairs;
 }
 

@@ -59,7 +59,7 @@ struct SearchBody
     double                   scale;
     Vec3<double>             position;
     Quat                     orientation;
-    double travel; ///< m, twice the possible approach in the step, or the skin, plus twice the samples' extent
+    double approach; ///< m, twice the possible one in the step, or the skin, plus twice the samples' extent
 };
 
 TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::TemplateView* templates, std::int64_t b,
@@ -81,7 +81,7 @@ TREAD_HD PageBox page_box(const SearchBody& body, const mpm::PagesView& pages, i
     const Mat3<double> rotation = body.orientation.toRotationMatrix();
     const Vec3<double> centre   = body.position + rotation * (0.5 * body.scale * (body.shape->low + body.shape->high));
     const Vec3<double> half     = rotation.cwiseAbs() * (0.5 * body.scale * (body.shape->high - body.shape->low));
-    const double       margin   = reach.largest_radius + reach.point_drift + body.travel;
+    const double       margin   = reach.largest_radius + reach.point_drift + body.approach;
 
     const mpm::Lattice lattice = mpm::level_lattice(pages, level);
     const double       shift   = lattice.stencil_shift + lattice.node_shift;
@@ -116,7 +116,7 @@ TREAD_HD std::int64_t lookups(const SearchBody& body, const mpm::PagesView& page
 }
 
 /// Returns the point page of lookup `i` of the box, or -1.
-TREAD_HD std::int64_t look_up(const PageBox& box, const mpm::PagesView& pages, std::int64_t i)
+TREAD_HD std::int64_t lookup_page(const PageBox& box, const mpm::PagesView& pages, std::int64_t i)
 {
     if (box.pages() < pages.point_pages)
     {
@@ -126,17 +126,17 @@ TREAD_HD std::int64_t look_up(const PageBox& box, const mpm::PagesView& pages, s
 }
 
 /// Returns the point page of lookup `i` on all levels for a body, or -1.
-TREAD_HD std::int64_t look_up(const SearchBody& body, const mpm::PagesView& pages, const SearchReach& reach,
-                              std::int64_t i)
+TREAD_HD std::int64_t lookup_page(const SearchBody& body, const mpm::PagesView& pages, const SearchReach& reach,
+                                  std::int64_t i)
 {
     for (int level = 0; level < pages.levels; ++level)
     {
         const PageBox      box = page_box(body, pages, level, reach);
         const std::int64_t own = lookups(box, pages.point_pages);
-        if (i < own) { return look_up(box, pages, i); }
+        if (i < own) { return lookup_page(box, pages, i); }
         i -= own;
     }
-    return look_up(page_box(body, pages, pages.levels, reach), pages, i);
+    return lookup_page(page_box(body, pages, pages.levels, reach), pages, i);
 }
 
 /// Whether x is in the body-frame bounding box, extended by `margin` along each of the body's axes.
@@ -164,15 +164,15 @@ TREAD_HD bool cell_may_touch(const SearchBody& body, const mpm::PagesView& pages
     const double       shift   = lattice.stencil_shift + lattice.node_shift + 0.5;
     const Vec3<double> centre  = lattice.spacing * (cell + Vec3<double>::Constant(shift));
     const double       corners = std::sqrt(3.0) * (0.5 * lattice.spacing + reach.point_drift);
-    return in_grown_box(body, centre, corners + reach.largest_radius + body.travel);
+    return in_grown_box(body, centre, corners + reach.largest_radius + body.approach);
 }
 
 /// Whether a point of radius `radius` at x can touch the body within the step.
 TREAD_HD bool may_touch(const SearchBody& body, const Vec3<double>& x, double radius)
 {
-    return in_grown_box(body, x, radius + body.travel) &&
+    return in_grown_box(body, x, radius + body.approach) &&
            dem::sample_body_sdf(*body.shape, body.scale, body.position, body.orientation, x).distance <=
-               dem::search_bound(*body.shape, body.scale, radius, body.travel);
+               dem::search_bound(*body.shape, body.scale, radius, body.approach);
 }
 
 } // namespace tread::contact

@@ -1,5 +1,6 @@
 #include "kernels/contact/substeps.hpp"
 
+#include "backend/instantiate.hpp"
 #include "kernels/contact/lone_body.cuh"
 #include "kernels/contact/point_contact_impl.hpp"
 #include "kernels/contact/reduce_runs.cuh"
@@ -61,15 +62,17 @@ bool run_alone(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw& l
 } // namespace
 
 /// Sampled points and rays need separate launches.
-bool worth_one_launch(const Gpu&, PointContact<Gpu>& contact, const dem::BodyStep<Gpu>& step)
+template<class Exec>
+bool worth_one_launch(const Exec&, PointContact<Exec>& contact, const dem::BodyStep<Exec>& step)
 {
     constexpr std::int64_t few = 200000;
     return contact.candidates.body.size() < few && contact.slot_first.size() == 0 && step.law.rays == nullptr &&
            dem::worth_one_launch(step);
 }
 
-void run_substeps(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw& law, const dem::BodyStep<Gpu>& step,
-                  std::int64_t count)
+template<class Exec>
+void run_substeps(const Exec& gpu, PointContact<Exec>& contact, const PointBodyLaw& law,
+                  const dem::BodyStep<Exec>& step, std::int64_t count)
 {
     if (contact.candidates.body.size() == 0)
     {
@@ -102,5 +105,12 @@ void run_substeps(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw
                                   else { run(dem::move_part(move, step.pairs)); }
                               });
 }
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template bool worth_one_launch(const Exec&, PointContact<Exec>&, const dem::BodyStep<Exec>&);                      \
+    template void run_substeps(const Exec&, PointContact<Exec>&, const PointBodyLaw&, const dem::BodyStep<Exec>&,      \
+                               std::int64_t)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::contact

@@ -34,8 +34,8 @@ enum LockedFreedom : std::uint32_t
 enum BodyRole : std::int32_t
 {
     role_owner, ///< integrates the body and accounts for its energy
-    role_guest, ///< ghost: integrates the body as its owner does, for contacts with what this rank owns
-    role_none,  ///< does not know the body's position
+    role_ghost, ///< integrates the body as its owner does, for contacts with what this rank owns
+    role_none,  ///< has no position of the body
 };
 
 /// View of the bodies. Time integration leaves the velocity of a locked degree of freedom as stored in `velocity` and

@@ -9,18 +9,24 @@
 namespace tread::dem
 {
 
+/// Grid of a template's signed distance field, laid out as shape::SignedDistanceGrid.
+struct SdfGridView
+{
+    Vec3<double>        origin;
+    double              spacing;         ///< m
+    double              inverse_spacing; ///< 1/m
+    double              steepest;        ///< maximum |gradient| of the interpolant outside, where corners are exact
+    std::int32_t        nodes[3];
+    const float*        values; ///< m, negative inside
+    const std::int32_t* slots;  ///< slots of the bricks; null = dense, and the next three are unused
+    const float*        corners;
+    std::int32_t        bricks[3];
+    double              fine_reach; ///< m
+};
+
 struct TemplateView
 {
-    Vec3<double>        sdf_origin;
-    double              sdf_spacing;         ///< m
-    double              sdf_inverse_spacing; ///< 1/m
-    double              sdf_steepest;        ///< maximum |gradient| of the interpolant outside, where corners are exact
-    std::int32_t        sdf_nodes[3];
-    const float*        sdf_values; ///< m, negative inside; laid out as in shape::SignedDistanceGrid
-    const std::int32_t* sdf_slots;  ///< slots of the bricks; null = dense, and the next four are unused
-    const float*        sdf_corners;
-    std::int32_t        sdf_bricks[3];
-    double              sdf_fine_reach; ///< m
+    SdfGridView         sdf;
     std::int32_t        node_count;
     std::int32_t        cluster_count;
     const Vec3<double>* node_positions;

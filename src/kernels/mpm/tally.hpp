@@ -10,14 +10,14 @@ namespace tread::mpm
 constexpr int tally_width(int count) { return 2 * count; }
 
 /// Adds the value of sum `which` of a new step.
-TREAD_HD void book(double* row, int count, int which, double value)
+TREAD_HD void add_to_new_step(double* row, int count, int which, double value)
 {
     row[which] += value;
     row[count + which] = value;
 }
 
 /// Adds to the value of the same step.
-TREAD_HD void book_more(double* row, int count, int which, double value)
+TREAD_HD void add_to_same_step(double* row, int count, int which, double value)
 {
     row[which] += value;
     row[count + which] += value;

@@ -192,15 +192,15 @@ TYPED_TEST(Exchanges, GoBackToWhereTheyCameFrom)
     const auto           lists = random_lists(this->ranks(), 4);
     there.plan(this->own(lists));
     Array<TypeParam, Pair> from = this->pairs();
-    Array<TypeParam, Pair> guests(this->exec(), "guests", there.received());
+    Array<TypeParam, Pair> ghosts(this->exec(), "ghosts", there.received());
     there.begin(columns(from.data()));
-    there.finish(columns(guests.data()), 0);
+    there.finish(columns(ghosts.data()), 0);
 
     std::vector<std::int32_t> each;
     for (std::int32_t k = 0; k < there.received(); ++k) { each.push_back(k); }
     back.plan(each, there.from(), there.to());
     Array<TypeParam, Pair> home(this->exec(), "home", there.sent());
-    back.begin(columns(guests.data()));
+    back.begin(columns(ghosts.data()));
     back.finish(columns(home.data()), 0);
     std::vector<Pair> wanted;
     for (const auto& list : this->own(lists))

@@ -47,8 +47,8 @@ TEST(HaloPlan, TwoRanksInARowShareWhatBothReach)
     EXPECT_EQ(low.arrivals, (std::vector<std::int64_t>{0, 2}));
     EXPECT_EQ(low.part, (std::vector<std::int32_t>{-1, 0, -1, 1})); // rank 0's contribution first, on both
     EXPECT_EQ(high.part, (std::vector<std::int32_t>{0, -1, 1, -1}));
-    EXPECT_TRUE(low.booked_elsewhere.empty());
-    EXPECT_EQ(high.booked_elsewhere, (std::vector<std::int32_t>{0, 1}));
+    EXPECT_TRUE(low.tallied_elsewhere.empty());
+    EXPECT_EQ(high.tallied_elsewhere, (std::vector<std::int32_t>{0, 1}));
 }
 
 TEST(HaloPlan, RanksThatAreFarFromEachOtherShareNothing)
@@ -68,8 +68,8 @@ TEST(HaloPlan, AWallBringsThePageBesideIt)
     EXPECT_EQ(low.extra, row(4, 4));
     EXPECT_EQ(high.shared, row(3, 4));
     EXPECT_EQ(high.part, (std::vector<std::int32_t>{0, -1}));
-    EXPECT_EQ(high.booked_elsewhere, (std::vector<std::int32_t>{0}));
-    EXPECT_EQ(low.booked_elsewhere, (std::vector<std::int32_t>{1}));
+    EXPECT_EQ(high.tallied_elsewhere, (std::vector<std::int32_t>{0}));
+    EXPECT_EQ(low.tallied_elsewhere, (std::vector<std::int32_t>{1}));
 }
 
 std::vector<PageKeys> random_pages(int ranks, unsigned seed)
@@ -104,7 +104,7 @@ TEST(HaloPlan, OfRandomPagesBringsEveryPartToWhoNeedsIt)
         for (std::size_t rank = 0; rank < ranks; ++rank)
         {
             const HaloPlan&             plan = plans[rank];
-            const std::set<std::size_t> elsewhere(plan.booked_elsewhere.begin(), plan.booked_elsewhere.end());
+            const std::set<std::size_t> elsewhere(plan.tallied_elsewhere.begin(), plan.tallied_elsewhere.end());
             // Arrivals: the pages that each rank sends, rank after rank.
             std::vector<std::pair<std::uint64_t, std::size_t>> arrived;
             for (std::size_t other = 0; other < ranks; ++other)
@@ -163,7 +163,7 @@ TEST(HaloPlan, IsTheSameFromThePagesNearby)
     EXPECT_EQ(plan.send, wanted.send);
     EXPECT_EQ(plan.part, wanted.part);
     EXPECT_EQ(plan.extra, wanted.extra);
-    EXPECT_EQ(plan.booked_elsewhere, wanted.booked_elsewhere);
+    EXPECT_EQ(plan.tallied_elsewhere, wanted.tallied_elsewhere);
 }
 
 } // namespace

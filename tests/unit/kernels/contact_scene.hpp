@@ -248,12 +248,12 @@ private:
     static dem::TemplateView view_of(const AnalyticShape& shape, const float* values)
     {
         dem::TemplateView view{};
-        view.sdf_origin          = shape.origin;
-        view.sdf_spacing         = shape.spacing;
-        view.sdf_inverse_spacing = 1 / shape.spacing;
-        view.sdf_steepest        = std::sqrt(3.0);
-        std::copy(shape.nodes.begin(), shape.nodes.end(), view.sdf_nodes);
-        view.sdf_values        = values;
+        view.sdf.origin          = shape.origin;
+        view.sdf.spacing         = shape.spacing;
+        view.sdf.inverse_spacing = 1 / shape.spacing;
+        view.sdf.steepest        = std::sqrt(3.0);
+        std::copy(shape.nodes.begin(), shape.nodes.end(), view.sdf.nodes);
+        view.sdf.values        = values;
         view.low               = -shape.half;
         view.high              = shape.half;
         view.bounding_radius   = shape.half.norm();

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "dem_scene.hpp"
-#include "shape/generators.hpp"
-#include "shape/mass_properties.hpp"
-#include "shape/mesh_distance.hpp"
-#include "shape/sdf_grid.hpp"
+#include "shape/distance/mesh_distance.hpp"
+#include "shape/distance/sdf_grid.hpp"
+#include "shape/generators/generators.hpp"
+#include "shape/solids/mass_properties.hpp"
 #include "shape/surface_nodes.hpp"
 
 // A bumpy, concave body of about 1 m, whose surface does not depend on its number of nodes.

@@ -236,11 +236,11 @@ TYPED_TEST(BodyContact, NoNodeIsMissedByTheList)
         scene.move(dt);
         scene.contact(dt);
         const auto from_list = scene.bodies.force.to_host();
-        listed += scene.pairs.node.size();
+        listed += scene.pairs.nodes.node.size();
         scene.find(10); // all nodes
         scene.contact(dt);
         const auto from_all = scene.bodies.force.to_host();
-        all += scene.pairs.node.size();
+        all += scene.pairs.nodes.node.size();
         for (std::size_t b = 0; b < 2; ++b)
         {
             touching += from_all[b].norm() > 0;

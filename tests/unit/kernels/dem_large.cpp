@@ -70,7 +70,7 @@ TYPED_TEST(LargeBody, FeelsAllThatItPresses)
     SolidNumbers     numbers;
     numbers.friction = 0.4;
     typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, ball_in_gravel(), numbers);
-    ASSERT_EQ(scene.pairs.large.size(), 1);
+    ASSERT_EQ(scene.pairs.sizes.large.size(), 1);
     scene.find(dt);
     scene.contact(dt);
     expect_reaction(scene, "kernel by kernel");

@@ -53,7 +53,8 @@ double steps_of(const std::vector<Solid>& solids)
     return std::min({std::max(std::sqrt(1.5 / mean) - 1, 0.0), 0.01 / mean, 60.0});
 }
 
-/// Radius that find_pairs guarantees for exact spheres, whose bounding sphere is their surface (dem::travel_of).
+/// Radius that find_pairs guarantees for exact spheres, whose bounding sphere is their surface
+/// (dem::search_displacement).
 double grown(const Solid& solid, double steps)
 {
     return solid.scale + 2.1 * way_of(solid) + (0.003 + std::min(steps * step_of(solid), 0.2)) * solid.scale;
@@ -99,7 +100,10 @@ TYPED_TEST(BodyPairs, AllowForLessWhereAllBodiesMove)
     scene.find(step);
     const double way = step * velocity.norm(), all = 2.1 * way + 0.003 * 0.01 + 0.01 * 0.01;
     double       worst = 0;
-    for (const double travel : scene.pairs.travel.to_host()) { worst = std::max(worst, std::abs(travel / all - 1)); }
+    for (const double allowed : scene.pairs.displacement.allowed.to_host())
+    {
+        worst = std::max(worst, std::abs(allowed / all - 1));
+    }
     std::printf("lists allow for %.3e m, differing by %.1e; tolerance 1e-12 (order of a sum)\n", all, worst);
     EXPECT_LT(worst, 1e-12);
 }
@@ -119,7 +123,10 @@ TYPED_TEST(BodyPairs, LastFewerStepsWhereSubstepsAreMany)
     scene.find(step, 1000);
     const double all   = (2.1 + std::sqrt(1.5 / (1000 * 1e-4)) - 1) * way + 0.003 * radius;
     double       worst = 0;
-    for (const double travel : scene.pairs.travel.to_host()) { worst = std::max(worst, std::abs(travel / all - 1)); }
+    for (const double allowed : scene.pairs.displacement.allowed.to_host())
+    {
+        worst = std::max(worst, std::abs(allowed / all - 1));
+    }
     std::printf("lists allow for %.3e m, differing by %.1e; tolerance 1e-12 (order of a sum)\n", all, worst);
     EXPECT_LT(worst, 1e-12);
 }
@@ -135,12 +142,12 @@ TYPED_TEST(BodyPairs, AllowForTheMotionOfNeighboursInTheLastList)
     typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, solids, {});
     const double                rest = 0.003 * radius, more = 60 * step * speed;
     scene.find(step);
-    EXPECT_NEAR(scene.pairs.travel.to_host()[4], rest, 1e-12 * rest);
+    EXPECT_NEAR(scene.pairs.displacement.allowed.to_host()[4], rest, 1e-12 * rest);
     scene.find(step);
-    const std::vector<double> travel = scene.pairs.travel.to_host();
-    EXPECT_NEAR(travel[3], rest, 1e-12 * rest);
-    EXPECT_NEAR(travel[4], rest + more, 1e-12 * more);
-    EXPECT_NEAR(travel[5], rest + 2.1 * step * speed + more, 1e-12 * more);
+    const std::vector<double> allowed = scene.pairs.displacement.allowed.to_host();
+    EXPECT_NEAR(allowed[3], rest, 1e-12 * rest);
+    EXPECT_NEAR(allowed[4], rest + more, 1e-12 * more);
+    EXPECT_NEAR(allowed[5], rest + 2.1 * step * speed + more, 1e-12 * more);
 }
 
 TYPED_TEST(BodyPairs, AreThoseOfBruteForce)
@@ -152,7 +159,7 @@ TYPED_TEST(BodyPairs, AreThoseOfBruteForce)
     scene.find(step);
     const std::vector<std::uint64_t> expected = brute_force(solids, numbers.planes);
     EXPECT_GT(expected.size(), 500u);
-    EXPECT_EQ(scene.pairs.large.size(), 6);
+    EXPECT_EQ(scene.pairs.sizes.large.size(), 6);
     EXPECT_EQ(scene.pairs.key.to_host(), expected);
 }
 
@@ -166,14 +173,14 @@ TYPED_TEST(BodyPairs, LeaveNothingOfTheSearchBehind)
     const std::int64_t held = this->counters.current_bytes();
     scene.find(step);
     EXPECT_EQ(this->counters.current_bytes(), held);
-    for (const char* name : {"body reach", "body speeds", "body travel a step more", "body cells", "bodies by cell",
-                             "pairs found", "sort scratch"})
+    for (const char* name : {"body search radii", "body speeds", "body displacement a step more", "body cells",
+                             "bodies by cell", "pairs found", "sort scratch"})
     {
         EXPECT_EQ(this->counters.bytes().find(name)->second, 0) << name;
     }
     EXPECT_GT(scene.pairs.key.size(), 500);
-    EXPECT_EQ(scene.pairs.last_key.capacity(), 0);
-    EXPECT_EQ(scene.pairs.last_patch.capacity(), 0);
+    EXPECT_EQ(scene.pairs.last.key.capacity(), 0);
+    EXPECT_EQ(scene.pairs.last.patch.capacity(), 0);
 }
 
 TYPED_TEST(BodyPairs, KnowThePairsOfEachBody)
@@ -181,9 +188,9 @@ TYPED_TEST(BodyPairs, KnowThePairsOfEachBody)
     const std::vector<Solid>    solids = crowd(300);
     typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, solids, {});
     scene.find(step);
-    const auto                keys  = scene.pairs.key.to_host();
-    const auto                first = scene.pairs.first.to_host(), second = scene.pairs.second.to_host();
-    const auto                by_second = scene.pairs.by_second.to_host();
+    const auto keys  = scene.pairs.key.to_host();
+    const auto first = scene.pairs.of_body.first.to_host(), second = scene.pairs.of_body.second.to_host();
+    const auto by_second = scene.pairs.of_body.by_second.to_host();
     std::vector<std::int32_t> expected;
     for (std::size_t b = 0; b < solids.size(); ++b)
     {

@@ -90,7 +90,7 @@ Solid held(std::int32_t shape)
 template<class Scene>
 std::vector<std::int32_t> runs(const Scene& scene)
 {
-    return scene.pairs.first_node.to_host();
+    return scene.pairs.nodes.first.to_host();
 }
 
 /// A bar 1 mm too long for the channel, clamped between its arms: their normal forces on it are opposite, and only
@@ -130,7 +130,7 @@ TYPED_TEST(Patches, ClampedBarIsHeldByFrictionAtBothEnds)
     EXPECT_EQ(keys[0], dem::pair_key(0, 1));
     EXPECT_EQ(keys[1], dem::pair_key(0, 1) + 1);
     const auto nodes = runs(scene);
-    EXPECT_EQ(nodes.back(), scene.pairs.node.size());
+    EXPECT_EQ(nodes.back(), scene.pairs.nodes.node.size());
 
     const auto   patches = scene.pairs.patch.to_host();
     const auto   pair    = properties(1e7, 0.3, 2, 0.5, 0.5);
@@ -300,7 +300,7 @@ TYPED_TEST(Patches, EnergyOfABallThroughAGrooveCloses)
 template<class Scene>
 std::vector<std::vector<std::int32_t>> nodes_of_rows(const Scene& scene)
 {
-    const auto                             first = runs(scene), node = scene.pairs.node.to_host();
+    const auto                             first = runs(scene), node = scene.pairs.nodes.node.to_host();
     std::vector<std::vector<std::int32_t>> rows;
     for (std::size_t p = 0; p + 1 < first.size(); ++p)
     {
@@ -333,7 +333,7 @@ TYPED_TEST(Patches, AreDealtAnewWhileAListHolds)
             }
             const auto rows = nodes_of_rows(scene);
             for (std::size_t p = 0; p < rows.size(); ++p) { empty += rows[p].empty() ? 1 : 0; }
-            const auto first = runs(scene), owner = scene.pairs.pair_of_node.to_host();
+            const auto first = runs(scene), owner = scene.pairs.nodes.pair.to_host();
             for (std::size_t p = 0; p + 1 < first.size(); ++p)
             {
                 for (std::int32_t i = first[p]; i < first[p + 1]; ++i)

@@ -5,9 +5,9 @@
 
 #include "base/random.hpp"
 #include "dem_ray_shapes.hpp"
-#include "shape/generators.hpp"
-#include "shape/mesh_distance.hpp"
-#include "shape/triangle.hpp"
+#include "shape/distance/mesh_distance.hpp"
+#include "shape/generators/generators.hpp"
+#include "shape/mesh/triangle.hpp"
 
 // Narrow phase by rays: single rays compared with all triangles, spheres with Hertz, impacts with distance fields.
 namespace tread::test
@@ -263,11 +263,11 @@ TYPED_TEST(RayContact, NoNodeIsMissedByTheList)
         scene.move(dt);
         scene.contact(dt);
         const auto from_list = scene.bodies.force.to_host();
-        listed += scene.pairs.node.size();
+        listed += scene.pairs.nodes.node.size();
         scene.find(10); // all nodes
         scene.contact(dt);
         const auto from_all = scene.bodies.force.to_host();
-        all += scene.pairs.node.size();
+        all += scene.pairs.nodes.node.size();
         touching += from_all[0].norm() > 0;
         worst = std::max(worst, (from_list[0] - from_all[0]).norm() / std::max(from_all[0].norm(), 1.0));
     }

@@ -159,16 +159,16 @@ private:
         for (const SolidShape& shape : shapes)
         {
             dem::TemplateView view{};
-            view.sdf_origin          = shape.origin;
-            view.sdf_spacing         = shape.spacing;
-            view.sdf_inverse_spacing = 1 / shape.spacing;
-            view.sdf_steepest        = shape.steepest;
-            std::copy(shape.nodes.begin(), shape.nodes.end(), view.sdf_nodes);
-            view.sdf_values     = keep(floats_, shape.values);
-            view.sdf_slots      = shape.slots.empty() ? nullptr : keep(integers_, shape.slots);
-            view.sdf_corners    = keep(floats_, shape.corners);
-            view.sdf_fine_reach = shape.fine_reach;
-            std::copy(shape.bricks.begin(), shape.bricks.end(), view.sdf_bricks);
+            view.sdf.origin          = shape.origin;
+            view.sdf.spacing         = shape.spacing;
+            view.sdf.inverse_spacing = 1 / shape.spacing;
+            view.sdf.steepest        = shape.steepest;
+            std::copy(shape.nodes.begin(), shape.nodes.end(), view.sdf.nodes);
+            view.sdf.values     = keep(floats_, shape.values);
+            view.sdf.slots      = shape.slots.empty() ? nullptr : keep(integers_, shape.slots);
+            view.sdf.corners    = keep(floats_, shape.corners);
+            view.sdf.fine_reach = shape.fine_reach;
+            std::copy(shape.bricks.begin(), shape.bricks.end(), view.sdf.bricks);
             view.node_count        = static_cast<std::int32_t>(shape.positions.size());
             view.cluster_count     = static_cast<std::int32_t>(shape.centres.size());
             view.node_positions    = keep(vectors_, shape.positions);

@@ -7,7 +7,7 @@
 #include "base/random.hpp"
 #include "dem_scene.hpp"
 #include "kernels/dem/contact/sdf_kern.hpp"
-#include "shape/sdf_grid.hpp"
+#include "shape/distance/sdf_grid.hpp"
 
 namespace tread::test
 {
@@ -17,12 +17,12 @@ namespace
 dem::TemplateView view_of(const SolidShape& shape)
 {
     dem::TemplateView view{};
-    view.sdf_origin          = shape.origin;
-    view.sdf_spacing         = shape.spacing;
-    view.sdf_inverse_spacing = 1 / shape.spacing;
-    view.sdf_steepest        = std::sqrt(3.0);
-    std::copy(shape.nodes.begin(), shape.nodes.end(), view.sdf_nodes);
-    view.sdf_values = shape.values.data();
+    view.sdf.origin          = shape.origin;
+    view.sdf.spacing         = shape.spacing;
+    view.sdf.inverse_spacing = 1 / shape.spacing;
+    view.sdf.steepest        = std::sqrt(3.0);
+    std::copy(shape.nodes.begin(), shape.nodes.end(), view.sdf.nodes);
+    view.sdf.values = shape.values.data();
     return view;
 }
 
@@ -92,16 +92,16 @@ shape::SignedDistanceGrid shell_in_bricks()
 dem::TemplateView view_of(const shape::SignedDistanceGrid& sdf)
 {
     dem::TemplateView view{};
-    view.sdf_origin          = sdf.origin;
-    view.sdf_spacing         = sdf.spacing;
-    view.sdf_inverse_spacing = 1 / sdf.spacing;
-    view.sdf_steepest        = std::sqrt(3.0);
-    std::copy(sdf.nodes.begin(), sdf.nodes.end(), view.sdf_nodes);
-    std::copy(sdf.bricks.begin(), sdf.bricks.end(), view.sdf_bricks);
-    view.sdf_values     = sdf.values.data();
-    view.sdf_slots      = sdf.slots.data();
-    view.sdf_corners    = sdf.corners.data();
-    view.sdf_fine_reach = sdf.fine_reach;
+    view.sdf.origin          = sdf.origin;
+    view.sdf.spacing         = sdf.spacing;
+    view.sdf.inverse_spacing = 1 / sdf.spacing;
+    view.sdf.steepest        = std::sqrt(3.0);
+    std::copy(sdf.nodes.begin(), sdf.nodes.end(), view.sdf.nodes);
+    std::copy(sdf.bricks.begin(), sdf.bricks.end(), view.sdf.bricks);
+    view.sdf.values     = sdf.values.data();
+    view.sdf.slots      = sdf.slots.data();
+    view.sdf.corners    = sdf.corners.data();
+    view.sdf.fine_reach = sdf.fine_reach;
     return view;
 }
 
@@ -152,13 +152,13 @@ TEST(SdfBricks, SearchBoundMissesNoContact)
     const dem::TemplateView         view = view_of(sdf);
     Random                          random(7);
     int                             touching = 0, left_out = 0;
-    for (const double travel : {0.01, 0.1, 1.0})
+    for (const double displacement : {0.01, 0.1, 1.0})
     {
-        const double bound = dem::search_bound(view, 1, point_radius, travel);
+        const double bound = dem::search_bound(view, 1, point_radius, displacement);
         for (int i = 0; i < 200000; ++i)
         {
             const Vec3<double> start   = point_within(random, 1.2);
-            const Vec3<double> end     = start + 0.5 * travel * point_within(random, 1).normalized();
+            const Vec3<double> end     = start + 0.5 * displacement * point_within(random, 1).normalized();
             const bool         touches = dem::sample_template_sdf(view, end).distance < point_radius;
             touching += touches ? 1 : 0;
             const bool found = dem::sample_template_sdf(view, start).distance <= bound;

@@ -47,7 +47,7 @@ public:
         std::vector<std::int32_t> role, body, first{0}, row;
         for (std::int32_t b = 0; b < count; ++b)
         {
-            role.push_back(b % 2 == rank ? dem::role_owner : dem::role_guest);
+            role.push_back(b % 2 == rank ? dem::role_owner : dem::role_ghost);
             body.push_back(b);
             first.push_back(2 * (b + 1));
             const std::int32_t own = b, other = count + b;

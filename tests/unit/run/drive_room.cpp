@@ -1,5 +1,6 @@
 #include "run/drive_room.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -59,6 +60,23 @@ TEST(DriveRoom, EndsBeforeTheWalls)
     EXPECT_TRUE(built.warnings().empty());
 }
 
+/// Sums by hand: of a drum of radius r and half width w, a yaw of 60 degrees shows r cos 60 + w sin 60 along x, and a
+/// camber of 30 degrees r cos 30 + w sin 30 downwards.
+TEST(DriveRoom, LooksAtABodyAsItIsTurned)
+{
+    const auto turned = [](const std::string& angle)
+    {
+        std::string text = bed_text("slip", drive(1.0, 1.0));
+        return text.replace(text.find("lock     ="), 0, angle + "\n");
+    };
+    const double r = 0.1, w = 0.075;
+    const Built  yawed(turned("yaw_deg = 60.0")), leaning(turned("camber_deg = 30.0"));
+    EXPECT_NEAR(yawed.rooms[0].reach, r * 0.5 + w * std::sqrt(0.75), 1e-3);
+    EXPECT_NEAR(yawed.rooms[0].depth, r, 1e-3);
+    EXPECT_NEAR(leaning.rooms[0].reach, r, 1e-3);
+    EXPECT_NEAR(leaning.rooms[0].depth, r * std::sqrt(0.75) + w * 0.5, 1e-3);
+}
+
 TEST(DriveRoom, EndsBeforeTheEdgeOfTheTerrain)
 {
     std::string text = bed_text("slip", drive(1.0, 1.0));
@@ -71,7 +89,7 @@ TEST(DriveRoom, EndsBeforeTheEdgeOfTheTerrain)
     EXPECT_NE(open.rooms[0].front.what.find("the edge of the terrain"), std::string::npos);
 }
 
-TEST(DriveRoom, AddsUpTheDrivesAndTellsTheDurationThatFits)
+TEST(DriveRoom, AddsUpTheDrivesAndGivesTheDurationThatFits)
 {
     // 0.495 m at 0.1 m/s: 4.95 s, 3 of them in the first drive.
     const Built built(bed_text("slip", drive(1.0, 3.0) + drive(1.0, 3.0, "on")));
@@ -144,7 +162,7 @@ TEST(DriveRoom, ComputesTheLeastDistanceToTheEdges)
     EXPECT_NEAR(distance_to_leave(room, {ground.high_x - 0.01, 0.2, 0.3}), 0.01, 1e-12) << "ahead";
     EXPECT_NEAR(distance_to_leave(room, {0.5, ground.low_y + 0.01, 0.3}), 0.01, 1e-12) << "beside";
     EXPECT_NEAR(distance_to_leave(room, {0.5, ground.high_y - 0.01, 0.3}), 0.01, 1e-12) << "beside";
-    const double lowest = ground.floor + 0.9 * room.reach;
+    const double lowest = ground.floor + 0.9 * room.depth;
     EXPECT_NEAR(distance_to_leave(room, {0.5, 0.2, lowest + 0.01}), 0.01, 1e-12) << "down";
     EXPECT_NEAR(distance_to_leave(room, {ground.high_x + 0.02, 0.2, 0.3}), -0.02, 1e-12) << "it has left";
     DriveRoom bare = room;

@@ -118,7 +118,7 @@ TEST(GridError, FollowsFrictionAndSoil)
     EXPECT_NEAR(clay.wheel->laws.pull.factor, measured_convergence[2].laws.pull.factor, 1e-12);
 }
 
-TEST(GridError, IsSaidWithTheAnswersOrWithout)
+TEST(GridError, IsReportedWithTheAnswersOrWithout)
 {
     const io::GridError error{1000, 0.18, 0.07, 0.2};
     EXPECT_EQ(io::grid_error_line(error, std::nullopt),

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <ostream>
 
 #include <gmock/gmock.h>
@@ -122,12 +123,40 @@ INSTANTIATE_TEST_SUITE_P(
                  "[joint.strut]: neither stiffness nor damping"},
         BadJoint{"spring_without_length", "at = [0.2, 0.5, 1]", "at = [0.2, 0.5, 0.8]",
                  "[joint.strut] to: the ends of the spring are the same"},
-        BadJoint{"moved_by_a_phase", "drive = { body = \"wheel\", angular_velocity = 0.7, slip = 0.3 }",
-                 "motion = [{ body = \"frame\", x = \"held\" }]",
-                 "[joint.axle] between: `motion` of phase 'drive' moves \"frame\""},
+        BadJoint{"setting_of_no_joint", "drive = { body = \"wheel\", angular_velocity = 0.7, slip = 0.3 }",
+                 "motors = [{ joint = \"axel\", speed = 1 }]",
+                 "[phase.drive] motors: there is no [[joint]] called \"axel\"; did you mean \"axle\"?"},
+        BadJoint{"setting_of_a_joint_without_motor", "drive = { body = \"wheel\", angular_velocity = 0.7, slip = 0.3 }",
+                 "motors = [{ joint = \"pin\", speed = 1 }]", "[phase.drive] motors: \"pin\" has no motor"},
+        BadJoint{"two_settings_of_a_motor", "drive = { body = \"wheel\", angular_velocity = 0.7, slip = 0.3 }",
+                 "motors = [{ joint = \"axle\", speed = 1 }, { joint = \"axle\", speed = 2 }]",
+                 "[phase.drive] motors: \"axle\" twice"},
         BadJoint{"two_of_a_name", "name = \"pin\"", "name = \"axle\"", "\"axle\" is also the name of [[joint]] 0"},
         BadJoint{"body_called_world", "name = \"frame\"", "name = \"world\"", "[body.world] name: \"world\" is what"}),
     [](const auto& bad) { return bad.param.name; });
+
+TEST(Joints, of_the_rovers_that_come_with_the_code_are_read)
+{
+    int scenes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("../configs/rover"))
+    {
+        if (entry.path().extension() != ".toml") { continue; }
+        EXPECT_FALSE(load_scene(entry.path().string(), {}).joints.empty()) << entry.path();
+        ++scenes;
+    }
+    EXPECT_EQ(scenes, 7);
+}
+
+TEST(Joints, have_motors_that_phases_set)
+{
+    const Directory   directory;
+    const std::string text  = replaced(jointed, "drive = { body = \"wheel\", angular_velocity = 0.7, slip = 0.3 }",
+                                       "motors = [{ joint = \"axle\", speed = -1.5, max_torque = 3 }]");
+    const Scene       scene = load_scene(directory.write("scene.toml", text), {});
+    ASSERT_EQ(scene.phases.back().motors.size(), 1u);
+    EXPECT_EQ(scene.phases.back().motors[0], (MotorSetting{"axle", -1.5, 3}));
+    EXPECT_EQ(load_scene(directory.write("again.toml", resolved_toml(scene)), {}), scene);
+}
 
 TEST(Joints, with_a_motor_need_a_side_that_moves)
 {
@@ -135,6 +164,12 @@ TEST(Joints, with_a_motor_need_a_side_that_moves)
         replaced(replaced(jointed, "hold = [\"wheel\"]", "hold = [\"wheel\", \"frame\"]"),
                  "drive = { body = \"wheel\", angular_velocity = 0.7, slip = 0.3 }", "hold = [\"wheel\", \"frame\"]");
     EXPECT_THAT(refusal(held), HasSubstr("[joint.axle] motor: both sides are held in every phase"));
+    const std::string turned =
+        replaced(replaced(jointed, "hold = [\"wheel\"]", "hold = [\"wheel\", \"frame\"]"),
+                 "drive = { body = \"wheel\", angular_velocity = 0.7, slip = 0.3 }",
+                 "hold = [\"wheel\"]\nmotion = [{ body = \"frame\", roll = \"held\", yaw = \"held\", "
+                 "axle = { velocity = 1 } }]");
+    EXPECT_THAT(refusal(turned), HasSubstr("[joint.axle] motor: both sides are held in every phase"));
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "shape/form.hpp"
+#include "shape/generators/form.hpp"
 
 #include <cmath>
 
@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "shape/convex_hull.hpp"
-#include "shape/mass_properties.hpp"
+#include "shape/mesh/convex_hull.hpp"
+#include "shape/solids/mass_properties.hpp"
 #include "unit/shape/meshes.hpp"
 
 namespace tread::shape

@@ -1,4 +1,4 @@
-#include "shape/generators.hpp"
+#include "shape/generators/generators.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "shape/mass_properties.hpp"
+#include "shape/solids/mass_properties.hpp"
 #include "unit/shape/meshes.hpp"
 
 namespace tread::shape

@@ -24,8 +24,8 @@ TEST(HullDepth, OfAPitIsItsDepth)
     EXPECT_NEAR(shape::hull_depth(box, {{0.5, 0, 0}, {0, 0, 0.3}, {0.1, 0, 0.4}}), 0.2, 1e-14);
 }
 
-/// The distinction of solver/device_templates.cpp: wheels with grousers, and rocks that nearly fill their hulls.
-TEST(FullSizeHullDepth, TellsWheelsFromRocks)
+/// The distinction of solver/bodies/device_templates.cpp: wheels with grousers, and rocks that nearly fill their hulls.
+TEST(FullSizeHullDepth, DistinguishesWheelsFromRocks)
 {
     for (const std::string& name : shape::builtin_shape_names())
     {

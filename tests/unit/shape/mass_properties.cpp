@@ -1,4 +1,4 @@
-#include "shape/mass_properties.hpp"
+#include "shape/solids/mass_properties.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "shape/mesh_distance.hpp"
+#include "shape/distance/mesh_distance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include "shape/sdf_grid.hpp"
+#include "shape/distance/sdf_grid.hpp"
 #include "unit/shape/meshes.hpp"
 
 namespace tread::shape

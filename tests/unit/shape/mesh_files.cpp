@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "shape/mass_properties.hpp"
+#include "shape/solids/mass_properties.hpp"
 #include "unit/shape/meshes.hpp"
 
 namespace tread::shape

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.hpp"
-#include "shape/generators.hpp"
-#include "shape/mesh.hpp"
-#include "shape/triangle.hpp"
+#include "shape/generators/generators.hpp"
+#include "shape/mesh/mesh.hpp"
+#include "shape/mesh/triangle.hpp"
 
 // Meshes with known properties.
 namespace tread::test

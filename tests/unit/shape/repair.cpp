@@ -1,4 +1,4 @@
-#include "shape/repair.hpp"
+#include "shape/repair/repair.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "shape/mass_properties.hpp"
-#include "shape/solid.hpp"
+#include "shape/solids/mass_properties.hpp"
+#include "shape/solids/solid.hpp"
 #include "unit/shape/awkward_meshes.hpp"
 #include "unit/shape/paddle_wheel.hpp"
 

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "shape/form.hpp"
-#include "shape/generators.hpp"
-#include "shape/mass_properties.hpp"
+#include "shape/generators/form.hpp"
+#include "shape/generators/generators.hpp"
+#include "shape/solids/mass_properties.hpp"
 #include "shape/template.hpp"
 #include "unit/shape/meshes.hpp"
 

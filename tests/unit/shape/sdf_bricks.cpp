@@ -6,8 +6,8 @@
 #include <omp.h>
 
 #include "base/random.hpp"
-#include "shape/sdf_grid.hpp"
-#include "shape/template_sdf.hpp"
+#include "shape/distance/sdf_grid.hpp"
+#include "shape/distance/template_sdf.hpp"
 #include "unit/shape/meshes.hpp"
 
 // A grid in bricks compared with the dense one of the same cells, and with the exact distance.

@@ -1,4 +1,4 @@
-#include "shape/sdf_grid.hpp"
+#include "shape/distance/sdf_grid.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "shape/solid.hpp"
+#include "shape/solids/solid.hpp"
 
 #include <cmath>
 #include <cstddef>

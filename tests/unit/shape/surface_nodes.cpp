@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shape/half_edges.hpp"
+#include "shape/mesh/half_edges.hpp"
 #include "unit/shape/meshes.hpp"
 
 namespace tread::shape

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "shape/sdf_report.hpp"
+#include "shape/distance/sdf_report.hpp"
 #include "unit/shape/meshes.hpp"
 
 namespace tread::shape

@@ -1,4 +1,4 @@
-#include "shape/thickness.hpp"
+#include "shape/mesh/thickness.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "shape/surface_points.hpp"
-#include "shape/template_sdf.hpp"
+#include "shape/distance/template_sdf.hpp"
+#include "shape/mesh/surface_points.hpp"
 #include "unit/shape/meshes.hpp"
 
 namespace tread::shape

@@ -1,4 +1,4 @@
-#include "shape/tools.hpp"
+#include "shape/generators/tools.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "shape/mass_properties.hpp"
-#include "shape/mesh_distance.hpp"
-#include "shape/sdf_report.hpp"
+#include "shape/distance/mesh_distance.hpp"
+#include "shape/distance/sdf_report.hpp"
+#include "shape/solids/mass_properties.hpp"
 #include "unit/shape/meshes.hpp"
 
 namespace tread::shape

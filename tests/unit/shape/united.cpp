@@ -1,4 +1,4 @@
-#include "shape/united.hpp"
+#include "shape/solids/united.hpp"
 
 #include <cmath>
 #include <cstdio>

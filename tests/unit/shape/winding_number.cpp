@@ -1,4 +1,4 @@
-#include "shape/winding_number.hpp"
+#include "shape/distance/winding_number.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -7,7 +7,7 @@
 
 #include "backend.hpp"
 #include "scene_text.hpp"
-#include "solver/body_commands.hpp"
+#include "solver/bodies/body_commands.hpp"
 
 // Commands of named bodies on a BodyState alone, without pairs, steps or reports.
 namespace

@@ -1,4 +1,4 @@
-#include "solver/ledger.hpp"
+#include "solver/ledger/ledger.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/mpm/pages/page_key.hpp"
-#include "solver/page_rest.hpp"
+#include "solver/sand/page_rest.hpp"
 
 // Selection of pages that may sleep, on sets of pages written by hand.
 namespace
@@ -78,6 +78,14 @@ TEST(PageRest, WhatIsNearABodyDoesNotSleep)
     RestState state = quiet_row();
     state.bodies    = {{{0.35, 0.05, 0.05}, 0.2}};
     EXPECT_EQ(along(choose_asleep(rule, state)), range(11, row_pages - 1));
+}
+
+/// Two bodies 3.3 m apart: the second one's range begins at 3.64 - 0.2 - 0.35 - 0.2 = 2.89 m, in page 28.
+TEST(PageRest, SandBetweenBodiesFarApartSleeps)
+{
+    RestState state = quiet_row();
+    state.bodies    = {{{0.35, 0.05, 0.05}, 0.2}, {{3.64, 0.05, 0.05}, 0.2}};
+    EXPECT_EQ(along(choose_asleep(rule, state)), range(11, 27));
 }
 
 TEST(PageRest, PagesWakeInSlicesBeforeABodyReachesThem)

@@ -6,7 +6,7 @@
 
 #include "backend.hpp"
 #include "scene_text.hpp"
-#include "solver/dem_solver.hpp"
+#include "solver/bodies/dem_solver.hpp"
 
 // Lifetime of a list of pairs, measured by the number of searches.
 namespace
@@ -63,7 +63,7 @@ protected:
 
     std::int64_t searches() const
     {
-        const auto found = this->counters.launches().find("body reach");
+        const auto found = this->counters.launches().find("body search radii");
         return found == this->counters.launches().end() ? 0 : found->second;
     }
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.hpp"
-#include "solver/sand_guard.hpp"
+#include "solver/ledger/sand_guard.hpp"
 
 namespace
 {

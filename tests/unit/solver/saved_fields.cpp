@@ -8,9 +8,9 @@
 #include "base/errors.hpp"
 #include "io/checkpoint_file.hpp"
 #include "mpi_session.hpp"
-#include "solver/energy_watch.hpp"
-#include "solver/extremes.hpp"
-#include "solver/ledger.hpp"
+#include "solver/ledger/energy_watch.hpp"
+#include "solver/ledger/extremes.hpp"
+#include "solver/ledger/ledger.hpp"
 #include "solver/state_file.hpp"
 #include "temporary_directory.hpp"
 

@@ -20,7 +20,7 @@ TEST(WorldMeasures, AreTheSameForWhatIsBuiltTwiceAndForWhatWasRounded)
     EXPECT_TRUE(are_same(measures(one), measures(other)));
 }
 
-TEST(WorldMeasures, TellAPointARockAndAShapeFromAnother)
+TEST(WorldMeasures, DistinguishAPointARockAndAShape)
 {
     const std::vector<double> expected = measures(built());
     const auto                differs  = [&](const auto& change)

@@ -1,3 +1,4 @@
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/dem/contact/body_contact_impl.hpp"
 #include "kernels/dem/contact/contact_nodes.hpp"
@@ -5,9 +6,10 @@
 namespace tread::dem
 {
 
-void evaluate_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+template<class Exec>
+void evaluate_contacts(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    look_up_nodes(cpu, pairs, bodies, law);
+    evaluate_nodes(cpu, pairs, bodies, law);
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
@@ -21,5 +23,10 @@ void evaluate_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodi
     for_each(cpu, "resistance to rolling", pairs.key.size(),
              body_contact::ResistRolling{bodies.count, law, pairs.view(), dt});
 }
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void evaluate_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, double)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

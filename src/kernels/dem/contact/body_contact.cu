@@ -1,3 +1,4 @@
+#include "backend/instantiate.hpp"
 #include "kernels/dem/contact/body_contact_impl.hpp"
 #include "kernels/dem/contact/lane_parts.cuh"
 
@@ -16,10 +17,11 @@ void answer_pairs(const Gpu& gpu, const body_contact::AnswerPair<Meet>& answer)
 
 } // namespace
 
-void evaluate_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+template<class Exec>
+void evaluate_contacts(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
     constexpr std::int64_t few = 50000; // too few to fill the device
-    look_up_nodes(gpu, pairs, bodies, law);
+    evaluate_nodes(gpu, pairs, bodies, law);
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
@@ -31,5 +33,10 @@ void evaluate_contacts(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodi
     for_each(gpu, "resistance to rolling", pairs.key.size(),
              body_contact::ResistRolling{bodies.count, law, pairs.view(), dt});
 }
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void evaluate_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, double)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

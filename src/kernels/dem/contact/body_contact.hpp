@@ -7,7 +7,7 @@ namespace tread::dem
 
 /// First half of a substep: computes the response of every listed pair at the bodies' present positions (pairs.answers)
 /// and advances its patch by dt (s, of the substep). move.hpp sums the responses. Allocates nothing.
-void evaluate_contacts(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
-void evaluate_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+template<class Exec>
+void evaluate_contacts(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
 
 } // namespace tread::dem

@@ -1,10 +1,12 @@
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/dem/contact/contact_limits_impl.hpp"
 
 namespace tread::dem
 {
 
-void expect_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
+template<class Exec>
+void expect_contacts(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law,
                      const Vec3<double>& gravity, double dt, const SharedView& shared)
 {
     const auto each = [&](std::int64_t count)
@@ -14,5 +16,11 @@ void expect_contacts(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies
     };
     contact_limits::expect(cpu, pairs, bodies, law, gravity, dt, shared, each(pairs.key.size()), each(bodies.count));
 }
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void expect_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, const Vec3<double>&,   \
+                                  double, const SharedView&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

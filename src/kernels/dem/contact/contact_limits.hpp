@@ -16,9 +16,8 @@ namespace tread::dem
 /// in contact and those that enter when they move by twice the displacement that velocity and gravity (m/s2) give in dt
 /// (s). Call after find_pairs. For bodies that several ranks integrate it uses this rank's pairs and writes their
 /// shares to shared.stiffness.
-void expect_contacts(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
-                     const Vec3<double>& gravity, double dt, const SharedView& shared = {});
-void expect_contacts(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law,
+template<class Exec>
+void expect_contacts(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law,
                      const Vec3<double>& gravity, double dt, const SharedView& shared = {});
 
 /// Expected stiffness of shared bodies from the pairs of all ranks; call after the exchange of shares.

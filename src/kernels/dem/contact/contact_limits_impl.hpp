@@ -137,11 +137,11 @@ void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, Body
 {
     pairs.measure.resize(pairs.key.size());
     law.rays = nullptr; // rays give no distance outside
-    look_up_nodes(exec, pairs, bodies, law);
+    evaluate_nodes(exec, pairs, bodies, law);
     each_pair("anticipated contacts",
               AnticipatePair{bodies, law, pairs.view(), 2 * dt, 0.5 * dt * gravity, pairs.measure.data()});
     pairs.expected_stiffness.resize(bodies.count);
-    each_body("expected contacts", ExpectContacts{bodies, law, pairs.view(), pairs.node_area.data(),
+    each_body("expected contacts", ExpectContacts{bodies, law, pairs.view(), pairs.sizes.node_area.data(),
                                                   pairs.measure.data(), pairs.expected_stiffness.data(), shared});
 }
 

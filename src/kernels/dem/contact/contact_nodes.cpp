@@ -1,3 +1,4 @@
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/dem/contact/contact_nodes_impl.hpp"
 
@@ -16,18 +17,20 @@ void for_each_pair(const Cpu& cpu, const char* name, std::int64_t pairs, const I
 
 } // namespace
 
-void count_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void count_contact_nodes(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
                         const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
                         for_each_pair(cpu, "count pair nodes", pairs.key.size(),
-                                      contact_nodes::CountNodes<Meet>{walk, pairs.first_node.data()});
+                                      contact_nodes::CountNodes<Meet>{walk, pairs.nodes.first.data()});
                     });
 }
 
-void list_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void list_contact_nodes(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
@@ -35,22 +38,37 @@ void list_contact_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bod
                         const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
                         for_each_pair(
                             cpu, "write pair nodes", pairs.key.size(),
-                            contact_nodes::WriteNodes<Meet>{walk, pairs.first_node.data(), pairs.node.data()});
+                            contact_nodes::WriteNodes<Meet>{walk, pairs.nodes.first.data(), pairs.nodes.node.data()});
                     });
 }
 
-void look_up_nodes(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+/// Nothing to list: one lane handles any pair.
+template<class Exec>
+void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>&)
 {
-    if (pairs.node.size() == 0) { return; }
+}
+
+template<class Exec>
+void evaluate_nodes(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    if (pairs.nodes.node.size() == 0) { return; }
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
-                        const contact_nodes::LookUp<Meet> look_up{meet, bodies.count, law, pairs.view()};
-                        constexpr std::int64_t            worth_threads = 128; // about a millisecond
+                        const contact_nodes::EvaluateNodes<Meet> evaluate{meet, bodies.count, law, pairs.view()};
+                        constexpr std::int64_t                   worth_threads = 128; // about a millisecond
                         for_each_heavy(
-                            cpu, "nodes found", node_words(pairs.node.size()),
-                            [=](std::int64_t word) { look_up(word, OneLane{}); }, worth_threads);
+                            cpu, "nodes found", node_words(pairs.nodes.node.size()),
+                            [=](std::int64_t word) { evaluate(word, OneLane{}); }, worth_threads);
                     });
 }
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void count_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                   \
+    template void list_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                    \
+    template void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>&);                                                 \
+    template void evaluate_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

@@ -1,3 +1,4 @@
+#include "backend/instantiate.hpp"
 #include "kernels/dem/contact/contact_nodes_impl.hpp"
 #include "kernels/dem/contact/warp_lanes.cuh"
 #include "kernels/dem/pairs/select.hpp"
@@ -8,18 +9,20 @@ namespace tread::dem
 /// Number of lanes that share a pair: they process a cluster of nodes at a time.
 constexpr int node_lanes = 32;
 
-void count_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void count_contact_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
                         const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
                         for_each_group<node_lanes>(gpu, "count pair nodes", pairs.key.size(),
-                                                   contact_nodes::CountNodes<Meet>{walk, pairs.first_node.data()});
+                                                   contact_nodes::CountNodes<Meet>{walk, pairs.nodes.first.data()});
                     });
 }
 
-void list_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void list_contact_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
@@ -27,7 +30,7 @@ void list_contact_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bod
                         const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
                         for_each_group<node_lanes>(
                             gpu, "write pair nodes", pairs.key.size(),
-                            contact_nodes::WriteNodes<Meet>{walk, pairs.first_node.data(), pairs.node.data()});
+                            contact_nodes::WriteNodes<Meet>{walk, pairs.nodes.first.data(), pairs.nodes.node.data()});
                     });
 }
 
@@ -43,23 +46,34 @@ struct HasManyNodes
 
 } // namespace
 
-void list_pairs_of_many_nodes(const Gpu& gpu, Pairs<Gpu>& pairs)
+template<class Exec>
+void list_pairs_of_many_nodes(const Exec& gpu, Pairs<Exec>& pairs)
 {
-    pairs.many.resize(0);
-    if (pairs.node.size() == 0) { return; }
-    select(gpu, "pairs of many nodes", pairs.key.size(), HasManyNodes{pairs.view()}, pairs.found, pairs.sort,
-           pairs.many);
+    pairs.nodes.many.resize(0);
+    if (pairs.nodes.node.size() == 0) { return; }
+    select(gpu, "pairs of many nodes", pairs.key.size(), HasManyNodes{pairs.view()}, pairs.search.found, pairs.sort,
+           pairs.nodes.many);
 }
 
-void look_up_nodes(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void evaluate_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    if (pairs.node.size() == 0) { return; }
+    if (pairs.nodes.node.size() == 0) { return; }
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
-                        const contact_nodes::LookUp<Meet> look_up{meet, bodies.count, law, pairs.view()};
-                        for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.node.size()), look_up);
+                        const contact_nodes::EvaluateNodes<Meet> evaluate{meet, bodies.count, law, pairs.view()};
+                        for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.nodes.node.size()),
+                                                         evaluate);
                     });
 }
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void count_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                   \
+    template void list_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                    \
+    template void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>&);                                                 \
+    template void evaluate_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

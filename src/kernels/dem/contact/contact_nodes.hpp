@@ -3,18 +3,18 @@
 #include "kernels/dem/pairs/pairs.hpp"
 
 // Lists of the nodes of every pair that may enter the other body, in the order of the template's nodes, those of the
-// first body first. The list is complete while no body moves further than pairs.travel. Pairs of exact spheres, and of
-// a sphere and a wall, have no nodes.
+// first body first. The list is complete while no body moves further than pairs.displacement.allowed. Pairs of exact
+// spheres, and of a sphere and a wall, have no nodes.
 namespace tread::dem
 {
 
-/// Sets pairs.first_node[p] to the number of nodes of pair p, or to -1 for exact spheres, which touch without nodes.
-void count_contact_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-void count_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+/// Sets pairs.nodes.first[p] to the number of nodes of pair p, or to -1 for exact spheres, which touch without nodes.
+template<class Exec>
+void count_contact_nodes(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// Fills pairs.node; pairs.first_node must already hold the start of each pair's run.
-void list_contact_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-void list_contact_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+/// Fills pairs.nodes.node; pairs.nodes.first must already hold the start of each pair's run.
+template<class Exec>
+void list_contact_nodes(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 /// Pairs with more listed nodes than this, and pairs in several patches, get lanes of their own on a GPU, because other
 /// pairs would wait for them.
@@ -29,12 +29,12 @@ TREAD_HD bool has_many_nodes(const PairsView& pairs, std::int64_t p)
            (p + 1 < pairs.count && same_pair(pairs.key[p + 1], key));
 }
 
-/// Fills pairs.many once the list of pairs is complete; does nothing on the CPU.
-inline void list_pairs_of_many_nodes(const Cpu&, Pairs<Cpu>&) {}
-void        list_pairs_of_many_nodes(const Gpu&, Pairs<Gpu>& pairs);
+/// Fills pairs.nodes.many once the list of pairs is complete; does nothing on the CPU.
+template<class Exec>
+void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>& pairs);
 
-/// Computes pairs.found_node and pairs.inside for every listed node at the bodies' present positions.
-void look_up_nodes(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-void look_up_nodes(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+/// Computes pairs.nodes.found and inside for every listed node at the bodies' present positions.
+template<class Exec>
+void evaluate_nodes(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 } // namespace tread::dem

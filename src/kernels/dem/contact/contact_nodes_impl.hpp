@@ -81,7 +81,7 @@ struct Walk
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
         Couple             couple;
         couple.body[0]      = instance_of(bodies, law.templates, a, bodies.position[a]);
-        const double way    = pairs.travel[a];
+        const double way    = pairs.allowed_displacement[a];
         const auto   first  = [](std::int32_t i) { return i; };
         const auto   second = [](std::int32_t i) { return ~i; };
         if (b >= bodies.count)
@@ -92,7 +92,7 @@ struct Walk
         }
         couple.body[1] = instance_of(bodies, law.templates, b, bodies.position[a]);
         const TwoSides<Meet> sides{meet, couple};
-        const double         together = way + pairs.travel[b];
+        const double         together = way + pairs.allowed_displacement[b];
         walk(sides.first(), together, first, lanes, take);
         walk(sides.second(), together, second, lanes, take);
     }
@@ -132,7 +132,7 @@ struct WriteNodes
 
 /// Evaluates the nodes of one word of pairs.inside.
 template<class Meet>
-struct LookUp
+struct EvaluateNodes
 {
     Meet         meet;
     std::int64_t bodies; ///< number of bodies

@@ -69,9 +69,9 @@ struct OfSmallBodies
 template<int threads, int lanes, class F>
 auto body_part(std::int64_t bodies, Pairs<Gpu>& pairs, const F& f)
 {
-    const ItemOfBlock<threads, OfListed<F>> of_large{{f, pairs.large.data()}};
-    return beside(Part{pairs.large.size(), of_large},
-                  group_part<threads, lanes>(bodies, OfSmallBodies<F>{f, pairs.is_large.data()}));
+    const ItemOfBlock<threads, OfListed<F>> of_large{{f, pairs.sizes.large.data()}};
+    return beside(Part{pairs.sizes.large.size(), of_large},
+                  group_part<threads, lanes>(bodies, OfSmallBodies<F>{f, pairs.sizes.is_large.data()}));
 }
 
 } // namespace tread::dem

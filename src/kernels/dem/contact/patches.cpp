@@ -1,3 +1,4 @@
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/dem/contact/patches_impl.hpp"
 
@@ -19,19 +20,29 @@ auto lanes_of(const Cpu& cpu)
 
 } // namespace
 
-void split_patches(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void split_patches(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     patches::split(cpu, pairs, bodies, law, lanes_of(cpu));
 }
 
-bool patch_rows_suffice(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+bool patch_rows_suffice(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     return patches::rows_suffice(cpu, pairs, bodies, law, lanes_of(cpu));
 }
 
-void regroup_patches(const Cpu& cpu, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void regroup_patches(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     patches::regroup(pairs, bodies, law, lanes_of(cpu));
 }
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void split_patches(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                         \
+    template bool patch_rows_suffice(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                    \
+    template void regroup_patches(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

@@ -1,3 +1,4 @@
+#include "backend/instantiate.hpp"
 #include "backend/launch.cuh"
 #include "kernels/dem/contact/patches_impl.hpp"
 #include "kernels/dem/contact/warp_lanes.cuh"
@@ -17,19 +18,29 @@ auto groups_of(const Gpu& gpu)
 
 } // namespace
 
-void split_patches(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void split_patches(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     patches::split(gpu, pairs, bodies, law, groups_of<8>(gpu));
 }
 
-bool patch_rows_suffice(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+bool patch_rows_suffice(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     return patches::rows_suffice(gpu, pairs, bodies, law, groups_of<warp_size>(gpu));
 }
 
-void regroup_patches(const Gpu& gpu, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law)
+template<class Exec>
+void regroup_patches(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     patches::regroup(pairs, bodies, law, groups_of<warp_size>(gpu));
 }
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void split_patches(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                         \
+    template bool patch_rows_suffice(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                    \
+    template void regroup_patches(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

@@ -50,16 +50,16 @@ struct Patches
 /// Splits the newly listed pairs, with their nodes, by the nodes that touch. A pair that had more rows in the previous
 /// list keeps them without nodes, because it may need them again. Friction records of the previous list follow the
 /// nodes, shared in proportion to stiffness (a split conserves their energy; a merge dissipates their difference).
-void split_patches(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-void split_patches(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+template<class Exec>
+void split_patches(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 /// Groups the nodes of a list again. Returns false if some pair needs more rows than it has: the pairs must then be
 /// found again.
-bool patch_rows_suffice(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-bool patch_rows_suffice(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+template<class Exec>
+bool patch_rows_suffice(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 /// Does what split_patches does within the rows that each pair has; call after patch_rows_suffice.
-void regroup_patches(const Cpu&, Pairs<Cpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
-void regroup_patches(const Gpu&, Pairs<Gpu>& pairs, const BodiesView& bodies, const BodyLaw& law);
+template<class Exec>
+void regroup_patches(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 } // namespace tread::dem

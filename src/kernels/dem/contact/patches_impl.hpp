@@ -201,8 +201,8 @@ void take_over(Pairs<Exec>& pairs)
     pairs.key.swap(patches.key);
     pairs.patch.swap(patches.patch);
     if (pairs.resists_rolling) { pairs.rolling.swap(patches.rolling); }
-    pairs.first_node.swap(patches.first_node);
-    pairs.node.swap(patches.node);
+    pairs.nodes.first.swap(patches.first_node);
+    pairs.nodes.node.swap(patches.node);
 }
 
 /// Writes the rows. `run`(name, items, item function) runs an item function with a backend's lanes. Returns whether
@@ -212,21 +212,22 @@ bool write_rows(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 {
     Patches<Exec>&     patches = pairs.patches;
     const std::int64_t count   = pairs.key.size();
-    patches.group.resize(pairs.node.size());
+    patches.group.resize(pairs.nodes.node.size());
     patches.first.resize(count + 1);
-    const LastRows last{pairs.last_key.size(), pairs.last_key.data(), pairs.last_patch.data(),
-                        pairs.resists_rolling ? pairs.last_rolling.data() : nullptr,
+    const LastRows last{pairs.last.key.size(), pairs.last.key.data(), pairs.last.patch.data(),
+                        pairs.resists_rolling ? pairs.last.rolling.data() : nullptr,
                         patches.last_place.size() > 0 ? patches.last_place.data() : nullptr};
     run("group pair nodes", count + 1,
-        CountRows{
-            {bodies, law, pairs.view(), pairs.node_area.data(), patches.group.data()}, last, patches.first.data()});
+        CountRows{{bodies, law, pairs.view(), pairs.sizes.node_area.data(), patches.group.data()},
+                  last,
+                  patches.first.data()});
     const std::int64_t rows = exclusive_scan(exec, patches.first, pairs.sort);
     if (rows == count) { return false; }
     patches.key.resize(rows);
     patches.patch.resize(rows);
     patches.place.resize(rows);
     patches.first_node.resize(rows + 1);
-    patches.node.resize(pairs.node.size());
+    patches.node.resize(pairs.nodes.node.size());
     if (pairs.resists_rolling) { patches.rolling.resize(rows); }
     run("write patches", count + 1,
         WriteRows{{bodies, law, pairs.view(), patches.group.data()},
@@ -250,8 +251,8 @@ void split(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const
         pair_steps::order_again(exec, pairs, bodies);
     }
     else { pairs.patches.place.resize(0); }
-    select(exec, "pairs of several patches", pairs.key.size(), FirstOfSeveral{bodies, law, pairs.view()}, pairs.found,
-           pairs.sort, pairs.patches.several);
+    select(exec, "pairs of several patches", pairs.key.size(), FirstOfSeveral{bodies, law, pairs.view()},
+           pairs.search.found, pairs.sort, pairs.patches.several);
 }
 
 /// Whether the rows of every pair suffice; `run` as in split.
@@ -263,7 +264,7 @@ bool rows_suffice(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
     if (count == 0) { return true; }
     patches.first.resize(count + 1);
     run("group pair nodes again", count + 1,
-        GroupAgain{{bodies, law, pairs.view(), pairs.node_area.data(), patches.group.data()},
+        GroupAgain{{bodies, law, pairs.view(), pairs.sizes.node_area.data(), patches.group.data()},
                    count,
                    patches.several.data(),
                    patches.first.data()});
@@ -279,9 +280,9 @@ void regroup(Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, R
         DealAgain{{bodies, law, pairs.view(), patches.group.data()},
                   patches.several.data(),
                   patches.place.data(),
-                  pairs.first_node.data(),
-                  pairs.node.data(),
-                  pairs.pair_of_node.data(),
+                  pairs.nodes.first.data(),
+                  pairs.nodes.node.data(),
+                  pairs.nodes.pair.data(),
                   patches.node.data()});
 }
 

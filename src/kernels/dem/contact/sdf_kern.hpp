@@ -39,27 +39,27 @@ TREAD_HD SdfCell brick_cell(const TemplateView& shape, const std::int32_t* index
         brick[c] = index[c] >> brick_shift;
         inner[c] = index[c] & (brick_cells - 1);
     }
-    const std::int64_t nx = shape.sdf_bricks[0], ny = shape.sdf_bricks[1];
-    const std::int64_t slot = shape.sdf_slots[brick[0] + nx * (brick[1] + ny * brick[2])];
+    const std::int64_t nx = shape.sdf.bricks[0], ny = shape.sdf.bricks[1];
+    const std::int64_t slot = shape.sdf.slots[brick[0] + nx * (brick[1] + ny * brick[2])];
     SdfCell            cell;
     if (slot >= 0)
     {
         cell.row   = brick_nodes;
         cell.layer = brick_nodes * brick_nodes;
         cell.low =
-            shape.sdf_values + brick_nodes * cell.layer * slot + inner[0] + cell.row * inner[1] + cell.layer * inner[2];
+            shape.sdf.values + brick_nodes * cell.layer * slot + inner[0] + cell.row * inner[1] + cell.layer * inner[2];
         for (int c = 0; c < 3; ++c) { cell.fraction[c] = at[c] - static_cast<double>(index[c]); }
-        cell.inverse_spacing = shape.sdf_inverse_spacing;
+        cell.inverse_spacing = shape.sdf.inverse_spacing;
         return cell;
     }
     cell.row   = nx + 1;
     cell.layer = cell.row * (ny + 1);
-    cell.low   = shape.sdf_corners + brick[0] + cell.row * brick[1] + cell.layer * brick[2];
+    cell.low   = shape.sdf.corners + brick[0] + cell.row * brick[1] + cell.layer * brick[2];
     for (int c = 0; c < 3; ++c)
     {
         cell.fraction[c] = (at[c] - static_cast<double>(brick_cells * brick[c])) / brick_cells;
     }
-    cell.inverse_spacing = shape.sdf_inverse_spacing / brick_cells;
+    cell.inverse_spacing = shape.sdf.inverse_spacing / brick_cells;
     return cell;
 }
 
@@ -69,17 +69,17 @@ TREAD_HD SdfCell find_cell(const TemplateView& shape, const Vec3<double>& at)
     std::int32_t index[3];
     for (int c = 0; c < 3; ++c)
     {
-        const std::int32_t last = shape.sdf_nodes[c] - 2;
+        const std::int32_t last = shape.sdf.nodes[c] - 2;
         const auto         i    = static_cast<std::int32_t>(at[c]);
         index[c]                = i < last ? i : last;
     }
-    if (shape.sdf_slots != nullptr) { return brick_cell(shape, index, at); }
+    if (shape.sdf.slots != nullptr) { return brick_cell(shape, index, at); }
     SdfCell cell;
-    cell.row   = shape.sdf_nodes[0];
-    cell.layer = cell.row * shape.sdf_nodes[1];
-    cell.low   = shape.sdf_values + index[0] + cell.row * index[1] + cell.layer * index[2];
+    cell.row   = shape.sdf.nodes[0];
+    cell.layer = cell.row * shape.sdf.nodes[1];
+    cell.low   = shape.sdf.values + index[0] + cell.row * index[1] + cell.layer * index[2];
     for (int c = 0; c < 3; ++c) { cell.fraction[c] = at[c] - static_cast<double>(index[c]); }
-    cell.inverse_spacing = shape.sdf_inverse_spacing;
+    cell.inverse_spacing = shape.sdf.inverse_spacing;
     return cell;
 }
 
@@ -111,16 +111,16 @@ TREAD_HD SdfSample interpolate_sdf(const TemplateView& shape, const Vec3<double>
 /// of the value (at least 0) at the box's nearest point, with its exact gradient.
 TREAD_HD SdfSample sample_template_sdf(const TemplateView& shape, const Vec3<double>& point)
 {
-    const Vec3<double> cell = (point - shape.sdf_origin) * shape.sdf_inverse_spacing;
+    const Vec3<double> cell = (point - shape.sdf.origin) * shape.sdf.inverse_spacing;
     Vec3<double>       nearest;
     for (int c = 0; c < 3; ++c)
     {
-        nearest[c] = std::fmin(std::fmax(cell[c], 0.0), static_cast<double>(shape.sdf_nodes[c] - 1));
+        nearest[c] = std::fmin(std::fmax(cell[c], 0.0), static_cast<double>(shape.sdf.nodes[c] - 1));
     }
     SdfSample sample = interpolate_sdf(shape, nearest);
     if (nearest == cell) { return sample; }
 
-    const Vec3<double> gap    = (cell - nearest) * shape.sdf_spacing;
+    const Vec3<double> gap    = (cell - nearest) * shape.sdf.spacing;
     const double       inside = std::fmax(sample.distance, 0.0);
     const double       bound  = std::sqrt(gap.squaredNorm() + inside * inside);
     for (int c = 0; c < 3; ++c)
@@ -151,37 +151,38 @@ TREAD_HD double cell_uncertainty(double edge) { return 0.5 * std::sqrt(3.0) * ed
 /// Maximum error at the surface, where every cell is fine.
 TREAD_HD double surface_uncertainty(const TemplateView& shape, double scale)
 {
-    return cell_uncertainty(shape.sdf_spacing) * scale;
+    return cell_uncertainty(shape.sdf.spacing) * scale;
 }
 
-/// Maximum error at any position no further than `distance` (m, true) outside the surface. Nearer than sdf_fine_reach
+/// Maximum error at any position no further than `distance` (m, true) outside the surface. Nearer than fine_reach
 /// all corners of a cell are exact. Beyond, a cell may be a whole brick or have corners on the face of one: these have
 /// an error of half the face's diagonal, which together with the error of a fine cell is still below that of a brick.
 TREAD_HD double sdf_uncertainty(const TemplateView& shape, double scale, double distance)
 {
-    const bool fine = shape.sdf_slots == nullptr || distance <= scale * shape.sdf_fine_reach;
-    return cell_uncertainty((fine ? 1 : brick_cells) * shape.sdf_spacing) * scale;
+    const bool fine = shape.sdf.slots == nullptr || distance <= scale * shape.sdf.fine_reach;
+    return cell_uncertainty((fine ? 1 : brick_cells) * shape.sdf.spacing) * scale;
 }
 
 /// Upper bound of the interpolant at every position from which a point can come within `radius` of the interpolated
-/// surface when it moves by at most half of `travel`, m, and at every nearer position.
-/// The slope of the interpolant is at most sqrt(3) where cells are exact: there radius + travel is a bound. A path that
-/// leaves this region starts at sdf_fine_reach or beyond; to end within `radius`, that distance must be below the sum
-/// below. In that case the distance at the start (at most radius + uncertainty + travel/2) and its error are added.
-TREAD_HD double search_bound(const TemplateView& shape, double scale, double radius, double travel)
+/// surface when it moves by at most half of `displacement`, m, and at every nearer position.
+/// The slope of the interpolant is at most sqrt(3) where cells are exact: there radius + displacement is a bound. A
+/// path that leaves this region starts at fine_reach or beyond; to end within `radius`, that distance must be below the
+/// sum below. In that case the distance at the start (at most radius + uncertainty + displacement/2) and its error are
+/// added.
+TREAD_HD double search_bound(const TemplateView& shape, double scale, double radius, double displacement)
 {
-    const double bound = radius + travel, at_surface = surface_uncertainty(shape, scale);
-    if (shape.sdf_slots == nullptr || bound + at_surface <= scale * shape.sdf_fine_reach) { return bound; }
-    return bound + at_surface + cell_uncertainty(brick_cells * shape.sdf_spacing) * scale;
+    const double bound = radius + displacement, at_surface = surface_uncertainty(shape, scale);
+    if (shape.sdf.slots == nullptr || bound + at_surface <= scale * shape.sdf.fine_reach) { return bound; }
+    return bound + at_surface + cell_uncertainty(brick_cells * shape.sdf.spacing) * scale;
 }
 
 /// Upper bound of the interpolant at every position from which a point can reach the interpolated surface when it moves
 /// by at most `way`, m, and at every nearer one: as search_bound, with the actual maximum slope of the interpolant.
 TREAD_HD double approach_bound(const TemplateView& shape, double scale, double way)
 {
-    const double bound = shape.sdf_steepest * way, at_surface = surface_uncertainty(shape, scale);
-    if (shape.sdf_slots == nullptr || bound + at_surface <= scale * shape.sdf_fine_reach) { return bound; }
-    return 2.0 * way + at_surface + cell_uncertainty(brick_cells * shape.sdf_spacing) * scale;
+    const double bound = shape.sdf.steepest * way, at_surface = surface_uncertainty(shape, scale);
+    if (shape.sdf.slots == nullptr || bound + at_surface <= scale * shape.sdf.fine_reach) { return bound; }
+    return 2.0 * way + at_surface + cell_uncertainty(brick_cells * shape.sdf.spacing) * scale;
 }
 
 } // namespace tread::dem

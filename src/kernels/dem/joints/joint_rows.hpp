@@ -44,8 +44,10 @@ struct JointLink
 {
     Vec3<double> velocity;         ///< m/s, after the substep
     Vec3<double> angular_velocity; ///< rad/s, at mid-step: that which turns the body
-    Vec3<double> inverse_mass;     ///< 1/kg; 0 in locked directions
+    Mat3<double> mobility;         ///< 1/kg, world frame; 0 in locked directions
     Mat3<double> response;         ///< 1/(kg m2), world frame; 0 in locked directions
+    double       inverse_mass;     ///< 1/kg, of the body without locks
+    double       inverse_inertia;  ///< 1/(kg m2), likewise: bound over all axes
 };
 
 /// View of the joints of a scene and of the memory of their solve.

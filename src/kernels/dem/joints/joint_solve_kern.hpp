@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "kernels/dem/joints/joint_rows.hpp"
-#include "kernels/dem/motion/integrate_kern.hpp"
+#include "kernels/dem/motion/prescribed_kern.hpp"
 
 // Solves the rows of all joints for their impulses: a dense symmetric system, by Gauss-Jordan elimination in the order
 // of the rows. Impulses with bounds are found by active sets: those over a bound are held there, and the rest is solved
@@ -13,6 +13,10 @@ namespace tread::dem::joint_solve
 
 /// Pivots below this share of a row's diagonal mean that the row depends on rows before it.
 inline constexpr double least_pivot = 1e-9;
+
+/// Rows that yield less than this share of what their bodies without locks would are held: their impulses are not
+/// determined.
+inline constexpr double least_yield = 1e-12;
 
 /// Largest number of solves in a substep. The states are kept, so that later substeps go on where this one stopped.
 inline constexpr int most_rounds = 8;
@@ -58,28 +62,72 @@ TREAD_HD JointLink free_motion(const BodiesView& bodies, std::int64_t b, const C
 
     JointLink link;
     link.velocity = bodies.velocity[b];
+    link.mobility = Mat3<double>::Zero();
     for (int c = 0; c < 3; ++c)
     {
-        const bool held      = is_locked(locked, lock_x, c);
-        link.inverse_mass[c] = held ? 0.0 : 1 / bodies.mass[b];
-        link.velocity[c] += dt * link.inverse_mass[c] * (contact.force[c] + bodies.mass[b] * gravity[c]);
+        if (is_locked(locked, lock_x, c)) { continue; }
+        link.mobility(c, c) = 1 / bodies.mass[b];
+        link.velocity[c] += dt * link.mobility(c, c) * (contact.force[c] + bodies.mass[b] * gravity[c]);
     }
     link.angular_velocity = angular_velocity_of(half.toRotationMatrix(), inertia, inverse, momentum, before, locked);
     link.response         = response_of(rotation, inverse, inertia, locked);
+    link.inverse_mass     = 1 / bodies.mass[b];
+    link.inverse_inertia  = inverse.trace();
     return link;
+}
+
+/// The same of a body with a prescribed motion, as integrate_prescribed finds it. A held direction yields to no joint.
+/// Friction of the axle is that without the joints.
+TREAD_HD JointLink prescribed_motion(const BodiesView& bodies, std::int64_t b, const Prescribed& motion,
+                                     const ContactWrench& contact, const Vec3<double>& gravity, double dt)
+{
+    const double        mass    = bodies.mass[b];
+    const Mat3<double>  inertia = full(bodies.inertia[b]), inverse = inertia.inverse();
+    const Quat          start    = bodies.orientation[b];
+    const Mat3<double>  rotation = start.toRotationMatrix();
+    const HeldSpin      first    = held_spin(motion, rotation);
+    const Vec3<double>& before   = bodies.angular_velocity[b];
+    const Vec3<double>  momentum = kick_of(motion, first, rotation, inertia, before, contact.torque, dt).momentum;
+    const Vec3<double>  kicked   = angular_velocity_held(first, rotation, inverse, momentum);
+    const Mat3<double>  half     = (rotation_by(0.5 * dt * kicked) * start).toRotationMatrix();
+
+    JointLink link;
+    link.velocity =
+        velocity_after(motion, bodies.position[b][2], bodies.velocity[b], contact.force + mass * gravity, mass, dt);
+    link.angular_velocity = angular_velocity_held(held_spin(motion, half), half, inverse, momentum);
+    link.mobility         = mobility_of(motion, mass, dt);
+    link.response         = response_held(first, rotation, inverse);
+    link.inverse_mass     = 1 / mass;
+    link.inverse_inertia  = inverse.trace();
+    return link;
+}
+
+/// Makes a row that yields to no impulse.
+TREAD_HD void hold(JointRow& row)
+{
+    row.diagonal = 0;
+    for (int s = 0; s < row.sides; ++s)
+    {
+        row.linear_response[s].setZero();
+        row.angular_response[s].setZero();
+    }
 }
 
 /// Computes how the bodies of a row yield to its impulse.
 TREAD_HD void respond(const JointsView& joints, JointRow& row)
 {
-    row.diagonal = 0;
+    double unlocked = 0;
+    row.diagonal    = 0;
     for (int s = 0; s < row.sides; ++s)
     {
         const JointLink& link   = joints.link[row.link[s]];
-        row.linear_response[s]  = link.inverse_mass.cwiseProduct(row.linear[s]);
+        row.linear_response[s]  = link.mobility * row.linear[s];
         row.angular_response[s] = link.response * row.angular[s];
         row.diagonal += row.linear[s].dot(row.linear_response[s]) + row.angular[s].dot(row.angular_response[s]);
+        unlocked +=
+            link.inverse_mass * row.linear[s].squaredNorm() + link.inverse_inertia * row.angular[s].squaredNorm();
     }
+    if (row.diagonal <= least_yield * unlocked) { hold(row); }
     row.softness += row.relative_softness * row.diagonal;
     row.diagonal += row.softness;
 }

@@ -106,7 +106,8 @@ JointsView Joints<Exec>::view()
             matrix_.data(), wrench_.data(), record_.data(), changed_.data()};
 }
 
-void solve_joints(const Cpu& cpu, const BodyStep<Cpu>& step)
+template<class Exec>
+void solve_joints(const Exec& cpu, const BodyStep<Exec>& step)
 {
     cpu.counters->launched("joints");
     joint_steps::with_joints(step, [](const auto& solve) { solve(OneThread{}); });
@@ -114,6 +115,10 @@ void solve_joints(const Cpu& cpu, const BodyStep<Cpu>& step)
 
 #define TREAD_INSTANTIATE(Exec) template class Joints<Exec>
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+#define TREAD_INSTANTIATE(Exec) template void solve_joints(const Exec&, const BodyStep<Exec>&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

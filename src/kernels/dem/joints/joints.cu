@@ -1,3 +1,4 @@
+#include "backend/instantiate.hpp"
 #include "backend/launch.cuh"
 #include "kernels/dem/contact/warp_lanes.cuh"
 #include "kernels/dem/joints/joints_impl.hpp"
@@ -30,10 +31,15 @@ struct ByBlock
 
 } // namespace
 
-void solve_joints(const Gpu& gpu, const BodyStep<Gpu>& step)
+template<class Exec>
+void solve_joints(const Exec& gpu, const BodyStep<Exec>& step)
 {
     joint_steps::with_joints(step, [&]<class Solve>(const Solve& solve)
                              { for_each_block<joint_threads>(gpu, "joints", 1, ByBlock<Solve>{solve}); });
 }
+
+#define TREAD_INSTANTIATE(Exec) template void solve_joints(const Exec&, const BodyStep<Exec>&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

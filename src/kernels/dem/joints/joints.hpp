@@ -54,7 +54,7 @@ private:
 /// Computes the wrenches of the joints for the substep that move_bodies is about to do, from the same contact forces:
 /// velocities after it remove the joints' errors within the substep. On several ranks each rank with a jointed body
 /// has all of them, and reaches the same bits. One block on a GPU; allocates nothing.
-void solve_joints(const Cpu&, const BodyStep<Cpu>& step);
-void solve_joints(const Gpu&, const BodyStep<Gpu>& step);
+template<class Exec>
+void solve_joints(const Exec&, const BodyStep<Exec>& step);
 
 } // namespace tread::dem

@@ -14,13 +14,14 @@ namespace tread::dem::joint_steps
 template<class Outside>
 struct SolveJoints
 {
-    BodiesView   bodies;
-    PairsView    pairs; ///< first = null: pairs were never found
-    Vec3<double> gravity;
-    double       dt;
-    Outside      outside;
-    SharedView   shared;
-    JointsView   joints;
+    BodiesView     bodies;
+    PairsView      pairs; ///< first = null: pairs were never found
+    Vec3<double>   gravity;
+    double         dt;
+    Outside        outside;
+    SharedView     shared;
+    JointsView     joints;
+    PrescribedView motions; ///< empty in a scene without motions
 
     template<class Team>
     TREAD_HD void operator()(const Team& team) const
@@ -54,8 +55,11 @@ private:
         WrenchShare acting{outside(b, lanes), share.contact};
         if (lanes.lane() != 0) { return; }
         if (shared.is_shared(b)) { acting = wrench_of(shared, shared.place[b]); }
-        const double weight = bodies.acting_weight(b, bodies.locked[b]);
-        joints.link[k]      = joint_solve::free_motion(bodies, b, acting.outside + acting.pairs, weight * gravity, dt);
+        const ContactWrench contact = acting.outside + acting.pairs;
+        const Vec3<double>  pull    = bodies.acting_weight(b, bodies.locked[b]) * gravity;
+        const bool          moved   = (bodies.locked[b] & prescribed) != 0;
+        joints.link[k] = moved ? joint_solve::prescribed_motion(bodies, b, motions.motion[b], contact, pull, dt)
+                               : joint_solve::free_motion(bodies, b, contact, pull, dt);
     }
 
     /// Sums the impulses on a body in the order of the rows.
@@ -123,7 +127,8 @@ void with_joints(const BodyStep<Exec>& step, Run run)
                          [&]<class Outside>(const Outside& outside)
                          {
                              run(SolveJoints<Outside>{step.bodies, step.pairs.view(), step.motion.gravity,
-                                                      step.motion.dt, outside, step.shared, step.joints});
+                                                      step.motion.dt, outside, step.shared, step.joints,
+                                                      step.prescribed});
                          });
 }
 

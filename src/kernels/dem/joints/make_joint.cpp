@@ -1,6 +1,8 @@
 #include "kernels/dem/joints/make_joint.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include <Eigen/Dense>
 
@@ -54,6 +56,56 @@ Eigen::VectorXd direction_of(const JointRow& row, std::size_t bodies)
     return vector / std::max(vector.norm(), joint_rows::least_length);
 }
 
+constexpr double independent = 1e-6; ///< sine of the angle between a row and those before it
+
+/// Directions of all freedoms and their rates, by Gram-Schmidt.
+struct KnownRates
+{
+    std::vector<Eigen::VectorXd> direction; ///< orthonormal
+    std::vector<double>          rate;
+
+    /// Adds a direction of unit length with its rate, if it is independent of those before. If not, returns what the
+    /// rate differs by from that which they give it.
+    std::optional<double> add(Eigen::VectorXd left, double wanted)
+    {
+        for (int pass = 0; pass < 2; ++pass)
+        {
+            for (std::size_t k = 0; k < direction.size(); ++k)
+            {
+                const double share = direction[k].dot(left);
+                left -= share * direction[k];
+                wanted -= share * rate[k];
+            }
+        }
+        const double length = left.norm();
+        if (length <= independent) { return wanted; }
+        direction.emplace_back(left / length);
+        rate.push_back(wanted / length);
+        return {};
+    }
+};
+
+/// Calls visit(joint, direction of unit length) for each row of the joints' ties.
+template<class Visit>
+void for_each_tie(const std::vector<Joint>& joints, std::vector<Vec3<double>> positions, std::vector<Quat> orientations,
+                  Visit visit)
+{
+    std::vector<std::int32_t> place(positions.size());
+    for (std::size_t b = 0; b < place.size(); ++b) { place[b] = static_cast<std::int32_t>(b); }
+    BodiesView bodies{};
+    bodies.position    = positions.data();
+    bodies.orientation = orientations.data();
+    for (std::size_t j = 0; j < joints.size(); ++j)
+    {
+        for (const JointRow& row : tied_rows(joints, j, bodies, place)) { visit(j, direction_of(row, place.size())); }
+    }
+}
+
+void add_once(std::vector<std::size_t>& list, std::size_t joint)
+{
+    if (list.empty() || list.back() != joint) { list.push_back(joint); }
+}
+
 } // namespace
 
 Joint make_joint(JointKind kind, std::array<std::int32_t, 2> bodies, const JointPlace& place,
@@ -82,35 +134,41 @@ Joint make_differential(std::array<std::int32_t, 2> revolutes)
     return joint;
 }
 
-/// Gram-Schmidt over the rows in order.
 std::vector<std::size_t> dependent_joints(const std::vector<Joint>& joints, const std::vector<Vec3<double>>& positions,
                                           const std::vector<Quat>& orientations)
 {
-    constexpr double          independent = 1e-6; // sine of the angle between a row and those before it
-    std::vector<Vec3<double>> position    = positions;
-    std::vector<Quat>         orientation = orientations;
-    std::vector<std::int32_t> place(positions.size());
-    for (std::size_t b = 0; b < place.size(); ++b) { place[b] = static_cast<std::int32_t>(b); }
-    BodiesView bodies{};
-    bodies.position    = position.data();
-    bodies.orientation = orientation.data();
-
-    std::vector<Eigen::VectorXd> basis;
-    std::vector<std::size_t>     dependent;
-    for (std::size_t j = 0; j < joints.size(); ++j)
-    {
-        for (const JointRow& row : tied_rows(joints, j, bodies, place))
-        {
-            Eigen::VectorXd left = direction_of(row, positions.size());
-            for (int pass = 0; pass < 2; ++pass)
-            {
-                for (const Eigen::VectorXd& known : basis) { left -= known.dot(left) * known; }
-            }
-            if (left.norm() > independent) { basis.push_back(left.normalized()); }
-            else if (dependent.empty() || dependent.back() != j) { dependent.push_back(j); }
-        }
-    }
+    KnownRates               known;
+    std::vector<std::size_t> dependent;
+    for_each_tie(joints, positions, orientations,
+                 [&](std::size_t j, const Eigen::VectorXd& direction)
+                 {
+                     if (known.add(direction, 0)) { add_once(dependent, j); }
+                 });
     return dependent;
+}
+
+std::vector<std::size_t> joints_pulled_apart(const std::vector<Joint>&        joints,
+                                             const std::vector<Vec3<double>>& positions,
+                                             const std::vector<Quat>& orientations, const std::vector<GivenRate>& given)
+{
+    KnownRates known;
+    double     largest = 0;
+    for (const GivenRate& one : given)
+    {
+        Eigen::VectorXd direction              = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * positions.size()));
+        direction.segment<3>(6 * one.body)     = one.linear;
+        direction.segment<3>(6 * one.body + 3) = one.angular;
+        known.add(direction, one.rate);
+        largest = std::max(largest, std::abs(one.rate));
+    }
+    std::vector<std::size_t> apart;
+    for_each_tie(joints, positions, orientations,
+                 [&](std::size_t j, const Eigen::VectorXd& direction)
+                 {
+                     const std::optional<double> off = known.add(direction, 0);
+                     if (off && std::abs(*off) > independent * largest) { add_once(apart, j); }
+                 });
+    return apart;
 }
 
 } // namespace tread::dem

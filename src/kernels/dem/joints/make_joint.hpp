@@ -27,4 +27,20 @@ Joint make_differential(std::array<std::int32_t, 2> revolutes);
 std::vector<std::size_t> dependent_joints(const std::vector<Joint>& joints, const std::vector<Vec3<double>>& positions,
                                           const std::vector<Quat>& orientations);
 
+/// A direction of a body whose rate is prescribed: linear . v + angular . omega = rate.
+struct GivenRate
+{
+    std::int32_t body;
+    Vec3<double> linear;  ///< a unit vector, or 0
+    Vec3<double> angular; ///< likewise; one of both is 0
+    double       rate;    ///< m/s or rad/s
+};
+
+/// Finds the joints that given rates pull apart: a row of theirs depends on given directions and on rows before it, and
+/// they give it a rate other than 0.
+std::vector<std::size_t> joints_pulled_apart(const std::vector<Joint>&        joints,
+                                             const std::vector<Vec3<double>>& positions,
+                                             const std::vector<Quat>&         orientations,
+                                             const std::vector<GivenRate>&    given);
+
 } // namespace tread::dem

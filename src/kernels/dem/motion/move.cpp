@@ -1,3 +1,4 @@
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/dem/joints/joints.hpp"
 #include "kernels/dem/motion/move_impl.hpp"
@@ -5,14 +6,16 @@
 namespace tread::dem
 {
 
-void share_wrenches(const Cpu& cpu, const BodyStep<Cpu>& step)
+template<class Exec>
+void share_wrenches(const Exec& cpu, const BodyStep<Exec>& step)
 {
     moving::with_share(
         step, [&](const auto& share)
         { for_each(cpu, "share wrenches", step.shared.count, [=](std::int64_t i) { share(i, OneLane{}); }); });
 }
 
-void move_bodies(const Cpu& cpu, const BodyStep<Cpu>& step)
+template<class Exec>
+void move_bodies(const Exec& cpu, const BodyStep<Exec>& step)
 {
     if (step.joints.row_count > 0) { solve_joints(cpu, step); }
     moving::with_move(step,
@@ -20,5 +23,11 @@ void move_bodies(const Cpu& cpu, const BodyStep<Cpu>& step)
                           for_each(cpu, "move bodies", step.bodies.count, [=](std::int64_t b) { move(b, OneLane{}); });
                       });
 }
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void share_wrenches(const Exec&, const BodyStep<Exec>&);                                                  \
+    template void move_bodies(const Exec&, const BodyStep<Exec>&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

@@ -1,3 +1,4 @@
+#include "backend/instantiate.hpp"
 #include "kernels/dem/contact/lane_parts.cuh"
 #include "kernels/dem/joints/joints.hpp"
 #include "kernels/dem/motion/move_impl.hpp"
@@ -17,7 +18,8 @@ void launch(const Gpu& gpu, const BodyStep<Gpu>& step, const Move& move)
 
 } // namespace
 
-void share_wrenches(const Gpu& gpu, const BodyStep<Gpu>& step)
+template<class Exec>
+void share_wrenches(const Exec& gpu, const BodyStep<Exec>& step)
 {
     constexpr int threads = 128;
     moving::with_share(step,
@@ -28,7 +30,8 @@ void share_wrenches(const Gpu& gpu, const BodyStep<Gpu>& step)
                        });
 }
 
-void move_bodies(const Gpu& gpu, const BodyStep<Gpu>& step)
+template<class Exec>
+void move_bodies(const Exec& gpu, const BodyStep<Exec>& step)
 {
     constexpr std::int64_t few = 10000; // too few to fill the device: several lanes gather, one moves
     if (step.joints.row_count > 0) { solve_joints(gpu, step); }
@@ -39,5 +42,11 @@ void move_bodies(const Gpu& gpu, const BodyStep<Gpu>& step)
                           else { launch<1>(gpu, step, move); }
                       });
 }
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void share_wrenches(const Exec&, const BodyStep<Exec>&);                                                  \
+    template void move_bodies(const Exec&, const BodyStep<Exec>&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

@@ -46,14 +46,14 @@ struct BodyStep
 
 /// First part of move_bodies on several ranks: computes this rank's shares step.shared.wrench, which are then
 /// exchanged.
-void share_wrenches(const Cpu&, const BodyStep<Cpu>& step);
-void share_wrenches(const Gpu&, const BodyStep<Gpu>& step);
+template<class Exec>
+void share_wrenches(const Exec&, const BodyStep<Exec>& step);
 
 /// Second half of a substep, after evaluate_contacts. Sets every body's force, torque and stiffness to the sum of the
 /// external wrenches and of its pairs' responses (if pairs were ever found); adds wall impulses, losses and the
 /// impulses of named bodies to the energy and momentum balance; solves the joints; and moves all bodies. Every sum has
 /// a fixed order on one backend. Allocates nothing.
-void move_bodies(const Cpu&, const BodyStep<Cpu>& step);
-void move_bodies(const Gpu&, const BodyStep<Gpu>& step);
+template<class Exec>
+void move_bodies(const Exec&, const BodyStep<Exec>& step);
 
 } // namespace tread::dem

@@ -208,13 +208,13 @@ struct Move
         const WrenchShare acting = of_all_ranks(b, {outside(b, lanes), share.contact});
         if (lanes.lane() != 0) { return; }
         const ContactWrench contact = acting.outside + acting.pairs;
-        book(b, share, contact);
-        BodyTotal        unbooked;
+        account_contacts(b, share, contact);
+        BodyTotal        unused;
         const double     weight = bodies.acting_weight(b, body.locked);
-        const MeanMotion mean   = integrate(b, body, with_joints(b, contact), weight * gravity, *book_of(b, unbooked));
-        if (joints.place != nullptr) { book_joints(b, mean, *book_of(b, unbooked)); }
-        if (weight != 1) { book_hanging((weight - 1) * body.mass * gravity, mean, *book_of(b, unbooked)); }
-        if constexpr (Outside::acts) { book_outside(acting.outside, mean, *book_of(b, unbooked)); }
+        const MeanMotion mean   = integrate(b, body, with_joints(b, contact), weight * gravity, *total_of(b, unused));
+        if (joints.place != nullptr) { account_joints(b, mean, *total_of(b, unused)); }
+        if (weight != 1) { account_carried_weight((weight - 1) * body.mass * gravity, mean, *total_of(b, unused)); }
+        if constexpr (Outside::acts) { account_outside(acting.outside, mean, *total_of(b, unused)); }
         store_motion(bodies, b, body);
         if (pairs.body != nullptr) { show(body, shown, pairs.body + b); }
     }
@@ -254,16 +254,16 @@ private:
 
     /// Returns the body's totals; the owner accounts for a ghost's motion. One call integrates both kinds, because a
     /// compiler may round two calls differently.
-    TREAD_HD BodyTotal* book_of(std::int64_t b, BodyTotal& unbooked) const
+    TREAD_HD BodyTotal* total_of(std::int64_t b, BodyTotal& unused) const
     {
         if constexpr (Ranks::of_several)
         {
-            if (!bodies.is_owned(b)) { return &unbooked; }
+            if (!bodies.is_owned(b)) { return &unused; }
         }
         return totals + b;
     }
 
-    TREAD_HD void book(std::int64_t b, const BodyShare& share, const ContactWrench& contact) const
+    TREAD_HD void account_contacts(std::int64_t b, const BodyShare& share, const ContactWrench& contact) const
     {
         bodies.force[b]     = contact.force;
         bodies.torque[b]    = contact.torque;
@@ -278,7 +278,7 @@ private:
         }
     }
 
-    TREAD_HD void book_outside(const ContactWrench& wrench, const MeanMotion& mean, BodyTotal& total) const
+    TREAD_HD void account_outside(const ContactWrench& wrench, const MeanMotion& mean, BodyTotal& total) const
     {
         const double power = wrench.force.dot(mean.velocity) + wrench.torque.dot(mean.angular_velocity);
         if (power != 0) { total.sand_work += dt * power; }
@@ -293,7 +293,7 @@ private:
 
     /// Adds the impulse of joints, which is that of the world on the sum of all bodies, and the work of springs, motors
     /// and limits. Ties do no work: what they do by their error is left unaccounted.
-    TREAD_HD void book_joints(std::int64_t b, const MeanMotion& mean, BodyTotal& total) const
+    TREAD_HD void account_joints(std::int64_t b, const MeanMotion& mean, BodyTotal& total) const
     {
         if (joints.place[b] < 0) { return; }
         const JointWrench& pull = joints.wrench[joints.place[b]];
@@ -303,7 +303,7 @@ private:
     }
 
     /// Adds the work of the constraint that carries a share of the weight, as for locked degrees of freedom.
-    TREAD_HD void book_hanging(const Vec3<double>& force, const MeanMotion& mean, BodyTotal& total) const
+    TREAD_HD void account_carried_weight(const Vec3<double>& force, const MeanMotion& mean, BodyTotal& total) const
     {
         total.holding_impulse += dt * force;
         total.holding_work += dt * force.dot(mean.velocity);

@@ -55,6 +55,19 @@ TREAD_HD Vec3<double> angular_velocity_held(const HeldSpin& spin, const Mat3<dou
     return free + inverse * (spin.axes * multiplier);
 }
 
+/// Change of angular_velocity_held by a unit of momentum, 1/(kg m2).
+TREAD_HD Mat3<double> response_held(const HeldSpin& spin, const Mat3<double>& rotation,
+                                    const Mat3<double>& inverse_inertia)
+{
+    const HeldSpin still{spin.axes, Vec3<double>::Zero(), spin.held};
+    Mat3<double>   response;
+    for (int c = 0; c < 3; ++c)
+    {
+        response.col(c) = angular_velocity_held(still, rotation, inverse_inertia, Vec3<double>::Unit(c));
+    }
+    return response;
+}
+
 /// Force (N) of the carriage along z. The damper acts on the mean velocity of the step under `others` (N), the other
 /// vertical forces, so that no damping constant is unstable.
 TREAD_HD double carriage_force(const Prescribed& motion, double z, double velocity, double others, double mass,
@@ -65,6 +78,33 @@ TREAD_HD double carriage_force(const Prescribed& motion, double z, double veloci
     return spring - motion.damping * (velocity + half * (others + spring)) / (1 + half * motion.damping);
 }
 
+/// Velocity after a step of dt (s) of a body at the height z (m) that had the velocity `before`, under `outer` (N), all
+/// forces but those of the motion.
+TREAD_HD Vec3<double> velocity_after(const Prescribed& motion, double z, const Vec3<double>& before,
+                                     const Vec3<double>& outer, double mass, double dt)
+{
+    Vec3<double> acting = outer + motion.force;
+    acting[2] += carriage_force(motion, z, before[2], acting[2], mass, dt);
+    Vec3<double> along = motion.frame.transpose() * (before + dt / mass * acting);
+    for (int c = 0; c < 3; ++c)
+    {
+        if (is_locked(motion.held, lock_x, c)) { along[c] = motion.velocity[c]; }
+    }
+    return motion.frame * along;
+}
+
+/// Change of velocity_after by a unit impulse, 1/kg.
+TREAD_HD Mat3<double> mobility_of(const Prescribed& motion, double mass, double dt)
+{
+    Mat3<double> along = motion.frame.transpose();
+    along.col(2) /= 1 + 0.5 * dt / mass * motion.damping;
+    for (int c = 0; c < 3; ++c)
+    {
+        if (is_locked(motion.held, lock_x, c)) { along.row(c).setZero(); }
+    }
+    return motion.frame * along / mass;
+}
+
 /// Moves a body by dt (s); `gravity` in m/s2. Adds the reaction's work to `total`, and its impulse to both. Returns the
 /// velocity at mid-step.
 TREAD_HD Vec3<double> translate_prescribed(const Prescribed& motion, BodyMotion& body, const Vec3<double>& contact,
@@ -72,14 +112,7 @@ TREAD_HD Vec3<double> translate_prescribed(const Prescribed& motion, BodyMotion&
                                            ContactImpulse& reaction)
 {
     const Vec3<double> before = body.velocity, outer = contact + body.mass * gravity;
-    Vec3<double>       acting = outer + motion.force;
-    acting[2] += carriage_force(motion, body.position[2], before[2], acting[2], body.mass, dt);
-    Vec3<double> along = motion.frame.transpose() * (before + dt / body.mass * acting);
-    for (int c = 0; c < 3; ++c)
-    {
-        if (is_locked(motion.held, lock_x, c)) { along[c] = motion.velocity[c]; }
-    }
-    const Vec3<double> after   = motion.frame * along;
+    const Vec3<double> after   = velocity_after(motion, body.position[2], before, outer, body.mass, dt);
     Vec3<double>       mean    = 0.5 * (before + after);
     const Vec3<double> impulse = body.mass * (after - before) - dt * outer;
     total.holding_impulse += impulse;
@@ -105,6 +138,26 @@ TREAD_HD double axle_friction(const Prescribed& motion, const HeldSpin& spin, co
     return stops > most ? most : stops < -most ? -most : stops;
 }
 
+/// What a substep adds to the angular momentum of a body before it turns. N m s.
+struct SpinKick
+{
+    Vec3<double> driving;  ///< impulse of the motion's torques
+    Vec3<double> rubbing;  ///< impulse of the axle's friction
+    Vec3<double> momentum; ///< angular momentum with these and the torque of contacts
+};
+
+/// `first`: axes held at the orientation `rotation`; `spin`: rad/s, at the start; `torque`: N m, of all but the motion.
+TREAD_HD SpinKick kick_of(const Prescribed& motion, const HeldSpin& first, const Mat3<double>& rotation,
+                          const Mat3<double>& inertia, const Vec3<double>& spin, const Vec3<double>& torque, double dt)
+{
+    const Vec3<double> present = rotation * (inertia * (rotation.transpose() * spin));
+    const Vec3<double> driving = dt * (motion.torque + motion.axle_torque * rotation.col(1));
+    const Vec3<double> driven  = present + dt * torque + driving;
+    const Vec3<double> rubbing =
+        axle_friction(motion, first, rotation, inertia.inverse(), driven, dt) * rotation.col(1);
+    return {driving, rubbing, driven + rubbing};
+}
+
 /// Rotates a body likewise under the contact torque; returns the angular velocity over the step.
 TREAD_HD Vec3<double> rotate_prescribed(const Prescribed& motion, BodyMotion& body, const Vec3<double>& torque,
                                         double dt, BodyTotal& total, ContactImpulse& reaction)
@@ -114,30 +167,27 @@ TREAD_HD Vec3<double> rotate_prescribed(const Prescribed& motion, BodyMotion& bo
     const Vec3<double> before   = body.angular_velocity;
     const Mat3<double> at_start = start.toRotationMatrix();
     const HeldSpin     first    = held_spin(motion, at_start);
-    const Vec3<double> present  = at_start * (inertia * (at_start.transpose() * before));
-    const Vec3<double> driving  = dt * (motion.torque + motion.axle_torque * at_start.col(1));
-    const Vec3<double> driven   = present + dt * torque + driving;
-    const Vec3<double> rubbing  = axle_friction(motion, first, at_start, inverse, driven, dt) * at_start.col(1);
-    const Vec3<double> momentum = driven + rubbing;
+    const SpinKick     kick     = kick_of(motion, first, at_start, inertia, before, torque, dt);
 
-    const Vec3<double> kicked     = angular_velocity_held(first, at_start, inverse, momentum);
+    const Vec3<double> kicked     = angular_velocity_held(first, at_start, inverse, kick.momentum);
     const Mat3<double> half       = (rotation_by(0.5 * dt * kicked) * start).toRotationMatrix();
-    const Vec3<double> middle     = angular_velocity_held(held_spin(motion, half), half, inverse, momentum);
+    const Vec3<double> middle     = angular_velocity_held(held_spin(motion, half), half, inverse, kick.momentum);
     body.orientation              = made_unit(rotation_by(dt * middle) * start);
     const Mat3<double> at_end     = body.orientation.toRotationMatrix();
     const HeldSpin     last       = held_spin(motion, at_end);
-    body.angular_velocity         = angular_velocity_held(last, at_end, inverse, momentum);
+    body.angular_velocity         = angular_velocity_held(last, at_end, inverse, kick.momentum);
     const Vec3<double> reached    = at_end * (inertia * (at_end.transpose() * body.angular_velocity));
     const Vec3<double> after_kick = at_start * (inertia * (at_start.transpose() * kicked));
     Vec3<double>       mean       = 0.5 * (before + kicked);
     const bool         is_held    = first.held != 0;
     const Vec3<double> kick_impulse =
-        is_held ? Vec3<double>(after_kick - momentum) : Vec3<double>(Vec3<double>::Zero());
+        is_held ? Vec3<double>(after_kick - kick.momentum) : Vec3<double>(Vec3<double>::Zero());
     const Vec3<double> turn_impulse = is_held ? Vec3<double>(reached - after_kick) : Vec3<double>(Vec3<double>::Zero());
 
-    total.friction -= rubbing.dot(mean);
-    total.holding_work += (driving + kick_impulse).dot(mean) + turn_impulse.dot(0.5 * (kicked + body.angular_velocity));
-    reaction.angular += driving + rubbing + kick_impulse + turn_impulse;
+    total.friction -= kick.rubbing.dot(mean);
+    total.holding_work +=
+        (kick.driving + kick_impulse).dot(mean) + turn_impulse.dot(0.5 * (kicked + body.angular_velocity));
+    reaction.angular += kick.driving + kick.rubbing + kick_impulse + turn_impulse;
     return mean;
 }
 

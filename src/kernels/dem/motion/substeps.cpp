@@ -1,11 +1,13 @@
 #include "kernels/dem/motion/substeps.hpp"
 
+#include "backend/instantiate.hpp"
 #include "kernels/dem/contact/body_contact.hpp"
 
 namespace tread::dem
 {
 
-void run_substeps(const Cpu& cpu, const BodyStep<Cpu>& step, std::int64_t count)
+template<class Exec>
+void run_substeps(const Exec& cpu, const BodyStep<Exec>& step, std::int64_t count)
 {
     for (std::int64_t substep = 0; substep < count; ++substep)
     {
@@ -13,5 +15,9 @@ void run_substeps(const Cpu& cpu, const BodyStep<Cpu>& step, std::int64_t count)
         move_bodies(cpu, step);
     }
 }
+
+#define TREAD_INSTANTIATE(Exec) template void run_substeps(const Exec&, const BodyStep<Exec>&, std::int64_t)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

@@ -1,11 +1,13 @@
 #include "kernels/dem/motion/substeps.cuh"
 
+#include "backend/instantiate.hpp"
 #include "kernels/dem/contact/body_contact.hpp"
 
 namespace tread::dem
 {
 
-void run_substeps(const Gpu& gpu, const BodyStep<Gpu>& step, std::int64_t count)
+template<class Exec>
+void run_substeps(const Exec& gpu, const BodyStep<Exec>& step, std::int64_t count)
 {
     if (!worth_one_launch(step))
     {
@@ -29,5 +31,9 @@ void run_substeps(const Gpu& gpu, const BodyStep<Gpu>& step, std::int64_t count)
                                              });
                     });
 }
+
+#define TREAD_INSTANTIATE(Exec) template void run_substeps(const Exec&, const BodyStep<Exec>&, std::int64_t)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::dem

@@ -23,10 +23,10 @@ inline bool worth_one_launch(const BodyStep<Gpu>& step)
 template<class Meet>
 auto nodes_part(const Meet& meet, const BodyStep<Gpu>& step)
 {
-    const std::int64_t nodes = step.pairs.node.size();
+    const std::int64_t nodes = step.pairs.nodes.node.size();
     return group_part<repeat_threads, nodes_of_word>(
         nodes > 0 ? node_words(nodes) : 0,
-        contact_nodes::LookUp<Meet>{meet, step.bodies.count, step.law, step.pairs.view()});
+        contact_nodes::EvaluateNodes<Meet>{meet, step.bodies.count, step.law, step.pairs.view()});
 }
 
 template<class Meet>

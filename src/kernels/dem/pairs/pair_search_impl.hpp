@@ -62,14 +62,15 @@ struct WritePairs
 template<class Exec>
 double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
-    largest_of_rows(exec, pairs.reach.data(), bodies.count, 1, pairs.measure.data());
+    largest_of_rows(exec, pairs.displacement.search_radius.data(), bodies.count, 1, pairs.measure.data());
     const double cell_size = std::max(2.0 * read(exec, pairs.measure.data()), 1e-12);
 
-    pairs.cell_key.resize(bodies.count);
-    pairs.cell_body.resize(bodies.count);
+    pairs.search.cell_key.resize(bodies.count);
+    pairs.search.cell_body.resize(bodies.count);
     for_each(exec, "body cells", bodies.count,
-             WriteCell{bodies, pairs.is_large.data(), cell_size, pairs.cell_key.data(), pairs.cell_body.data()});
-    sort_by_key(exec, pairs.cell_key, pairs.cell_body, pairs.sort);
+             WriteCell{bodies, pairs.sizes.is_large.data(), cell_size, pairs.search.cell_key.data(),
+                       pairs.search.cell_body.data()});
+    sort_by_key(exec, pairs.search.cell_key, pairs.search.cell_body, pairs.sort);
     return cell_size;
 }
 
@@ -78,18 +79,20 @@ void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, cons
 {
     const PairSearch   search{bodies,
                             law,
-                            pairs.travel.data(),
+                            pairs.displacement.allowed.data(),
                             cell_size,
-                            pairs.cell_key.data(),
-                            pairs.cell_body.data(),
-                            pairs.large.data(),
-                            pairs.large.size(),
-                            pairs.is_large.data()};
+                            pairs.search.cell_key.data(),
+                            pairs.search.cell_body.data(),
+                            pairs.sizes.large.data(),
+                            pairs.sizes.large.size(),
+                            pairs.sizes.is_large.data(),
+                            pairs.jointed.data(),
+                            pairs.jointed.size()};
     const std::int64_t items = bodies.count * PairSearch::parts;
-    pairs.found.resize(items + 1);
-    for_each(exec, "count pairs", items + 1, CountPairs{search, pairs.found.data()});
-    pairs.key.resize(exclusive_scan(exec, pairs.found, pairs.sort));
-    for_each(exec, "write pairs", items, WritePairs{search, pairs.found.data(), pairs.key.data()});
+    pairs.search.found.resize(items + 1);
+    for_each(exec, "count pairs", items + 1, CountPairs{search, pairs.search.found.data()});
+    pairs.key.resize(exclusive_scan(exec, pairs.search.found, pairs.sort));
+    for_each(exec, "write pairs", items, WritePairs{search, pairs.search.found.data(), pairs.key.data()});
 }
 
 } // namespace tread::dem::pair_steps

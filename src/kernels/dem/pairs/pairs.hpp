@@ -68,10 +68,10 @@ struct PairsView
     AnswersView          answers;   ///< of the last substep
     ContactBody*         body;      ///< record of every body
 
-    const double*       travel;     ///< m, displacement of every body for which the list is valid
-    const std::int32_t* first_node; ///< [pairs + 1], first node of each pair's run of nodes that may touch
-    const std::int32_t* node;       ///< i of the first body, ~i of the second
-    const std::int32_t* many;       ///< pairs with more than many_nodes nodes (contact_nodes.hpp)
+    const double*       allowed_displacement; ///< m, of every body, for which the list is valid
+    const std::int32_t* first_node;           ///< [pairs + 1], first node of each pair's run of nodes that may touch
+    const std::int32_t* node;                 ///< i of the first body, ~i of the second
+    const std::int32_t* many;                 ///< pairs with more than many_nodes nodes (contact_nodes.hpp)
     std::int64_t        many_count;
     const std::int32_t* pair_of_node;
     std::int64_t        node_count;
@@ -79,94 +79,183 @@ struct PairsView
     std::uint32_t*      inside;     ///< [node_words], bit i of all: node i was inside at the last check
 };
 
-/// Memory of PairsView, and scratch memory of the search.
+/// Records of the previous list, from which pairs that are found again take theirs.
+template<class Exec>
+struct LastRecords
+{
+    explicit LastRecords(const Exec& exec)
+        : key(exec, "last pair keys")
+        , patch(exec, "last pair patches")
+        , rolling(exec, "last pair rolling moments")
+    {
+    }
+
+    Array<Exec, std::uint64_t> key; ///< ascending
+    Array<Exec, Patch>         patch;
+    Array<Exec, Rolling>       rolling;
+};
+
+/// Runs of pairs of each body, as in PairsView.
+template<class Exec>
+struct PairsOfBodies
+{
+    explicit PairsOfBodies(const Exec& exec)
+        : first(exec, "pairs of first body")
+        , by_second(exec, "pairs by second body")
+        , second(exec, "pairs of second body")
+    {
+    }
+
+    Array<Exec, std::int32_t> first;
+    Array<Exec, std::int32_t> by_second;
+    Array<Exec, std::int32_t> second;
+};
+
+/// Nodes of the pairs that may touch, as in PairsView, and where they were at the last check.
+template<class Exec>
+struct PairNodes
+{
+    explicit PairNodes(const Exec& exec)
+        : first(exec, "nodes of pairs")
+        , node(exec, "pair nodes")
+        , pair(exec, "pairs of nodes")
+        , found(exec, "nodes found")
+        , inside(exec, "nodes inside")
+        , many(exec, "pairs of many nodes")
+    {
+    }
+
+    Array<Exec, std::int32_t>  first;
+    Array<Exec, std::int32_t>  node;
+    Array<Exec, std::int32_t>  pair; ///< pair of each node
+    Array<Exec, FoundNode>     found;
+    Array<Exec, std::uint32_t> inside;
+    Array<Exec, std::int32_t>  many; ///< empty on the host, where one lane handles any pair
+};
+
+/// Sizes of the bodies, by which the search treats them; set by classify_bodies.
+template<class Exec>
+struct BodySizes
+{
+    explicit BodySizes(const Exec& exec)
+        : large(exec, "large bodies")
+        , is_large(exec, "large body marks")
+        , node_area(exec, "body node area")
+    {
+    }
+
+    Array<Exec, std::int32_t> large;     ///< bodies that are not in the cell grid
+    Array<Exec, std::int32_t> is_large;  ///< per body
+    Array<Exec, double>       node_area; ///< m2, mean node area of each body
+};
+
+/// Displacement of each body for which a list is valid, and what it is computed from.
+template<class Exec>
+struct AllowedDisplacement
+{
+    explicit AllowedDisplacement(const Exec& exec)
+        : allowed(exec, "body allowed displacement")
+        , search_radius(exec, "body search radii")
+        , speed(exec, "body speeds")
+        , per_step(exec, "body displacement a step more")
+    {
+    }
+
+    Array<Exec, double> allowed;       ///< m, until the pairs are found again
+    Array<Exec, double> search_radius; ///< m, bounding radius plus `allowed`; 0 = not in the cell grid
+    Array<Exec, double> speed;         ///< m/s, maximum over each body's points at the start of the search
+    Array<Exec, double> per_step;      ///< bounding radii, of owned bodies: extra Verlet skin for one further step
+};
+
+/// Scratch memory of the search by cells of a grid.
+template<class Exec>
+struct PairSearchScratch
+{
+    explicit PairSearchScratch(const Exec& exec)
+        : cell_key(exec, "body cells")
+        , cell_body(exec, "bodies by cell")
+        , found(exec, "pairs found")
+        , second_key(exec, "pair second bodies")
+    {
+    }
+
+    Array<Exec, std::uint64_t> cell_key; ///< ascending
+    Array<Exec, std::int32_t>  cell_body;
+    Array<Exec, std::int32_t>  found;
+    Array<Exec, std::uint64_t> second_key;
+};
+
+/// Memory of PairsView, and of the search for pairs.
 template<class Exec>
 struct Pairs
 {
     explicit Pairs(const Exec& exec)
         : key(exec, "pair keys")
         , patch(exec, "pair patches")
-        , answers(exec)
-        , body(exec, "bodies in contact")
-        , peak(exec, "pair peak overlaps")
-        , first(exec, "pairs of first body")
-        , by_second(exec, "pairs by second body")
-        , second(exec, "pairs of second body")
         , rolling(exec, "pair rolling moments")
-        , expected_stiffness(exec, "body expected stiffness")
-        , large(exec, "large bodies")
-        , is_large(exec, "large body marks")
-        , node_area(exec, "body node area")
-        , last_key(exec, "last pair keys")
-        , last_patch(exec, "last pair patches")
-        , travel(exec, "body travel")
-        , last_rolling(exec, "last pair rolling moments")
-        , reach(exec, "body reach")
-        , speed(exec, "body speeds")
-        , more_travel(exec, "body travel a step more")
-        , cell_key(exec, "body cells")
-        , cell_body(exec, "bodies by cell")
-        , found(exec, "pairs found")
-        , second_key(exec, "pair second bodies")
-        , measure(exec, "pair measures")
-        , first_node(exec, "nodes of pairs")
-        , node(exec, "pair nodes")
-        , pair_of_node(exec, "pairs of nodes")
-        , found_node(exec, "nodes found")
-        , inside(exec, "nodes inside")
-        , many(exec, "pairs of many nodes")
-        , sort(exec)
+        , peak(exec, "pair peak overlaps")
+        , answers(exec)
+        , of_body(exec)
+        , nodes(exec)
         , patches(exec)
+        , last(exec)
+        , body(exec, "bodies in contact")
+        , expected_stiffness(exec, "body expected stiffness")
+        , jointed(exec, "pairs of jointed bodies")
+        , sizes(exec)
+        , displacement(exec)
+        , search(exec)
+        , measure(exec, "pair measures")
+        , sort(exec)
     {
     }
 
     PairsView view()
     {
-        return {key.size(),     key.data(),        patch.data(),  peak.data(),
-                first.data(),   by_second.data(),  second.data(), resists_rolling ? rolling.data() : nullptr,
-                answers.view(), body.data(),       travel.data(), first_node.data(),
-                node.data(),    many.data(),       many.size(),   pair_of_node.data(),
-                node.size(),    found_node.data(), inside.data()};
+        return {key.size(),
+                key.data(),
+                patch.data(),
+                peak.data(),
+                of_body.first.data(),
+                of_body.by_second.data(),
+                of_body.second.data(),
+                resists_rolling ? rolling.data() : nullptr,
+                answers.view(),
+                body.data(),
+                displacement.allowed.data(),
+                nodes.first.data(),
+                nodes.node.data(),
+                nodes.many.data(),
+                nodes.many.size(),
+                nodes.pair.data(),
+                nodes.node.size(),
+                nodes.found.data(),
+                nodes.inside.data()};
     }
 
+    // The list, in ascending order of keys, and its records.
     Array<Exec, std::uint64_t> key;
     Array<Exec, Patch>         patch;
-    Answers<Exec>              answers;
-    Array<Exec, ContactBody>   body;
+    Array<Exec, Rolling>       rolling; ///< empty unless resists_rolling
     Array<Exec, double>        peak;
-    Array<Exec, std::int32_t>  first;
-    Array<Exec, std::int32_t>  by_second;
-    Array<Exec, std::int32_t>  second;
-    Array<Exec, Rolling>       rolling;            ///< empty unless resists_rolling
-    Array<Exec, double>        expected_stiffness; ///< N/m, per body (contact_limits.hpp)
-
-    Array<Exec, std::int32_t> large;     ///< bodies that are not in the cell grid
-    Array<Exec, std::int32_t> is_large;  ///< per body
-    Array<Exec, double>       node_area; ///< m2, mean node area of each body
-
-    Array<Exec, std::uint64_t> last_key;
-    Array<Exec, Patch>         last_patch;
-    Array<Exec, double>        travel; ///< m, allowed displacement of each body until the pairs are found again
-    Array<Exec, Rolling>       last_rolling;
-    Array<Exec, double>
-        reach; ///< m, search radius of each body: its bounding radius plus travel; 0 = not in the cell grid
-    Array<Exec, double> speed; ///< m/s, maximum speed over each body's points at the start of the search
-    Array<Exec, double>
-        more_travel; ///< bounding radii, of each owned body: extra Verlet skin needed for one further step
-    Array<Exec, std::uint64_t> cell_key;
-    Array<Exec, std::int32_t>  cell_body;
-    Array<Exec, std::int32_t>  found;
-    Array<Exec, std::uint64_t> second_key;
-    Array<Exec, double>        measure;
-    Array<Exec, std::int32_t>  first_node;
-    Array<Exec, std::int32_t>  node;
-    Array<Exec, std::int32_t>  pair_of_node;
-    Array<Exec, FoundNode>     found_node;
-    Array<Exec, std::uint32_t> inside;
-    Array<Exec, std::int32_t>  many; ///< empty on the host, where one lane handles any pair
-    SortScratch<Exec>          sort;
+    Answers<Exec>              answers;
+    PairsOfBodies<Exec>        of_body;
+    PairNodes<Exec>            nodes;
     Patches<Exec>              patches;
+    LastRecords<Exec>          last;
     bool                       resists_rolling = false; ///< whether some pair of materials has rolling friction
+
+    // The bodies.
+    Array<Exec, ContactBody>   body;
+    Array<Exec, double>        expected_stiffness; ///< N/m, per body (contact_limits.hpp)
+    Array<Exec, std::uint64_t> jointed;            ///< keys of pairs that never touch, ascending; set once
+    BodySizes<Exec>            sizes;
+    AllowedDisplacement<Exec>  displacement;
+
+    // Scratch memory.
+    PairSearchScratch<Exec> search;
+    Array<Exec, double>     measure;
+    SortScratch<Exec>       sort;
 };
 
 /// Sorts the bodies by size; call once, and again when bodies are added, removed or reordered. A body more than 4 times
@@ -182,14 +271,14 @@ void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 
 /// Finds every pair of bodies, and of body and wall, that may touch within the next dt (s, of the MPM step), and the
 /// nodes of each pair that may enter the other body (contact_nodes.hpp). The lists are complete while no point of a
-/// body moves further than pairs.travel. Patches of pairs that stay in the list are kept. `substeps`: number of
-/// substeps of such a step; it sets how many steps the list should remain valid.
+/// body moves further than pairs.displacement.allowed. Patches of pairs that stay in the list are kept. `substeps`:
+/// number of substeps of such a step; it sets how many steps the list should remain valid.
 template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                 double substeps = 1);
 
 /// find_pairs in parts, between which ranks exchange data. First part: the present list becomes the previous one, and
-/// pairs.speed is measured.
+/// pairs.displacement.speed is measured.
 template<class Exec>
 void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
@@ -197,13 +286,13 @@ void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 template<class Exec>
 void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared);
 
-/// Second part: computes pairs.more_travel and its sum in pairs.measure; the caller replaces the sum by that of all
-/// ranks.
+/// Second part: computes pairs.displacement.per_step and its sum in pairs.measure; the caller replaces the sum by that
+/// of all ranks.
 template<class Exec>
 void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                           const SharedView& shared);
 
-/// Third part: computes pairs.travel of owned bodies; owners send it to ghosts.
+/// Third part: computes pairs.displacement.allowed of owned bodies; owners send it to ghosts.
 template<class Exec>
 void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                         double substeps);
@@ -212,8 +301,8 @@ void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& 
 template<class Exec>
 void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// Rebuilds everything that list_pairs derives, from a loaded list (pairs.key, patch, rolling, travel, first_node,
-/// node, and place and several of patches). Overlaps start as for a new list.
+/// Rebuilds everything that list_pairs derives, from a loaded list (pairs.key, patch, rolling, displacement.allowed,
+/// nodes.first and node, patches.place and several). Overlaps start as for a new list.
 template<class Exec>
 void resume_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
 

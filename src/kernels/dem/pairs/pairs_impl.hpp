@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "kernels/dem/contact/contact_nodes.hpp"
+#include "kernels/dem/pairs/allowed_displacement_impl.hpp"
 #include "kernels/dem/pairs/pair_search_impl.hpp"
-#include "kernels/dem/pairs/travel_impl.hpp"
 
 // Steps of find_pairs, for both backends; pairs.cpp and pairs.cu provide for_each and instantiate.
 namespace tread::dem
@@ -171,17 +171,19 @@ template<class Exec>
 void order_again(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     const std::int64_t count = pairs.key.size();
-    release_memory(pairs.by_second, pairs.peak, pairs.second_key);
-    pairs.by_second.resize(count);
+    release_memory(pairs.of_body.by_second, pairs.peak, pairs.search.second_key);
+    pairs.of_body.by_second.resize(count);
     pairs.peak.resize(count);
-    pairs.second_key.resize(count);
-    for_each(exec, "renew pairs", count, Renew{pairs.view(), pairs.second_key.data(), pairs.by_second.data()});
-    sort_by_key(exec, pairs.second_key, pairs.by_second, pairs.sort, bits_below(most_bodies));
+    pairs.search.second_key.resize(count);
+    for_each(exec, "renew pairs", count,
+             Renew{pairs.view(), pairs.search.second_key.data(), pairs.of_body.by_second.data()});
+    sort_by_key(exec, pairs.search.second_key, pairs.of_body.by_second, pairs.sort, bits_below(most_bodies));
 
-    pairs.first.resize(bodies.count + 1);
-    pairs.second.resize(bodies.count + 1);
+    pairs.of_body.first.resize(bodies.count + 1);
+    pairs.of_body.second.resize(bodies.count + 1);
     for_each(exec, "pairs of bodies", bodies.count + 1,
-             WriteRuns{count, pairs.key.data(), pairs.second_key.data(), pairs.first.data(), pairs.second.data()});
+             WriteRuns{count, pairs.key.data(), pairs.search.second_key.data(), pairs.of_body.first.data(),
+                       pairs.of_body.second.data()});
 }
 
 /// Removes the pairs without any node that may touch, and orders the rest: bounding spheres meet far more often than
@@ -190,22 +192,22 @@ template<class Exec>
 void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     const std::int64_t count = pairs.key.size();
-    pairs.first_node.resize(count + 1);
+    pairs.nodes.first.resize(count + 1);
     count_contact_nodes(exec, pairs, bodies, law);
-    pairs.found.resize(count + 1);
-    for_each(exec, "mark pairs", count + 1, MarkPairs{count, pairs.first_node.data(), pairs.found.data()});
-    const std::int64_t kept = exclusive_scan(exec, pairs.found, pairs.sort);
-    pairs.second_key.resize(kept);
-    pairs.by_second.resize(kept + 1);
+    pairs.search.found.resize(count + 1);
+    for_each(exec, "mark pairs", count + 1, MarkPairs{count, pairs.nodes.first.data(), pairs.search.found.data()});
+    const std::int64_t kept = exclusive_scan(exec, pairs.search.found, pairs.sort);
+    pairs.search.second_key.resize(kept);
+    pairs.of_body.by_second.resize(kept + 1);
     for_each(exec, "keep pairs", count + 1,
-             KeepPairs{count, pairs.key.data(), pairs.first_node.data(), pairs.found.data(), pairs.second_key.data(),
-                       pairs.by_second.data()});
-    pairs.key.swap(pairs.second_key);
-    pairs.first_node.swap(pairs.by_second);
-    release_memory(pairs.second_key, pairs.by_second, pairs.found);
-    sort_by_key(exec, pairs.key, pairs.first_node, pairs.sort,
+             KeepPairs{count, pairs.key.data(), pairs.nodes.first.data(), pairs.search.found.data(),
+                       pairs.search.second_key.data(), pairs.of_body.by_second.data()});
+    pairs.key.swap(pairs.search.second_key);
+    pairs.nodes.first.swap(pairs.of_body.by_second);
+    release_memory(pairs.search.second_key, pairs.of_body.by_second, pairs.search.found);
+    sort_by_key(exec, pairs.key, pairs.nodes.first, pairs.sort,
                 32 + bits_below(bodies.count)); // the final zero keeps its place
-    pairs.node.resize(exclusive_scan(exec, pairs.first_node, pairs.sort));
+    pairs.nodes.node.resize(exclusive_scan(exec, pairs.nodes.first, pairs.sort));
     list_contact_nodes(exec, pairs, bodies, law);
 }
 
@@ -214,7 +216,7 @@ template<class Exec>
 void end_substeps(Pairs<Exec>& pairs)
 {
     release_memory(pairs.answers);
-    release_memory(pairs.node, pairs.pair_of_node, pairs.found_node, pairs.inside, pairs.first_node);
+    release_memory(pairs.nodes.node, pairs.nodes.pair, pairs.nodes.found, pairs.nodes.inside, pairs.nodes.first);
 }
 
 /// Allocates and initialises the substeps' arrays in addition to the list.
@@ -223,12 +225,12 @@ void begin_substeps(const Exec& exec, Pairs<Exec>& pairs)
 {
     const std::int64_t count = pairs.key.size();
     pairs.answers.resize(count);
-    pairs.pair_of_node.resize(pairs.node.size());
-    pairs.found_node.resize(pairs.node.size());
-    pairs.inside.resize(node_words(pairs.node.size()));
-    for_each(exec, "pair places", count, Place{pairs.by_second.data(), pairs.answers.place.data()});
+    pairs.nodes.pair.resize(pairs.nodes.node.size());
+    pairs.nodes.found.resize(pairs.nodes.node.size());
+    pairs.nodes.inside.resize(node_words(pairs.nodes.node.size()));
+    for_each(exec, "pair places", count, Place{pairs.of_body.by_second.data(), pairs.answers.place.data()});
     for_each(exec, "clear answers", count, ClearAnswers{pairs.answers.view()});
-    for_each(exec, "pairs of nodes", count, WritePairsOfNodes{pairs.first_node.data(), pairs.pair_of_node.data()});
+    for_each(exec, "pairs of nodes", count, WritePairsOfNodes{pairs.nodes.first.data(), pairs.nodes.pair.data()});
 }
 
 template<class Exec>
@@ -238,8 +240,8 @@ void order_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
     pairs.patch.resize(count);
     if (pairs.resists_rolling) { pairs.rolling.resize(count); }
     for_each(exec, "recall pairs", count,
-             Recall{pairs.view(), pairs.last_key.size(), pairs.last_key.data(), pairs.last_patch.data(),
-                    pairs.last_rolling.data()});
+             Recall{pairs.view(), pairs.last.key.size(), pairs.last.key.data(), pairs.last.patch.data(),
+                    pairs.last.rolling.data()});
     order_again(exec, pairs, bodies);
 }
 
@@ -249,11 +251,11 @@ template<class Exec>
 void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates)
 {
     pairs.measure.resize(bodies.count);
-    pairs.node_area.resize(bodies.count);
+    pairs.sizes.node_area.resize(bodies.count);
     pairs.expected_stiffness.resize(bodies.count);
     pairs.expected_stiffness.fill_zero();
     for_each(exec, "body sizes", bodies.count,
-             pair_steps::MeasureBody{bodies, templates, pairs.measure.data(), pairs.node_area.data()});
+             pair_steps::MeasureBody{bodies, templates, pairs.measure.data(), pairs.sizes.node_area.data()});
 
     const std::vector<double> radii  = pairs.measure.to_host();
     std::vector<double>       sorted = radii;
@@ -266,8 +268,8 @@ void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bod
         marks.push_back(radii[b] > much_larger * *middle ? 1 : 0);
         if (marks.back() != 0) { large.push_back(static_cast<std::int32_t>(b)); }
     }
-    pairs.large.assign(large);
-    pairs.is_large.assign(marks);
+    pairs.sizes.large.assign(large);
+    pairs.sizes.is_large.assign(marks);
 }
 
 template<class Exec>
@@ -281,9 +283,9 @@ template<class Exec>
 void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     pair_steps::end_substeps(pairs);
-    pairs.key.swap(pairs.last_key);
-    pairs.patch.swap(pairs.last_patch);
-    pairs.rolling.swap(pairs.last_rolling);
+    pairs.key.swap(pairs.last.key);
+    pairs.patch.swap(pairs.last.patch);
+    pairs.rolling.swap(pairs.last.rolling);
     pairs.patches.place.swap(pairs.patches.last_place);
     pair_steps::write_speeds(exec, pairs, bodies, law);
 }
@@ -293,16 +295,17 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 {
     using namespace pair_steps;
     stage_bodies(exec, pairs, bodies);
-    reach_again(exec, pairs, bodies, law);
-    release_memory(pairs.by_second);
+    update_search_radii(exec, pairs, bodies, law);
+    release_memory(pairs.of_body.by_second);
     const double cell_size = fill_cells(exec, pairs, bodies);
     search(exec, pairs, bodies, law, cell_size);
-    release_memory(pairs.reach, pairs.speed, pairs.more_travel, pairs.cell_key, pairs.cell_body, pairs.found);
+    release_memory(pairs.displacement.search_radius, pairs.displacement.speed, pairs.displacement.per_step,
+                   pairs.search.cell_key, pairs.search.cell_body, pairs.search.found);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
     if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }
     list_pairs_of_many_nodes(exec, pairs);
-    release_memory(pairs.last_key, pairs.last_patch, pairs.last_rolling, pairs.second_key, pairs.found);
+    release_memory(pairs.last.key, pairs.last.patch, pairs.last.rolling, pairs.search.second_key, pairs.search.found);
     release_memory(pairs.sort);
     begin_substeps(exec, pairs);
 }

@@ -28,21 +28,21 @@ TREAD_HD double bounding_radius(const BodiesView& bodies, const TemplateView* te
 }
 
 /// Displacement of any point of a body until the pairs are found again, in bounding radii.
-struct Travel
+struct SearchDisplacement
 {
-    double least; ///< expected displacement over steps_ahead, plus the skin
-    double more;  ///< additional displacement for each step that a list lasts beyond the first
+    double least;    ///< expected displacement over steps_ahead, plus the skin
+    double per_step; ///< additional displacement for each step that a list lasts beyond the first
 };
 
 /// Upper limit of the additional displacement: the cells of the search grid are as wide as the largest search radius.
-inline constexpr double most_more = 0.2;
+inline constexpr double most_per_step = 0.2;
 
 /// Computes the displacement of a body with this speed among bodies with speeds up to `near` (m/s), which it may soon
 /// reach.
-TREAD_HD Travel travel_of(double radius, double speed, double near, double dt)
+TREAD_HD SearchDisplacement search_displacement(double radius, double speed, double near, double dt)
 {
     const double a_step = radius > 0 ? dt / radius : 0.0;
-    return {steps_ahead * a_step * speed + search_skin, std::fmin(a_step * near, most_more)};
+    return {steps_ahead * a_step * speed + search_skin, std::fmin(a_step * near, most_per_step)};
 }
 
 /// Number of steps that a list should last beyond the first, if a step has `substeps` substeps and bodies move by
@@ -58,25 +58,26 @@ TREAD_HD double steps_to_last(double mean, double substeps)
 }
 
 /// Size of a body in the search.
-struct Reach
+struct SearchRadius
 {
-    double bounding; ///< m, radius of the bounding sphere
-    double travel;   ///< m
+    double bounding;     ///< m, radius of the bounding sphere
+    double displacement; ///< m
 
-    TREAD_HD double total() const { return bounding + travel; }
+    TREAD_HD double total() const { return bounding + displacement; }
 };
 
-TREAD_HD Reach reach_of(const BodiesView& bodies, const TemplateView* templates, const double* travel, std::int64_t b)
+TREAD_HD SearchRadius search_radius(const BodiesView& bodies, const TemplateView* templates, const double* allowed,
+                                    std::int64_t b)
 {
-    return {bounding_radius(bodies, templates, b), travel[b]};
+    return {bounding_radius(bodies, templates, b), allowed[b]};
 }
 
 /// Whether the bounding spheres may meet.
-TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates, const double* travel, std::int64_t a,
+TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates, const double* allowed, std::int64_t a,
                         std::int64_t b)
 {
     const double together =
-        reach_of(bodies, templates, travel, a).total() + reach_of(bodies, templates, travel, b).total();
+        search_radius(bodies, templates, allowed, a).total() + search_radius(bodies, templates, allowed, b).total();
     return (bodies.position[a] - bodies.position[b]).squaredNorm() <= together * together;
 }
 
@@ -93,18 +94,19 @@ TREAD_HD bool surface_near(const BodiesView& bodies, const TemplateView* templat
 }
 
 /// Whether each body's surface can enter the other's bounding sphere: most pairs whose spheres meet fail this test.
-TREAD_HD bool surfaces_near(const BodiesView& bodies, const TemplateView* templates, const double* travel,
+TREAD_HD bool surfaces_near(const BodiesView& bodies, const TemplateView* templates, const double* allowed,
                             std::int64_t a, std::int64_t b)
 {
-    const Reach of_a = reach_of(bodies, templates, travel, a), of_b = reach_of(bodies, templates, travel, b);
-    return surface_near(bodies, templates, a, bodies.position[b], of_b.total() + of_a.travel) &&
-           surface_near(bodies, templates, b, bodies.position[a], of_a.total() + of_b.travel);
+    const SearchRadius of_a = search_radius(bodies, templates, allowed, a),
+                       of_b = search_radius(bodies, templates, allowed, b);
+    return surface_near(bodies, templates, a, bodies.position[b], of_b.total() + of_a.displacement) &&
+           surface_near(bodies, templates, b, bodies.position[a], of_a.total() + of_b.displacement);
 }
 
-TREAD_HD bool may_touch_plane(const BodiesView& bodies, const TemplateView* templates, const double* travel,
+TREAD_HD bool may_touch_plane(const BodiesView& bodies, const TemplateView* templates, const double* allowed,
                               std::int64_t b, const Plane& plane)
 {
-    return plane.normal.dot(bodies.position[b]) - plane.offset <= reach_of(bodies, templates, travel, b).total();
+    return plane.normal.dot(bodies.position[b]) - plane.offset <= search_radius(bodies, templates, allowed, b).total();
 }
 
 /// Cells of the search grid: 21 bits per axis, x lowest, so that neighbours along x have consecutive keys.
@@ -136,13 +138,15 @@ struct PairSearch
 {
     BodiesView           bodies;
     BodyLaw              law;
-    const double*        travel;
-    double               cell_size; ///< m, at least twice the maximum search radius in the grid
-    const std::uint64_t* cell_key;  ///< ascending
+    const double*        allowed_displacement; ///< m, of every body
+    double               cell_size;            ///< m, at least twice the maximum search radius in the grid
+    const std::uint64_t* cell_key;             ///< ascending
     const std::int32_t*  cell_body;
     const std::int32_t*  large;
     std::int64_t         large_count;
     const std::int32_t*  is_large;
+    const std::uint64_t* jointed; ///< keys of pairs that never touch, ascending
+    std::int64_t         jointed_count;
 
     TREAD_HD bool is_sphere(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
 
@@ -151,11 +155,12 @@ struct PairSearch
         return bodies.is_owned(decider_of(is_large, a, b)) && bodies.is_here(a) && bodies.is_here(b);
     }
 
-    /// Whether two bodies may touch; the bounding sphere of an exact sphere is its surface.
+    /// Whether two bodies may touch; the bounding sphere of an exact sphere is its surface. a < b.
     TREAD_HD bool near(std::int64_t a, std::int64_t b) const
     {
-        return may_touch(bodies, law.templates, travel, a, b) &&
-               ((is_sphere(a) && is_sphere(b)) || surfaces_near(bodies, law.templates, travel, a, b));
+        return may_touch(bodies, law.templates, allowed_displacement, a, b) &&
+               find_sorted(jointed, jointed_count, pair_key(a, b)) < 0 &&
+               ((is_sphere(a) && is_sphere(b)) || surfaces_near(bodies, law.templates, allowed_displacement, a, b));
     }
 
     /// Parts of a body's search: the rows of cells around its own cell, and everything that is not in the cell grid.
@@ -200,7 +205,7 @@ private:
         }
         for (std::int32_t p = 0; p < law.plane_count; ++p)
         {
-            if (bodies.is_owned(a) && may_touch_plane(bodies, law.templates, travel, a, law.planes[p]))
+            if (bodies.is_owned(a) && may_touch_plane(bodies, law.templates, allowed_displacement, a, law.planes[p]))
             {
                 visit(pair_key(a, bodies.count + p));
             }

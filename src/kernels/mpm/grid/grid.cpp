@@ -1,13 +1,14 @@
 #include "kernels/mpm/grid/grid.hpp"
 
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/mpm/grid/wall_step_kern.hpp"
 
 namespace tread::mpm
 {
 
-template<class Real>
-void update_grid(const Cpu& cpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+template<class Exec, class Real>
+void update_grid(const Exec& cpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
                  const SharedPagesView<Real>& shared_pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
                  double* tallies)
 {
@@ -32,13 +33,16 @@ void update_grid(const Cpu& cpu, const PagesView& pages, const WallPagesView<Rea
                 write_motion(update_node(step, node_at(at, place), channels, node, sum), here + place);
             }
         }
-        for (int s = 0; s < grid_sums; ++s) { book(tallies + page * tally_width(grid_sums), grid_sums, s, sum[s]); }
+        for (int s = 0; s < grid_sums; ++s)
+        {
+            add_to_new_step(tallies + page * tally_width(grid_sums), grid_sums, s, sum[s]);
+        }
     };
     for_each_heavy(cpu, "update grid", pages.node_pages, update_page);
 }
 
-template<class Real>
-void update_walls(const Cpu& cpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+template<class Exec, class Real>
+void update_walls(const Exec& cpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
                   const GridStep<Real>& step, Real* motion, double* tallies)
 {
     const auto update_page = [=](std::int64_t number)
@@ -69,18 +73,17 @@ void update_walls(const Cpu& cpu, const PagesView& pages, const WallPagesView<Re
             finish_wall_node(step, nodes[region_item(region, place)], here + place, sum);
         }
         double* row = tallies + page * tally_width(grid_sums);
-        for (int s = 0; s < grid_sums; ++s) { book_more(row, grid_sums, s, sum[s]); }
+        for (int s = 0; s < grid_sums; ++s) { add_to_same_step(row, grid_sums, s, sum[s]); }
     };
     for_each_heavy(cpu, "update walls", wall_pages.count, update_page);
 }
 
-template void update_grid(const Cpu&, const PagesView&, const WallPagesView<float>&, const SharedPagesView<float>&,
-                          const float*, const GridStep<float>&, float*, double*);
-template void update_grid(const Cpu&, const PagesView&, const WallPagesView<double>&, const SharedPagesView<double>&,
-                          const double*, const GridStep<double>&, double*, double*);
-template void update_walls(const Cpu&, const PagesView&, const WallPagesView<float>&, const GridStep<float>&, float*,
-                           double*);
-template void update_walls(const Cpu&, const PagesView&, const WallPagesView<double>&, const GridStep<double>&, double*,
-                           double*);
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void update_grid(const Exec&, const PagesView&, const WallPagesView<Real>&, const SharedPagesView<Real>&, \
+                              const Real*, const GridStep<Real>&, Real*, double*);                                     \
+    template void update_walls(const Exec&, const PagesView&, const WallPagesView<Real>&, const GridStep<Real>&,       \
+                               Real*, double*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

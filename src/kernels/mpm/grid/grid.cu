@@ -3,6 +3,7 @@
 #include <cuda_pipeline.h>
 
 #include "backend/block_sum.cuh"
+#include "backend/instantiate.hpp"
 #include "backend/launch.cuh"
 #include "kernels/mpm/grid/wall_step_kern.hpp"
 
@@ -45,7 +46,7 @@ struct UpdatePages
         const std::int32_t          tile      = has_tile ? pages.point_page_of[octants * page + lane] : -1;
         const std::int32_t          wall_page = wall_pages.number(page);
         double*                     row       = tallies + page * tally_width(grid_sums);
-        const double                booked    = lane < grid_sums ? row[lane] : 0;
+        const double                tallied   = lane < grid_sums ? row[lane] : 0;
         fetch_parts(tile, lane, parts);
         const bool     points = tile >= 0 && pages.first_point[tile] < pages.first_point[tile + 1];
         const unsigned filled = __ballot_sync(all_lanes, points);
@@ -55,8 +56,8 @@ struct UpdatePages
         sum_pairs(filled, lane, parts, channels);
         if (shared >= 0) { read_pairs(shared, lane, channels); }
         Real* out = motion + page * motion_channels * page_cells + 2 * lane;
-        if (wall_page < 0) { update_free(channels, lane, out, booked, row); }
-        else { update_held(page, wall_page, channels, lane, out, booked, row); }
+        if (wall_page < 0) { update_free(channels, lane, out, tallied, row); }
+        else { update_held(page, wall_page, channels, lane, out, tallied, row); }
     }
 
     /// Starts the asynchronous copy of the surrounding tiles' contributions to the page. Each octant is contiguous in
@@ -118,19 +119,19 @@ struct UpdatePages
         }
     }
 
-    __device__ void update_free(const Pair<Real>* channels, int lane, Real* out, double booked, double* row) const
+    __device__ void update_free(const Pair<Real>* channels, int lane, Real* out, double tallied, double* row) const
     {
         Real          sum[grid_sums] = {};
         NodeEnd<Real> node[2];
 #pragma unroll
         for (int n = 0; n < 2; ++n) { node[n] = update_free_node(step, of_node(channels, n).at, sum); }
         write_pair(node, out);
-        if (step.damping > 0) { book_warp<grid_wall_loss>(sum, lane, booked, row); }
-        else { book_warp<grid_damped>(sum, lane, booked, row); }
+        if (step.damping > 0) { tally_warp<grid_wall_loss>(sum, lane, tallied, row); }
+        else { tally_warp<grid_damped>(sum, lane, tallied, row); }
     }
 
     __device__ void update_held(std::int64_t page, std::int32_t wall_page, const Pair<Real>* channels, int lane,
-                                Real* out, double booked, double* row) const
+                                Real* out, double tallied, double* row) const
     {
         Real            sum[grid_sums] = {};
         NodeEnd<Real>   node[2];
@@ -142,7 +143,7 @@ struct UpdatePages
             node[n] = update_node(step, node_at(at, 2 * lane + n), of_node(channels, n).at, wall_nodes[n], sum);
         }
         write_pair(node, out);
-        book_warp<grid_sums>(sum, lane, booked, row);
+        tally_warp<grid_sums>(sum, lane, tallied, row);
     }
 
     __device__ static Pack<Real, 8> of_node(const Pair<Real>* channels, int n)
@@ -161,15 +162,15 @@ struct UpdatePages
         }
     }
 
-    /// Adds the first `count` sums to the tally; the others are zero. `booked`: the tally of the lane's sum before.
+    /// Adds the first `count` sums to the tally; the others are zero. `tallied`: the tally of the lane's sum before.
     template<int count>
-    __device__ static void book_warp(const Real* sum, int lane, double booked, double* row)
+    __device__ static void tally_warp(const Real* sum, int lane, double tallied, double* row)
     {
         const Real   all   = warp_combine<count>(sum, AddValues{});
         const Real   own   = __shfl_sync(all_lanes, all, lane * lanes_a_slot<count> % warp_size);
         const double value = lane < count ? static_cast<double>(own) : 0;
         if (lane >= grid_sums) { return; }
-        row[lane]             = booked + value;
+        row[lane]             = tallied + value;
         row[grid_sums + lane] = value;
     }
 };
@@ -223,14 +224,14 @@ struct UpdateWallPage
         }
         double* row = tallies + page * tally_width(grid_sums);
         block_sum<wall_threads, grid_sums>(sum, shared,
-                                           [=](int s, double value) { book_more(row, grid_sums, s, value); });
+                                           [=](int s, double value) { add_to_same_step(row, grid_sums, s, value); });
     }
 };
 
 } // namespace
 
-template<class Real>
-void update_grid(const Gpu& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+template<class Exec, class Real>
+void update_grid(const Exec& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
                  const SharedPagesView<Real>& shared_pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
                  double* tallies)
 {
@@ -239,21 +240,20 @@ void update_grid(const Gpu& gpu, const PagesView& pages, const WallPagesView<Rea
         UpdatePages<Real>{pages, wall_pages, shared_pages, tiles, step, motion, tallies});
 }
 
-template<class Real>
-void update_walls(const Gpu& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+template<class Exec, class Real>
+void update_walls(const Exec& gpu, const PagesView& pages, const WallPagesView<Real>& wall_pages,
                   const GridStep<Real>& step, Real* motion, double* tallies)
 {
     for_each_block<wall_threads>(gpu, "update walls", wall_pages.count,
                                  UpdateWallPage<Real>{pages, wall_pages, step, motion, tallies});
 }
 
-template void update_grid(const Gpu&, const PagesView&, const WallPagesView<float>&, const SharedPagesView<float>&,
-                          const float*, const GridStep<float>&, float*, double*);
-template void update_grid(const Gpu&, const PagesView&, const WallPagesView<double>&, const SharedPagesView<double>&,
-                          const double*, const GridStep<double>&, double*, double*);
-template void update_walls(const Gpu&, const PagesView&, const WallPagesView<float>&, const GridStep<float>&, float*,
-                           double*);
-template void update_walls(const Gpu&, const PagesView&, const WallPagesView<double>&, const GridStep<double>&, double*,
-                           double*);
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void update_grid(const Exec&, const PagesView&, const WallPagesView<Real>&, const SharedPagesView<Real>&, \
+                              const Real*, const GridStep<Real>&, Real*, double*);                                     \
+    template void update_walls(const Exec&, const PagesView&, const WallPagesView<Real>&, const GridStep<Real>&,       \
+                               Real*, double*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

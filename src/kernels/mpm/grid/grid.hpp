@@ -45,22 +45,15 @@ enum GridSum : int
 /// node's velocity (Eq. 2 of the paper, lumped mass): motion[node page][channel][place], and adds the step to the
 /// page's tally of GridSum. Nodes that walls constrain together with others are left to update_walls, which must follow
 /// if there are wall pages.
-template<class Real>
-void update_grid(const Cpu&, const PagesView& pages, const WallPagesView<Real>& wall_pages,
-                 const SharedPagesView<Real>& shared_pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
-                 double* tallies);
-template<class Real>
-void update_grid(const Gpu&, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+template<class Exec, class Real>
+void update_grid(const Exec&, const PagesView& pages, const WallPagesView<Real>& wall_pages,
                  const SharedPagesView<Real>& shared_pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
                  double* tallies);
 
 /// Completes the nodes within one spacing of a wall: the splines' velocity vanishes on the wall's plane for every
 /// linear profile, whatever components the wall constrains (wall_kern.hpp). Adds to the tallies of the wall pages.
-template<class Real>
-void update_walls(const Cpu&, const PagesView& pages, const WallPagesView<Real>& wall_pages, const GridStep<Real>& step,
-                  Real* motion, double* tallies);
-template<class Real>
-void update_walls(const Gpu&, const PagesView& pages, const WallPagesView<Real>& wall_pages, const GridStep<Real>& step,
-                  Real* motion, double* tallies);
+template<class Exec, class Real>
+void update_walls(const Exec&, const PagesView& pages, const WallPagesView<Real>& wall_pages,
+                  const GridStep<Real>& step, Real* motion, double* tallies);
 
 } // namespace tread::mpm

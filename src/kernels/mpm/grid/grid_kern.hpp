@@ -85,7 +85,7 @@ TREAD_HD NodeStep<Real> begin_node(const GridStep<Real>& step, unsigned held, co
 
 /// Adds the work and impulse of the forces. `after`: m/s, correct in all damped components.
 template<class Real, class Sum>
-TREAD_HD void book_forces(const GridStep<Real>& step, const NodeStep<Real>& node, const Vec3<Real>& after, Sum* sums)
+TREAD_HD void account_forces(const GridStep<Real>& step, const NodeStep<Real>& node, const Vec3<Real>& after, Sum* sums)
 {
     sums[grid_kinetic_before] += Sum(Real(0.5) * node.mass * node.before.squaredNorm());
     sums[grid_power_before] += Sum(node.force.dot(node.before));
@@ -112,8 +112,8 @@ TREAD_HD NodeEnd<Real> finish_node(const GridStep<Real>& step, Real mass, const 
 
 /// Adds the energy and impulse of walls at a node whose velocity without walls is `moved`.
 template<class Real, class Sum>
-TREAD_HD void book_walls(Real mass, const Vec3<Real>& before, const Vec3<Real>& moved, const Vec3<Real>& after,
-                         Sum* sums)
+TREAD_HD void account_walls(Real mass, const Vec3<Real>& before, const Vec3<Real>& moved, const Vec3<Real>& after,
+                            Sum* sums)
 {
     const Vec3<Real> impulse = mass * (after - moved);
     sums[grid_wall_loss] -= Sum(Real(0.5) * impulse.dot(before + after));
@@ -126,7 +126,7 @@ TREAD_HD NodeEnd<Real> update_free_node(const GridStep<Real>& step, const Real* 
 {
     const NodeStep<Real> begun = begin_node(step, 0, channels);
     if (begun.mass == 0) { return {}; }
-    book_forces(step, begun, begun.moved, sums);
+    account_forces(step, begun, begun.moved, sums);
     return finish_node(step, begun.mass, begun.before, begun.moved, sums);
 }
 
@@ -142,13 +142,13 @@ TREAD_HD NodeEnd<Real> update_node(const GridStep<Real>& step, Index3 node, cons
     if (begun.mass == 0) { return {}; }
     const Held       held  = held_by(step.walls, node);
     const Vec3<Real> after = held.alone ? hold_alone(step.walls, node, begun.mass, begun.moved, sums) : begun.moved;
-    book_forces(step, begun, after, sums);
+    account_forces(step, begun, after, sums);
     if (held.paired)
     {
         wall_node = {{begun.mass, after[0], after[1], after[2]}};
         return {begun.moved, begun.before};
     }
-    book_walls(begun.mass, begun.before, begun.moved, after, sums);
+    account_walls(begun.mass, begun.before, begun.moved, after, sums);
     return finish_node(step, begun.mass, begun.before, after, sums);
 }
 
@@ -159,7 +159,7 @@ TREAD_HD NodeEnd<Real> finish_held(const GridStep<Real>& step, Real mass, const 
 {
     const Vec3<Real>& moved  = begun.velocity;
     const Vec3<Real>& before = begun.change;
-    book_walls(mass, before, moved, after, sums);
+    account_walls(mass, before, moved, after, sums);
     return finish_node(step, mass, before, after, sums);
 }
 

@@ -1,6 +1,7 @@
 #include "kernels/mpm/grid/held_pages.hpp"
 
 #include "backend/block_sum.cuh"
+#include "backend/instantiate.hpp"
 #include "backend/launch.cuh"
 #include "kernels/mpm/grid/held_pages_impl.hpp"
 
@@ -30,7 +31,7 @@ struct HoldPage
         block_sum<page_cells, grid_sums>(sum, shared,
                                          [=](int s, double value)
                                          {
-                                             book_more(row, grid_sums, s, value);
+                                             add_to_same_step(row, grid_sums, s, value);
                                              const int c = s - grid_wall_impulse;
                                              if (c >= 0) { impulse[c] += value; }
                                          });
@@ -39,17 +40,18 @@ struct HoldPage
 
 } // namespace
 
-template<class Real>
-void hold_still(const Gpu& gpu, const PagesView& pages, const HeldPagesView& held, const Real* tiles,
+template<class Exec, class Real>
+void hold_still(const Exec& gpu, const PagesView& pages, const HeldPagesView& held, const Real* tiles,
                 const GridStep<Real>& step, Real* motion, double* tallies)
 {
     for_each_block<page_cells>(gpu, "hold still", held.count,
                                HoldPage<Real>{pages, held, tiles, step, motion, tallies});
 }
 
-template void hold_still(const Gpu&, const PagesView&, const HeldPagesView&, const float*, const GridStep<float>&,
-                         float*, double*);
-template void hold_still(const Gpu&, const PagesView&, const HeldPagesView&, const double*, const GridStep<double>&,
-                         double*, double*);
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void hold_still(const Exec&, const PagesView&, const HeldPagesView&, const Real*, const GridStep<Real>&,  \
+                             Real*, double*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

@@ -193,7 +193,6 @@ void follow_coarser(const Exec& exec, const PagesView& pages, const Refinement& 
     }
 }
 
-// A pointer to the type takes no parentheses: NOLINTBEGIN(bugprone-macro-parentheses)
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
     template void list_seams(const Exec&, const PagesView&, const Refinement&, Seams<Exec, Real>&,                     \
                              SortScratch<Exec>&);                                                                      \
@@ -201,6 +200,5 @@ void follow_coarser(const Exec& exec, const PagesView& pages, const Refinement& 
     template void follow_coarser(const Exec&, const PagesView&, const Refinement&, const Seams<Exec, Real>&, Real*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
-// NOLINTEND(bugprone-macro-parentheses)
 
 } // namespace tread::mpm

@@ -186,7 +186,7 @@ TREAD_HD double hold(const GridWalls& walls, int axis, int end, WallGroup<Real>&
 
 /// Separates friction from the loss of walls, because the end of the node's step adds the total loss.
 template<class Sum>
-TREAD_HD void book_friction(double friction, Sum* sums)
+TREAD_HD void account_friction(double friction, Sum* sums)
 {
     sums[grid_friction] += Sum(friction);
     sums[grid_wall_loss] -= Sum(friction);
@@ -203,7 +203,7 @@ TREAD_HD Vec3<Real> hold_alone(const GridWalls& walls, Index3 node, Real mass, c
     {
         const WallPlace place = wall_place(walls, axis, along(node, axis));
         if (place.end < 0 || place.paired) { continue; }
-        book_friction(hold(walls, axis, place.end, group), sums);
+        account_friction(hold(walls, axis, place.end, group), sums);
     }
     return group.velocity[1];
 }

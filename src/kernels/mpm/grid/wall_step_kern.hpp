@@ -103,7 +103,7 @@ TREAD_HD void hold_group(const GridWalls& walls, const WallRegion& region, int a
     }
     const double friction = hold(walls, axis, end, group);
     const Index3 home     = page_of(region_node(region, middle));
-    if (home.x == 0 && home.y == 0 && home.z == 0) { book_friction(friction, sums); }
+    if (home.x == 0 && home.y == 0 && home.z == 0) { account_friction(friction, sums); }
     for (int i = 0; i < 3; ++i)
     {
         if (group.mass[i] == 0) { continue; }

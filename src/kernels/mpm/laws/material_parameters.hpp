@@ -37,8 +37,7 @@ template<class Real>
 struct MaterialParameters : Elasticity<Real>
 {
     LawKind law = LawKind::elastic;
-// A type and the name of a member take no parentheses.
-#define TREAD_ROW(name, Constants) Constants<Real> name{}; // NOLINT(bugprone-macro-parentheses)
+#define TREAD_ROW(name, Constants) Constants<Real> name{};
     TREAD_LAWS(TREAD_ROW)
 #undef TREAD_ROW
 };

@@ -1,13 +1,14 @@
 #include "kernels/mpm/pages/census.hpp"
 
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/mpm/pages/census_kern.hpp"
 
 namespace tread::mpm
 {
 
-template<class Real>
-void take_census(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages,
+template<class Exec, class Real>
+void take_census(const Exec& cpu, const PointsView<Real>& points, const PagesView& pages,
                  const MaterialParameters<Real>* materials, double* rows)
 {
     const auto count_page = [=](std::int64_t page)
@@ -22,9 +23,10 @@ void take_census(const Cpu& cpu, const PointsView<Real>& points, const PagesView
     for_each_heavy(cpu, "census", pages.point_pages, count_page);
 }
 
-template void take_census(const Cpu&, const PointsView<float>&, const PagesView&, const MaterialParameters<float>*,
-                          double*);
-template void take_census(const Cpu&, const PointsView<double>&, const PagesView&, const MaterialParameters<double>*,
-                          double*);
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void take_census(const Exec&, const PointsView<Real>&, const PagesView&, const MaterialParameters<Real>*, \
+                              double*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

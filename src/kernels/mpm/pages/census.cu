@@ -1,6 +1,7 @@
 #include "kernels/mpm/pages/census.hpp"
 
 #include "backend/block_sum.cuh"
+#include "backend/instantiate.hpp"
 #include "backend/launch.cuh"
 #include "kernels/mpm/pages/census_kern.hpp"
 
@@ -36,16 +37,17 @@ struct CountPage
 
 } // namespace
 
-template<class Real>
-void take_census(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages,
+template<class Exec, class Real>
+void take_census(const Exec& gpu, const PointsView<Real>& points, const PagesView& pages,
                  const MaterialParameters<Real>* materials, double* rows)
 {
     for_each_block<census_threads>(gpu, "census", pages.point_pages, CountPage<Real>{points, pages, materials, rows});
 }
 
-template void take_census(const Gpu&, const PointsView<float>&, const PagesView&, const MaterialParameters<float>*,
-                          double*);
-template void take_census(const Gpu&, const PointsView<double>&, const PagesView&, const MaterialParameters<double>*,
-                          double*);
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void take_census(const Exec&, const PointsView<Real>&, const PagesView&, const MaterialParameters<Real>*, \
+                              double*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

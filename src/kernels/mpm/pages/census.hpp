@@ -19,11 +19,8 @@ enum PointCensus : int
 };
 
 /// Computes rows[point page][PointCensus]: sums over the page's points in their order.
-template<class Real>
-void take_census(const Cpu&, const PointsView<Real>& points, const PagesView& pages,
-                 const MaterialParameters<Real>* materials, double* rows);
-template<class Real>
-void take_census(const Gpu&, const PointsView<Real>& points, const PagesView& pages,
+template<class Exec, class Real>
+void take_census(const Exec&, const PointsView<Real>& points, const PagesView& pages,
                  const MaterialParameters<Real>* materials, double* rows);
 
 } // namespace tread::mpm

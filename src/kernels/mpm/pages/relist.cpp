@@ -1,5 +1,6 @@
 #include "kernels/mpm/pages/relist.hpp"
 
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/mpm/pages/relist_impl.hpp"
 
@@ -68,19 +69,32 @@ void relist_page(const Relisting& job, std::int64_t page)
 
 } // namespace
 
-bool may_have_changed_cells(const Cpu&, const MovesView& moves) { return moves.any_changed_cell(); }
+template<class Exec>
+bool may_have_changed_cells(const Exec&, const MovesView& moves)
+{
+    return moves.any_changed_cell();
+}
 
-void start_pages(const Cpu& cpu, const PagesView& old, const MovesView& moves, RelistScratch<Cpu>& scratch)
+template<class Exec>
+void start_pages(const Exec& cpu, const PagesView& old, const MovesView& moves, RelistScratch<Exec>& scratch)
 {
     for_each(cpu, "count pages", old.point_pages + 1, CountAfter{old, moves, scratch.first_point.data()});
     scan_in_place(cpu, scratch.first_point, scratch.sort);
 }
 
-void relist_pages(const Cpu& cpu, const Relisting& job)
+template<class Exec>
+void relist_pages(const Exec& cpu, const Relisting& job)
 {
     for_each_heavy(cpu, "relist points", job.old.point_pages, [=](std::int64_t page) { relist_page(job, page); });
 }
 
 template void relist_points(const Cpu&, Pages<Cpu>&, const MovesView&, RelistScratch<Cpu>&, Array<Cpu, std::uint64_t>&);
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template bool may_have_changed_cells(const Exec&, const MovesView&);                                               \
+    template void start_pages(const Exec&, const PagesView&, const MovesView&, RelistScratch<Exec>&);                  \
+    template void relist_pages(const Exec&, const Relisting&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

@@ -1,5 +1,6 @@
 #include <cub/block/block_scan.cuh>
 
+#include "backend/instantiate.hpp"
 #include "backend/launch.cuh"
 #include "backend/warp.cuh"
 #include "kernels/mpm/pages/relist_impl.hpp"
@@ -151,7 +152,8 @@ struct StartFewPages
 
 } // namespace
 
-void start_pages(const Gpu& gpu, const PagesView& old, const MovesView& moves, RelistScratch<Gpu>& scratch)
+template<class Exec>
+void start_pages(const Exec& gpu, const PagesView& old, const MovesView& moves, RelistScratch<Exec>& scratch)
 {
     std::int32_t* first_point = scratch.first_point.data();
     if (old.point_pages <= few_pages)
@@ -163,14 +165,26 @@ void start_pages(const Gpu& gpu, const PagesView& old, const MovesView& moves, R
     scan_in_place(gpu, scratch.first_point, scratch.sort);
 }
 
-bool may_have_changed_cells(const Gpu&, const MovesView&) { return true; }
+template<class Exec>
+bool may_have_changed_cells(const Exec&, const MovesView&)
+{
+    return true;
+}
 
-void relist_pages(const Gpu& gpu, const Relisting& job)
+template<class Exec>
+void relist_pages(const Exec& gpu, const Relisting& job)
 {
     for_each_block<32 * relist_warps>(gpu, "relist points", (job.old.point_pages + relist_warps - 1) / relist_warps,
                                       RelistPages{job});
 }
 
 template void relist_points(const Gpu&, Pages<Gpu>&, const MovesView&, RelistScratch<Gpu>&, Array<Gpu, std::uint64_t>&);
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template bool may_have_changed_cells(const Exec&, const MovesView&);                                               \
+    template void start_pages(const Exec&, const PagesView&, const MovesView&, RelistScratch<Exec>&);                  \
+    template void relist_pages(const Exec&, const Relisting&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

@@ -11,16 +11,16 @@ namespace tread::mpm
 {
 
 /// Whether points may have changed cell; may return true where the answer would need a wait for the device.
-bool may_have_changed_cells(const Cpu& cpu, const MovesView& moves);
-bool may_have_changed_cells(const Gpu& gpu, const MovesView& moves);
+template<class Exec>
+bool may_have_changed_cells(const Exec& exec, const MovesView& moves);
 
 /// Writes first_point: the number of points before each page and, last, the total, after the moves.
-void start_pages(const Cpu& cpu, const PagesView& old, const MovesView& moves, RelistScratch<Cpu>& scratch);
-void start_pages(const Gpu& gpu, const PagesView& old, const MovesView& moves, RelistScratch<Gpu>& scratch);
+template<class Exec>
+void start_pages(const Exec& exec, const PagesView& old, const MovesView& moves, RelistScratch<Exec>& scratch);
 
 /// Writes the list and the cell ranges of every page.
-void relist_pages(const Cpu& cpu, const Relisting& job);
-void relist_pages(const Gpu& gpu, const Relisting& job);
+template<class Exec>
+void relist_pages(const Exec& exec, const Relisting& job);
 
 /// Stride with which each thread copies entries: if nothing moved, only few threads should be needed to find that out.
 constexpr std::int64_t take_over_stride = 1 << 18;

@@ -34,7 +34,7 @@ struct SharedPages
         , total(exec, "totals of shared pages")
         , first_part(exec, "shared page first part")
         , part(exec, "shared page parts")
-        , booked_elsewhere(exec, "shared pages booked elsewhere")
+        , tallied_elsewhere(exec, "shared pages tallied elsewhere")
     {
     }
 
@@ -46,7 +46,7 @@ struct SharedPages
     Array<Exec, Real>         total;      ///< [shared pages][node_page_values]
     Array<Exec, std::int32_t> first_part; ///< [shared pages + 1]
     Array<Exec, std::int32_t> part; ///< of a page, in the order of summation: index of a received part, or -1 = own
-    Array<Exec, std::int32_t> booked_elsewhere; ///< node pages whose tallies another process keeps
+    Array<Exec, std::int32_t> tallied_elsewhere; ///< node pages whose tallies another process keeps
 };
 
 /// Computes SharedPages::own from the tiles.
@@ -59,6 +59,6 @@ void add_parts(const Exec& exec, const Real* arrived, SharedPages<Exec, Real>& s
 
 /// Clears the tallies (`width` numbers per node page) of pages whose tallies another process keeps.
 template<class Exec, class Real>
-void clear_booked_elsewhere(const Exec& exec, const SharedPages<Exec, Real>& shared, int width, double* tallies);
+void clear_tallied_elsewhere(const Exec& exec, const SharedPages<Exec, Real>& shared, int width, double* tallies);
 
 } // namespace tread::mpm

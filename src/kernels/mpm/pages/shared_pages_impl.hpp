@@ -80,10 +80,10 @@ void add_parts(const Exec& exec, const Real* arrived, SharedPages<Exec, Real>& s
 }
 
 template<class Exec, class Real>
-void clear_booked_elsewhere(const Exec& exec, const SharedPages<Exec, Real>& shared, int width, double* tallies)
+void clear_tallied_elsewhere(const Exec& exec, const SharedPages<Exec, Real>& shared, int width, double* tallies)
 {
-    for_each(exec, "clear tallies booked elsewhere", shared.booked_elsewhere.size() * width,
-             ClearRow{shared.booked_elsewhere.data(), width, tallies});
+    for_each(exec, "clear tallies of other ranks", shared.tallied_elsewhere.size() * width,
+             ClearRow{shared.tallied_elsewhere.data(), width, tallies});
 }
 
 } // namespace tread::mpm

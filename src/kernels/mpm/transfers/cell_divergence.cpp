@@ -1,13 +1,14 @@
 #include "kernels/mpm/transfers/cell_divergence.hpp"
 
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/mpm/transfers/cell_divergence_kern.hpp"
 
 namespace tread::mpm
 {
 
-template<class Real>
-void average_divergence(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
+template<class Exec, class Real>
+void average_divergence(const Exec& cpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
                         const Real* motion, Real dt, Real* cell_divergence)
 {
     const auto average_page = [=](std::int64_t i)
@@ -23,9 +24,10 @@ void average_divergence(const Cpu& cpu, const PointsView<Real>& points, const Pa
     for_each_heavy(cpu, "cell divergence", list.count, average_page);
 }
 
-template void average_divergence(const Cpu&, const PointsView<float>&, const PagesView&, const PageList&, const float*,
-                                 float, float*);
-template void average_divergence(const Cpu&, const PointsView<double>&, const PagesView&, const PageList&,
-                                 const double*, double, double*);
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void average_divergence(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&,          \
+                                     const Real*, Real, Real*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

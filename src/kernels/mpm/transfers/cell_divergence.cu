@@ -1,5 +1,6 @@
 #include "kernels/mpm/transfers/cell_divergence.hpp"
 
+#include "backend/instantiate.hpp"
 #include "backend/launch.cuh"
 #include "kernels/mpm/transfers/cell_divergence_kern.hpp"
 
@@ -35,17 +36,18 @@ struct AveragePage
 
 } // namespace
 
-template<class Real>
-void average_divergence(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
+template<class Exec, class Real>
+void average_divergence(const Exec& gpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
                         const Real* motion, Real dt, Real* cell_divergence)
 {
     for_each_block<page_cells>(gpu, "cell divergence", list.count,
                                AveragePage<Real>{points, pages, list, motion, dt, cell_divergence});
 }
 
-template void average_divergence(const Gpu&, const PointsView<float>&, const PagesView&, const PageList&, const float*,
-                                 float, float*);
-template void average_divergence(const Gpu&, const PointsView<double>&, const PagesView&, const PageList&,
-                                 const double*, double, double*);
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void average_divergence(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&,          \
+                                     const Real*, Real, Real*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

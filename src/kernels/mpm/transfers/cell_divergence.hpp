@@ -12,11 +12,8 @@ namespace tread::mpm
 /// cell impose one constraint on its nodes' velocities instead of one each, so that isochoric flow does not lock
 /// (selective reduced integration: Hughes 1980, Int. J. Numer. Methods Eng. 15:1413). P2G must average the pressure in
 /// the same way (cell_stress.hpp).
-template<class Real>
-void average_divergence(const Cpu&, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
-                        const Real* motion, Real dt, Real* cell_divergence);
-template<class Real>
-void average_divergence(const Gpu&, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
+template<class Exec, class Real>
+void average_divergence(const Exec&, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
                         const Real* motion, Real dt, Real* cell_divergence);
 
 } // namespace tread::mpm

@@ -1,13 +1,14 @@
 #include "kernels/mpm/transfers/cell_stress.hpp"
 
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/mpm/transfers/cell_stress_kern.hpp"
 
 namespace tread::mpm
 {
 
-template<class Real>
-void share_pressure(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages,
+template<class Exec, class Real>
+void share_pressure(const Exec& cpu, const PointsView<Real>& points, const PagesView& pages,
                     const Planes<Real, 6>& shared)
 {
     const auto share_page = [=](std::int64_t page)
@@ -20,7 +21,9 @@ void share_pressure(const Cpu& cpu, const PointsView<Real>& points, const PagesV
     for_each_heavy(cpu, "cell pressure", pages.point_pages, share_page);
 }
 
-template void share_pressure(const Cpu&, const PointsView<float>&, const PagesView&, const Planes<float, 6>&);
-template void share_pressure(const Cpu&, const PointsView<double>&, const PagesView&, const Planes<double, 6>&);
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void share_pressure(const Exec&, const PointsView<Real>&, const PagesView&, const Planes<Real, 6>&)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "backend/quad.hpp"
 #include "kernels/mpm/transfers/gather_kern.hpp"
@@ -65,13 +66,13 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
 #pragma omp atomic write
         *moves.changed_in = moves.step;
     }
-    for (int s = 0; s < point_sums; ++s) { book(tally, point_sums, s, sums[s]); }
+    for (int s = 0; s < point_sums; ++s) { add_to_new_step(tally, point_sums, s, sums[s]); }
 }
 
 } // namespace
 
-template<class Real>
-void gather(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
+template<class Exec, class Real>
+void gather(const Exec& cpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
             const Real* motion, const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks)
 {
     const auto launch = [&](auto moment)
@@ -88,9 +89,10 @@ void gather(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pag
     else { launch(WithoutMoment{}); }
 }
 
-template void gather(const Cpu&, const PointsView<float>&, const PagesView&, const PageList&, const float*,
-                     const GatherStep<float>&, const MovesView&, double*, double*);
-template void gather(const Cpu&, const PointsView<double>&, const PagesView&, const PageList&, const double*,
-                     const GatherStep<double>&, const MovesView&, double*, double*);
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void gather(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&, const Real*,         \
+                         const GatherStep<Real>&, const MovesView&, double*, double*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

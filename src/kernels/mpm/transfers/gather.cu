@@ -6,6 +6,7 @@
 #include <cuda_pipeline.h>
 
 #include "backend/block_sum.cuh"
+#include "backend/instantiate.hpp"
 #include "backend/launch.cuh"
 #include "backend/pack.hpp"
 #include "kernels/mpm/transfers/gather_kern.hpp"
@@ -200,10 +201,10 @@ struct GatherPage
         __shared__ double                 shared_peaks[threads / 32 * point_peaks];
         __shared__ std::int32_t count[move_counts];
         if (threadIdx.x < move_counts) { count[threadIdx.x] = 0; }
-        double*      row    = tallies + page * tally_width(point_sums);
-        double*      most   = peaks + page * point_peaks;
-        const double booked = threadIdx.x < point_sums ? row[threadIdx.x] : 0;
-        const double before = threadIdx.x < point_peaks ? most[threadIdx.x] : 0;
+        double*      row     = tallies + page * tally_width(point_sums);
+        double*      most    = peaks + page * point_peaks;
+        const double tallied = threadIdx.x < point_sums ? row[threadIdx.x] : 0;
+        const double before  = threadIdx.x < point_peaks ? most[threadIdx.x] : 0;
         at += threadIdx.x;
         Listed       next     = listed(at, end);
         std::uint8_t material = fetch(next, at < end, waiting);
@@ -232,7 +233,7 @@ struct GatherPage
         block_sum<threads, point_sums>(sum, shared_sums,
                                        [=](int s, double value)
                                        {
-                                           row[s]              = booked + value;
+                                           row[s]              = tallied + value;
                                            row[point_sums + s] = value;
                                        });
         block_largest<threads, point_peaks>(peak, shared_peaks,
@@ -273,8 +274,8 @@ struct GatherPage
 
 } // namespace
 
-template<class Real>
-void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
+template<class Exec, class Real>
+void gather(const Exec& gpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
             const Real* motion, const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks)
 {
     const auto launch = [&](auto threads, auto moment)
@@ -294,9 +295,10 @@ void gather(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pag
     else { with_threads(std::integral_constant<int, 64>{}); }
 }
 
-template void gather(const Gpu&, const PointsView<float>&, const PagesView&, const PageList&, const float*,
-                     const GatherStep<float>&, const MovesView&, double*, double*);
-template void gather(const Gpu&, const PointsView<double>&, const PagesView&, const PageList&, const double*,
-                     const GatherStep<double>&, const MovesView&, double*, double*);
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void gather(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&, const Real*,         \
+                         const GatherStep<Real>&, const MovesView&, double*, double*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

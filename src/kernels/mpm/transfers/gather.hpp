@@ -45,11 +45,8 @@ enum PointPeak : int
 /// G2P of the points of the listed pages: velocity (FLIP with PIC part, APIC, AFLIP), position, stress and plastic
 /// state; for coupled scenes also the interpolated grid velocity and the support acceleration. Adds the step to the
 /// page's tally of PointSum and updates peaks[point page][PointPeak]; `moves` receives the new place of every point.
-template<class Real>
-void gather(const Cpu&, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
-            const Real* motion, const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks);
-template<class Real>
-void gather(const Gpu&, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
+template<class Exec, class Real>
+void gather(const Exec&, const PointsView<Real>& points, const PagesView& pages, const PageList& list,
             const Real* motion, const GatherStep<Real>& step, const MovesView& moves, double* tallies, double* peaks);
 
 } // namespace tread::mpm

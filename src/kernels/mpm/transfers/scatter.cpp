@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "backend/quad.hpp"
 #include "kernels/mpm/transfers/scatter_kern.hpp"
@@ -123,8 +124,8 @@ void scatter_page(const PointsView<Real>& points, const PagesView& pages, std::i
 
 } // namespace
 
-template<class Real>
-void scatter(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list, Real* tiles)
+template<class Exec, class Real>
+void scatter(const Exec& cpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list, Real* tiles)
 {
     const auto launch = [&](auto affine)
     {
@@ -139,7 +140,9 @@ void scatter(const Cpu& cpu, const PointsView<Real>& points, const PagesView& pa
     else { launch(WithoutAffine{}); }
 }
 
-template void scatter(const Cpu&, const PointsView<float>&, const PagesView&, const PageList&, float*);
-template void scatter(const Cpu&, const PointsView<double>&, const PagesView&, const PageList&, double*);
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void scatter(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&, Real*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

@@ -1,5 +1,6 @@
 #include "kernels/mpm/transfers/scatter.hpp"
 
+#include "backend/instantiate.hpp"
 #include "kernels/mpm/transfers/scatter_full_page.cuh"
 #include "kernels/mpm/transfers/scatter_sparse_page.cuh"
 
@@ -13,8 +14,8 @@ constexpr std::int64_t full_page = 128;
 
 } // namespace
 
-template<class Real>
-void scatter(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list, Real* tiles)
+template<class Exec, class Real>
+void scatter(const Exec& gpu, const PointsView<Real>& points, const PagesView& pages, const PageList& list, Real* tiles)
 {
     const auto launch = [&](auto load)
     {
@@ -39,7 +40,9 @@ void scatter(const Gpu& gpu, const PointsView<Real>& points, const PagesView& pa
     else { with_force(std::false_type{}); }
 }
 
-template void scatter(const Gpu&, const PointsView<float>&, const PagesView&, const PageList&, float*);
-template void scatter(const Gpu&, const PointsView<double>&, const PagesView&, const PageList&, double*);
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void scatter(const Exec&, const PointsView<Real>&, const PagesView&, const PageList&, Real*)
+TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
 
 } // namespace tread::mpm

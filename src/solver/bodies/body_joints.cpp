@@ -1,0 +1,99 @@
+#include "solver/bodies/body_joints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "backend/instantiate.hpp"
+#include "base/errors.hpp"
+#include "io/accept.hpp"
+#include "solver/state_file.hpp"
+#include "world/joints.hpp"
+
+namespace tread::solver
+{
+
+/// m, largest distance of a point of a joint's body from the joint's point; 0 for the world.
+template<class Exec>
+double BodyJoints<Exec>::radius(const dem::Joint& joint, int side) const
+{
+    if (joint.body[side] == dem::joint_world) { return 0; }
+    const auto  body = static_cast<std::size_t>(joint.body[side]);
+    const auto& form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[body])];
+    return form.bounding_radius * world_.bodies.scale[body] + joint.point[side].norm();
+}
+
+template<class Exec>
+BodyJoints<Exec>::BodyJoints(const Exec& exec, const scene::Scene& scene, const world::World& world)
+    : scene_(scene)
+    , world_(world)
+    , host_(world.joints)
+    , phase_(scene.phases.size())
+    , joints_(exec, host_, static_cast<std::int64_t>(world.bodies.size()))
+{
+}
+
+template<class Exec>
+double BodyJoints<Exec>::begin_phase(std::size_t phase)
+{
+    if (phase == std::exchange(phase_, phase)) { return 0; }
+    world::set_motors(scene_, phase, host_);
+    joints_.update(host_);
+    double largest = 0;
+    for (const dem::Joint& joint : host_)
+    {
+        for (int s = 0; s < 2; ++s) { largest = std::max(largest, std::abs(joint.speed) * radius(joint, s)); }
+    }
+    return largest;
+}
+
+template<class Exec>
+void BodyJoints<Exec>::check(double time) const
+{
+    const std::vector<dem::JointRecord> records = joints_.records();
+    for (std::size_t j = 0; j < records.size(); ++j)
+    {
+        const double worst = std::max(records[j].gap, records[j].misalignment), most = scene_.joints[j].drift;
+        if (worst <= most) { continue; }
+        throw NumericalError(fmt::format("t = {:.6g} s: joint '{}' has an error of {:.3g} m and {:.3g} rad, over its "
+                                         "drift of {}: a smaller dt, more substeps, or a larger drift",
+                                         time, scene_.joints[j].name, records[j].gap, records[j].misalignment, most));
+    }
+}
+
+template<class Exec>
+std::vector<JointRow> BodyJoints<Exec>::rows(double span) const
+{
+    const double          over = span > 0 ? 1 / span : 0;
+    std::vector<JointRow> rows;
+    for (const dem::JointRecord& record : joints_.records())
+    {
+        rows.push_back({over * record.impulse, over * record.angular_impulse, over * record.motor_impulse,
+                        record.coordinate, record.gap, record.misalignment});
+    }
+    return rows;
+}
+
+template<class Exec>
+void BodyJoints<Exec>::transfer(StateFile& file)
+{
+    const auto rows  = static_cast<std::size_t>(joints_.states().size());
+    const auto count = static_cast<std::size_t>(joints_.record().size());
+    file.numbers("joints/phase", accept::number(phase_, 0, static_cast<double>(scene_.phases.size())));
+    if (file.loads())
+    {
+        world::set_motors(scene_, phase_, host_);
+        joints_.update(host_);
+    }
+    file.common("joints/states", joints_.states(),
+                accept::all(accept::rows(rows), accept::within(0, dem::row_states - 1)));
+    file.common("joints/records", joints_.record(), accept::all(accept::rows(count), accept::finite()));
+}
+
+#define TREAD_INSTANTIATE(Exec) template class BodyJoints<Exec>
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+} // namespace tread::solver

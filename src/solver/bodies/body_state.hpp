@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "kernels/dem/bodies.hpp"
+#include "kernels/dem/pairs/pairs.hpp"
+#include "scene/scene.hpp"
+#include "solver/bodies/body_tables.hpp"
+#include "solver/plan.hpp"
+#include "solver/ranks/body_ranks.hpp"
+#include "world/world.hpp"
+
+namespace tread::solver
+{
+
+class StateFile;
+
+/// Bodies of a scene on one backend, their pairs, and what stays constant: the data that all parts of DemSolver work
+/// on.
+template<class Exec>
+struct BodyState
+{
+    /// Bodies at their start and at rest, named ones locked, without pairs. InputError if there are more bodies and
+    /// walls than pair keys can tell apart. `decomposition`: null on one rank.
+    BodyState(const Exec& backend, const scene::Scene& of_scene, const world::World& of_world, const Plan& plan,
+              decomp::Decomposition<Exec>* decomposition);
+
+    dem::BodiesView view() { return bodies.view(); }
+    std::int64_t    named() const { return world.bodies.named; }
+
+    /// Name for messages: that of a named body, or "rock 17".
+    std::string name(std::int64_t body) const;
+
+    /// Passes changes of the bodies on to the data that contacts read.
+    void stage() { dem::stage_bodies(exec, pairs, bodies.view()); }
+
+    /// Whether this rank integrates the body and accounts for its energy.
+    bool owns(std::int64_t body) const { return !ranks || ranks->owns(body); }
+
+    /// Whether this rank shares bodies with others, so that every substep exchanges messages.
+    bool            shares() const { return ranks && ranks->shares(); }
+    dem::SharedView shared() { return ranks ? ranks->shared().view() : dem::SharedView{}; }
+
+    /// Null on one rank.
+    const Communicator* communicator() const { return ranks ? &ranks->communicator() : nullptr; }
+
+    /// Gathers the state of all bodies on every rank; valid until they move. Collective.
+    void collect()
+    {
+        if (ranks) { ranks->collect(bodies); }
+    }
+
+    /// Saves or loads the bodies, but neither their pairs nor their owners.
+    void transfer(StateFile& file);
+
+    Exec                           exec;
+    const scene::Scene&            scene;
+    const world::World&            world;
+    Vec3<double>                   gravity;     ///< m/s2
+    double                         mass = 0;    ///< kg, of all bodies
+    bool                           has_contact; ///< whether a body may touch another or a wall
+    BodyTables<Exec>               tables;
+    dem::Bodies<Exec>              bodies;
+    dem::Pairs<Exec>               pairs;
+    std::optional<BodyRanks<Exec>> ranks; ///< only on several ranks
+};
+
+} // namespace tread::solver

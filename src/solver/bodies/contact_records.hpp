@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/bodies/body_state.hpp"
+#include "world/world.hpp"
+
+// Contact records of the pairs of bodies: friction, rolling resistance and place of each patch. They go from one run to
+// another, and through checkpoints.
+namespace tread::solver
+{
+
+class StateFile;
+
+/// Stores the world's contacts as the previous list: pairs found again keep their records.
+template<class Exec>
+void restore_contacts(BodyState<Exec>& state);
+
+/// Records of the pairs that touched in the last step, of all ranks, by ascending key. Collective.
+template<class Exec>
+std::vector<world::ContactRecord> live_contacts(const BodyState<Exec>& state);
+
+/// Saves the records of the listed pairs, or loads them: as the previous list of one rank, or those of pairs whose
+/// contact this rank evaluates.
+template<class Exec>
+void transfer_contacts(BodyState<Exec>& state, StateFile& file);
+
+} // namespace tread::solver

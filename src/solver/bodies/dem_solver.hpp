@@ -1,0 +1,171 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/snapshot.hpp"
+#include "kernels/dem/motion/move.hpp"
+#include "solver/bodies/body_command.hpp"
+#include "solver/bodies/body_commands.hpp"
+#include "solver/bodies/body_joints.hpp"
+#include "solver/bodies/body_reports.hpp"
+#include "solver/bodies/body_row.hpp"
+#include "solver/bodies/body_state.hpp"
+#include "solver/bodies/named_means.hpp"
+#include "solver/bodies/pair_lists.hpp"
+#include "solver/bodies/prescribed_motions.hpp"
+#include "solver/ledger/ledger.hpp"
+#include "solver/plan.hpp"
+#include "solver/time_step.hpp"
+#include "world/world.hpp"
+
+namespace tread::solver
+{
+
+class StateFile;
+
+struct ContactCount
+{
+    double listed;
+    double live;
+    double nodes;
+};
+
+/// Rigid bodies of a scene on one backend: puts together the parts that work on a BodyState. Its part in a step, by the
+/// numbers of ARCHITECTURE.md, is
+///
+/// - 1, command: BodyCommands set what named bodies are held or driven to;
+/// - 3, find_pairs: PairLists renew the list of pairs;
+/// - 4, contact and move, or run: the substeps, with find_pairs_if_displaced between batches of them;
+/// - 7, request_report and report: BodyReports sum up the steps since the last report.
+///
+/// Output is named_bodies, fields, census and contacts (body_output.hpp, contact_records.hpp).
+template<class Exec>
+class DemSolver
+{
+public:
+    /// `decomposition`: ownership of pages; null on one rank. With it every call is collective, and results cover all
+    /// bodies.
+    DemSolver(const Exec& exec, const scene::Scene& scene, const world::World& world, const Plan& plan,
+              decomp::Decomposition<Exec>* decomposition = nullptr);
+
+    dem::BodiesView          view() { return state_.view(); }
+    const dem::TemplateView* templates() const { return state_.tables.law.templates; }
+    dem::PairTable           pair_table() const { return state_.tables.law.pairs; }
+
+    /// Total mass, kg.
+    double mass() const { return state_.mass; }
+
+    /// Whether this rank shares bodies with others, so that every substep exchanges messages.
+    bool shares() const { return state_.shares(); }
+
+    /// Name for messages: that of a named body, or "rock 17".
+    std::string name(std::int64_t body) const { return state_.name(body); }
+
+    /// Partition version: the bodies on this rank stay the same while it is unchanged. 0 on one rank.
+    std::int64_t partition_version() const { return lists_.partition_version; }
+
+    /// Predicted work of the bodies that this rank owns, in points, on several ranks; add_loads adds it to their
+    /// pages.
+    double load() const { return state_.ranks->load(); }
+    void   add_loads(decomp::PageLoads& loads) const { state_.ranks->add_loads(state_.bodies, loads); }
+
+    /// Step 1. Sets what the named bodies are held or driven to (apply_commands).
+    void command(const std::vector<BodyCommand>& commands);
+
+    /// Step 1. Sets the motors of joints to a phase of the scene.
+    void begin_phase(std::size_t phase);
+
+    /// Returns and resets the largest speed (m/s) set by commands on any rank since the last call.
+    double take_commanded_speed();
+
+    /// Step 3. Lists pairs of bodies, and of bodies and walls, that may touch within dt (update_pairs).
+    void find_pairs(double dt);
+
+    /// Passes changes made through view() on to the contacts. find_pairs and command do this themselves.
+    void stage() { state_.stage(); }
+
+    /// Minimum over bodies of sqrt(m / sum K), s, over contacts that are live or may begin in the step; 0 = none.
+    double shortest_contact();
+
+    /// Throws NumericalError: a step would take too many substeps; names the body that demands them.
+    [[noreturn]] void refuse_substeps(const TimeStep& step, const Pace& pace, double time);
+
+    /// Number of steps of dt (s) for which the pair list needs no check; at least one. `speed`: m/s, the largest of
+    /// anything.
+    std::int64_t steps_without_check(double dt, double speed) const;
+
+    /// Returns the number of substeps that may be requested together, called before the substeps of a step. `speed`:
+    /// m/s, the largest of anything; `contact_time`: s, the smallest sqrt(m / sum K) of a body, 0 = no contact. If the
+    /// result is less than all substeps, find_pairs_if_displaced is due after each batch.
+    std::int64_t substeps_without_check(const TimeStep& step, double speed, double contact_time);
+
+    /// Call between two batches, after `done` substeps of a step that began at `time` (s). Rebuilds the pair list if
+    /// the check requested before the last batch says that a body may move too far in the next; if not, requests the
+    /// check for the next two batches.
+    void find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time);
+
+    // Step 4. One substep.
+    void contact(double dt);
+    void move(double dt, double damping, const dem::OutsideWrenches& outside = {});
+    /// Calls contact and move `count` times, for bodies that touch only each other and walls.
+    void run(double dt, double damping, std::int64_t count);
+
+    /// Data that a launch of whole substeps needs; its caller then reports how many it did.
+    dem::BodyStep<Exec> body_step(double dt, double damping);
+    void                count_substeps(double dt, std::int64_t count);
+
+    /// Step 7. Requests the report early, so that one synchronisation serves several readbacks.
+    void request_report();
+
+    /// Report of the step; synchronises. NumericalError when a contact is deeper than its law allows, or a body's
+    /// position is not finite; `time` (s) is for that message.
+    RigidReport report(double time);
+
+    /// Output at present.
+    RigidCensus           census();
+    std::vector<BodyRow>  named_bodies();
+    std::vector<JointRow> joints() const;
+    void                  begin_mean();
+    io::BodyFields        fields();
+
+    /// Records of the pairs that touched in the last step.
+    std::vector<world::ContactRecord> contacts() const;
+
+    /// Counts listed pairs, those of them that touch, and listed nodes; synchronises.
+    ContactCount count_contacts();
+
+    /// m, centre of a named body.
+    Vec3<double> place(std::size_t body) const;
+
+    /// s, integral over time since the run began of the share of a named body's weight that its contacts carried.
+    double carried(std::size_t body) const;
+
+    /// N s, impulse of a named body's contacts since the run began.
+    Vec3<double> contact_impulse(std::size_t body) const;
+
+    /// Saves the state to a checkpoint, or loads it into bodies of the same scene; call between two steps. Does not
+    /// change later results. Contact energies are available again after the next substep.
+    void transfer(StateFile& file);
+
+private:
+    MotionBound bound(double speed) const
+    {
+        return {speed, commands_.heaviest * state_.gravity.norm() + prescribed_acceleration_};
+    }
+
+    BodyState<Exec>   state_;
+    BodyCommands      commands_;
+    PairLists<Exec>   lists_;
+    BodyReports<Exec> reports_;
+    NamedMeans<Exec>  means_;
+    double            substep_ = 0;             ///< s, duration of the last substep
+    double            prescribed_acceleration_; ///< m/s2, bound on what prescribed forces cause
+
+    std::optional<PrescribedMotions<Exec>> motions_; ///< only if some phase prescribes a motion
+    std::optional<BodyJoints<Exec>>        joints_;  ///< only in a scene with joints
+};
+
+} // namespace tread::solver

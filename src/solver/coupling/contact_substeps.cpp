@@ -1,0 +1,110 @@
+#include "solver/coupling/contact_substeps.hpp"
+
+#include <algorithm>
+
+#include "backend/instantiate.hpp"
+#include "base/errors.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+/// Substeps between checks for a stop request; more than a usual step has.
+constexpr std::int64_t substeps_between_checks = 1000;
+
+template<class Exec, class Real>
+void coupled_substep(const ContactSubsteps<Exec, Real>& parts, double dt, StageClock& clock)
+{
+    if (parts.coupling != nullptr)
+    {
+        clock.run(parts.exec, stage::sand_contact, [&] { parts.coupling->substep(parts.bodies.view(), dt); });
+    }
+    if (parts.plan.body_contact)
+    {
+        clock.run(parts.exec, stage::body_contact, [&] { parts.bodies.contact(dt); });
+    }
+    const auto move = [&]
+    {
+        parts.bodies.move(dt, parts.damping,
+                          parts.coupling != nullptr ? parts.coupling->wrenches() : dem::OutsideWrenches{});
+    };
+    clock.run(parts.exec, stage::integrate, move);
+}
+
+/// Runs sand-body and body-body substeps in one launch where that is worthwhile; the time counts as sand-body contact.
+template<class Exec, class Real>
+bool run_in_one_launch(const ContactSubsteps<Exec, Real>& parts, double dt, std::int64_t count, StageClock& clock)
+{
+    if (parts.coupling == nullptr || parts.bodies.shares()) { return false; }
+    const dem::BodyStep<Exec> step = parts.bodies.body_step(dt, parts.damping);
+    if (!parts.coupling->worth_one_launch(step)) { return false; }
+    clock.run(parts.exec, stage::sand_contact, [&] { parts.coupling->run_substeps(step, count); });
+    parts.bodies.count_substeps(dt, count);
+    return true;
+}
+
+template<class Exec, class Real>
+void run_unchecked(const ContactSubsteps<Exec, Real>& parts, double dt, std::int64_t count, StageClock& clock)
+{
+    if (parts.plan.body_contact && parts.coupling == nullptr)
+    {
+        clock.run(parts.exec, stage::body_contact, [&] { parts.bodies.run(dt, parts.damping, count); });
+    }
+    else if (!run_in_one_launch(parts, dt, count, clock))
+    {
+        for (std::int64_t substep = 0; substep < count; ++substep) { coupled_substep(parts, dt, clock); }
+    }
+}
+
+/// Synchronises first: launches are asynchronous, and no time would pass between two checks.
+template<class Exec, class Real>
+void check_stop(const ContactSubsteps<Exec, Real>& parts)
+{
+    if (!parts.why_stop) { return; }
+    synchronize(parts.exec);
+    if (const auto why = parts.why_stop()) { throw StoppedInStep(*why); }
+}
+
+/// Runs `count` substeps after `done` others of the step, with checks for a stop request in between.
+template<class Exec, class Real>
+void run_batch(const ContactSubsteps<Exec, Real>& parts, double dt, std::int64_t done, std::int64_t count,
+               StageClock& clock)
+{
+    for (const std::int64_t end = done + count; done < end;)
+    {
+        const std::int64_t check = (done / substeps_between_checks + 1) * substeps_between_checks;
+        const std::int64_t next  = std::min(check, end);
+        run_unchecked(parts, dt, next - done, clock);
+        done = next;
+        if (done == check) { check_stop(parts); }
+    }
+}
+
+} // namespace
+
+template<class Exec, class Real>
+void run_substeps(const ContactSubsteps<Exec, Real>& parts, const TimeStep& step, double time, const Pace& pace,
+                  StageClock& clock)
+{
+    const double dt    = step.dt / static_cast<double>(step.substeps);
+    const auto   batch = parts.plan.body_contact
+                             ? parts.bodies.substeps_without_check(step, pace.largest_speed, pace.shortest_contact)
+                             : step.substeps;
+    for (std::int64_t done = 0; done < step.substeps; done += batch)
+    {
+        const std::int64_t next = std::min(step.substeps - done, batch);
+        if (done > 0)
+        {
+            clock.run(parts.exec, stage::pairs, [&] { parts.bodies.find_pairs_if_displaced(step, batch, done, time); });
+        }
+        run_batch(parts, dt, done, next, clock);
+    }
+}
+
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void run_substeps(const ContactSubsteps<Exec, Real>&, const TimeStep&, double, const Pace&, StageClock&)
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+} // namespace tread::solver

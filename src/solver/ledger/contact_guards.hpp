@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "kernels/contact/summary.hpp"
+#include "solver/ledger/measuring.hpp"
+
+namespace tread::solver
+{
+
+/// Throws NumericalError when the substeps that the scene fixes were so long that contacts of bodies gain energy.
+/// `pace`: after that step.
+void require_stable_substep(const LastStep& last, const Pace& pace);
+
+/// Throws NumericalError when a point is so deep in a body that its nearest surface is not unique. `name_of`: names a
+/// body in the message; `time`: s.
+void require_unique_surface(const contact::Summary& contacts, const std::function<std::string(std::int64_t)>& name_of,
+                            double time);
+
+} // namespace tread::solver

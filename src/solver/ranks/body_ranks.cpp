@@ -1,0 +1,122 @@
+#include "solver/ranks/body_ranks.hpp"
+
+#include "backend/instantiate.hpp"
+#include "decomp/combine.hpp"
+#include "decomp/messages.hpp"
+#include "solver/ranks/page_loads.hpp"
+#include "solver/ranks/record_migration.hpp"
+
+namespace tread::solver
+{
+
+template<class Exec>
+BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const world::World& world, double sand_reach,
+                           dem::Bodies<Exec>& bodies)
+    : decomposition_(decomposition)
+    , exec_(decomposition.transport.exec())
+    , owners_(decomposition.communicator, world, sand_reach)
+    , shared_(decomposition.transport)
+    , position_(exec_, "body positions on the host")
+    , allowed_(exec_, "body allowed displacement on the host")
+    , states_(decomposition.transport, "states of bodies")
+    , arriving_(exec_, "bodies arriving")
+{
+    owners_.follow_pages(decomposition.owners);
+    owners_.assign(world.bodies.position);
+    bodies.role.assign(owners_.roles());
+    shared_.plan({}, communicator(), owners_.roles().size());
+}
+
+template<class Exec>
+void BodyRanks<Exec>::sum_wanted_displacement(dem::Pairs<Exec>& pairs) const
+{
+    double wanted = read(exec_, pairs.measure.data());
+    decomp::combine(communicator(), &wanted, 1, 0);
+    copy_from_host(exec_, pairs.measure.data(), &wanted, sizeof(wanted));
+}
+
+template<class Exec>
+void BodyRanks<Exec>::assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
+{
+    if (pages_have_changed()) { owners_.follow_pages(decomposition_.owners); }
+    const std::vector<BodyHolding> decided   = decide(bodies, pairs);
+    const ExchangedHoldings        exchanged = exchange_holdings(communicator(), decided);
+    const dem::BodiesView          view      = bodies.view();
+    send_states(states_to_send(decided), exchanged.arriving,
+                decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.force,
+                                view.torque, view.stiffness, view.locked, pairs.displacement.allowed.data()));
+    owners_.take_roles(decided, exchanged.held);
+    bodies.role.assign(owners_.roles());
+    if (owners_.owner_has_changed(decided)) { migrate_records(communicator(), pairs, is_large_, decided); }
+    shared_.plan(exchanged.held, communicator(), owners_.roles().size());
+}
+
+template<class Exec>
+std::vector<BodyHolding> BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs)
+{
+    position_.request(bodies.position);
+    allowed_.request(pairs.displacement.allowed);
+    if (is_large_.empty()) { is_large_ = pairs.sizes.is_large.to_host(); }
+    synchronize(exec_);
+    return owners_.decide({position_.data(), allowed_.data(), is_large_});
+}
+
+/// Bodies whose state this rank sends, by destination.
+template<class Exec>
+RankLists BodyRanks<Exec>::states_to_send(const std::vector<BodyHolding>& decided) const
+{
+    RankLists lists(static_cast<std::size_t>(communicator().size()));
+    for (const BodyHolding& body : decided)
+    {
+        for (const std::int32_t holder : body.holders)
+        {
+            if (holder != communicator().rank()) { lists[static_cast<std::size_t>(holder)].push_back(body.body); }
+        }
+    }
+    return lists;
+}
+
+template<class Exec>
+void BodyRanks<Exec>::send_states(const RankLists& leaving, const RankLists& arriving, const decomp::Columns& columns)
+{
+    arriving_.assign(joined(arriving));
+    states_.plan(joined(leaving), routes_of(leaving), routes_of(arriving));
+    states_.begin(columns);
+    states_.finish(columns, arriving_);
+}
+
+template<class Exec>
+void BodyRanks<Exec>::collect(dem::Bodies<Exec>& bodies)
+{
+    const std::vector<std::int32_t> own      = owners_.owned();
+    RankLists                       arriving = decomp::gather_values(communicator(), own);
+    RankLists                       leaving(arriving.size(), own);
+    const auto                      rank = static_cast<std::size_t>(communicator().rank());
+    arriving[rank].clear();
+    leaving[rank].clear();
+    const dem::BodiesView view = bodies.view();
+    send_states(leaving, arriving,
+                decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity));
+}
+
+template<class Exec>
+double BodyRanks<Exec>::load() const
+{
+    return body_load * static_cast<double>(owners_.owned().size());
+}
+
+template<class Exec>
+void BodyRanks<Exec>::add_loads(const dem::Bodies<Exec>& bodies, decomp::PageLoads& loads) const
+{
+    const std::vector<Vec3<double>> position = bodies.position.to_host();
+    for (const std::int32_t body : owners_.owned())
+    {
+        loads[owners_.page_of(position[static_cast<std::size_t>(body)])] += body_load;
+    }
+}
+
+#define TREAD_INSTANTIATE(Exec) template class BodyRanks<Exec>
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+} // namespace tread::solver

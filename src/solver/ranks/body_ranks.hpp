@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "backend/fetched_array.hpp"
+#include "decomp/balance.hpp"
+#include "decomp/decomposition.hpp"
+#include "decomp/exchange.hpp"
+#include "kernels/dem/bodies.hpp"
+#include "kernels/dem/pairs/pairs.hpp"
+#include "solver/ranks/body_owners.hpp"
+#include "solver/ranks/shared_bodies.hpp"
+#include "world/world.hpp"
+
+namespace tread::solver
+{
+
+/// Distribution of a scene's bodies over the ranks: moves states and contact records to the ranks that BodyOwners
+/// decides on, and keeps SharedBodies in step. Calls are collective unless a comment says otherwise.
+template<class Exec>
+class BodyRanks
+{
+public:
+    /// Sets the owners; there are no ghosts before the first assign_owners(). `sand_reach`: m, distance beyond a
+    /// body's surface within which the owner of sand must hold the body.
+    BodyRanks(decomp::Decomposition<Exec>& decomposition, const world::World& world, double sand_reach,
+              dem::Bodies<Exec>& bodies);
+
+    /// Sums the requested displacements of all ranks' bodies. Call between dem::request_displacement and
+    /// dem::allow_displacement.
+    void sum_wanted_displacement(dem::Pairs<Exec>& pairs) const;
+
+    /// Moves bodies, with their contact records, to the ranks that now own them, and sends ghosts to the ranks where
+    /// they may be in contact. Call between dem::allow_displacement and dem::list_pairs.
+    void assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs);
+
+    /// Gathers the state of all bodies on every rank; valid until they move.
+    void collect(dem::Bodies<Exec>& bodies);
+
+    // Not collective.
+    /// Predicted work of this rank's bodies, in points, in total and by page.
+    double load() const;
+    void   add_loads(const dem::Bodies<Exec>& bodies, decomp::PageLoads& loads) const;
+
+    bool pages_have_changed() const { return owners_.pages_version() != decomposition_.owners.changes(); }
+    bool owns(std::int64_t body) const { return owners_.owns(body); }
+
+    SharedBodies<Exec>& shared() { return shared_; }
+    bool                shares() const { return shared_.count() > 0; }
+    const Communicator& communicator() const { return decomposition_.communicator; }
+
+private:
+    std::vector<BodyHolding> decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs);
+    RankLists                states_to_send(const std::vector<BodyHolding>& decided) const;
+    void send_states(const RankLists& leaving, const RankLists& arriving, const decomp::Columns& columns);
+
+    decomp::Decomposition<Exec>&     decomposition_;
+    Exec                             exec_;
+    BodyOwners                       owners_;
+    SharedBodies<Exec>               shared_;
+    FetchedArray<Exec, Vec3<double>> position_; ///< m
+    FetchedArray<Exec, double>       allowed_;  ///< m
+    std::vector<std::int32_t>        is_large_; ///< by body, from Pairs; empty before assign_owners()
+    decomp::Exchange<Exec>           states_;
+    Array<Exec, std::int32_t>        arriving_;
+};
+
+} // namespace tread::solver

@@ -1,0 +1,97 @@
+#include "solver/ranks/page_loads.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "decomp/partition.hpp"
+#include "kernels/mpm/pages/pages.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+/// m, grid spacing. Without sand, a median diameter of the bodies.
+double spacing_of(const world::World& world)
+{
+    std::vector<double> radii = world.bodies.radius;
+    if (world.points.size() > 0 || radii.empty()) { return world.geometry.spacing; }
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return 2 * *middle;
+}
+
+std::string line_of(const Communicator& communicator, const decomp::PageGraph& graph, const char* name,
+                    const decomp::PartitionOptions& options)
+{
+    const decomp::Partition found = decomp::make_partition(communicator, graph, options);
+    return fmt::format("  {:<8}{}\n", name, describe_partition(graph, found, options.ranks));
+}
+
+} // namespace
+
+std::string describe_partition(const decomp::PageGraph& graph, const decomp::Partition& found, int ranks)
+{
+    const decomp::PartitionQuality quality = decomp::quality_of(graph, found.rank, ranks);
+    std::string text = fmt::format("largest load {:.3f} of the mean, {} nodes shared across ranks, at most {} pages of "
+                                   "others beside one",
+                                   quality.imbalance, quality.cut, quality.halo);
+    if (quality.empty > 0) { text += fmt::format(", {} ranks without pages", quality.empty); }
+    if (!found.fallback.empty()) { text += fmt::format(" (by Morton order: {})", found.fallback); }
+    return text;
+}
+
+decomp::PageLattice page_lattice_of(const world::World& world)
+{
+    return {spacing_of(world), world.geometry.stencil_shift};
+}
+
+decomp::PageGraph page_graph_of(const world::World& world)
+{
+    const double                    spacing = spacing_of(world);
+    std::map<std::uint64_t, double> loads;
+    auto                            last = loads.end(); // consecutive points are often in one page
+    const auto                      add  = [&](const Vec3<double>& at, double load)
+    {
+        const mpm::Index3   cell = mpm::cell_of(at, mpm::make_lattice(spacing, world.geometry.stencil_shift));
+        const std::uint64_t page = mpm::page_key(mpm::page_of(cell));
+        if (last == loads.end() || last->first != page) { last = loads.try_emplace(page, 0.0).first; }
+        last->second += load;
+    };
+    for (const Vec3<double>& at : world.points.position) { add(at, 1); }
+    for (const Vec3<double>& at : world.bodies.position) { add(at, body_load); }
+    std::vector<std::uint64_t> key;
+    std::vector<double>        load;
+    key.reserve(loads.size());
+    load.reserve(loads.size());
+    for (const auto& [page, weight] : loads)
+    {
+        key.push_back(page);
+        load.push_back(weight);
+    }
+    return decomp::page_graph(std::move(key), std::move(load));
+}
+
+std::string partition_lines(const Communicator& communicator, const world::World& world, int ranks)
+{
+    const decomp::PageGraph  graph = page_graph_of(world);
+    decomp::PartitionOptions options;
+    options.ranks    = ranks;
+    std::string text = fmt::format("partition of {} pages into {} ranks:\n", graph.pages(), ranks);
+    text += line_of(communicator, graph, "METIS", options);
+    if (decomp::petsc_is_built_in())
+    {
+        options.partitioner = decomp::Partitioner::petsc;
+        text += line_of(communicator, graph, "PETSc", options);
+    }
+    options.partitioner = decomp::Partitioner::morton;
+    return text + line_of(communicator, graph, "Morton", options);
+}
+
+} // namespace tread::solver

@@ -1,0 +1,113 @@
+#include "solver/ranks/shared_bodies.hpp"
+
+#include "backend/instantiate.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+constexpr std::int32_t alone = -1; ///< place of a body that only one rank holds
+
+/// The bodies of a plan, the row of each for every holder, and where each body's shares begin.
+struct SharingPlan
+{
+    std::vector<std::int32_t> body, first{0}, place, share;
+    RankLists                 rows; ///< by rank: rows to send, in ascending order of bodies
+};
+
+SharingPlan list_bodies(const std::vector<BodyHolding>& held, std::size_t ranks, std::size_t bodies)
+{
+    SharingPlan plan;
+    plan.place.assign(bodies, alone);
+    plan.rows.resize(ranks);
+    for (const BodyHolding& one : held)
+    {
+        if (one.holders.size() < 2) { continue; }
+        const auto row                                 = static_cast<std::int32_t>(plan.body.size());
+        plan.place[static_cast<std::size_t>(one.body)] = row;
+        plan.body.push_back(one.body);
+        plan.first.push_back(plan.first.back() + static_cast<std::int32_t>(one.holders.size()));
+        for (const std::int32_t holder : one.holders) { plan.rows[static_cast<std::size_t>(holder)].push_back(row); }
+    }
+    return plan;
+}
+
+/// Numbers the rows of shares: this rank's own come first, then those that arrive, by rank. plan.rows has none for this
+/// rank.
+void number_shares(SharingPlan& plan, const std::vector<BodyHolding>& held, std::size_t rank)
+{
+    std::vector<std::int32_t> next(plan.rows.size(), static_cast<std::int32_t>(plan.body.size()));
+    for (std::size_t r = 1; r < next.size(); ++r)
+    {
+        next[r] = next[r - 1] + static_cast<std::int32_t>(plan.rows[r - 1].size());
+    }
+    for (const BodyHolding& one : held)
+    {
+        if (one.holders.size() < 2) { continue; }
+        for (const std::int32_t holder : one.holders)
+        {
+            const auto r = static_cast<std::size_t>(holder);
+            plan.share.push_back(r == rank ? plan.place[static_cast<std::size_t>(one.body)] : next[r]++);
+        }
+    }
+}
+
+} // namespace
+
+template<class Exec>
+SharedBodies<Exec>::SharedBodies(decomp::Transport<Exec>& transport)
+    : body_(transport.exec(), "shared bodies")
+    , place_(transport.exec(), "places of shared bodies")
+    , first_(transport.exec(), "shares of bodies")
+    , row_(transport.exec(), "rows of shares")
+    , wrench_(transport, "shares of wrenches")
+    , stiffness_(transport, "shares of stiffness")
+    , speed_(transport, "shares of speeds")
+{
+}
+
+template<class Exec>
+void SharedBodies<Exec>::plan(const std::vector<BodyHolding>& held, const Communicator& communicator,
+                              std::size_t bodies)
+{
+    const auto  rank  = static_cast<std::size_t>(communicator.rank());
+    SharingPlan found = list_bodies(held, static_cast<std::size_t>(communicator.size()), bodies);
+    found.rows[rank].clear();
+    number_shares(found, held, rank);
+    body_.assign(found.body);
+    place_.assign(found.place);
+    first_.assign(found.first);
+    row_.assign(found.share);
+
+    const auto prepare = [&](auto& shares)
+    {
+        shares.exchange.plan(joined(found.rows), routes_of(found.rows), routes_of(found.rows));
+        shares.rows.resize(body_.size() + shares.exchange.received());
+    };
+    prepare(wrench_);
+    prepare(stiffness_);
+    prepare(speed_);
+}
+
+template<class Exec>
+template<class Share>
+void SharedBodies<Exec>::pass_on(Shares<Share>& shares)
+{
+    const decomp::Columns columns = decomp::columns(shares.rows.data());
+    shares.exchange.begin(columns);
+    shares.exchange.finish(columns, body_.size());
+}
+
+template<class Exec>
+dem::SharedView SharedBodies<Exec>::view()
+{
+    return {body_.size(), body_.data(),        place_.data(),          first_.data(),
+            row_.data(),  wrench_.rows.data(), stiffness_.rows.data(), speed_.rows.data()};
+}
+
+#define TREAD_INSTANTIATE(Exec) template class SharedBodies<Exec>
+TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+} // namespace tread::solver

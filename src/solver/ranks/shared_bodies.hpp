@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "decomp/exchange.hpp"
+#include "kernels/dem/motion/shared.hpp"
+#include "solver/ranks/body_holding.hpp"
+
+namespace tread::solver
+{
+
+/// Bodies that this rank integrates together with others, and the exchange of the shares of their sums between the
+/// holders (kernels/dem/motion/shared.hpp). Not collective: only the ranks that share a body take part.
+template<class Exec>
+class SharedBodies
+{
+public:
+    explicit SharedBodies(decomp::Transport<Exec>& transport);
+
+    /// Lists the bodies shared on each route, in the same order on both sides. `held`: ascending; `bodies`: number of
+    /// bodies of the scene.
+    void plan(const std::vector<BodyHolding>& held, const Communicator& communicator, std::size_t bodies);
+
+    std::int64_t    count() const { return body_.size(); }
+    dem::SharedView view();
+
+    void exchange_wrenches() { pass_on(wrench_); }
+    void exchange_stiffness() { pass_on(stiffness_); }
+    void exchange_speeds() { pass_on(speed_); }
+
+private:
+    template<class Share>
+    struct Shares
+    {
+        Shares(decomp::Transport<Exec>& transport, const char* name)
+            : rows(transport.exec(), name)
+            , exchange(transport, name)
+        {
+        }
+
+        Array<Exec, Share>     rows;
+        decomp::Exchange<Exec> exchange;
+    };
+
+    template<class Share>
+    void pass_on(Shares<Share>& shares);
+
+    Array<Exec, std::int32_t>   body_;  ///< [count], ascending
+    Array<Exec, std::int32_t>   place_; ///< [bodies], index in body_; -1: not shared
+    Array<Exec, std::int32_t>   first_; ///< [count + 1], first share of each body
+    Array<Exec, std::int32_t>   row_;   ///< row of each share
+    Shares<dem::WrenchShare>    wrench_;
+    Shares<dem::StiffnessShare> stiffness_;
+    Shares<double>              speed_;
+};
+
+} // namespace tread::solver

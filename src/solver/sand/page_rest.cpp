@@ -1,0 +1,197 @@
+#include "solver/sand/page_rest.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kernels/mpm/pages/page_key.hpp"
+
+namespace tread::solver
+{
+namespace
+{
+
+/// Hysteresis in pages: extra distance from a body beyond which pages fall asleep.
+constexpr int slack = 2;
+
+/// Share of the awake pages: fewer do not fall asleep by themselves, since all points are then sorted.
+constexpr double worth_a_sort = 1.0 / 16;
+
+using Index = std::array<std::int32_t, 3>;
+
+Index index_of(std::uint64_t key)
+{
+    const mpm::Index3 page = mpm::page_coordinates(key);
+    return {page.x, page.y, page.z};
+}
+
+/// Marks on the pages of a box.
+class PageMarks
+{
+public:
+    /// From page `low` to page `high`, both included.
+    PageMarks(const Index& low, const Index& high)
+        : low_(low)
+    {
+        for (std::size_t c = 0; c < 3; ++c) { size_[c] = high[c] - low[c] + 1; }
+        marks_.resize(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
+                      static_cast<std::size_t>(size_[2]));
+    }
+
+    bool at(std::uint64_t key) const { return marks_[place(index_of(key))] != 0; }
+    void mark(const Index& page) { marks_[place(page)] = 1; }
+
+    /// Calls visit(page) for the pages of the box from `first` to `last`.
+    template<class Visit>
+    void for_each(Index first, Index last, Visit visit) const
+    {
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            first[c] = std::max(first[c], low_[c]);
+            last[c]  = std::min(last[c], low_[c] + size_[c] - 1);
+        }
+        Index page;
+        for (page[2] = first[2]; page[2] <= last[2]; ++page[2])
+        {
+            for (page[1] = first[1]; page[1] <= last[1]; ++page[1])
+            {
+                for (page[0] = first[0]; page[0] <= last[0]; ++page[0]) { visit(page); }
+            }
+        }
+    }
+
+    /// Marks all pages within `ring` of a marked one along every axis.
+    void widen(int ring)
+    {
+        std::size_t stride = 1;
+        for (const std::int32_t length : size_)
+        {
+            widen_along(static_cast<std::size_t>(length), stride, ring);
+            stride *= static_cast<std::size_t>(length);
+        }
+    }
+
+private:
+    std::size_t place(const Index& page) const
+    {
+        std::size_t at = 0, stride = 1;
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            at += stride * static_cast<std::size_t>(page[c] - low_[c]);
+            stride *= static_cast<std::size_t>(size_[c]);
+        }
+        return at;
+    }
+
+    /// Widens along one axis: forwards, then backwards, counting pages since the last mark.
+    void widen_along(std::size_t length, std::size_t stride, int ring)
+    {
+        const std::vector<std::uint8_t> before = marks_;
+        for (std::size_t first = 0; first < marks_.size(); ++first)
+        {
+            if (first / stride % length != 0) { continue; }
+            for (const bool forwards : {true, false})
+            {
+                int since = ring + 1;
+                for (std::size_t i = 0; i < length; ++i)
+                {
+                    const std::size_t at = first + stride * (forwards ? i : length - 1 - i);
+                    since                = before[at] != 0 ? 0 : std::min(since + 1, ring + 1);
+                    if (since <= ring) { marks_[at] = 1; }
+                }
+            }
+        }
+    }
+
+    Index                     low_;
+    Index                     size_{};
+    std::vector<std::uint8_t> marks_;
+};
+
+PageMarks around_all(const RestState& state)
+{
+    Index      low{0, 0, 0}, high{0, 0, 0};
+    bool       any     = false;
+    const auto include = [&](std::uint64_t key)
+    {
+        const Index page = index_of(key);
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            low[c]  = any ? std::min(low[c], page[c]) : page[c];
+            high[c] = any ? std::max(high[c], page[c]) : page[c];
+        }
+        any = true;
+    };
+    for (const AwakePage& page : state.awake) { include(page.key); }
+    for (const std::uint64_t key : state.asleep) { include(key); }
+    return {low, high};
+}
+
+/// Marks the pages that are nearer than `distance` (m) to a body.
+void mark_near(const std::vector<BodyReach>& bodies, double edge, double distance, PageMarks& marks)
+{
+    for (const BodyReach& body : bodies)
+    {
+        const double reach = body.radius + distance;
+        Index        first, last;
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            const double centre = body.centre[static_cast<Eigen::Index>(c)];
+            first[c]            = static_cast<std::int32_t>(std::floor((centre - reach) / edge));
+            last[c]             = static_cast<std::int32_t>(std::floor((centre + reach) / edge));
+        }
+        marks.for_each(first, last,
+                       [&](const Index& page)
+                       {
+                           double squared = 0;
+                           for (std::size_t c = 0; c < 3; ++c)
+                           {
+                               const double centre = body.centre[static_cast<Eigen::Index>(c)];
+                               const double off    = centre - std::clamp(centre, page[c] * edge, (page[c] + 1) * edge);
+                               squared += off * off;
+                           }
+                           if (squared < reach * reach) { marks.mark(page); }
+                       });
+    }
+}
+
+} // namespace
+
+std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& state)
+{
+    PageMarks wakes = around_all(state), stays = wakes, moved = wakes;
+    for (const std::uint64_t key : state.pressed) { wakes.mark(index_of(key)); }
+    wakes.widen(1);
+    for (const AwakePage& page : state.awake)
+    {
+        if (page.speed > rule.speed) { moved.mark(index_of(page.key)); }
+        if (page.quiet < rule.rest) { stays.mark(index_of(page.key)); }
+    }
+    moved.widen(moving_ring);
+    stays.widen(moving_ring + 1);
+    mark_near(state.bodies, rule.page_edge, rule.distance, wakes);
+    PageMarks near = wakes;
+    mark_near(state.bodies, rule.page_edge, rule.distance + slack * rule.page_edge, near);
+
+    const bool any_wakes =
+        std::any_of(state.asleep.begin(), state.asleep.end(), [&](std::uint64_t key) { return wakes.at(key); });
+    std::vector<std::uint64_t> asleep, tired;
+    for (const std::uint64_t key : state.asleep)
+    {
+        if (!moved.at(key) && !(any_wakes ? near : wakes).at(key)) { asleep.push_back(key); }
+    }
+    for (const AwakePage& page : state.awake)
+    {
+        if (page.quiet >= rule.rest && !stays.at(page.key) && !near.at(page.key)) { tired.push_back(page.key); }
+    }
+    const bool sorts = asleep.size() < state.asleep.size();
+    if (sorts || static_cast<double>(tired.size()) >= worth_a_sort * static_cast<double>(state.awake.size()))
+    {
+        asleep.insert(asleep.end(), tired.begin(), tired.end());
+    }
+    std::sort(asleep.begin(), asleep.end());
+    asleep.erase(std::unique(asleep.begin(), asleep.end()), asleep.end()); // points may have entered a sleeping page
+    return asleep;
+}
+
+} // namespace tread::solver

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "kernels/mpm/laws/material_parameters.hpp"
+#include "kernels/mpm/pages/leaving.hpp"
+#include "scene/scene.hpp"
+#include "solver/ledger/sand_report.hpp"
+#include "solver/sand/page_watch.hpp"
+#include "world/world.hpp"
+
+namespace tread::solver
+{
+
+/// Sleeping sand of one rank: whole pages whose points are kept apart from the awake ones, with stress and without
+/// velocity, and cost no time. The grid nodes that they reach are held fixed.
+template<class Exec, class Real>
+class SandSleep
+{
+public:
+    /// The scene must have sleep.distance.
+    SandSleep(const Exec& exec, const scene::Scene& scene, const world::World& world, mpm::PointFields fields);
+
+    /// Sleeping points.
+    mpm::Points<Exec, Real>&       points() { return points_; }
+    const mpm::Points<Exec, Real>& points() const { return points_; }
+
+    /// Census of the sleeping points.
+    const SandCensus& census() const { return census_; }
+
+    /// Records a step of dt (s).
+    void pass(double dt);
+
+    /// Mean number of sleeping points over time.
+    double mean_count() const { return lived_ > 0 ? slept_ / lived_ : 0; }
+
+    /// Records peaks[point page][mpm::PointPeak] at each measurement.
+    void note(const double* peaks) { watch_.note(peaks); }
+
+    /// Whether a sleep check is due when nothing is faster than `speed` (m/s). With damping none sleeps.
+    bool is_due(double speed, double damping) const;
+
+    /// Moves points, listed in `pages`, to sleep and wakes others. Returns whether any did; all points must then be
+    /// sorted again. With damping none sleeps. Materials are indexed by PointsView::material.
+    bool look(mpm::Points<Exec, Real>& points, const mpm::Pages<Exec>& pages, const mpm::GridGeometry& geometry,
+              const std::vector<BodyReach>& bodies, const mpm::MaterialParameters<Real>* materials,
+              mpm::OrderScratch<Exec, Real>& scratch, double damping);
+
+    /// Call before pages are rebuilt, and after.
+    void leave_pages() { watch_.collect(held_); }
+    void enter_pages(const mpm::Pages<Exec>& pages, const mpm::PagesView& view, SortScratch<Exec>& scratch);
+
+    /// Holds the nodes of sleeping pages; the last operation on the grid in a step.
+    void hold(const mpm::PagesView& pages, const Real* tiles, const mpm::GridStep<Real>& step, Real* motion,
+              double* tallies);
+
+    /// N s, impulse that stopped the points that fell asleep since the last call.
+    Vec3<double> take_impulse();
+
+    /// Saves or loads the state; pages must be those last entered. Points are saved separately.
+    void transfer(StateFile& file, const mpm::Pages<Exec>& pages, const mpm::PagesView& view,
+                  SortScratch<Exec>& scratch);
+
+private:
+    void       move(mpm::Points<Exec, Real>& from, mpm::Points<Exec, Real>& to,
+                    const std::vector<std::uint64_t>& pages_to_move, const mpm::GridGeometry& geometry,
+                    mpm::OrderScratch<Exec, Real>& scratch, const mpm::MaterialParameters<Real>* materials,
+                    SandCensus& moved);
+    SandCensus census_of_leaving(mpm::Points<Exec, Real>& points, const mpm::MaterialParameters<Real>* materials);
+    void       stop(std::int64_t first);
+
+    Exec                       exec_;
+    RestRule                   rule_;
+    double                     load_limit_; ///< N a page
+    mpm::Points<Exec, Real>    points_;
+    std::vector<std::uint64_t> asleep_; ///< keys of pages, ascending
+    Array<Exec, std::uint64_t> asleep_key_;
+    mpm::HeldPages<Exec>       held_;
+    mpm::Leaving<Exec>         leaving_;
+    PageWatch<Exec>            watch_;
+    SandCensus                 census_;
+    Vec3<double>               impulse_ = Vec3<double>::Zero();
+    double                     slept_   = 0; ///< s, summed over points
+    double                     lived_   = 0; ///< s
+};
+
+} // namespace tread::solver

@@ -1,0 +1,35 @@
+#!/usr/bin/env python3
+"""Every soil test of configs/soil has a twin; the quickest twins run, and measure what their soil is made of: docs/soil_tests.md."""
+
+import tomllib
+import unittest
+
+from soil_case import SOIL, SoilCase
+from tread_post.closed_forms import FORMS
+
+
+class SoilScenes(SoilCase):
+    def test_every_scene_has_a_twin_and_a_closed_form(self):
+        scenes, twins = ({path.name: path for path in folder.glob("*.toml")} for folder in (SOIL, SOIL / "reduced"))
+        self.assertEqual(set(scenes), set(twins))
+        for path in [*scenes.values(), *twins.values()]:
+            scene = tomllib.loads(path.read_text(encoding="utf-8"))
+            self.assertEqual(FORMS[scene["reference"]["form"]].needs(scene), "", path)
+
+    def test_oedometer(self):
+        run = self.run_twin("oedometer")
+        self.compare(run, "modulus", 0.02 * 1.346e7, "the issue's 2 %; strains of the sample's inner half leave out the lid's contacts")
+
+    def test_triaxial(self):
+        run = self.run_twin("triaxial")
+        self.compare(run, "stress_ratio", 0.02 * 3, "the issue's 2 %")
+        self.compare(run, "dilation", 1.0, "a tenth of the angle: strains of plates, which the contacts share in")
+
+    def test_shear_box(self):
+        run = self.run_twin("shear_box")
+        self.compare(run, "stress_ratio", 0.02 * 0.54, "the issue's 2 %, of Davis's ratio")
+        self.compare(run, "dilation", 1.0, "a tenth of the angle")
+
+
+if __name__ == "__main__":
+    unittest.main()

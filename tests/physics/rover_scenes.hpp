@@ -1,0 +1,154 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include <fmt/format.h>
+
+// Rovers on rigid ground. Their wheels are balls: a ball rolls without edges, and touches right below its centre.
+namespace tread::test
+{
+
+/// Where a rover's parts are, m, and their masses, kg: x z of the centres of mass, from the ground below the rover's
+/// origin. Left and right are alike.
+struct RoverPart
+{
+    double mass, x, z;
+};
+
+/// Curiosity's lengths (configs/rover/README.md); uprights count to rockers and bogies.
+namespace curiosity
+{
+inline constexpr double                     radius = 0.25, front = 1.095, middle = -0.089, rear = -1.163;
+inline constexpr double                     pivot_x = 0.214, pivot_z = 0.8754, bogie_x = -0.54, bogie_z = 0.6433;
+inline constexpr RoverPart                  chassis{735, 0.05, 0.9}, rocker{31, 0.28, 0.8}, bogie{21, -0.626, 0.6};
+inline constexpr double                     wheel = 10; ///< kg
+inline constexpr std::array<double, 3>      axles = {front, middle, rear};
+inline constexpr std::array<const char*, 3> names = {"front", "middle", "rear"};
+} // namespace curiosity
+
+/// `contact_share`: at the default of 0.2 a standing rover leaves 1 % of its energy unaccounted.
+inline std::string rover_head(const std::string& gravity, double length, double contact_share = 0.1)
+{
+    return fmt::format(R"(
+title = "rover"
+[domain]
+size    = [{}, 4.0, 2.0]
+{}
+walls   = {{ x = "open", y = "open", bottom = "fixed", top = "open" }}
+[time]
+contact_share = {}
+[[material]]
+name    = "wheel"
+model   = "elastic"
+young   = 2.0e7
+poisson = 0.3
+[[contact]]
+between     = ["wheel", "wall"]
+friction    = 1.0
+restitution = 0.1
+[[shape]]
+name      = "ball"
+generate  = {{ kind = "sphere", nodes = 162 }}
+sdf_cells = 24
+[[shape]]
+name     = "chassis"
+generate = {{ kind = "box", size = [1.5, 1.0, 0.5] }}
+[[shape]]
+name     = "beam"
+generate = {{ kind = "box", size = [1.0, 0.05, 0.06] }}
+)",
+                       length, gravity, contact_share);
+}
+
+inline std::string rover_body(const std::string& name, const std::string& shape, double mass, double x, double y,
+                              double z)
+{
+    return fmt::format("[[body]]\nname = \"{}\"\nshape = \"{}\"\nmaterial = \"wheel\"\nmass = {}\nposition = [{}, {}, "
+                       "{}]\n{}",
+                       name, shape, mass, x, y, z, shape == "ball" ? "diameter = 0.5\n" : "");
+}
+
+inline std::string rover_joint(const std::string& name, const std::string& one, const std::string& other, double x,
+                               double y, double z, const std::string& motor = "")
+{
+    return fmt::format("[[joint]]\nname = \"{}\"\ntype = \"revolute\"\nbetween = [\"{}\", \"{}\"]\nat = [{}, {}, "
+                       "{}]\naxis = [0, 1, 0]\n{}\n",
+                       name, one, other, x, y, z, motor);
+}
+
+inline const std::string differential_text =
+    "[[joint]]\nname = \"differential\"\ntype = \"differential\"\njoints = [\"pivot_left\", \"pivot_right\"]\n";
+
+/// Six wheels on a rocker-bogie; `brake`: the axle's keys of the rear wheels. Wheels turn freely otherwise. Bodies 5 to
+/// 10 are the wheels: front left, front right, middle left, ...
+inline std::string six_wheels(const std::string& gravity, double duration, const std::string& brake = "",
+                              double contact_share = 0.1)
+{
+    using namespace curiosity;
+    constexpr double x = 2, y = 2, drop = 1e-4;
+    std::string      text = rover_head(gravity, 4, contact_share), joints;
+    text += rover_body("chassis", "chassis", chassis.mass, x + chassis.x, y, chassis.z);
+    for (const RoverPart& part : {rocker, bogie})
+    {
+        const bool  first = part.z == rocker.z;
+        const char* name  = first ? "rocker" : "bogie";
+        for (const double side : {1.0, -1.0})
+        {
+            text += rover_body(fmt::format("{}_{}", name, side > 0 ? "left" : "right"), "beam", part.mass, x + part.x,
+                               y + side * (first ? 0.7 : 0.8), part.z);
+        }
+    }
+    for (const double side : {1.0, -1.0})
+    {
+        const std::string hand = side > 0 ? "left" : "right";
+        joints += rover_joint("pivot_" + hand, "chassis", "rocker_" + hand, x + pivot_x, y + 0.6 * side, pivot_z);
+        joints += rover_joint("bogie_" + hand, "rocker_" + hand, "bogie_" + hand, x + bogie_x, y + 0.8 * side, bogie_z);
+    }
+    joints += differential_text;
+    for (std::size_t w = 0; w < axles.size(); ++w)
+    {
+        for (const double side : {1.0, -1.0})
+        {
+            const std::string hand = side > 0 ? "left" : "right", name = fmt::format("{}_{}", names[w], hand);
+            const double      hub_x = x + axles[w], hub_y = y + 1.2 * side, hub_z = radius + drop;
+            text += rover_body(name, "ball", wheel, hub_x, hub_y, hub_z);
+            joints += rover_joint("axle_" + name, (w == 0 ? "rocker_" : "bogie_") + hand, name, hub_x, hub_y, hub_z,
+                                  w == 2 ? brake : "");
+        }
+    }
+    return text + joints + fmt::format("[[phase]]\nname = \"stand\"\nduration = {}\n", duration);
+}
+
+/// Four driven wheels on rockers of 1.4 m, before a step of 0.15 m on the left. Bodies 1 and 2 are the rockers, 3 to 6
+/// the wheels: front left, front right, rear left, rear right; the last body is the step.
+inline std::string four_wheels_before_a_step(double duration)
+{
+    constexpr double  x = 1.2, y = 2, radius = 0.25, half = 0.7, drop = 1e-4;
+    std::string       text  = rover_head("gravity = [0.0, 0.0, -3.72]", 6), joints;
+    const std::string drive = "motor = { speed = 1.6, max_torque = 60, gain = 200 }";
+    text += rover_body("chassis", "chassis", 150, x, y, 0.9);
+    for (const double side : {1.0, -1.0})
+    {
+        const std::string hand = side > 0 ? "left" : "right";
+        text += rover_body("rocker_" + hand, "beam", 10, x, y + 0.7 * side, 0.8);
+        joints += rover_joint("pivot_" + hand, "chassis", "rocker_" + hand, x, y + 0.6 * side, 0.8);
+    }
+    joints += differential_text;
+    for (const double end : {1.0, -1.0})
+    {
+        for (const double side : {1.0, -1.0})
+        {
+            const std::string hand = side > 0 ? "left" : "right", name = (end > 0 ? "front_" : "rear_") + hand;
+            text += rover_body(name, "ball", 10, x + end * half, y + 1.0 * side, radius + drop);
+            joints += rover_joint("axle_" + name, "rocker_" + hand, name, x + end * half, y + 1.0 * side, radius + drop,
+                                  drive);
+        }
+    }
+    text += "[[contact]]\nbetween = [\"wheel\", \"wheel\"]\nfriction = 1.0\nrestitution = 0.1\n"
+            "[[shape]]\nname = \"step\"\ngenerate = { kind = \"box\", size = [3.0, 1.2, 0.145] }\n";
+    text += rover_body("step", "step", 1000, 2.3 + 1.5, y + 1.0, 0.0775);
+    return text + joints + fmt::format("[[phase]]\nname = \"drive\"\nduration = {}\nhold = [\"step\"]\n", duration);
+}
+
+} // namespace tread::test
