@@ -67,7 +67,7 @@ def janosi(displacements, normals, shears):
     if len(shear) < 8:
         raise FitError(f"{len(shear)} rows of shear; 8 at least")
     means = [np.mean(part) for part in normals]
-    with_cohesion = max(means) > 1.1 * min(means)
+    with_cohesion = bool(max(means) > 1.1 * min(means))
     load, length = np.abs(normal).max(), displacement.max()
     # K starts where half of the largest shear is reached, whatever the curve does later.
     half = displacement[np.argmax(shear >= 0.5 * shear.max())] / length / np.log(2)
@@ -82,7 +82,7 @@ def janosi(displacements, normals, shears):
     values, covariance, freedom = _solve(scaled, start)
     shear_length = length * np.exp(values[1])
     scale = np.diag([1.0, shear_length] + [load] * with_cohesion)
-    fitted = [values[0], shear_length] + [load * values[2]] * with_cohesion
+    fitted = [values[0], shear_length, *(load * values[2:])]
     names, units = ("tan_phi", "K") + ("c",) * with_cohesion, ("1", "m") + ("Pa",) * with_cohesion
     constants = _constants(names, fitted, scale @ covariance @ scale, freedom, units)
     angle = constants["tan_phi"]

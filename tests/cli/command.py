@@ -40,7 +40,6 @@ poisson = 0.3
 name      = "roller"
 generate  = { kind = "wheel", radius = 0.06, width = 0.06, wall_thickness = 0.03, grousers = 0, grouser_height = 0.0 }
 sdf_cells = 24
-node_spacing = 0.0075
 
 [[terrain]]
 material = "sand"
