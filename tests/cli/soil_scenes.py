@@ -25,6 +25,9 @@ class SoilScenes(SoilCase):
         self.compare(run, "stress_ratio", 0.02 * 3, "2 %: plates press half a point inside the surface")
         self.compare(run, "dilation", 1.0, "a tenth of the angle: strains of plates, which the contacts share in")
 
+    def test_collapse(self):
+        self.compare(self.run_twin("collapse"), "run_out", 0.15 * 1.2, "the two laboratories are 15 % apart")
+
 
 if __name__ == "__main__":
     unittest.main()
