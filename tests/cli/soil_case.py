@@ -22,10 +22,15 @@ class SoilCase(CommandTest):
         self.assertEqual(run.summary["status"], "finished", name)
         return run
 
+    @staticmethod
+    def figures(run, quantity):
+        """What the run measures of a quantity of its scene's closed form, and the form's own value."""
+        form = FORMS[run.scene["reference"]["form"]]
+        return form.quantities[quantity].measure(run), form.answers(run)[quantity]
+
     def compare(self, run, quantity, tolerance, why):
         """Requires a quantity of the scene's closed form to `tolerance`, in its own unit."""
-        form = FORMS[run.scene["reference"]["form"]]
-        self.expect(quantity, form.quantities[quantity].measure(run), form.answers(run)[quantity], tolerance, why)
+        self.expect(quantity, *self.figures(run, quantity), tolerance, why)
 
     def expect(self, what, measured, expected, tolerance, why):
         print(f"{self.id().split('.')[-1]}: {what} {measured:.6g}, expected {expected:.6g} +- {tolerance:.2g}: {why}")

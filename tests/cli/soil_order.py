@@ -4,21 +4,20 @@
 import unittest
 
 from soil_case import SoilCase
-from tread_post.closed_forms import FORMS
+
+QUANTITIES = ("stress_ratio", "dilation")
 
 
 class SoilOrder(SoilCase):
     def test_shear_box(self):
-        coarse = self.misfits("grid.spacing=0.01")
-        fine = self.misfits("grid.spacing=0.005")
-        for quantity in ("stress_ratio", "dilation"):
+        coarse, fine = (self.misfits(f"grid.spacing={spacing}") for spacing in (0.01, 0.005))
+        for quantity in QUANTITIES:
             self.expect(f"{quantity}, misfit at half the spacing over that at the whole", fine[quantity] / coarse[quantity], 0.5, 0.1,
                         "first order: the band of shear is as wide as one or two cells")
 
-    def misfits(self, spacing):
-        run = self.run_twin("shear_box", spacing)
-        form = FORMS[run.scene["reference"]["form"]]
-        return {name: form.quantities[name].measure(run) - answer for name, answer in form.answers(run).items()}
+    def misfits(self, setting):
+        run = self.run_twin("shear_box", setting)
+        return {quantity: measured - answer for quantity in QUANTITIES for measured, answer in [self.figures(run, quantity)]}
 
 
 if __name__ == "__main__":

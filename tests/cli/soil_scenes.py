@@ -18,11 +18,11 @@ class SoilScenes(SoilCase):
 
     def test_oedometer(self):
         run = self.run_twin("oedometer")
-        self.compare(run, "modulus", 0.02 * 1.346e7, "2 %: 7 % on half as many cells, 1 % on these")
+        self.compare(run, "modulus", 0.02 * 1.346e7, "2 %: the error falls from 7 % on four cells to 1 % on eight")
 
     def test_triaxial(self):
         run = self.run_twin("triaxial")
-        self.compare(run, "stress_ratio", 0.02 * 3, "2 %: plates press half a point inside the surface")
+        self.compare(run, "stress_ratio", 0.02 * 3, "2 %: half a degree of the friction angle")
         self.compare(run, "dilation", 1.0, "a tenth of the angle: strains of plates, which the contacts share in")
 
     def test_collapse(self):

@@ -162,7 +162,8 @@ TYPED_TEST(Rovers, LeaveAnEnergyUnaccountedThatFallsWithTheSubstep)
     const double order = std::log2(unaccounted[0] / unaccounted[2]) / 2;
     test::report(fmt::format("energy unaccounted {:.3g}, {:.3g} and {:.3g} at contact shares of 0.2, 0.1, 0.05: order",
                              unaccounted[0], unaccounted[1], unaccounted[2]),
-                 order, 1, 0.2, "first order in the substep at least; steeper where a contact's beginning rules");
+                 order, 1, 0.2,
+                 "downwards only: first order in the substep, steeper where the beginning of a contact rules");
     EXPECT_GT(order, 0.8);
 }
 

@@ -27,8 +27,10 @@ inline constexpr std::array<double, 3>      axles = {front, middle, rear};
 inline constexpr std::array<const char*, 3> names = {"front", "middle", "rear"};
 } // namespace curiosity
 
-/// `contact_share`: at the default of 0.2 a standing rover leaves 1 % of its energy unaccounted.
-inline std::string rover_head(const std::string& gravity, double length, double contact_share = 0.1)
+/// Half of the default, with which a standing rover leaves 1 % of its energy unaccounted.
+inline constexpr double rover_contact_share = 0.1;
+
+inline std::string rover_head(const std::string& gravity, double length, double contact_share = rover_contact_share)
 {
     return fmt::format(R"(
 title = "rover"
@@ -83,7 +85,7 @@ inline const std::string differential_text =
 /// Six wheels on a rocker-bogie; `brake`: the axle's keys of the rear wheels. Wheels turn freely otherwise. Bodies 5 to
 /// 10 are the wheels: front left, front right, middle left, ...
 inline std::string six_wheels(const std::string& gravity, double duration, const std::string& brake = "",
-                              double contact_share = 0.1)
+                              double contact_share = rover_contact_share)
 {
     using namespace curiosity;
     constexpr double x = 2, y = 2, drop = 1e-4;
