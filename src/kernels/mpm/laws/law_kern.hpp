@@ -16,13 +16,12 @@ TREAD_HD StressUpdate<Real> update_stress(const MaterialParameters<Real>& materi
     StressUpdate<Real> update{trial, state, Real(0)};
     switch (material.law)
     {
-// Copies: what a law out of line takes by reference lies in memory, and would for every other law.
+// A copy for each: what a law out of line takes by reference lies in memory, and would for every other law.
 #define TREAD_ROW(name, Constants)                                                                                     \
     case LawKind::name:                                                                                                \
     {                                                                                                                  \
-        const Sym3<Real>         its_trial = trial;                                                                    \
-        const PlasticState<Real> its_state = state;                                                                    \
-        update                             = respond(material, material.name, its_trial, its_state, dt);               \
+        const StressUpdate<Real> elastic{trial, state, Real(0)};                                                       \
+        update = respond(material, material.name, elastic.stress, elastic.state, dt);                                  \
         break;                                                                                                         \
     }
         TREAD_LAWS(TREAD_ROW)
