@@ -40,7 +40,7 @@ bool run_alone(const Gpu& gpu, PointContact<Gpu>& contact, const PointBodyLaw& l
     constexpr const char* name = "substeps of sand and a body";
     const Respond         respond{contact.contacts(), contact.private_points(), step.bodies, law, step.motion.dt};
     bool                  runs = false;
-    dem::moving::without_motions(step, KnownWrench{},
+    dem::moving::without_motions(step, KnownWrench{}, dem::moving::Alone{},
                                  [&]<class Move>(const Move& move)
                                  {
                                      const auto         kernel = lone_body_kernel<Move>;
@@ -94,7 +94,7 @@ void run_substeps(const Exec& gpu, PointContact<Exec>& contact, const PointBodyL
                                                                   dem::answers_part(meet, step),
                                                                   beside(moved, advance)));
     };
-    dem::moving::with_damping(step, dem::moving::SumOutside{step.motion.outside},
+    dem::moving::with_motions(step, dem::moving::SumOutside{step.motion.outside}, dem::moving::Alone{},
                               [&](const auto& move)
                               {
                                   const std::int64_t bodies = step.bodies.count;

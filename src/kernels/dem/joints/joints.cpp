@@ -110,7 +110,7 @@ template<class Exec>
 void solve_joints(const Exec& cpu, const BodyStep<Exec>& step)
 {
     cpu.counters->launched("joints");
-    joint_steps::with_joints(step, [](const auto& solve) { solve(OneThread{}); });
+    joint_steps::make_solve(step)(OneThread{});
 }
 
 #define TREAD_INSTANTIATE(Exec) template class Joints<Exec>

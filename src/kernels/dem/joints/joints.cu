@@ -21,10 +21,9 @@ struct BlockTeam
     __device__ static void                  sync() { __syncthreads(); }
 };
 
-template<class Solve>
 struct ByBlock
 {
-    Solve solve;
+    joint_steps::SolveJoints solve;
 
     __device__ void operator()(std::int64_t) const { solve(BlockTeam{}); }
 };
@@ -34,8 +33,7 @@ struct ByBlock
 template<class Exec>
 void solve_joints(const Exec& gpu, const BodyStep<Exec>& step)
 {
-    joint_steps::with_joints(step, [&]<class Solve>(const Solve& solve)
-                             { for_each_block<joint_threads>(gpu, "joints", 1, ByBlock<Solve>{solve}); });
+    for_each_block<joint_threads>(gpu, "joints", 1, ByBlock{joint_steps::make_solve(step)});
 }
 
 #define TREAD_INSTANTIATE(Exec) template void solve_joints(const Exec&, const BodyStep<Exec>&)

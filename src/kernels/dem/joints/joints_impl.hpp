@@ -10,18 +10,17 @@ namespace tread::dem::joint_steps
 {
 
 /// Sums the forces on the jointed bodies, solves the joints, and leaves a wrench for each body and a record for each
-/// joint. Outside: as in moving::Move.
-template<class Outside>
+/// joint.
 struct SolveJoints
 {
-    BodiesView     bodies;
-    PairsView      pairs; ///< first = null: pairs were never found
-    Vec3<double>   gravity;
-    double         dt;
-    Outside        outside;
-    SharedView     shared;
-    JointsView     joints;
-    PrescribedView motions; ///< empty in a scene without motions
+    BodiesView         bodies;
+    PairsView          pairs; ///< first = null: pairs were never found
+    Vec3<double>       gravity;
+    double             dt;
+    moving::SumOutside outside;
+    SharedView         shared;
+    JointsView         joints;
+    PrescribedView     motions; ///< empty in a scene without motions
 
     template<class Team>
     TREAD_HD void operator()(const Team& team) const
@@ -119,17 +118,11 @@ private:
     }
 };
 
-/// Calls run with the SolveJoints of the step.
-template<class Exec, class Run>
-void with_joints(const BodyStep<Exec>& step, Run run)
+template<class Exec>
+SolveJoints make_solve(const BodyStep<Exec>& step)
 {
-    moving::with_outside(step,
-                         [&]<class Outside>(const Outside& outside)
-                         {
-                             run(SolveJoints<Outside>{step.bodies, step.pairs.view(), step.motion.gravity,
-                                                      step.motion.dt, outside, step.shared, step.joints,
-                                                      step.prescribed});
-                         });
+    return {step.bodies,           step.pairs.view(), step.motion.gravity, step.motion.dt,
+            {step.motion.outside}, step.shared,       step.joints,         step.prescribed};
 }
 
 } // namespace tread::dem::joint_steps

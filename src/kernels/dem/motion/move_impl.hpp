@@ -321,12 +321,11 @@ private:
 };
 
 /// Computes this rank's share of the wrench on a body that several ranks integrate.
-template<class Outside>
 struct ShareWrench
 {
     PairsView    pairs;  ///< first = null: pairs were never found
     std::int64_t bodies; ///< number of bodies
-    Outside      outside;
+    SumOutside   outside;
     SharedView   shared;
 
     template<class Lanes>
@@ -339,62 +338,52 @@ struct ShareWrench
     }
 };
 
-/// Calls run with the Move for given damping and prescription, for the ranks, and with `outside`.
-template<class Exec, class Outside, class Damping, class Prescription, class Run>
-void with_ranks(const BodyStep<Exec>& step, const Outside& outside, const Damping& damping,
-                const Prescription& prescription, Run run)
+template<class Exec>
+ShareWrench make_share(const BodyStep<Exec>& step)
 {
-    const auto with = [&]<class Ranks>(const Ranks& ranks)
-    {
-        run(Move<Damping, Outside, Ranks, Prescription>{step.bodies, step.pairs.view(), step.totals, step.named,
-                                                        step.joints.wrenches(), step.motion.gravity, step.motion.dt,
-                                                        damping, outside, ranks, prescription});
-    };
-    if (step.bodies.role == nullptr) { with(Alone{}); }
-    else { with(Together{step.shared}); }
+    return {step.pairs.view(), step.bodies.count, {step.motion.outside}, step.shared};
 }
 
-/// Calls run with the Move of a scene without prescribed motions, for the damping and the ranks, and with `outside`.
-template<class Exec, class Outside, class Run>
-void without_motions(const BodyStep<Exec>& step, const Outside& outside, Run run)
+/// Makes the Move of the step.
+template<class Exec, class Damping, class Outside, class Ranks, class Prescription>
+Move<Damping, Outside, Ranks, Prescription> make_move(const BodyStep<Exec>& step, const Damping& damping,
+                                                      const Outside& outside, const Ranks& ranks,
+                                                      const Prescription& prescription)
 {
-    if (step.motion.damping > 0) { with_ranks(step, outside, Damped{step.motion.damping}, NoMotions{}, run); }
-    else { with_ranks(step, outside, Free{}, NoMotions{}, run); }
+    return {step.bodies,         step.pairs.view(), step.totals, step.named, step.joints.wrenches(),
+            step.motion.gravity, step.motion.dt,    damping,     outside,    ranks,
+            prescription};
 }
 
-/// Calls run with the Move for the damping, the ranks and the prescribed motions, and with `outside`. With motions one
-/// Move serves any damping.
-template<class Exec, class Outside, class Run>
-void with_damping(const BodyStep<Exec>& step, const Outside& outside, Run run)
+/// Calls run with the Move of a scene without prescribed motions, for the damping.
+template<class Exec, class Outside, class Ranks, class Run>
+void without_motions(const BodyStep<Exec>& step, const Outside& outside, const Ranks& ranks, Run run)
 {
-    if (step.prescribed.motion == nullptr) { without_motions(step, outside, run); }
-    else { with_ranks(step, outside, Damped{step.motion.damping}, Motions{step.prescribed}, run); }
+    if (step.motion.damping > 0) { run(make_move(step, Damped{step.motion.damping}, outside, ranks, NoMotions{})); }
+    else { run(make_move(step, Free{}, outside, ranks, NoMotions{})); }
 }
 
-/// Calls run with the external wrenches.
-template<class Exec, class Run>
-void with_outside(const BodyStep<Exec>& step, Run run)
+/// Calls run with the Move for the damping and the prescribed motions. With motions one Move serves any damping.
+template<class Exec, class Outside, class Ranks, class Run>
+void with_motions(const BodyStep<Exec>& step, const Outside& outside, const Ranks& ranks, Run run)
 {
-    // One rank may have sand on a body and another none: both must integrate it by the same code.
-    if (step.motion.outside.run != nullptr || step.bodies.role != nullptr) { run(SumOutside{step.motion.outside}); }
-    else { run(NothingOutside{}); }
+    if (step.prescribed.motion == nullptr) { without_motions(step, outside, ranks, run); }
+    else { run(make_move(step, Damped{step.motion.damping}, outside, ranks, Motions{step.prescribed})); }
 }
 
-/// Calls run with the Move for the motion.
+/// Calls run with the Move for the motion. A Move for each combination would take minutes to compile: bodies of several
+/// ranks and prescribed motions always sum the external wrenches. One rank may have sand on a body and another none,
+/// and both must integrate it by the same code.
 template<class Exec, class Run>
 void with_move(const BodyStep<Exec>& step, Run run)
 {
-    with_outside(step, [&](const auto& outside) { with_damping(step, outside, run); });
-}
-
-/// Calls run with the ShareWrench of the step.
-template<class Exec, class Run>
-void with_share(const BodyStep<Exec>& step, Run run)
-{
-    with_outside(step,
-                 [&]<class Outside>(const Outside& outside) {
-                     run(ShareWrench<Outside>{step.pairs.view(), step.bodies.count, outside, step.shared});
-                 });
+    const SumOutside outside{step.motion.outside};
+    if (step.bodies.role != nullptr) { with_motions(step, outside, Together{step.shared}, run); }
+    else if (step.motion.outside.run != nullptr || step.prescribed.motion != nullptr)
+    {
+        with_motions(step, outside, Alone{}, run);
+    }
+    else { without_motions(step, NothingOutside{}, Alone{}, run); }
 }
 
 } // namespace tread::dem::moving

@@ -21,7 +21,7 @@ void run_substeps(const Exec& gpu, const BodyStep<Exec>& step, std::int64_t coun
     by_narrow_phase(step.law,
                     [&](const auto& meet)
                     {
-                        moving::with_damping(step, moving::NothingOutside{},
+                        moving::with_motions(step, moving::NothingOutside{}, moving::Alone{},
                                              [&](const auto& move)
                                              {
                                                  repeat<repeat_threads, repeat_blocks_an_sm>(

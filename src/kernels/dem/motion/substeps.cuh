@@ -13,11 +13,12 @@ namespace tread::dem
 inline constexpr int repeat_threads = 128, repeat_blocks_an_sm = 4;
 
 /// Whether there are too few pairs to fill the device, so that launch latency would dominate a substep. Rolling
-/// resistance and joints have separate launches.
+/// resistance and joints have separate launches; several ranks exchange wrenches between substeps.
 inline bool worth_one_launch(const BodyStep<Gpu>& step)
 {
     constexpr std::int64_t few = 50000;
-    return step.pairs.key.size() < few && !step.pairs.resists_rolling && step.joints.row_count == 0;
+    return step.pairs.key.size() < few && !step.pairs.resists_rolling && step.joints.row_count == 0 &&
+           step.bodies.role == nullptr;
 }
 
 template<class Meet>
