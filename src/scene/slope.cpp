@@ -1,6 +1,7 @@
 #include "scene/slope.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace tread::scene
 {
@@ -10,11 +11,10 @@ namespace
 /// Cosine and sine of an angle in degrees, reduced to 45 degrees so that multiples of 90 are exact.
 Vector2 unit_vector(double degrees)
 {
-    constexpr double pi       = 3.14159265358979323846;
-    const double     turn     = std::remainder(degrees, 360);
-    const auto       quadrant = std::lround(turn / 90);
-    const double     rest     = (turn - 90 * static_cast<double>(quadrant)) * pi / 180;
-    const double     c = std::cos(rest), s = std::sin(rest);
+    const double turn     = std::remainder(degrees, 360);
+    const auto   quadrant = std::lround(turn / 90);
+    const double rest     = (turn - 90 * static_cast<double>(quadrant)) * std::numbers::pi / 180;
+    const double c = std::cos(rest), s = std::sin(rest);
     switch ((quadrant + 4) % 4)
     {
     case 0:

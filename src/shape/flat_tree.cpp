@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 
 namespace tread::shape
 {
@@ -55,7 +56,6 @@ double distance_to_segment(const Eigen::Vector3d& point, const Eigen::Vector3d& 
 /// `tolerance` (m) of a side or a corner counts as on it.
 double angle_about(const Corners& corners, const Eigen::Vector3d& point, double tolerance)
 {
-    constexpr double pi = 3.14159265358979323846;
     for (std::size_t c = 0; c < 3; ++c)
     {
         if ((point - corners[c]).norm() > tolerance) { continue; }
@@ -64,9 +64,9 @@ double angle_about(const Corners& corners, const Eigen::Vector3d& point, double 
     }
     for (std::size_t c = 0; c < 3; ++c)
     {
-        if (distance_to_segment(point, corners[c], corners[(c + 1) % 3]) <= tolerance) { return pi; }
+        if (distance_to_segment(point, corners[c], corners[(c + 1) % 3]) <= tolerance) { return std::numbers::pi; }
     }
-    return 2 * pi;
+    return 2 * std::numbers::pi;
 }
 
 /// Whether a point within `tolerance` of the triangle's box is within about that distance of the triangle.

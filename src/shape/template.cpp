@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <variant>
 
@@ -18,12 +19,10 @@ namespace tread::shape
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
-
 /// Projects nodes of an inscribed mesh onto the sphere of diameter 1 m.
 SurfaceNodes on_sphere(SurfaceNodes nodes, const TriangleMesh& mesh)
 {
-    const double ratio = pi / surface_area(mesh);
+    const double ratio = std::numbers::pi / surface_area(mesh);
     for (double& area : nodes.areas) { area *= ratio; }
     for (Eigen::Vector3d& position : nodes.positions) { position *= 0.5 / position.norm(); }
     // A node on a facet moves out by at most the depth of the facet below the sphere: its cluster's sphere grows by
@@ -92,7 +91,7 @@ MeasuredTemplate make_measured_template(const scene::Shape& shape, const std::st
     result.mesh                     = solid.surface;
     result.sign                     = solid.sign;
     result.remarks                  = solid.remarks;
-    result.equivalent_radius        = std::cbrt(3 * result.unit.volume / (4 * pi));
+    result.equivalent_radius        = std::cbrt(3 * result.unit.volume / (4 * std::numbers::pi));
     const TemplateDistance distance = distance_of(shape, solid);
     add_sdf(shape, distance, reach(result.equivalent_radius), result);
     result.nodes           = std::visit(MakeNodes{result.mesh, shape.node_spacing}, shape.source);

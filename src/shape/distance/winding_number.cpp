@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -10,8 +11,6 @@ namespace tread::shape
 {
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Sums over triangles; positions are relative to a nearby origin, so that shifting keeps precision.
 struct Moments
@@ -61,7 +60,7 @@ double seen_from_afar(const Cluster& cluster, const Eigen::Vector3d& way, double
 {
     const double cubed = squared * std::sqrt(squared);
     const double outer = 3 * way.dot(cluster.moment * way) / squared;
-    return (cluster.area.dot(way) + cluster.moment.trace() - outer) / (4 * pi * cubed);
+    return (cluster.area.dot(way) + cluster.moment.trace() - outer) / (4 * std::numbers::pi * cubed);
 }
 
 constexpr double near = 4; ///< distance, in radii, within which the children are visited
@@ -74,7 +73,7 @@ double covered_part(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::
     const double          x = a.norm(), y = b.norm(), z = c.norm();
     const double          volume = a.dot(b.cross(c));
     if (volume == 0) { return 0; }
-    return std::atan2(volume, x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y) / (2 * pi);
+    return std::atan2(volume, x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y) / (2 * std::numbers::pi);
 }
 
 WindingTree build_winding_tree(const TriangleMesh& mesh)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -16,8 +17,6 @@ namespace tread::shape
 {
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 double width(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& direction)
 {
@@ -46,7 +45,7 @@ std::vector<Eigen::Vector3d> half_sphere(int count)
     for (int i = 0; i < count; ++i)
     {
         const double height = (i + 0.5) / count;
-        const double turn   = i * pi * (3 - std::sqrt(5.0));
+        const double turn   = i * std::numbers::pi * (3 - std::sqrt(5.0));
         const double reach  = std::sqrt(1 - height * height);
         directions.emplace_back(reach * std::cos(turn), reach * std::sin(turn), height);
     }
@@ -121,9 +120,9 @@ Width least_width_across(const std::vector<Eigen::Vector3d>& points, const Eigen
     const auto narrower = [](const auto& a, const auto& b) { return a.first < b.first; };
 
     auto best = at(0);
-    for (int i = 1; i < turns; ++i) { best = std::min(best, at(pi * i / turns), narrower); }
+    for (int i = 1; i < turns; ++i) { best = std::min(best, at(std::numbers::pi * i / turns), narrower); }
     constexpr int halvings = 20; // to 1e-8 of a turn
-    double        step     = 0.5 * pi / turns;
+    double        step     = 0.5 * std::numbers::pi / turns;
     for (int halving = 0; halving < halvings; ++halving)
     {
         const double turn = best.second;
@@ -149,7 +148,7 @@ Extents extents(const std::vector<Eigen::Vector3d>& hull_vertices)
 
 double sphericity(const TriangleMesh& mesh)
 {
-    return std::cbrt(pi) * std::pow(6 * mass_properties(mesh).volume, 2.0 / 3.0) / surface_area(mesh);
+    return std::cbrt(std::numbers::pi) * std::pow(6 * mass_properties(mesh).volume, 2.0 / 3.0) / surface_area(mesh);
 }
 
 Form form_of(const TriangleMesh& mesh)

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 
 namespace tread::shape
 {
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Angles closer than this differ by rounding only, which must not decide between them.
 constexpr double tie = 1e-9;
@@ -23,7 +22,7 @@ Ring starting_at(const Ring& ring, std::size_t first)
     {
         const std::size_t at = (first + i) % ring.vertices.size();
         turned.vertices.push_back(ring.vertices[at]);
-        turned.angles.push_back(ring.angles[at] + (at < first ? 2 * pi : 0.0));
+        turned.angles.push_back(ring.angles[at] + (at < first ? 2 * std::numbers::pi : 0.0));
     }
     return turned;
 }
@@ -31,7 +30,7 @@ Ring starting_at(const Ring& ring, std::size_t first)
 /// Ring rotated to start at the vertex whose angle, modulo a turn, is nearest to `start`.
 Ring aligned(const Ring& ring, double start)
 {
-    const auto  offset  = [&](double angle) { return std::remainder(angle - start, 2 * pi); };
+    const auto  offset  = [&](double angle) { return std::remainder(angle - start, 2 * std::numbers::pi); };
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < ring.angles.size(); ++i)
     {
@@ -47,7 +46,7 @@ Ring aligned(const Ring& ring, double start)
 Ring closed(Ring ring)
 {
     ring.vertices.push_back(ring.vertices.front());
-    ring.angles.push_back(ring.angles.front() + 2 * pi);
+    ring.angles.push_back(ring.angles.front() + 2 * std::numbers::pi);
     return ring;
 }
 
@@ -64,7 +63,7 @@ Ring even_ring(TriangleMesh& mesh, int count, double start, double radius, doubl
     Ring ring;
     for (int i = 0; i < count; ++i)
     {
-        ring.angles.push_back(start + 2 * pi * i / count);
+        ring.angles.push_back(start + 2 * std::numbers::pi * i / count);
         ring.vertices.push_back(add_vertex(mesh, ring.angles.back(), radius, y));
     }
     return ring;

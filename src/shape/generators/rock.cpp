@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -21,8 +22,6 @@ namespace tread::shape
 {
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 constexpr double tolerance = 0.03;  ///< relative, of the guaranteed form
 constexpr double sought    = 0.005; ///< relative, at which the search stops
@@ -264,7 +263,7 @@ TriangleMesh rock_mesh(const scene::RockGenerator& generator, const std::string&
     check(generator, origin);
     const Rock   rock  = drawn_rock(generator.seed, requested_form(generator), origin);
     TriangleMesh mesh  = rock.mesh;
-    const double scale = std::cbrt(pi / 6 / mass_properties(mesh).volume);
+    const double scale = std::cbrt(std::numbers::pi / 6 / mass_properties(mesh).volume);
     for (Eigen::Vector3d& vertex : mesh.vertices) { vertex = scale * (rock.axes.transpose() * vertex); }
     return mesh;
 }

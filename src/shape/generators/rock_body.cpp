@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -18,13 +19,11 @@ namespace tread::shape
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
-
 /// Random direction, uniform on the unit sphere.
 Eigen::Vector3d direction(Random& random)
 {
     const double height = 2 * random.uniform() - 1;
-    const double turn   = 2 * pi * random.uniform();
+    const double turn   = 2 * std::numbers::pi * random.uniform();
     const double reach  = std::sqrt(1 - height * height);
     return {reach * std::cos(turn), reach * std::sin(turn), height};
 }
@@ -245,7 +244,7 @@ RockCharacter rock_character(std::uint64_t seed)
     for (int i = 0; i < waves; ++i)
     {
         const double number = random.uniform(2, 6);
-        character.waves.push_back({number * direction(random), 2 * pi * random.uniform()});
+        character.waves.push_back({number * direction(random), 2 * std::numbers::pi * random.uniform()});
     }
     return character;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "shape/generators/rings.hpp"
@@ -14,9 +15,8 @@ namespace tread::shape
 namespace
 {
 
-constexpr double pi        = 3.14159265358979323846;
-constexpr int    columns   = 180; ///< chords of 2 degrees
-constexpr int    most_rows = 64;
+constexpr int columns   = 180; ///< chords of 2 degrees
+constexpr int most_rows = 64;
 
 /// Corner of a profile, m.
 struct Corner
@@ -29,7 +29,10 @@ double way(const Corner& from, const Corner& to)
     return std::hypot(to.radius - from.radius, to.height - from.height);
 }
 
-int rows_over(double way, double radius) { return std::min(steps_over(way, 4 * pi * radius / columns), most_rows); }
+int rows_over(double way, double radius)
+{
+    return std::min(steps_over(way, 4 * std::numbers::pi * radius / columns), most_rows);
+}
 
 Ring ring_at(TriangleMesh& mesh, int count, const Corner& at)
 {
@@ -120,7 +123,7 @@ TriangleMesh tool_mesh(const scene::CylinderGenerator& cylinder)
 
 TriangleMesh tool_mesh(const scene::ConeGenerator& cone)
 {
-    const double height = cone.base_radius / std::tan(0.5 * cone.apex_angle_deg * pi / 180);
+    const double height = cone.base_radius / std::tan(0.5 * cone.apex_angle_deg * std::numbers::pi / 180);
     Corner       top{cone.base_radius, height};
     TriangleMesh mesh;
     Ring         last = ring_at(mesh, columns, top);
@@ -161,7 +164,8 @@ double tool_spacing(const scene::CylinderGenerator& cylinder)
 
 double tool_spacing(const scene::ConeGenerator& cone)
 {
-    const double height = cone.base_radius / std::tan(0.5 * cone.apex_angle_deg * pi / 180) + cone.shaft_length;
+    const double height =
+        cone.base_radius / std::tan(0.5 * cone.apex_angle_deg * std::numbers::pi / 180) + cone.shaft_length;
     return std::min(std::max(2 * cone.base_radius, height) / 40, cone.base_radius / 8);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "shape/generators/rings.hpp"
@@ -14,8 +15,7 @@ namespace tread::shape
 namespace
 {
 
-constexpr double pi        = 3.14159265358979323846;
-constexpr int    most_rows = 64, most_levels = 16; ///< a thousand vanes may have that many levels
+constexpr int most_rows = 64, most_levels = 16; ///< a thousand vanes may have that many levels
 
 /// Builds the mesh about the y axis, along which the ring is high. Columns of all rings follow the vanes.
 class VanedRing
@@ -25,7 +25,7 @@ public:
         : ring_(ring)
         , low_(-0.5 * ring.height)
         , high_(0.5 * ring.height)
-        , pitch_(2 * pi / ring.vanes)
+        , pitch_(2 * std::numbers::pi / ring.vanes)
         , foot_columns_(steps_over(2 * half_angle(ring.inner_radius), longest_wheel_chord))
         , gap_columns_(steps_over(pitch_ - 2 * half_angle(ring.outer_radius), longest_wheel_chord))
         , levels_(std::min(rows_over(ring.vane_height), most_levels))

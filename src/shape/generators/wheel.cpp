@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "shape/generators/generators.hpp"
 #include "shape/generators/wheel_tread.hpp"
@@ -10,8 +11,6 @@ namespace tread::shape
 {
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// The inside of one half of a wheel, from the drum's edge inwards.
 class HalfInside
@@ -119,7 +118,7 @@ private:
     void turn_side(double from, double to, double radius)
     {
         const int count = static_cast<int>(last_.vertices.size());
-        const int steps = steps_over(std::abs(to - from), 4 * pi * radius / count);
+        const int steps = steps_over(std::abs(to - from), 4 * std::numbers::pi * radius / count);
         for (int step = 1; step <= steps; ++step)
         {
             join(band(last_, turned(count, radius, step == steps ? to : from + (to - from) * step / steps)));
@@ -127,7 +126,7 @@ private:
     }
 
     /// Number of corners of a turned ring: 60 lose 0.2 % of the disc's area.
-    int corners(double radius) const { return std::max(60, steps_over(2 * pi * radius, grid_.chord)); }
+    int corners(double radius) const { return std::max(60, steps_over(2 * std::numbers::pi * radius, grid_.chord)); }
 
     TriangleMesh&                mesh_;
     const WheelGrid&             grid_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include <fmt/format.h>
@@ -11,8 +12,6 @@ namespace tread::shape
 {
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Parts thinner than this fraction of the radius would come near the error of the chords.
 constexpr double thinnest = 1e-3;
@@ -47,7 +46,8 @@ public:
             fail("grouser_sweep_deg", sweep, "are -60 to -0.1 and 0.1 to 60 with chevron and curved grousers");
         }
         if (wheel_.grousers == 0) { return; }
-        const double pitch = 2 * drum_radius(wheel_, edge()) * std::sin(pi / std::max(wheel_.grousers, 2));
+        const double pitch =
+            2 * drum_radius(wheel_, edge()) * std::sin(std::numbers::pi / std::max(wheel_.grousers, 2));
         require("grouser_width", wheel_.grouser_width, least_, 0.9 * pitch);
     }
 

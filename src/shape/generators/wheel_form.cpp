@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace tread::shape
 {
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Largest step along y between rows.
 double row_step(const scene::WheelGenerator& wheel)
@@ -70,7 +69,7 @@ double rim_radius(const scene::WheelGenerator& wheel)
 double sweep(const scene::WheelGenerator& wheel, double y)
 {
     if (wheel.grousers == 0) { return 0; }
-    const double ends = wheel.grouser_sweep_deg / 180 * pi;
+    const double ends = wheel.grouser_sweep_deg / 180 * std::numbers::pi;
     const double edge = std::abs(2 * y / wheel.width);
     switch (wheel.grouser_shape)
     {
@@ -98,7 +97,7 @@ WheelGrid wheel_grid(const scene::WheelGenerator& wheel)
     grid.rows         = wheel_rows(wheel);
     grid.chord        = longest_wheel_chord * drum_radius(wheel, 0);
     grid.pitches      = std::max(wheel.grousers, 1);
-    grid.pitch        = 2 * pi / grid.pitches;
+    grid.pitch        = 2 * std::numbers::pi / grid.pitches;
     const double foot = 2 * half_angle(wheel, drum_radius(wheel, 0));
     grid.gap_columns  = steps_over(grid.pitch - foot, longest_wheel_chord);
     grid.foot_columns = wheel.grousers > 0 ? steps_over(foot, longest_wheel_chord) : 0;

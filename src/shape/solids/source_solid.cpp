@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <numbers>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -19,15 +20,16 @@ namespace tread::shape
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
-
 /// Exact sphere: volume pi/6 and moment of inertia 2/5 V r^2, r = 1/2 m.
-MassProperties exact_sphere() { return {pi / 6, Eigen::Vector3d::Zero(), pi / 60 * Eigen::Matrix3d::Identity()}; }
+MassProperties exact_sphere()
+{
+    return {std::numbers::pi / 6, Eigen::Vector3d::Zero(), std::numbers::pi / 60 * Eigen::Matrix3d::Identity()};
+}
 
 Placing placing_of(const scene::AssemblyPart& part)
 {
     const Eigen::Vector3d axis = Eigen::Vector3d(part.axis.data()).normalized();
-    return {part.scale, Eigen::AngleAxisd(part.angle_deg * pi / 180, axis).toRotationMatrix(),
+    return {part.scale, Eigen::AngleAxisd(part.angle_deg * std::numbers::pi / 180, axis).toRotationMatrix(),
             Eigen::Vector3d(part.at.data())};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include "kernels/dem/contact/spring_kern.hpp"
 #include "kernels/dem/contact/traction_kern.hpp"
@@ -66,13 +67,12 @@ TREAD_HD double cap_factor(double value, double cap) { return value > cap ? cap 
 /// that of a Hertz patch of radius a in full slip, 3 pi/16 mu F a = 0.94 mu F r with r^2 = 0.4 a^2 = 0.4 R* d.
 TREAD_HD Friction update_patch(const PairLaw& law, const PatchState& state, Patch& patch, double dt)
 {
-    constexpr double pi                = 3.14159265358979323846;
-    const double     soft_before       = softness_of(law.shear_ratio * patch.stiffness);
-    const double     twist_soft_before = softness_of(patch.twist_stiffness);
-    const double     held =
+    const double soft_before       = softness_of(law.shear_ratio * patch.stiffness);
+    const double twist_soft_before = softness_of(patch.twist_stiffness);
+    const double held =
         0.5 * (patch.tangential.squaredNorm() * soft_before + patch.torsion * patch.torsion * twist_soft_before);
     // E* sqrt(R*) = pi R* traction
-    const double       root         = std::cbrt(0.75 / pi * state.load / (law.effective_radius * law.traction));
+    const double       root = std::cbrt(0.75 / std::numbers::pi * state.load / (law.effective_radius * law.traction));
     const double       arm_squared  = state.spread + 0.4 * law.effective_radius * root * root;
     const double       k_tangential = law.shear_ratio * state.stiffness;
     const double       k_twist      = k_tangential * arm_squared;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include "backend/vector.hpp"
 #include "kernels/dem/templates.hpp"
@@ -38,11 +39,10 @@ TREAD_HD double inverse_root(double x)
 TREAD_HD PairLaw pair_law(const PairProperties& pair, const ContactOptions& options, double inverse_radii,
                           double inverse_masses)
 {
-    constexpr double pi       = 3.14159265358979323846;
-    const double     radius   = 1.0 / inverse_radii;
-    const double     young    = options.hertz_factor * pair.effective_young;
-    const double     traction = young / pi * std::sqrt(inverse_radii);
-    const double     linear   = options.linear_overlap * radius;
+    const double radius   = 1.0 / inverse_radii;
+    const double young    = options.hertz_factor * pair.effective_young;
+    const double traction = young / std::numbers::pi * std::sqrt(inverse_radii);
+    const double linear   = options.linear_overlap * radius;
     return {young,
             radius,
             traction,
