@@ -12,27 +12,27 @@ namespace
 {
 
 // The declarations of nccl.h, version 2, that are used here, so that building tread does not need the header.
-struct UniqueId
-{
-    char bytes[128];
-};
-
 constexpr int success    = 0;
 constexpr int type_uint8 = 1;
-
-using GetUniqueId = int (*)(UniqueId*);
-using InitRank    = int (*)(void** comm, int ranks, UniqueId id, int rank);
-using Destroy     = int (*)(void* comm);
-using Group       = int (*)();
-using Send        = int (*)(const void*, std::size_t count, int type, int peer, void* comm, CUstream_st*);
-using Receive     = int (*)(void*, std::size_t count, int type, int peer, void* comm, CUstream_st*);
-using ErrorString = const char* (*)(int);
 
 } // namespace
 
 /// Handle of the library. It stays open until the process ends: its threads may outlive the last communicator.
 struct NcclLibrary
 {
+    struct UniqueId
+    {
+        char bytes[128];
+    };
+
+    using GetUniqueId = int (*)(UniqueId*);
+    using InitRank    = int (*)(void** comm, int ranks, UniqueId id, int rank);
+    using Destroy     = int (*)(void* comm);
+    using Group       = int (*)();
+    using Send        = int (*)(const void*, std::size_t count, int type, int peer, void* comm, CUstream_st*);
+    using Receive     = int (*)(void*, std::size_t count, int type, int peer, void* comm, CUstream_st*);
+    using ErrorString = const char* (*)(int);
+
     void*       handle        = nullptr;
     GetUniqueId get_unique_id = nullptr;
     InitRank    init_rank     = nullptr;
@@ -76,7 +76,7 @@ Nccl::Nccl(const Communicator& communicator)
     }
     // Sends and receives do not use NVLink multicast, which occupies resources of the whole machine.
     setenv("NCCL_NVLS_ENABLE", "0", 1);
-    UniqueId id{};
+    NcclLibrary::UniqueId id{};
     if (communicator.rank() == 0) { library_->check(library_->get_unique_id(&id), "unique id"); }
     const std::string text = communicator.broadcast(std::string(id.bytes, sizeof(id.bytes)));
     std::memcpy(id.bytes, text.data(), sizeof(id.bytes));

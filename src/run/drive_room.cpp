@@ -30,7 +30,7 @@ struct Rim
 
 Rim rim_of(const world::World& world, std::size_t body)
 {
-    const auto&        form = world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
+    const auto&        form = world::template_of(world, body);
     const Vec3<double> axle = world.bodies.orientation[body] * Vec3<double>::UnitY();
     Vec3<double>       most = Vec3<double>::Zero();
     for (const Vec3<double>& vertex : form.mesh.vertices)

@@ -109,7 +109,7 @@ std::vector<double> rolling_radii(const scene::Scene& scene, const world::World&
     std::vector<double> radii;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     {
-        const auto& form = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
+        const auto& form = world::template_of(world, b);
         radii.push_back(rolling_radius(scene.bodies[b], form, world.bodies.scale[b]));
     }
     return radii;

@@ -26,10 +26,7 @@ struct Placed
 
     std::string                 name() const { return fmt::format("[[body]] '{}'", body.name); }
     double                      mass() const { return world.bodies.mass[footing.body]; }
-    const shape::ShapeTemplate& form() const
-    {
-        return world.templates[static_cast<std::size_t>(world.bodies.shape[footing.body])];
-    }
+    const shape::ShapeTemplate& form() const { return world::template_of(world, footing.body); }
 };
 
 /// Extent of the sand in the plan, "x 0 to 1 m, y 0 to 0.6 m".

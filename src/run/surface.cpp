@@ -11,7 +11,7 @@ namespace tread::run
 namespace
 {
 
-constexpr double none           = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_height      = std::numeric_limits<double>::quiet_NaN();
 constexpr int    most_samples   = 64; ///< along each side of a footprint
 constexpr int    fewest_samples = 4;
 
@@ -37,7 +37,7 @@ std::vector<Footprint> footprints(const world::World& world)
     std::vector<Footprint> all;
     for (std::size_t b = 0; b < static_cast<std::size_t>(world.bodies.named); ++b)
     {
-        const auto&  form  = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
+        const auto&  form  = world::template_of(world, b);
         const double scale = world.bodies.scale[b];
         const double side  = form.is_wheel ? form.wheel.radius : form.bounding_radius;
         all.push_back({scale * side, scale * (form.is_wheel ? form.wheel.width : side), scale * form.bounding_radius});
@@ -48,7 +48,7 @@ std::vector<Footprint> footprints(const world::World& world)
 SurfaceMap::SurfaceMap(const scene::Scene& scene, const world::World& world)
     : lattice_(world::column_lattice(scene, world))
     , footprints_(footprints(world))
-    , height_(static_cast<std::size_t>(lattice_.size()), none)
+    , height_(static_cast<std::size_t>(lattice_.size()), no_height)
     , pressed_(height_.size(), 0)
 {
 }
@@ -108,7 +108,7 @@ double SurfaceMap::at(double x, double y) const
         sum += weight * height;
         weights += weight;
     }
-    return weights > 0 ? sum / weights : none;
+    return weights > 0 ? sum / weights : no_height;
 }
 
 double SurfaceMap::nearest(double x, double y) const

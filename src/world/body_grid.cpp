@@ -8,17 +8,12 @@ namespace tread::world
 namespace
 {
 
-const shape::ShapeTemplate& form_of(const World& world, std::size_t body)
-{
-    return world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
-}
-
 /// Whether no surface node of `one` is nearer than `margin` (m) to `other` or inside it.
 bool nodes_clear(const World& world, std::size_t one, std::size_t other, double margin)
 {
     const HostBodies&          bodies = world.bodies;
-    const shape::SurfaceNodes& nodes  = form_of(world, one).nodes;
-    const auto&                sdf    = form_of(world, other).sdf;
+    const shape::SurfaceNodes& nodes  = template_of(world, one).nodes;
+    const auto&                sdf    = template_of(world, other).sdf;
     const double               scale = bodies.scale[one], inverse = 1 / bodies.scale[other];
     const Mat3<double>         to_other = bodies.orientation[other].conjugate().toRotationMatrix();
     // In units of the other's template: x = turn * node + shift.
@@ -26,7 +21,7 @@ bool nodes_clear(const World& world, std::size_t one, std::size_t other, double 
     const Vec3<double> shift  = inverse * (to_other * (bodies.position[one] - bodies.position[other]));
     const double       needed = margin * inverse;
     // Bounding sphere of `other`: nodes outside it need no lookup in its distance field.
-    const double beyond = form_of(world, other).bounding_radius + needed;
+    const double beyond = template_of(world, other).bounding_radius + needed;
     // Far from the surface the interpolant of a 1-Lipschitz distance may have an error of a fraction of its cell, or
     // brick.
     const double slack = sdf.spacing * (sdf.slots.empty() ? 1 : shape::SignedDistanceGrid::brick_cells);
@@ -51,12 +46,12 @@ bool nodes_clear(const World& world, std::size_t one, std::size_t other, double 
 
 double bounding_radius(const World& world, std::size_t body)
 {
-    return form_of(world, body).bounding_radius * world.bodies.scale[body];
+    return template_of(world, body).bounding_radius * world.bodies.scale[body];
 }
 
 shape::Bounds turned_box(const World& world, std::size_t body)
 {
-    const auto&        vertices = form_of(world, body).mesh.vertices;
+    const auto&        vertices = template_of(world, body).mesh.vertices;
     const Mat3<double> turn     = world.bodies.orientation[body].toRotationMatrix();
     shape::Bounds      box{turn * vertices.front(), turn * vertices.front()};
     for (const Vec3<double>& vertex : vertices)
@@ -72,7 +67,7 @@ double distance(const World& world, std::size_t body, const Vec3<double>& x)
     const HostBodies&  bodies = world.bodies;
     const double       scale  = bodies.scale[body];
     const Vec3<double> offset = bodies.orientation[body].conjugate() * (x - bodies.position[body]);
-    return scale * shape::sample(form_of(world, body).sdf, offset / scale);
+    return scale * shape::sample(template_of(world, body).sdf, offset / scale);
 }
 
 void BodyGrid::add(std::size_t body)

@@ -26,7 +26,7 @@ PointReach make_point_reach(const scene::Scene& scene, const HostPoints& points)
 NearestPlace nearest_place(const World& world, const PointReach& reach, std::size_t body, const Vec3<double>& x,
                            double radius)
 {
-    const auto&  form = world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
+    const auto&  form = template_of(world, body);
     NearestPlace nearest{distance(world, body, x), x};
     if (!(world.bodies.scale[body] * form.equivalent_radius < reach.sampled_below)) { return nearest; }
     const Vec3<double> arm = x - world.bodies.position[body];

@@ -13,11 +13,6 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-const shape::ShapeTemplate& form_of(const World& world, std::size_t body)
-{
-    return world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
-}
-
 /// m, half the length of the strip across the wheel's path in which its ground is measured.
 double half_strip(const Footing& footing, const World& world)
 {
@@ -108,7 +103,7 @@ std::optional<Patch> patch_of(const Footing& footing, const scene::Scene& scene,
 
 Footing footing_of(const scene::Scene& scene, const World& world, std::size_t b)
 {
-    const auto&  form    = form_of(world, b);
+    const auto&  form    = template_of(world, b);
     const double scale   = world.bodies.scale[b];
     const auto   extent  = turned_box(world, b).extent();
     const double gravity = Vec3<double>(scene.domain.gravity.data()).norm();

@@ -49,7 +49,7 @@ void count(Ground& ground, double height, double reach)
 
 Ground ground_under(const scene::Scene& scene, const World& world, std::size_t body)
 {
-    const auto&  form    = world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
+    const auto&  form    = template_of(world, body);
     const bool   sampled = world.bodies.scale[body] * form.equivalent_radius < sampled_below(scene, world.points);
     const double share   = sampled ? 1 + contact::patch_reach : 1.0; // samples lie beside the point's centre
     const auto   rule    = radius_rule(scene.numerics.point_radius);

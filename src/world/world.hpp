@@ -108,6 +108,12 @@ int material_index(const scene::Scene& scene, const std::string& name);
 /// Diameter of the sphere of equal volume, m at scale 1 (a wheel's equivalent_radius is that of its rim).
 double volume_diameter(const shape::ShapeTemplate& form);
 
+/// Template of a body.
+inline const shape::ShapeTemplate& template_of(const World& world, std::size_t body)
+{
+    return world.templates[static_cast<std::size_t>(world.bodies.shape[body])];
+}
+
 /// Index of a template of the world by its name.
 std::int32_t template_index(const World& world, const std::string& name);
 

@@ -14,7 +14,7 @@ namespace
 {
 
 /// Values at the eight corners of a cell, x fastest.
-using Corners = std::array<double, 8>;
+using CellCorners = std::array<double, 8>;
 
 /// Values in memory; corners of a cell are `row` and `layer` apart along y and z.
 struct Block
@@ -23,7 +23,7 @@ struct Block
     std::size_t  row;
     std::size_t  layer;
 
-    Corners corners(std::size_t i, std::size_t j, std::size_t k) const
+    CellCorners corners(std::size_t i, std::size_t j, std::size_t k) const
     {
         const float* low = first + i + row * j + layer * k;
         const float* top = low + layer;
@@ -31,11 +31,13 @@ struct Block
     }
 };
 
-using Index3 = std::array<std::size_t, 3>;
+constexpr std::size_t brick_edge = SignedDistanceGrid::brick_cells;
+
+using NodeIndex = std::array<std::size_t, 3>;
 
 bool in_bricks(const SignedDistanceGrid& sdf) { return !sdf.slots.empty(); }
 
-std::size_t at(const std::array<std::int32_t, 3>& counts, std::size_t more, const Index3& i)
+std::size_t at(const std::array<std::int32_t, 3>& counts, std::size_t more, const NodeIndex& i)
 {
     const std::size_t row = static_cast<std::size_t>(counts[0]) + more;
     return i[0] + row * (i[1] + (static_cast<std::size_t>(counts[1]) + more) * i[2]);
@@ -65,36 +67,35 @@ double mix(double at_zero, double at_one, double fraction) { return at_zero + fr
 struct Place
 {
     Eigen::Vector3d point; ///< in the box
-    Corners         corners;
+    CellCorners     corners;
     Eigen::Vector3d fraction; ///< position in the cell, 0..1
     double          spacing;  ///< m, edge of the cell
 };
 
 /// Corners and fraction of `place` in the brick that holds fine cell `cell`.
-void locate_in_brick(const SignedDistanceGrid& sdf, const Index3& cell, Place& place)
+void locate_in_brick(const SignedDistanceGrid& sdf, const NodeIndex& cell, Place& place)
 {
-    constexpr std::size_t edge = SignedDistanceGrid::brick_cells;
-    const Index3          brick{cell[0] / edge, cell[1] / edge, cell[2] / edge};
-    const Index3          inner{cell[0] % edge, cell[1] % edge, cell[2] % edge};
-    const std::int32_t    slot = sdf.slots[at(sdf.bricks, 0, brick)];
+    const NodeIndex    brick{cell[0] / brick_edge, cell[1] / brick_edge, cell[2] / brick_edge};
+    const NodeIndex    inner{cell[0] % brick_edge, cell[1] % brick_edge, cell[2] % brick_edge};
+    const std::int32_t slot = sdf.slots[at(sdf.bricks, 0, brick)];
     if (slot >= 0)
     {
         place.corners = fine_block(sdf, slot).corners(inner[0], inner[1], inner[2]);
         return;
     }
     place.corners = coarse_block(sdf).corners(brick[0], brick[1], brick[2]);
-    place.spacing = edge * sdf.spacing;
+    place.spacing = brick_edge * sdf.spacing;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
         double& fraction = place.fraction[static_cast<Eigen::Index>(axis)];
-        fraction         = (fraction + static_cast<double>(inner[axis])) / edge;
+        fraction         = (fraction + static_cast<double>(inner[axis])) / brick_edge;
     }
 }
 
 Place locate(const SignedDistanceGrid& sdf, const Eigen::Vector3d& point)
 {
-    Place  place;
-    Index3 cell{};
+    Place     place;
+    NodeIndex cell{};
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
         const auto   a        = static_cast<Eigen::Index>(axis);
@@ -114,20 +115,20 @@ Place locate(const SignedDistanceGrid& sdf, const Eigen::Vector3d& point)
 
 double interpolate(const Place& place)
 {
-    const Corners& v   = place.corners;
-    const auto&    f   = place.fraction;
-    const double   low = mix(mix(v[0], v[1], f.x()), mix(v[2], v[3], f.x()), f.y());
-    const double   top = mix(mix(v[4], v[5], f.x()), mix(v[6], v[7], f.x()), f.y());
+    const CellCorners& v   = place.corners;
+    const auto&        f   = place.fraction;
+    const double       low = mix(mix(v[0], v[1], f.x()), mix(v[2], v[3], f.x()), f.y());
+    const double       top = mix(mix(v[4], v[5], f.x()), mix(v[6], v[7], f.x()), f.y());
     return mix(low, top, f.z());
 }
 
 Eigen::Vector3d interpolate_gradient(const Place& place)
 {
-    const Corners& v = place.corners;
-    const auto&    f = place.fraction;
-    const double   x = mix(mix(v[1] - v[0], v[3] - v[2], f.y()), mix(v[5] - v[4], v[7] - v[6], f.y()), f.z());
-    const double   y = mix(mix(v[2] - v[0], v[3] - v[1], f.x()), mix(v[6] - v[4], v[7] - v[5], f.x()), f.z());
-    const double   z = mix(mix(v[4] - v[0], v[5] - v[1], f.x()), mix(v[6] - v[2], v[7] - v[3], f.x()), f.y());
+    const CellCorners& v = place.corners;
+    const auto&        f = place.fraction;
+    const double       x = mix(mix(v[1] - v[0], v[3] - v[2], f.y()), mix(v[5] - v[4], v[7] - v[6], f.y()), f.z());
+    const double       y = mix(mix(v[2] - v[0], v[3] - v[1], f.x()), mix(v[6] - v[4], v[7] - v[5], f.x()), f.z());
+    const double       z = mix(mix(v[4] - v[0], v[5] - v[1], f.x()), mix(v[6] - v[2], v[7] - v[3], f.x()), f.y());
     return Eigen::Vector3d(x, y, z) / place.spacing;
 }
 
@@ -140,7 +141,7 @@ double negative_part(double a, double b)
 }
 
 /// Negative volume, in cells, of the first `counts` cells of a block.
-double negative_cells(const Block& block, const Index3& counts)
+double negative_cells(const Block& block, const NodeIndex& counts)
 {
     double cells = 0;
     for (std::size_t k = 0; k < counts[2]; ++k)
@@ -165,15 +166,14 @@ double dense_slab(const SignedDistanceGrid& sdf, std::size_t k)
 /// Negative volume, in cells, of a slab one brick thick. Beyond the box everything is positive.
 double brick_slab(const SignedDistanceGrid& sdf, std::size_t k)
 {
-    constexpr std::size_t edge  = SignedDistanceGrid::brick_cells;
-    double                cells = 0;
+    double cells = 0;
     for (std::size_t j = 0; j < static_cast<std::size_t>(sdf.bricks[1]); ++j)
     {
         for (std::size_t i = 0; i < static_cast<std::size_t>(sdf.bricks[0]); ++i)
         {
             const std::int32_t slot = sdf.slots[at(sdf.bricks, 0, {i, j, k})];
-            if (slot >= 0) { cells += negative_cells(fine_block(sdf, slot), {edge, edge, edge}); }
-            else if (coarse_block(sdf).corners(i, j, k)[0] < 0) { cells += edge * edge * edge; }
+            if (slot >= 0) { cells += negative_cells(fine_block(sdf, slot), {brick_edge, brick_edge, brick_edge}); }
+            else if (coarse_block(sdf).corners(i, j, k)[0] < 0) { cells += brick_edge * brick_edge * brick_edge; }
         }
     }
     return cells;
@@ -203,7 +203,7 @@ SignedDistanceGrid grid_over(const Bounds& box, int cells, double reach)
     return sdf;
 }
 
-double cell_inside(const Corners& v)
+double cell_inside(const CellCorners& v)
 {
     const auto [least, most] = std::minmax_element(v.begin(), v.end());
     if (*most < 0) { return 1; }

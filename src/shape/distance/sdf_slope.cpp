@@ -10,7 +10,7 @@ namespace
 {
 
 /// A block of nodes, x fastest; those nearer to the surface than `reach` (m) are exact.
-struct Block
+struct NodeBlock
 {
     const float*               values;
     std::array<std::size_t, 3> nodes;
@@ -41,7 +41,7 @@ double steepest_of_cell(const float* low, std::size_t row, std::size_t layer, do
     return highest > 0 && lowest < reach ? largest : 0.0;
 }
 
-double steepest_of_block(const Block& block)
+double steepest_of_block(const NodeBlock& block)
 {
     const std::size_t row = block.nodes[0], layer = row * block.nodes[1];
     double            largest = 0;

@@ -16,6 +16,9 @@ namespace tread::shape
 
 using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
+/// Rings of a tool's surface along one line, at most.
+inline constexpr int most_rows = 64;
+
 /// A closed ring of vertices; angles are non-decreasing and cover less than a turn.
 struct Ring
 {

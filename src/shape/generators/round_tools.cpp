@@ -15,8 +15,7 @@ namespace tread::shape
 namespace
 {
 
-constexpr int columns   = 180; ///< chords of 2 degrees
-constexpr int most_rows = 64;
+constexpr int round_columns = 180; ///< chords of 2 degrees
 
 /// Corner of a profile, m.
 struct Corner
@@ -31,7 +30,7 @@ double way(const Corner& from, const Corner& to)
 
 int rows_over(double way, double radius)
 {
-    return std::min(steps_over(way, 4 * std::numbers::pi * radius / columns), most_rows);
+    return std::min(steps_over(way, 4 * std::numbers::pi * radius / round_columns), most_rows);
 }
 
 Ring ring_at(TriangleMesh& mesh, int count, const Corner& at)
@@ -68,8 +67,8 @@ Triangles tip(TriangleMesh& mesh, const Ring& edge, const Corner& from, double h
     const int steps = std::max(3, rows_over(way(from, {0, height}), from.radius));
     for (int step = steps - 1; step > 0; --step)
     {
-        const double    part = static_cast<double>(step) / steps;
-        const Ring      next = ring_at(mesh, columns, {part * from.radius, height + part * (from.height - height)});
+        const double part = static_cast<double>(step) / steps;
+        const Ring   next = ring_at(mesh, round_columns, {part * from.radius, height + part * (from.height - height)});
         const Triangles rows = band(last, next);
         triangles.insert(triangles.end(), rows.begin(), rows.end());
         last = next;
@@ -91,7 +90,7 @@ Ring turn(TriangleMesh& mesh, const Ring& first, const Corner& from, const Corne
         const Corner at   = row == rows ? to
                                         : Corner{from.radius + part * (to.radius - from.radius),
                                                from.height + part * (to.height - from.height)};
-        const Ring   next = row == rows && end != nullptr ? *end : ring_at(mesh, columns, at);
+        const Ring   next = row == rows && end != nullptr ? *end : ring_at(mesh, round_columns, at);
         append(mesh, band(last, next));
         last = next;
     }
@@ -115,7 +114,7 @@ TriangleMesh tool_mesh(const scene::CylinderGenerator& cylinder)
 {
     const Corner low{cylinder.radius, -0.5 * cylinder.length}, high{cylinder.radius, 0.5 * cylinder.length};
     TriangleMesh mesh;
-    const Ring   foot = ring_at(mesh, columns, low);
+    const Ring   foot = ring_at(mesh, round_columns, low);
     append(mesh, reversed(disc(mesh, foot, low)));
     append(mesh, disc(mesh, turn(mesh, foot, low, high), high));
     return upright(std::move(mesh));
@@ -126,7 +125,7 @@ TriangleMesh tool_mesh(const scene::ConeGenerator& cone)
     const double height = cone.base_radius / std::tan(0.5 * cone.apex_angle_deg * std::numbers::pi / 180);
     Corner       top{cone.base_radius, height};
     TriangleMesh mesh;
-    Ring         last = ring_at(mesh, columns, top);
+    Ring         last = ring_at(mesh, round_columns, top);
     append(mesh, reversed(tip(mesh, last, top, 0)));
     if (cone.shaft_radius > 0)
     {
@@ -143,7 +142,7 @@ TriangleMesh tool_mesh(const scene::TubeGenerator& tube)
 {
     const double inner = tube.radius - tube.wall_thickness, low = -0.5 * tube.length, high = 0.5 * tube.length;
     TriangleMesh mesh;
-    const Ring   first = ring_at(mesh, columns, {inner, low});
+    const Ring   first = ring_at(mesh, round_columns, {inner, low});
     Ring         last  = turn(mesh, first, {inner, low}, {tube.radius, low});
     last               = turn(mesh, last, {tube.radius, low}, {tube.radius, high});
     last               = turn(mesh, last, {tube.radius, high}, {inner, high});

@@ -15,7 +15,7 @@ namespace tread::shape
 namespace
 {
 
-constexpr int most_rows = 64, most_levels = 16; ///< a thousand vanes may have that many levels
+constexpr int most_levels = 16; ///< a thousand vanes may have that many levels
 
 /// Builds the mesh about the y axis, along which the ring is high. Columns of all rings follow the vanes.
 class VanedRing

@@ -4,23 +4,10 @@
 
 #include "backend/instantiate.hpp"
 #include "shape/flat_tree.hpp"
+#include "solver/bodies/append.hpp"
 
 namespace tread::solver
 {
-namespace
-{
-
-/// Appends `from` to `to`; returns where it starts.
-template<class T>
-std::size_t append(std::vector<T>& to, const std::vector<T>& from)
-{
-    const std::size_t start = to.size();
-    to.insert(to.end(), from.begin(), from.end());
-    return start;
-}
-
-} // namespace
-
 dem::RayShape ray_shape(const shape::ShapeTemplate& form)
 {
     const shape::TriangleTree tree = shape::build_tree(form.mesh);

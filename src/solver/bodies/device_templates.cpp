@@ -5,6 +5,7 @@
 #include "backend/instantiate.hpp"
 #include "kernels/dem/contact/sdf_kern.hpp"
 #include "shape/distance/sdf_grid.hpp"
+#include "solver/bodies/append.hpp"
 
 namespace tread::solver
 {
@@ -17,15 +18,6 @@ static_assert(dem::brick_cells == shape::SignedDistanceGrid::brick_cells);
 /// Depth below the hull over the radius from which on a shape counts as concave: generated rocks of the default
 /// solidity stay within 0.04, grousers exceed 0.07.
 constexpr double concave_depth = 0.05;
-
-/// Appends `from` to `to`; returns where it starts.
-template<class T>
-std::size_t append(std::vector<T>& to, const std::vector<T>& from)
-{
-    const std::size_t start = to.size();
-    to.insert(to.end(), from.begin(), from.end());
-    return start;
-}
 
 dem::TemplateView measures(const shape::ShapeTemplate& form)
 {

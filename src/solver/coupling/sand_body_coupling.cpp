@@ -30,7 +30,7 @@ double met_limit(const world::World& world, double limit)
 {
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
     {
-        const auto& form = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
+        const auto& form = world::template_of(world, b);
         if (world.bodies.scale[b] * form.equivalent_radius < limit) { return limit; }
     }
     return 0;

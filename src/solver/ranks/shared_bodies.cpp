@@ -80,9 +80,11 @@ void SharedBodies<Exec>::plan(const std::vector<BodyHolding>& held, const Commun
     first_.assign(found.first);
     row_.assign(found.share);
 
-    const auto prepare = [&](auto& shares)
+    const std::vector<std::int32_t>  rows    = joined(found.rows);
+    const std::vector<decomp::Route> routes  = routes_of(found.rows);
+    const auto                       prepare = [&](auto& shares)
     {
-        shares.exchange.plan(joined(found.rows), routes_of(found.rows), routes_of(found.rows));
+        shares.exchange.plan(rows, routes, routes);
         shares.rows.resize(body_.size() + shares.exchange.received());
     };
     prepare(wrench_);
