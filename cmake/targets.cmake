@@ -46,6 +46,8 @@ function(tread_room name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(TREAD_WITH_CUDA)
     file(GLOB_RECURSE device_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cu)
+    # nvcc would wait for one file of eight, where it now compiles several at a time.
+    set_source_files_properties(${device_sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     list(APPEND sources ${device_sources})
   endif()
   add_library(tread_${name} STATIC ${sources})
