@@ -46,7 +46,7 @@ function(tread_room name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(TREAD_WITH_CUDA)
     file(GLOB_RECURSE device_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cu)
-    # nvcc would wait for one file of eight, where it now compiles several at a time.
+    # CMake from 3.31 on would compile several as one, too, but their names clash.
     set_source_files_properties(${device_sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     list(APPEND sources ${device_sources})
   endif()

@@ -108,7 +108,7 @@ void require_clear_of_sand(const scene::Scene& scene, const World& world)
 bool clings(const World& world, std::size_t one, std::size_t other, double margin)
 {
     const HostBodies& bodies = world.bodies;
-    const auto&       nodes  = world.templates[static_cast<std::size_t>(bodies.shape[one])].nodes.positions;
+    const auto&       nodes  = template_of(world, one).nodes.positions;
     return std::all_of(nodes.begin(), nodes.end(),
                        [&](const Vec3<double>& node)
                        {

@@ -75,7 +75,7 @@ Ground ground_under(const scene::Scene& scene, const World& world, std::size_t b
 double nodes_off(const World& world, std::size_t one, std::size_t other, double known)
 {
     const HostBodies&  bodies = world.bodies;
-    const auto&        form   = world.templates[static_cast<std::size_t>(bodies.shape[one])];
+    const auto&        form   = template_of(world, one);
     const Mat3<double> turn   = bodies.scale[one] * bodies.orientation[one].toRotationMatrix();
     const double       radius = bounding_radius(world, other);
     for (const Vec3<double>& node : form.nodes.positions)

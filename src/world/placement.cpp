@@ -157,7 +157,7 @@ private:
                 return true;
             }
         }
-        const auto&        form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[body_])];
+        const auto&        form = template_of(world_, body_);
         const Mat3<double> turn = world_.bodies.scale[body_] * world_.bodies.orientation[body_].toRotationMatrix();
         return std::all_of(form.nodes.positions.begin(), form.nodes.positions.end(),
                            [&](const Vec3<double>& node) { return contains(space_, Vec3<double>(x + turn * node)); });

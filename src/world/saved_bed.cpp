@@ -231,7 +231,7 @@ void SavedBeds::require_room(std::size_t table, std::size_t body, const World& w
 {
     const HostBodies&  bodies = world.bodies;
     const auto&        size   = scene_.domain.size;
-    const auto&        form   = world.templates[static_cast<std::size_t>(bodies.shape[body])];
+    const auto&        form   = template_of(world, body);
     const Mat3<double> turn   = bodies.scale[body] * bodies.orientation[body].toRotationMatrix();
     const double       margin = deepest_in_wall * bodies.radius[body];
     double             beyond = 0;

@@ -21,7 +21,7 @@ double BodyJoints<Exec>::radius(const dem::Joint& joint, int side) const
 {
     if (joint.body[side] == dem::joint_world) { return 0; }
     const auto  body = static_cast<std::size_t>(joint.body[side]);
-    const auto& form = world_.templates[static_cast<std::size_t>(world_.bodies.shape[body])];
+    const auto& form = world::template_of(world_, body);
     return form.bounding_radius * world_.bodies.scale[body] + joint.point[side].norm();
 }
 

@@ -50,7 +50,7 @@ double PrescribedMotions<Exec>::set(const BodyState<Exec>& state, const std::vec
         const auto& wanted = commands[b].motion;
         if (!wanted) { continue; }
         const world::HostBodies& bodies = state.world.bodies;
-        const auto&              form   = state.world.templates[static_cast<std::size_t>(bodies.shape[b])];
+        const auto&              form   = world::template_of(state.world, b);
         largest = std::max(largest, prescribed_speed(*wanted, bodies.scale[b] * form.bounding_radius));
         if (*wanted == present_[b]) { continue; }
         present_[b] = *wanted;

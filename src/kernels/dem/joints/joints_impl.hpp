@@ -118,6 +118,7 @@ private:
     }
 };
 
+/// Makes the SolveJoints of the step.
 template<class Exec>
 SolveJoints make_solve(const BodyStep<Exec>& step)
 {

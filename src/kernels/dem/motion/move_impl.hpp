@@ -338,6 +338,7 @@ struct ShareWrench
     }
 };
 
+/// Makes the ShareWrench of the step.
 template<class Exec>
 ShareWrench make_share(const BodyStep<Exec>& step)
 {
@@ -371,7 +372,7 @@ void with_motions(const BodyStep<Exec>& step, const Outside& outside, const Rank
     else { run(make_move(step, Damped{step.motion.damping}, outside, ranks, Motions{step.prescribed})); }
 }
 
-/// Calls run with the Move for the motion. A Move for each combination would take minutes to compile: bodies of several
+/// Calls run with the Move for the motion. Kernels for each combination would take long to compile: bodies of several
 /// ranks and prescribed motions always sum the external wrenches. One rank may have sand on a body and another none,
 /// and both must integrate it by the same code.
 template<class Exec, class Run>
