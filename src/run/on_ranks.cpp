@@ -29,7 +29,8 @@ namespace
 /// Ends all ranks, since only this one has failed.
 [[noreturn]] void abort_ranks(const Communicator& world, const std::exception& error)
 {
-    std::cerr << "tread: error: rank " << world.rank() << " on " << host_name() << ": " << text_of(error) << std::endl;
+    std::cerr << "tread: error: rank " << world.rank() << " on " << host_name() << ": " << tread::text_of(error)
+              << std::endl;
     world.abort(code_of(error));
 }
 
@@ -46,7 +47,7 @@ ExitCode run_together(const Communicator& world, const std::function<ExitCode(co
     {
         code = code_of(error);
         if (!world.all_arrive(agreement_timeout)) { abort_ranks(world, error); }
-        if (world.rank() == 0) { std::cerr << "tread: error: " << text_of(error) << std::endl; }
+        if (world.rank() == 0) { std::cerr << "tread: error: " << tread::text_of(error) << std::endl; }
     }
     return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
 }

@@ -145,12 +145,6 @@ void for_each_distribution(Visit&& visit)
     visit("power-law", power_law_keys());
 }
 
-template<class Distribution>
-Distribution made_by(const Keys<Distribution>&)
-{
-    return {};
-}
-
 std::vector<std::string> distributions()
 {
     std::vector<std::string> words;

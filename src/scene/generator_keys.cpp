@@ -161,13 +161,6 @@ std::vector<std::string> generator_kinds()
     return kinds;
 }
 
-/// Generator that is created for a table with keys of type Keys<Generator>.
-template<class Generator>
-Generator made_by(const Keys<Generator>&)
-{
-    return {};
-}
-
 /// Reads the word of `kind`; empty, with a problem reported, if it is missing or unknown.
 std::optional<std::string> read_kind(const Node& node, const std::string& table, Problems& problems)
 {

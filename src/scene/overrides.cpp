@@ -137,14 +137,6 @@ void apply(Node& document, const std::string& path, const std::string& value, co
 }
 
 constexpr std::string_view name_letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-constexpr std::string_view blanks       = " \t\n\v\f\r";
-
-std::string_view trimmed(std::string_view text)
-{
-    const auto first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) { return {}; }
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 /// Whether a text is a path to a key: a.b, a[0].b ...
 bool is_path(std::string_view text)

@@ -60,6 +60,13 @@ struct Key
 template<class T>
 using Keys = std::vector<Key<T>>;
 
+/// Returns the object that a table with these keys fills, with its defaults.
+template<class T>
+T made_by(const Keys<T>&)
+{
+    return {};
+}
+
 template<class T>
 std::vector<std::string> names_of(const Keys<T>& keys)
 {

@@ -12,6 +12,13 @@ bool take(std::string_view& text, std::string_view letters)
     return end > 0;
 }
 
+std::string_view trimmed(std::string_view text)
+{
+    const std::size_t first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) { return {}; }
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 std::string shown(std::string_view text, std::size_t most)
 {
     const auto  is_inside = [](char letter) { return (static_cast<unsigned char>(letter) & 0xc0) == 0x80; }; // UTF-8

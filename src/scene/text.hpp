@@ -7,8 +7,14 @@
 namespace tread::scene
 {
 
+/// Characters without a mark.
+inline constexpr std::string_view blanks = " \t\n\v\f\r";
+
 /// Removes leading characters contained in `letters`; returns whether there were any.
 bool take(std::string_view& text, std::string_view letters);
+
+/// Returns the text without blanks at its ends.
+std::string_view trimmed(std::string_view text);
 
 /// Prepares a user's text for a message: truncates it to `most` bytes and replaces control characters by question
 /// marks.

@@ -21,13 +21,6 @@ namespace
 constexpr std::uintmax_t   most_bytes_of_table = std::uintmax_t{16} << 20; ///< some 10^6 rows
 constexpr std::string_view time_column         = "time";
 
-std::string_view trimmed(std::string_view text)
-{
-    const auto first = text.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos) { return {}; }
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 std::vector<std::string_view> cells_of(std::string_view line)
 {
     std::vector<std::string_view> cells;

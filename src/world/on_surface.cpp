@@ -27,7 +27,7 @@ struct Grain
 };
 
 /// Sand and rocks that a descending body may touch.
-struct Ground
+struct GroundBelow
 {
     std::vector<Grain>       grains;
     std::vector<std::size_t> rocks;
@@ -41,19 +41,19 @@ bool is_under(const World& world, std::size_t body, const Vec3<double>& x, doubl
     return std::hypot(offset[0], offset[1]) < bounding_radius(world, body) + reach;
 }
 
-void count(Ground& ground, double height, double reach)
+void count(GroundBelow& ground, double height, double reach)
 {
     ground.top    = std::max(ground.top, height + reach);
     ground.bottom = std::min(ground.bottom, height - reach);
 }
 
-Ground ground_under(const scene::Scene& scene, const World& world, std::size_t body)
+GroundBelow ground_under(const scene::Scene& scene, const World& world, std::size_t body)
 {
     const auto&  form    = template_of(world, body);
     const bool   sampled = world.bodies.scale[body] * form.equivalent_radius < sampled_below(scene, world.points);
     const double share   = sampled ? 1 + contact::patch_reach : 1.0; // samples lie beside the point's centre
     const auto   rule    = radius_rule(scene.numerics.point_radius);
-    Ground       ground;
+    GroundBelow  ground;
     for (std::size_t i = 0; i < world.points.size(); ++i)
     {
         const Grain grain{world.points.position[i], share * contact::point_radius(world.points.volume[i], rule)};
@@ -90,7 +90,7 @@ double nodes_off(const World& world, std::size_t one, std::size_t other, double 
 }
 
 /// Least distance (m) of a body from the ground under it; at most `most`.
-double clearance(const World& world, std::size_t body, const Ground& ground, double most)
+double clearance(const World& world, std::size_t body, const GroundBelow& ground, double most)
 {
     const Vec3<double>& centre = world.bodies.position[body];
     const double        radius = bounding_radius(world, body);
@@ -116,10 +116,10 @@ double clearance(const World& world, std::size_t body, const Ground& ground, dou
 /// a fraction of a cell, or of a brick of cells, so a step uses at most half of it.
 void stand_on_surface(const scene::Scene& scene, std::size_t body, double gap, World& world)
 {
-    const double radius = bounding_radius(world, body), near = closest * radius;
-    const Ground ground = ground_under(scene, world, body);
-    double&      height = world.bodies.position[body][2];
-    height              = ground.top + radius;
+    const double      radius = bounding_radius(world, body), near = closest * radius;
+    const GroundBelow ground = ground_under(scene, world, body);
+    double&           height = world.bodies.position[body][2];
+    height                   = ground.top + radius;
     while (!ground.grains.empty() || !ground.rocks.empty())
     {
         const double free = clearance(world, body, ground, radius);

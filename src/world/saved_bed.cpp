@@ -10,6 +10,7 @@
 #include "scene/named.hpp"
 #include "world/body_grid.hpp"
 #include "world/rocks.hpp"
+#include "world/saved_value.hpp"
 
 namespace tread::world
 {
@@ -98,11 +99,6 @@ void drop_unused_kinds(io::BedFile& bed)
         kind = at;
     }
     bed.kinds = std::move(used);
-}
-
-bool differ(double ours, double theirs)
-{
-    return ours != theirs && !(std::abs(ours - theirs) <= 1e-9 * std::max(std::abs(ours), std::abs(theirs)));
 }
 
 } // namespace

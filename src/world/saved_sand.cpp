@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "world/saved_value.hpp"
 
 namespace tread::world
 {
@@ -28,8 +29,6 @@ io::BedFile read_bed(const scene::Scene& scene, std::size_t table)
         refuse(scene, table, fmt::format("{}; accepted: bed.h5 of a run with [output] bed_after", error.what()));
     }
 }
-
-bool differ(double ours, double theirs) { return !(std::abs(ours - theirs) <= 1e-9 * std::abs(theirs)); }
 
 void require_same(const scene::Scene& scene, std::size_t table, const std::string& what, double ours, double theirs)
 {

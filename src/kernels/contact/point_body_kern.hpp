@@ -31,11 +31,14 @@ TREAD_HD double point_radius(double initial_volume, RadiusRule rule)
 struct Tangential
 {
     Vec3<double> force;     ///< N, on the point
-    Vec3<double> normal;    ///< unit, out of the body, at the last update of `force`
+    Vec3<double> normal;    ///< unit, out of the body, at the last update; without friction only inside the body
     double       stiffness; ///< N/m, k_t at that update
 };
 
 TREAD_HD Tangential no_tangential() { return {Vec3<double>::Zero(), Vec3<double>::Zero(), 0.0}; }
+
+/// Whether a record has a normal, that is, whether the pair was in contact.
+TREAD_HD bool is_known(const Vec3<double>& normal) { return normal.squaredNorm() > 0; }
 
 /// Contact parameters of one point-body pair.
 struct PairConstants
@@ -132,15 +135,19 @@ TREAD_HD Response point_body_response(const PairConstants& pair, const Approach&
     response.gradient_length = approach.gradient.norm();
     response.energy          = 4.0 / 15.0 * stiffness * overlap * overlap;
     response.dissipated      = 0.0;
-    if (pair.friction > 0 && response.gradient_length > 0)
+    if (!(response.gradient_length > 0)) { return response; }
+    const Vec3<double> normal = approach.gradient / response.gradient_length;
+    if (pair.friction > 0)
     {
-        response.dissipated = update_tangential(tangential, approach.gradient / response.gradient_length,
-                                                approach.velocity, 8.0 * pair.effective_shear * patch_radius,
-                                                pair.friction * normal_force * response.gradient_length, dt);
+        response.dissipated =
+            update_tangential(tangential, normal, approach.velocity, 8.0 * pair.effective_shear * patch_radius,
+                              pair.friction * normal_force * response.gradient_length, dt);
         response.force += tangential.force;
         response.couple = stand_off(approach.distance, approach.gradient).cross(tangential.force);
         response.energy += dem::spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
     }
+    else if (approach.distance < 0) { tangential.normal = normal; }
+    else { tangential.normal.setZero(); }
     return response;
 }
 

@@ -152,7 +152,7 @@ void substep(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesVie
 template<class Exec, class Real>
 void finish_step(const Exec& exec, PointContact<Exec>& contact, const mpm::PointsView<Real>& points, double dt);
 
-/// Stores the records of contacts that carry a tangential force under their keys in contact.history, for a checkpoint
+/// Stores the records of contacts that have a normal under their keys in contact.history, for a checkpoint
 /// or another rank; the next search does so itself.
 template<class Exec>
 void keep_history(const Exec& exec, PointContact<Exec>& contact);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/contact/entered_side_kern.hpp"
 #include "kernels/contact/history_kern.hpp"
 #include "kernels/contact/point_contact.hpp"
 #include "kernels/contact/samples_kern.hpp"
@@ -86,12 +87,27 @@ TREAD_HD Vec3<double> velocity_at(const dem::BodiesView& bodies, std::int32_t b,
     return bodies.velocity[b] + bodies.angular_velocity[b].cross(x - bodies.position[b]);
 }
 
+/// Returns a unit vector turned with the body for dt (s).
+TREAD_HD Vec3<double> turned_with_body(const Vec3<double>& direction, const Vec3<double>& angular_velocity, double dt)
+{
+    const Vec3<double> turned = direction + dt * angular_velocity.cross(direction);
+    return turned / turned.norm();
+}
+
 /// Computes the response of body b to a point at x with velocity v (m, m/s); advances `tangential` by dt (s).
 TREAD_HD Response response_of(const dem::BodiesView& bodies, std::int32_t b, const dem::TemplateView& shape,
                               const PairConstants& pair, const Vec3<double>& x, const Vec3<double>& v,
                               Tangential& tangential, double dt)
 {
-    const auto field = dem::sample_body_sdf(shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], x);
+    const auto sdf = [&](const Vec3<double>& at)
+    { return dem::sample_body_sdf(shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], at); };
+    dem::SdfSample field = sdf(x);
+    if (field.distance < 0 && field.gradient.dot(tangential.normal) < same_side && is_known(tangential.normal))
+    {
+        const Vec3<double> side = turned_with_body(tangential.normal, bodies.angular_velocity[b], dt);
+        field =
+            entered_side(field, side, pair.point_radius, [&](const Vec3<double>& offset) { return sdf(x + offset); });
+    }
     const Vec3<double> surface = x - stand_off(field.distance, field.gradient);
     const Approach     approach{field.distance, field.gradient, v - velocity_at(bodies, b, surface)};
     return point_body_response(pair, approach, tangential, dt);
@@ -292,7 +308,7 @@ struct MarkRecords
     const Tangential* tangential;
     std::int32_t*     marks; ///< [slots + 1]
 
-    TREAD_HD void operator()(std::int64_t s) const { marks[s] = s < slots && tangential[s].force.squaredNorm() > 0; }
+    TREAD_HD void operator()(std::int64_t s) const { marks[s] = s < slots && is_known(tangential[s].normal); }
 };
 
 struct WriteRecords
