@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "harness.hpp"
+#include "../physics/harness.hpp"
 
 // A freely rolling drum travels as far as its rim turns, whatever the size of the points under it.
 namespace
