@@ -31,7 +31,7 @@ TREAD_HD double point_radius(double initial_volume, RadiusRule rule)
 struct Tangential
 {
     Vec3<double> force;     ///< N, on the point
-    Vec3<double> normal;    ///< unit, out of the body, at the last update; without friction only inside the body
+    Vec3<double> normal;    ///< unit, out of the body, at the last update
     double       stiffness; ///< N/m, k_t at that update
 };
 
@@ -146,8 +146,7 @@ TREAD_HD Response point_body_response(const PairConstants& pair, const Approach&
         response.couple = stand_off(approach.distance, approach.gradient).cross(tangential.force);
         response.energy += dem::spring_energy(tangential.force.squaredNorm(), tangential.stiffness);
     }
-    else if (approach.distance < 0) { tangential.normal = normal; }
-    else { tangential.normal.setZero(); }
+    else { tangential.normal = normal; }
     return response;
 }
 
