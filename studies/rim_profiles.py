@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 """Measures the sand at the rim of a drum in snapshots of runs of configs/ladder, and draws it: docs/ladder.md.
 
-    studies/rim_profiles.py measure --radius 0.24 --body 0 --from 0.75 OUTPUT.csv CELLS=RUN CELLS=RUN ...
+    studies/rim_profiles.py measure --radius 0.24 --last 12 OUTPUT.csv CELLS=RUN CELLS=RUN ...
     /usr/bin/python3 studies/rim_profiles.py draw OUTPUT.csv PICTURE.png
 
-CELLS is the count of cells across the radius. Means over all snapshots from a time on and over sectors of ten degrees;
-angles are taken from straight below the axle, positive ahead. Depth is the distance from the rim, into the sand.
+CELLS is the count of cells across the radius. Means over the last snapshots and over sectors of ten degrees; angles are taken from straight below the axle, positive ahead. Depth is the distance from the rim, into the sand.
 """
 
 import argparse
@@ -19,14 +18,12 @@ SECTORS = (-20, 0, 20, 40)  # degrees
 FIELDS = ("cells", "angle [deg]", "depth [mm]", "speed over the rim's", "shear rate [1/s]", "pressure [kPa]", "shear [kPa]")
 
 
-def snapshots(run: pathlib.Path, begin: float):
-    """Yields points, their fields and the body's state of each snapshot from a time on."""
+def snapshots(run: pathlib.Path, last: int):
+    """Yields points, their fields and the body's state of each of the last snapshots."""
     import h5py
 
-    for path in sorted((run / "snapshots").glob("points_*.hdf")):
+    for path in sorted((run / "snapshots").glob("points_*.hdf"))[-last:]:
         with h5py.File(path) as points, h5py.File(path.with_name(path.name.replace("points", "bodies")).with_suffix(".h5")) as bodies:
-            if points.attrs["time"] < begin:
-                continue
             fields = points["VTKHDF/PointData"]
             yield (
                 points["VTKHDF/Points"][:],
@@ -73,7 +70,7 @@ def measure(arguments) -> None:
     for run in arguments.runs:
         cells, path = run.split("=", 1)
         parts = []
-        for points, fields, body in snapshots(pathlib.Path(path), arguments.begin):
+        for points, fields, body in snapshots(pathlib.Path(path), arguments.last):
             state = {name: values[arguments.body] for name, values in body.items()}
             parts.append(around(points, fields, state["position"], state["velocity"], state["angular_velocity"][1], arguments.radius))
         samples = {name: numpy.concatenate([part[name] for part in parts]) for name in parts[0]}
@@ -131,7 +128,7 @@ def main() -> None:
     one.add_argument("runs", nargs="+", metavar="CELLS=RUN")
     one.add_argument("--radius", type=float, required=True, help="of the rim, m")
     one.add_argument("--body", type=int, default=0, help="index of the drum")
-    one.add_argument("--from", dest="begin", type=float, default=0.0, help="time of the first snapshot, s")
+    one.add_argument("--last", type=int, required=True, help="count of snapshots")
     one.set_defaults(act=measure)
     two = commands.add_parser("draw")
     two.add_argument("table")

@@ -2,11 +2,14 @@
 
 import os
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import unittest
 
 TREAD = os.environ.get("TREAD", "tread")
+# The environment of the tests spares programs without a launcher the directories that ranks under one meet in.
+MPIRUN = (shutil.which("mpirun"), "--allow-run-as-root", "--oversubscribe", "--mca", "orte_create_session_dirs", "1")
 
 # Valid as it stands: every case spoils one line of it. A block of sand that rests for 20 ms.
 SCENE = """\

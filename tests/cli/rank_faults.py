@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
 """Ranks that are about to run different things: refused before anything is computed or written."""
 
-import shutil
 import socket
 import subprocess
 import unittest
 
 from bad_input import binary_stl, cube, with_mesh
-from command import SCENE, TREAD, CommandTest
+from command import MPIRUN, SCENE, TREAD, CommandTest
 
-MPIRUN = (shutil.which("mpirun"), "--allow-run-as-root", "--oversubscribe")
 HEAVIER = SCENE.replace("-9.81", "-3.7")
 
 
@@ -25,7 +23,7 @@ class DifferentRanks(CommandTest):
 
     def run_in(self, *places, options=None):
         """One rank in each directory, with the scene that lies there; options: of each rank."""
-        command = [MPIRUN[0], *MPIRUN[1:]]
+        command = [*MPIRUN]
         for rank, place in enumerate(places):
             own = options[rank] if options else ()
             command += [":"] * (rank > 0) + ["-n", "1", "-wdir", place, TREAD, "run", "scene.toml", "--output",

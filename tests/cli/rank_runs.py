@@ -4,7 +4,6 @@
 import json
 import os
 import pathlib
-import shutil
 import signal
 import subprocess
 import time
@@ -13,9 +12,7 @@ import unittest
 import h5py
 import numpy
 
-from command import BODY, SCENE, TREAD, CommandTest
-
-MPIRUN = (shutil.which("mpirun"), "--allow-run-as-root", "--oversubscribe")
+from command import BODY, MPIRUN, SCENE, TREAD, CommandTest
 
 
 def column(path, name):

@@ -14,9 +14,7 @@ import h5py
 import numpy
 
 from checkpoint_file import perturbed
-from command import BODY, SCENE, TREAD, CommandTest
-
-MPIRUN = (shutil.which("mpirun"), "--allow-run-as-root", "--oversubscribe")
+from command import BODY, MPIRUN, SCENE, TREAD, CommandTest
 
 BACKEND = os.environ.get("TREAD_TEST_BACKEND", "cpu")
 

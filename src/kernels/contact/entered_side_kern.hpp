@@ -16,22 +16,24 @@ constexpr double same_side = 0.5;
 
 constexpr double deepest_entered = 4.0; ///< r_p, largest distance to the entered side; beyond it the nearest counts
 
-/// Returns the distance and normal with respect to the side where a point entered the body: the exit is searched
-/// along `side` (unit, out of the body) by steps of the distance itself (sphere tracing, J. C. Hart, The Visual
-/// Computer 12, 1996). `nearest`: distance at the point; sdf(offset): sample at an offset from it (m). Returns
-/// `nearest` if there is no exit within deepest_entered.
+/// Returns the distance and normal with respect to the side where a point entered the body: the exit is searched along
+/// `side` (unit, out of the body) by steps of the distance itself (sphere tracing, J. C. Hart, The Visual Computer 12,
+/// 1996), but not shorter than a twentieth of r_p, since interpolated distances can be flat. `nearest`: sample at the
+/// point; sdf(offset): sample at an offset from it (m). Returns `nearest` if there is no exit within deepest_entered.
 template<class Sdf>
 TREAD_HD dem::SdfSample entered_side(const dem::SdfSample& nearest, const Vec3<double>& side, double point_radius,
                                      const Sdf& sdf)
 {
-    constexpr int    most_steps = 32;
-    constexpr double at_surface = 1e-3; // r_p
-    double           depth      = -nearest.distance;
-    for (int i = 0; i < most_steps && depth < deepest_entered * point_radius; ++i)
+    const double shortest = 0.05 * point_radius;
+    double       depth    = 0;
+    double       inside   = -nearest.distance;
+    while (depth < deepest_entered * point_radius)
     {
-        const double inside = -sdf(Vec3<double>(depth * side)).distance;
-        depth += inside;
-        if (inside < at_surface * point_radius) { return {-depth, side}; }
+        const double step = std::max(inside, shortest);
+        const double next = -sdf(Vec3<double>((depth + step) * side)).distance;
+        if (next <= 0) { return {-(depth + step * inside / (inside - next)), side}; }
+        depth += step;
+        inside = next;
     }
     return nearest;
 }
