@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "scene/contacts.hpp"
 #include "shape/template.hpp"
@@ -43,12 +44,15 @@ const scene::Material* soil_of(const scene::Scene& scene, const world::World& wo
     return soil;
 }
 
-/// m, at the wheel's size in the scene.
-double grouser_height(const scene::Scene& scene, const world::World& world, std::size_t body)
+std::optional<Grousers> grousers_of(const scene::Scene& scene, const world::World& world, std::size_t body)
 {
     const scene::Shape shape = shape::find_shape(scene, scene.bodies[body].shape);
     const auto*        wheel = std::get_if<scene::WheelGenerator>(&shape.source);
-    return wheel != nullptr && wheel->grousers > 0 ? world.bodies.scale[body] * wheel->grouser_height : 0;
+    if (wheel == nullptr || wheel->grousers == 0 || !(wheel->grouser_height > 0)) { return std::nullopt; }
+    const double drum  = wheel->radius - wheel->grouser_height;
+    const double pitch = 2 * std::numbers::pi * drum / wheel->grousers;
+    const double scale = world.bodies.scale[body];
+    return Grousers{scale * wheel->grouser_height, scale * (pitch - wheel->grouser_width)};
 }
 
 } // namespace
@@ -92,7 +96,7 @@ std::optional<DrivenWheel> driven_wheel(const scene::Scene& scene, const world::
     ErrorLaws      laws = laws_on(kind);
     laws.pull.factor *= share_of_friction(kind, friction);
     return DrivenWheel{world.bodies.mass[*body] * Vec3<double>(scene.domain.gravity.data()).norm(), laws,
-                       grouser_height(scene, world, *body)};
+                       grousers_of(scene, world, *body)};
 }
 
 std::optional<io::GridError> grid_error(const std::optional<DrivenWheel>& wheel, double contact_cells)
@@ -110,10 +114,11 @@ std::vector<io::Figure> grid_error_figures(const io::GridError& error)
             {"sinkage_error", error.sinkage, resolved_error, marginal_error}};
 }
 
-std::optional<io::Figure> grouser_figure(const std::optional<DrivenWheel>& wheel, double spacing)
+std::vector<io::Figure> grouser_figures(const std::optional<DrivenWheel>& wheel, double spacing)
 {
-    if (!wheel || wheel->grouser_height <= 0) { return std::nullopt; }
-    return io::Figure{"grouser_cells", wheel->grouser_height / spacing, resolved_grouser, marginal_grouser};
+    if (!wheel || !wheel->grousers) { return {}; }
+    return {{"grouser_cells", wheel->grousers->height / spacing, resolved_grouser, marginal_grouser},
+            {"grouser_gap_cells", wheel->grousers->gap / spacing, resolved_gap, marginal_gap}};
 }
 
 } // namespace tread::run

@@ -77,12 +77,19 @@ inline constexpr std::array<FrictionShare, 7> friction_shares = {{
 /// Interpolates the share linearly; constant beyond the measured frictions.
 double share_of_friction(SoilKind soil, double friction);
 
+/// Grousers of a generated wheel at its size in the scene, m.
+struct Grousers
+{
+    double height;
+    double gap; ///< between two of them, at their feet
+};
+
 /// The last driven wheel of a scene on granular sand.
 struct DrivenWheel
 {
-    double    load; ///< N
-    ErrorLaws laws;
-    double    grouser_height = 0; ///< m; 0: no grousers, or a mesh, whose grousers are unknown
+    double                  load; ///< N
+    ErrorLaws               laws;
+    std::optional<Grousers> grousers = std::nullopt; ///< none, or unknown for a mesh
 };
 
 /// Laws for the last wheel that the scene drives: for each answer the largest factor measured on its kind of soil.
@@ -95,13 +102,17 @@ std::optional<io::GridError> grid_error(const std::optional<DrivenWheel>& wheel,
 /// Figures pull_error, torque_error and sinkage_error of the verdict.
 std::vector<io::Figure> grid_error_figures(const io::GridError& error);
 
-/// Figure grouser_cells of the verdict: height of grousers in cells of `spacing` (m). Empty without grousers.
-std::optional<io::Figure> grouser_figure(const std::optional<DrivenWheel>& wheel, double spacing);
+/// Figures grouser_cells and grouser_gap_cells of the verdict: height of grousers and gap between them in cells of
+/// `spacing` (m). Empty without grousers.
+std::vector<io::Figure> grouser_figures(const std::optional<DrivenWheel>& wheel, double spacing);
 
-/// Bounds of grouser_cells. 24 grousers of 20 mm raised the pull of the drum on sand by 10 N with cells of 20 mm, by
-/// 64, 65 to 75, 49, 51 and 46 N with cells of 12.5, 10, 7.5, 6.25 and 5 mm (docs/verdict.md).
+/// Bounds of grouser_cells and grouser_gap_cells, from what grousers add to the pull of the drum on sand. Gaps of 2.3
+/// to 2.7 cells add nothing for heights of 20 and 30 mm and widths of 10 and 4 mm, gaps of 3.7 to 4.4 cells add as much
+/// as those of more; so do heights of 2.4 to 4 cells (docs/verdict.md).
 inline constexpr double resolved_grouser = 2.5;
 inline constexpr double marginal_grouser = 1.5;
+inline constexpr double resolved_gap     = 3.5;
+inline constexpr double marginal_gap     = 2.75;
 
 /// Bounds of all three figures.
 inline constexpr double resolved_error = 0.05;

@@ -17,6 +17,7 @@ struct Bounds
     double cells;   ///< across the patch
     double error;   ///< error of pull, torque and sinkage
     double grouser; ///< cells over its height
+    double gap;     ///< cells between two grousers
 };
 
 /// Largest grid spacing (m) that satisfies the bounds for a contact patch with sides `side` (m).
@@ -26,8 +27,8 @@ double coarsest(const Bounds& bounds, double side, const std::optional<DrivenWhe
     const ErrorLaws& laws = wheel->laws;
     const double cells = std::max({bounds.cells, laws.pull.cells_for(bounds.error), laws.torque.cells_for(bounds.error),
                                    laws.sinkage.cells_for(bounds.error)});
-    const double height = wheel->grouser_height;
-    return height > 0 ? std::min(side / cells, height / bounds.grouser) : side / cells;
+    if (!wheel->grousers) { return side / cells; }
+    return std::min({side / cells, wheel->grousers->height / bounds.grouser, wheel->grousers->gap / bounds.gap});
 }
 
 std::string prediction_lines(const world::Footing& footing, const world::World& world, const solver::Plan& plan,
@@ -38,9 +39,10 @@ std::string prediction_lines(const world::Footing& footing, const world::World& 
     std::string text = fmt::format("  at rest, by bearing capacity or Hertz: sinkage {:.3g} m, patch {:.3g} x {:.3g} "
                                    "m, {:.3g} cells and {:.3g} points across\n",
                                    patch.sinkage, patch.length, patch.width, seen.cells, seen.points);
-    if (const auto grousers = grouser_figure(wheel, world.geometry.finest_spacing()))
+    if (const auto grousers = grouser_figures(wheel, world.geometry.finest_spacing()); !grousers.empty())
     {
-        text += fmt::format("  grousers: {:.3g} cells high\n", grousers->value);
+        text += fmt::format("  grousers: {:.3g} cells high, {:.3g} cells from one to the next\n", grousers[0].value,
+                            grousers[1].value);
     }
     if (const auto error = grid_error(wheel, seen.cells))
     {
@@ -63,8 +65,8 @@ Prediction predict(const world::Patch& patch, const world::World& world, const s
     const double     finest = world.geometry.finest_spacing();
     const double     cells = side / finest, points = side / world.point_spacing;
 
-    const double resolved = coarsest({bounds.resolved, resolved_error, resolved_grouser}, side, wheel);
-    const double marginal = coarsest({bounds.marginal, marginal_error, marginal_grouser}, side, wheel);
+    const double resolved = coarsest({bounds.resolved, resolved_error, resolved_grouser, resolved_gap}, side, wheel);
+    const double marginal = coarsest({bounds.marginal, marginal_error, marginal_grouser, marginal_gap}, side, wheel);
     if (finest <= resolved) { return {cells, points, io::Verdict::resolved, finest}; }
     if (finest <= marginal) { return {cells, points, io::Verdict::marginal, resolved}; }
     return {cells, points, io::Verdict::under_resolved, marginal};

@@ -15,7 +15,7 @@ struct Prediction
 {
     double      cells;   ///< contact_cells of the patch
     double      points;  ///< points across the patch
-    io::Verdict verdict; ///< verdict on contact_cells, grouser_cells and the grid errors
+    io::Verdict verdict; ///< verdict on contact_cells, the grousers and the grid errors
     double      next; ///< m, largest spacing of the finest level with the next better verdict; the present one if it is
                       ///< resolved
 };

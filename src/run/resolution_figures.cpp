@@ -79,7 +79,10 @@ std::vector<io::Figure> figures(const solver::Extremes& extremes, const io::Erro
     if (plan.coupling) { add_contact_with_sand(figures, extremes, errors, world, plan); }
     if (plan.bodies) { add_bodies(figures, extremes, world); }
     if (!plan.coupling) { return figures; }
-    if (const auto grousers = grouser_figure(wheel, world.geometry.finest_spacing())) { figures.push_back(*grousers); }
+    for (const io::Figure& figure : grouser_figures(wheel, world.geometry.finest_spacing()))
+    {
+        figures.push_back(figure);
+    }
     if (const auto error = grid_error(wheel, contact_cells(extremes, world)))
     {
         for (const io::Figure& figure : grid_error_figures(*error)) { figures.push_back(figure); }

@@ -134,14 +134,27 @@ const std::vector<std::string> with_grousers{"shape.roller.generate.grousers=12"
 
 TEST(Grousers, AreCountedInCells)
 {
-    EXPECT_FALSE(grouser_figure(Driven().wheel, 0.01).has_value()) << "a smooth roller";
-    EXPECT_FALSE(grouser_figure(std::nullopt, 0.01).has_value());
+    EXPECT_TRUE(grouser_figures(Driven().wheel, 0.01).empty()) << "a smooth roller";
+    EXPECT_TRUE(grouser_figures(std::nullopt, 0.01).empty());
     const Driven run(with_grousers);
-    const auto   verdict = [&](double spacing) { return grouser_figure(run.wheel, spacing)->verdict(); };
-    EXPECT_NEAR(grouser_figure(run.wheel, 0.01)->value, 2, 1e-12);
+    const auto   verdict = [&](double spacing) { return io::verdict_of(grouser_figures(run.wheel, spacing)); };
+    EXPECT_NEAR(grouser_figures(run.wheel, 0.01)[0].value, 2, 1e-12);
     EXPECT_EQ(verdict(0.02), io::Verdict::under_resolved);
     EXPECT_EQ(verdict(0.01), io::Verdict::marginal);
     EXPECT_EQ(verdict(0.0079), io::Verdict::resolved);
+}
+
+/// Between many grousers a cell has no room, however high they are.
+TEST(Grousers, NeedCellsBetweenThem)
+{
+    std::vector<std::string> many = with_grousers;
+    many.emplace_back("shape.roller.generate.grousers=24");
+    const Driven few(with_grousers), run(many);
+    EXPECT_NEAR(few.wheel->grousers->gap + 0.01, 2 * (run.wheel->grousers->gap + 0.01), 1e-12);
+    const double gap = run.wheel->grousers->gap;
+    EXPECT_EQ(grouser_figures(run.wheel, gap / 3)[1].verdict(), io::Verdict::marginal);
+    EXPECT_EQ(grouser_figures(run.wheel, gap / 2.5)[1].verdict(), io::Verdict::under_resolved);
+    EXPECT_EQ(grouser_figures(run.wheel, gap / 4)[1].verdict(), io::Verdict::resolved);
 }
 
 TEST(Grousers, GrowWithTheBody)
@@ -150,7 +163,7 @@ TEST(Grousers, GrowWithTheBody)
     {
         std::vector<std::string> sized = with_grousers;
         sized.push_back(std::string("body.roller.diameter=") + diameter);
-        return Driven(sized).wheel->grouser_height;
+        return Driven(sized).wheel->grousers->height;
     };
     EXPECT_NEAR(height("0.1") / height("0.05"), 2, 1e-9);
 }
@@ -163,7 +176,7 @@ TEST(Grousers, DecideThePredictionWhereTheyAreCoarser)
     run.world.geometry.spacing = 0.01;
     const Prediction seen      = predict(patch, run.world, run.plan, run.wheel);
     EXPECT_EQ(seen.verdict, io::Verdict::marginal);
-    EXPECT_NEAR(seen.next, 0.02 / resolved_grouser, 1e-12);
+    EXPECT_NEAR(seen.next, std::min(0.02 / resolved_grouser, run.wheel->grousers->gap / resolved_gap), 1e-12);
 }
 
 /// The spacing named by a prediction has the promised verdict.
