@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "base/log.hpp"
 #include "base/printable.hpp"
 #include "base/script.hpp"
+#include "base/thread_wait.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
 #include "io/describe.hpp"
@@ -359,6 +361,7 @@ ExitCode dispatch(CLI::App& app, int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    if (argc > 1 && std::string_view(argv[1]) == "run") { limit_spinning(argv); }
     CLI::App app("tread: rover wheels on sand and rock", "tread");
     app.set_version_flag("--version", fmt::format("tread {}", version));
     try

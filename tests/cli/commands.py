@@ -26,6 +26,16 @@ class Commands(CommandTest):
             self.assertIn(f"  {command} ", result.stdout)
             self.assertEqual(self.tread(command, "--help").returncode, 0)
 
+    def test_runs_limit_the_spinning_of_threads_unless_told_otherwise(self):
+        """GNU's OpenMP says what it goes by, once for each start of the program."""
+        def spins(**environment):
+            shown = self.tread("run", "--help", environment={"OMP_DISPLAY_ENV": "verbose", "OMP_NUM_THREADS": "2", **environment})
+            self.assertEqual(shown.returncode, 0, shown.stderr)
+            return re.findall(r"GOMP_SPINCOUNT = '(.*)'", shown.stderr)
+        self.assertEqual(spins()[1:], ["10000"])
+        self.assertEqual(spins(GOMP_SPINCOUNT="77"), ["77"])
+        self.assertEqual(len(spins(OMP_WAIT_POLICY="active")), 1)
+
     def test_study_is_its_script_with_this_program(self):
         help_text = self.tread("study", "--help").stdout
         self.assertIn("--vary", help_text)
