@@ -1,6 +1,7 @@
 #include "base/thread_wait.hpp"
 
 #include <cstdlib>
+#include <filesystem>
 
 #include <unistd.h>
 
@@ -11,7 +12,10 @@ void limit_spinning(char** arguments)
 {
     if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) { return; }
     ::setenv("GOMP_SPINCOUNT", "10000", 1); // some 10 us, less than it takes to wake a thread
-    ::execv("/proc/self/exe", arguments);
+    // By its own path: the process keeps its name.
+    std::error_code failed;
+    const auto      program = std::filesystem::read_symlink("/proc/self/exe", failed);
+    if (!failed) { ::execv(program.c_str(), arguments); }
 }
 
 } // namespace tread
