@@ -90,10 +90,11 @@ def print_bands(rows, radius: float) -> None:
             own = numpy.array([row[2:] for row in rows if row[0] == cells and row[1] == angle])
             if len(own) < 4:
                 continue
-            breadth = numpy.trapezoid(own[:, 2], own[:, 0]) / own[:, 2].max() if hasattr(numpy, "trapezoid") else numpy.trapz(own[:, 2], own[:, 0]) / own[:, 2].max()
+            depth, rate = own[:, 0], own[:, 2]
+            breadth = (0.5 * (rate[1:] + rate[:-1]) * numpy.diff(depth)).sum() / rate.max()
             print(
-                f"n = {cells}, {angle:4d} deg: band {breadth:6.1f} mm, {breadth / spacing:5.2f} cells; greatest rate {own[:, 2].max():7.2f}/s at "
-                f"{own[own[:, 2].argmax(), 0]:6.1f} mm; first layer: {own[0, 1]:.3f} of the rim's speed, pressure {own[0, 3]:.2f}, shear {own[0, 4]:.2f} kPa"
+                f"n = {cells}, {angle:4d} deg: band {breadth:6.1f} mm, {breadth / spacing:5.2f} cells; greatest rate {rate.max():7.2f}/s at "
+                f"{depth[rate.argmax()]:6.1f} mm; first layer: {own[0, 1]:.3f} of the rim's speed, pressure {own[0, 3]:.2f}, shear {own[0, 4]:.2f} kPa"
             )
 
 
