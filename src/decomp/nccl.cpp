@@ -11,14 +11,13 @@ namespace tread::decomp
 namespace
 {
 
-// Constants of nccl.h.
+// Constants of nccl.h, version 2. This file declares what it uses of that header, so that building tread does not need
+// it.
 constexpr int success    = 0;
 constexpr int type_uint8 = 1;
 
 } // namespace
 
-// Its types are the declarations of nccl.h, version 2, that are used here, so that building tread does not need the
-// header.
 /// Handle of the library. It stays open until the process ends: its threads may outlive the last communicator.
 struct NcclLibrary
 {

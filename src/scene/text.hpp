@@ -7,7 +7,7 @@
 namespace tread::scene
 {
 
-/// Characters without a mark.
+/// White space.
 inline constexpr std::string_view blanks = " \t\n\v\f\r";
 
 /// Removes leading characters contained in `letters`; returns whether there were any.
