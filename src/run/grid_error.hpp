@@ -106,9 +106,9 @@ std::vector<io::Figure> grid_error_figures(const io::GridError& error);
 /// `spacing` (m). Empty without grousers.
 std::vector<io::Figure> grouser_figures(const std::optional<DrivenWheel>& wheel, double spacing);
 
-/// Bounds of grouser_cells and grouser_gap_cells, from what grousers add to the pull of the drum on sand. 24 of them, 20
-/// or 30 mm high and 10 or 4 mm wide, add nothing with gaps of 2.3 to 2.7 cells, and with 3.7 to 4.4 cells as much as
-/// with smaller cells (docs/verdict.md).
+/// Bounds of grouser_cells and grouser_gap_cells, from what grousers add to the pull of the drum on sand. 24 of them,
+/// 20 or 30 mm high and 10 or 4 mm wide, add nothing with gaps of 2.3 to 2.7 cells, and with 3.7 to 4.4 cells as much
+/// as with smaller cells (docs/verdict.md).
 inline constexpr double resolved_grouser = 2.5;
 inline constexpr double marginal_grouser = 1.5;
 inline constexpr double resolved_gap     = 3.5;
