@@ -5,9 +5,9 @@
 #include "kernels/dem/joints/joint_rows.hpp"
 #include "kernels/dem/motion/prescribed_kern.hpp"
 
-// Solves the rows of all joints for their impulses: a dense symmetric system, by Gauss-Jordan elimination in the order
-// of the rows. Impulses with bounds are found by active sets: those over a bound are held there, and the rest is solved
-// again. A team of lanes works together; lanes are in groups that share one item.
+// Solves the rows of all joints for their impulses: a sparse symmetric system, as L D L^T in the order of a plan
+// (elimination.hpp). Impulses with bounds are found by active sets: those over a bound are held there, and the rest is
+// solved again. A team of lanes works together; lanes are in groups that share one item.
 namespace tread::dem::joint_solve
 {
 
@@ -23,6 +23,16 @@ inline constexpr int most_rounds = 8;
 
 /// Share of a row's target by which it may miss it at a bound, against rounding.
 inline constexpr double bound_slack = 1e-9;
+
+/// Calls f(item) for the items of list k, which the lanes share.
+template<class T, class Lanes, class F>
+TREAD_HD void for_each_of(const ListsView<T>& lists, std::int64_t k, const Lanes& lanes, F f)
+{
+    for (std::int64_t i = lists.first[k] + lanes.lane(); i < lists.first[k + 1]; i += lanes.lanes())
+    {
+        f(lists.item[i]);
+    }
+}
 
 /// Inverse of the inertia for torques in directions that are not locked.
 TREAD_HD Mat3<double> response_of(const Mat3<double>& rotation, const Mat3<double>& inverse_inertia,
@@ -166,21 +176,22 @@ TREAD_HD void set_bound(const JointsView& joints, std::int64_t r)
     row.impulse              = state == row_at_low ? row.low : state == row_at_high ? row.high : 0.0;
 }
 
-/// Velocity of link k with the impulses of all rows, in the order of the rows.
+/// Velocity of link k with the impulses of all rows.
 template<class Lanes>
 TREAD_HD void move_link(const JointsView& joints, std::int64_t k, const Lanes& lanes)
 {
     Vec3<double> velocity = Vec3<double>::Zero(), spin = Vec3<double>::Zero();
-    for (std::int64_t r = lanes.lane(); r < joints.row_count; r += lanes.lanes())
-    {
-        const JointRow& row = joints.row[r];
-        for (int s = 0; s < row.sides; ++s)
-        {
-            if (row.link[s] != k) { continue; }
-            velocity += row.impulse * row.linear_response[s];
-            spin += row.impulse * row.angular_response[s];
-        }
-    }
+    for_each_of(joints.rows_of_link, k, lanes,
+                [&](std::int32_t r)
+                {
+                    const JointRow& row = joints.row[r];
+                    for (int s = 0; s < row.sides; ++s)
+                    {
+                        if (row.link[s] != k) { continue; }
+                        velocity += row.impulse * row.linear_response[s];
+                        spin += row.impulse * row.angular_response[s];
+                    }
+                });
     for (int c = 0; c < 3; ++c)
     {
         velocity[c] = lanes.sum(velocity[c]);
@@ -191,38 +202,96 @@ TREAD_HD void move_link(const JointsView& joints, std::int64_t k, const Lanes& l
     joints.moved[k].angular_velocity = joints.link[k].angular_velocity + spin;
 }
 
-/// Writes row i of the system; rows at a bound are empty.
-template<class Lanes>
-TREAD_HD void write_matrix_row(const JointsView& joints, std::int64_t i, const Lanes& lanes)
+/// Lower triangle of the system, with the right-hand side as its last row, row by row.
+struct Triangle
 {
-    const std::int64_t n      = joints.row_count;
-    JointRow&          row    = joints.row[i];
-    double*            matrix = joints.matrix + i * (n + 1);
-    const bool         solved = joints.state[i] == row_solved;
-    for (std::int64_t j = lanes.lane(); j < n; j += lanes.lanes())
+    double* value;
+
+    TREAD_HD double& operator()(std::int64_t row, std::int64_t column) const
     {
-        const bool   both     = solved && joints.state[j] == row_solved;
-        const double coupling = both ? coupling_of(row, joints.row[j]) : 0.0;
-        matrix[j]             = i == j && both ? coupling + row.softness : coupling;
+        return value[row * (row + 1) / 2 + column];
     }
-    if (lanes.lane() == 0) { matrix[n] = solved ? row.target - rate_of(row, joints.moved) : 0.0; }
+};
+
+/// Writes row i of the system and its right-hand side; rows at a bound are empty.
+template<class Lanes>
+TREAD_HD void write_system_row(const JointsView& joints, const Triangle& system, std::int64_t i, const Lanes& lanes)
+{
+    if (joints.state[i] != row_solved) { return; }
+    const JointRow& row = joints.row[i];
+    for_each_of(joints.elimination.before, i, lanes,
+                [&](std::int32_t j)
+                {
+                    if (joints.state[j] == row_solved) { system(i, j) = coupling_of(row, joints.row[j]); }
+                });
+    if (lanes.lane() != 0) { return; }
+    system(i, i)                = coupling_of(row, row) + row.softness;
+    system(joints.row_count, i) = row.target - rate_of(row, joints.moved);
 }
 
-/// Eliminates column k from row i.
+/// Finishes an entry of the factor L D L^T: of L D below the diagonal; on it, the inverse of the pivot, or 0 for a row
+/// that depends on rows before it.
 template<class Lanes>
-TREAD_HD void eliminate(const JointsView& joints, std::int64_t k, std::int64_t i, double pivot, const Lanes& lanes)
+TREAD_HD void finish_entry(const JointsView& joints, const Triangle& factor, const SystemEntry& entry,
+                           const Lanes& lanes)
 {
-    const std::int64_t width = joints.row_count + 1;
-    double*            row   = joints.matrix + i * width;
-    const double*      with  = joints.matrix + k * width;
-    const double       share = row[k] / pivot;
-    if (i == k || share == 0) { return; }
-    for (std::int64_t j = k + 1 + lanes.lane(); j < width; j += lanes.lanes()) { row[j] -= share * with[j]; }
+    double known = 0;
+    for_each_of(joints.elimination.before, entry.column, lanes,
+                [&](std::int32_t k) { known += factor(entry.row, k) * factor(entry.column, k) * factor(k, k); });
+    known = lanes.sum(known);
+    if (lanes.lane() != 0) { return; }
+    double& value = factor(entry.row, entry.column);
+    value -= known;
+    if (entry.row != entry.column) { return; }
+    value = value > least_pivot * joints.row[entry.row].diagonal ? 1 / value : 0.0;
+}
+
+/// Replaces the right-hand side of row k by its solution, after those of all rows below.
+template<class Lanes>
+TREAD_HD void substitute(const JointsView& joints, const Triangle& factor, std::int32_t k, const Lanes& lanes)
+{
+    const std::int64_t n     = joints.row_count;
+    double             known = 0;
+    for_each_of(joints.elimination.below, k, lanes, [&](std::int32_t i) { known += factor(i, k) * factor(n, i); });
+    known = lanes.sum(known);
+    if (lanes.lane() == 0) { factor(n, k) = factor(k, k) * (factor(n, k) - known); }
+}
+
+/// Writes the system, eliminates its rows step by step, and leaves the solution as the last row.
+template<class Team>
+TREAD_HD void solve_system(const JointsView& joints, const Triangle& factor, const Team& team)
+{
+    const EliminationView& plan = joints.elimination;
+    for (std::int64_t i = team.lane(); i < factor_size(joints.row_count); i += team.lanes()) { factor.value[i] = 0; }
+    team.sync();
+    for (std::int64_t i = team.group(); i < joints.row_count; i += team.groups())
+    {
+        write_system_row(joints, factor, i, team.members());
+    }
+    team.sync();
+    for (std::int64_t step = 0; step < plan.step_count; ++step)
+    {
+        for (std::int64_t e = plan.entries.first[step] + team.group(); e < plan.entries.first[step + 1];
+             e += team.groups())
+        {
+            finish_entry(joints, factor, plan.entries.item[e], team.members());
+        }
+        team.sync();
+    }
+    for (std::int64_t step = plan.step_count - 1; step >= 0; --step)
+    {
+        for (std::int64_t p = plan.pivots.first[step] + team.group(); p < plan.pivots.first[step + 1];
+             p += team.groups())
+        {
+            substitute(joints, factor, plan.pivots.item[p], team.members());
+        }
+        team.sync();
+    }
 }
 
 /// Solves for the impulses of the rows that are not at a bound.
 template<class Team>
-TREAD_HD void solve_rows(const JointsView& joints, const Team& team)
+TREAD_HD void solve_rows(const JointsView& joints, const Triangle& factor, const Team& team)
 {
     const std::int64_t n = joints.row_count;
     for (std::int64_t r = team.lane(); r < n; r += team.lanes()) { set_bound(joints, r); }
@@ -232,25 +301,11 @@ TREAD_HD void solve_rows(const JointsView& joints, const Team& team)
         move_link(joints, k, team.members());
     }
     team.sync();
-    for (std::int64_t i = team.group(); i < n; i += team.groups()) { write_matrix_row(joints, i, team.members()); }
-    team.sync();
-    for (std::int64_t k = 0; k < n; ++k)
-    {
-        const double pivot = joints.matrix[k * (n + 1) + k];
-        if (pivot > least_pivot * joints.row[k].diagonal)
-        {
-            for (std::int64_t i = team.group(); i < n; i += team.groups())
-            {
-                eliminate(joints, k, i, pivot, team.members());
-            }
-        }
-        team.sync();
-    }
+    solve_system(joints, factor, team);
     for (std::int64_t r = team.lane(); r < n; r += team.lanes())
     {
-        const double* row   = joints.matrix + r * (n + 1);
-        const bool    there = row[r] > least_pivot * joints.row[r].diagonal;
-        if (there) { joints.row[r].impulse = row[n] / row[r]; }
+        const bool there = factor(r, r) != 0;
+        if (there) { joints.row[r].impulse = factor(n, r); }
         joints.row[r].skipped = joints.state[r] == row_solved && !there ? 1 : 0;
     }
     team.sync();
@@ -277,14 +332,14 @@ TREAD_HD void update_state(const JointsView& joints, std::int64_t r)
     *joints.changed = 1;
 }
 
-/// Finds all impulses and the velocities with them.
+/// Finds all impulses and the velocities with them. `factor` has room for factor_size(row_count) values.
 template<class Team>
-TREAD_HD void solve(const JointsView& joints, const Team& team)
+TREAD_HD void solve(const JointsView& joints, const Triangle& factor, const Team& team)
 {
     for (int round = 0; round < most_rounds; ++round)
     {
         if (team.lane() == 0) { *joints.changed = 0; }
-        solve_rows(joints, team);
+        solve_rows(joints, factor, team);
         for (std::int64_t k = team.group(); k < joints.link_count; k += team.groups())
         {
             move_link(joints, k, team.members());

@@ -8,24 +8,32 @@ namespace tread::dem
 namespace
 {
 
-constexpr int joint_threads = 256;
+constexpr int joint_threads = 512;
+constexpr int joint_lanes   = 8; ///< of a group: most lists of a rover's elimination are as short
 
-/// The threads of one block, in warps.
+/// The threads of one block, in groups.
 struct BlockTeam
 {
-    __device__ static std::int64_t          lane() { return threadIdx.x; }
-    __device__ static std::int64_t          lanes() { return joint_threads; }
-    __device__ static std::int64_t          group() { return threadIdx.x / warp_size; }
-    __device__ static std::int64_t          groups() { return joint_threads / warp_size; }
-    __device__ static GroupLanes<warp_size> members() { return {}; }
-    __device__ static void                  sync() { __syncthreads(); }
+    __device__ static std::int64_t            lane() { return threadIdx.x; }
+    __device__ static std::int64_t            lanes() { return joint_threads; }
+    __device__ static std::int64_t            group() { return threadIdx.x / joint_lanes; }
+    __device__ static std::int64_t            groups() { return joint_threads / joint_lanes; }
+    __device__ static GroupLanes<joint_lanes> members() { return {}; }
+    __device__ static void                    sync() { __syncthreads(); }
 };
 
+/// Keeps the factor in shared memory where it fits: some 100 rows.
 struct ByBlock
 {
     joint_steps::SolveJoints solve;
 
-    __device__ void operator()(std::int64_t) const { solve(BlockTeam{}); }
+    __device__ void operator()(std::int64_t) const
+    {
+        constexpr std::int64_t room = 6000;
+        __shared__ double      shared[room];
+        const std::int64_t     size = factor_size(solve.joints.row_count);
+        solve(size <= room ? shared : solve.joints.factor, BlockTeam{});
+    }
 };
 
 } // namespace
