@@ -33,39 +33,40 @@ std::vector<dem::Joint> rocker_bogie()
             between(6, 10), between(3, 11), between(4, 12), between(7, 13), between(8, 14)};
 }
 
-// All six wheels go first, six rows each; then four uprights, six; two bogies, five; two rockers, which the chassis
-// connects, five each; and the differential, one.
-TEST(JointElimination, RoverTakesAsManyStepsAsItsLongestArm)
+// All six wheels go first, then four uprights, two bogies, two rockers, which the chassis connects, and the
+// differential.
+TEST(JointElimination, WheelsOfARoverComeBeforeItsRockers)
 {
     const std::vector<std::int32_t> counts{5, 5, 1, 5, 5, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6};
     const dem::Elimination          plan = dem::plan_elimination(rocker_bogie(), counts);
     EXPECT_EQ(plan.row_count, 81);
-    EXPECT_EQ(plan.pivots.first.size() - 1, 6u + 6u + 5u + 5u + 5u + 1u);
-    EXPECT_EQ(plan.pivots.first[1], 6);
+    EXPECT_EQ(plan.levels.first, (std::vector<std::int32_t>{0, 6, 10, 12, 13, 14, 15}));
+    EXPECT_EQ(plan.first_row[9], 0);
+    EXPECT_EQ(plan.first_row[2], 80);
 }
 
-TEST(JointElimination, EachRowIsEliminatedOnceAfterAllBeforeIt)
+TEST(JointElimination, JointsOfALevelDoNotMeet)
 {
     const std::vector<std::int32_t> counts(15, 5);
     const dem::Elimination          plan = dem::plan_elimination(rocker_bogie(), counts);
-    std::vector<int>                step_of(static_cast<std::size_t>(plan.row_count), -1);
-    for (std::size_t step = 0; step + 1 < plan.pivots.first.size(); ++step)
+    std::vector<int>                level_of(15, -1);
+    for (std::size_t level = 0; level + 1 < plan.levels.first.size(); ++level)
     {
-        for (auto p = plan.pivots.first[step]; p < plan.pivots.first[step + 1]; ++p)
+        for (auto at = plan.levels.first[level]; at < plan.levels.first[level + 1]; ++at)
         {
-            int& of = step_of[static_cast<std::size_t>(plan.pivots.item[static_cast<std::size_t>(p)])];
-            EXPECT_EQ(of, -1);
-            of = static_cast<int>(step);
+            level_of[static_cast<std::size_t>(plan.levels.item[static_cast<std::size_t>(at)])] =
+                static_cast<int>(level);
         }
     }
-    EXPECT_GE(*std::min_element(step_of.begin(), step_of.end()), 0);
-    for (std::size_t row = 0; row < step_of.size(); ++row)
+    EXPECT_GE(*std::min_element(level_of.begin(), level_of.end()), 0);
+    for (std::size_t j = 0; j < 15; ++j)
     {
-        for (auto b = plan.before.first[row]; b < plan.before.first[row + 1]; ++b)
+        for (auto b = plan.below.first[j]; b < plan.below.first[j + 1]; ++b)
         {
-            const auto column = static_cast<std::size_t>(plan.before.item[static_cast<std::size_t>(b)]);
-            EXPECT_LT(column, row);
-            EXPECT_LT(step_of[column], step_of[row]);
+            const auto row   = plan.below.item[static_cast<std::size_t>(b)];
+            const auto other = std::find_if(plan.first_row.begin(), plan.first_row.end(),
+                                            [&](std::int32_t first) { return row >= first && row < first + 5; });
+            EXPECT_GT(level_of[static_cast<std::size_t>(other - plan.first_row.begin())], level_of[j]);
         }
     }
 }

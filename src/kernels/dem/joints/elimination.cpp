@@ -29,7 +29,7 @@ std::vector<JointSet> neighbours_of(const std::vector<Joint>& joints)
     return neighbours;
 }
 
-/// Joints in levels: those of a level do not meet, not even through joints of levels before.
+/// Joints in levels, as in Elimination.
 struct Levels
 {
     std::vector<std::vector<std::size_t>> joints;
@@ -76,99 +76,17 @@ Levels levels_of(const std::vector<Joint>& joints)
     return levels;
 }
 
-template<class T>
-void close_list(ListsOf<T>& lists)
+std::vector<std::int32_t> rows_of(const JointSet& joints, const Elimination& plan,
+                                  const std::vector<std::int32_t>& row_counts)
 {
-    lists.first.push_back(static_cast<std::int32_t>(lists.item.size()));
+    std::vector<std::int32_t> rows;
+    for (const std::size_t j : joints)
+    {
+        for (std::int32_t r = 0; r < row_counts[j]; ++r) { rows.push_back(plan.first_row[j] + r); }
+    }
+    std::sort(rows.begin(), rows.end());
+    return rows;
 }
-
-/// Makes the lists of rows from those of joints.
-struct Planner
-{
-    const Levels&                    levels;
-    const std::vector<std::int32_t>& row_counts;
-    Elimination                      plan;
-
-    void number_rows()
-    {
-        plan.first_row.resize(row_counts.size());
-        for (const auto& level : levels.joints)
-        {
-            for (const std::size_t j : level)
-            {
-                plan.first_row[j] = plan.row_count;
-                plan.row_count += row_counts[j];
-            }
-        }
-    }
-
-    std::vector<std::int32_t> rows_below(std::size_t joint, std::int32_t row) const
-    {
-        std::vector<std::int32_t> rows;
-        const auto                add = [&](std::int32_t first, std::int32_t end)
-        {
-            for (std::int32_t r = first; r < end; ++r) { rows.push_back(r); }
-        };
-        add(row + 1, plan.first_row[joint] + row_counts[joint]);
-        for (const std::size_t other : levels.later[joint])
-        {
-            add(plan.first_row[other], plan.first_row[other] + row_counts[other]);
-        }
-        std::sort(rows.begin(), rows.end());
-        return rows;
-    }
-
-    void add_step(const std::vector<std::size_t>& level, std::int32_t of_joint)
-    {
-        for (const std::size_t j : level)
-        {
-            if (of_joint >= row_counts[j]) { continue; }
-            const std::int32_t row = plan.first_row[j] + of_joint;
-            plan.pivots.item.push_back(row);
-            plan.entries.item.push_back({row, row});
-            for (const std::int32_t i : rows_below(j, row)) { plan.entries.item.push_back({i, row}); }
-            plan.entries.item.push_back({plan.row_count, row});
-        }
-        close_list(plan.pivots);
-        close_list(plan.entries);
-    }
-
-    void add_steps()
-    {
-        for (const auto& level : levels.joints)
-        {
-            std::int32_t most = 0;
-            for (const std::size_t j : level) { most = std::max(most, row_counts[j]); }
-            for (std::int32_t of_joint = 0; of_joint < most; ++of_joint) { add_step(level, of_joint); }
-        }
-    }
-
-    void add_lists()
-    {
-        std::vector<std::vector<std::int32_t>> before(static_cast<std::size_t>(plan.row_count) + 1);
-        for (const auto& level : levels.joints)
-        {
-            for (const std::size_t j : level)
-            {
-                for (std::int32_t row = plan.first_row[j]; row < plan.first_row[j] + row_counts[j]; ++row)
-                {
-                    for (const std::int32_t i : rows_below(j, row))
-                    {
-                        plan.below.item.push_back(i);
-                        before[static_cast<std::size_t>(i)].push_back(row);
-                    }
-                    close_list(plan.below);
-                    before.back().push_back(row);
-                }
-            }
-        }
-        for (const std::vector<std::int32_t>& columns : before)
-        {
-            plan.before.item.insert(plan.before.item.end(), columns.begin(), columns.end());
-            close_list(plan.before);
-        }
-    }
-};
 
 } // namespace
 
@@ -193,11 +111,25 @@ std::set<std::size_t> bodies_of(const std::vector<Joint>& joints, std::size_t j)
 Elimination plan_elimination(const std::vector<Joint>& joints, const std::vector<std::int32_t>& row_counts)
 {
     const Levels levels = levels_of(joints);
-    Planner      planner{levels, row_counts, {}};
-    planner.number_rows();
-    planner.add_steps();
-    planner.add_lists();
-    return planner.plan;
+    Elimination  plan;
+    plan.first_row.resize(joints.size());
+    for (const std::vector<std::size_t>& level : levels.joints)
+    {
+        for (const std::size_t j : level)
+        {
+            plan.levels.item.push_back(static_cast<std::int32_t>(j));
+            plan.first_row[j] = plan.row_count;
+            plan.row_count += row_counts[j];
+        }
+        plan.levels.close();
+    }
+    for (const JointSet& later : levels.later)
+    {
+        const std::vector<std::int32_t> rows = rows_of(later, plan, row_counts);
+        plan.below.item.insert(plan.below.item.end(), rows.begin(), rows.end());
+        plan.below.close();
+    }
+    return plan;
 }
 
 } // namespace tread::dem

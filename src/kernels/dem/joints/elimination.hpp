@@ -10,30 +10,24 @@ namespace tread::dem
 {
 
 /// Lists of items, one after another: list k is item[first[k]] to item[first[k + 1] - 1].
-template<class T>
-struct ListsOf
+struct IndexLists
 {
     std::vector<std::int32_t> first{0};
-    std::vector<T>            item;
+    std::vector<std::int32_t> item;
+
+    /// Ends the present list.
+    void close() { first.push_back(static_cast<std::int32_t>(item.size())); }
 };
 
-/// An entry of the system of all rows, on or below the diagonal.
-struct SystemEntry
-{
-    std::int32_t row, column;
-};
-
-/// Where the system of all joints' rows has entries, and in which order they are eliminated: known once for a scene, as
-/// two rows meet only if their joints share a body. A step eliminates rows that do not meet.
+/// The order in which the rows of all joints are eliminated from their common system, known once for a scene: two rows
+/// meet only if their joints share a body. Rows are numbered in that order, those of a joint one after another. A level
+/// eliminates joints that do not meet, not even through joints of levels before.
 struct Elimination
 {
-    std::vector<std::int32_t> first_row; ///< [joints], rows are numbered in the order of their elimination
+    std::vector<std::int32_t> first_row; ///< [joints]
     std::int32_t              row_count = 0;
-
-    ListsOf<std::int32_t> pivots;  ///< [steps], rows that are eliminated
-    ListsOf<SystemEntry>  entries; ///< [steps], their columns of the factor; the right-hand side is row `row_count`
-    ListsOf<std::int32_t> before;  ///< [row_count + 1], columns before the diagonal where the factor has entries
-    ListsOf<std::int32_t> below;   ///< [row_count], rows below the diagonal where the factor has entries
+    IndexLists                levels; ///< [levels], joints
+    IndexLists                below;  ///< [joints], rows of later joints that meet it when it is eliminated, ascending
 };
 
 /// Bodies that a joint ties: of a differential those of its two revolute joints.

@@ -53,43 +53,34 @@ struct JointLink
     double       inverse_inertia;  ///< 1/(kg m2), likewise: bound over all axes
 };
 
-/// Lists of items, one after another: list k is item[first[k]] to item[first[k + 1] - 1].
-template<class T>
-struct ListsView
+/// View of IndexLists.
+struct IndexListsView
 {
     const std::int32_t* first = nullptr;
-    const T*            item  = nullptr;
-};
-
-/// View of an Elimination.
-struct EliminationView
-{
-    std::int64_t            step_count = 0;
-    ListsView<std::int32_t> pivots;  ///< [step_count]
-    ListsView<SystemEntry>  entries; ///< [step_count]
-    ListsView<std::int32_t> before;  ///< [row_count + 1]
-    ListsView<std::int32_t> below;   ///< [row_count]
+    const std::int32_t* item  = nullptr;
 };
 
 /// View of the joints of a scene and of the memory of their solve.
 struct JointsView
 {
-    std::int64_t            joint_count = 0;
-    std::int64_t            link_count  = 0; ///< bodies with joints
-    std::int64_t            row_count   = 0;
-    const Joint*            joint       = nullptr;
-    const std::int32_t*     body        = nullptr; ///< [link_count], ascending
-    const std::int32_t*     place       = nullptr; ///< [bodies], index in `body`, or -1
-    JointLink*              link        = nullptr;
-    JointLink*              moved       = nullptr; ///< the links with the impulses of the rows; velocities only
-    JointRow*               row         = nullptr;
-    std::int32_t*           state       = nullptr; ///< [row_count], RowState; kept from substep to substep
-    double*                 factor      = nullptr; ///< [factor_size(row_count)]
-    JointWrench*            wrench      = nullptr; ///< [link_count]
-    JointRecord*            record      = nullptr; ///< [joint_count]
-    std::int32_t*           changed     = nullptr; ///< [1], whether a row changed its state
-    EliminationView         elimination;
-    ListsView<std::int32_t> rows_of_link; ///< [link_count], rows of all joints of the body
+    std::int64_t        joint_count = 0;
+    std::int64_t        link_count  = 0; ///< bodies with joints
+    std::int64_t        row_count   = 0;
+    const Joint*        joint       = nullptr;
+    const std::int32_t* body        = nullptr; ///< [link_count], ascending
+    const std::int32_t* place       = nullptr; ///< [bodies], index in `body`, or -1
+    JointLink*          link        = nullptr;
+    JointLink*          moved       = nullptr; ///< the links with the impulses of the rows; velocities only
+    JointRow*           row         = nullptr;
+    std::int32_t*       state       = nullptr; ///< [row_count], RowState; kept from substep to substep
+    double*             factor      = nullptr; ///< [factor_size(row_count)]
+    JointWrench*        wrench      = nullptr; ///< [link_count]
+    JointRecord*        record      = nullptr; ///< [joint_count]
+    std::int32_t*       changed     = nullptr; ///< [1], whether a row changed its state
+    std::int64_t        level_count = 0;
+    IndexListsView      levels;       ///< [level_count], as in Elimination
+    IndexListsView      below;        ///< [joint_count], likewise
+    IndexListsView      rows_of_link; ///< [link_count], rows of all joints of the body
 
     JointWrenches wrenches() const { return {place, wrench}; }
 };

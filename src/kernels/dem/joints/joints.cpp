@@ -60,9 +60,9 @@ std::vector<std::int32_t> first_states(const std::vector<Joint>& joints, std::in
 }
 
 /// Rows of the joints of each body of `bodies`, ascending. `joints` have their rows numbered.
-ListsOf<std::int32_t> rows_of_bodies(const std::vector<std::int32_t>& bodies, const std::vector<Joint>& joints)
+IndexLists rows_of_bodies(const std::vector<std::int32_t>& bodies, const std::vector<Joint>& joints)
 {
-    ListsOf<std::int32_t> rows;
+    IndexLists rows;
     for (const std::int32_t body : bodies)
     {
         const auto begin = static_cast<std::ptrdiff_t>(rows.item.size());
@@ -72,7 +72,7 @@ ListsOf<std::int32_t> rows_of_bodies(const std::vector<std::int32_t>& bodies, co
             for (std::int32_t r = 0; r < joints[j].row_count; ++r) { rows.item.push_back(joints[j].first_row + r); }
         }
         std::sort(rows.item.begin() + begin, rows.item.end());
-        rows.first.push_back(static_cast<std::int32_t>(rows.item.size()));
+        rows.close();
     }
     return rows;
 }
@@ -105,10 +105,8 @@ Joints<Exec>::Joints(const Exec& exec, std::vector<Joint> joints, std::int64_t b
     , wrench_(exec, "joint wrenches", static_cast<std::int64_t>(bodies_.size()))
     , record_(exec, "joint records", static_cast<std::int64_t>(joints.size()))
     , changed_(exec, "joint rows that changed", 1)
-    , pivots_(exec, "joint elimination", plan_.pivots)
-    , entries_(exec, "joint elimination", plan_.entries)
-    , before_(exec, "joint elimination", plan_.before)
-    , below_(exec, "joint elimination", plan_.below)
+    , levels_(exec, "joint levels", plan_.levels)
+    , below_(exec, "joint rows below", plan_.below)
     , rows_of_link_(exec, "rows of jointed bodies", rows_of_bodies(bodies_, numbered(joints)))
 {
     joints = numbered(std::move(joints));
@@ -128,11 +126,12 @@ Joints<Exec>::Joints(const Exec& exec, std::vector<Joint> joints, std::int64_t b
 template<class Exec>
 JointsView Joints<Exec>::view()
 {
-    const EliminationView elimination{static_cast<std::int64_t>(plan_.pivots.first.size()) - 1, pivots_.view(),
-                                      entries_.view(), before_.view(), below_.view()};
-    return {joint_.size(),  body_.size(),    row_.size(), joint_.data(),       body_.data(),   place_.data(),
-            link_.data(),   moved_.data(),   row_.data(), state_.data(),       factor_.data(), wrench_.data(),
-            record_.data(), changed_.data(), elimination, rows_of_link_.view()};
+    return {joint_.size(),  body_.size(),    row_.size(),
+            joint_.data(),  body_.data(),    place_.data(),
+            link_.data(),   moved_.data(),   row_.data(),
+            state_.data(),  factor_.data(),  wrench_.data(),
+            record_.data(), changed_.data(), static_cast<std::int64_t>(plan_.levels.first.size()) - 1,
+            levels_.view(), below_.view(),   rows_of_link_.view()};
 }
 
 template<class Exec>

@@ -9,17 +9,16 @@ namespace
 {
 
 constexpr int joint_threads = 512;
-constexpr int joint_lanes   = 8; ///< of a group: most lists of a rover's elimination are as short
 
-/// The threads of one block, in groups.
+/// The threads of one block, in warps.
 struct BlockTeam
 {
-    __device__ static std::int64_t            lane() { return threadIdx.x; }
-    __device__ static std::int64_t            lanes() { return joint_threads; }
-    __device__ static std::int64_t            group() { return threadIdx.x / joint_lanes; }
-    __device__ static std::int64_t            groups() { return joint_threads / joint_lanes; }
-    __device__ static GroupLanes<joint_lanes> members() { return {}; }
-    __device__ static void                    sync() { __syncthreads(); }
+    __device__ static std::int64_t          lane() { return threadIdx.x; }
+    __device__ static std::int64_t          lanes() { return joint_threads; }
+    __device__ static std::int64_t          group() { return threadIdx.x / warp_size; }
+    __device__ static std::int64_t          groups() { return joint_threads / warp_size; }
+    __device__ static GroupLanes<warp_size> members() { return {}; }
+    __device__ static void                  sync() { __syncthreads(); }
 };
 
 /// Keeps the factor in shared memory where it fits: some 100 rows.

@@ -9,14 +9,14 @@
 namespace tread::dem
 {
 
-/// Memory of a ListsView.
-template<class Exec, class T>
+/// Memory of an IndexListsView.
+template<class Exec>
 struct ListArrays
 {
     Array<Exec, std::int32_t> first;
-    Array<Exec, T>            item;
+    Array<Exec, std::int32_t> item;
 
-    ListArrays(const Exec& exec, const char* name, const ListsOf<T>& lists)
+    ListArrays(const Exec& exec, const char* name, const IndexLists& lists)
         : first(exec, name)
         , item(exec, name)
     {
@@ -24,7 +24,7 @@ struct ListArrays
         item.assign(lists.item);
     }
 
-    ListsView<T> view() const { return {first.data(), item.data()}; }
+    IndexListsView view() const { return {first.data(), item.data()}; }
 };
 
 /// Memory of JointsView.
@@ -69,11 +69,9 @@ private:
     Array<Exec, JointRecord>  record_;
     Array<Exec, std::int32_t> changed_;
 
-    ListArrays<Exec, std::int32_t> pivots_;
-    ListArrays<Exec, SystemEntry>  entries_;
-    ListArrays<Exec, std::int32_t> before_;
-    ListArrays<Exec, std::int32_t> below_;
-    ListArrays<Exec, std::int32_t> rows_of_link_;
+    ListArrays<Exec> levels_;
+    ListArrays<Exec> below_;
+    ListArrays<Exec> rows_of_link_;
 };
 
 /// Computes the wrenches of the joints for the substep that move_bodies is about to do, from the same contact forces:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/dem/joints/joint_motion_kern.hpp"
 #include "kernels/dem/joints/joint_rows_kern.hpp"
 #include "kernels/dem/joints/joint_solve_kern.hpp"
 #include "kernels/dem/joints/joints.hpp"
@@ -27,7 +28,8 @@ struct SolveJoints
     TREAD_HD void operator()(double* factor, const Team& team) const
     {
         for (std::int64_t k = team.group(); k < joints.link_count; k += team.groups()) { free_link(k, team.members()); }
-        for (std::int64_t j = team.lane(); j < joints.joint_count; j += team.lanes())
+        // The last lanes: the first ones have the links to do.
+        for (std::int64_t j = team.lanes() - 1 - team.lane(); j < joints.joint_count; j += team.lanes())
         {
             joint_rows::write_rows(joints, bodies, j, dt);
         }
@@ -42,7 +44,10 @@ struct SolveJoints
         {
             write_wrench(k, team.members());
         }
-        for (std::int64_t j = team.lane(); j < joints.joint_count; j += team.lanes()) { add_to_record(j); }
+        for (std::int64_t j = team.lanes() - 1 - team.lane(); j < joints.joint_count; j += team.lanes())
+        {
+            add_to_record(j);
+        }
     }
 
 private:
