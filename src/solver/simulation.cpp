@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "backend/instantiate.hpp"
+#include "scene/phase_settings.hpp"
 #include "solver/bodies/body_reaches.hpp"
 #include "solver/ledger/contact_guards.hpp"
 #include "solver/pace_limits.hpp"
@@ -19,11 +20,11 @@ namespace
 
 Vec3<double> vector(const scene::Vector3& v) { return {v[0], v[1], v[2]}; }
 
-double free_weight(const scene::Scene& scene, const world::World& world)
+double free_mass(const world::World& world)
 {
     const double sand  = std::accumulate(world.points.mass.begin(), world.points.mass.end(), 0.0);
     const double rocks = std::accumulate(world.bodies.mass.begin() + world.bodies.named, world.bodies.mass.end(), 0.0);
-    return (sand + rocks) * vector(scene.domain.gravity).norm();
+    return sand + rocks;
 }
 
 /// m/s, of sand; bodies get theirs by command.
@@ -54,7 +55,8 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     , world_(world)
     , plan_(plan)
     , limits_(pace_limits(scene, world, plan))
-    , weight_(free_weight(scene, world))
+    , free_mass_(free_mass(world))
+    , gravity_(vector(scene.domain.gravity))
 {
     if (decomposition != nullptr) { require_plan_of_ranks(plan); }
     measuring_.pace.largest_speed = speed_at_start(scene);
@@ -76,7 +78,7 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
         measuring_.pace.shortest_contact = rigid_->shortest_contact();
     }
     const Census start = census();
-    ledger_.emplace(vector(scene.domain.gravity), start);
+    ledger_.emplace(gravity_, start);
     if (sand_) { guard_.emplace(limits_, start.sand.mass); }
 }
 
@@ -85,6 +87,34 @@ void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, d
 {
     damping_ = damping;
     if (rigid_) { rigid_->command(commands); }
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::begin_phase(std::size_t phase)
+{
+    if (static_cast<std::int64_t>(phase) != phase_)
+    {
+        const bool   turns  = gravity_ != vector(scene::gravity_in(scene_, phase));
+        const Census before = turns ? census() : Census{};
+        set_phase(phase);
+        if (turns) { ledger_->turn_gravity(gravity_, before, census()); }
+        wakes_ = turns && sand_ && sand_->may_sleep();
+    }
+    if (rigid_) { rigid_->begin_phase(phase); }
+}
+
+/// Sets gravity and contacts to those of a phase.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::set_phase(std::size_t phase)
+{
+    phase_   = static_cast<std::int64_t>(phase);
+    gravity_ = vector(scene::gravity_in(scene_, phase));
+    if (sand_) { sand_->set_gravity(gravity_); }
+    if (rigid_)
+    {
+        rigid_->set_gravity(gravity_);
+        rigid_->set_contacts(phase);
+    }
 }
 
 /// Preconditions: command() has set the commands of the named bodies. If measured(), `step` was chosen from pace()
@@ -166,12 +196,14 @@ void Simulation<Exec, Real>::repartition_pages()
 template<class Exec, class Real>
 void Simulation<Exec, Real>::update_sleeping_pages(StageClock& clock)
 {
-    if (!sand_ || !measured() || !sand_->sleep_is_due(measuring_.pace.largest_speed, damping_)) { return; }
+    if (!sand_ || !measured()) { return; }
+    const bool wakes = std::exchange(wakes_, false);
+    if (!wakes && !sand_->sleep_is_due(measuring_.pace.largest_speed, damping_)) { return; }
     const auto update = [&]
     {
         std::vector<BodyReach> bodies;
         if (rigid_) { bodies = body_reaches(exec_, rigid_->view(), world_); }
-        sand_->update_sleeping_pages(bodies, damping_);
+        sand_->update_sleeping_pages(bodies, wakes ? 1.0 : damping_);
     };
     clock.run(exec_, stage::sleep, update);
 }
@@ -256,7 +288,8 @@ void Simulation<Exec, Real>::measure()
     const ContactReport contacts = coupling_ ? measure_contacts() : ContactReport{};
     measuring_.extremes.note(last_.step, steps, limits_, pace,
                              coupling_ ? coupling_->summary() : contact::Summary::zero());
-    measuring_.unbalanced = weight_ > 0 ? (sand.last_grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
+    const double weight   = free_mass_ * gravity_.norm();
+    measuring_.unbalanced = weight > 0 ? (sand.last_grid[mpm::grid_net_force] + rigid.net_force) / weight : 0;
     ledger_->steps(last_.step.dt, steps, sand, rigid, contacts, moving_mass());
     if (guard_) { guard_->watch(sand, last_.step, last_.time); }
     measuring_.every = steps_to_measure();
@@ -355,6 +388,8 @@ std::vector<double> Simulation<Exec, Real>::surface_heights(const world::ColumnL
 template<class Exec, class Real>
 void Simulation<Exec, Real>::transfer(StateFile& file)
 {
+    file.numbers("simulation/phase", accept::number(phase_, -1, static_cast<double>(scene_.phases.size()) - 1));
+    if (file.loads() && phase_ >= 0) { set_phase(static_cast<std::size_t>(phase_)); }
     if (balance_ && file.exact()) { balance_->transfer(file); }
     if (sand_) { sand_->transfer(file, world_.points); }
     if (rigid_) { rigid_->transfer(file); }

@@ -22,7 +22,7 @@ TYPED_TEST_SUITE(Motions, test::Backends, test::BackendNames);
 constexpr double rounding = 1e-10; ///< relative, of some 10^4 steps in fp64
 constexpr double g        = 9.81;
 
-/// A drum of 10 kg, 0.2 m across, in a domain without walls, and one phase.
+/// A drum of 10 kg, 0.2 m across, high above the floor, and one phase.
 std::string drum_text(double gravity, double dt, const std::string& body, const std::string& phase)
 {
     return fmt::format(R"(
@@ -30,7 +30,7 @@ title = "drum with a prescribed motion"
 [domain]
 size    = [4.0, 1.0, 4.0]
 gravity = [0.0, 0.0, {}]
-walls   = {{ x = "open", y = "open", bottom = "open", top = "open" }}
+walls   = {{ x = "open", y = "open", bottom = "fixed", top = "open" }}
 [time]
 dt = {}
 [[material]]
