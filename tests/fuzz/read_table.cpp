@@ -7,8 +7,8 @@
 #include "scene/time_table.hpp"
 #include "scratch_file.hpp"
 
-// Feeds arbitrary bytes as the CSV of a prescribed motion: the result must be a fault with a line, or finite values at all
-// times.
+// Feeds arbitrary bytes as the CSV of a prescribed motion: the result must be a fault with a line, or finite values at
+// all times.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace tread;
