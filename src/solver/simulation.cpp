@@ -94,27 +94,26 @@ void Simulation<Exec, Real>::begin_phase(std::size_t phase)
 {
     if (static_cast<std::int64_t>(phase) != phase_)
     {
-        const bool   turns  = gravity_ != vector(scene::gravity_in(scene_, phase));
-        const Census before = turns ? census() : Census{};
-        set_phase(phase);
-        if (turns) { ledger_->turn_gravity(gravity_, before, census()); }
-        wakes_ = turns && sand_ && sand_->may_sleep();
+        const Vec3<double> gravity = vector(scene::gravity_in(scene_, phase));
+        if (gravity != gravity_)
+        {
+            const Census before = census();
+            set_gravity(gravity);
+            ledger_->turn_gravity(gravity, before, census());
+            wakes_ = sand_ && sand_->may_sleep();
+        }
+        if (rigid_) { rigid_->set_contacts(phase); }
+        phase_ = static_cast<std::int64_t>(phase);
     }
     if (rigid_) { rigid_->begin_phase(phase); }
 }
 
-/// Sets gravity and contacts to those of a phase.
 template<class Exec, class Real>
-void Simulation<Exec, Real>::set_phase(std::size_t phase)
+void Simulation<Exec, Real>::set_gravity(const Vec3<double>& gravity)
 {
-    phase_   = static_cast<std::int64_t>(phase);
-    gravity_ = vector(scene::gravity_in(scene_, phase));
-    if (sand_) { sand_->set_gravity(gravity_); }
-    if (rigid_)
-    {
-        rigid_->set_gravity(gravity_);
-        rigid_->set_contacts(phase);
-    }
+    gravity_ = gravity;
+    if (sand_) { sand_->set_gravity(gravity); }
+    if (rigid_) { rigid_->set_gravity(gravity); }
 }
 
 /// Preconditions: command() has set the commands of the named bodies. If measured(), `step` was chosen from pace()
@@ -388,8 +387,6 @@ std::vector<double> Simulation<Exec, Real>::surface_heights(const world::ColumnL
 template<class Exec, class Real>
 void Simulation<Exec, Real>::transfer(StateFile& file)
 {
-    file.numbers("simulation/phase", accept::number(phase_, -1, static_cast<double>(scene_.phases.size()) - 1));
-    if (file.loads() && phase_ >= 0) { set_phase(static_cast<std::size_t>(phase_)); }
     if (balance_ && file.exact()) { balance_->transfer(file); }
     if (sand_) { sand_->transfer(file, world_.points); }
     if (rigid_) { rigid_->transfer(file); }
@@ -401,6 +398,7 @@ void Simulation<Exec, Real>::transfer(StateFile& file)
     }
     solver::transfer(file, measuring_, last_, damping_);
     ledger_->transfer(file);
+    if (file.loads()) { set_gravity(ledger_->gravity()); }
     if (guard_) { guard_->transfer(file); }
 }
 

@@ -129,7 +129,7 @@ private:
     void move_sand(double dt, StageClock& clock);
     void measure_if_due(const TimeStep& step, double time, StageClock& clock);
 
-    void          set_phase(std::size_t phase);
+    void          set_gravity(const Vec3<double>& gravity);
     void          list_points();
     void          repartition_pages();
     void          list_contacts(double span, StageClock& clock);
@@ -152,7 +152,7 @@ private:
     PaceLimits                   limits_;
     double                       free_mass_;       ///< kg, of sand and rocks
     Vec3<double>                 gravity_;         ///< m/s2
-    std::int64_t                 phase_   = -1;    ///< whose gravity and contacts hold; -1: none has begun
+    std::int64_t                 phase_   = -1;    ///< that has begun here; -1: none
     bool                         wakes_   = false; ///< whether all sand wakes in the next step
     double                       damping_ = 0;
     Measuring                    measuring_;

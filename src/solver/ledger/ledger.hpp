@@ -91,6 +91,8 @@ public:
     /// counts from where everything is, so that it does not jump.
     void turn_gravity(const Vec3<double>& gravity, const Census& before, const Census& after);
 
+    const Vec3<double>& gravity() const { return gravity_; }
+
     EnergyRow       energy(const Census& now);
     BalanceRow      balance(const Census& now);
     io::ErrorReport errors() const { return errors_; }
