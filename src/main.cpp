@@ -337,7 +337,7 @@ void require_known_command(const CLI::App& app, int argc, char** argv)
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) { names.push_back(command->get_name()); }
     if (std::find(names.begin(), names.end(), word) != names.end()) { return; }
-    throw InputError(fmt::format("there is no command \"{}\"{}; accepted: {}", printable(word),
+    throw InputError(fmt::format("there is no command \"{}\"{}; accepted: {} (tread --help)", printable(word),
                                  scene::suggestion(word, names), fmt::join(names, ", ")));
 }
 

@@ -28,7 +28,7 @@ class Commands(CommandTest):
             self.assertEqual(self.tread(command, "--help").returncode, 0)
 
     def test_a_misspelt_command_is_refused_with_the_nearest(self):
-        for word, said in (("rnu", 'did you mean "run"?'), ("xyzxyz", "accepted: run, check")):
+        for word, said in (("chekc", 'did you mean "check"?'), ("xyzxyz", "accepted: run, check")):
             refused = self.tread(word, "scene.toml")
             self.assertEqual((refused.returncode, refused.stdout), (2, ""))
             self.assertIn(f'there is no command "{word}"', refused.stderr)
