@@ -321,7 +321,6 @@ TYPED_TEST(Motions, ADeadWeightReplacesTheWeight)
 std::string towed_text(const std::string& phase)
 {
     std::string text = drum_text(g, 1e-3, "", phase);
-    text.replace(text.find("bottom = \"open\""), 15, "bottom = \"fixed\"");
     text.replace(text.find("position = [1.0, 0.5, 2.0]"), 26, "position = [1.0, 0.5, 0.1]");
     text.replace(text.find("dt = 0.001"), 10, "dt = \"auto\"");
     return text + "[[contact]]\nbetween = [\"steel\", \"wall\"]\nfriction = 0.8\nrestitution = 0.1\n";
