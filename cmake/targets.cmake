@@ -1,4 +1,5 @@
-# Flags that every target of the project shares: warnings are errors, one floating-point model in both host compilers.
+# Flags that every target of the project shares: warnings, which presets make errors, and one floating-point model in
+# both host compilers.
 add_library(tread_flags INTERFACE)
 target_include_directories(tread_flags INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_BINARY_DIR}/generated)
 target_compile_definitions(tread_flags INTERFACE EIGEN_MAX_STATIC_ALIGN_BYTES=0
@@ -10,14 +11,12 @@ target_compile_options(
     -Wextra
     -Wshadow
     -Wconversion
-    -Werror
     -ffp-contract=off
     -fno-math-errno
     -fno-trapping-math
     -march=${TREAD_CPU}
     -fopenmp>
-    $<$<COMPILE_LANGUAGE:CUDA>:-Werror=all-warnings
-    -diag-suppress=20012,20014
+    $<$<COMPILE_LANGUAGE:CUDA>:-diag-suppress=20012,20014
     -Xcompiler=-ffp-contract=off>)
 target_link_options(tread_flags INTERFACE -fopenmp)
 if(TREAD_SANITIZE)

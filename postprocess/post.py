@@ -1,19 +1,23 @@
 #!/usr/bin/python3
-"""The commands that read runs, studies and campaigns: `post.py` lists them, `post.py COMMAND ...` runs one.
+"""The commands that read runs, studies and campaigns: `tread post` lists them, `tread post COMMAND ...` runs one.
 
-    postprocess/post.py                                # the list
-    postprocess/post.py wheel_history runs/quickstart  # the same as postprocess/wheel_history.py runs/quickstart
+    tread post                                # the list
+    tread post wheel_history runs/quickstart  # the same as postprocess/wheel_history.py runs/quickstart
 
 The package tread_post beside it reads runs from a script of your own: put this folder into PYTHONPATH and `from tread_post import Run`.
 """
 
 import ast
+import difflib
+import importlib.util
 import os
 import re
 import sys
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
+PACKAGES = {"h5py": "python3-h5py", "numpy": "python3-numpy", "scipy": "python3-scipy", "matplotlib": "python3-matplotlib",
+            "vtk": "python3-vtk9", "PIL": "python3-pil"}
 
 
 def commands():
@@ -32,14 +36,45 @@ def index():
     return "\n".join(f"  {name:{width}}  {purpose(path)}" for name, path in commands().items())
 
 
+def modules_of(path):
+    """Names of the modules that a file imports, wherever it does so, with those of the modules of this folder that it imports."""
+    found, waiting = set(), [path]
+    while waiting:
+        for node in ast.walk(ast.parse(waiting.pop().read_text(encoding="utf-8"))):
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else [node.module] if isinstance(node, ast.ImportFrom) else []
+            for name in names:
+                place = FOLDER / (name or "").replace(".", "/")
+                if name and name not in found:
+                    waiting += [local for local in (place.with_suffix(".py"), place / "__init__.py") if local.is_file()]
+                    found.add(name)
+    return found
+
+
+def missing_packages(path):
+    """Debian's names of the packages that a command wants and this Python lacks."""
+    tops = {name.split(".")[0] for name in modules_of(path)}
+    return sorted(package for module, package in PACKAGES.items() if module in tops and importlib.util.find_spec(module) is None)
+
+
 def main(arguments):
+    if arguments[:1] == ["--tread"]:  # from the program, which no command of this folder runs
+        arguments = arguments[2:]
+    if arguments[:1] == ["--names"]:
+        print(" ".join(commands()))
+        return 0
     if not arguments or arguments[0] in ("-h", "--help"):
         print(f"{__doc__}\nCommands (each has --help):\n{index()}")
         return 0
     name = arguments[0].removesuffix(".py")
     if name not in commands():
-        print(f"post: no command '{name}'; there are {', '.join(commands())}", file=sys.stderr)
+        near = difflib.get_close_matches(name, commands(), 1)
+        hint = f"; did you mean '{near[0]}'?" if near else ""
+        print(f"post: there is no command '{name}'{hint}; accepted: {', '.join(commands())}", file=sys.stderr)
         return 2
+    if lacking := missing_packages(commands()[name]):
+        print(f"post: {name} wants what {sys.executable} lacks: {', '.join(lacking)} (Debian's names); TREAD_PYTHON names another Python",
+              file=sys.stderr)
+        return 4
     sys.stdout.flush()
     os.execv(sys.executable, [sys.executable, str(commands()[name]), *arguments[1:]])
 

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """A picture of one snapshot, or a film of all: wheels, rocks, and sand coloured by how far it moved, or by its rank.
 
-Needs Debian's python3-h5py, python3-numpy and python3-vtk9, xvfb where there is no display, and python3-pil for films.
+Needs Debian's python3-h5py, python3-numpy and python3-vtk9, xvfb where there is no display, and for films python3-pil, or ffmpeg for MP4.
+
+    tread post render runs/quickstart --film --output quickstart.mp4 --fps 20
 """
 
 import argparse
@@ -9,19 +11,26 @@ import sys
 import tempfile
 from pathlib import Path
 
+import numpy as np
+
 from tread_post import Run, RunError
 from tread_post.display import ensure_display
+from tread_post.film import require_writer, write_film
 
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("run", type=Path, metavar="RUN", help="output directory of a run")
     parser.add_argument("--snapshot", default="last", metavar="K|last", help="number of the snapshot; default: last")
-    parser.add_argument("--film", action="store_true", help="all snapshots, one after the other, as a GIF")
+    parser.add_argument("--film", action="store_true", help="all snapshots, one after the other")
+    parser.add_argument("--fps", type=float, default=10.0, metavar="N", help="pictures a second of a film, 1 to 100; default: 10")
     parser.add_argument("--colour", default="displacement", choices=("displacement", "rank"), help="what the sand shows")
-    parser.add_argument("--output", type=Path, metavar="FILE", help="default: RUN/render.png, or RUN/render.gif")
+    parser.add_argument("--output", type=Path, metavar="FILE", help="default: RUN/render.png; of films, .gif or .mp4, RUN/render.gif")
     parser.add_argument("--size", type=int, nargs=2, default=(1600, 1000), metavar=("W", "H"), help="pixels")
-    return parser.parse_args()
+    options = parser.parse_args()
+    if not 1 <= options.fps <= 100:
+        parser.error(f"--fps {options.fps:g}: accepted: 1 to 100")
+    return options
 
 
 def snapshot_number(run, wanted):
@@ -35,18 +44,18 @@ def snapshot_number(run, wanted):
     return int(wanted)
 
 
-def write_film(frames, output):
-    """GIF of pictures, a tenth of a second each, the last one for a second."""
-    from PIL import Image
-
-    pictures = [Image.open(frame).convert("RGB").quantize(128) for frame in frames]
-    pictures[0].save(output, save_all=True, append_images=pictures[1:], duration=[100] * (len(frames) - 1) + [1000], loop=0)
+def rates(times, fps):
+    """Simulated seconds a second of film in each picture: the time to the next one times `fps`."""
+    spans = np.diff(times)
+    return fps * np.append(spans, spans[-1:] if len(spans) else 0.0)
 
 
 def main():
     options = arguments()
     run = Run(options.run)
     number = snapshot_number(run, options.snapshot)
+    if options.film:
+        require_writer(options.output or options.run / "render.gif")
     ensure_display()
     from tread_post.picture import draw, view_of
 
@@ -56,11 +65,12 @@ def main():
         draw(run, number, view_of(run, [number]), output, size, options.colour)
     else:
         view = view_of(run, run.snapshots)
+        times = [(run.points(snapshot) or run.bodies(snapshot)).time for snapshot in run.snapshots]
         with tempfile.TemporaryDirectory() as folder:
             frames = [Path(folder) / f"{snapshot:04}.png" for snapshot in run.snapshots]
-            for snapshot, frame in zip(run.snapshots, frames):
-                draw(run, snapshot, view, frame, size, options.colour)
-            write_film(frames, output)
+            for snapshot, frame, rate in zip(run.snapshots, frames, rates(times, options.fps)):
+                draw(run, snapshot, view, frame, size, options.colour, f", {rate:.2g} times as fast as real")
+            write_film(frames, output, options.fps)
     print(output)
 
 

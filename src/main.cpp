@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -23,9 +24,11 @@
 #include "io/sdf_report.hpp"
 #include "run/agreement.hpp"
 #include "run/check.hpp"
+#include "run/features.hpp"
 #include "run/on_ranks.hpp"
 #include "run/run_scene.hpp"
 #include "scene/load.hpp"
+#include "scene/problems.hpp"
 #include "shape/generators/form.hpp"
 #include "shape/report.hpp"
 #include "shape/template.hpp"
@@ -315,13 +318,27 @@ std::vector<std::pair<CLI::App*, std::string>> add_script_commands(CLI::App& app
         {app.add_subcommand("study", "Error against run time of a scene's variants: docs/study.md"), "jobs/study.py"},
         {app.add_subcommand("validate", "Measured wheels beside tread: docs/validation.md"), "jobs/validate.py"},
         {app.add_subcommand("calibrate", "Constants of a scene from measured curves: docs/calibration.md"),
-         "jobs/calibrate.py"}};
+         "jobs/calibrate.py"},
+        {app.add_subcommand("post", "Pictures, figures and reports of runs; alone, it lists them"),
+         "postprocess/post.py"}};
     for (auto& [command, script] : commands)
     {
         command->set_help_flag();
         command->prefix_command();
     }
     return commands;
+}
+
+/// Throws InputError, with the nearest one, if the first word is no subcommand.
+void require_known_command(const CLI::App& app, int argc, char** argv)
+{
+    const std::string word = argc > 1 ? argv[1] : "--help";
+    if (word.rfind('-', 0) == 0) { return; }
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) { names.push_back(command->get_name()); }
+    if (std::find(names.begin(), names.end(), word) != names.end()) { return; }
+    throw InputError(fmt::format("there is no command \"{}\"{}; accepted: {} (tread --help)", printable(word),
+                                 scene::suggestion(word, names), fmt::join(names, ", ")));
 }
 
 /// Requires one subcommand; throws CLI::ParseError for --help, --version and invalid arguments.
@@ -345,6 +362,7 @@ ExitCode dispatch(CLI::App& app, int argc, char** argv)
     info_command->add_option("file", info_path, "timeseries.h5, a snapshot ...")->type_name("FILE.h5")->required();
     const std::vector<std::pair<CLI::App*, std::string>> scripts = add_script_commands(app);
     app.require_subcommand(1);
+    require_known_command(app, argc, argv);
     app.parse(argc, argv);
 
     if (*run_command) { return run(run_arguments); }
@@ -363,7 +381,7 @@ int main(int argc, char** argv)
 {
     if (argc > 1 && std::string_view(argv[1]) == "run") { limit_spinning(argv); }
     CLI::App app("tread: rover wheels on sand and rock", "tread");
-    app.set_version_flag("--version", fmt::format("tread {}", version));
+    app.set_version_flag("--version", run::features);
     try
     {
         return static_cast<int>(dispatch(app, argc, argv));

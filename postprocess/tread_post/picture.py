@@ -65,9 +65,9 @@ def view_of(run, snapshots):
     return View(np.concatenate(contents), max(displacements[1:], default=0.0) or displacements[0])
 
 
-def draw(run, snapshot, view, output, size, colour="displacement"):
+def draw(run, snapshot, view, output, size, colour="displacement", remark=""):
     """Writes the picture of a snapshot to `output` (.png), `size` pixels wide and high; the sand by `colour`:
-    "displacement" or "rank"."""
+    "displacement" or "rank". `remark` stands behind the time."""
     points, bodies = run.points(snapshot), run.bodies(snapshot)
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1.0, 1.0, 1.0)
@@ -81,7 +81,7 @@ def draw(run, snapshot, view, output, size, colour="displacement"):
     if bodies is not None:
         add_bodies(renderer, bodies, shapes, len(run.scene.get("body", [])))
     time = (points or bodies).time
-    add_title(renderer, f"{run.title}\nt = {time:.3f} s", size)
+    add_title(renderer, f"{run.title}\nt = {time:.3f} s{remark}", size)
     aim(renderer, view.content, size)
     write(renderer, output, size)
 

@@ -11,6 +11,12 @@ void WaitNote::begin(const char* what, const std::vector<int>& ranks)
     since_ = Clock::now();
 }
 
+void WaitNote::begin_collective(const char* what)
+{
+    if (collectives_ != nullptr) { ++*collectives_; }
+    begin(what, {});
+}
+
 void WaitNote::end()
 {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -15,23 +15,27 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr Seconds longest_nap{1};
 
-std::string ranks_text(const std::vector<int>& ranks)
+std::string wait_text(const WaitNote::Wait& wait, Seconds passed, const std::function<std::string()>& absent)
 {
-    if (ranks.empty()) { return "all ranks"; }
-    return fmt::format("{} {}", ranks.size() == 1 ? "rank" : "ranks", fmt::join(ranks, ", "));
-}
-
-std::string wait_text(const WaitNote::Wait& wait, Seconds passed)
-{
-    return fmt::format("has waited {:.3g} s for {} ({})", passed.count(), ranks_text(wait.ranks), wait.what);
+    const bool  collective = wait.ranks.empty();
+    std::string text       = fmt::format("has waited {:.3g} s for {} ({})", passed.count(),
+                                   collective ? "all ranks" : ranks_text(wait.ranks), wait.what);
+    return collective && absent ? text + ", " + absent() : text;
 }
 
 } // namespace
 
-Watchdog::Watchdog(const WaitNote& waits, Seconds timeout, std::function<void(const std::string&)> bark)
+std::string ranks_text(const std::vector<int>& ranks)
+{
+    return fmt::format("{} {}", ranks.size() == 1 ? "rank" : "ranks", fmt::join(ranks, ", "));
+}
+
+Watchdog::Watchdog(const WaitNote& waits, Seconds timeout, std::function<void(const std::string&)> bark,
+                   std::function<std::string()> absent)
     : waits_(waits)
     , timeout_(timeout)
     , bark_(std::move(bark))
+    , absent_(std::move(absent))
     , thread_([this] { watch(); })
 {
 }
@@ -74,7 +78,7 @@ std::optional<std::string> Watchdog::complaint() const
     const Seconds                       idle   = last_ ? now - *last_ : Seconds(0);
     if (waited < timeout_ && idle < timeout_) { return std::nullopt; }
     const std::string what =
-        wait ? wait_text(*wait, waited)
+        wait ? wait_text(*wait, waited, absent_)
              : fmt::format("has ended no step for {:.3g} s and waits for no message: it computes, or waits for a file, "
                            "for NCCL or for its GPU",
                            idle.count());

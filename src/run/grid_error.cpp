@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scene/contacts.hpp"
+#include "scene/phase_settings.hpp"
 #include "shape/template.hpp"
 
 namespace tread::run
@@ -82,20 +83,23 @@ std::optional<DrivenWheel> driven_wheel(const scene::Scene& scene, const world::
 {
     const scene::Material*     soil = plan.coupling ? soil_of(scene, world) : nullptr;
     std::optional<std::size_t> body;
-    for (const scene::Phase& phase : scene.phases)
+    std::size_t                drive = 0;
+    for (std::size_t p = 0; p < scene.phases.size(); ++p)
     {
-        for (std::size_t b = 0; phase.drive && b < scene.bodies.size(); ++b)
+        for (std::size_t b = 0; scene.phases[p].drive && b < scene.bodies.size(); ++b)
         {
-            if (scene.bodies[b].name == phase.drive->body) { body = b; }
+            if (scene.bodies[b].name != scene.phases[p].drive->body) { continue; }
+            body  = b;
+            drive = p;
         }
     }
     if (soil == nullptr || !body) { return std::nullopt; }
     const auto&    wheel    = scene.materials[static_cast<std::size_t>(world.bodies.material[*body])];
-    const double   friction = scene::contact_of(scene, wheel.family, soil->family).friction;
+    const double   friction = scene::contact_of(scene::contacts_in(scene, drive), wheel.family, soil->family).friction;
     const SoilKind kind = soil->friction_angle_deg < least_friction_angle ? SoilKind::cohesive : SoilKind::frictional;
     ErrorLaws      laws = laws_on(kind);
     laws.pull.factor *= share_of_friction(kind, friction);
-    return DrivenWheel{world.bodies.mass[*body] * Vec3<double>(scene.domain.gravity.data()).norm(), laws,
+    return DrivenWheel{world.bodies.mass[*body] * Vec3<double>(scene::gravity_in(scene, drive).data()).norm(), laws,
                        grousers_of(scene, world, *body)};
 }
 

@@ -11,6 +11,7 @@
 #include "run/phase_end.hpp"
 #include "scene/motion_tables.hpp"
 #include "scene/named.hpp"
+#include "scene/phase_settings.hpp"
 #include "scene/time_table.hpp"
 #include "solver/state_file.hpp"
 
@@ -226,7 +227,7 @@ dem::Prescribed prescribed_in(const scene::Motion& motion, const scene::Body& bo
 void add_motions(std::vector<solver::BodyCommand>& commands, const scene::Scene& scene, const RunningPhase& phase,
                  const MotionState& state, double time, double dt)
 {
-    const Vec3<double> gravity(scene.domain.gravity.data());
+    const Vec3<double> gravity(scene::gravity_in(scene, phase.index).data());
     for (const scene::Motion& motion : keys_of(scene, phase).motion)
     {
         const std::size_t   b = scene::index_of(scene.bodies, motion.body);

@@ -6,10 +6,12 @@
 #include <limits>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "base/wait_board.hpp"
 #include "io/h5.hpp"
 
 namespace tread::run
@@ -52,6 +54,14 @@ ExitCode run_together(const Communicator& world, const std::function<ExitCode(co
     return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
 }
 
+/// Who has not come to the collective call that this rank waits in.
+std::string absent_text(const WaitBoard& board)
+{
+    const std::vector<int> behind = board.behind();
+    if (behind.empty()) { return "to which all of this node have come"; }
+    return fmt::format("to which {} of this node {} not come", ranks_text(behind), behind.size() == 1 ? "has" : "have");
+}
+
 } // namespace
 
 ExitCode on_ranks(const std::function<ExitCode(const Communicator&)>& command)
@@ -71,9 +81,16 @@ ExitCode on_ranks(const std::function<ExitCode(const Communicator&)>& command)
 std::unique_ptr<Watchdog> watch_ranks(const Communicator& world, double timeout)
 {
     if (world.size() == 1) { return nullptr; }
-    const std::string name = fmt::format("rank {} on {}", world.rank(), host_name());
-    return std::make_unique<Watchdog>(world.waits(), std::chrono::duration<double>(timeout),
-                                      [name](const std::string& complaint) { end_hanging_rank(name, complaint); });
+    const std::string            name  = fmt::format("rank {} on {}", world.rank(), host_name());
+    const auto                   board = std::make_shared<const WaitBoard>(world);
+    std::function<std::string()> absent;
+    if (!board->is_empty())
+    {
+        absent = [board] { return absent_text(*board); };
+    }
+    return std::make_unique<Watchdog>(
+        world.waits(), std::chrono::duration<double>(timeout),
+        [name](const std::string& complaint) { end_hanging_rank(name, complaint); }, absent);
 }
 
 } // namespace tread::run

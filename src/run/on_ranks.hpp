@@ -18,8 +18,8 @@ inline constexpr double agreement_timeout = 10;
 /// the job.
 ExitCode on_ranks(const std::function<ExitCode(const Communicator&)>& command);
 
-/// Ends the job, with exit code 4, when a rank waits longer than `timeout` (s); each such rank reports it. Null on one
-/// rank.
+/// Ends the job, with exit code 4, when a rank waits longer than `timeout` (s); each such rank reports it, and in a
+/// collective call which ranks of its node have not come to it. Null on one rank. Collective.
 std::unique_ptr<Watchdog> watch_ranks(const Communicator& world, double timeout);
 
 } // namespace tread::run

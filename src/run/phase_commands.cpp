@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernels/dem/bodies.hpp"
+#include "scene/phase_settings.hpp"
 
 namespace tread::run
 {
@@ -50,7 +51,7 @@ solver::BodyCommand motion(const scene::Scene& scene, const RunningPhase& phase,
     {
         return {dem::lock_all, 0.0, 0.0};
     }
-    if (lowered(scene, phase) == body) { return lowering(*keys.lower, scene.domain.gravity); }
+    if (lowered(scene, phase) == body) { return lowering(*keys.lower, scene::gravity_in(scene, phase.index)); }
     solver::BodyCommand command{locked_freedoms(self.lock), std::nullopt, std::nullopt};
     if (keys.drive && keys.drive->body == self.name)
     {

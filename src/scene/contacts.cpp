@@ -18,11 +18,11 @@ bool is_between(const Contact& contact, const std::string& a, const std::string&
     return (pair[0] == a && pair[1] == b) || (pair[0] == b && pair[1] == a);
 }
 
-const Contact* find_contact(const Scene& scene, const std::string& a, const std::string& b)
+const Contact* find_contact(const std::vector<Contact>& contacts, const std::string& a, const std::string& b)
 {
-    const auto found = std::find_if(scene.contacts.begin(), scene.contacts.end(),
+    const auto found = std::find_if(contacts.begin(), contacts.end(),
                                     [&](const Contact& contact) { return is_between(contact, a, b); });
-    return found == scene.contacts.end() ? nullptr : &*found;
+    return found == contacts.end() ? nullptr : &*found;
 }
 
 std::string family_of(const Scene& scene, const std::string& material)
@@ -34,9 +34,9 @@ std::string family_of(const Scene& scene, const std::string& material)
 
 } // namespace
 
-Contact contact_of(const Scene& scene, const std::string& family_a, const std::string& family_b)
+Contact contact_of(const std::vector<Contact>& contacts, const std::string& family_a, const std::string& family_b)
 {
-    if (const Contact* given = find_contact(scene, family_a, family_b)) { return *given; }
+    if (const Contact* given = find_contact(contacts, family_a, family_b)) { return *given; }
     Contact contact{{family_a, family_b}};
     if (family_a == wall_family || family_b == wall_family) { contact.friction = wall_friction; }
     return contact;
@@ -54,7 +54,10 @@ void complete_contacts(Scene& scene)
     {
         for (const auto& b : partners)
         {
-            if (find_contact(scene, a, b) == nullptr) { scene.contacts.push_back(contact_of(scene, a, b)); }
+            if (find_contact(scene.contacts, a, b) == nullptr)
+            {
+                scene.contacts.push_back(contact_of(scene.contacts, a, b));
+            }
         }
     }
 }

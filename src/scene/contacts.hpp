@@ -1,15 +1,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "scene/scene.hpp"
 
 namespace tread::scene
 {
 
-/// Friction and restitution of two families, in either order. Pairs not given in the scene have friction 0.3 (0.5 with
-/// "wall") and restitution 0.5.
-Contact contact_of(const Scene& scene, const std::string& family_a, const std::string& family_b);
+/// Friction and restitution of two families, in either order. Pairs that are not among `contacts` have friction 0.3
+/// (0.5 with "wall") and restitution 0.5.
+Contact contact_of(const std::vector<Contact>& contacts, const std::string& family_a, const std::string& family_b);
 
 /// Adds default contacts for every pair that can meet (rocks and bodies with each other, with terrain, with walls).
 void complete_contacts(Scene& scene);

@@ -111,39 +111,8 @@ Keys<Joint> joint_keys()
 
 Key<Phase> phase_motors_key()
 {
-    const auto    keys = motor_setting_keys();
-    const KeyText text{"motors",
-                       "",
-                       "they go on",
-                       "array of tables, see [[phase]] motors",
-                       "What motors of joints do from this phase on.",
-                       ""};
-    auto          read = [=](const Node& node, const std::string& table, Phase& phase, Problems& problems)
-    {
-        const auto* array = std::get_if<NodeArray>(&node.value);
-        if (array == nullptr)
-        {
-            problems.push_back({node.where, table, text.name, "wrong type: " + kind_of(node), text.accepted});
-            return;
-        }
-        phase.motors.resize(array->size());
-        for (std::size_t i = 0; i < array->size(); ++i)
-        {
-            read_table((*array)[i], fmt::format("{}.motors[{}]", table, i), keys, phase.motors[i], problems);
-        }
-    };
-    auto write = [=](const Phase& phase)
-    {
-        std::string list;
-        for (const MotorSetting& setting : phase.motors) { list += "\n  " + write_inline(keys, setting) + ","; }
-        return list.empty() ? list : "[" + list + "\n]";
-    };
-    return {text,
-            Presence::optional,
-            [](const Phase&) { return true; },
-            read,
-            write,
-            {describe("[[phase]] motors", "", keys)}};
+    return tables_key<Phase>("motors", "[[phase]] motors", &Phase::motors, motor_setting_keys(),
+                             "What motors of joints do from this phase on.", "they go on");
 }
 
 } // namespace tread::scene

@@ -42,6 +42,18 @@ Keys<WeightShare> weight_keys()
     };
 }
 
+Keys<ContactSetting> contact_setting_keys()
+{
+    return {
+        required("between", "", &ContactSetting::between, pair_of_names(),
+                 "Two families, or a family and \"wall\". One setting a pair and phase."),
+        optional("friction", "", &ContactSetting::friction, number_or("", coefficient()),
+                 "Coulomb's coefficient, from this phase on until another one sets it.", "as before"),
+        optional("restitution", "", &ContactSetting::restitution, number_or("", between(0, 1)),
+                 "Coefficient of restitution between bodies and with walls, likewise.", "as before"),
+    };
+}
+
 bool may_end_early(const Phase& phase) { return phase.until != StopRule::duration; }
 
 } // namespace
@@ -226,6 +238,12 @@ Keys<Phase> phase_keys()
                          "all of it acts"),
         phase_motion_key(),
         phase_motors_key(),
+        optional("gravity", "m/s2", &Phase::gravity, vector3_given(acceleration()),
+                 "Acceleration of gravity, from this phase on until another one sets it: a bed that tilts, a fall in a "
+                 "centrifuge. Potential energy counts from where everything is then.",
+                 "as before"),
+        tables_key<Phase>("contacts", "[[phase]] contacts", &Phase::contacts, contact_setting_keys(),
+                          "What changes in contacts from this phase on.", "nothing"),
     };
 }
 

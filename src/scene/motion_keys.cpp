@@ -321,38 +321,12 @@ Keys<Motion> motion_keys()
 
 Key<Phase> phase_motion_key()
 {
-    const auto    keys = motion_keys();
-    const KeyText text{"motion",
-                       "",
-                       "no body has a motion",
-                       "array of tables, see [[phase]] motion",
-                       "What moves bodies: prescribed velocities, forces, loads and bearings: docs/phases.md.",
-                       ""};
-    auto          read = [=](const Node& node, const std::string& table, Phase& phase, Problems& problems)
-    {
-        const auto* array = std::get_if<NodeArray>(&node.value);
-        if (array == nullptr)
-        {
-            problems.push_back({node.where, table, "motion", "wrong type: " + kind_of(node), text.accepted});
-            return;
-        }
-        phase.motion.resize(array->size());
-        for (std::size_t i = 0; i < array->size(); ++i)
-        {
-            read_table((*array)[i], motion_label(table, i), keys, phase.motion[i], problems);
-        }
-    };
-    auto write = [=](const Phase& phase)
-    {
-        std::string list;
-        for (const Motion& motion : phase.motion) { list += "\n  " + write_inline(keys, motion) + ","; }
-        return list.empty() ? list : "[" + list + "\n]";
-    };
-    std::vector<TableText> inner{describe("[[phase]] motion", "", keys)};
-    for (const TableText& table : describe_course()) { inner.push_back(table); }
+    std::vector<TableText> inner = describe_course();
     inner.push_back(describe("[[phase]] motion carriage", "", carriage_keys()));
     inner.push_back(describe("[[phase]] motion until", "", stop_keys()));
-    return {text, Presence::optional, [](const Phase&) { return true; }, read, write, inner};
+    return tables_key<Phase>("motion", "[[phase]] motion", &Phase::motion, motion_keys(),
+                             "What moves bodies: prescribed velocities, forces, loads and bearings: docs/phases.md.",
+                             "no body has a motion", inner);
 }
 
 std::string motion_label(const std::string& phase, std::size_t index)

@@ -165,6 +165,47 @@ void check_stops(const MotionCheck& check)
     }
 }
 
+/// Whether something can take up a force on a body in a phase: ground, a wall, the world through a joint, or a body
+/// that the phase holds or leads.
+bool has_support(const MotionCheck& check)
+{
+    const Scene& scene  = check.scene;
+    const Walls& walls  = scene.domain.walls;
+    const bool   walled = walls.x != WallKind::open || walls.y != WallKind::open || walls.bottom != WallKind::open ||
+                        walls.top != WallKind::open;
+    const auto is_tied = [](const Joint& joint)
+    { return joint.between[0] == world_side || joint.between[1] == world_side; };
+    const auto leads = [&](const Motion& motion)
+    {
+        const auto& axes = motion.translation;
+        return motion.body != check.motion.body && std::any_of(axes.begin(), axes.end(), is_held);
+    };
+    return walled || !scene.terrain.empty() || !scene.rocks.empty() || !check.phase.hold.empty() ||
+           std::any_of(scene.joints.begin(), scene.joints.end(), is_tied) ||
+           std::any_of(check.phase.motion.begin(), check.phase.motion.end(), leads);
+}
+
+/// The first key of a motion that is a force or torque; null if none is.
+const char* effort_key(const Motion& motion)
+{
+    const auto is_effort = [](const AxisMotion& axis) { return axis.kind == AxisKind::effort; };
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+        if (is_effort(motion.translation[c])) { return translation_axes[c]; }
+        if (is_effort(motion.rotation[c])) { return rotation_axes[c]; }
+    }
+    if (is_effort(motion.axle)) { return "axle"; }
+    return motion.load ? "load" : nullptr;
+}
+
+void check_support(const MotionCheck& check)
+{
+    const char* key = effort_key(check.motion);
+    if (key == nullptr || has_support(check)) { return; }
+    check.refuse(key, fmt::format("nothing takes up what acts on \"{}\"", check.motion.body),
+                 "a scene with a wall, [[terrain]], [[rocks]], a joint to \"world\", or a body that the phase holds");
+}
+
 /// Calls visit(motion, node, label) for each motion of each phase that was read without a problem.
 template<class Visit>
 void for_each_motion(const Node& document, std::size_t phases, const Problems& problems, const Visit& visit)
@@ -273,6 +314,7 @@ void validate_motions(const Scene& scene, Checker& checker)
                         check_axle(check);
                         check_load(check);
                         check_stops(check);
+                        check_support(check);
                     });
 }
 

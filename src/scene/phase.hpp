@@ -1,12 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "scene/joint.hpp"
 #include "scene/motion.hpp"
+#include "scene/vector3.hpp"
 #include "scene/words.hpp"
 
 // Settings of a phase of simulated time, as plain data; scene.hpp describes how it is read.
@@ -44,6 +46,16 @@ struct WeightShare
     bool operator==(const WeightShare&) const = default;
 };
 
+/// What changes in the contact of a pair of families.
+struct ContactSetting
+{
+    std::array<std::string, 2> between;
+    std::optional<double>      friction;    ///< empty: as before
+    std::optional<double>      restitution; ///< likewise; body-body only
+
+    bool operator==(const ContactSetting&) const = default;
+};
+
 struct Phase
 {
     std::string                name;
@@ -56,7 +68,11 @@ struct Phase
     std::optional<Lower>       lower;  ///< only with until = "lowered"
     std::optional<WeightShare> weight; ///< empty: the full weight of every body acts
     std::vector<Motion>        motion; ///< one for each body that has one
-    std::vector<MotorSetting>  motors; ///< of joints; they last until another phase sets them
+
+    // From this phase on, until another one sets them.
+    std::vector<MotorSetting>   motors;  ///< of joints
+    std::optional<Vector3>      gravity; ///< m/s2
+    std::vector<ContactSetting> contacts;
 
     bool operator==(const Phase&) const = default;
 };

@@ -65,7 +65,11 @@ bool mentions_inside(const Problems& problems, const std::string& table)
 {
     return std::any_of(problems.begin(), problems.end(),
                        [&](const Problem& problem)
-                       { return problem.table == table || problem.table.rfind(table + ".", 0) == 0; });
+                       {
+                           const std::string& label = problem.table;
+                           return label == table || label.rfind(table + ".", 0) == 0 ||
+                                  label.rfind(table + "[", 0) == 0;
+                       });
 }
 
 void throw_if_any(Problems problems)

@@ -27,7 +27,7 @@ std::string to_string(const Problem& problem);
 /// Whether a problem with this key was already found, so that problems caused by it need no message of their own.
 bool mentions(const Problems& problems, const std::string& table, const std::string& key);
 
-/// Whether a problem was found in this inner table or deeper.
+/// Whether a problem was found in this inner table, in one of an array of that name, or deeper.
 bool mentions_inside(const Problems& problems, const std::string& table);
 
 /// Largest number of problems in one message.

@@ -128,6 +128,34 @@ void check_contact(const Scene& scene, std::size_t index, const std::vector<std:
     }
 }
 
+/// Settings of contacts in a phase name known families, each pair once, and set something.
+void check_contact_settings(const Scene& scene, std::size_t phase, const std::vector<std::string>& families,
+                            Checker& checker)
+{
+    const TableAt at{"phase", phase};
+    if (!checker.sound(at, {"contacts"})) { return; }
+    const std::vector<ContactSetting>& settings = scene.phases[phase].contacts;
+    for (auto setting = settings.begin(); setting != settings.end(); ++setting)
+    {
+        const auto& pair = setting->between;
+        for (const auto& family : pair) { checker.require_known(at, "contacts", family, families, "contact family"); }
+        const std::string text = fmt::format("[\"{}\", \"{}\"]", pair[0], pair[1]);
+        if (pair[0] == wall_family && pair[1] == wall_family)
+        {
+            checker.report(at, "contacts", "walls do not meet each other", "a family and \"wall\"");
+        }
+        if (!setting->friction && !setting->restitution)
+        {
+            checker.report(at, "contacts", text + " sets nothing", "friction, restitution or both");
+        }
+        const bool again = std::any_of(settings.begin(), setting,
+                                       [&](const ContactSetting& before) {
+                                           return std::is_permutation(pair.begin(), pair.end(), before.between.begin());
+                                       });
+        if (again) { checker.report(at, "contacts", text + " twice", "one setting each"); }
+    }
+}
+
 void check_families(const Scene& scene, Checker& checker)
 {
     std::vector<std::string> families{std::string(wall_family)};
@@ -141,6 +169,7 @@ void check_families(const Scene& scene, Checker& checker)
                        "\"wall\" is reserved for the domain's walls", "another family");
     }
     for (std::size_t i = 0; i < scene.contacts.size(); ++i) { check_contact(scene, i, families, checker); }
+    for (std::size_t i = 0; i < scene.phases.size(); ++i) { check_contact_settings(scene, i, families, checker); }
 }
 
 } // namespace

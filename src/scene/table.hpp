@@ -227,4 +227,37 @@ Key<T> table_key(Presence presence, const std::string& name, const std::string& 
     return {text, presence, [](const T&) { return true; }, read, write, {describe(title, "", keys)}};
 }
 
+/// A key whose value is an array of tables held in a vector; `inner`: headings below that of its keys. Errors name the
+/// table as table.name[i].
+template<class T, class Member, class M>
+Key<T> tables_key(const std::string& name, const std::string& title, Member member, const Keys<M>& keys,
+                  const std::string& meaning, std::string fallback, const std::vector<TableText>& inner = {})
+{
+    const KeyText text{name, "", std::move(fallback), "array of tables, see " + title, meaning, ""};
+    auto          read = [=](const Node& node, const std::string& table, T& object, Problems& problems)
+    {
+        const auto* array = std::get_if<NodeArray>(&node.value);
+        if (array == nullptr)
+        {
+            problems.push_back({node.where, table, name, "wrong type: " + kind_of(node), text.accepted});
+            return;
+        }
+        auto& values = object.*member;
+        values.resize(array->size());
+        for (std::size_t i = 0; i < array->size(); ++i)
+        {
+            read_table((*array)[i], fmt::format("{}.{}[{}]", table, name, i), keys, values[i], problems);
+        }
+    };
+    auto write = [=](const T& object)
+    {
+        std::string list;
+        for (const M& value : object.*member) { list += "\n  " + write_inline(keys, value) + ","; }
+        return list.empty() ? list : "[" + list + "\n]";
+    };
+    std::vector<TableText> texts{describe(title, "", keys)};
+    texts.insert(texts.end(), inner.begin(), inner.end());
+    return {text, Presence::optional, [](const T&) { return true; }, read, write, texts};
+}
+
 } // namespace tread::scene

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "scene/checker.hpp"
+#include "scene/phase_settings.hpp"
 #include "scene/ranges.hpp"
 
 namespace tread::scene
@@ -141,9 +142,9 @@ void validate_lowering(const Scene& scene, const Phase& phase, const TableAt& at
         checker.report(at, "lower", fmt::format("\"{}\" is both driven and lowered", body),
                        "a body that is not driven");
     }
-    if (is_weightless(scene, checker))
+    if (checker.sound({"domain"}, {"gravity", "gravity_size"}) && gravity_in(scene, at.index) == Vector3{})
     {
-        checker.report(at, "lower", "a body is lowered along gravity, and [domain] gravity is zero", "gravity");
+        checker.report(at, "lower", "a body is lowered along gravity, which is zero in this phase", "gravity");
     }
 }
 

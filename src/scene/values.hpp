@@ -85,8 +85,9 @@ Value<std::optional<std::int64_t>> integer_or(const std::string& word, std::int6
 /// An integer in [low, high]; absence gives an empty optional.
 Value<std::optional<std::int64_t>> integer_given(std::int64_t low, std::int64_t high);
 
-/// Three numbers, each in range.
-Value<Vector3> vector3(Range range);
+/// Three numbers, each in range; the second may be left out.
+Value<Vector3>                vector3(Range range);
+Value<std::optional<Vector3>> vector3_given(Range range);
 
 /// Two numbers, each in range.
 Value<Vector2> vector2(Range range);

@@ -102,6 +102,13 @@ Value<Vector3> vector3(Range range)
             write_vector3};
 }
 
+Value<std::optional<Vector3>> vector3_given(Range range)
+{
+    return {"[x, y, z], each a " + range.text(),
+            [=](const Node& node) -> std::optional<Vector3> { return read_vector3(node, range); },
+            [](const std::optional<Vector3>& value) { return value ? write_vector3(*value) : std::string(); }};
+}
+
 Value<std::optional<Box>> box_given()
 {
     return {accepted_box, [](const Node& node) -> std::optional<Box> { return read_box(node); },

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/phase_settings.hpp"
 #include "solver/bodies/motion_bounds.hpp"
 #include "world/materials.hpp"
 #include "world/terrain.hpp"
@@ -19,7 +20,7 @@ constexpr double longest_step = 0.02; ///< s, where nothing moves, so that the o
 PaceLimits pace_limits(const scene::Scene& scene, const world::World& world, const Plan& plan)
 {
     PaceLimits limits;
-    limits.gravity             = Vec3<double>(scene.domain.gravity.data()).norm();
+    limits.gravity             = scene::largest_gravity(scene);
     limits.longest             = longest_step;
     const MotionBounds motions = motion_bounds(scene, world);
     limits.gravity += motions.acceleration;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "backend/instantiate.hpp"
+#include "scene/phase_settings.hpp"
 #include "solver/bodies/body_reaches.hpp"
 #include "solver/ledger/contact_guards.hpp"
 #include "solver/pace_limits.hpp"
@@ -19,11 +20,11 @@ namespace
 
 Vec3<double> vector(const scene::Vector3& v) { return {v[0], v[1], v[2]}; }
 
-double free_weight(const scene::Scene& scene, const world::World& world)
+double free_mass(const world::World& world)
 {
     const double sand  = std::accumulate(world.points.mass.begin(), world.points.mass.end(), 0.0);
     const double rocks = std::accumulate(world.bodies.mass.begin() + world.bodies.named, world.bodies.mass.end(), 0.0);
-    return (sand + rocks) * vector(scene.domain.gravity).norm();
+    return sand + rocks;
 }
 
 /// m/s, of sand; bodies get theirs by command.
@@ -54,7 +55,8 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     , world_(world)
     , plan_(plan)
     , limits_(pace_limits(scene, world, plan))
-    , weight_(free_weight(scene, world))
+    , free_mass_(free_mass(world))
+    , gravity_(vector(scene.domain.gravity))
 {
     if (decomposition != nullptr) { require_plan_of_ranks(plan); }
     measuring_.pace.largest_speed = speed_at_start(scene);
@@ -76,7 +78,7 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
         measuring_.pace.shortest_contact = rigid_->shortest_contact();
     }
     const Census start = census();
-    ledger_.emplace(vector(scene.domain.gravity), start);
+    ledger_.emplace(gravity_, start);
     if (sand_) { guard_.emplace(limits_, start.sand.mass); }
 }
 
@@ -85,6 +87,33 @@ void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, d
 {
     damping_ = damping;
     if (rigid_) { rigid_->command(commands); }
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::begin_phase(std::size_t phase)
+{
+    if (static_cast<std::int64_t>(phase) != phase_)
+    {
+        const Vec3<double> gravity = vector(scene::gravity_in(scene_, phase));
+        if (gravity != gravity_)
+        {
+            const Census before = census();
+            set_gravity(gravity);
+            ledger_->turn_gravity(gravity, before, census());
+            wakes_ = sand_ && sand_->may_sleep();
+        }
+        if (rigid_) { rigid_->set_contacts(phase); }
+        phase_ = static_cast<std::int64_t>(phase);
+    }
+    if (rigid_) { rigid_->begin_phase(phase); }
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::set_gravity(const Vec3<double>& gravity)
+{
+    gravity_ = gravity;
+    if (sand_) { sand_->set_gravity(gravity); }
+    if (rigid_) { rigid_->set_gravity(gravity); }
 }
 
 /// Preconditions: command() has set the commands of the named bodies. If measured(), `step` was chosen from pace()
@@ -166,12 +195,14 @@ void Simulation<Exec, Real>::repartition_pages()
 template<class Exec, class Real>
 void Simulation<Exec, Real>::update_sleeping_pages(StageClock& clock)
 {
-    if (!sand_ || !measured() || !sand_->sleep_is_due(measuring_.pace.largest_speed, damping_)) { return; }
+    if (!sand_ || !measured()) { return; }
+    const bool wakes = std::exchange(wakes_, false);
+    if (!wakes && !sand_->sleep_is_due(measuring_.pace.largest_speed, damping_)) { return; }
     const auto update = [&]
     {
         std::vector<BodyReach> bodies;
         if (rigid_) { bodies = body_reaches(exec_, rigid_->view(), world_); }
-        sand_->update_sleeping_pages(bodies, damping_);
+        sand_->update_sleeping_pages(bodies, wakes ? 1.0 : damping_);
     };
     clock.run(exec_, stage::sleep, update);
 }
@@ -256,7 +287,8 @@ void Simulation<Exec, Real>::measure()
     const ContactReport contacts = coupling_ ? measure_contacts() : ContactReport{};
     measuring_.extremes.note(last_.step, steps, limits_, pace,
                              coupling_ ? coupling_->summary() : contact::Summary::zero());
-    measuring_.unbalanced = weight_ > 0 ? (sand.last_grid[mpm::grid_net_force] + rigid.net_force) / weight_ : 0;
+    const double weight   = free_mass_ * gravity_.norm();
+    measuring_.unbalanced = weight > 0 ? (sand.last_grid[mpm::grid_net_force] + rigid.net_force) / weight : 0;
     ledger_->steps(last_.step.dt, steps, sand, rigid, contacts, moving_mass());
     if (guard_) { guard_->watch(sand, last_.step, last_.time); }
     measuring_.every = steps_to_measure();
@@ -366,6 +398,7 @@ void Simulation<Exec, Real>::transfer(StateFile& file)
     }
     solver::transfer(file, measuring_, last_, damping_);
     ledger_->transfer(file);
+    if (file.loads()) { set_gravity(ledger_->gravity()); }
     if (guard_) { guard_->transfer(file); }
 }
 

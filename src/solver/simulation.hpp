@@ -59,11 +59,8 @@ public:
     /// Sets the commands of the named bodies (held, driven, free) until the next call; `damping` is the phase's.
     void command(const std::vector<BodyCommand>& commands, double damping);
 
-    /// Sets the motors of joints to a phase of the scene.
-    void begin_phase(std::size_t phase)
-    {
-        if (rigid_) { rigid_->begin_phase(phase); }
-    }
+    /// Call before each step with the index of its phase: sets gravity, contacts and motors to those of the phase.
+    void begin_phase(std::size_t phase);
 
     /// Sets a check that all ranks call together from time to time within a step of many substeps; if it returns a
     /// reason, the run stops there (StoppedInStep).
@@ -132,6 +129,7 @@ private:
     void move_sand(double dt, StageClock& clock);
     void measure_if_due(const TimeStep& step, double time, StageClock& clock);
 
+    void          set_gravity(const Vec3<double>& gravity);
     void          list_points();
     void          repartition_pages();
     void          list_contacts(double span, StageClock& clock);
@@ -152,7 +150,10 @@ private:
     const world::World&          world_;
     const Plan                   plan_;
     PaceLimits                   limits_;
-    double                       weight_; ///< N, of sand and rocks
+    double                       free_mass_;       ///< kg, of sand and rocks
+    Vec3<double>                 gravity_;         ///< m/s2
+    std::int64_t                 phase_   = -1;    ///< that has begun here; -1: none
+    bool                         wakes_   = false; ///< whether all sand wakes in the next step
     double                       damping_ = 0;
     Measuring                    measuring_;
     LastStep                     last_;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "scene/contacts.hpp"
+#include "scene/phase_settings.hpp"
 
 namespace tread::world
 {
@@ -178,9 +179,10 @@ double damping_ratio(double restitution)
     return restitution >= 1 ? 0 : low;
 }
 
-std::vector<dem::PairProperties> pair_properties(const scene::Scene& scene)
+std::vector<dem::PairProperties> pair_properties(const scene::Scene& scene, std::size_t phase)
 {
-    const std::size_t                count = scene.materials.size();
+    const auto                       contacts = scene::contacts_in(scene, phase);
+    const std::size_t                count    = scene.materials.size();
     std::vector<dem::PairProperties> table((count + 1) * (count + 1));
     const Compliance                 wall{0, 0};
     for (std::size_t a = 0; a < count; ++a)
@@ -190,9 +192,9 @@ std::vector<dem::PairProperties> pair_properties(const scene::Scene& scene)
         {
             const scene::Material& second = scene.materials[b];
             table[a * (count + 1) + b] =
-                pair(scene::contact_of(scene, first.family, second.family), compliance(first), compliance(second));
+                pair(scene::contact_of(contacts, first.family, second.family), compliance(first), compliance(second));
         }
-        const auto against_wall        = pair(scene::contact_of(scene, first.family, "wall"), compliance(first), wall);
+        const auto against_wall = pair(scene::contact_of(contacts, first.family, "wall"), compliance(first), wall);
         table[a * (count + 1) + count] = against_wall;
         table[count * (count + 1) + a] = against_wall;
     }

@@ -15,8 +15,8 @@ namespace tread::world
 template<class Real>
 std::vector<mpm::MaterialParameters<Real>> law_parameters(const scene::Scene& scene);
 
-/// Contact properties of every pair of materials; the last row and column is the domain's wall.
-std::vector<dem::PairProperties> pair_properties(const scene::Scene& scene);
+/// Contact properties of every pair of materials in a phase; the last row and column is the domain's wall.
+std::vector<dem::PairProperties> pair_properties(const scene::Scene& scene, std::size_t phase);
 
 /// Friction angle of a granular material at its initial density, under pressures of up to 150 kPa, degrees: that of the
 /// scene, or of the model "bolton" the angle that follows from the density.

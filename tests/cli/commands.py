@@ -17,14 +17,22 @@ class Commands(CommandTest):
     def test_version_is_that_of_the_build(self):
         result = self.tread("--version")
         wanted = re.search(r"project\(tread VERSION ([0-9.]+)", (SOURCE / "CMakeLists.txt").read_text()).group(1)
-        self.assertEqual((result.returncode, result.stdout), (0, f"tread {wanted}\n"))
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.stdout.split("\n")[0], f"tread {wanted}")
 
     def test_help_names_every_command(self):
         result = self.tread("--help")
         self.assertEqual(result.returncode, 0)
-        for command in ("run", "check", "study", "validate", "calibrate", "sdf", "info"):
+        for command in ("run", "check", "study", "validate", "calibrate", "post", "sdf", "info"):
             self.assertIn(f"  {command} ", result.stdout)
             self.assertEqual(self.tread(command, "--help").returncode, 0)
+
+    def test_a_misspelt_command_is_refused_with_the_nearest(self):
+        for word, said in (("chekc", 'did you mean "check"?'), ("xyzxyz", "accepted: run, check")):
+            refused = self.tread(word, "scene.toml")
+            self.assertEqual((refused.returncode, refused.stdout), (2, ""))
+            self.assertIn(f'there is no command "{word}"', refused.stderr)
+            self.assertIn(said, refused.stderr)
 
     def test_runs_limit_the_spinning_of_threads_unless_told_otherwise(self):
         """GNU's OpenMP says what it goes by, once for each start of the program."""

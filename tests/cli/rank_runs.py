@@ -119,8 +119,8 @@ class Ranks(CommandTest):
         os.kill(children(job.pid)[1], signal.SIGSTOP)
         _, said = job.communicate(timeout=100)
         self.assertEqual(job.returncode, 4, said)
-        self.assertRegex(said, r"tread: error: rank [01] on \S+: has waited [0-9.]+ s for (all ranks|rank [01]) \([a-z -]+\), "
-                         r"after \d+ steps of this run; --hang-timeout allows for more")
+        self.assertRegex(said, r"tread: error: rank [01] on \S+: has waited [0-9.]+ s for (rank [01] \([a-z -]+\)|all ranks \([a-z -]+\), "
+                         r"to which (rank 1 of this node has not|all of this node have) come), after \d+ steps of this run; --hang-timeout allows for more")
 
     def test_the_time_to_wait_is_checked(self):
         result = self.tread("run", "scene.toml", "--hang-timeout", "0")

@@ -125,7 +125,14 @@ def beds():
     }
 
 
-SEEDS = {"read_mesh": meshes, "read_scene": scenes, "read_raster": rasters, "read_bed": beds}
+def tables():
+    return {
+        "good": b"time,v\n0,1\n1,2\n3,-1\n", "spaces": b" time , w, v\n0, 0, 1\n2.5,1 , 2\n", "short": b"time,v\n0,1\n1,2\n",
+        "back": b"time,v\n0,1\n1,2\n1,3\n", "wide": b"time,v\n-1e308,1\n1e308,2\n", "ragged": b"time,v\n0,1\n1\n", "nan": b"time,v\n0,nan\n9,1\n",
+    }
+
+
+SEEDS = {"read_mesh": meshes, "read_scene": scenes, "read_raster": rasters, "read_bed": beds, "read_table": tables}
 
 if __name__ == "__main__":
     target, folder = sys.argv[1], pathlib.Path(sys.argv[2])

@@ -19,6 +19,7 @@ sys.path.insert(0, str(ROOT / "postprocess"))
 
 import campaign_report  # noqa: E402
 import compare  # noqa: E402
+import render  # noqa: E402
 import slices  # noqa: E402
 import slip_curves  # noqa: E402
 from made_up_run import RADIUS, SCENE, SURFACE, colours_of, make_run  # noqa: E402
@@ -200,10 +201,27 @@ class RunTest(unittest.TestCase):
         from PIL import Image
 
         output = self.path.parent / "film.gif"
-        done = self.command("render.py", self.path, "--film", "--size", "400", "250", "--output", output)
+        done = self.command("render.py", self.path, "--film", "--fps", "20", "--size", "400", "250", "--output", output)
         self.assertEqual(done.returncode, 0, done.stderr)
         with Image.open(output) as film:
             self.assertEqual(film.n_frames, 2)
+            self.assertEqual(film.info["duration"], 50)
+        refused = self.command("render.py", self.path, "--film", "--output", "film.avi")
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("a film is written as .gif or .mp4", refused.stderr)
+        self.assertTrue(np.allclose(render.rates([0.0, 0.5, 0.7], 10), [5, 2, 2]))
+
+    def test_film_by_ffmpeg(self):
+        output = self.path.parent / "film.mp4"
+        done = self.command("render.py", self.path, "--film", "--size", "401", "250", "--output", output)
+        if shutil.which("ffmpeg") is None:
+            self.assertIn("MP4 wants ffmpeg", done.stderr)
+            self.assertFalse(output.exists())
+            return
+        self.assertEqual(done.returncode, 0, done.stderr)
+        shown = subprocess.run(["ffprobe", "-v", "error", "-show_entries", "stream=codec_name,width,nb_frames", "-of", "csv=p=0", output],
+                               capture_output=True, text=True).stdout.strip()
+        self.assertEqual(shown, "h264,400,11")  # two pictures, the last for a second
 
     def test_sections(self):
         run = Run(self.path)

@@ -77,8 +77,8 @@ inline std::string swinging_under_gravity(double duration)
     return text.replace(text.find(none), none.size(), "gravity = [0.0, 0.0, -9.81]");
 }
 
-/// Two balls of 10 kg under gravity, the second welded to the first at its side, and a last phase with this motion of
-/// the first.
+/// Two balls of 10 kg under gravity, high above the floor, the second welded to the first at its side, and a last phase
+/// with this motion of the first.
 inline std::string moved_text(double duration, const std::string& motion)
 {
     std::string       text = steel_text + R"(
@@ -109,6 +109,8 @@ name = "move"
 )";
     const std::string none = "gravity = [0.0, 0.0, 0.0]";
     text.replace(text.find(none), none.size(), "gravity = [0.0, 0.0, -9.81]");
+    const std::string open = "bottom = \"open\"";
+    text.replace(text.find(open), open.size(), "bottom = \"fixed\"");
     return text + "duration = " + std::to_string(duration) + "\nmotion = [ { body = \"led\", " + motion + " } ]\n";
 }
 

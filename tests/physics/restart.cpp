@@ -190,6 +190,20 @@ until         = { force_z = 1000.0 })");
     EXPECT_EQ(this->phase_saved_, 1U);
 }
 
+/// Saved in a phase with another gravity and another friction than the one before.
+TYPED_TEST(Restart, InAPhaseWithItsOwnGravityAndContactsGivesTheSameBits)
+{
+    std::string text = test::roller_text;
+    text.replace(text.find("duration = 0.05"), 15, R"(duration = 0.02
+[[phase]]
+name     = "tilt"
+duration = 0.5
+gravity  = [1.0, 0.0, -9.0]
+contacts = [ { between = ["steel", "sand"], friction = 0.1 } ])");
+    this->expect_same_bits(text);
+    EXPECT_EQ(this->phase_saved_, 1U);
+}
+
 /// Saved during lowering, then released at half its weight, with a weight that grows.
 TYPED_TEST(Restart, OfABodyThatIsLoweredGivesTheSameBits)
 {

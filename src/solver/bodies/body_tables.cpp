@@ -17,7 +17,7 @@ BodyTables<Exec>::BodyTables(const Exec& exec, const scene::Scene& scene, const 
     , planes(exec, "walls")
     , bounding_radii(exec, "body bounding radii")
 {
-    const std::vector<dem::PairProperties> pairs = world::pair_properties(scene);
+    const std::vector<dem::PairProperties> pairs = world::pair_properties(scene, 0);
     properties.assign(pairs);
     rolling = std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.rolling_friction > 0; });
     planes.assign(world.planes);

@@ -13,6 +13,7 @@
 #include "solver/bodies/motion_bounds.hpp"
 #include "solver/ranks/over_ranks.hpp"
 #include "solver/state_file.hpp"
+#include "world/materials.hpp"
 
 namespace tread::solver
 {
@@ -44,6 +45,12 @@ template<class Exec>
 void DemSolver<Exec>::begin_phase(std::size_t phase)
 {
     if (joints_) { commands_.largest_speed = std::max(commands_.largest_speed, joints_->begin_phase(phase)); }
+}
+
+template<class Exec>
+void DemSolver<Exec>::set_contacts(std::size_t phase)
+{
+    state_.tables.properties.assign(world::pair_properties(state_.scene, phase));
 }
 
 template<class Exec>

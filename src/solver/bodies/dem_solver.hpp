@@ -78,6 +78,10 @@ public:
     /// Step 1. Sets the motors of joints to a phase of the scene.
     void begin_phase(std::size_t phase);
 
+    /// Sets gravity, m/s2, and the properties of contacts to those of a phase of the scene.
+    void set_gravity(const Vec3<double>& gravity) { state_.gravity = gravity; }
+    void set_contacts(std::size_t phase);
+
     /// Returns and resets the largest speed (m/s) set by commands on any rank since the last call.
     double take_commanded_speed();
 

@@ -22,10 +22,20 @@ Vec3<double> momentum(const Census& census) { return census.sand.momentum + cens
 
 Ledger::Ledger(Vec3<double> gravity, const Census& start)
     : gravity_(std::move(gravity))
+    , largest_gravity_(gravity_.norm())
     , start_(start)
     , kinetic_points_(start.sand.kinetic)
 {
-    start_energy_ = stored(start);
+    start_energy_  = stored(start);
+    start_gravity_ = gravity_energy(start);
+}
+
+void Ledger::turn_gravity(const Vec3<double>& gravity, const Census& before, const Census& after)
+{
+    const double energy = gravity_energy(before);
+    gravity_            = gravity;
+    largest_gravity_    = std::max(largest_gravity_, gravity_.norm());
+    turned_ += gravity_energy(after) - energy;
 }
 
 double Ledger::stored(const Census& now) const
@@ -34,7 +44,10 @@ double Ledger::stored(const Census& now) const
            now.sand_contact + gravity_energy(now);
 }
 
-double Ledger::gravity_energy(const Census& now) const { return now.rigid.gravity - gravity_.dot(now.sand.moment); }
+double Ledger::gravity_energy(const Census& now) const
+{
+    return now.rigid.gravity - gravity_.dot(now.sand.moment) - turned_;
+}
 
 void Ledger::steps(double dt, std::int64_t steps, const SandReport& sand, const RigidReport& rigid,
                    const ContactReport& contact, double moving_mass)
@@ -87,7 +100,7 @@ EnergyRow Ledger::energy(const Census& now)
     row.work_in        = work_in_;
     row.total = stored(now) + plastic_ + friction_ + restitution_ + damping_ + transfer_ + coupling_ - work_in_;
 
-    const double fallen = gravity_energy(start_) - row.gravity;
+    const double fallen = start_gravity_ - row.gravity;
     for (const double exchange :
          {row.kinetic_points, row.kinetic_bodies, fallen, plastic_, friction_, damping_, work_in_, row.strain})
     {
@@ -107,7 +120,7 @@ BalanceRow Ledger::balance(const Census& now)
     BalanceRow row;
     row.mass            = mass(now);
     row.momentum        = momentum(now);
-    const double weight = mass(start_) * gravity_.norm();
+    const double weight = mass(start_) * largest_gravity_;
     if (time_ > 0 && weight > 0)
     {
         row.impulse_error = (row.momentum - momentum(start_) - impulse_).norm() / (weight * time_);
@@ -158,6 +171,10 @@ void Ledger::transfer_sums(StateFile& file)
     file.numbers("ledger/contact_energy", contact_energy_);
     file.numbers("ledger/weight_power", weight_power_);
     file.doubles("ledger/impulse", impulse_);
+    file.doubles("ledger/gravity", gravity_);
+    file.numbers("ledger/turned", turned_);
+    file.numbers("ledger/start_gravity", start_gravity_);
+    file.numbers("ledger/largest_gravity", accept::number(largest_gravity_, 0, accept::largest));
 }
 
 } // namespace tread::solver

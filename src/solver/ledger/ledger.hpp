@@ -87,6 +87,12 @@ public:
     void steps(double dt, std::int64_t steps, const SandReport& sand, const RigidReport& rigid,
                const ContactReport& contact, double moving_mass);
 
+    /// Gravity has turned to `gravity` (m/s2) between the two censuses, at one time. From now on potential energy
+    /// counts from where everything is, so that it does not jump.
+    void turn_gravity(const Vec3<double>& gravity, const Census& before, const Census& after);
+
+    const Vec3<double>& gravity() const { return gravity_; }
+
     EnergyRow       energy(const Census& now);
     BalanceRow      balance(const Census& now);
     io::ErrorReport errors() const { return errors_; }
@@ -106,6 +112,9 @@ private:
     double gained(const Census& now) const;
 
     Vec3<double>    gravity_;
+    double          largest_gravity_;   ///< m/s2, so far
+    double          turned_        = 0; ///< J, what turns of gravity have added to -m g . x
+    double          start_gravity_ = 0; ///< J
     Census          start_;
     double          start_energy_ = 0;
     double          time_         = 0;

@@ -47,6 +47,16 @@ public:
     /// synchronisation.
     void order();
 
+    /// Whether sand of this scene may sleep.
+    bool may_sleep() const { return sleep_.has_value(); }
+
+    /// Sets gravity, m/s2.
+    void set_gravity(const Vec3<double>& gravity)
+    {
+        grid_.gravity = gravity.cast<Real>();
+        if (sleep_) { sleep_->set_gravity(gravity.norm()); }
+    }
+
     /// Step 2, after order(). sleep_is_due: whether to update which pages sleep before a step with this damping, when
     /// nothing is faster than `speed` (m/s). With damping none sleeps.
     bool sleep_is_due(double speed, double damping) const { return sleep_ && sleep_->is_due(speed, damping); }

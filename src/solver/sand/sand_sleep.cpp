@@ -22,13 +22,12 @@ constexpr double unseen_share = 0.25;
 /// Number of points per partial sum of a census.
 constexpr std::int64_t census_run = 512;
 
-/// Pressure of the bed on the domain's floor, Pa.
-double floor_pressure(const scene::Scene& scene, const world::World& world)
+/// Mass of the bed over the area of the domain's floor, kg/m2.
+double mass_on_floor(const scene::Scene& scene, const world::World& world)
 {
     double mass = 0;
     for (const double m : world.points.mass) { mass += m; }
-    const scene::Vector3& g = scene.domain.gravity;
-    return mass * Vec3<double>(g[0], g[1], g[2]).norm() / (scene.domain.size[0] * scene.domain.size[1]);
+    return mass / (scene.domain.size[0] * scene.domain.size[1]);
 }
 
 std::vector<std::uint64_t> without(const std::vector<std::uint64_t>& all, const std::vector<std::uint64_t>& these)
@@ -53,7 +52,7 @@ SandSleep<Exec, Real>::SandSleep(const Exec& exec, const scene::Scene& scene, co
                                  mpm::PointFields fields)
     : exec_(exec)
     , rule_{mpm::page_edge * world.geometry.spacing, scene.sleep.distance.value(), scene.sleep.speed, scene.sleep.rest}
-    , load_limit_(scene.sleep.load * floor_pressure(scene, world) * rule_.page_edge * rule_.page_edge)
+    , load_mass_(scene.sleep.load * mass_on_floor(scene, world) * rule_.page_edge * rule_.page_edge)
     , points_(exec)
     , asleep_key_(exec, "sleeping pages")
     , held_(exec)
@@ -61,6 +60,7 @@ SandSleep<Exec, Real>::SandSleep(const Exec& exec, const scene::Scene& scene, co
     , watch_(exec)
 {
     points_.allocate(0, fields);
+    set_gravity(Vec3<double>(scene.domain.gravity.data()).norm());
 }
 
 template<class Exec, class Real>

@@ -59,6 +59,9 @@ public:
     void transfer(StateFile& file, const mpm::Pages<Exec>& pages, const mpm::PagesView& view,
                   SortScratch<Exec>& scratch);
 
+    /// Sets the magnitude of gravity (m/s2), to which the load at which a page wakes is proportional.
+    void set_gravity(double gravity) { load_limit_ = load_mass_ * gravity; }
+
 private:
     void       move(mpm::Points<Exec, Real>& from, mpm::Points<Exec, Real>& to,
                     const std::vector<std::uint64_t>& pages_to_move, const mpm::GridGeometry& geometry,
@@ -69,7 +72,8 @@ private:
 
     Exec                       exec_;
     RestRule                   rule_;
-    double                     load_limit_; ///< N a page
+    double                     load_mass_;      ///< kg, whose weight on a page wakes it
+    double                     load_limit_ = 0; ///< N a page
     mpm::Points<Exec, Real>    points_;
     std::vector<std::uint64_t> asleep_; ///< keys of pages, ascending
     Array<Exec, std::uint64_t> asleep_key_;

@@ -48,6 +48,22 @@ TEST(Watchdog, SaysThatAllAreWaitedFor)
     EXPECT_THAT(Barking(waits).text(), HasSubstr("for all ranks (sum)"));
 }
 
+TEST(Watchdog, SaysWhoHasNotComeToACollectiveCall)
+{
+    WaitNote                  waits;
+    std::atomic<std::int64_t> count{0};
+    waits.count_collectives(&count);
+    const Waiting             wait(waits, "sum");
+    std::promise<std::string> said;
+    const Watchdog            dog(
+                   waits, milliseconds(20), [&](const std::string& text) { said.set_value(text); },
+                   [&] { return "to which rank 2 has not come, call " + std::to_string(count); });
+    EXPECT_THAT(said.get_future().get(),
+                HasSubstr("for all ranks (sum), to which rank 2 has not come, call 1, after 0"));
+    const Waiting other(waits, "halo messages", {1});
+    EXPECT_EQ(count, 1);
+}
+
 TEST(Watchdog, BarksOnceWhenNoStepFollows)
 {
     WaitNote waits;

@@ -144,7 +144,7 @@ TEST(Joints, of_the_rovers_that_come_with_the_code_are_read)
         EXPECT_FALSE(load_scene(entry.path().string(), {}).joints.empty()) << entry.path();
         ++scenes;
     }
-    EXPECT_EQ(scenes, 7);
+    EXPECT_EQ(scenes, 8);
 }
 
 TEST(Joints, have_motors_that_phases_set)

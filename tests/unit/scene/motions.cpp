@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <ostream>
+#include <utility>
 
 #include <gmock/gmock.h>
 
@@ -115,6 +116,50 @@ TEST(Motion, is_an_array)
 {
     EXPECT_THAT(refusal(good_scene + "[[phase]]\nname = \"test\"\nduration = 2.0\nmotion = \"wheel\"\n"),
                 HasSubstr("[phase.test] motion: wrong type"));
+}
+
+/// A plate in a domain without walls, with a motion in its only phase.
+std::string afloat(const std::string& motion, const std::string& more = {})
+{
+    return R"([domain]
+size = [1.0, 1.0, 1.0]
+gravity = [0, 0, 0]
+walls = { x = "open", y = "open", bottom = "open", top = "open" }
+[[material]]
+name = "steel"
+model = "elastic"
+young = 1e9
+[[shape]]
+name = "plate"
+generate = { kind = "box", size = [0.1, 0.1, 0.1] }
+[[body]]
+name = "plate"
+shape = "plate"
+material = "steel"
+mass = 1.0
+position = [0.5, 0.5, 0.5]
+[[phase]]
+name = "push"
+duration = 1.0
+motion = [ { body = "plate", )" +
+           motion + " } ]\n" + more;
+}
+
+TEST(Motion, with_a_force_that_nothing_takes_up_is_refused)
+{
+    const char* said =
+        "[phase.push.motion[0]] %s: nothing takes up what acts on \"plate\"; accepted: a scene with a wall";
+    for (const auto& [key, motion] : {std::pair{"y", "y = { force = 1.0 }"}, std::pair{"yaw", "yaw = { torque = 1.0 }"},
+                                      std::pair{"axle", "axle = { torque = 1.0 }"}, std::pair{"load", "load = 1.0"}})
+    {
+        EXPECT_THAT(refusal(afloat(motion)), HasSubstr(replaced(said, "%s", key)));
+    }
+    EXPECT_EQ(refusal(afloat("x = { velocity = 1.0 }")), "");
+    EXPECT_EQ(refusal(replaced(afloat("y = { force = 1.0 }"), "bottom = \"open\"", "bottom = \"fixed\"")), "");
+    EXPECT_EQ(refusal(afloat("y = { force = 1.0 }",
+                             "[[joint]]\nname = \"rail\"\ntype = \"prismatic\"\nbetween = [\"world\", \"plate\"]\nat "
+                             "= [0.5, 0.5, 0.5]\naxis = [0, 1, 0]\n")),
+              "");
 }
 
 /// The fault of a table whose file has this text, read for a phase of 2 s.

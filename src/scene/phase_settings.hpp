@@ -1,0 +1,18 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+// What phases set until another one sets it.
+namespace tread::scene
+{
+
+/// Gravity in a phase, m/s2: that of the last phase up to it that names one, else the domain's.
+Vector3 gravity_in(const Scene& scene, std::size_t phase);
+
+/// Largest magnitude of gravity in any phase, m/s2.
+double largest_gravity(const Scene& scene);
+
+/// The scene's contacts with the settings of all phases up to `phase`.
+std::vector<Contact> contacts_in(const Scene& scene, std::size_t phase);
+
+} // namespace tread::scene

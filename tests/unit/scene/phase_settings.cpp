@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <ostream>
+
+#include <gmock/gmock.h>
+
+#include "scene/phase_settings.hpp"
+#include "scene/resolved.hpp"
+#include "scene_file.hpp"
+
+// [[phase]] gravity and contacts: from which phase on they hold, and what is refused, and where.
+namespace tread::scene::test
+{
+namespace
+{
+
+using ::testing::HasSubstr;
+
+std::string with_phase(const std::string& keys)
+{
+    return good_scene + "[[phase]]\nname = \"turned\"\nduration = 2.0\n" + keys + "\n";
+}
+
+Scene load(const std::string& text)
+{
+    const Directory directory;
+    return load_scene(directory.write("good.toml", text), {});
+}
+
+const Contact& between(const std::vector<Contact>& contacts, const std::string& a, const std::string& b)
+{
+    return *std::find_if(contacts.begin(), contacts.end(),
+                         [&](const Contact& contact) {
+                             return contact.between == std::array{a, b} || contact.between == std::array{b, a};
+                         });
+}
+
+TEST(PhaseSettings, hold_until_another_phase_sets_them)
+{
+    const Scene scene = load(with_phase("gravity = [1.0, 0.0, -3.0]\ncontacts = [ { between = [\"sand\", \"wheel\"], "
+                                        "friction = 0.1 } ]\n[[phase]]\nname = \"after\"\nduration = 1.0"));
+    const auto  last  = scene.phases.size() - 1;
+    EXPECT_EQ(gravity_in(scene, last - 2), scene.domain.gravity);
+    for (const std::size_t phase : {last - 1, last})
+    {
+        EXPECT_EQ(gravity_in(scene, phase), (Vector3{1, 0, -3}));
+        EXPECT_EQ(between(contacts_in(scene, phase), "wheel", "sand").friction, 0.1);
+    }
+    EXPECT_EQ(between(contacts_in(scene, last), "wheel", "sand").restitution,
+              between(scene.contacts, "wheel", "sand").restitution);
+    EXPECT_EQ(between(contacts_in(scene, last - 2), "wheel", "sand").friction,
+              between(scene.contacts, "wheel", "sand").friction);
+}
+
+TEST(PhaseSettings, are_written_into_the_resolved_scene)
+{
+    const Scene scene = load(with_phase(
+        "gravity = [1.0, 0.0, -3.0]\ncontacts = [ { between = [\"sand\", \"wheel\"], restitution = 0.1 } ]"));
+    EXPECT_EQ(load(resolved_toml(scene)), scene);
+}
+
+struct BadSetting
+{
+    const char* name;
+    std::string keys;
+    std::string said;
+};
+
+std::ostream& operator<<(std::ostream& stream, const BadSetting& bad) { return stream << bad.name; }
+
+class BadPhaseSettings : public ::testing::TestWithParam<BadSetting>
+{
+};
+
+TEST_P(BadPhaseSettings, are_refused_with_file_line_and_key)
+{
+    const std::string text = with_phase(GetParam().keys);
+    const auto        line = std::count(good_scene.begin(), good_scene.end(), '\n') + 4;
+    const auto        said = refusal(text);
+    EXPECT_THAT(said, HasSubstr("bad.toml:" + std::to_string(line) + ": "));
+    EXPECT_THAT(said, HasSubstr(GetParam().said));
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 0) << said;
+}
+
+const std::vector<BadSetting> bad_settings{
+    {"gravity_too_large", "gravity = [0, 0, 1e9]", "[phase.turned] gravity: element 2: 1000000000 is out of range"},
+    {"gravity_no_vector", "gravity = 9.81", "[phase.turned] gravity: wrong type"},
+    {"unknown_family", "contacts = [ { between = [\"sand\", \"weel\"], friction = 0.1 } ]",
+     "[phase.turned] contacts: there is no contact family called \"weel\"; did you mean \"wheel\"?"},
+    {"sets_nothing", "contacts = [ { between = [\"sand\", \"wheel\"] } ]",
+     "[phase.turned] contacts: [\"sand\", \"wheel\"] sets nothing; accepted: friction, restitution or both"},
+    {"two_walls", "contacts = [ { between = [\"wall\", \"wall\"], friction = 0.1 } ]",
+     "[phase.turned] contacts: walls do not meet each other"},
+    {"twice",
+     "contacts = [ { between = [\"sand\", \"wheel\"], friction = 0.1 }, { between = [\"wheel\", \"sand\"], friction = "
+     "0.2 } ]",
+     "[phase.turned] contacts: [\"wheel\", \"sand\"] twice; accepted: one setting each"},
+    {"friction_range", "contacts = [ { between = [\"sand\", \"wheel\"], friction = -0.1 } ]",
+     "[phase.turned.contacts[0]] friction: -0.1 is out of range"},
+    {"no_array", "contacts = { between = [\"sand\", \"wheel\"] }", "[phase.turned] contacts: wrong type"},
+};
+std::string setting_name(const ::testing::TestParamInfo<BadSetting>& info) { return info.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(Scene, BadPhaseSettings, ::testing::ValuesIn(bad_settings), setting_name);
+
+} // namespace
+} // namespace tread::scene::test
