@@ -36,17 +36,23 @@ def index():
     return "\n".join(f"  {name:{width}}  {purpose(path)}" for name, path in commands().items())
 
 
+def imported(path):
+    """Names of the modules that a file imports, wherever it does so."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            yield node.module
+
+
 def modules_of(path):
-    """Names of the modules that a file imports, wherever it does so, with those of the modules of this folder that it imports."""
+    """Names of the modules that a file imports, with those of the modules of this folder among them."""
     found, waiting = set(), [path]
     while waiting:
-        for node in ast.walk(ast.parse(waiting.pop().read_text(encoding="utf-8"))):
-            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else [node.module] if isinstance(node, ast.ImportFrom) else []
-            for name in names:
-                place = FOLDER / (name or "").replace(".", "/")
-                if name and name not in found:
-                    waiting += [local for local in (place.with_suffix(".py"), place / "__init__.py") if local.is_file()]
-                    found.add(name)
+        for name in set(imported(waiting.pop())) - found:
+            found.add(name)
+            place = FOLDER / name.replace(".", "/")
+            waiting += [local for local in (place.with_suffix(".py"), place / "__init__.py") if local.is_file()]
     return found
 
 

@@ -65,7 +65,8 @@ def main():
         draw(run, number, view_of(run, [number]), output, size, options.colour)
     else:
         view = view_of(run, run.snapshots)
-        times = [(run.points(snapshot) or run.bodies(snapshot)).time for snapshot in run.snapshots]
+        of_points = run.points_times
+        times = [of_points[snapshot] if snapshot in of_points else run.bodies(snapshot).time for snapshot in run.snapshots]
         with tempfile.TemporaryDirectory() as folder:
             frames = [Path(folder) / f"{snapshot:04}.png" for snapshot in run.snapshots]
             for snapshot, frame, rate in zip(run.snapshots, frames, rates(times, options.fps)):

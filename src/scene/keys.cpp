@@ -238,10 +238,11 @@ Keys<Phase> phase_keys()
                          "all of it acts"),
         phase_motion_key(),
         phase_motors_key(),
-        optional("gravity", "m/s2", &Phase::gravity, vector3_given(acceleration()),
-                 "Acceleration of gravity, from this phase on until another one sets it: a bed that tilts, a fall in a "
-                 "centrifuge. Potential energy counts from where everything is then.",
-                 "as before"),
+        optional(
+            "gravity", "m/s2", &Phase::gravity, vector3_given(acceleration()),
+            "Acceleration of gravity, from this phase on until another one sets it, as of a bed that tilts. Potential "
+            "energy counts from where everything is then.",
+            "as before"),
         tables_key<Phase>("contacts", "[[phase]] contacts", &Phase::contacts, contact_setting_keys(),
                           "What changes in contacts from this phase on.", "nothing"),
     };

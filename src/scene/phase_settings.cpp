@@ -7,21 +7,6 @@
 
 namespace tread::scene
 {
-namespace
-{
-
-/// The contact of that pair; added to `contacts` with its defaults if it is not there.
-Contact& contact_between(std::vector<Contact>& contacts, const std::array<std::string, 2>& pair)
-{
-    const auto found = std::find_if(contacts.begin(), contacts.end(),
-                                    [&](const Contact& contact)
-                                    { return std::is_permutation(pair.begin(), pair.end(), contact.between.begin()); });
-    if (found != contacts.end()) { return *found; }
-    return contacts.emplace_back(contact_of({}, pair[0], pair[1]));
-}
-
-} // namespace
-
 Vector3 gravity_in(const Scene& scene, std::size_t phase)
 {
     for (std::size_t p = std::min(phase + 1, scene.phases.size()); p > 0; --p)
@@ -49,9 +34,10 @@ std::vector<Contact> contacts_in(const Scene& scene, std::size_t phase)
     {
         for (const ContactSetting& setting : scene.phases[p].contacts)
         {
-            Contact& contact    = contact_between(contacts, setting.between);
-            contact.friction    = setting.friction.value_or(contact.friction);
-            contact.restitution = setting.restitution.value_or(contact.restitution);
+            Contact changed     = contact_of(contacts, setting.between[0], setting.between[1]);
+            changed.friction    = setting.friction.value_or(changed.friction);
+            changed.restitution = setting.restitution.value_or(changed.restitution);
+            contacts.insert(contacts.begin(), changed);
         }
     }
     return contacts;

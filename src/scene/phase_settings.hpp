@@ -12,7 +12,8 @@ Vector3 gravity_in(const Scene& scene, std::size_t phase);
 /// Largest magnitude of gravity in any phase, m/s2.
 double largest_gravity(const Scene& scene);
 
-/// The scene's contacts with the settings of all phases up to `phase`.
+/// The scene's contacts with the settings of all phases up to `phase`, for contact_of: the newest of a pair comes
+/// first.
 std::vector<Contact> contacts_in(const Scene& scene, std::size_t phase);
 
 } // namespace tread::scene

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "backend/instantiate.hpp"
-#include "scene/phase_settings.hpp"
 #include "solver/bodies/body_reaches.hpp"
 #include "solver/ledger/contact_guards.hpp"
 #include "solver/pace_limits.hpp"
@@ -87,33 +86,6 @@ void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, d
 {
     damping_ = damping;
     if (rigid_) { rigid_->command(commands); }
-}
-
-template<class Exec, class Real>
-void Simulation<Exec, Real>::begin_phase(std::size_t phase)
-{
-    if (static_cast<std::int64_t>(phase) != phase_)
-    {
-        const Vec3<double> gravity = vector(scene::gravity_in(scene_, phase));
-        if (gravity != gravity_)
-        {
-            const Census before = census();
-            set_gravity(gravity);
-            ledger_->turn_gravity(gravity, before, census());
-            wakes_ = sand_ && sand_->may_sleep();
-        }
-        if (rigid_) { rigid_->set_contacts(phase); }
-        phase_ = static_cast<std::int64_t>(phase);
-    }
-    if (rigid_) { rigid_->begin_phase(phase); }
-}
-
-template<class Exec, class Real>
-void Simulation<Exec, Real>::set_gravity(const Vec3<double>& gravity)
-{
-    gravity_ = gravity;
-    if (sand_) { sand_->set_gravity(gravity); }
-    if (rigid_) { rigid_->set_gravity(gravity); }
 }
 
 /// Preconditions: command() has set the commands of the named bodies. If measured(), `step` was chosen from pace()
