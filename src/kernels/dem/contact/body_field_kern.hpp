@@ -162,6 +162,7 @@ struct OneLane
     TREAD_HD std::int32_t lanes() const { return 1; }
     TREAD_HD std::uint32_t vote(bool value) const { return value ? 1u : 0u; } ///< bit l = the value of lane l
     TREAD_HD std::uint32_t share(std::uint32_t bits) const { return bits; }   ///< bits of this lane: strided
+    TREAD_HD void          sync() const {}
     TREAD_HD double        sum(double value) const { return value; }
     TREAD_HD double        largest(double value) const { return value; }
     TREAD_HD double        from(std::int32_t, double value) const { return value; } ///< value of another lane

@@ -33,6 +33,9 @@ struct GroupLanes
         return __shfl_sync(everyone(), value, first() + lane);
     }
 
+    /// Waits for the other lanes, and sees what they have written.
+    __device__ void sync() const { __syncwarp(everyone()); }
+
     __device__ double sum(double value) const
     {
         for (int distance = size / 2; distance > 0; distance /= 2)

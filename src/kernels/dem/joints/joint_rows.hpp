@@ -2,13 +2,16 @@
 
 #include <cstdint>
 
-#include "kernels/dem/joints/joint.hpp"
+#include "kernels/dem/joints/elimination.hpp"
 
 // Rows of the linear system of the joints (joint_rows_kern.hpp makes them, joint_solve_kern.hpp solves them).
 namespace tread::dem
 {
 
 inline constexpr int most_row_sides = 4; ///< a differential has up to four bodies
+
+/// Number of values of the lower triangle of a system of n rows, with its right-hand side as the last row.
+TREAD_HD std::int64_t factor_size(std::int64_t n) { return (n + 1) * (n + 2) / 2; }
 
 /// Whether a row takes part in the solve, or has its impulse held at a bound.
 enum RowState : std::int32_t
@@ -50,6 +53,13 @@ struct JointLink
     double       inverse_inertia;  ///< 1/(kg m2), likewise: bound over all axes
 };
 
+/// View of IndexLists.
+struct IndexListsView
+{
+    const std::int32_t* first = nullptr;
+    const std::int32_t* item  = nullptr;
+};
+
 /// View of the joints of a scene and of the memory of their solve.
 struct JointsView
 {
@@ -63,10 +73,14 @@ struct JointsView
     JointLink*          moved       = nullptr; ///< the links with the impulses of the rows; velocities only
     JointRow*           row         = nullptr;
     std::int32_t*       state       = nullptr; ///< [row_count], RowState; kept from substep to substep
-    double*             matrix      = nullptr; ///< [row_count][row_count + 1], the last column is the right-hand side
+    double*             factor      = nullptr; ///< [factor_size(row_count)]
     JointWrench*        wrench      = nullptr; ///< [link_count]
     JointRecord*        record      = nullptr; ///< [joint_count]
     std::int32_t*       changed     = nullptr; ///< [1], whether a row changed its state
+    std::int64_t        level_count = 0;
+    IndexListsView      levels;       ///< [level_count], as in Elimination
+    IndexListsView      below;        ///< [joint_count], likewise
+    IndexListsView      rows_of_link; ///< [link_count], rows of all joints of the body
 
     JointWrenches wrenches() const { return {place, wrench}; }
 };

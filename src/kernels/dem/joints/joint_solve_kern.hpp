@@ -2,17 +2,12 @@
 
 #include <cmath>
 
-#include "kernels/dem/joints/joint_rows.hpp"
-#include "kernels/dem/motion/prescribed_kern.hpp"
+#include "kernels/dem/joints/joint_system_kern.hpp"
 
-// Solves the rows of all joints for their impulses: a dense symmetric system, by Gauss-Jordan elimination in the order
-// of the rows. Impulses with bounds are found by active sets: those over a bound are held there, and the rest is solved
-// again. A team of lanes works together; lanes are in groups that share one item.
+// Solves the rows of all joints for their impulses. Those with bounds are found by active sets: what is over a bound is
+// held there, and the rest is solved again.
 namespace tread::dem::joint_solve
 {
-
-/// Pivots below this share of a row's diagonal mean that the row depends on rows before it.
-inline constexpr double least_pivot = 1e-9;
 
 /// Rows that yield less than this share of what their bodies without locks would are held: their impulses are not
 /// determined.
@@ -23,84 +18,6 @@ inline constexpr int most_rounds = 8;
 
 /// Share of a row's target by which it may miss it at a bound, against rounding.
 inline constexpr double bound_slack = 1e-9;
-
-/// Inverse of the inertia for torques in directions that are not locked.
-TREAD_HD Mat3<double> response_of(const Mat3<double>& rotation, const Mat3<double>& inverse_inertia,
-                                  const Mat3<double>& inertia, std::uint32_t locked)
-{
-    if ((locked & locked_rotation) == 0) { return rotation * inverse_inertia * rotation.transpose(); }
-    if ((locked & locked_rotation) == locked_rotation) { return Mat3<double>::Zero(); }
-    Mat3<double> matrix = rotation * inertia * rotation.transpose();
-    for (int c = 0; c < 3; ++c)
-    {
-        if (!is_locked(locked, lock_roll, c)) { continue; }
-        matrix.row(c) = Vec3<double>::Unit(c).transpose();
-        matrix.col(c) = Vec3<double>::Unit(c);
-    }
-    Mat3<double> response = matrix.inverse();
-    for (int c = 0; c < 3; ++c)
-    {
-        if (!is_locked(locked, lock_roll, c)) { continue; }
-        response.row(c).setZero();
-        response.col(c).setZero();
-    }
-    return response;
-}
-
-/// Velocity of a body after a substep of dt (s) without joints, as integrate_body finds it without damping.
-TREAD_HD JointLink free_motion(const BodiesView& bodies, std::int64_t b, const ContactWrench& contact,
-                               const Vec3<double>& gravity, double dt)
-{
-    const std::uint32_t locked  = bodies.locked[b];
-    const Mat3<double>  inertia = full(bodies.inertia[b]), inverse = inertia.inverse();
-    const Quat          start    = bodies.orientation[b];
-    const Mat3<double>  rotation = start.toRotationMatrix();
-    const Vec3<double>  before   = bodies.angular_velocity[b];
-    const Vec3<double>  momentum = rotation * (inertia * (rotation.transpose() * before)) + dt * contact.torque;
-    const Vec3<double>  kicked   = angular_velocity_of(rotation, inertia, inverse, momentum, before, locked);
-    const Quat          half     = rotation_by(0.5 * dt * kicked) * start;
-
-    JointLink link;
-    link.velocity = bodies.velocity[b];
-    link.mobility = Mat3<double>::Zero();
-    for (int c = 0; c < 3; ++c)
-    {
-        if (is_locked(locked, lock_x, c)) { continue; }
-        link.mobility(c, c) = 1 / bodies.mass[b];
-        link.velocity[c] += dt * link.mobility(c, c) * (contact.force[c] + bodies.mass[b] * gravity[c]);
-    }
-    link.angular_velocity = angular_velocity_of(half.toRotationMatrix(), inertia, inverse, momentum, before, locked);
-    link.response         = response_of(rotation, inverse, inertia, locked);
-    link.inverse_mass     = 1 / bodies.mass[b];
-    link.inverse_inertia  = inverse.trace();
-    return link;
-}
-
-/// The same of a body with a prescribed motion, as integrate_prescribed finds it. A held direction yields to no joint.
-/// Friction of the axle is that without the joints.
-TREAD_HD JointLink prescribed_motion(const BodiesView& bodies, std::int64_t b, const Prescribed& motion,
-                                     const ContactWrench& contact, const Vec3<double>& gravity, double dt)
-{
-    const double        mass    = bodies.mass[b];
-    const Mat3<double>  inertia = full(bodies.inertia[b]), inverse = inertia.inverse();
-    const Quat          start    = bodies.orientation[b];
-    const Mat3<double>  rotation = start.toRotationMatrix();
-    const HeldSpin      first    = held_spin(motion, rotation);
-    const Vec3<double>& before   = bodies.angular_velocity[b];
-    const Vec3<double>  momentum = kick_of(motion, first, rotation, inertia, before, contact.torque, dt).momentum;
-    const Vec3<double>  kicked   = angular_velocity_held(first, rotation, inverse, momentum);
-    const Mat3<double>  half     = (rotation_by(0.5 * dt * kicked) * start).toRotationMatrix();
-
-    JointLink link;
-    link.velocity =
-        velocity_after(motion, bodies.position[b][2], bodies.velocity[b], contact.force + mass * gravity, mass, dt);
-    link.angular_velocity = angular_velocity_held(held_spin(motion, half), half, inverse, momentum);
-    link.mobility         = mobility_of(motion, mass, dt);
-    link.response         = response_held(first, rotation, inverse);
-    link.inverse_mass     = 1 / mass;
-    link.inverse_inertia  = inverse.trace();
-    return link;
-}
 
 /// Makes a row that yields to no impulse.
 TREAD_HD void hold(JointRow& row)
@@ -132,32 +49,6 @@ TREAD_HD void respond(const JointsView& joints, JointRow& row)
     row.diagonal += row.softness;
 }
 
-TREAD_HD double rate_of(const JointRow& row, const JointLink* links)
-{
-    double rate = 0;
-    for (int s = 0; s < row.sides; ++s)
-    {
-        const JointLink& link = links[row.link[s]];
-        rate += row.linear[s].dot(link.velocity) + row.angular[s].dot(link.angular_velocity);
-    }
-    return rate;
-}
-
-/// Change of row i's rate by a unit impulse of row j.
-TREAD_HD double coupling_of(const JointRow& i, const JointRow& j)
-{
-    double sum = 0;
-    for (int s = 0; s < i.sides; ++s)
-    {
-        for (int t = 0; t < j.sides; ++t)
-        {
-            if (i.link[s] != j.link[t]) { continue; }
-            sum += i.linear[s].dot(j.linear_response[t]) + i.angular[s].dot(j.angular_response[t]);
-        }
-    }
-    return sum;
-}
-
 /// Sets the impulses of the rows at a bound, clears the others.
 TREAD_HD void set_bound(const JointsView& joints, std::int64_t r)
 {
@@ -166,21 +57,22 @@ TREAD_HD void set_bound(const JointsView& joints, std::int64_t r)
     row.impulse              = state == row_at_low ? row.low : state == row_at_high ? row.high : 0.0;
 }
 
-/// Velocity of link k with the impulses of all rows, in the order of the rows.
+/// Velocity of link k with the impulses of all rows.
 template<class Lanes>
 TREAD_HD void move_link(const JointsView& joints, std::int64_t k, const Lanes& lanes)
 {
     Vec3<double> velocity = Vec3<double>::Zero(), spin = Vec3<double>::Zero();
-    for (std::int64_t r = lanes.lane(); r < joints.row_count; r += lanes.lanes())
-    {
-        const JointRow& row = joints.row[r];
-        for (int s = 0; s < row.sides; ++s)
-        {
-            if (row.link[s] != k) { continue; }
-            velocity += row.impulse * row.linear_response[s];
-            spin += row.impulse * row.angular_response[s];
-        }
-    }
+    for_each_of(joints.rows_of_link, k, lanes,
+                [&](std::int32_t r)
+                {
+                    const JointRow& row = joints.row[r];
+                    for (int s = 0; s < row.sides; ++s)
+                    {
+                        if (row.link[s] != k) { continue; }
+                        velocity += row.impulse * row.linear_response[s];
+                        spin += row.impulse * row.angular_response[s];
+                    }
+                });
     for (int c = 0; c < 3; ++c)
     {
         velocity[c] = lanes.sum(velocity[c]);
@@ -191,66 +83,26 @@ TREAD_HD void move_link(const JointsView& joints, std::int64_t k, const Lanes& l
     joints.moved[k].angular_velocity = joints.link[k].angular_velocity + spin;
 }
 
-/// Writes row i of the system; rows at a bound are empty.
-template<class Lanes>
-TREAD_HD void write_matrix_row(const JointsView& joints, std::int64_t i, const Lanes& lanes)
-{
-    const std::int64_t n      = joints.row_count;
-    JointRow&          row    = joints.row[i];
-    double*            matrix = joints.matrix + i * (n + 1);
-    const bool         solved = joints.state[i] == row_solved;
-    for (std::int64_t j = lanes.lane(); j < n; j += lanes.lanes())
-    {
-        const bool   both     = solved && joints.state[j] == row_solved;
-        const double coupling = both ? coupling_of(row, joints.row[j]) : 0.0;
-        matrix[j]             = i == j && both ? coupling + row.softness : coupling;
-    }
-    if (lanes.lane() == 0) { matrix[n] = solved ? row.target - rate_of(row, joints.moved) : 0.0; }
-}
-
-/// Eliminates column k from row i.
-template<class Lanes>
-TREAD_HD void eliminate(const JointsView& joints, std::int64_t k, std::int64_t i, double pivot, const Lanes& lanes)
-{
-    const std::int64_t width = joints.row_count + 1;
-    double*            row   = joints.matrix + i * width;
-    const double*      with  = joints.matrix + k * width;
-    const double       share = row[k] / pivot;
-    if (i == k || share == 0) { return; }
-    for (std::int64_t j = k + 1 + lanes.lane(); j < width; j += lanes.lanes()) { row[j] -= share * with[j]; }
-}
-
 /// Solves for the impulses of the rows that are not at a bound.
 template<class Team>
-TREAD_HD void solve_rows(const JointsView& joints, const Team& team)
+TREAD_HD void solve_rows(const JointsView& joints, const Triangle& factor, const Team& team)
 {
-    const std::int64_t n = joints.row_count;
-    for (std::int64_t r = team.lane(); r < n; r += team.lanes()) { set_bound(joints, r); }
+    const auto n = static_cast<std::int32_t>(joints.row_count);
+    for (auto r = static_cast<std::int32_t>(team.lane()); r < n; r += static_cast<std::int32_t>(team.lanes()))
+    {
+        set_bound(joints, r);
+    }
     team.sync();
     for (std::int64_t k = team.group(); k < joints.link_count; k += team.groups())
     {
         move_link(joints, k, team.members());
     }
     team.sync();
-    for (std::int64_t i = team.group(); i < n; i += team.groups()) { write_matrix_row(joints, i, team.members()); }
-    team.sync();
-    for (std::int64_t k = 0; k < n; ++k)
+    solve_system(joints, factor, team);
+    for (auto r = static_cast<std::int32_t>(team.lane()); r < n; r += static_cast<std::int32_t>(team.lanes()))
     {
-        const double pivot = joints.matrix[k * (n + 1) + k];
-        if (pivot > least_pivot * joints.row[k].diagonal)
-        {
-            for (std::int64_t i = team.group(); i < n; i += team.groups())
-            {
-                eliminate(joints, k, i, pivot, team.members());
-            }
-        }
-        team.sync();
-    }
-    for (std::int64_t r = team.lane(); r < n; r += team.lanes())
-    {
-        const double* row   = joints.matrix + r * (n + 1);
-        const bool    there = row[r] > least_pivot * joints.row[r].diagonal;
-        if (there) { joints.row[r].impulse = row[n] / row[r]; }
+        const bool there = factor(r, r) != 0;
+        if (there) { joints.row[r].impulse = factor(n, r); }
         joints.row[r].skipped = joints.state[r] == row_solved && !there ? 1 : 0;
     }
     team.sync();
@@ -277,14 +129,14 @@ TREAD_HD void update_state(const JointsView& joints, std::int64_t r)
     *joints.changed = 1;
 }
 
-/// Finds all impulses and the velocities with them.
+/// Finds all impulses and the velocities with them. `factor` has room for factor_size(row_count) values.
 template<class Team>
-TREAD_HD void solve(const JointsView& joints, const Team& team)
+TREAD_HD void solve(const JointsView& joints, const Triangle& factor, const Team& team)
 {
     for (int round = 0; round < most_rounds; ++round)
     {
         if (team.lane() == 0) { *joints.changed = 0; }
-        solve_rows(joints, team);
+        solve_rows(joints, factor, team);
         for (std::int64_t k = team.group(); k < joints.link_count; k += team.groups())
         {
             move_link(joints, k, team.members());

@@ -39,47 +39,75 @@ std::vector<std::int32_t> jointed_bodies(const std::vector<Joint>& joints)
     return bodies;
 }
 
-/// States at the start: no joint is at a limit.
-std::vector<std::int32_t> first_states(const std::vector<Joint>& joints)
+std::vector<std::int32_t> row_counts_of(const std::vector<Joint>& joints)
 {
-    std::vector<std::int32_t> states;
+    std::vector<std::int32_t> counts;
+    for (const Joint& joint : joints) { counts.push_back(joint_rows::rows_of(joint)); }
+    return counts;
+}
+
+/// States at the start: no joint is at a limit. `joints` have their rows numbered.
+std::vector<std::int32_t> first_states(const std::vector<Joint>& joints, std::int32_t rows)
+{
+    std::vector<std::int32_t> states(static_cast<std::size_t>(rows), row_solved);
     for (const Joint& joint : joints)
     {
-        states.insert(states.end(), static_cast<std::size_t>(joint.row_count), row_solved);
-        if ((joint.parts & joint_has_limits) != 0) { std::fill(states.end() - 2, states.end(), row_at_low); }
+        if ((joint.parts & joint_has_limits) == 0) { continue; }
+        const auto end = states.begin() + joint.first_row + joint.row_count;
+        std::fill(end - 2, end, row_at_low);
     }
     return states;
+}
+
+/// Rows of the joints of each body of `bodies`, ascending. `joints` have their rows numbered.
+IndexLists rows_of_bodies(const std::vector<std::int32_t>& bodies, const std::vector<Joint>& joints)
+{
+    IndexLists rows;
+    for (const std::int32_t body : bodies)
+    {
+        const auto begin = static_cast<std::ptrdiff_t>(rows.item.size());
+        for (std::size_t j = 0; j < joints.size(); ++j)
+        {
+            if (bodies_of(joints, j).count(static_cast<std::size_t>(body)) == 0) { continue; }
+            for (std::int32_t r = 0; r < joints[j].row_count; ++r) { rows.item.push_back(joints[j].first_row + r); }
+        }
+        std::sort(rows.item.begin() + begin, rows.item.end());
+        rows.close();
+    }
+    return rows;
 }
 
 } // namespace
 
 template<class Exec>
-std::vector<Joint> Joints<Exec>::numbered(std::vector<Joint> joints)
+std::vector<Joint> Joints<Exec>::numbered(std::vector<Joint> joints) const
 {
-    std::int32_t row = 0;
-    for (Joint& joint : joints)
+    for (std::size_t j = 0; j < joints.size(); ++j)
     {
-        joint.first_row = row;
-        joint.row_count = joint_rows::rows_of(joint);
-        row += joint.row_count;
+        joints[j].first_row = plan_.first_row[j];
+        joints[j].row_count = joint_rows::rows_of(joints[j]);
     }
     return joints;
 }
 
 template<class Exec>
 Joints<Exec>::Joints(const Exec& exec, std::vector<Joint> joints, std::int64_t body_count)
-    : bodies_(jointed_bodies(joints))
+    : plan_(plan_elimination(joints, row_counts_of(joints)))
+    , bodies_(jointed_bodies(joints))
     , joint_(exec, "joints")
     , body_(exec, "jointed bodies")
     , place_(exec, "places of jointed bodies")
     , link_(exec, "jointed bodies without joints", static_cast<std::int64_t>(bodies_.size()))
     , moved_(exec, "jointed bodies with joints", static_cast<std::int64_t>(bodies_.size()))
-    , row_(exec, "joint rows")
+    , row_(exec, "joint rows", plan_.row_count)
     , state_(exec, "joint row states")
-    , matrix_(exec, "joint matrix")
+    , factor_(exec, "joint factor", factor_size(plan_.row_count))
     , wrench_(exec, "joint wrenches", static_cast<std::int64_t>(bodies_.size()))
     , record_(exec, "joint records", static_cast<std::int64_t>(joints.size()))
     , changed_(exec, "joint rows that changed", 1)
+    , levels_(exec, "joint levels", plan_.levels)
+    , below_(exec, "joint rows below", plan_.below)
+    , rows_of_link_(exec, "rows of jointed bodies", rows_of_bodies(bodies_, numbered(joints)))
 {
     joints = numbered(std::move(joints));
     std::vector<std::int32_t> place(static_cast<std::size_t>(body_count), -1);
@@ -87,13 +115,10 @@ Joints<Exec>::Joints(const Exec& exec, std::vector<Joint> joints, std::int64_t b
     {
         place[static_cast<std::size_t>(bodies_[k])] = static_cast<std::int32_t>(k);
     }
-    const std::int64_t rows = joints.back().first_row + joints.back().row_count;
     joint_.assign(joints);
     body_.assign(bodies_);
     place_.assign(place);
-    row_.resize(rows);
-    state_.assign(first_states(joints));
-    matrix_.resize(rows * (rows + 1));
+    state_.assign(first_states(joints, plan_.row_count));
     wrench_.fill_zero();
     record_.fill_zero();
 }
@@ -101,16 +126,19 @@ Joints<Exec>::Joints(const Exec& exec, std::vector<Joint> joints, std::int64_t b
 template<class Exec>
 JointsView Joints<Exec>::view()
 {
-    return {joint_.size(),  body_.size(),   row_.size(),    joint_.data(),  body_.data(),
-            place_.data(),  link_.data(),   moved_.data(),  row_.data(),    state_.data(),
-            matrix_.data(), wrench_.data(), record_.data(), changed_.data()};
+    return {joint_.size(),  body_.size(),    row_.size(),
+            joint_.data(),  body_.data(),    place_.data(),
+            link_.data(),   moved_.data(),   row_.data(),
+            state_.data(),  factor_.data(),  wrench_.data(),
+            record_.data(), changed_.data(), static_cast<std::int64_t>(plan_.levels.first.size()) - 1,
+            levels_.view(), below_.view(),   rows_of_link_.view()};
 }
 
 template<class Exec>
 void solve_joints(const Exec& cpu, const BodyStep<Exec>& step)
 {
     cpu.counters->launched("joints");
-    joint_steps::make_solve(step)(OneThread{});
+    joint_steps::make_solve(step)(step.joints.factor, OneThread{});
 }
 
 #define TREAD_INSTANTIATE(Exec) template class Joints<Exec>

@@ -8,7 +8,7 @@ namespace tread::dem
 namespace
 {
 
-constexpr int joint_threads = 256;
+constexpr int joint_threads = 512;
 
 /// The threads of one block, in warps.
 struct BlockTeam
@@ -21,11 +21,18 @@ struct BlockTeam
     __device__ static void                  sync() { __syncthreads(); }
 };
 
+/// Keeps the factor in shared memory where it fits: some 100 rows.
 struct ByBlock
 {
     joint_steps::SolveJoints solve;
 
-    __device__ void operator()(std::int64_t) const { solve(BlockTeam{}); }
+    __device__ void operator()(std::int64_t) const
+    {
+        constexpr std::int64_t room = 6000;
+        __shared__ double      shared[room];
+        const std::int64_t     size = factor_size(solve.joints.row_count);
+        solve(size <= room ? shared : solve.joints.factor, BlockTeam{});
+    }
 };
 
 } // namespace

@@ -9,6 +9,24 @@
 namespace tread::dem
 {
 
+/// Memory of an IndexListsView.
+template<class Exec>
+struct ListArrays
+{
+    Array<Exec, std::int32_t> first;
+    Array<Exec, std::int32_t> item;
+
+    ListArrays(const Exec& exec, const char* name, const IndexLists& lists)
+        : first(exec, name)
+        , item(exec, name)
+    {
+        first.assign(lists.first);
+        item.assign(lists.item);
+    }
+
+    IndexListsView view() const { return {first.data(), item.data()}; }
+};
+
 /// Memory of JointsView.
 template<class Exec>
 class Joints
@@ -35,8 +53,9 @@ public:
     const std::vector<std::int32_t>& bodies() const { return bodies_; }
 
 private:
-    static std::vector<Joint> numbered(std::vector<Joint> joints);
+    std::vector<Joint> numbered(std::vector<Joint> joints) const;
 
+    Elimination               plan_;
     std::vector<std::int32_t> bodies_;
     Array<Exec, Joint>        joint_;
     Array<Exec, std::int32_t> body_;
@@ -45,10 +64,14 @@ private:
     Array<Exec, JointLink>    moved_;
     Array<Exec, JointRow>     row_;
     Array<Exec, std::int32_t> state_;
-    Array<Exec, double>       matrix_;
+    Array<Exec, double>       factor_;
     Array<Exec, JointWrench>  wrench_;
     Array<Exec, JointRecord>  record_;
     Array<Exec, std::int32_t> changed_;
+
+    ListArrays<Exec> levels_;
+    ListArrays<Exec> below_;
+    ListArrays<Exec> rows_of_link_;
 };
 
 /// Computes the wrenches of the joints for the substep that move_bodies is about to do, from the same contact forces:

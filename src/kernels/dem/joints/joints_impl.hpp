@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/dem/joints/joint_motion_kern.hpp"
 #include "kernels/dem/joints/joint_rows_kern.hpp"
 #include "kernels/dem/joints/joint_solve_kern.hpp"
 #include "kernels/dem/joints/joints.hpp"
@@ -22,11 +23,13 @@ struct SolveJoints
     JointsView         joints;
     PrescribedView     motions; ///< empty in a scene without motions
 
+    /// `factor`: as joint_solve::solve takes it.
     template<class Team>
-    TREAD_HD void operator()(const Team& team) const
+    TREAD_HD void operator()(double* factor, const Team& team) const
     {
         for (std::int64_t k = team.group(); k < joints.link_count; k += team.groups()) { free_link(k, team.members()); }
-        for (std::int64_t j = team.lane(); j < joints.joint_count; j += team.lanes())
+        // The last lanes: the first ones have the links to do.
+        for (std::int64_t j = team.lanes() - 1 - team.lane(); j < joints.joint_count; j += team.lanes())
         {
             joint_rows::write_rows(joints, bodies, j, dt);
         }
@@ -36,12 +39,15 @@ struct SolveJoints
             joint_solve::respond(joints, joints.row[r]);
         }
         team.sync();
-        joint_solve::solve(joints, team);
+        joint_solve::solve(joints, {factor}, team);
         for (std::int64_t k = team.group(); k < joints.link_count; k += team.groups())
         {
             write_wrench(k, team.members());
         }
-        for (std::int64_t j = team.lane(); j < joints.joint_count; j += team.lanes()) { add_to_record(j); }
+        for (std::int64_t j = team.lanes() - 1 - team.lane(); j < joints.joint_count; j += team.lanes())
+        {
+            add_to_record(j);
+        }
     }
 
 private:
@@ -61,30 +67,36 @@ private:
                                : joint_solve::free_motion(bodies, b, contact, pull, dt);
     }
 
-    /// Sums the impulses on a body in the order of the rows.
+    /// Sums the impulses on a body.
     template<class Lanes>
     TREAD_HD void write_wrench(std::int64_t k, const Lanes& lanes) const
     {
         JointWrench sum{Vec3<double>::Zero(), Vec3<double>::Zero(), Vec3<double>::Zero(), Vec3<double>::Zero()};
-        for (std::int64_t r = lanes.lane(); r < joints.row_count; r += lanes.lanes())
-        {
-            const JointRow& row = joints.row[r];
-            for (int s = 0; s < row.sides; ++s)
-            {
-                if (row.link[s] != k) { continue; }
-                const Vec3<double> force = row.impulse / dt * row.linear[s], torque = row.impulse / dt * row.angular[s];
-                sum.force += force;
-                sum.torque += torque;
-                if (row.works == 0) { continue; }
-                sum.working_force += force;
-                sum.working_torque += torque;
-            }
-        }
+        joint_solve::for_each_of(joints.rows_of_link, k, lanes,
+                                 [&](std::int32_t r)
+                                 {
+                                     const JointRow& row = joints.row[r];
+                                     for (int s = 0; s < row.sides; ++s)
+                                     {
+                                         if (row.link[s] == k) { add_to_wrench(row, s, sum); }
+                                     }
+                                 });
         moving::reduce(sum.force, lanes);
         moving::reduce(sum.torque, lanes);
         moving::reduce(sum.working_force, lanes);
         moving::reduce(sum.working_torque, lanes);
         if (lanes.lane() == 0) { joints.wrench[k] = sum; }
+    }
+
+    TREAD_HD void add_to_wrench(const JointRow& row, int side, JointWrench& sum) const
+    {
+        const Vec3<double> force  = row.impulse / dt * row.linear[side];
+        const Vec3<double> torque = row.impulse / dt * row.angular[side];
+        sum.force += force;
+        sum.torque += torque;
+        if (row.works == 0) { return; }
+        sum.working_force += force;
+        sum.working_torque += torque;
     }
 
     /// Adds the impulses of a joint's rows to its record. On the world as b they are the reaction of those on a.
