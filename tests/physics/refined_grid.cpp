@@ -16,6 +16,12 @@ class RefinedGrid : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(RefinedGrid, test::Backends, test::BackendNames);
 
+template<class Exec>
+class FullSizeRefinedGrid : public test::BackendTest<Exec>
+{
+};
+TYPED_TEST_SUITE(FullSizeRefinedGrid, test::Backends, test::BackendNames);
+
 /// A block falls through a box with two levels: its points pass from coarse cells into fine and finest ones and back.
 TYPED_TEST(RefinedGrid, BlockInFreeFlightIsAStone)
 {
@@ -153,7 +159,7 @@ TYPED_TEST(RefinedGrid, EnergyBalanceOfABallClosesAcrossSeams)
 
 /// A box around the contact is as good as fine cells everywhere: the ball reaches the same depth, to 15 % of the
 /// difference from the coarse grid.
-TYPED_TEST(RefinedGrid, BallGoesAsDeepAsOnFineCellsEverywhere)
+TYPED_TEST(FullSizeRefinedGrid, BallGoesAsDeepAsOnFineCellsEverywhere)
 {
     const auto depth = [&](const std::string& refine, double spacing)
     {

@@ -95,9 +95,9 @@ Width least_width(const std::vector<Eigen::Vector3d>& points)
     std::vector<Width> tried;
     for (const Width& start : widths)
     {
-        const auto near = [&](const Width& other)
+        const auto neighbours = [&](const Width& other)
         { return std::abs(other.direction.dot(start.direction)) > std::cos(2 * apart); };
-        if (std::any_of(tried.begin(), tried.end(), near)) { continue; }
+        if (std::any_of(tried.begin(), tried.end(), neighbours)) { continue; }
         tried.push_back(start);
         best = std::min(best, least_near(points, start, apart));
         if (tried.size() == starts) { break; }

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,6 +20,12 @@ dem::Joint between(std::int32_t a, std::int32_t b)
     joint.body[0] = a;
     joint.body[1] = b;
     return joint;
+}
+
+std::vector<std::int32_t> items_of(const dem::IndexLists& lists, std::int32_t k)
+{
+    const auto at = static_cast<std::size_t>(k);
+    return {lists.item.begin() + lists.first[at], lists.item.begin() + lists.first[at + 1]};
 }
 
 /// A rocker-bogie as in configs/rover: bodies 0 chassis, 1 and 2 rockers, 3 and 4 bogies, 5 to 8 uprights, 9 to 14
@@ -69,6 +77,32 @@ TEST(JointElimination, JointsOfALevelDoNotMeet)
             EXPECT_GT(level_of[static_cast<std::size_t>(other - plan.first_row.begin())], level_of[j]);
         }
     }
+}
+
+// What a level changes: for each of its joints the rows below and the right-hand side, once.
+TEST(JointElimination, TargetsOfALevelAreTheRowsBelowItsJoints)
+{
+    const dem::Elimination plan = dem::plan_elimination(rocker_bogie(), std::vector<std::int32_t>(15, 5));
+    std::multiset<std::pair<std::int32_t, std::int32_t>> expected, found; // joint, row
+    for (std::int32_t j = 0; j < 15; ++j)
+    {
+        for (const std::int32_t row : items_of(plan.below, j)) { expected.emplace(j, row); }
+        expected.emplace(j, plan.row_count);
+    }
+    for (std::int32_t level = 0; level + 1 < static_cast<std::int32_t>(plan.levels.first.size()); ++level)
+    {
+        const std::vector<std::int32_t> joints = items_of(plan.levels, level);
+        for (auto t = plan.targets.first[static_cast<std::size_t>(level)];
+             t < plan.targets.first[static_cast<std::size_t>(level) + 1]; ++t)
+        {
+            for (const std::int32_t j : items_of(plan.changed_by, t))
+            {
+                EXPECT_NE(std::find(joints.begin(), joints.end(), j), joints.end());
+                found.emplace(j, plan.targets.item[static_cast<std::size_t>(t)]);
+            }
+        }
+    }
+    EXPECT_EQ(found, expected);
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 #include "kernels/dem/joints/elimination.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <set>
 
 namespace tread::dem
@@ -88,6 +90,27 @@ std::vector<std::int32_t> rows_of(const JointSet& joints, const Elimination& pla
     return rows;
 }
 
+/// Adds the targets of a level to the plan. The right-hand side, which all its joints change, comes first: it is the
+/// longest.
+void add_targets(const std::vector<std::size_t>& level, const Levels& levels,
+                 const std::vector<std::int32_t>& row_counts, Elimination& plan)
+{
+    std::map<std::int32_t, std::vector<std::int32_t>, std::greater<>> changed_by;
+    for (const std::size_t j : level)
+    {
+        const auto joint = static_cast<std::int32_t>(j);
+        for (const std::int32_t row : rows_of(levels.later[j], plan, row_counts)) { changed_by[row].push_back(joint); }
+        changed_by[plan.row_count].push_back(joint);
+    }
+    for (const auto& [row, joints] : changed_by)
+    {
+        plan.targets.item.push_back(row);
+        plan.changed_by.item.insert(plan.changed_by.item.end(), joints.begin(), joints.end());
+        plan.changed_by.close();
+    }
+    plan.targets.close();
+}
+
 } // namespace
 
 std::set<std::size_t> bodies_of(const std::vector<Joint>& joints, std::size_t j)
@@ -129,6 +152,7 @@ Elimination plan_elimination(const std::vector<Joint>& joints, const std::vector
         plan.below.item.insert(plan.below.item.end(), rows.begin(), rows.end());
         plan.below.close();
     }
+    for (const std::vector<std::size_t>& level : levels.joints) { add_targets(level, levels, row_counts, plan); }
     return plan;
 }
 

@@ -26,8 +26,10 @@ struct Elimination
 {
     std::vector<std::int32_t> first_row; ///< [joints]
     std::int32_t              row_count = 0;
-    IndexLists                levels; ///< [levels], joints
-    IndexLists                below;  ///< [joints], rows of later joints that meet it when it is eliminated, ascending
+    IndexLists                levels;  ///< [levels], joints
+    IndexLists                below;   ///< [joints], rows of later joints that meet it when it is eliminated, ascending
+    IndexLists                targets; ///< [levels], rows that the level's joints change: those below, and row_count
+    IndexLists                changed_by; ///< [targets of all levels], joints of the level that change the row
 };
 
 /// Bodies that a joint ties: of a differential those of its two revolute joints.

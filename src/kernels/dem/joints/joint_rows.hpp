@@ -80,6 +80,8 @@ struct JointsView
     std::int64_t        level_count = 0;
     IndexListsView      levels;       ///< [level_count], as in Elimination
     IndexListsView      below;        ///< [joint_count], likewise
+    IndexListsView      targets;      ///< [level_count], likewise
+    IndexListsView      changed_by;   ///< [targets], likewise
     IndexListsView      rows_of_link; ///< [link_count], rows of all joints of the body
 
     JointWrenches wrenches() const { return {place, wrench}; }

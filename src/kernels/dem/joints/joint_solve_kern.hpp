@@ -33,18 +33,19 @@ TREAD_HD void hold(JointRow& row)
 /// Computes how the bodies of a row yield to its impulse.
 TREAD_HD void respond(const JointsView& joints, JointRow& row)
 {
-    double unlocked = 0;
-    row.diagonal    = 0;
+    double diagonal = 0, unlocked = 0;
     for (int s = 0; s < row.sides; ++s)
     {
-        const JointLink& link   = joints.link[row.link[s]];
-        row.linear_response[s]  = link.mobility * row.linear[s];
-        row.angular_response[s] = link.response * row.angular[s];
-        row.diagonal += row.linear[s].dot(row.linear_response[s]) + row.angular[s].dot(row.angular_response[s]);
-        unlocked +=
-            link.inverse_mass * row.linear[s].squaredNorm() + link.inverse_inertia * row.angular[s].squaredNorm();
+        const JointLink    link   = joints.link[row.link[s]];
+        const Vec3<double> linear = row.linear[s], angular = row.angular[s];
+        const Vec3<double> moves = link.mobility * linear, turns = link.response * angular;
+        row.linear_response[s]  = moves;
+        row.angular_response[s] = turns;
+        diagonal += linear.dot(moves) + angular.dot(turns);
+        unlocked += link.inverse_mass * linear.squaredNorm() + link.inverse_inertia * angular.squaredNorm();
     }
-    if (row.diagonal <= least_yield * unlocked) { hold(row); }
+    row.diagonal = diagonal;
+    if (diagonal <= least_yield * unlocked) { hold(row); }
     row.softness += row.relative_softness * row.diagonal;
     row.diagonal += row.softness;
 }

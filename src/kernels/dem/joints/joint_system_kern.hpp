@@ -68,6 +68,10 @@ struct JointBlock
     std::int32_t        below_count;
     std::int32_t        right; ///< row of the right-hand side
 
+    /// Row c of its own, or the last: loops over all that a joint may have read without branches.
+    TREAD_HD std::int32_t own(std::int32_t c) const { return first + c < end ? first + c : end - 1; }
+    TREAD_HD std::int32_t count() const { return end - first; }
+
     /// Row q of those below its own, the right-hand side last.
     TREAD_HD std::int32_t other(std::int32_t q) const { return q < below_count ? below[q] : right; }
     TREAD_HD std::int32_t others() const { return below_count + 1; }
@@ -101,48 +105,59 @@ TREAD_HD void write_columns(const JointsView& joints, const Triangle& system, co
     }
 }
 
-/// Eliminates the columns of a joint from its own rows and those that meet it.
+/// Eliminates the columns of a joint from its own rows and those that meet it. A lane has a row's entries in registers,
+/// column by column: it publishes one, and reads those that the joint's own rows have published. Entries behind a
+/// row's end are computed and not used.
 template<class Lanes>
 TREAD_HD void eliminate_columns(const JointsView& joints, const Triangle& factor, const JointBlock& block,
                                 const Lanes& lanes)
 {
-    const std::int32_t own = block.end - block.first;
-    for (std::int32_t column = block.first; column < block.end; ++column)
+    const std::int32_t own = block.count(), rows = own + block.others();
+    for (std::int32_t before = 0; before < rows; before += lanes.lanes())
     {
-        const double pivot   = factor(column, column);
-        const double inverse = pivot > least_pivot * joints.row[column].diagonal ? 1 / pivot : 0.0;
-        lanes.sync(); // every lane has read the pivot
-        if (lanes.lane() == 0) { factor(column, column) = inverse; }
-        const std::int32_t before = column + 1 - block.first;
-        for (std::int32_t q = before + lanes.lane(); q < own + block.others(); q += lanes.lanes())
+        const std::int32_t q    = before + lanes.lane();
+        const std::int32_t last = q >= rows ? -1 : q < own ? q : own - 1; // column of the block that the row ends with
+        const std::int32_t row  = q >= rows ? block.right : q < own ? block.first + q : block.other(q - own);
+        const double       dependent = q < own ? least_pivot * joints.row[row].diagonal : 0.0;
+        double             entry[most_rows];
+        for (std::int32_t c = 0; c < most_rows; ++c)
         {
-            const std::int32_t row   = q < own ? block.first + q : block.other(q - own);
-            const double       share = factor(row, column) * inverse;
-            const std::int32_t last  = q < own ? row : block.end - 1;
-            for (std::int32_t c = column + 1; c <= last; ++c) { factor(row, c) -= share * factor(c, column); }
+            entry[c] = factor(row, c <= last ? block.first + c : block.first);
         }
-        lanes.sync();
+        for (std::int32_t c = 0; c < most_rows; ++c)
+        {
+            if (c >= own) { break; }
+            const std::int32_t column = block.first + c;
+            if (c == q) { factor(row, column) = entry[c] > dependent ? 1 / entry[c] : 0.0; }
+            else if (c <= last) { factor(row, column) = entry[c]; }
+            lanes.sync();
+            const double share = entry[c] * factor(column, column);
+            for (std::int32_t d = c + 1; d < most_rows; ++d) { entry[d] -= share * factor(block.own(d), column); }
+        }
     }
 }
 
-/// Subtracts from rows that meet a joint what its elimination changes among them.
-template<class Team>
-TREAD_HD void update_others(const Triangle& factor, const JointBlock& block, const Team& team)
+/// Subtracts from row t of a level's targets what the elimination of the level's joints changes in it.
+template<class Lanes>
+TREAD_HD void update_row(const JointsView& joints, const Triangle& factor, std::int64_t t, const Lanes& lanes)
 {
-    for (std::int64_t p = team.group(); p < block.others(); p += team.groups())
+    const std::int32_t row = joints.targets.item[t];
+    for (std::int32_t i = joints.changed_by.first[t]; i < joints.changed_by.first[t + 1]; ++i)
     {
-        const std::int32_t row   = block.other(static_cast<std::int32_t>(p));
-        const auto         lanes = team.members();
-        for (std::int32_t q = lanes.lane(); q < block.below_count && q <= p; q += lanes.lanes())
+        const JointBlock block = block_of(joints, joints.changed_by.item[i]);
+        for (std::int32_t q = lanes.lane(); q < block.below_count && block.below[q] <= row; q += lanes.lanes())
         {
             const std::int32_t column = block.below[q];
             double             sum    = 0;
-            for (std::int32_t k = block.first; k < block.end; ++k)
+            for (std::int32_t c = 0; c < most_rows; ++c)
             {
-                sum += factor(row, k) * factor(column, k) * factor(k, k);
+                const std::int32_t k     = block.own(c);
+                const double       share = factor(row, k) * factor(column, k) * factor(k, k);
+                sum += c < block.count() ? share : 0.0;
             }
             factor(row, column) -= sum;
         }
+        lanes.sync(); // the next joint may have the column in another lane
     }
 }
 
@@ -150,27 +165,24 @@ TREAD_HD void update_others(const Triangle& factor, const JointBlock& block, con
 template<class Lanes>
 TREAD_HD void substitute(const Triangle& factor, const JointBlock& block, const Lanes& lanes)
 {
-    const std::int32_t own = block.end - block.first;
-    double             known[most_rows];
-    for (std::int32_t c = 0; c < own; ++c)
+    double known[most_rows]{};
+    for (std::int32_t q = lanes.lane(); q < block.below_count; q += lanes.lanes())
     {
-        known[c] = 0;
-        for (std::int32_t q = lanes.lane(); q < block.below_count; q += lanes.lanes())
-        {
-            known[c] += factor(block.below[q], block.first + c) * factor(block.right, block.below[q]);
-        }
-        known[c] = lanes.sum(known[c]);
+        const std::int32_t row    = block.below[q];
+        const double       solved = factor(block.right, row);
+        for (std::int32_t c = 0; c < most_rows; ++c) { known[c] += factor(row, block.own(c)) * solved; }
     }
+    for (double& sum : known) { sum = lanes.sum(sum); }
     if (lanes.lane() != 0) { return; }
-    for (std::int32_t c = own - 1; c >= 0; --c)
+    double solution[most_rows]{};
+    for (std::int32_t c = most_rows - 1; c >= 0; --c)
     {
-        const std::int32_t column = block.first + c;
-        for (std::int32_t row = column + 1; row < block.end; ++row)
-        {
-            known[c] += factor(row, column) * factor(block.right, row);
-        }
-        factor(block.right, column) = factor(column, column) * (factor(block.right, column) - known[c]);
+        const std::int32_t column = block.own(c);
+        for (std::int32_t d = c + 1; d < most_rows; ++d) { known[c] += factor(block.own(d), column) * solution[d]; }
+        const double solved = factor(column, column) * (factor(block.right, column) - known[c]);
+        solution[c]         = c < block.count() ? solved : 0.0;
     }
+    for (std::int32_t c = 0; c < block.count(); ++c) { factor(block.right, block.first + c) = solution[c]; }
 }
 
 /// Calls f(block) for the joints of a level, a group of lanes each.
@@ -202,11 +214,12 @@ TREAD_HD void solve_system(const JointsView& joints, const Triangle& factor, con
         for_each_block_of(joints, level, team,
                           [&](const JointBlock& block) { eliminate_columns(joints, factor, block, lanes); });
         team.sync();
-        for (std::int32_t at = joints.levels.first[level]; at < joints.levels.first[level + 1]; ++at)
+        for (std::int64_t t = joints.targets.first[level] + team.group(); t < joints.targets.first[level + 1];
+             t += team.groups())
         {
-            update_others(factor, block_of(joints, joints.levels.item[at]), team);
-            team.sync();
+            update_row(joints, factor, t, lanes);
         }
+        team.sync();
     }
     for (std::int64_t level = joints.level_count - 1; level >= 0; --level)
     {

@@ -107,6 +107,8 @@ Joints<Exec>::Joints(const Exec& exec, std::vector<Joint> joints, std::int64_t b
     , changed_(exec, "joint rows that changed", 1)
     , levels_(exec, "joint levels", plan_.levels)
     , below_(exec, "joint rows below", plan_.below)
+    , targets_(exec, "joint rows that a level changes", plan_.targets)
+    , changed_by_(exec, "joints that change a row", plan_.changed_by)
     , rows_of_link_(exec, "rows of jointed bodies", rows_of_bodies(bodies_, numbered(joints)))
 {
     joints = numbered(std::move(joints));
@@ -126,12 +128,13 @@ Joints<Exec>::Joints(const Exec& exec, std::vector<Joint> joints, std::int64_t b
 template<class Exec>
 JointsView Joints<Exec>::view()
 {
-    return {joint_.size(),  body_.size(),    row_.size(),
-            joint_.data(),  body_.data(),    place_.data(),
-            link_.data(),   moved_.data(),   row_.data(),
-            state_.data(),  factor_.data(),  wrench_.data(),
-            record_.data(), changed_.data(), static_cast<std::int64_t>(plan_.levels.first.size()) - 1,
-            levels_.view(), below_.view(),   rows_of_link_.view()};
+    return {joint_.size(),      body_.size(),        row_.size(),
+            joint_.data(),      body_.data(),        place_.data(),
+            link_.data(),       moved_.data(),       row_.data(),
+            state_.data(),      factor_.data(),      wrench_.data(),
+            record_.data(),     changed_.data(),     static_cast<std::int64_t>(plan_.levels.first.size()) - 1,
+            levels_.view(),     below_.view(),       targets_.view(),
+            changed_by_.view(), rows_of_link_.view()};
 }
 
 template<class Exec>

@@ -71,6 +71,8 @@ private:
 
     ListArrays<Exec> levels_;
     ListArrays<Exec> below_;
+    ListArrays<Exec> targets_;
+    ListArrays<Exec> changed_by_;
     ListArrays<Exec> rows_of_link_;
 };
 

@@ -113,18 +113,21 @@ private:
         const std::int32_t     link     = joints.place[joint.body[on_world ? 0 : 1]];
         const double           sign     = on_world ? -1 : 1;
         const joint_rows::Side side     = joint_rows::side_of(joint, on_world ? 0 : 1, bodies);
-        std::int32_t           r        = joint.first_row;
+        Vec3<double>           impulse = Vec3<double>::Zero(), twist = Vec3<double>::Zero();
+        std::int32_t           r = joint.first_row;
         for (const std::int32_t end = r + joint.row_count; r < end; ++r)
         {
             const JointRow& row = joints.row[r];
             for (int s = 0; s < row.sides; ++s)
             {
                 if (row.link[s] != link) { continue; }
-                const Vec3<double> impulse = sign * row.impulse * row.linear[s];
-                record.impulse += impulse;
-                record.angular_impulse += sign * row.impulse * row.angular[s] - side.lever.cross(impulse);
+                const Vec3<double> of_row = sign * row.impulse * row.linear[s];
+                impulse += of_row;
+                twist += sign * row.impulse * row.angular[s] - side.lever.cross(of_row);
             }
         }
+        record.impulse += impulse;
+        record.angular_impulse += twist;
         const std::int32_t limits = (joint.parts & joint_has_limits) != 0 ? 2 : 0;
         if ((joint.parts & joint_has_motor) != 0) { record.motor_impulse += joints.row[r - limits - 1].impulse; }
     }
