@@ -18,7 +18,7 @@ namespace
 {
 
 /// Largest number of tables in a list. A resolved scene holds all pairs of families of that many materials, and each
-/// substep solves one dense system for all joints.
+/// substep solves one system for all joints.
 std::size_t most_tables(const std::string& table)
 {
     if (table == "material" || table == "joint") { return 100; }
