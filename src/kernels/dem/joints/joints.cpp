@@ -42,6 +42,7 @@ std::vector<std::int32_t> jointed_bodies(const std::vector<Joint>& joints)
 std::vector<std::int32_t> row_counts_of(const std::vector<Joint>& joints)
 {
     std::vector<std::int32_t> counts;
+    counts.reserve(joints.size());
     for (const Joint& joint : joints) { counts.push_back(joint_rows::rows_of(joint)); }
     return counts;
 }
