@@ -13,12 +13,12 @@ import subprocess
 import unittest
 
 from command import SCENE, TREAD
-from restart_test import MIXED, MPIRUN, RestartTest, lasting
+from restart_test import BACKEND, MIXED, MPIRUN, RestartTest, lasting
 
 FAULTS = os.environ["TREAD_FAULTS"]  # tests/faults
 POINTS = os.environ.get("TREAD_FAULT_POINTS", "16")
 TEXT = lasting(MIXED, 0.05)
-OPTIONS = ("--backend", "cpu", "--threads", "1", "--set=checkpoint.every_steps=20", "--set=checkpoint.keep=2")
+OPTIONS = ("--backend", BACKEND, "--threads", "1", "--set=checkpoint.every_steps=20", "--set=checkpoint.keep=2")
 LONGEST = 200  # s that a run may take on a machine that does other things too; alone it takes one, or 30 where ranks wait
 
 
@@ -109,6 +109,12 @@ class Faults(RestartTest):
 
     def test_memory(self):
         self.check_kind("allocation", self.calls(1)["allocation"])
+
+    @unittest.skipUnless(BACKEND == "cuda", "TREAD_TEST_BACKEND is not cuda")
+    def test_gpu(self):
+        calls = self.calls(1)
+        for kind in ("launch", "device_memory"):
+            self.check_kind(kind, calls[kind])
 
     def test_clock(self):
         calls = self.calls(1)

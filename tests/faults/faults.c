@@ -5,9 +5,9 @@
 //   TREAD_FAULT_BELOW=DIR   calls on files count below this directory alone
 //   TREAD_FAULT_COUNTS=FILE at the end "KIND COUNT" lines are appended there
 //
-// Kinds: write, fsync, rename, open, close, truncate, allocation, message; kill ends the process before its n-th call
-// of any kind that touches files; clock sets the wall clock a day ahead from its n-th reading on, clock_back a day
-// back.
+// Kinds: write, fsync, rename, open, close, truncate, allocation, message; launch (of a kernel on a GPU), device_memory
+// (an allocation there); kill ends the process before its n-th call of any kind that touches files; clock sets the wall
+// clock a day ahead from its n-th reading on, clock_back a day back.
 
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -37,14 +37,16 @@ enum kind
     TRUNCATE,
     ALLOCATION,
     MESSAGE,
+    LAUNCH,
+    DEVICE_MEMORY,
     KILL,
     CLOCK,
     CLOCK_BACK,
     KINDS
 };
 
-static const char* const names[KINDS] = {"write",      "fsync",   "rename", "open",  "close",     "truncate",
-                                         "allocation", "message", "kill",   "clock", "clock_back"};
+static const char* const names[KINDS] = {"write",   "fsync",  "rename",        "open", "close", "truncate",  "allocation",
+                                         "message", "launch", "device_memory", "kill", "clock", "clock_back"};
 
 static atomic_long counts[KINDS];
 static enum kind   wanted_kind = KINDS;
@@ -288,4 +290,77 @@ time_t time(time_t* place)
     clock_gettime(CLOCK_REALTIME, &exact);
     if (place) { *place = exact.tv_sec; }
     return exact.tv_sec;
+}
+
+// The CUDA runtime is linked into the program and looks the driver's functions up by name, so what it finds is replaced.
+enum
+{
+    DRIVER_OUT_OF_MEMORY      = 2,
+    DRIVER_LAUNCH_OUT_OF_ROOM = 701
+};
+
+#define DRIVER_CALL(name, kind, error, signature, arguments)                                                           \
+    static int(*driver_##name) signature;                                                                              \
+    static int faulty_##name signature { return goes_wrong(kind) ? error : driver_##name arguments; }
+
+DRIVER_CALL(cuLaunchKernel, LAUNCH, DRIVER_LAUNCH_OUT_OF_ROOM,
+            (void* f, unsigned gx, unsigned gy, unsigned gz, unsigned bx, unsigned by, unsigned bz, unsigned shared,
+             void* stream, void** parameters, void** extra),
+            (f, gx, gy, gz, bx, by, bz, shared, stream, parameters, extra))
+DRIVER_CALL(cuLaunchKernelEx, LAUNCH, DRIVER_LAUNCH_OUT_OF_ROOM,
+            (const void* shape, void* f, void** parameters, void** extra), (shape, f, parameters, extra))
+DRIVER_CALL(cuLaunchCooperativeKernel, LAUNCH, DRIVER_LAUNCH_OUT_OF_ROOM,
+            (void* f, unsigned gx, unsigned gy, unsigned gz, unsigned bx, unsigned by, unsigned bz, unsigned shared,
+             void* stream, void** parameters),
+            (f, gx, gy, gz, bx, by, bz, shared, stream, parameters))
+DRIVER_CALL(cuMemAlloc, DEVICE_MEMORY, DRIVER_OUT_OF_MEMORY, (void* place, size_t size), (place, size))
+DRIVER_CALL(cuMemAllocAsync, DEVICE_MEMORY, DRIVER_OUT_OF_MEMORY, (void* place, size_t size, void* stream),
+            (place, size, stream))
+DRIVER_CALL(cuMemAllocFromPoolAsync, DEVICE_MEMORY, DRIVER_OUT_OF_MEMORY,
+            (void* place, size_t size, void* pool, void* stream), (place, size, pool, stream))
+
+#define REPLACE(name)                                                                                                  \
+    if (strcmp(symbol, #name) == 0)                                                                                    \
+    {                                                                                                                  \
+        memcpy(&driver_##name, function, sizeof(void*));                                                               \
+        *function = (void*)faulty_##name;                                                                              \
+    }
+
+static int (*driver_lookup)(const char*, void**, int, unsigned long, void*);
+
+static int lookup(const char* symbol, void** function, int version, unsigned long flags, void* found)
+{
+    const int result = driver_lookup(symbol, function, version, flags, found);
+    if (result != 0 || !*function) { return result; }
+    REPLACE(cuLaunchKernel)
+    REPLACE(cuLaunchKernelEx)
+    REPLACE(cuLaunchCooperativeKernel)
+    REPLACE(cuMemAlloc)
+    REPLACE(cuMemAllocAsync)
+    REPLACE(cuMemAllocFromPoolAsync)
+    return result;
+}
+
+#ifdef __x86_64__
+static const char first_glibc[] = "GLIBC_2.2.5";
+#else
+static const char first_glibc[] = "GLIBC_2.17";
+#endif
+
+// Optimised, so that the last call is a jump: dlsym looks at who called it.
+__attribute__((optimize("O2"))) void* dlsym(void* restrict library, const char* restrict symbol)
+{
+    static void* (*next)(void*, const char*);
+    if (!next)
+    {
+        void* found = dlvsym(RTLD_NEXT, "dlsym", first_glibc);
+        memcpy(&next, &found, sizeof found);
+    }
+    if (strcmp(symbol, "cuGetProcAddress_v2") == 0)
+    {
+        void* found = next(library, symbol);
+        memcpy(&driver_lookup, &found, sizeof found);
+        return found ? (void*)lookup : NULL;
+    }
+    return next(library, symbol);
 }
