@@ -23,7 +23,8 @@ if(TREAD_SANITIZE)
   # GCC's manual: sanitizers bring false positives of maybe-uninitialized; here from libstdc++'s own <regex>.
   target_compile_options(
     tread_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${TREAD_SANITIZE} -fno-omit-frame-pointer
-                          -fno-sanitize-recover=all -Wno-maybe-uninitialized>)
+                          -fno-sanitize-recover=all
+                          $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>>)
   target_link_options(tread_flags INTERFACE -fsanitize=${TREAD_SANITIZE} -rdynamic)
 endif()
 

@@ -56,12 +56,12 @@ std::int64_t left_in_address_space()
     return std::max<std::int64_t>(0, saturated(static_cast<double>(limit.rlim_cur)) - *pages * sysconf(_SC_PAGESIZE));
 }
 
-/// File names of one version of control groups.
+/// Where one version of control groups has its files.
 struct GroupFiles
 {
-    const char* root;
-    const char* limit;
-    const char* usage;
+    std::filesystem::path root;
+    const char*           limit;
+    const char*           usage;
 };
 
 /// Smallest remaining memory of a group and its parents; caches that the kernel can drop count as free.
@@ -70,7 +70,7 @@ std::int64_t left_in_group(const GroupFiles& files, std::filesystem::path group)
     std::int64_t least = unknown;
     for (;; group = group.parent_path())
     {
-        const auto place = std::filesystem::path(files.root) / group.relative_path();
+        const auto place = files.root / group.relative_path();
         const auto limit = number_in(place / files.limit), usage = number_in(place / files.usage);
         if (limit && usage)
         {
@@ -81,13 +81,15 @@ std::int64_t left_in_group(const GroupFiles& files, std::filesystem::path group)
     }
 }
 
-/// Lines of /proc/self/cgroup are "number:controllers:/path"; version 2 has no controllers.
-std::int64_t left_in_groups()
+} // namespace
+
+std::int64_t memory_left_in_groups(const std::filesystem::path& root)
 {
-    constexpr GroupFiles first{"/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes"};
-    constexpr GroupFiles second{"/sys/fs/cgroup", "memory.max", "memory.current"};
-    std::ifstream        groups("/proc/self/cgroup");
-    std::int64_t         least = unknown;
+    const GroupFiles first{root / "sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes"};
+    const GroupFiles second{root / "sys/fs/cgroup", "memory.max", "memory.current"};
+    // Lines are "number:controllers:/path"; version 2 has no controllers.
+    std::ifstream groups(root / "proc/self/cgroup");
+    std::int64_t  least = unknown;
     for (std::string line; std::getline(groups, line);)
     {
         const auto begin = line.find(':');
@@ -100,9 +102,10 @@ std::int64_t left_in_groups()
     return least;
 }
 
-} // namespace
-
-std::int64_t available_host_memory() { return std::min({machine_memory(), left_in_address_space(), left_in_groups()}); }
+std::int64_t available_host_memory()
+{
+    return std::min({machine_memory(), left_in_address_space(), memory_left_in_groups("/")});
+}
 
 void require_host_memory(const HostDemand& demand)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 // Host memory still available to this process, and refusal of demands that would not fit.
@@ -10,6 +11,10 @@ namespace tread
 /// Bytes available on the machine, or less if a control group or RLIMIT_AS leaves less to this process. The largest
 /// integer if unknown.
 std::int64_t available_host_memory();
+
+/// Bytes that control groups (both versions) leave to this process: the least of its groups and their parents, read below
+/// `root`, which is "/" on a machine. The largest integer if none limits it.
+std::int64_t memory_left_in_groups(const std::filesystem::path& root);
 
 /// A planned allocation, for the message that refuses it.
 struct HostDemand

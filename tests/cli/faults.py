@@ -117,9 +117,10 @@ class Faults(RestartTest):
             self.check_kind(kind, calls[kind])
 
     def test_clock(self):
-        calls = self.calls(1)
-        for kind in ("clock", "clock_back"):
-            self.check_kind(kind, calls[kind])
+        for ranks in (1, 2):
+            calls = self.calls(ranks, ranks - 1)
+            for kind in ("clock", "clock_back"):
+                self.check_kind(kind, calls[kind], ranks, ranks - 1)
 
     def test_messages_of_a_rank(self):
         for rank in (0, 1):

@@ -1,4 +1,6 @@
+#include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -8,6 +10,7 @@
 #include "base/errors.hpp"
 #include "base/host_memory.hpp"
 #include "base/saturated.hpp"
+#include "temporary_directory.hpp"
 
 namespace
 {
@@ -45,6 +48,58 @@ TEST(HostMemory, AnAddressSpaceLimitCounts)
     ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
     EXPECT_LE(left, more);
     EXPECT_GE(left, more / 2);
+}
+
+/// A root directory whose only files are those of control groups.
+class ControlGroups : public ::testing::Test
+{
+protected:
+    void put(const std::string& file, const std::string& text) const
+    {
+        const std::filesystem::path path = directory.path(file);
+        std::filesystem::create_directories(path.parent_path());
+        std::ofstream(path) << text;
+    }
+    std::int64_t left() const { return memory_left_in_groups(directory.path("")); }
+
+    test::TemporaryDirectory directory;
+};
+
+TEST_F(ControlGroups, NoneAndNoLimitLeaveAll)
+{
+    constexpr auto most = std::numeric_limits<std::int64_t>::max();
+    EXPECT_EQ(left(), most);
+    put("proc/self/cgroup", "0::/user.slice\n");
+    EXPECT_EQ(left(), most);
+    put("sys/fs/cgroup/user.slice/memory.max", "max\n");
+    put("sys/fs/cgroup/user.slice/memory.current", "1000\n");
+    EXPECT_EQ(left(), most);
+}
+
+TEST_F(ControlGroups, TheLeastOfAGroupAndItsParentsCounts)
+{
+    put("proc/self/cgroup", "0::/slurm/job_7/step_0\n");
+    put("sys/fs/cgroup/slurm/job_7/step_0/memory.max", "max\n");
+    put("sys/fs/cgroup/slurm/job_7/step_0/memory.current", "900\n");
+    put("sys/fs/cgroup/slurm/job_7/memory.max", "10000\n");
+    put("sys/fs/cgroup/slurm/job_7/memory.current", "4000\n");
+    put("sys/fs/cgroup/slurm/memory.max", "70000\n");
+    put("sys/fs/cgroup/slurm/memory.current", "5000\n");
+    EXPECT_EQ(left(), 6000);
+    put("sys/fs/cgroup/slurm/job_7/memory.stat", "anon 3000\ninactive_file 1500\n");
+    EXPECT_EQ(left(), 7500) << "caches of files can be dropped";
+    put("sys/fs/cgroup/slurm/memory.max", "4500\n");
+    EXPECT_EQ(left(), 0) << "a parent that is full already";
+}
+
+TEST_F(ControlGroups, TheFirstVersionNamesItsController)
+{
+    put("proc/self/cgroup", "5:cpu,cpuacct:/other\n4:memory:/slurm/uid_0\n0::/\n");
+    put("sys/fs/cgroup/memory/slurm/uid_0/memory.limit_in_bytes", "8000\n");
+    put("sys/fs/cgroup/memory/slurm/uid_0/memory.usage_in_bytes", "3000\n");
+    put("sys/fs/cgroup/memory/other/memory.limit_in_bytes", "10\n");
+    put("sys/fs/cgroup/memory/other/memory.usage_in_bytes", "10\n");
+    EXPECT_EQ(left(), 5000);
 }
 
 TEST(Saturated, StaysWithin64Bits)
