@@ -1,6 +1,7 @@
 #include "scene/text_limits.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include <fmt/format.h>
 
@@ -21,6 +22,44 @@ std::optional<Excess> long_line(std::string_view text)
                           fmt::format("at most {} bytes a line", most_line)};
         }
         from = end + 1;
+    }
+    return std::nullopt;
+}
+
+/// Length of the character of UTF-8 at a place (Unicode 15.0, table 3-7); 0 if there is none.
+std::size_t length_of_character(std::string_view text, std::size_t at)
+{
+    const auto byte = [&](std::size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U; };
+    const auto is   = [&](std::size_t i, unsigned low, unsigned high) { return byte(i) >= low && byte(i) <= high; };
+    const auto rest = [&](std::size_t i) { return is(i, 0x80, 0xbf); };
+    if (is(0, 0x00, 0x7f)) { return 1; }
+    if (is(0, 0xc2, 0xdf)) { return rest(1) ? 2 : 0; }
+    if (is(0, 0xe0, 0xef))
+    {
+        const bool second = is(1, byte(0) == 0xe0 ? 0xa0 : 0x80, byte(0) == 0xed ? 0x9f : 0xbf);
+        return second && rest(2) ? 3 : 0;
+    }
+    if (is(0, 0xf0, 0xf4))
+    {
+        const bool second = is(1, byte(0) == 0xf0 ? 0x90 : 0x80, byte(0) == 0xf4 ? 0x8f : 0xbf);
+        return second && rest(2) && rest(3) ? 4 : 0;
+    }
+    return 0;
+}
+
+std::optional<Excess> foreign_byte(std::string_view text)
+{
+    for (std::size_t at = 0; at < text.size();)
+    {
+        const std::size_t length = length_of_character(text, at);
+        if (length == 0)
+        {
+            const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+            return Excess{static_cast<std::size_t>(line),
+                          fmt::format("the byte {:#04x}, which is not UTF-8", static_cast<unsigned char>(text[at])),
+                          "a text in UTF-8"};
+        }
+        at += length;
     }
     return std::nullopt;
 }
@@ -110,6 +149,7 @@ std::optional<Excess> excess_of(std::string_view text)
         return Excess{1, fmt::format("a text of {} bytes", text.size()), fmt::format("at most {} bytes", most_bytes)};
     }
     if (auto line = long_line(text)) { return line; }
+    if (auto byte = foreign_byte(text)) { return byte; }
     return Scan(text).run();
 }
 

@@ -332,6 +332,11 @@ static int lookup(const char* symbol, void** function, int version, unsigned lon
 {
     const int result = driver_lookup(symbol, function, version, flags, found);
     if (result != 0 || !*function) { return result; }
+    if (strcmp(symbol, "cuGetProcAddress") == 0)
+    {
+        memcpy(&driver_lookup, function, sizeof(void*));
+        *function = (void*)lookup;
+    }
     REPLACE(cuLaunchKernel)
     REPLACE(cuLaunchKernelEx)
     REPLACE(cuLaunchCooperativeKernel)
@@ -356,7 +361,7 @@ __attribute__((optimize("O2"))) void* dlsym(void* restrict library, const char* 
         void* found = dlvsym(RTLD_NEXT, "dlsym", first_glibc);
         memcpy(&next, &found, sizeof found);
     }
-    if (strcmp(symbol, "cuGetProcAddress_v2") == 0)
+    if (strcmp(symbol, "cuGetProcAddress") == 0 || strcmp(symbol, "cuGetProcAddress_v2") == 0)
     {
         void* found = next(library, symbol);
         memcpy(&driver_lookup, &found, sizeof found);

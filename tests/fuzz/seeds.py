@@ -54,6 +54,8 @@ def meshes():
         "cube.text": b"\0" + text_stl(TRIANGLES),
         "open.text": b"\0" + text_stl(TRIANGLES[:5]),
         "cube.obj": b"\1" + obj(["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"]),
+        # Ten coplanar faces over each other, and a spike: their overlap was bisected all over, for 40 s.
+        "covered.obj": b"\1v 0 0 0\nv 1 0 1\n\nv 5 1 6\nv 2 0 1\nv 5 1 6\nv 0 1 1\nf 1 2 3 6\nf 1 3 4 5\nf 6 5 4 1\n",
         "slashes.obj": b"\1" + obj(["1/1/1 3//1 -5 2/1", "-4 -3 -1 -2 # x"]),
     }
 
@@ -65,7 +67,8 @@ def scenes():
                 "grid.spacing=nan", "phase[99].duration=1", "a.b.c.d=1", "=", "x", "output.every={}"]
     seeds = {f"set{i}": setting.encode() + b"\0" + text for i, setting in enumerate(settings)}
     seeds.update({f"file{i}": path.read_bytes() for i, path in enumerate(sorted((REPOSITORY / "configs").glob("*.toml")))})
-    return {**seeds, "small": small, "nested": small + b"x = " + b"[" * 200 + b"]" * 200, "brace": small + b"y = { a = 1\n"}
+    foreign = small + b"x = '\xfdR'\n"  # the parser would read past the string's end
+    return {**seeds, "small": small, "foreign": foreign, "nested": small + b"x = " + b"[" * 200 + b"]" * 200, "brace": small + b"y = { a = 1\n"}
 
 
 def rasters():

@@ -54,4 +54,21 @@ bool crosses(const Corners& one, const Corners& other, double slack)
     return true;
 }
 
+bool lies_within(const Corners& piece, const Corners& other, double slack)
+{
+    const Eigen::Vector3d normal = (other[1] - other[0]).cross(other[2] - other[0]).normalized();
+    if (normal.isZero()) { return false; }
+    const auto is_within = [&](const Eigen::Vector3d& point)
+    {
+        if (std::abs(normal.dot(point - other[0])) > slack) { return false; }
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            const Eigen::Vector3d inwards = normal.cross(other[(i + 1) % 3] - other[i]).normalized();
+            if (inwards.dot(point - other[i]) < -slack) { return false; }
+        }
+        return true;
+    };
+    return std::all_of(piece.begin(), piece.end(), is_within);
+}
+
 } // namespace tread::shape

@@ -45,12 +45,14 @@ struct BoundaryFinder
         return before != (winding_number(winding, middle - step * normal) > 0.5);
     }
 
-    /// Adds the parts of a piece, which `crossing` may cross, that bound the solid.
+    /// Adds the parts of a piece, which `crossing` may cross, that bound the solid. A triangle that covers all of a piece
+    /// has no edge in it, and both of its sides are the same everywhere: it need not be bisected for that one.
     void collect(const Corners& piece, const std::vector<Corners>& crossing, std::vector<Corners>& kept) const
     {
         std::vector<Corners> still;
         std::copy_if(crossing.begin(), crossing.end(), std::back_inserter(still),
-                     [&](const Corners& other) { return crosses(piece, other, step); });
+                     [&](const Corners& other)
+                     { return crosses(piece, other, step) && !lies_within(piece, other, step); });
         const std::array<double, 3> lengths{(piece[1] - piece[0]).norm(), (piece[2] - piece[1]).norm(),
                                             (piece[0] - piece[2]).norm()};
         const auto                  longest =

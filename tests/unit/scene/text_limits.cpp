@@ -55,6 +55,19 @@ TEST(TextLimits, segments_of_a_key)
     EXPECT_THAT(refusal("[" + repeated("\"a\".", 100) + "a]\n"), HasSubstr("bad.toml:1: a key of 33 segments"));
 }
 
+TEST(TextLimits, only_utf_8)
+{
+    EXPECT_FALSE(excess_of("title = 'f\u00fcr \u7802, \U0001f6de' # \ue000 \U0010ffff\n"));
+    for (const std::string wrong : {"\xfd", "\x80", "\xc0\x80", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf",
+                                    "\xf4\x90\x80\x80", "\xe2\x82", "\xf0\x9f\x9b"})
+    {
+        EXPECT_TRUE(excess_of("title = '" + wrong + "'\n")) << wrong;
+        EXPECT_TRUE(excess_of("title = '" + wrong)) << wrong;
+    }
+    EXPECT_THAT(refusal("# one\ntitle = '\xfdR'\n"),
+                HasSubstr("bad.toml:2: the byte 0xfd, which is not UTF-8; accepted: a text in UTF-8"));
+}
+
 TEST(TextLimits, a_long_line)
 {
     EXPECT_FALSE(excess_of(std::string(most_line, ' ') + "\n"));
