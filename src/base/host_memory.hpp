@@ -12,8 +12,8 @@ namespace tread
 /// integer if unknown.
 std::int64_t available_host_memory();
 
-/// Bytes that control groups (both versions) leave to this process: the least of its groups and their parents, read below
-/// `root`, which is "/" on a machine. The largest integer if none limits it.
+/// Bytes that control groups (both versions) leave to this process: the least of its groups and their parents, read
+/// below `root`, which is "/" on a machine. The largest integer if none limits it.
 std::int64_t memory_left_in_groups(const std::filesystem::path& root);
 
 /// A planned allocation, for the message that refuses it.

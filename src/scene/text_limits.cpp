@@ -29,7 +29,8 @@ std::optional<Excess> long_line(std::string_view text)
 /// Length of the character of UTF-8 at a place (Unicode 15.0, table 3-7); 0 if there is none.
 std::size_t length_of_character(std::string_view text, std::size_t at)
 {
-    const auto byte = [&](std::size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U; };
+    const auto byte = [&](std::size_t i)
+    { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U; };
     const auto is   = [&](std::size_t i, unsigned low, unsigned high) { return byte(i) >= low && byte(i) <= high; };
     const auto rest = [&](std::size_t i) { return is(i, 0x80, 0xbf); };
     if (is(0, 0x00, 0x7f)) { return 1; }

@@ -6,8 +6,8 @@
 #include <string_view>
 
 // What a TOML text must keep before it is parsed. The parser recurses for each level of nesting, its time grows as the
-// square of a line's length, and it reads past the end of strings that are not UTF-8 (toml11 3.7.1): a text beyond these
-// limits would overflow the stack, take minutes or crash.
+// square of a line's length, and it reads past the end of strings that are not UTF-8 (toml11 3.7.1): a text beyond
+// these limits would overflow the stack, take minutes or crash.
 namespace tread::scene
 {
 
@@ -24,8 +24,8 @@ struct Excess
     std::string accepted;
 };
 
-/// First line of a text that exceeds a limit or is not UTF-8; empty if the text may be parsed. Brackets and dots in strings and
-/// comments do not count.
+/// First line of a text that exceeds a limit or is not UTF-8; empty if the text may be parsed. Brackets and dots in
+/// strings and comments do not count.
 std::optional<Excess> excess_of(std::string_view text);
 
 } // namespace tread::scene

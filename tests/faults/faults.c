@@ -45,8 +45,9 @@ enum kind
     KINDS
 };
 
-static const char* const names[KINDS] = {"write",   "fsync",  "rename",        "open", "close", "truncate",  "allocation",
-                                         "message", "launch", "device_memory", "kill", "clock", "clock_back"};
+static const char* const names[KINDS] = {"write",    "fsync",      "rename",    "open",   "close",
+                                         "truncate", "allocation", "message",   "launch", "device_memory",
+                                         "kill",     "clock",      "clock_back"};
 
 static atomic_long counts[KINDS];
 static enum kind   wanted_kind = KINDS;
@@ -292,7 +293,8 @@ time_t time(time_t* place)
     return exact.tv_sec;
 }
 
-// The CUDA runtime is linked into the program and looks the driver's functions up by name, so what it finds is replaced.
+// The CUDA runtime is linked into the program and looks the driver's functions up by name, so what it finds is
+// replaced.
 enum
 {
     DRIVER_OUT_OF_MEMORY      = 2,

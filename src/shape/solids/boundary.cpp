@@ -45,8 +45,8 @@ struct BoundaryFinder
         return before != (winding_number(winding, middle - step * normal) > 0.5);
     }
 
-    /// Adds the parts of a piece, which `crossing` may cross, that bound the solid. A triangle that covers all of a piece
-    /// has no edge in it, and both of its sides are the same everywhere: it need not be bisected for that one.
+    /// Adds the parts of a piece, which `crossing` may cross, that bound the solid. A triangle that covers all of a
+    /// piece has no edge in it, and both of its sides are the same everywhere: it need not be bisected for that one.
     void collect(const Corners& piece, const std::vector<Corners>& crossing, std::vector<Corners>& kept) const
     {
         std::vector<Corners> still;

@@ -11,13 +11,15 @@ namespace
 
 using namespace tread;
 
-// A cube and, within it, a pillar from its floor to its roof: the pillar's ends lie in the cube's faces. Bisected along the
-// pillar's edges alone, these are some 10 pieces for each `finest` of edge; bisected all over, its area over finest^2.
+// A cube and, within it, a pillar from its floor to its roof: the pillar's ends lie in the cube's faces. Bisected along
+// the pillar's edges alone, these are some 10 pieces for each `finest` of edge; bisected all over, its area over
+// finest^2.
 TEST(Boundary, OnlyAlongEdgesAreCoplanarFacesBisected)
 {
     constexpr double finest = 1.0 / 256, edges = 4, area = 6, most_pieces = 24 * edges / finest;
-    const auto       mesh     = test::together(test::box_mesh({0, 0, 0}, {1, 1, 1}), test::box_mesh({0.25, 0.25, 0}, {0.75, 0.75, 1}));
-    const auto       boundary = shape::find_boundary(mesh, shape::build_winding_tree(mesh), finest);
+    const auto       mesh =
+        test::together(test::box_mesh({0, 0, 0}, {1, 1, 1}), test::box_mesh({0.25, 0.25, 0}, {0.75, 0.75, 1}));
+    const auto boundary = shape::find_boundary(mesh, shape::build_winding_tree(mesh), finest);
     RecordProperty("pieces", static_cast<int>(boundary.triangles.size()));
     EXPECT_LT(static_cast<double>(boundary.triangles.size()), most_pieces);
     // Faces that coincide are kept twice: both bound the solid.
