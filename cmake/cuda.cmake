@@ -1,5 +1,5 @@
 # TREAD_WITH_CUDA = ON when one binary holds both backends; otherwise the tree builds for the CPU and says so. Then
-# TREAD_GPU_SYNTAX = ON when the target gpu_syntax has nvcc check the GPU code, in a fifth of the time of compiling it.
+# TREAD_GPU_SYNTAX = ON when the target gpu_syntax has nvcc check the GPU code and make none.
 set(TREAD_WITH_CUDA OFF)
 set(TREAD_GPU_SYNTAX OFF)
 if(NOT TREAD_CUDA STREQUAL "OFF")

@@ -11,9 +11,9 @@ namespace
 
 using namespace tread;
 
-// A cube and, within it, a pillar from its floor to its roof: the pillar's ends lie in the cube's faces. Bisected along
-// the pillar's edges alone, these are some 10 pieces for each `finest` of edge; bisected all over, its area over
-// finest^2.
+// A cube and, within it, a pillar from its floor to its roof: the pillar's ends lie in the cube's faces. That makes 60
+// pieces, as the pillar's edges lie where faces are bisected; 262,184 where pieces are bisected under a face that
+// covers them. The bound allows 24 pieces for each `finest` of edge.
 TEST(Boundary, OnlyAlongEdgesAreCoplanarFacesBisected)
 {
     constexpr double finest = 1.0 / 256, edges = 4, area = 6, most_pieces = 24 * edges / finest;
