@@ -104,8 +104,8 @@ class Faults(RestartTest):
 
     def test_files(self):
         calls = self.calls(1)
-        for kind in ("write", "fsync", "rename", "open", "close", "truncate"):
-            self.check_kind(kind, calls[kind])
+        for kind in ("write", "quota", "fsync", "rename", "open", "close", "truncate"):
+            self.check_kind(kind, calls["write" if kind == "quota" else kind])
 
     def test_memory(self):
         self.check_kind("allocation", self.calls(1)["allocation"])

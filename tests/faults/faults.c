@@ -6,8 +6,8 @@
 //   TREAD_FAULT_COUNTS=FILE at the end "KIND COUNT" lines are appended there
 //
 // Kinds: write, fsync, rename, open, close, truncate, allocation, message; launch (of a kernel on a GPU), device_memory
-// (an allocation there); kill ends the process before its n-th call of any kind that touches files; clock sets the wall
-// clock a day ahead from its n-th reading on, clock_back a day back.
+// (an allocation there); quota lets no write succeed from the n-th on; kill ends the process before its n-th call of
+// any kind that touches files; clock sets the wall clock a day ahead from its n-th reading on, clock_back a day back.
 
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -30,6 +30,7 @@
 enum kind
 {
     WRITE,
+    QUOTA,
     FSYNC,
     RENAME,
     OPEN,
@@ -45,9 +46,9 @@ enum kind
     KINDS
 };
 
-static const char* const names[KINDS] = {"write",    "fsync",      "rename",    "open",   "close",
-                                         "truncate", "allocation", "message",   "launch", "device_memory",
-                                         "kill",     "clock",      "clock_back"};
+static const char* const names[KINDS] = {"write",         "quota",    "fsync",      "rename",    "open",
+                                         "close",         "truncate", "allocation", "message",   "launch",
+                                         "device_memory", "kill",     "clock",      "clock_back"};
 
 static atomic_long counts[KINDS];
 static enum kind   wanted_kind = KINDS;
@@ -109,15 +110,20 @@ static int file_goes_wrong(enum kind kind, const char* path)
     return goes_wrong(kind);
 }
 
-static int descriptor_goes_wrong(enum kind kind, int descriptor)
+/// The path of an open file; empty if it has none.
+static const char* path_of(int descriptor, char path[PATH_MAX])
 {
     char link[64];
-    char path[PATH_MAX];
     snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
-    const ssize_t size = syscall(SYS_readlinkat, AT_FDCWD, link, path, sizeof path - 1);
-    if (size < 0) { return 0; }
-    path[size] = 0;
-    return file_goes_wrong(kind, path);
+    const ssize_t size        = syscall(SYS_readlinkat, AT_FDCWD, link, path, PATH_MAX - 1);
+    path[size < 0 ? 0 : size] = 0;
+    return path;
+}
+
+static int descriptor_goes_wrong(enum kind kind, int descriptor)
+{
+    char path[PATH_MAX];
+    return file_goes_wrong(kind, path_of(descriptor, path));
 }
 
 static int fails(int reason)
@@ -126,30 +132,43 @@ static int fails(int reason)
     return -1;
 }
 
+/// Why a write to a file fails; 0: it does not. A quota that is used up stays so.
+static int refusal_of_write(int descriptor)
+{
+    char path[PATH_MAX];
+    if (!is_below(path_of(descriptor, path))) { return 0; }
+    const int used_up = wanted_kind == QUOTA && wanted_call > 0 && ++counts[QUOTA] >= wanted_call;
+    return used_up ? EDQUOT : file_goes_wrong(WRITE, path) ? ENOSPC : 0;
+}
+
 #define NEXT(function) ((__typeof__(&function))dlsym(RTLD_NEXT, #function))
 
 ssize_t write(int file, const void* data, size_t size)
 {
-    return descriptor_goes_wrong(WRITE, file) ? fails(ENOSPC) : syscall(SYS_write, file, data, size);
+    const int refusal = refusal_of_write(file);
+    return refusal ? fails(refusal) : syscall(SYS_write, file, data, size);
 }
 
 ssize_t pwrite(int file, const void* data, size_t size, off_t place)
 {
-    return descriptor_goes_wrong(WRITE, file) ? fails(ENOSPC) : syscall(SYS_pwrite64, file, data, size, place);
+    const int refusal = refusal_of_write(file);
+    return refusal ? fails(refusal) : syscall(SYS_pwrite64, file, data, size, place);
 }
 
 ssize_t pwrite64(int file, const void* data, size_t size, off64_t place) { return pwrite(file, data, size, place); }
 
 ssize_t writev(int file, const struct iovec* parts, int count)
 {
-    return descriptor_goes_wrong(WRITE, file) ? fails(ENOSPC) : syscall(SYS_writev, file, parts, count);
+    const int refusal = refusal_of_write(file);
+    return refusal ? fails(refusal) : syscall(SYS_writev, file, parts, count);
 }
 
 size_t fwrite(const void* data, size_t size, size_t count, FILE* file)
 {
-    if (descriptor_goes_wrong(WRITE, fileno(file)))
+    const int refusal = refusal_of_write(fileno(file));
+    if (refusal)
     {
-        errno = ENOSPC;
+        errno = refusal;
         return 0;
     }
     return NEXT(fwrite)(data, size, count, file);
@@ -157,8 +176,17 @@ size_t fwrite(const void* data, size_t size, size_t count, FILE* file)
 
 int fflush(FILE* file)
 {
-    return file && descriptor_goes_wrong(WRITE, fileno(file)) ? fails(ENOSPC) : NEXT(fflush)(file);
+    const int refusal = file ? refusal_of_write(fileno(file)) : 0;
+    return refusal ? fails(refusal) : NEXT(fflush)(file);
 }
+
+int fallocate(int file, int mode, off_t place, off_t size)
+{
+    const int refusal = refusal_of_write(file);
+    return refusal ? fails(refusal) : (int)syscall(SYS_fallocate, file, mode, place, size);
+}
+
+int fallocate64(int file, int mode, off64_t place, off64_t size) { return fallocate(file, mode, place, size); }
 
 int fsync(int file) { return descriptor_goes_wrong(FSYNC, file) ? fails(EIO) : (int)syscall(SYS_fsync, file); }
 

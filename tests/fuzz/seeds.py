@@ -135,7 +135,22 @@ def tables():
     }
 
 
-SEEDS = {"read_mesh": meshes, "read_scene": scenes, "read_raster": rasters, "read_bed": beds, "read_table": tables}
+def edits(first=b""):
+    """Changes as edited_file.cpp reads them: kind, object, place, eight bytes of value."""
+    values = [struct.pack("<d", value) for value in (float("nan"), float("inf"), 0.0, -1.0, 1e300, 1e-300, 0.5)]
+    values += [struct.pack("<ff", value, value) for value in (float("nan"), -1.0, 1e30)]
+    values += [struct.pack("<q", value) for value in (0, 1, -1, 2**31 - 1, -2**31, 2**63 - 1, 100)]
+    seeds = {f"value{i}": struct.pack("<BHH", 0, i, i) + value for i, value in enumerate(values)}
+    for kind in range(5, 32):
+        seeds[f"kind{kind}"] = b"".join(struct.pack("<BHHQ", kind, thing, thing, thing) for thing in (0, 3, 7))
+    return {name: first + seed for name, seed in seeds.items()}
+
+
+def edits_of_scenes():
+    return {f"{name}of{scene}": seed for scene in range(3) for name, seed in edits(bytes([scene])).items()}
+
+
+SEEDS = {"edit_bed": edits, "edit_checkpoint": edits_of_scenes, "read_mesh": meshes, "read_scene": scenes, "read_raster": rasters, "read_bed": beds, "read_table": tables}
 
 if __name__ == "__main__":
     target, folder = sys.argv[1], pathlib.Path(sys.argv[2])
