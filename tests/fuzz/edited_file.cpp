@@ -103,7 +103,7 @@ public:
         : file_(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT))
     {
         require(file_ >= 0);
-        H5Ovisit3(file_, H5_INDEX_NAME, H5_ITER_INC, &EditedFile::note, this, H5O_INFO_BASIC);
+        H5Ovisit(file_, H5_INDEX_NAME, H5_ITER_INC, &EditedFile::note, this);
         data_sets_.erase(std::remove(data_sets_.begin(), data_sets_.end(), left_alone), data_sets_.end());
     }
     ~EditedFile() { require(H5Fclose(file_) >= 0); }
@@ -139,7 +139,7 @@ private:
         std::string object, name;
     };
 
-    static herr_t note(hid_t file, const char* name, const H5O_info2_t* info, void* self)
+    static herr_t note(hid_t file, const char* name, const H5O_info_t* info, void* self)
     {
         auto& file_of = *static_cast<EditedFile*>(self);
         if (info->type == H5O_TYPE_DATASET) { file_of.data_sets_.emplace_back(name); }
