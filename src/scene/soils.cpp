@@ -112,13 +112,15 @@ constexpr std::array hit_bevameter{
 };
 
 constexpr std::array library{
-    Soil{"GRC-1",
-         "Lunar simulant of NASA Glenn for wheels, silica sand",
-         MaterialModel::bolton,
-         grc_1,
-         {},
-         "H. A. Oravec, X. Zeng and V. M. Asnani 2010, J. Terramech. 47(6), 361-377; M. D. Bolton 1986, Geotechnique "
-         "36(1), 65-78"},
+    Soil{
+        "GRC-1",
+        "Lunar simulant of NASA Glenn for wheels, silica sand",
+        MaterialModel::bolton,
+        grc_1,
+        {},
+        "H. A. Oravec, X. Zeng and V. M. Asnani 2010, J. Terramech. 47(6), 361-377, as in "
+        "configs/validation/scenes/mgru3_density.toml, densities also in the Planetary Simulant Database; M. D. Bolton "
+        "1986, Geotechnique 36(1), 65-78"},
     Soil{"GRC-3",
          "Lunar simulant of NASA Glenn for excavation, sand and silt",
          MaterialModel::mohr_coulomb,
@@ -163,7 +165,7 @@ constexpr std::array library{
          "J. C. Santamarina and G. C. Cho 2001, Geotech. Test. J. 24(2), 185-192: from memory, without access to the "
          "text; M. D. Bolton 1986, Geotechnique 36(1), 65-78"},
     Soil{"HIT", "Dry loose sand of the Harbin Institute of Technology's wheel rig", MaterialModel::mohr_coulomb, hit,
-         hit_bevameter, "L. Ding et al. 2011, J. Terramech. 48(1), 27-45"},
+         hit_bevameter, "L. Ding et al. 2011, J. Terramech. 48(1), 27-45, as in configs/validation"},
 };
 
 } // namespace

@@ -12,6 +12,7 @@
 #include "scene/resolved.hpp"
 #include "scene/soil_text.hpp"
 #include "scene/spellings.hpp"
+#include "scene/values.hpp"
 #include "scene_file.hpp"
 
 namespace tread::scene::test
@@ -24,8 +25,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 // ctest runs this program in tests/.
-constexpr const char* page      = "../docs/soils.md";
-constexpr const char* campaigns = "../configs/validation/scenes/";
+constexpr const char* page     = "../docs/soils.md";
+constexpr const char* measured = "../configs/validation/";
 
 std::string text_of(const std::string& path)
 {
@@ -222,7 +223,10 @@ TEST(Soil, IsShownInWhatItGave)
 }
 
 /// First material of a scene of configs/validation.
-Material validated(const std::string& name) { return load_scene(campaigns + name, {}).materials[0]; }
+Material validated(const std::string& name)
+{
+    return load_scene(fmt::format("{}scenes/{}", measured, name), {}).materials[0];
+}
 
 TEST(Soil, AgreesWithTheScenesOfMeasuredWheels)
 {
@@ -236,6 +240,26 @@ TEST(Soil, AgreesWithTheScenesOfMeasuredWheels)
     EXPECT_EQ(sand("soil = \"GRC-1\"\nmodel = \"mohr-coulomb\"\ndensity = 1747\nfriction_angle_deg = 36\n"),
               validated("mgru3.toml"));
     EXPECT_EQ(sand("soil = \"HIT\"\n"), validated("ding.toml"));
+}
+
+TEST(SoilLibrary, HasTheBevameterOfTheMeasuredWheelsOfHIT)
+{
+    const Node  sets    = parse_document(fmt::format("{}sets.toml", measured));
+    const Node* formula = nullptr;
+    for (const Node& set : std::get<NodeArray>(find(sets, "set")->value))
+    {
+        const auto& constants = std::get<NodeArray>(find(set, "bekker")->value);
+        if (std::get<std::string>(find(set, "name")->value) == "ding") { formula = &constants.at(0); }
+    }
+    ASSERT_NE(formula, nullptr);
+    const Soil* soil = find_soil("HIT");
+    EXPECT_EQ(soil->bevameter.size(), std::get<NodeTable>(formula->value).size());
+    for (const SoilConstant& constant : soil->bevameter)
+    {
+        const Node* value = find(*formula, constant.key);
+        ASSERT_NE(value, nullptr) << constant.key;
+        EXPECT_EQ(read_number(*value, {}), constant.value) << constant.key;
+    }
 }
 
 } // namespace
