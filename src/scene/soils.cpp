@@ -8,20 +8,20 @@ namespace tread::scene
 namespace
 {
 
-constexpr const char* none = "";
+constexpr const char* no_unit = "";
 
 constexpr std::array grc_1{
     SoilConstant{"grain_density", 2580, "kg/m3", "Oravec et al. 2010"},
-    SoilConstant{"void_ratio_min", 0.365, none, "Oravec et al. 2010: densest at 1890 kg/m3"},
-    SoilConstant{"void_ratio_max", 0.6125, none, "Oravec et al. 2010: loosest at 1600 kg/m3"},
+    SoilConstant{"void_ratio_min", 0.365, no_unit, "Oravec et al. 2010: densest at 1890 kg/m3"},
+    SoilConstant{"void_ratio_max", 0.6125, no_unit, "Oravec et al. 2010: loosest at 1600 kg/m3"},
     SoilConstant{
         "friction_angle_deg", 32.8, "degrees",
         "fitted: gives the triaxial angles of the loosest and the densest sand of Oravec et al. 2010, 29.8 and "
         "44.4, as 29.8 and 44.8"},
-    SoilConstant{"bolton_q", 10, none, "Bolton 1986: quartz"},
+    SoilConstant{"bolton_q", 10, no_unit, "Bolton 1986: quartz"},
     SoilConstant{"cohesion", 0, "Pa", "assumed: dry sand"},
     SoilConstant{"young", 1.0e6, "Pa", "assumed"},
-    SoilConstant{"poisson", 0.3, none, "assumed"},
+    SoilConstant{"poisson", 0.3, no_unit, "assumed"},
 };
 
 constexpr std::array grc_3{
@@ -29,11 +29,11 @@ constexpr std::array grc_3{
     SoilConstant{"density", 1520, "kg/m3", "He et al. 2013: loosest of 1520 to 1940"},
     SoilConstant{"friction_angle_deg", 37.8, "degrees",
                  "He et al. 2013: least of 37.8 to 47.8 (triaxial); that it is the loosest soil's is assumed"},
-    SoilConstant{"void_ratio_min", 0.356, none, "He et al. 2013: densest at 1940 kg/m3"},
-    SoilConstant{"void_ratio_max", 0.730, none, "He et al. 2013: loosest at 1520 kg/m3"},
+    SoilConstant{"void_ratio_min", 0.356, no_unit, "He et al. 2013: densest at 1940 kg/m3"},
+    SoilConstant{"void_ratio_max", 0.730, no_unit, "He et al. 2013: loosest at 1520 kg/m3"},
     SoilConstant{"cohesion", 0, "Pa", "assumed: none was found"},
     SoilConstant{"young", 5.0e6, "Pa", "assumed"},
-    SoilConstant{"poisson", 0.3, none, "assumed"},
+    SoilConstant{"poisson", 0.3, no_unit, "assumed"},
 };
 
 constexpr std::array jsc_1a{
@@ -44,7 +44,7 @@ constexpr std::array jsc_1a{
     SoilConstant{"cohesion", 170, "Pa",
                  "Zeng et al. 2007; 1400 to 2400 in triaxial tests at 1630 kg/m3 (Alshibli and Hasan 2009)"},
     SoilConstant{"young", 5.0e6, "Pa", "assumed"},
-    SoilConstant{"poisson", 0.3, none, "assumed"},
+    SoilConstant{"poisson", 0.3, no_unit, "assumed"},
 };
 
 constexpr std::array fjs_1{
@@ -52,13 +52,13 @@ constexpr std::array fjs_1{
     SoilConstant{"friction_angle_deg", 37.2, "degrees", "Ishigami et al. 2007; 39.4 in Maki et al. 2014"},
     SoilConstant{"cohesion", 800, "Pa", "Ishigami et al. 2007; 8130 in Maki et al. 2014"},
     SoilConstant{"young", 5.0e6, "Pa", "assumed"},
-    SoilConstant{"poisson", 0.3, none, "assumed"},
+    SoilConstant{"poisson", 0.3, no_unit, "assumed"},
 };
 
 constexpr std::array fjs_1_bevameter{
     SoilConstant{"k_c", 1370, "N/m^(n+1)", "Ishigami et al. 2007"},
     SoilConstant{"k_phi", 8.14e5, "N/m^(n+2)", "Ishigami et al. 2007"},
-    SoilConstant{"exponent", 1.0, none, "Ishigami et al. 2007"},
+    SoilConstant{"exponent", 1.0, no_unit, "Ishigami et al. 2007"},
     SoilConstant{"cohesion", 800, "Pa", "Ishigami et al. 2007"},
     SoilConstant{"friction_angle_deg", 37.2, "degrees", "Ishigami et al. 2007"},
     SoilConstant{"shear_length", 0.036, "m", "Ishigami et al. 2007: without slip angle"},
@@ -68,30 +68,30 @@ constexpr std::array kls_1{
     SoilConstant{"friction_angle_deg", 44.91, "degrees", "Ryu et al. 2018: direct shear"},
     SoilConstant{"cohesion", 1850, "Pa", "Ryu et al. 2018: direct shear"},
     SoilConstant{"young", 5.0e6, "Pa", "assumed"},
-    SoilConstant{"poisson", 0.3, none, "assumed"},
+    SoilConstant{"poisson", 0.3, no_unit, "assumed"},
 };
 
 constexpr std::array toyoura{
     SoilConstant{"grain_density", 2650, "kg/m3", "Verdugo and Ishihara 1996"},
-    SoilConstant{"void_ratio_min", 0.597, none, "Verdugo and Ishihara 1996"},
-    SoilConstant{"void_ratio_max", 0.977, none, "Verdugo and Ishihara 1996"},
+    SoilConstant{"void_ratio_min", 0.597, no_unit, "Verdugo and Ishihara 1996"},
+    SoilConstant{"void_ratio_max", 0.977, no_unit, "Verdugo and Ishihara 1996"},
     SoilConstant{"friction_angle_deg", 31.15, "degrees",
                  "Dafalias and Manzari 2004: M = 1.25 in triaxial compression, sin phi = 3 M/(6 + M)"},
-    SoilConstant{"bolton_q", 10, none, "Bolton 1986: quartz and feldspar"},
+    SoilConstant{"bolton_q", 10, no_unit, "Bolton 1986: quartz and feldspar"},
     SoilConstant{"cohesion", 0, "Pa", "assumed: dry sand"},
     SoilConstant{"young", 5.0e6, "Pa", "assumed"},
-    SoilConstant{"poisson", 0.3, none, "assumed"},
+    SoilConstant{"poisson", 0.3, no_unit, "assumed"},
 };
 
 constexpr std::array ottawa{
     SoilConstant{"grain_density", 2650, "kg/m3", "Santamarina and Cho 2001"},
-    SoilConstant{"void_ratio_min", 0.502, none, "Santamarina and Cho 2001"},
-    SoilConstant{"void_ratio_max", 0.742, none, "Santamarina and Cho 2001"},
+    SoilConstant{"void_ratio_min", 0.502, no_unit, "Santamarina and Cho 2001"},
+    SoilConstant{"void_ratio_max", 0.742, no_unit, "Santamarina and Cho 2001"},
     SoilConstant{"friction_angle_deg", 28, "degrees", "Santamarina and Cho 2001: of the critical state"},
-    SoilConstant{"bolton_q", 10, none, "Bolton 1986: quartz"},
+    SoilConstant{"bolton_q", 10, no_unit, "Bolton 1986: quartz"},
     SoilConstant{"cohesion", 0, "Pa", "assumed: dry sand"},
     SoilConstant{"young", 5.0e6, "Pa", "assumed"},
-    SoilConstant{"poisson", 0.3, none, "assumed"},
+    SoilConstant{"poisson", 0.3, no_unit, "assumed"},
 };
 
 constexpr std::array hit{
@@ -99,13 +99,13 @@ constexpr std::array hit{
     SoilConstant{"friction_angle_deg", 31.9, "degrees", "Ding et al. 2011"},
     SoilConstant{"cohesion", 0, "Pa", "assumed: dry sand; the intercept of 250 Pa of Ding et al. 2011 is not taken"},
     SoilConstant{"young", 5.0e6, "Pa", "assumed"},
-    SoilConstant{"poisson", 0.3, none, "assumed"},
+    SoilConstant{"poisson", 0.3, no_unit, "assumed"},
 };
 
 constexpr std::array hit_bevameter{
     SoilConstant{"k_c", 15600, "N/m^(n+1)", "Ding et al. 2011"},
     SoilConstant{"k_phi", 2.407e6, "N/m^(n+2)", "Ding et al. 2011"},
-    SoilConstant{"exponent", 1.1, none, "Ding et al. 2011"},
+    SoilConstant{"exponent", 1.1, no_unit, "Ding et al. 2011"},
     SoilConstant{"cohesion", 250, "Pa", "Ding et al. 2011"},
     SoilConstant{"friction_angle_deg", 31.9, "degrees", "Ding et al. 2011"},
     SoilConstant{"shear_length", 0.0114, "m", "Ding et al. 2011: middle of 0.0097 to 0.0131"},
