@@ -29,6 +29,7 @@
 #include "run/run_scene.hpp"
 #include "scene/load.hpp"
 #include "scene/problems.hpp"
+#include "scene/soil_text.hpp"
 #include "shape/generators/form.hpp"
 #include "shape/report.hpp"
 #include "shape/template.hpp"
@@ -188,6 +189,12 @@ ExitCode sdf(const SdfArguments& arguments)
 ExitCode info(const std::string& path)
 {
     std::cout << printable(io::describe_file(path));
+    return ExitCode::finished;
+}
+
+ExitCode list_soils()
+{
+    std::cout << scene::soils_text();
     return ExitCode::finished;
 }
 
@@ -353,6 +360,7 @@ ExitCode dispatch(CLI::App& app, int argc, char** argv)
     CLI::App* check_command = app.add_subcommand("check", "Check a scene and print the plan of its run");
     CLI::App* sdf_command   = app.add_subcommand("sdf", "Geometry and signed distance grid of a mesh");
     CLI::App* info_command  = app.add_subcommand("info", "What an HDF5 file of a run holds");
+    CLI::App* soils_command = app.add_subcommand("soils", "Published soils for [[material]] soil, with sources");
     add_run_options(*run_command, run_arguments);
     add_scene_options(*check_command, check_arguments.scene);
     check_command->add_option("--ranks", check_arguments.ranks, "Show how the scene falls to N ranks; default 1")
@@ -368,6 +376,7 @@ ExitCode dispatch(CLI::App& app, int argc, char** argv)
     if (*run_command) { return run(run_arguments); }
     if (*check_command) { return check(check_arguments); }
     if (*sdf_command) { return sdf(sdf_arguments); }
+    if (*soils_command) { return list_soils(); }
     for (const auto& [command, script] : scripts)
     {
         if (*command) { become_script(script, command->remaining()); }

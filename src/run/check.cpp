@@ -13,6 +13,7 @@
 #include "run/prediction.hpp"
 #include "run/wall_time.hpp"
 #include "scene/resolved.hpp"
+#include "scene/soil_text.hpp"
 #include "solver/ranks/page_loads.hpp"
 #include "world/bed.hpp"
 #include "world/footing.hpp"
@@ -133,6 +134,7 @@ std::string check_scene(const Communicator& communicator, const scene::Scene& sc
     std::string        text  = warning_lines(scene, world, wants, rooms);
     text += fmt::format("{}\nscene {}\n\n", scene.title, scene::scene_hash(scene));
     text += cost_lines(scene, world, plan, wants) + gravity_line(scene);
+    for (const std::string& line : scene::soil_lines(scene)) { text += line + "\n"; }
     for (const world::Footing& footing : world::footings(scene, world))
     {
         text += footing_lines(scene, world, plan, footing);

@@ -30,6 +30,7 @@
 #include "run/threads.hpp"
 #include "scene/input_files.hpp"
 #include "scene/resolved.hpp"
+#include "scene/soil_text.hpp"
 #include "solver/ranks/page_loads.hpp"
 #include "world/bed.hpp"
 
@@ -178,6 +179,7 @@ void log_start(Job& job)
         job.summary.warnings.push_back(text_of(warning));
         log.warning(job.summary.warnings.back());
     }
+    for (const std::string& line : scene::soil_lines(job.scene)) { log.info(line); }
     for (const std::string& line : world::bed_lines(job.summary.bed)) { log.info(line); }
     for (const std::string& note : drive_notes(job.scene, job.world, job.rooms)) { log.info(note); }
 }

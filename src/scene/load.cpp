@@ -10,6 +10,7 @@
 #include "scene/motion_tables.hpp"
 #include "scene/overrides.hpp"
 #include "scene/slope.hpp"
+#include "scene/soil_filling.hpp"
 #include "scene/validate.hpp"
 
 namespace tread::scene
@@ -77,6 +78,7 @@ void complete_materials(Scene& scene)
 {
     for (auto& material : scene.materials)
     {
+        material.soil.clear();
         if (material.family.empty()) { material.family = material.name; }
         const bool stiff = material.model == MaterialModel::rigid && material.young == 0;
         if (stiff) { material.young = std::numeric_limits<double>::infinity(); }
@@ -204,7 +206,9 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
     Problems problems;
     Node     document = parse_document(path);
     apply_overrides(document, overrides, problems);
-    Scene scene     = read_scene(document, problems);
+    SoilUses soils  = fill_from_soils(document, problems);
+    Scene    scene  = read_scene(document, problems);
+    scene.soils     = std::move(soils);
     scene.directory = std::filesystem::absolute(path).parent_path().string();
     if (problems.size() > most_problems) { throw_if_any(problems); }
     complete_gravity(scene.domain);

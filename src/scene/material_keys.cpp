@@ -4,6 +4,7 @@
 
 #include "scene/keys.hpp"
 #include "scene/ranges.hpp"
+#include "scene/soils.hpp"
 #include "scene/spellings.hpp"
 
 namespace tread::scene
@@ -44,6 +45,10 @@ Keys<Material> material_keys()
     const std::string bolton = "model = \"bolton\"";
     return {
         required("name", "", &Material::name, name(), "Unique among materials."),
+        optional("soil", "", &Material::soil, one_of(soil_names()),
+                 "Published soil whose constants fill the keys that the table leaves out: docs/soils.md. The resolved "
+                 "scene has the constants.",
+                 "the table has all keys"),
         required("model", "", &Material::model, word<MaterialModel>(),
                  "Constitutive model of points. Rocks and bodies take \"elastic\" or \"rigid\"; both stay rigid, and "
                  "`young` and `poisson` set the stiffness of their contacts."),

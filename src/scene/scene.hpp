@@ -119,6 +119,7 @@ struct Material
     double        void_ratio_max     = 0;
     double        bolton_q           = 10; ///< strength of the grains
     BoltonFit     bolton_fit         = BoltonFit::triaxial;
+    std::string   soil{}; ///< published soil that fills keys left out; empty in a loaded scene, which has all of them
 
     bool operator==(const Material&) const = default;
 };
@@ -331,6 +332,30 @@ struct Lines
     bool operator==(const Lines& /*other*/) const { return true; }
 };
 
+/// A value that a material took from its soil.
+struct SoilValue
+{
+    std::string key;   ///< of [[material]]
+    std::string value; ///< TOML
+    std::string source;
+};
+
+struct SoilUse
+{
+    std::string            material; ///< its table in messages, "material.sand"
+    std::string            soil;
+    std::vector<SoilValue> taken;
+};
+
+/// What materials took from soils, for users to read. The values are those of the materials; this is not part of the
+/// scene's content, so any two compare equal.
+struct SoilUses
+{
+    std::vector<SoilUse> of;
+
+    bool operator==(const SoilUses& /*other*/) const { return true; }
+};
+
 struct Scene
 {
     std::string           title;
@@ -353,6 +378,7 @@ struct Scene
     Reference             reference;
     std::string           directory; ///< of the scene file; mesh paths are relative to it
     Lines                 lines;
+    SoilUses              soils;
 
     bool operator==(const Scene&) const = default;
 };

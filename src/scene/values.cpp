@@ -250,6 +250,12 @@ Value<std::vector<std::string>> words_of(const std::vector<std::string>& words)
             [](const std::vector<std::string>& value) { return write_array(value, write_string); }};
 }
 
+Value<std::string> one_of(const std::vector<std::string>& words)
+{
+    return {list_words(words), [words](const Node& node) { return words[read_word(node, words)]; },
+            [](const std::string& value) { return value.empty() ? std::string() : write_string(value); }};
+}
+
 Value<std::array<std::string, 2>> pair_of_names()
 {
     return {"array of two names",

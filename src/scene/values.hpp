@@ -120,6 +120,9 @@ Value<std::vector<std::string>> names();
 /// An array of distinct words from `words`.
 Value<std::vector<std::string>> words_of(const std::vector<std::string>& words);
 
+/// One of `words`; absence gives an empty string.
+Value<std::string> one_of(const std::vector<std::string>& words);
+
 /// Two names.
 Value<std::array<std::string, 2>> pair_of_names();
 

@@ -23,7 +23,7 @@ class Commands(CommandTest):
     def test_help_names_every_command(self):
         result = self.tread("--help")
         self.assertEqual(result.returncode, 0)
-        for command in ("run", "check", "study", "validate", "calibrate", "post", "sdf", "info"):
+        for command in ("run", "check", "study", "validate", "calibrate", "post", "sdf", "info", "soils"):
             self.assertIn(f"  {command} ", result.stdout)
             self.assertEqual(self.tread(command, "--help").returncode, 0)
 
@@ -43,6 +43,19 @@ class Commands(CommandTest):
         self.assertEqual(spins()[1:], ["10000"])
         self.assertEqual(spins(GOMP_SPINCOUNT="77"), ["77"])
         self.assertEqual(len(spins(OMP_WAIT_POLICY="active")), 1)
+
+    def test_soils_are_listed_and_a_check_shows_what_was_taken(self):
+        listed = self.tread("soils")
+        self.assertEqual((listed.returncode, listed.stderr), (0, ""))
+        for soil in ("GRC-1", "HIT"):
+            self.assertIn(f"\n{soil}: ", "\n" + listed.stdout)
+        sand = SCENE[SCENE.index("model "):SCENE.index("\n[[material]]\nname    = \"steel\"")]
+        scene = self.write("scene.toml", SCENE.replace(sand, 'soil = "GRC-1"\ndensity = 1747\n'))
+        checked = self.tread("check", scene, "--set", "material.sand.young=2e6")
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        self.assertIn("[material.sand] takes 8 values from soil GRC-1:\n", checked.stdout)
+        self.assertIn("  void_ratio_max = 0.6125 (Oravec et al. 2010", checked.stdout)
+        self.assertNotIn("  young = ", checked.stdout)
 
     def test_study_is_its_script_with_this_program(self):
         help_text = self.tread("study", "--help").stdout
