@@ -50,6 +50,7 @@ struct CheckArguments
 {
     SceneArguments scene;
     int            ranks = 1;
+    run::CheckForm form  = run::CheckForm::page;
 };
 
 struct RunArguments
@@ -103,7 +104,7 @@ ExitCode check(const CheckArguments& arguments)
         {
             decomp::require_single_rank(world, "tread check runs");
             const scene::Scene scene = scene::load_scene(arguments.scene.path, arguments.scene.overrides);
-            std::cout << printable(run::check_scene(world, scene, arguments.ranks));
+            std::cout << printable(run::check_scene(world, scene, arguments.ranks, arguments.form));
             return ExitCode::finished;
         });
 }
@@ -290,6 +291,22 @@ void add_run_options(CLI::App& command, RunArguments& arguments)
         "--quiet", [&] { arguments.terminal = Terminal::silent; }, "Nothing on the terminal but errors");
 }
 
+void add_check_options(CLI::App& command, CheckArguments& arguments)
+{
+    add_scene_options(command, arguments.scene);
+    command.add_option("--ranks", arguments.ranks, "Show how the scene falls to N ranks; default 1")
+        ->type_name("N")
+        ->check(CLI::Range(1, 4096));
+    CLI::Option* stages = command.add_flag_callback(
+        "--stages", [&arguments] { arguments.form = run::CheckForm::page_with_stages; },
+        "Also list the stages of a step, and why each is on or off");
+    command
+        .add_flag_callback(
+            "--json", [&arguments] { arguments.form = run::CheckForm::json; },
+            "Print one JSON object for programs instead")
+        ->excludes(stages);
+}
+
 void add_sdf_options(CLI::App& command, SdfArguments& arguments)
 {
     command.add_option("mesh", arguments.mesh, "STL or OBJ file, a built-in shape, or a scene with the shape")
@@ -362,10 +379,7 @@ ExitCode dispatch(CLI::App& app, int argc, char** argv)
     CLI::App* info_command  = app.add_subcommand("info", "What an HDF5 file of a run holds");
     CLI::App* soils_command = app.add_subcommand("soils", "Published soils for [[material]] soil, with sources");
     add_run_options(*run_command, run_arguments);
-    add_scene_options(*check_command, check_arguments.scene);
-    check_command->add_option("--ranks", check_arguments.ranks, "Show how the scene falls to N ranks; default 1")
-        ->type_name("N")
-        ->check(CLI::Range(1, 4096));
+    add_check_options(*check_command, check_arguments);
     add_sdf_options(*sdf_command, sdf_arguments);
     info_command->add_option("file", info_path, "timeseries.h5, a snapshot ...")->type_name("FILE.h5")->required();
     const std::vector<std::pair<CLI::App*, std::string>> scripts = add_script_commands(app);

@@ -1,14 +1,12 @@
 """What `tread check` says of cases: whether they are right, and what they will cost."""
 
+import json
 import os
-import re
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 
 from tread_jobs.errors import CampaignError, MachineError
-
-BYTES = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
 
 
 @dataclass(frozen=True)
@@ -19,7 +17,7 @@ class Plan:
     steps: float
     disk: float  # bytes, at most
     memory: float  # bytes on the backend
-    scene: str  # hash of the resolved scene: equal for equal runs; "" where the program does not say
+    scene: str  # hash of the resolved scene: equal for equal runs
     substeps: float  # of a step, once rocks lie on each other
 
 
@@ -56,7 +54,7 @@ def check_cases(program, cases, most, scratch):
         scene = scratch / f"{case.name}.toml"
         scene.write_text(case.scene_text, encoding="utf-8")
         try:
-            done = subprocess.run([program, "check", str(scene)], capture_output=True, text=True, check=False)
+            done = subprocess.run([program, "check", "--json", str(scene)], capture_output=True, text=True, check=False)
         except OSError as error:
             raise MachineError(f"{program}: {error.strerror}; --tread names the program") from error
         if done.returncode:
@@ -89,17 +87,8 @@ def seconds_of(plan, resources, site):
 
 
 def _plan(text, program):
-    counts = re.search(r"^(\d+) points, (\d+) bodies", text, re.MULTILINE)
-    disk = re.search(r"disk at most ([\d.e+]+) ([kMGT]?B)", text)
-    steps = re.search(r"at most ([\d.e+-]+) s simulated: ([\d.e+-]+) steps", text)
-    memory = re.search(r"memory about ([\d.e+]+) ([kMGT]?B)", text)
-    substeps = re.search(r"steps of [\d.e+-]+ s and ([\d.e+-]+) substeps", text)
-    scene = re.search(r"^scene ([0-9a-f]{16})$", text, re.MULTILINE)
-    if not (counts and disk and steps and memory):
-        raise MachineError(f"{program}: check says nothing of points, steps, memory and disk; is it tread?")
-    return Plan(int(counts[1]), int(counts[2]), float(steps[1]), float(steps[2]), _bytes(disk), _bytes(memory), scene[1] if scene else "",
-                float(substeps[1]) if substeps else 1.0)
-
-
-def _bytes(found):
-    return float(found[1]) * BYTES[found[2]]
+    try:
+        said = json.loads(text)
+        return Plan(said["points"], said["bodies"], said["time"], said["steps"], said["disk"], said["memory"], said["scene"], said["substeps"])
+    except (ValueError, KeyError, TypeError) as error:
+        raise MachineError(f"{program}: check says nothing of points, steps, memory and disk; is it tread?") from error

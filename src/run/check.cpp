@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/bytes_text.hpp"
+#include "run/check_json.hpp"
+#include "run/check_phases.hpp"
 #include "run/drive_room.hpp"
 #include "run/estimate.hpp"
 #include "run/left_out.hpp"
@@ -125,15 +127,17 @@ std::string stage_lines(const scene::Scene& scene, const world::World& world, co
 
 } // namespace
 
-std::string check_scene(const Communicator& communicator, const scene::Scene& scene, int ranks)
+std::string check_scene(const Communicator& communicator, const scene::Scene& scene, int ranks, CheckForm form)
 {
     const world::World world = world::build_world(scene);
     const solver::Plan plan  = solver::make_plan(scene, world, ranks);
     const Estimate     wants = estimate(scene, world, plan);
     const auto         rooms = drive_rooms(scene, world);
-    std::string        text  = warning_lines(scene, world, wants, rooms);
+    if (form == CheckForm::json) { return check_json(scene, world, plan, wants, rooms); }
+    std::string text = warning_lines(scene, world, wants, rooms);
     text += fmt::format("{}\nscene {}\n\n", scene.title, scene::scene_hash(scene));
     text += cost_lines(scene, world, plan, wants) + gravity_line(scene);
+    text += phase_lines(scene, drive_ways(scene, world, rooms));
     for (const std::string& line : scene::soil_lines(scene)) { text += line + "\n"; }
     for (const world::Footing& footing : world::footings(scene, world))
     {
@@ -146,7 +150,7 @@ std::string check_scene(const Communicator& communicator, const scene::Scene& sc
     if (plan.sand) { text += fmt::format("sand {:.0f} bytes a point, pages included\n", wants.bytes_a_point); }
     if (plan.bodies) { text += "shapes at scale 1:\n" + shape_lines(world); }
     text += ranks == 1 ? std::string("partition: one rank\n") : solver::partition_lines(communicator, world, ranks);
-    return text + "\n" + stage_lines(scene, world, plan, ranks);
+    return form == CheckForm::page ? text : text + "\n" + stage_lines(scene, world, plan, ranks);
 }
 
 } // namespace tread::run

@@ -281,6 +281,31 @@ const WayEnd* reached_end(const DriveRoom& room, const scene::Drive& drive, doub
     return distance_to_end(room, drive, x) <= 0 ? &end_ahead(room, direction_of(drive)) : nullptr;
 }
 
+std::vector<DriveWay> drive_ways(const scene::Scene& scene, const world::World& world,
+                                 const std::vector<DriveRoom>& rooms)
+{
+    const std::vector<double> radii = rolling_radii(scene, world);
+    std::vector<DriveWay>     ways;
+    for (const DriveRoom& room : rooms)
+    {
+        double x = room.start, spin = 0;
+        for (std::size_t p = 0; p < scene.phases.size(); ++p)
+        {
+            const auto& drive = scene.phases[p].drive;
+            const bool  goes  = drive && drive->body == scene.bodies[room.body].name;
+            if (goes)
+            {
+                Path path{*drive, radii[room.body], spin, x};
+                time_to(path, drive->angular_velocity > 0 ? infinity : -infinity, scene::time_limit(scene.phases[p]));
+                ways.push_back({p, std::abs(path.x - x), distance_to_end(room, *drive, x)});
+                x = path.x;
+            }
+            spin = goes ? drive->angular_velocity : 0;
+        }
+    }
+    return ways;
+}
+
 double distance_to_leave(const DriveRoom& room, const Vec3<double>& axle)
 {
     if (!room.ground) { return infinity; }

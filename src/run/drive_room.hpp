@@ -53,6 +53,18 @@ bool has_left(const DriveRoom& room, const Vec3<double>& axle);
 /// where it has left.
 double distance_to_leave(const DriveRoom& room, const Vec3<double>& axle);
 
+/// How far a drive takes its body, m.
+struct DriveWay
+{
+    std::size_t phase;
+    double      way;    ///< along x, either way; without slip where the slip is free
+    double      to_end; ///< from its start to the end of the range; infinite where there is none
+};
+
+/// Computes the way of every drive, in the order of `rooms` and phases.
+std::vector<DriveWay> drive_ways(const scene::Scene& scene, const world::World& world,
+                                 const std::vector<DriveRoom>& rooms);
+
 /// Warns of drives of prescribed slip that are too long for their range, each with the duration that fits, and of
 /// bodies in the way. The drives of a scene follow each other.
 std::vector<std::string> drive_warnings(const scene::Scene& scene, const world::World& world,

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The commands that run nothing: --version, --help, check, sdf, info."""
 
+import json
 import pathlib
 import re
 import shutil
@@ -125,10 +126,35 @@ class Commands(CommandTest):
         page = self.tread("check", self.write("scene.toml", SCENE.replace("[0.0, 0.0, -9.81]", "[-1.0, 0.0, -9.81]") + BODY)).stdout
         parts = ["a small block of sand", "points, 1 bodies", "wall time about 0:00:0", "dt ", "memory about", "a slope of 5.82 degrees that rises along [1, 0]",
                  "roller: weight 9.861 N, ", "cells and", "resolution of the contact: under-resolved; marginal from grid.spacing = ", "terrain 0 of sand", "shapes at scale 1",
-                 "partition: one rank", "stages of a step:"]
+                 "partition: one rank"]
         places = [page.find(part) for part in parts]
         self.assertNotIn(-1, places, page)
         self.assertEqual(places, sorted(places), page)
+        self.assertNotIn("stages of a step:", page)
+        self.assertLess(len(page.splitlines()), 40, page)
+
+    def test_check_lists_phases_with_what_moves(self):
+        drive = ('[[phase]]\nname = "drive"\nduration = 0.5\ndamping = 0.1\n'
+                 'drive = { body = "roller", angular_velocity = 1.0, ramp = 0.1, slip = 0.25 }\n')
+        scene = self.write("scene.toml", SCENE + BODY + drive)
+        page, said = self.tread("check", scene).stdout, json.loads(self.tread("check", "--json", scene).stdout)
+        phase = said["phases"][-1]
+        self.assertAlmostEqual(phase["way"], 0.75 * 0.06 * (0.5 - 0.05), delta=1e-6)  # a ramp counts half
+        self.assertEqual((phase["drives"], phase["slip"], phase["at_most"]), ("roller", 0.25, 0.5))
+        self.assertIn(f"drive  0.5 s; 'roller' turns at 1 rad/s, slip 0.25: {phase['way']:.3g} m of {phase['way_to_end']:.3g} m there are; damping 0.1",
+                      page)
+
+    def test_check_says_the_same_to_programs(self):
+        scene = self.write("scene.toml", SCENE + BODY)
+        page, said = self.tread("check", scene).stdout, json.loads(self.tread("check", "--json", scene).stdout)
+        self.assertIn(f"{said['points']} points, {said['bodies']} bodies ({said['rocks']} rocks)", page)
+        self.assertIn(f"scene {said['scene']}\n", page)
+        self.assertIn(f"dt {said['dt']:.4g} s at the start (limit: {said['dt_limit']}), at most {said['time']:.4g} s simulated: {said['steps']:.3g} steps", page)
+        roller, = said["named_bodies"]
+        self.assertIn(f"roller: weight {roller['weight']:.4g} N", page)
+        self.assertIn(f"resolution of the contact: {roller['at_rest']['verdict']}", page)
+        both = self.tread("check", "--json", "--stages", scene)
+        self.assertEqual((both.returncode, "--stages" in both.stderr), (2, True), both.stderr)
 
     def test_check_reports_the_slope_that_a_scene_gives(self):
         slope = "gravity_size = 3.71\nslope_deg = 12\nslope_direction_deg = 90"

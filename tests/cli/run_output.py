@@ -90,7 +90,7 @@ class RunOutput(CommandTest):
 
     def test_without_output_check_and_log_say_what_is_left_out(self):
         scene = self.write("bare.toml", SCENE.replace("0.005", "1e9").replace("snapshots_every = 0.01", ""))
-        checked = self.tread("check", scene).stdout
+        checked = self.tread("check", "--stages", scene).stdout
         output = self.directory / "bare"
         result = self.tread("run", scene, "--output", output, "--backend", "cpu", "--quiet")
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -64,8 +64,7 @@ def write_run(scene_path, folder):
 
 def main(arguments):
     if arguments[0] == "check":
-        print("10 points, 1 bodies (0 rocks)\nmemory about 1 B, disk at most 2.5 kB\n"
-              "dt 1e-3 s at the start (limit: x), at most 2 s simulated: 2e3 steps at that dt")
+        print(json.dumps({"points": 10, "bodies": 1, "time": 2.0, "steps": 2e3, "disk": 2500, "memory": 1, "scene": "", "substeps": 1.0}))
         return 0
     if os.environ.get("STAND_IN_FAILS"):
         return 3
