@@ -168,6 +168,19 @@ class PostprocessTest(unittest.TestCase):
         # Letters alone are at most 16 greys.
         self.assertGreater(colours_of(output), 24, "a picture of something")
 
+    def test_triaxial(self):
+        output = self.run_path.parent / "triaxial.png"
+        done = self.command("triaxial.py", "--output", output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"\| karlsruhe \| 25 \| [+-]0\.\d\d, ")
+        self.assertGreater(colours_of(output), 24, "a picture of something")
+        kept = (ROOT / "docs" / "validation" / "triaxial.csv").read_text(encoding="utf-8").splitlines(keepends=True)
+        law = self.run_path.parent / "law.csv"
+        law.write_text("".join(kept[:-1]), encoding="utf-8")
+        done = self.command("triaxial.py", "--law", law, "--output", output)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("law.csv: other tests than", done.stderr)
+
     def test_the_front_lists_every_command_and_runs_one(self):
         listed = self.command("post.py", "--help")
         self.assertEqual(listed.returncode, 0, listed.stderr)

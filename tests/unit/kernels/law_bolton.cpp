@@ -1,5 +1,7 @@
 #include <numbers>
 
+#include <Eigen/Eigenvalues>
+
 #include "law_support.hpp"
 
 // Element tests of sand that knows its density: strength and dilation by Bolton's index, and the critical state.
@@ -127,13 +129,33 @@ TEST(Bolton, PressureSuppressesDilation)
                "Bolton's limit is 4; I_D is not above 1");
 }
 
-/// Random strain increments from random stresses: every number finite, dissipation never negative, stress admissible.
+/// Mohr-Coulomb constants of the density before the step, as the law takes them.
+template<class Real>
+MohrCoulomb<Real> strength_before(const MaterialParameters<Real>& material, const Sym3<Real>& trial,
+                                  const PlasticState<Real>& state)
+{
+    const Real mean     = (trial[0] + trial[1] + trial[2]) * Real(1.0 / 3);
+    const Real skeleton = state.volume_ratio * std::exp(-state.volume_gap);
+    return strength_at(material.bolton, dilatancy_index(material.bolton, skeleton, mean));
+}
+
+/// Yield function over |s1| + |s3| + c.
+template<class Real>
+double beyond_yield(const MohrCoulomb<Real>& strength, const Sym3<Real>& stress)
+{
+    const Mat3<double> full  = full_matrix(Sym3<double>(stress.template cast<double>()));
+    const Vec3<double> sigma = Eigen::SelfAdjointEigenSolver<Mat3<double>>(full, Eigen::EigenvaluesOnly).eigenvalues();
+    const MohrCoulomb<double> exact{strength.sin_friction, strength.cos_friction, 0, strength.cohesion, 0};
+    return yield_function(exact, sigma[2], sigma[0]) / (std::abs(sigma[2]) + std::abs(sigma[0]) + exact.cohesion);
+}
+
+/// Random strain increments: every number finite, dissipation never negative, stress admissible.
 template<class Real>
 void random_paths()
 {
     Random     random(7);
     const auto material = make_material(make_elasticity<Real>(1e7, 0.3, 1600), make_bolton<Real>({30, 0, 50}, dense));
-    double     least    = 0;
+    double     least = 0, beyond = 0;
     for (int path = 0; path < 2000; ++path)
     {
         Sym3<Real>         stress = Sym3<Real>::Zero();
@@ -144,10 +166,12 @@ void random_paths()
             Mat3<Real>   gradient;
             const double size = std::pow(10.0, random.uniform(-7, -2));
             for (int i = 0; i < 9; ++i) { gradient(i) = static_cast<Real>(random.uniform(-1, 1) * size); }
-            state.volume_ratio = ratio;
-            const auto update  = update_stress(material, stress, state, gradient, Real(1));
-            stress             = update.stress;
-            state              = update.state;
+            state.volume_ratio  = ratio;
+            const auto strength = strength_before(material, trial_stress(material, stress, gradient, Real(1)), state);
+            const auto update   = update_stress(material, stress, state, gradient, Real(1));
+            beyond              = std::max(beyond, beyond_yield(strength, update.stress));
+            stress              = update.stress;
+            state               = update.state;
             ratio *= std::exp(gradient.trace());
             least = std::min(least, static_cast<double>(update.plastic_work));
             ASSERT_TRUE(stress.allFinite() && std::isfinite(state.volume_gap) && std::isfinite(state.plastic_shear));
@@ -155,6 +179,9 @@ void random_paths()
     }
     expect_below("largest energy made in a step of 1e6, J/m3", -least, sizeof(Real) == 4 ? 1e-2 : 1e-9,
                  "rounding of stresses to 1e5 Pa times strains to 1e-2");
+    expect_below("yield function over the stress", beyond,
+                 yield_tolerance<Real> + 10 * std::numeric_limits<Real>::epsilon(),
+                 "what the law counts as elastic, and its principal values (law_eigen)");
 }
 
 TEST(Bolton, RandomPaths) { random_paths<double>(); }

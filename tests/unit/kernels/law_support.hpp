@@ -49,19 +49,20 @@ inline Sym3<double> diagonal(double xx, double yy, double zz)
 }
 
 /// A sand point strained without spin.
-struct Element
+template<class Real>
+struct BasicElement
 {
-    mpm::MaterialParameters<double> material;
-    Sym3<double>                    stress = Sym3<double>::Zero();
-    mpm::PlasticState<double>       state{};
-    double                          plastic_work = 0; ///< J/m3
-    double                          volume_ratio = 1;
+    mpm::MaterialParameters<Real> material;
+    Sym3<Real>                    stress = Sym3<Real>::Zero();
+    mpm::PlasticState<Real>       state{};
+    Real                          plastic_work = 0; ///< J/m3
+    Real                          volume_ratio = 1;
 
     /// Strains by an increment of tensor components.
-    void strain(const Sym3<double>& increment)
+    void strain(const Sym3<Real>& increment)
     {
         state.volume_ratio = volume_ratio;
-        const auto update  = mpm::update_stress(material, stress, state, mpm::full_matrix(increment), 1.0);
+        const auto update  = mpm::update_stress(material, stress, state, mpm::full_matrix(increment), Real(1));
         stress             = update.stress;
         state              = update.state;
         volume_ratio *= std::exp(increment[0] + increment[1] + increment[2]);
@@ -70,13 +71,13 @@ struct Element
 
     /// Strains by `increment` + x `free`, with x in [-reach, reach] such that stress component `held` keeps `value`.
     /// Returns x.
-    double strain_holding(const Sym3<double>& increment, const Sym3<double>& free, int held, double value, double reach)
+    Real strain_holding(const Sym3<Real>& increment, const Sym3<Real>& free, int held, Real value, Real reach)
     {
-        double low = -reach, high = reach;
+        Real low = -reach, high = reach;
         for (int bisection = 0; bisection < 80; ++bisection)
         {
-            const double middle = 0.5 * (low + high);
-            Element      copy   = *this;
+            const Real   middle = Real(0.5) * (low + high);
+            BasicElement copy   = *this;
             copy.strain(increment + middle * free);
             (copy.stress[held] > value ? high : low) = middle;
         }
@@ -84,5 +85,7 @@ struct Element
         return low;
     }
 };
+
+using Element = BasicElement<double>;
 
 } // namespace tread::test
