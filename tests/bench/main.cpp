@@ -51,7 +51,9 @@ void add_mpm_options(CLI::App& command, bench::MpmCase& mpm, double& points)
     add_word<scene::MaterialModel>(command, "--law", mpm.law,
                                    {{"elastic", scene::MaterialModel::elastic},
                                     {"mohr-coulomb", scene::MaterialModel::mohr_coulomb},
-                                    {"drucker-prager", scene::MaterialModel::drucker_prager}});
+                                    {"drucker-prager", scene::MaterialModel::drucker_prager},
+                                    {"drucker-prager-cap", scene::MaterialModel::drucker_prager_cap},
+                                    {"bolton", scene::MaterialModel::bolton}});
     add_word<bench::SandState>(command, "--state", mpm.state,
                                {{"settled", bench::SandState::settled}, {"collapsing", bench::SandState::collapsing}});
     add_word<scene::Transfer>(

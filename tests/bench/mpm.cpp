@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "sand_bench.hpp"
+#include "scene/spellings.hpp"
 
 namespace tread::bench
 {
@@ -32,7 +33,7 @@ void run_on(const Exec& exec, const MpmCase& what)
     std::cout << fmt::format(
         "{:.3g} points, {} a cell, {}, {}, {}: {:.1f} us a step, {:.3f}e9 points/s, {:.1f} bytes a "
         "point\n",
-        count, what.per_cell, moving ? "collapsing" : "settled", law_name(what.law),
+        count, what.per_cell, moving ? "collapsing" : "settled", scene::word_of(what.law),
         sizeof(Real) == 4 ? "single" : "double", 1e6 * times[1], 1e-9 * count / times[1],
         static_cast<double>(exec.counters->peak_bytes()) / count);
     bench.print_kernels(std::min(what.steps, 50), count);

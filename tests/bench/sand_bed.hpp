@@ -22,12 +22,6 @@ struct Lattice
     double       distance;  ///< m
 };
 
-inline const char* law_name(scene::MaterialModel law)
-{
-    if (law == scene::MaterialModel::mohr_coulomb) { return "mohr-coulomb"; }
-    return law == scene::MaterialModel::drucker_prager ? "drucker-prager" : "elastic";
-}
-
 /// A bed four times as wide as high, or a column twice as high as wide, of about `points`.
 inline Lattice lattice(const MpmCase& what)
 {
@@ -61,6 +55,12 @@ inline scene::Scene make_scene(const MpmCase& what, const Lattice& points)
     sand.young              = 1e6;
     sand.poisson            = 0.3;
     sand.friction_angle_deg = 30;
+    // Of the laws that have them: medium dense sand, and a cap that the bottom of the bed reaches.
+    sand.relative_density = 0.5;
+    sand.void_ratio_min   = 0.5;
+    sand.void_ratio_max   = 0.9;
+    sand.cap_pressure     = 1e3;
+    sand.cap_index        = 0.01;
     scene.materials         = {sand};
     return scene;
 }
