@@ -61,7 +61,7 @@ inline scene::Scene make_scene(const MpmCase& what, const Lattice& points)
     sand.void_ratio_max   = 0.9;
     sand.cap_pressure     = 1e3;
     sand.cap_index        = 0.01;
-    scene.materials         = {sand};
+    scene.materials       = {sand};
     return scene;
 }
 
