@@ -132,6 +132,8 @@ struct Contact
 
     double rolling_friction = 0; ///< mu_r, body-body only
 
+    bool touch = true; ///< false: rocks and bodies of these families pass through what the other one is of
+
     bool operator==(const Contact&) const = default;
 };
 

@@ -204,6 +204,47 @@ contacts = [ { between = ["steel", "sand"], friction = 0.1 } ])");
     EXPECT_EQ(this->phase_saved_, 1U);
 }
 
+/// Sand, rocks and a roller that comes down at 1 m/s from `height`. In the second phase its pairs with the sand and the
+/// rocks touch if they do not in the first.
+std::string switched_text(const std::string& height, double first, bool touch)
+{
+    std::string text = test::sand_text + test::rocks_text + "placement = \"replace\"\n" + test::thrown_roller_text;
+    text.replace(text.find("0.2, 0.32]"), 10, "0.2, " + height + "]");
+    text.replace(text.find("duration = 0.05"), 15,
+                 fmt::format(R"(duration = {}
+[[phase]]
+name     = "switched"
+duration = 0.5
+contacts = [ {{ between = ["steel", "sand"], touch = {} }}, {{ between = ["steel", "rock"], touch = {} }} ])",
+                             first, !touch, !touch));
+    for (const char* other : {"sand", "rock"})
+    {
+        text += fmt::format("[[contact]]\nbetween = [\"steel\", \"{}\"]\ntouch = {}\n", other, touch);
+    }
+    return text + "[time]\ndt = 1e-4\n";
+}
+
+/// Saved between the last step of a phase and the first of the next, in which contacts let go.
+TYPED_TEST(Restart, WherePairsCeaseToTouchGivesTheSameBits)
+{
+    this->expect_same_bits(switched_text("\"on surface\"", 1e-4 * this->before, true));
+    EXPECT_EQ(this->phase_saved_, 1U);
+}
+
+/// Saved in the phase in which they have let go.
+TYPED_TEST(Restart, WherePairsHaveCeasedToTouchGivesTheSameBits)
+{
+    this->expect_same_bits(switched_text("\"on surface\"", 1e-4 * (this->before - 20), true));
+    EXPECT_EQ(this->phase_saved_, 1U);
+}
+
+/// Saved between the last step of a phase and the first of the next, in which pairs begin to touch.
+TYPED_TEST(Restart, WherePairsBeginToTouchGivesTheSameBits)
+{
+    this->expect_same_bits(switched_text("0.34", 1e-4 * this->before, false));
+    EXPECT_EQ(this->phase_saved_, 1U);
+}
+
 /// Saved during lowering, then released at half its weight, with a weight that grows.
 TYPED_TEST(Restart, OfABodyThatIsLoweredGivesTheSameBits)
 {
