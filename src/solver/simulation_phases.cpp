@@ -5,7 +5,6 @@
 #include "decomp/combine.hpp"
 #include "scene/phase_settings.hpp"
 #include "solver/ledger/contact_guards.hpp"
-#include "solver/ranks/over_ranks.hpp"
 #include "solver/simulation.hpp"
 #include "solver/state_file.hpp"
 
@@ -66,7 +65,7 @@ ContactEnergies Simulation<Exec, Real>::contact_energies() const
     const std::size_t   sides = scene_.materials.size() + 1;
     std::vector<double> zero(sides * sides, 0);
     ContactEnergies     energies{zero, zero};
-    if (rigid_) { rigid_->add_contact_energies(sides, energies.bodies); }
+    rigid_->add_contact_energies(sides, energies.bodies);
     if (coupling_) { coupling_->add_contact_energies(world_.bodies.material, sides, energies.sand); }
     if (decomposition_ == nullptr) { return energies; }
     for (std::vector<double>* of_pairs : {&energies.bodies, &energies.sand})
@@ -85,15 +84,11 @@ void Simulation<Exec, Real>::require_apart(double time)
     if (plan_.body_contact) { rigid_->require_apart(change, phase, time); }
     if (!coupling_) { return; }
     const NewTouch found = coupling_->new_touch(rigid_->view(), world_.bodies.material, change);
-    check_on_ranks(decomposition_ != nullptr ? &decomposition_->communicator : nullptr,
-                   [&]
-                   {
-                       if (found.points == 0) { return; }
-                       refuse_new_touch(found, rigid_->name(found.body), scene_.phases[phase].name, time);
-                   });
+    if (found.points == 0) { return; }
+    refuse_new_touch(found, rigid_->name(found.body), scene_.phases[phase].name, time);
 }
 
-/// A scene whose pairs always touch has nothing to save: the phase that begins next sets all of them.
+/// Pairs that touch in all phases or in none need nothing: the phase that begins next sets all other properties.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::transfer_contacts(StateFile& file)
 {

@@ -12,6 +12,13 @@ bool TouchChange::any_begins() const
     return false;
 }
 
+NewTouch together(const NewTouch& one, const NewTouch& other)
+{
+    NewTouch all = other.overlap > one.overlap ? other : one;
+    all.points   = one.points + other.points;
+    return all;
+}
+
 double released(const TouchChange& change, const std::vector<double>& energies)
 {
     const std::size_t sides = change.after.sides;

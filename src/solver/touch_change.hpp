@@ -43,6 +43,9 @@ struct NewTouch
     std::int32_t body    = -1; ///< that it overlaps
 };
 
+/// Overlaps of both, with the deepest of them.
+NewTouch together(const NewTouch& one, const NewTouch& other);
+
 /// J, elastic energy of the contacts of each pair of materials: [sides x sides], row-major, smaller index first.
 struct ContactEnergies
 {

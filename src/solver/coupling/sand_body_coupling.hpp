@@ -46,7 +46,7 @@ public:
     void add_contact_energies(const std::vector<std::int32_t>& material, std::size_t sides,
                               std::vector<double>& energies) const;
 
-    /// Overlaps of this rank's pairs that begin to touch; call after find_candidates. `material`: of each body.
+    /// Overlaps of the pairs that begin to touch; call after find_candidates. `material`: of each body. Collective.
     NewTouch new_touch(const dem::BodiesView& bodies, const std::vector<std::int32_t>& material,
                        const TouchChange& change);
 
@@ -83,6 +83,9 @@ public:
 
 private:
     bool any_near() const { return contact_.candidates.body.size() > 0; }
+
+    NewTouch own_new_touch(const dem::BodiesView& bodies, const std::vector<std::int32_t>& material,
+                           const TouchChange& change);
 
     std::vector<contact::HistoryRecord> remembered();
 

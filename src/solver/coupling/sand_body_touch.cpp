@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "backend/instantiate.hpp"
+#include "decomp/messages.hpp"
 #include "solver/coupling/sand_body_coupling.hpp"
 
 // Pairs of sand and bodies that begin or cease to touch at the border of two phases.
@@ -25,8 +26,9 @@ void SandBodyCoupling<Exec, Real>::add_contact_energies(const std::vector<std::i
 
 /// Evaluates the contacts without letting time pass: what friction loses by it counts with the next substep.
 template<class Exec, class Real>
-NewTouch SandBodyCoupling<Exec, Real>::new_touch(const dem::BodiesView&           bodies,
-                                                 const std::vector<std::int32_t>& material, const TouchChange& change)
+NewTouch SandBodyCoupling<Exec, Real>::own_new_touch(const dem::BodiesView&           bodies,
+                                                     const std::vector<std::int32_t>& material,
+                                                     const TouchChange&               change)
 {
     NewTouch found;
     if (!any_near()) { return found; }
@@ -41,13 +43,23 @@ NewTouch SandBodyCoupling<Exec, Real>::new_touch(const dem::BodiesView&         
         const double most  = deepest_new_touch * radius[point];
         if (response[c].overlap <= most) { continue; }
         if (!change.begins(sand[point], material[static_cast<std::size_t>(body[c])])) { continue; }
-        ++found.points;
-        if (response[c].overlap <= found.overlap) { continue; }
-        found.overlap = response[c].overlap;
-        found.most    = most;
-        found.body    = body[c];
+        found = together(found, {1, response[c].overlap, most, body[c]});
     }
     return found;
+}
+
+template<class Exec, class Real>
+NewTouch SandBodyCoupling<Exec, Real>::new_touch(const dem::BodiesView&           bodies,
+                                                 const std::vector<std::int32_t>& material, const TouchChange& change)
+{
+    const NewTouch own = own_new_touch(bodies, material, change);
+    if (communicator_ == nullptr) { return own; }
+    NewTouch all;
+    for (const auto& of_rank : decomp::gather_values<NewTouch>(*communicator_, {own}))
+    {
+        all = together(all, of_rank.front());
+    }
+    return all;
 }
 
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                   \

@@ -159,7 +159,7 @@ const std::vector<BadCase> cross_cases{
     {"reserved_family", "family = \"wheel\"\n[[contact]]\nbetween = [\"wheel\", \"sand\"]",
      "family = \"wall\"\n[[contact]]\nbetween = [\"rock\", \"sand\"]", 25, "\"wall\" is reserved"},
     {"sand_without_walls", "friction = 0.4",
-     "friction = 0.4\n[[contact]]\nbetween = [\"sand\", \"wall\"]\ntouch = false", 32,
+     "friction = 0.4\n[[contact]]\nbetween = [\"sand\", \"wall\"]\ntouch = false", 31,
      "[contact[1]] touch: touch = false of [\"sand\", \"wall\"]: no rock or body is of this family, and sand always "
      "meets the walls; accepted: a pair with a family of rocks or bodies"},
     {"rocks_in_place_of_sand_that_they_do_not_touch", "friction = 0.4",

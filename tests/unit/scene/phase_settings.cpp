@@ -104,7 +104,7 @@ const std::vector<BadSetting> bad_settings{
     {"sets_nothing", "contacts = [ { between = [\"sand\", \"wheel\"] } ]",
      "[phase.turned] contacts: [\"sand\", \"wheel\"] sets nothing; accepted: friction, restitution or touch"},
     {"touch_no_boolean", "contacts = [ { between = [\"sand\", \"wheel\"], touch = \"no\" } ]",
-     "[phase.turned.contacts[0]] touch: wrong type: a string; accepted: true | false"},
+     "[phase.turned.contacts[0]] touch: wrong type: the string \"no\"; accepted: true | false"},
     {"sand_without_walls", "contacts = [ { between = [\"sand\", \"wall\"], touch = false } ]",
      "[phase.turned] contacts: touch = false of [\"sand\", \"wall\"]: no rock or body is of this family, and sand "
      "always meets the walls; accepted: a pair with a family of rocks or bodies"},
