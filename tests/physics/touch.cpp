@@ -13,7 +13,7 @@ namespace
 
 using namespace tread;
 
-constexpr double g = 9.81, rounding = 1e-12;
+constexpr double g = 9.81, ball_mass = 0.1, rounding = 1e-12;
 
 template<class Exec>
 class Touch : public test::BackendTest<Exec>
@@ -43,11 +43,11 @@ generate = {{ kind = "sphere", nodes = 642 }}
 name     = "ball"
 shape    = "ball"
 material = "glass"
-mass     = 0.1
+mass     = {}
 diameter = 0.04
 position = [0.1, 0.1, {}]
 {})",
-                       g, walls, height, more);
+                       g, walls, ball_mass, height, more);
 }
 
 const std::string open_sides = R"(x = "open", y = "open", bottom = "open")";
@@ -129,35 +129,43 @@ TYPED_TEST(Touch, ABallFallsThroughAPlateThatItDoesNotTouch)
     expect_closed(run, energy);
 }
 
-/// Friction and stored contact energy, J, before and after the step in which a pair ceases to touch.
+/// Energies before and after the step in which a pair ceases to touch, and the largest change of their total, J.
 struct Release
 {
     solver::EnergyRow before, after;
+    double            off = 0;
 };
 
 template<class Exec>
-Release watch_release(test::Experiment<Exec>& run, double end_of_touch, double& worst)
+Release watch_release(test::Experiment<Exec>& run, double end_of_touch)
 {
     Release release;
+    double  start = 0;
     run.run(
         [&](double time)
         {
             const solver::EnergyRow row = run.simulation().ledger().energy(run.simulation().census());
-            worst                       = std::max(worst, std::abs(run.simulation().ledger().errors().energy));
-            if (time <= end_of_touch + 1e-9) { release.before = release.after = row; }
-            else if (release.after.friction == release.before.friction) { release.after = row; }
+            if (start == 0) { start = row.total; }
+            release.off = std::max(release.off, std::abs(row.total - start));
+            if (time <= end_of_touch + 1e-9) { release.before = row; }
+            else if (release.after.total == 0) { release.after = row; }
         });
     return release;
 }
 
-void expect_booked(const Release& release)
+/// `tolerance`: of the friction of that step over what the contacts had stored, and why it is what it is.
+template<class Exec>
+void expect_booked(test::Experiment<Exec>& run, const Release& release, double tolerance, const char* why)
 {
     const double stored = release.before.contact, gained = release.after.friction - release.before.friction;
+    const double fall = 0.5 * ball_mass * std::pow(ball_speed(run), 2);
     ASSERT_GT(stored, 0);
-    test::report("friction by the release over what the contact had stored", gained / stored, 1, 1e-9,
-                 "all of it becomes friction; the difference of two sums of mJ in fp64");
-    EXPECT_NEAR(gained / stored, 1, 1e-9);
+    test::report("friction by the release over what the contacts had stored", gained / stored, 1, tolerance, why);
+    EXPECT_NEAR(gained / stored, 1, tolerance);
     EXPECT_EQ(release.after.contact, 0);
+    test::report("energy unaccounted over that of the fall", release.off / fall, 0, test::closes, "that of all scenes");
+    EXPECT_LT(release.off, test::closes * fall);
+    std::cout << "[ physics  ] the contacts had stored " << stored / fall << " of the energy of the fall\n";
 }
 
 TYPED_TEST(Touch, ABallRestsOnAPlateUntilTheyCeaseToTouch)
@@ -165,14 +173,12 @@ TYPED_TEST(Touch, ABallRestsOnAPlateUntilTheyCeaseToTouch)
     test::Experiment<TypeParam> run(this->exec(), ball_text(0.52, open_sides, plate_text) +
                                                       phase("closed", 0.2, "steel", true, plate_held) +
                                                       phase("open", 0.1, "steel", false, plate_held));
-    double                      energy  = 0;
-    const Release               release = watch_release(run, 0.2, energy);
+    const Release               release = watch_release(run, 0.2);
     const double                speed   = ball_speed(run);
     test::report("velocity 0.1 s after the release, m/s", speed, -g * 0.1, 1e-3 * g * 0.1,
                  "free fall from rest; the contact has come to rest within 0.1 %");
     EXPECT_NEAR(speed, -g * 0.1, 1e-3 * g * 0.1);
-    expect_booked(release);
-    expect_closed(run, energy);
+    expect_booked(run, release, 1e-9, "all of it becomes friction; rounding");
 }
 
 TYPED_TEST(Touch, ABallFallsFreelyThroughSandAndFloorThatItDoesNotTouch)
@@ -203,14 +209,12 @@ TYPED_TEST(Touch, ABallRestsOnSandUntilTheyCeaseToTouch)
     text.replace(text.find("0.1, 0.24]"), 10, "0.1, \"on surface\"]");
     test::Experiment<TypeParam> run(this->exec(),
                                     text + phase("closed", 0.1, "sand", true) + phase("open", 0.05, "sand", false));
-    double                      energy  = 0;
-    const Release               release = watch_release(run, 0.1, energy);
+    const Release               release = watch_release(run, 0.1);
     const double coupling = release.after.coupling - release.before.coupling, stored = release.before.contact;
     test::report("coupling error by the release over what the contacts had stored", coupling / stored, 0, 1e-9,
                  "no contact is left that could have one; rounding");
     EXPECT_NEAR(coupling / stored, 0, 1e-9);
-    expect_booked(release);
-    expect_closed(run, energy);
+    expect_booked(run, release, 1e-2, "all of it becomes friction; the floor takes some from the sand in that step");
 }
 
 /// A pair that touches from a phase on in which the two are still apart.
@@ -247,15 +251,16 @@ std::string refusal(const Exec& exec, const std::string& text)
     return "";
 }
 
-/// The ball has fallen 11 mm into the plate, or 49 mm down into the sand or the floor.
+/// The ball has fallen into the plate, the floor or the sand.
 TYPED_TEST(Touch, APairThatOverlapsMustNotBegin)
 {
     using ::testing::HasSubstr;
-    const std::string plate = refusal(this->exec(), ball_text(0.53, open_sides, plate_text) +
-                                                        phase("open", 0.065, "steel", false, plate_held) +
+    const std::string plate = refusal(this->exec(), ball_text(0.525, open_sides, plate_text) +
+                                                        phase("open", 0.05, "steel", false, plate_held) +
                                                         phase("closed", 0.1, "steel", true, plate_held));
-    EXPECT_THAT(plate, HasSubstr("t = 0.065 s: body 'ball' and body 'plate' begin to touch in phase 'closed', and "
-                                 "overlap by 0.0107 m; accepted: at most 2e-08 m"));
+    EXPECT_THAT(plate, HasSubstr("t = 0.05 s: body 'ball' and body 'plate' begin to touch in phase 'closed', and "
+                                 "overlap by 0.007"));
+    EXPECT_THAT(plate, HasSubstr("accepted: at most 2e-08 m"));
     const std::string wall = refusal(this->exec(), ball_text(0.04, slip_sides, "") + phase("open", 0.1, "wall", false) +
                                                        phase("closed", 0.1, "wall", true));
     EXPECT_THAT(wall, HasSubstr("t = 0.1 s: body 'ball' and a wall begin to touch in phase 'closed', and overlap by "));
