@@ -132,7 +132,7 @@ struct Contact
 
     double rolling_friction = 0; ///< mu_r, body-body only
 
-    bool touch = true; ///< false: rocks and bodies of these families pass through what the other one is of
+    bool touch = true; ///< false: the two pass through each other
 
     bool operator==(const Contact&) const = default;
 };

@@ -130,20 +130,20 @@ private:
     void move_sand(double dt, StageClock& clock);
     void measure_if_due(const TimeStep& step, double time, StageClock& clock);
 
-    void set_gravity(const Vec3<double>& gravity);
-    void set_contacts(std::size_t phase);
-    void require_apart(double time);
-    void transfer_contacts(StateFile& file);
+    void          set_gravity(const Vec3<double>& gravity);
+    void          set_contacts(std::size_t phase);
+    void          require_apart(double time);
+    void          transfer_contacts(StateFile& file);
+    void          list_points();
+    void          repartition_pages();
+    void          list_contacts(double span, StageClock& clock);
+    void          measure();
+    ContactReport measure_contacts();
+    std::int64_t  steps_to_measure() const;
+    double        moving_mass() const { return (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0); }
 
-    /// Over all ranks, as of the last substep. Collective.
+    /// Energies over all ranks, as of the last substep. Collective.
     ContactEnergies contact_energies() const;
-    void            list_points();
-    void            repartition_pages();
-    void            list_contacts(double span, StageClock& clock);
-    void            measure();
-    ContactReport   measure_contacts();
-    std::int64_t    steps_to_measure() const;
-    double          moving_mass() const { return (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0); }
 
     /// Layout version: cached indices stay valid while this is unchanged.
     std::int64_t layout_version() const
@@ -157,18 +157,17 @@ private:
     const world::World&          world_;
     const Plan                   plan_;
     PaceLimits                   limits_;
-    double                       free_mass_;    ///< kg, of sand and rocks
-    Vec3<double>                 gravity_;      ///< m/s2
-    std::int64_t                 phase_ = -1;   ///< that has begun here; -1: none
-    std::optional<TouchChange>   touch_change_; ///< of this phase, until pairs that begin to touch are checked
+    double                       free_mass_;       ///< kg, of sand and rocks
+    Vec3<double>                 gravity_;         ///< m/s2
+    std::int64_t                 phase_   = -1;    ///< that has begun here; -1: none
+    bool                         wakes_   = false; ///< whether all sand wakes in the next step
+    double                       damping_ = 0;
+    Measuring                    measuring_;
+    LastStep                     last_;
+    StopCheck                    why_stop_; ///< empty: no check
 
-    /// Loaded from a checkpoint, until the next step: contacts have no responses before.
-    std::optional<ContactEnergies> loaded_energies_;
-    bool                           wakes_   = false; ///< whether all sand wakes in the next step
-    double                         damping_ = 0;
-    Measuring                      measuring_;
-    LastStep                       last_;
-    StopCheck                      why_stop_; ///< empty: no check
+    std::optional<TouchChange>     touch_change_;    ///< of this phase, until pairs that begin to touch are checked
+    std::optional<ContactEnergies> loaded_energies_; ///< from a checkpoint, until the next step has responses
 
     std::optional<WorkBalance<Exec>>            balance_; ///< only on several ranks
     std::optional<MpmSolver<Exec, Real>>        sand_;

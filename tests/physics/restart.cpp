@@ -207,31 +207,30 @@ contacts = [ { between = ["steel", "sand"], friction = 0.1 } ])");
     EXPECT_EQ(this->phase_saved_, 1U);
 }
 
-/// Sand, rocks and a roller that comes down at 1 m/s from `height`. In the second phase its pairs with the sand and the
-/// rocks touch if they do not in the first.
-std::string switched_text(const std::string& height, double first, bool touch)
+/// A scene and a roller that comes down into it at 1 m/s from `height`. Its pairs with the families `others` touch in
+/// the first phase and in the second one if `before` and `after` say so.
+std::string switched_text(std::string text, const std::vector<std::string>& others, const std::string& height,
+                          double first, const char* before, const char* after)
 {
-    std::string text = test::sand_text + test::rocks_text + "placement = \"replace\"\n" + test::thrown_roller_text;
-    text.replace(text.find("0.2, 0.32]"), 10, "0.2, " + height + "]");
-    text.replace(text.find("duration = 0.05"), 15,
-                 fmt::format(R"(duration = {}
-[[phase]]
-name     = "switched"
-duration = 0.5
-contacts = [ {{ between = ["steel", "sand"], touch = {} }}, {{ between = ["steel", "rock"], touch = {} }} ])",
-                             first, !touch, !touch));
-    for (const char* other : {"sand", "rock"})
-    {
-        text += fmt::format("[[contact]]\nbetween = [\"steel\", \"{}\"]\ntouch = {}\n", other, touch);
-    }
+    text += test::thrown_roller_text + "[time]\ndt = 1e-4\n";
     text.replace(text.find("young   = 1.0e9"), 15, "young   = 1.0e7"); // fewer substeps
-    return text + "[time]\ndt = 1e-4\n";
+    text.replace(text.find("0.2, 0.32]"), 10, "0.2, " + height + "]");
+    std::string settings;
+    for (const std::string& other : others)
+    {
+        text += fmt::format("[[contact]]\nbetween = [\"steel\", \"{}\"]\ntouch = {}\n", other, before);
+        settings += fmt::format("{{ between = [\"steel\", \"{}\"], touch = {} }}, ", other, after);
+    }
+    return text.replace(text.find("duration = 0.05"), 15,
+                        fmt::format("duration = {}\n[[phase]]\nname = \"switched\"\nduration = 0.5\ncontacts = [ {} ]",
+                                    first, settings));
 }
 
 /// Saved between the last step of a phase and the first of the next, in which contacts let go.
 TYPED_TEST(Restart, WherePairsCeaseToTouchGivesTheSameBits)
 {
-    this->expect_same_bits(switched_text("\"on surface\"", 1e-4 * this->before, true));
+    this->expect_same_bits(switched_text(test::sand_text + test::rocks_text, {"sand", "rock"}, "\"on surface\"",
+                                         1e-4 * this->before, "true", "false"));
     EXPECT_EQ(this->phase_saved_, 1U);
     EXPECT_NEAR(this->time_saved_, 1e-4 * this->before, 1e-9) << "it is not the border";
 }
@@ -239,14 +238,15 @@ TYPED_TEST(Restart, WherePairsCeaseToTouchGivesTheSameBits)
 /// Saved in the phase in which they have let go.
 TYPED_TEST(Restart, WherePairsHaveCeasedToTouchGivesTheSameBits)
 {
-    this->expect_same_bits(switched_text("\"on surface\"", 1e-4 * (this->before - 20), true));
+    this->expect_same_bits(
+        switched_text(test::sand_text, {"sand"}, "\"on surface\"", 1e-4 * (this->before - 20), "true", "false"));
     EXPECT_EQ(this->phase_saved_, 1U);
 }
 
 /// Saved between the last step of a phase and the first of the next, in which pairs begin to touch.
 TYPED_TEST(Restart, WherePairsBeginToTouchGivesTheSameBits)
 {
-    this->expect_same_bits(switched_text("0.34", 1e-4 * this->before, false));
+    this->expect_same_bits(switched_text(test::sand_text, {"sand"}, "0.34", 1e-4 * this->before, "false", "true"));
     EXPECT_EQ(this->phase_saved_, 1U);
     EXPECT_NEAR(this->time_saved_, 1e-4 * this->before, 1e-9) << "it is not the border";
 }

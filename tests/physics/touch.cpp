@@ -89,7 +89,7 @@ region   = { box = [[0.0, 0.0, 0.0], [0.2, 0.2, 0.2]] }
 )";
 
 /// A phase that holds `held` and sets whether the ball and `other` touch.
-std::string phase(const std::string& name, double duration, const std::string& other, bool touch,
+std::string phase(const std::string& name, double duration, const std::string& other, const std::string& touch,
                   const std::string& held = "")
 {
     return fmt::format("[[phase]]\nname = \"{}\"\nduration = {}\nhold = [{}]\n"
@@ -120,8 +120,8 @@ void expect_closed(test::Experiment<Exec>& run, double energy)
 TYPED_TEST(Touch, ABallFallsThroughAPlateThatItDoesNotTouch)
 {
     test::Experiment<TypeParam> run(this->exec(), ball_text(0.55, open_sides, plate_text) +
-                                                      phase("open", 0.15, "steel", false, plate_held) +
-                                                      phase("closed", 0.05, "steel", true, plate_held));
+                                                      phase("open", 0.15, "steel", "false", plate_held) +
+                                                      phase("closed", 0.05, "steel", "true", plate_held));
     const double                energy = test::largest_unaccounted(run);
     const double                speed  = ball_speed(run);
     test::report("velocity at the end, m/s", speed, -g * 0.2, rounding, "free fall; symplectic Euler has it exactly");
@@ -171,8 +171,8 @@ void expect_booked(test::Experiment<Exec>& run, const Release& release, double t
 TYPED_TEST(Touch, ABallRestsOnAPlateUntilTheyCeaseToTouch)
 {
     test::Experiment<TypeParam> run(this->exec(), ball_text(0.52, open_sides, plate_text) +
-                                                      phase("closed", 0.2, "steel", true, plate_held) +
-                                                      phase("open", 0.1, "steel", false, plate_held));
+                                                      phase("closed", 0.2, "steel", "true", plate_held) +
+                                                      phase("open", 0.1, "steel", "false", plate_held));
     const Release               release = watch_release(run, 0.2);
     const double                speed   = ball_speed(run);
     test::report("velocity 0.1 s after the release, m/s", speed, -g * 0.1, 1e-3 * g * 0.1,
@@ -208,7 +208,7 @@ TYPED_TEST(Touch, ABallRestsOnSandUntilTheyCeaseToTouch)
     std::string text = ball_text(0.24, slip_sides, block_text);
     text.replace(text.find("0.1, 0.24]"), 10, "0.1, \"on surface\"]");
     test::Experiment<TypeParam> run(this->exec(),
-                                    text + phase("closed", 0.1, "sand", true) + phase("open", 0.05, "sand", false));
+                                    text + phase("closed", 0.1, "sand", "true") + phase("open", 0.05, "sand", "false"));
     const Release               release = watch_release(run, 0.1);
     const double coupling = release.after.coupling - release.before.coupling, stored = release.before.contact;
     test::report("coupling error by the release over what the contacts had stored", coupling / stored, 0, 1e-9,
@@ -222,11 +222,11 @@ TYPED_TEST(Touch, APairThatBeginsInTimeLandsLikeOneThatAlwaysTouched)
 {
     const std::string           fixed = "[time]\ndt = 1e-4\nsubsteps = 4\n";
     test::Experiment<TypeParam> late(this->exec(), ball_text(0.53, open_sides, plate_text + fixed) +
-                                                       phase("open", 0.02, "steel", false, plate_held) +
-                                                       phase("closed", 0.1, "steel", true, plate_held));
+                                                       phase("open", 0.02, "steel", "false", plate_held) +
+                                                       phase("closed", 0.1, "steel", "true", plate_held));
     test::Experiment<TypeParam> always(this->exec(), ball_text(0.53, open_sides, plate_text + fixed) +
-                                                         phase("first", 0.02, "steel", true, plate_held) +
-                                                         phase("then", 0.1, "steel", true, plate_held));
+                                                         phase("first", 0.02, "steel", "true", plate_held) +
+                                                         phase("then", 0.1, "steel", "true", plate_held));
     late.run();
     always.run();
     const double found    = late.simulation().named_bodies()[0].position[2],
@@ -256,17 +256,18 @@ TYPED_TEST(Touch, APairThatOverlapsMustNotBegin)
 {
     using ::testing::HasSubstr;
     const std::string plate = refusal(this->exec(), ball_text(0.525, open_sides, plate_text) +
-                                                        phase("open", 0.05, "steel", false, plate_held) +
-                                                        phase("closed", 0.1, "steel", true, plate_held));
+                                                        phase("open", 0.05, "steel", "false", plate_held) +
+                                                        phase("closed", 0.1, "steel", "true", plate_held));
     EXPECT_THAT(plate, HasSubstr("t = 0.05 s: body 'ball' and body 'plate' begin to touch in phase 'closed', and "
                                  "overlap by 0.007"));
     EXPECT_THAT(plate, HasSubstr("accepted: at most 2e-08 m"));
-    const std::string wall = refusal(this->exec(), ball_text(0.04, slip_sides, "") + phase("open", 0.1, "wall", false) +
-                                                       phase("closed", 0.1, "wall", true));
+    const std::string wall =
+        refusal(this->exec(), ball_text(0.04, slip_sides, "") + phase("open", 0.1, "wall", "false") +
+                                  phase("closed", 0.1, "wall", "true"));
     EXPECT_THAT(wall, HasSubstr("t = 0.1 s: body 'ball' and a wall begin to touch in phase 'closed', and overlap by "));
     const std::string sand =
-        refusal(this->exec(), ball_text(0.24, slip_sides, block_text) + phase("open", 0.1, "sand", false) +
-                                  phase("closed", 0.1, "sand", true));
+        refusal(this->exec(), ball_text(0.24, slip_sides, block_text) + phase("open", 0.1, "sand", "false") +
+                                  phase("closed", 0.1, "sand", "true"));
     EXPECT_THAT(sand, HasSubstr("t = 0.1 s: body 'ball' and sand begin to touch in phase 'closed', and "));
     EXPECT_THAT(sand, HasSubstr(" points of sand overlap it, by up to "));
 }

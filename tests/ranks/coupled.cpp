@@ -133,7 +133,7 @@ std::string refusal(test::Experiment<Exec>& run)
 /// third phase they would touch again, which all ranks refuse.
 TYPED_TEST(CoupledRanks, AWheelCeasesToTouchSandAndRocks)
 {
-    const auto phase = [](const std::string& name, bool touch)
+    const auto phase = [](const std::string& name, const std::string& touch)
     {
         return fmt::format(
             "[[phase]]\nname = \"{}\"\nduration = 0.01\ncontacts = [ {{ between = [\"steel\", \"sand\"], "
@@ -141,7 +141,7 @@ TYPED_TEST(CoupledRanks, AWheelCeasesToTouchSandAndRocks)
             name, touch, touch);
     };
     const scene::Scene scene =
-        test::load_text(test::roller_text + test::rocks_text + phase("open", false) + phase("closed", true),
+        test::load_text(test::roller_text + test::rocks_text + phase("open", "false") + phase("closed", "true"),
                         {"body[0].position=[0.2, 0.2, 0.305]", "body[0].velocity=[0.0, 0.0, -0.4]",
                          "phase[0].duration=0.02", "time.dt=1e-4", "time.substeps=20"});
     test::SideBySide<TypeParam> run(this->exec(), scene, size, test::quarters(0.5 * size, this->ranks()));
