@@ -8,8 +8,8 @@
 namespace tread::solver
 {
 
-/// Largest overlap of a pair that begins to touch, over the smaller radius of the two (of sand: the point's): rounding.
-/// A contact that began with more would have energy from nowhere, and throw the two apart.
+/// Largest overlap of a pair that begins to touch, over the smaller radius of the two (of sand: the point's).
+/// Assumed: it allows for rounding. A contact that began with more would have energy from nowhere.
 inline constexpr double deepest_new_touch = 1e-6;
 
 /// Pairs of materials that touch before and after the border of two phases.
