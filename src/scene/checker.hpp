@@ -42,6 +42,7 @@ void validate_places(const Scene& scene, Checker& checker);
 void validate_bodies(const Scene& scene, Checker& checker);
 void validate_joints(const Scene& scene, Checker& checker);
 void validate_assemblies(const Scene& scene, Checker& checker);
+void validate_touch(const Scene& scene, Checker& checker);
 void validate_phases(const Scene& scene, Checker& checker);
 void validate_motions(const Scene& scene, Checker& checker);
 void validate_contents(const Scene& scene, Checker& checker);

@@ -1,7 +1,6 @@
 #include "scene/contacts.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "scene/keys.hpp"
 
@@ -25,14 +24,14 @@ const Contact* find_contact(const std::vector<Contact>& contacts, const std::str
     return found == contacts.end() ? nullptr : &*found;
 }
 
+} // namespace
+
 std::string family_of(const Scene& scene, const std::string& material)
 {
     const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
                                     [&](const Material& candidate) { return candidate.name == material; });
     return found == scene.materials.end() ? material : found->family;
 }
-
-} // namespace
 
 Contact contact_of(const std::vector<Contact>& contacts, const std::string& family_a, const std::string& family_b)
 {
@@ -42,12 +41,18 @@ Contact contact_of(const std::vector<Contact>& contacts, const std::string& fami
     return contact;
 }
 
-void complete_contacts(Scene& scene)
+std::set<std::string> rigid_families(const Scene& scene)
 {
     std::set<std::string> rigid;
     for (const auto& rocks : scene.rocks) { rigid.insert(family_of(scene, rocks.material)); }
     for (const auto& body : scene.bodies) { rigid.insert(family_of(scene, body.material)); }
-    std::set<std::string> partners = rigid;
+    return rigid;
+}
+
+void complete_contacts(Scene& scene)
+{
+    const std::set<std::string> rigid    = rigid_families(scene);
+    std::set<std::string>       partners = rigid;
     for (const auto& terrain : scene.terrain) { partners.insert(family_of(scene, terrain.material)); }
     partners.insert(std::string(wall_family));
     for (const auto& a : rigid)

@@ -51,6 +51,8 @@ Keys<ContactSetting> contact_setting_keys()
                  "Coulomb's coefficient, from this phase on until another one sets it.", "as before"),
         optional("restitution", "", &ContactSetting::restitution, number_or("", between(0, 1)),
                  "Coefficient of restitution between bodies and with walls, likewise.", "as before"),
+        optional("touch", "", &ContactSetting::touch, boolean_given(),
+                 "Whether the two touch at all, likewise. A pair that begins to touch must not overlap.", "as before"),
     };
 }
 
@@ -140,6 +142,9 @@ Keys<Contact> contact_keys()
             "rolling_friction", "", &Contact::rolling_friction, number(between(0, 1)),
             "Coefficient mu_r of the moment that resists rolling, at most mu_r R* F, between bodies and with walls "
             "that have friction; points have none. A ball stays on a slope of up to atan(mu_r)."),
+        optional("touch", "", &Contact::touch, boolean(),
+                 "Whether the two touch at all; if not, they pass through each other. At least one family is that of "
+                 "rocks or bodies; a family with itself is a pair too. A phase may change it: docs/phases.md."),
     };
 }
 

@@ -67,7 +67,8 @@ void for_each_table(Visit&& visit)
     visit("time", "Steps of the time loop.", &Scene::time, time_keys());
     visit("numerics", "Choices of method.", &Scene::numerics, numerics_keys());
     visit("material", "A material of terrain, rocks or bodies.", &Scene::materials, material_keys());
-    visit("contact", "Friction and restitution of one pair of contact families.", &Scene::contacts, contact_keys());
+    visit("contact", "Friction and restitution of one pair of contact families, and whether they touch.",
+          &Scene::contacts, contact_keys());
     visit("shape", "A rigid shape, made once and shared by all its instances.", &Scene::shapes, shape_keys());
     visit("terrain", "A region filled with material points.", &Scene::terrain, terrain_keys());
     visit("rocks", "A set of rigid rocks of one shape.", &Scene::rocks, rocks_keys());

@@ -52,6 +52,7 @@ struct ContactSetting
     std::array<std::string, 2> between;
     std::optional<double>      friction;    ///< empty: as before
     std::optional<double>      restitution; ///< likewise; body-body only
+    std::optional<bool>        touch;       ///< likewise
 
     bool operator==(const ContactSetting&) const = default;
 };

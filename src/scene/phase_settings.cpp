@@ -37,10 +37,19 @@ std::vector<Contact> contacts_in(const Scene& scene, std::size_t phase)
             Contact changed     = contact_of(contacts, setting.between[0], setting.between[1]);
             changed.friction    = setting.friction.value_or(changed.friction);
             changed.restitution = setting.restitution.value_or(changed.restitution);
+            changed.touch       = setting.touch.value_or(changed.touch);
             contacts.insert(contacts.begin(), changed);
         }
     }
     return contacts;
+}
+
+bool changes_touch(const Scene& scene)
+{
+    const auto touch = [](const ContactSetting& setting) { return setting.touch.has_value(); };
+    return std::any_of(scene.phases.begin(), scene.phases.end(),
+                       [&](const Phase& phase)
+                       { return std::any_of(phase.contacts.begin(), phase.contacts.end(), touch); });
 }
 
 } // namespace tread::scene

@@ -16,4 +16,7 @@ double largest_gravity(const Scene& scene);
 /// first.
 std::vector<Contact> contacts_in(const Scene& scene, std::size_t phase);
 
+/// Whether a phase sets which pairs touch.
+bool changes_touch(const Scene& scene);
+
 } // namespace tread::scene

@@ -144,9 +144,9 @@ void check_contact_settings(const Scene& scene, std::size_t phase, const std::ve
         {
             checker.report(at, "contacts", "walls do not meet each other", "a family and \"wall\"");
         }
-        if (!setting->friction && !setting->restitution)
+        if (!setting->friction && !setting->restitution && !setting->touch)
         {
-            checker.report(at, "contacts", text + " sets nothing", "friction, restitution or both");
+            checker.report(at, "contacts", text + " sets nothing", "friction, restitution or touch");
         }
         const bool again = std::any_of(settings.begin(), setting,
                                        [&](const ContactSetting& before) {

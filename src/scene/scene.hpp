@@ -133,6 +133,8 @@ struct Contact
 
     double rolling_friction = 0; ///< mu_r, body-body only
 
+    bool touch = true; ///< false: the two pass through each other
+
     bool operator==(const Contact&) const = default;
 };
 

@@ -250,6 +250,7 @@ void validate(const Scene& scene, const Node& document, Problems& problems)
     validate_bodies(scene, checker);
     validate_joints(scene, checker);
     validate_phases(scene, checker);
+    validate_touch(scene, checker);
     validate_motions(scene, checker);
     validate_contents(scene, checker);
     validate_cells(scene, checker);

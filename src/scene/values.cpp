@@ -213,6 +213,13 @@ Value<bool> boolean()
     return {"true | false", read, [](const bool& value) { return std::string(value ? "true" : "false"); }};
 }
 
+Value<std::optional<bool>> boolean_given()
+{
+    const Value<bool> given = boolean();
+    return {given.accepted, [=](const Node& node) -> std::optional<bool> { return given.read(node); },
+            [=](const std::optional<bool>& value) { return value ? given.write(*value) : std::string(); }};
+}
+
 Value<std::string> text()
 {
     return {"string", [](const Node& node) { return read_string(node); }, write_string};

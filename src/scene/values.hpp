@@ -102,8 +102,9 @@ Value<std::optional<Vector3>> direction_given();
 /// Rows of a rotation, orthonormal to 1e-6; absence gives an empty optional.
 Value<std::optional<Matrix3>> rotation_given();
 
-/// true or false.
-Value<bool> boolean();
+/// true or false; absence gives an empty optional.
+Value<bool>                boolean();
+Value<std::optional<bool>> boolean_given();
 
 /// Any string.
 Value<std::string> text();

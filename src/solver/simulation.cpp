@@ -184,6 +184,7 @@ template<class Exec, class Real>
 void Simulation<Exec, Real>::find_contacts(TimeStep& step, double time, StageClock& clock)
 {
     if (measured()) { list_contacts(step.dt * static_cast<double>(measuring_.every), clock); }
+    require_apart(time);
     if (plan_.body_contact) { step.substeps = substeps_of(scene_.time, step.dt, limits_, measuring_.pace); }
     if (step.substeps > scene::most_substeps) { rigid_->refuse_substeps(step, measuring_.pace, time); }
 }
@@ -210,6 +211,7 @@ template<class Exec, class Real>
 void Simulation<Exec, Real>::move_bodies(const TimeStep& step, double time, StageClock& clock)
 {
     if (!rigid_) { return; }
+    loaded_energies_.reset();
     if (coupling_)
     {
         clock.run(exec_, stage::candidates, [&] { coupling_->begin_step(sand_->view()); });
@@ -368,6 +370,7 @@ void Simulation<Exec, Real>::transfer(StateFile& file)
             file, rigid_->view(),
             {world_.bodies.size(), static_cast<std::size_t>(sand_->view().count), world_.points.size()});
     }
+    transfer_contacts(file);
     solver::transfer(file, measuring_, last_, damping_);
     ledger_->transfer(file);
     if (file.loads()) { set_gravity(ledger_->gravity()); }

@@ -13,6 +13,7 @@
 #include "solver/ledger/sand_guard.hpp"
 #include "solver/ranks/work_balance.hpp"
 #include "solver/sand/mpm_solver.hpp"
+#include "solver/touch_change.hpp"
 
 namespace tread::solver
 {
@@ -130,6 +131,9 @@ private:
     void measure_if_due(const TimeStep& step, double time, StageClock& clock);
 
     void          set_gravity(const Vec3<double>& gravity);
+    void          set_contacts(std::size_t phase);
+    void          require_apart(double time);
+    void          transfer_contacts(StateFile& file);
     void          list_points();
     void          repartition_pages();
     void          list_contacts(double span, StageClock& clock);
@@ -137,6 +141,9 @@ private:
     ContactReport measure_contacts();
     std::int64_t  steps_to_measure() const;
     double        moving_mass() const { return (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0); }
+
+    /// Energies over all ranks, as of the last substep. Collective.
+    ContactEnergies contact_energies() const;
 
     /// Layout version: cached indices stay valid while this is unchanged.
     std::int64_t layout_version() const
@@ -158,6 +165,9 @@ private:
     Measuring                    measuring_;
     LastStep                     last_;
     StopCheck                    why_stop_; ///< empty: no check
+
+    std::optional<TouchChange>     touch_change_;    ///< of this phase, until pairs that begin to touch are checked
+    std::optional<ContactEnergies> loaded_energies_; ///< from a checkpoint, until the next step has responses
 
     std::optional<WorkBalance<Exec>>            balance_; ///< only on several ranks
     std::optional<MpmSolver<Exec, Real>>        sand_;

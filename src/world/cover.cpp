@@ -5,6 +5,7 @@
 #include "kernels/contact/samples_kern.hpp"
 #include "world/body_grid.hpp"
 #include "world/materials.hpp"
+#include "world/touch_table.hpp"
 
 namespace tread::world
 {
@@ -48,6 +49,7 @@ std::vector<std::int32_t> covering_bodies(const scene::Scene& scene, const World
     for (std::size_t body = first; body < last; ++body) { grid.add(body); }
     const HostPoints&         points = world.points;
     const PointReach          reach  = make_point_reach(scene, points);
+    const TouchTable          touch  = touch_table(scene, 0);
     std::vector<std::int32_t> covering(points.size(), -1);
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -56,7 +58,8 @@ std::vector<std::int32_t> covering_bodies(const scene::Scene& scene, const World
         grid.any_near(points.position[i], reach.search(radius),
                       [&](std::size_t body)
                       {
-                          if (nearest_place(world, reach, body, points.position[i], radius).distance >= radius)
+                          if (!touch(points.material[i], world.bodies.material[body]) ||
+                              nearest_place(world, reach, body, points.position[i], radius).distance >= radius)
                           {
                               return false;
                           }

@@ -37,7 +37,8 @@ NearestPlace nearest_place(const World& world, const PointReach& reach, std::siz
                            double radius);
 
 /// For each sand point, a body of [first, last) in which it lies or which is within its contact radius (phi < r_p), by
-/// its centre or one of its samples; -1 where there is none. Sand that starts in such contact would be ejected.
+/// its centre or one of its samples; -1 where there is none that it touches in the first phase. Sand that starts in
+/// such contact would be ejected.
 std::vector<std::int32_t> covering_bodies(const scene::Scene& scene, const World& world, std::size_t first,
                                           std::size_t last);
 

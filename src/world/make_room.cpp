@@ -11,6 +11,7 @@
 #include "world/grading.hpp"
 #include "world/layers.hpp"
 #include "world/push_out.hpp"
+#include "world/touch_table.hpp"
 
 namespace tread::world
 {
@@ -53,6 +54,7 @@ std::vector<Touch> find_touches(const scene::Scene& scene, const World& world, c
 {
     const HostPoints&  points = world.points;
     const auto         table  = tables_of(world.bodies);
+    const TouchTable   touch  = touch_table(scene, 0);
     std::vector<Touch> touches;
 #pragma omp parallel
     {
@@ -67,7 +69,8 @@ std::vector<Touch> find_touches(const scene::Scene& scene, const World& world, c
                           [&](std::size_t body)
                           {
                               const auto rocks = table[body];
-                              if (rocks < 0 || settled_together(scene.rocks[static_cast<std::size_t>(rocks)], own) ||
+                              if (rocks < 0 || !touch(points.material[i], world.bodies.material[body]) ||
+                                  settled_together(scene.rocks[static_cast<std::size_t>(rocks)], own) ||
                                   nearest_place(world, reach, body, x, radius).distance >= radius)
                               {
                                   return false;

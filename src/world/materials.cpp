@@ -82,8 +82,8 @@ mpm::MaterialParameters<Real> law_of(const scene::Material& material)
 
 dem::PairProperties pair(const scene::Contact& contact, Compliance a, Compliance b)
 {
-    return {1 / (a.normal + b.normal), 1 / (a.shear + b.shear), contact.friction, damping_ratio(contact.restitution),
-            contact.rolling_friction};
+    return {1 / (a.normal + b.normal),          1 / (a.shear + b.shear),  contact.friction,
+            damping_ratio(contact.restitution), contact.rolling_friction, contact.touch};
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include "world/cover.hpp"
 #include "world/on_surface.hpp"
 #include "world/orientation.hpp"
+#include "world/touch_table.hpp"
 
 namespace tread::world
 {
@@ -37,8 +38,11 @@ double body_mass(const scene::Scene& scene, const scene::Body& body, const shape
 
 std::string body_table(const scene::Body& body) { return "body." + body.name; }
 
-void require_clear_of_walls(const scene::Body& body, std::size_t index, const World& world)
+void require_clear_of_walls(const scene::Scene& scene, std::size_t index, const World& world)
 {
+    const scene::Body& body  = scene.bodies[index];
+    const TouchTable   touch = touch_table(scene, 0);
+    if (!touch(world.bodies.material[index], touch.wall())) { return; }
     const Vec3<double>& at     = world.bodies.position[index];
     const double        scale  = world.bodies.scale[index];
     const shape::Bounds turned = turned_box(world, index);
@@ -80,7 +84,7 @@ void add_body(const scene::Scene& scene, const scene::Body& body, World& world)
     bodies.shape.push_back(shape);
     bodies.material.push_back(material_index(scene, body.material));
     bodies.named = static_cast<std::int64_t>(bodies.size());
-    if (!body.on_surface) { require_clear_of_walls(body, bodies.size() - 1, world); }
+    if (!body.on_surface) { require_clear_of_walls(scene, bodies.size() - 1, world); }
 }
 
 void require_clear_of_sand(const scene::Scene& scene, const World& world)
@@ -140,13 +144,14 @@ bool are_jointed(const scene::Scene& scene, std::size_t a, std::size_t b)
 
 void require_clear_of_each_other(const scene::Scene& scene, const World& world)
 {
+    const TouchTable touch = touch_table(scene, 0);
     for (std::size_t b = 1; b < scene.bodies.size(); ++b)
     {
         for (std::size_t a = 0; a < b; ++a)
         {
             const double far = bounding_radius(world, a) + bounding_radius(world, b);
             if ((world.bodies.position[a] - world.bodies.position[b]).norm() > far || are_jointed(scene, a, b) ||
-                !overlap(world, a, b))
+                !touch(world.bodies.material[a], world.bodies.material[b]) || !overlap(world, a, b))
             {
                 continue;
             }
@@ -187,7 +192,7 @@ void find_heights(const scene::Scene& scene, World& world)
                             [&]
                             {
                                 stand_on_surface(scene, b, body.gap, world);
-                                require_clear_of_walls(body, b, world);
+                                require_clear_of_walls(scene, b, world);
                             });
         any = true;
     }

@@ -11,6 +11,7 @@
 #include "world/body_grid.hpp"
 #include "world/cover.hpp"
 #include "world/materials.hpp"
+#include "world/touch_table.hpp"
 
 namespace tread::world
 {
@@ -53,18 +54,23 @@ GroundBelow ground_under(const scene::Scene& scene, const World& world, std::siz
     const bool   sampled = world.bodies.scale[body] * form.equivalent_radius < sampled_below(scene, world.points);
     const double share   = sampled ? 1 + contact::patch_reach : 1.0; // samples lie beside the point's centre
     const auto   rule    = radius_rule(scene.numerics.point_radius);
+    const auto   own     = world.bodies.material[body];
+    const auto   touch   = touch_table(scene, 0);
     GroundBelow  ground;
     for (std::size_t i = 0; i < world.points.size(); ++i)
     {
         const Grain grain{world.points.position[i], share * contact::point_radius(world.points.volume[i], rule)};
-        if (!is_under(world, body, grain.position, grain.reach)) { continue; }
+        if (!touch(world.points.material[i], own) || !is_under(world, body, grain.position, grain.reach)) { continue; }
         ground.grains.push_back(grain);
         count(ground, grain.position[2], grain.reach);
     }
     for (auto rock = static_cast<std::size_t>(world.bodies.named); rock < world.bodies.size(); ++rock)
     {
         const double radius = bounding_radius(world, rock);
-        if (!is_under(world, body, world.bodies.position[rock], radius)) { continue; }
+        if (!touch(world.bodies.material[rock], own) || !is_under(world, body, world.bodies.position[rock], radius))
+        {
+            continue;
+        }
         ground.rocks.push_back(rock);
         count(ground, world.bodies.position[rock][2], radius);
     }
@@ -131,8 +137,8 @@ void stand_on_surface(const scene::Scene& scene, std::size_t body, double gap, W
         height -= 0.5 * free;
         if (height < ground.bottom - radius) { break; }
     }
-    throw InputError(fmt::format("[[body]] '{}': its position is \"on surface\", and neither sand nor a rock lies "
-                                 "under it",
+    throw InputError(fmt::format("[[body]] '{}': its position is \"on surface\", and neither sand nor a rock that it "
+                                 "touches in the first phase lies under it",
                                  scene.bodies[body].name));
 }
 

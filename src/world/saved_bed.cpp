@@ -140,6 +140,7 @@ io::BedFile make_bed(const scene::Scene& scene, const World& world, const io::Bo
 
 SavedBeds::SavedBeds(const scene::Scene& scene)
     : scene_(scene)
+    , touch_(touch_table(scene, 0))
 {
     for (std::size_t table = 0; table < scene.rocks.size(); ++table)
     {
@@ -254,6 +255,7 @@ void SavedBeds::require_room(std::size_t table, std::size_t body, const World& w
     }
     for (std::size_t named = 0; named < static_cast<std::size_t>(bodies.named); ++named)
     {
+        if (!touch_(bodies.material[body], bodies.material[named])) { continue; }
         const double reach = bounding_radius(world, body) + bounding_radius(world, named);
         if ((bodies.position[body] - bodies.position[named]).norm() > reach || apart(world, body, named, 0))
         {

@@ -7,6 +7,7 @@
 #include "io/bed_file.hpp"
 #include "io/snapshot.hpp"
 #include "world/grading.hpp"
+#include "world/touch_table.hpp"
 #include "world/world.hpp"
 
 // Saves beds of rocks that one run settles, and loads them in others.
@@ -50,6 +51,7 @@ private:
     void require_room(std::size_t table, std::size_t body, const World& world) const;
 
     const scene::Scene&        scene_;
+    TouchTable                 touch_; ///< of the first phase
     std::map<std::string, Bed> beds_;
 };
 

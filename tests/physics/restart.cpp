@@ -54,6 +54,7 @@ public:
     }
 
     std::size_t phase() const { return loop_.phase.index; }
+    double      time() const { return loop_.progress.time; }
 
     void save(const std::string& path)
     {
@@ -146,6 +147,7 @@ protected:
         stopped.step(before);
         stopped.save(path);
         phase_saved_              = stopped.phase();
+        time_saved_               = stopped.time();
         const std::int64_t asleep = stopped.asleep();
         Run<Exec>          resumed(this->exec(), text);
         resumed.load(path, solver::Fidelity::exact);
@@ -159,6 +161,7 @@ protected:
     }
 
     std::size_t phase_saved_ = 0, phase_at_end_ = 0;
+    double      time_saved_ = 0; ///< s
 };
 TYPED_TEST_SUITE(Restart, test::Backends, test::BackendNames);
 
@@ -202,6 +205,50 @@ gravity  = [1.0, 0.0, -9.0]
 contacts = [ { between = ["steel", "sand"], friction = 0.1 } ])");
     this->expect_same_bits(text);
     EXPECT_EQ(this->phase_saved_, 1U);
+}
+
+/// A scene and a roller that comes down into it at 1 m/s from `height`. Its pairs with the families `others` touch in
+/// the first phase and in the second one if `before` and `after` say so.
+std::string switched_text(std::string text, const std::vector<std::string>& others, const std::string& height,
+                          double first, const char* before, const char* after)
+{
+    text += test::thrown_roller_text + "[time]\ndt = 1e-4\n";
+    text.replace(text.find("young   = 1.0e9"), 15, "young   = 1.0e7"); // fewer substeps
+    text.replace(text.find("0.2, 0.32]"), 10, "0.2, " + height + "]");
+    std::string settings;
+    for (const std::string& other : others)
+    {
+        text += fmt::format("[[contact]]\nbetween = [\"steel\", \"{}\"]\ntouch = {}\n", other, before);
+        settings += fmt::format("{{ between = [\"steel\", \"{}\"], touch = {} }}, ", other, after);
+    }
+    return text.replace(text.find("duration = 0.05"), 15,
+                        fmt::format("duration = {}\n[[phase]]\nname = \"switched\"\nduration = 0.5\ncontacts = [ {} ]",
+                                    first, settings));
+}
+
+/// Saved between the last step of a phase and the first of the next, in which contacts let go.
+TYPED_TEST(Restart, WherePairsCeaseToTouchGivesTheSameBits)
+{
+    this->expect_same_bits(switched_text(test::sand_text + test::rocks_text, {"sand", "rock"}, "\"on surface\"",
+                                         1e-4 * this->before, "true", "false"));
+    EXPECT_EQ(this->phase_saved_, 1U);
+    EXPECT_NEAR(this->time_saved_, 1e-4 * this->before, 1e-9) << "it is not the border";
+}
+
+/// Saved in the phase in which they have let go.
+TYPED_TEST(Restart, WherePairsHaveCeasedToTouchGivesTheSameBits)
+{
+    this->expect_same_bits(
+        switched_text(test::sand_text, {"sand"}, "\"on surface\"", 1e-4 * (this->before - 20), "true", "false"));
+    EXPECT_EQ(this->phase_saved_, 1U);
+}
+
+/// Saved between the last step of a phase and the first of the next, in which pairs begin to touch.
+TYPED_TEST(Restart, WherePairsBeginToTouchGivesTheSameBits)
+{
+    this->expect_same_bits(switched_text(test::sand_text, {"sand"}, "0.34", 1e-4 * this->before, "false", "true"));
+    EXPECT_EQ(this->phase_saved_, 1U);
+    EXPECT_NEAR(this->time_saved_, 1e-4 * this->before, 1e-9) << "it is not the border";
 }
 
 /// Saved during lowering, then released at half its weight, with a weight that grows.

@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "base/errors.hpp"
 #include "side_by_side.hpp"
 
 // Coupled sand and bodies on several ranks agree with a run on one rank.
@@ -111,6 +112,56 @@ TYPED_TEST(CoupledRanks, AWheelPloughsWhilePagesChangeTheirOwner)
                 static_cast<int>(found.repartitions), static_cast<int>(found.points_moved));
     EXPECT_EQ(found.repartitions, this->ranks() > 1 ? 1 : 0);
     EXPECT_LT(found.imbalance, 1.15);
+}
+
+/// Why a run that must not finish stops.
+template<class Exec>
+std::string refusal(test::Experiment<Exec>& run)
+{
+    try
+    {
+        run.run();
+    }
+    catch (const NumericalError& error)
+    {
+        return error.what();
+    }
+    return "it finished";
+}
+
+/// A wheel above the corner of four ranks, in sand with rocks, passes through both from the second phase on. In the
+/// third phase they would touch again, which all ranks refuse.
+TYPED_TEST(CoupledRanks, AWheelCeasesToTouchSandAndRocks)
+{
+    const auto phase = [](const std::string& name, const std::string& touch)
+    {
+        return fmt::format(
+            "[[phase]]\nname = \"{}\"\nduration = 0.01\ncontacts = [ {{ between = [\"steel\", \"sand\"], "
+            "touch = {} }}, {{ between = [\"steel\", \"rock\"], touch = {} }} ]\n",
+            name, touch, touch);
+    };
+    const scene::Scene scene =
+        test::load_text(test::roller_text + test::rocks_text + phase("open", "false") + phase("closed", "true"),
+                        {"body[0].position=[0.2, 0.2, 0.305]", "body[0].velocity=[0.0, 0.0, -0.4]",
+                         "phase[0].duration=0.02", "time.dt=1e-4", "time.substeps=20"});
+    test::SideBySide<TypeParam> run(this->exec(), scene, size, test::quarters(0.5 * size, this->ranks()));
+    const std::string           one = refusal(run.alone), all = refusal(run.together);
+    std::printf("alone: %s\ntogether: %s\n", one.c_str(), all.c_str());
+    EXPECT_THAT(one, ::testing::HasSubstr("begin to touch in phase 'closed'"));
+    EXPECT_THAT(all, ::testing::HasSubstr("begin to touch in phase 'closed'"));
+    EXPECT_NEAR(run.alone.time(), 0.03, 1e-9);
+    EXPECT_EQ(run.alone.time(), run.together.time());
+    const auto energy = [](auto& experiment)
+    { return experiment.simulation().ledger().energy(experiment.simulation().census()); };
+    const solver::EnergyRow of_one = energy(run.alone), of_all = energy(run.together);
+    const double            places = test::difference(run.alone.simulation().body_fields().position,
+                                                      run.together.simulation().body_fields().position, 0.1);
+    std::printf("friction %.12g and %.12g J, coupling error %.3g and %.3g J, places differ by %.3g\n", of_one.friction,
+                of_all.friction, of_one.coupling, of_all.coupling, places);
+    EXPECT_LT(places, bound);
+    EXPECT_NEAR(of_one.friction, of_all.friction, bound * of_one.friction);
+    EXPECT_NEAR(of_one.coupling, of_all.coupling, bound * of_one.friction);
+    EXPECT_NEAR(of_one.total, of_all.total, bound * of_one.friction);
 }
 
 /// Sand with rocks slumps from one half of the box into the other, under a wheel.

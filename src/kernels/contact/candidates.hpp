@@ -85,11 +85,11 @@ struct Candidates
 /// Finds every (body, point) pair that can come into contact within the step. A pair is kept if the point lies in the
 /// body's bounding box and its signed distance is below a bound. Both are extended by r_p, by the skin (or by twice the
 /// possible displacement of body and point if that is larger), and by the extent of the point's samples: the slope of
-/// the trilinear interpolant of a distance is at most sqrt(3).
+/// the trilinear interpolant of a distance is at most sqrt(3). Pairs of materials that do not touch have no candidates.
 template<class Exec, class Real>
 void find_candidates(const Exec& exec, Candidates<Exec>& candidates, const mpm::PointsView<Real>& points,
                      const mpm::PagesView& pages, const dem::BodiesView& bodies, const dem::TemplateView* templates,
-                     RadiusRule radius, const SearchReach& reach);
+                     const dem::PairTable& materials, RadiusRule radius, const SearchReach& reach);
 
 /// Builds the order of the candidates by point and the runs of both orders, from body and point as find_candidates
 /// leaves them.

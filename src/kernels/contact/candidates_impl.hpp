@@ -83,6 +83,7 @@ struct Probe
     const dem::TemplateView* templates;
     SearchReach              reach;
     mpm::PointsView<Real>    points;
+    dem::PairTable           materials;
     RadiusRule               radius;
 
     template<class Visit>
@@ -98,8 +99,17 @@ struct Probe
         {
             const std::int32_t p   = pages.point_at[at];
             const double       own = point_radius(static_cast<double>(points.volume[p]), radius);
-            if (may_touch(body, points.position.get(p), own)) { visit(pair_body[pair], p); }
+            if (may_touch(body, points.position.get(p), own) && touch(p, pair_body[pair]))
+            {
+                visit(pair_body[pair], p);
+            }
         }
+    }
+
+private:
+    TREAD_HD bool touch(std::int32_t point, std::int32_t b) const
+    {
+        return materials(points.material[point], bodies.material[b]).touch;
     }
 };
 
@@ -230,7 +240,7 @@ void order_by_point(const Exec& exec, Candidates<Exec>& c)
 template<class Exec, class Real>
 void find_candidates(const Exec& exec, Candidates<Exec>& c, const mpm::PointsView<Real>& points,
                      const mpm::PagesView& pages, const dem::BodiesView& bodies, const dem::TemplateView* templates,
-                     RadiusRule radius, const SearchReach& reach)
+                     const dem::PairTable& materials, RadiusRule radius, const SearchReach& reach)
 {
     using namespace candidate_steps;
     clear(c);
@@ -239,7 +249,8 @@ void find_candidates(const Exec& exec, Candidates<Exec>& c, const mpm::PointsVie
     if (pairs == 0) { return; }
 
     const std::int64_t cells = pairs * mpm::page_cells;
-    const Probe<Real>  probe{c.pair_body.data(), c.pair_page.data(), pages, bodies, templates, reach, points, radius};
+    const Probe<Real>  probe{
+        c.pair_body.data(), c.pair_page.data(), pages, bodies, templates, reach, points, materials, radius};
     c.cell_first.resize(cells + 1);
     for_each(exec, "count candidates", cells + 1, CountCandidates<Real>{probe, cells, c.cell_first.data()});
     const std::int64_t found = exclusive_scan(exec, c.cell_first, c.sort);

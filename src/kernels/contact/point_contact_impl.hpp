@@ -89,7 +89,7 @@ void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Points
                 const SearchReach& reach)
 {
     keep_history(exec, contact);
-    find_candidates(exec, contact.candidates, points, pages, bodies, law.templates, law.radius, reach);
+    find_candidates(exec, contact.candidates, points, pages, bodies, law.templates, law.pairs, law.radius, reach);
     resize_to_candidates(exec, contact);
     make_slots(exec, contact, bodies, law);
     name_runs(exec, contact, bodies.count);

@@ -49,7 +49,8 @@ struct PairProperties
     double friction;        ///< Coulomb coefficient
     double damping_ratio;   ///< damping ratio zeta of the body-body law, from the restitution
 
-    double rolling_friction = 0; ///< rolling friction coefficient mu_r
+    double rolling_friction = 0;    ///< rolling friction coefficient mu_r
+    bool   touch            = true; ///< false: the search for contacts leaves the pair out
 };
 
 /// Table of materials x materials, row-major; the last row and column are the domain's walls (rigid).

@@ -13,6 +13,7 @@
 #include "solver/bodies/body_reports.hpp"
 #include "solver/bodies/body_row.hpp"
 #include "solver/bodies/body_state.hpp"
+#include "solver/bodies/body_touch.hpp"
 #include "solver/bodies/named_means.hpp"
 #include "solver/bodies/pair_lists.hpp"
 #include "solver/bodies/prescribed_motions.hpp"
@@ -81,6 +82,19 @@ public:
     /// Sets gravity, m/s2, and the properties of contacts to those of a phase of the scene.
     void set_gravity(const Vec3<double>& gravity) { state_.gravity = gravity; }
     void set_contacts(std::size_t phase);
+
+    /// Has the next find_pairs list pairs anew, as where others touch from now on.
+    void forget_list() { lists_.listed = false; }
+
+    /// Energies of contacts by pair of materials, and a check of pairs that begin to touch (body_touch.hpp).
+    void add_contact_energies(std::size_t sides, std::vector<double>& energies) const
+    {
+        solver::add_contact_energies(state_, sides, energies);
+    }
+    void require_apart(const TouchChange& change, std::size_t phase, double time)
+    {
+        solver::require_apart(state_, change, phase, time);
+    }
 
     /// Returns and resets the largest speed (m/s) set by commands on any rank since the last call.
     double take_commanded_speed();

@@ -3,6 +3,7 @@
 #include "backend/async_readback.hpp"
 #include "decomp/decomposition.hpp"
 #include "kernels/contact/substeps.hpp"
+#include "solver/touch_change.hpp"
 #include "world/world.hpp"
 
 namespace tread::solver
@@ -37,6 +38,18 @@ public:
     void find_candidates(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
                          const dem::BodiesView& bodies, std::int64_t version, double span, double speed);
 
+    /// Has the next find_candidates find them anew, as where other pairs touch from now on.
+    void forget_candidates() { version_ = 0; }
+
+    /// Adds the elastic energy (J) of this rank's contacts, as of the last substep, to that of their pair of materials:
+    /// [sides x sides], smaller index first. `material`: of each body.
+    void add_contact_energies(const std::vector<std::int32_t>& material, std::size_t sides,
+                              std::vector<double>& energies) const;
+
+    /// Overlaps of the pairs that begin to touch; call after find_candidates. `material`: of each body. Collective.
+    NewTouch new_touch(const dem::BodiesView& bodies, const std::vector<std::int32_t>& material,
+                       const TouchChange& change);
+
     /// Updates the contacts with the changes of their points in the last step, unless find_candidates has just done
     /// so.
     void begin_step(const mpm::PointsView<Real>& points);
@@ -70,6 +83,9 @@ public:
 
 private:
     bool any_near() const { return contact_.candidates.body.size() > 0; }
+
+    NewTouch own_new_touch(const dem::BodiesView& bodies, const std::vector<std::int32_t>& material,
+                           const TouchChange& change);
 
     std::vector<contact::HistoryRecord> remembered();
 

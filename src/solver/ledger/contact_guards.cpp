@@ -36,4 +36,13 @@ void require_unique_surface(const contact::Summary& contacts, const std::functio
                                      contacts.flattest.value, least_gradient));
 }
 
+void refuse_new_touch(const NewTouch& found, const std::string& body, const std::string& phase, double time)
+{
+    throw NumericalError(fmt::format("t = {:.6g} s: body {} and sand begin to touch in phase '{}', and {} points of "
+                                     "sand overlap it, by up to {:.3g} m; accepted: at most {:.3g} m, so that the "
+                                     "contact does not throw them apart: move the body out of the sand before the "
+                                     "phase",
+                                     time, body, phase, found.points, found.overlap, found.most));
+}
+
 } // namespace tread::solver

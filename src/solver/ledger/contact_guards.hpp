@@ -6,6 +6,7 @@
 
 #include "kernels/contact/summary.hpp"
 #include "solver/ledger/measuring.hpp"
+#include "solver/touch_change.hpp"
 
 namespace tread::solver
 {
@@ -18,5 +19,9 @@ void require_stable_substep(const LastStep& last, const Pace& pace);
 /// body in the message; `time`: s.
 void require_unique_surface(const contact::Summary& contacts, const std::function<std::string(std::int64_t)>& name_of,
                             double time);
+
+/// Throws NumericalError: points of sand overlap a body when `phase` begins, in which the two begin to touch.
+[[noreturn]] void refuse_new_touch(const NewTouch& found, const std::string& body, const std::string& phase,
+                                   double time);
 
 } // namespace tread::solver

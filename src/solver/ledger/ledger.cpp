@@ -38,6 +38,12 @@ void Ledger::turn_gravity(const Vec3<double>& gravity, const Census& before, con
     turned_ += gravity_energy(after) - energy;
 }
 
+void Ledger::release(double bodies, double sand)
+{
+    friction_ += bodies + sand;
+    contact_energy_ -= sand;
+}
+
 double Ledger::stored(const Census& now) const
 {
     return now.sand.kinetic + half_step_ + body_half_step_ + now.sand.strain + now.rigid.kinetic + now.rigid.contact +

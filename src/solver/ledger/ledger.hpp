@@ -91,6 +91,9 @@ public:
     /// counts from where everything is, so that it does not jump.
     void turn_gravity(const Vec3<double>& gravity, const Census& before, const Census& after);
 
+    /// Contacts of bodies, and of sand with bodies, that stored these energies (J) have ceased: they count as friction.
+    void release(double bodies, double sand);
+
     const Vec3<double>& gravity() const { return gravity_; }
 
     EnergyRow       energy(const Census& now);

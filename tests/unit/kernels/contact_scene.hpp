@@ -145,7 +145,7 @@ public:
     void find()
     {
         find_candidates(exec_, contact.candidates, points.view(), page_view(), bodies.view(), templates_.data(),
-                        contact::RadiusRule::sphere, reach());
+                        law().pairs, contact::RadiusRule::sphere, reach());
     }
     void begin() { begin_step(exec_, contact, points.view(), page_view(), bodies.view(), law(), reach()); }
     void begin_kept() { begin_kept_step(exec_, contact, points.view(), law()); }

@@ -158,6 +158,15 @@ const std::vector<BadCase> cross_cases{
      "there is no contact family called \"weel\"; did you mean \"wheel\"?"},
     {"reserved_family", "family = \"wheel\"\n[[contact]]\nbetween = [\"wheel\", \"sand\"]",
      "family = \"wall\"\n[[contact]]\nbetween = [\"rock\", \"sand\"]", 25, "\"wall\" is reserved"},
+    {"sand_without_walls", "friction = 0.4",
+     "friction = 0.4\n[[contact]]\nbetween = [\"sand\", \"wall\"]\ntouch = false", 31,
+     "[contact[1]] touch: touch = false of [\"sand\", \"wall\"]: no rock or body is of this family, and sand always "
+     "meets the walls; accepted: a pair with a family of rocks or bodies"},
+    {"rocks_in_place_of_sand_that_they_do_not_touch", "friction = 0.4",
+     "friction = 0.4\n[[contact]]\nbetween = [\"sand\", \"rock\"]\ntouch = false", 45,
+     "[rocks[0]] placement: the rocks stand in place of sand, but [\"rock\", \"sand\"] do not touch in the first "
+     "phase; "
+     "accepted: \"rain\" | \"grid\", or touch = true in the first phase"},
     {"same_pair_twice", "friction = 0.4", "friction = 0.4\n[[contact]]\nbetween = [\"sand\", \"wheel\"]", 30,
      "[contact[1]] between: the same pair as [[contact]] 0"},
     {"walls_alone", "[\"wheel\", \"sand\"]", "[\"wall\", \"wall\"]", 27, "walls do not meet each other"},

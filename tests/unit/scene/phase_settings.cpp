@@ -51,10 +51,25 @@ TEST(PhaseSettings, hold_until_another_phase_sets_them)
               between(scene.contacts, "wheel", "sand").friction);
 }
 
+TEST(PhaseSettings, pairs_touch_or_not_until_another_phase_sets_it)
+{
+    const std::string pair  = "contacts = [ { between = [\"rock\", \"wheel\"], touch = ";
+    const Scene       scene = load(with_phase(pair + "true } ]\n[[phase]]\nname = \"after\"\nduration = 1.0\n" + pair +
+                                              "false } ]\n[[contact]]\nbetween = [\"wheel\", \"rock\"]\ntouch = false"));
+    const auto        last  = scene.phases.size() - 1;
+    EXPECT_FALSE(between(contacts_in(scene, 0), "wheel", "rock").touch);
+    EXPECT_TRUE(between(contacts_in(scene, last - 1), "wheel", "rock").touch);
+    EXPECT_FALSE(between(contacts_in(scene, last), "wheel", "rock").touch);
+    EXPECT_TRUE(between(contacts_in(scene, last), "wheel", "sand").touch) << "what is left out touches";
+    EXPECT_TRUE(changes_touch(scene));
+    EXPECT_FALSE(changes_touch(load(good_scene + "[[contact]]\nbetween = [\"wheel\", \"rock\"]\ntouch = false")));
+}
+
 TEST(PhaseSettings, are_written_into_the_resolved_scene)
 {
-    const Scene scene = load(with_phase(
-        "gravity = [1.0, 0.0, -3.0]\ncontacts = [ { between = [\"sand\", \"wheel\"], restitution = 0.1 } ]"));
+    const Scene scene = load(
+        with_phase("gravity = [1.0, 0.0, -3.0]\ncontacts = [ { between = [\"sand\", \"wheel\"], restitution = 0.1, "
+                   "touch = false } ]\n[[contact]]\nbetween = [\"rock\", \"wheel\"]\ntouch = false"));
     EXPECT_EQ(load(resolved_toml(scene)), scene);
 }
 
@@ -87,7 +102,14 @@ const std::vector<BadSetting> bad_settings{
     {"unknown_family", "contacts = [ { between = [\"sand\", \"weel\"], friction = 0.1 } ]",
      "[phase.turned] contacts: there is no contact family called \"weel\"; did you mean \"wheel\"?"},
     {"sets_nothing", "contacts = [ { between = [\"sand\", \"wheel\"] } ]",
-     "[phase.turned] contacts: [\"sand\", \"wheel\"] sets nothing; accepted: friction, restitution or both"},
+     "[phase.turned] contacts: [\"sand\", \"wheel\"] sets nothing; accepted: friction, restitution or touch"},
+    {"touch_no_boolean", "contacts = [ { between = [\"sand\", \"wheel\"], touch = \"no\" } ]",
+     "[phase.turned.contacts[0]] touch: wrong type: the string \"no\"; accepted: true | false"},
+    {"sand_without_walls", "contacts = [ { between = [\"sand\", \"wall\"], touch = false } ]",
+     "[phase.turned] contacts: touch = false of [\"sand\", \"wall\"]: no rock or body is of this family, and sand "
+     "always meets the walls; accepted: a pair with a family of rocks or bodies"},
+    {"sand_without_sand", "contacts = [ { between = [\"sand\", \"sand\"], touch = false } ]",
+     "no rock or body is of these families, and points of sand always meet"},
     {"two_walls", "contacts = [ { between = [\"wall\", \"wall\"], friction = 0.1 } ]",
      "[phase.turned] contacts: walls do not meet each other"},
     {"twice",

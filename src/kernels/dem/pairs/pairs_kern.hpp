@@ -159,8 +159,15 @@ struct PairSearch
     TREAD_HD bool near(std::int64_t a, std::int64_t b) const
     {
         return may_touch(bodies, law.templates, allowed_displacement, a, b) &&
+               law.pairs(bodies.material[a], bodies.material[b]).touch &&
                find_sorted(jointed, jointed_count, pair_key(a, b)) < 0 &&
                ((is_sphere(a) && is_sphere(b)) || surfaces_near(bodies, law.templates, allowed_displacement, a, b));
+    }
+
+    TREAD_HD bool near(std::int64_t b, const Plane& plane) const
+    {
+        return may_touch_plane(bodies, law.templates, allowed_displacement, b, plane) &&
+               law.pairs(bodies.material[b], law.pairs.wall()).touch;
     }
 
     /// Parts of a body's search: the rows of cells around its own cell, and everything that is not in the cell grid.
@@ -205,10 +212,7 @@ private:
         }
         for (std::int32_t p = 0; p < law.plane_count; ++p)
         {
-            if (bodies.is_owned(a) && may_touch_plane(bodies, law.templates, allowed_displacement, a, law.planes[p]))
-            {
-                visit(pair_key(a, bodies.count + p));
-            }
+            if (bodies.is_owned(a) && near(a, law.planes[p])) { visit(pair_key(a, bodies.count + p)); }
         }
     }
 };

@@ -1,0 +1,73 @@
+#include <algorithm>
+
+#include "backend/instantiate.hpp"
+#include "decomp/messages.hpp"
+#include "solver/coupling/sand_body_coupling.hpp"
+
+// Pairs of sand and bodies that begin or cease to touch at the border of two phases.
+namespace tread::solver
+{
+
+template<class Exec, class Real>
+void SandBodyCoupling<Exec, Real>::add_contact_energies(const std::vector<std::int32_t>& material, std::size_t sides,
+                                                        std::vector<double>& energies) const
+{
+    const auto response = contact_.response.to_host();
+    const auto body = contact_.candidates.body.to_host(), touched = contact_.candidates.touched.to_host(),
+               sand = contact_.material.to_host();
+    for (std::size_t c = 0; c < response.size(); ++c)
+    {
+        const auto a      = static_cast<std::size_t>(sand[static_cast<std::size_t>(touched[c])]);
+        const auto b      = static_cast<std::size_t>(material[static_cast<std::size_t>(body[c])]);
+        const auto [i, j] = std::minmax(a, b);
+        energies[i * sides + j] += response[c].energy;
+    }
+}
+
+/// Evaluates the contacts without letting time pass: what friction loses by it counts with the next substep.
+template<class Exec, class Real>
+NewTouch SandBodyCoupling<Exec, Real>::own_new_touch(const dem::BodiesView&           bodies,
+                                                     const std::vector<std::int32_t>& material,
+                                                     const TouchChange&               change)
+{
+    NewTouch found;
+    if (!any_near()) { return found; }
+    contact::substep(exec_, contact_, bodies, law_, 0);
+    const auto response = contact_.response.to_host();
+    const auto body = contact_.candidates.body.to_host(), touched = contact_.candidates.touched.to_host(),
+               sand   = contact_.material.to_host();
+    const auto radius = contact_.radius.to_host();
+    for (std::size_t c = 0; c < response.size(); ++c)
+    {
+        const auto   point = static_cast<std::size_t>(touched[c]);
+        const double most  = deepest_new_touch * radius[point];
+        if (response[c].overlap <= most) { continue; }
+        if (!change.begins(sand[point], material[static_cast<std::size_t>(body[c])])) { continue; }
+        found = together(found, {1, response[c].overlap, most, body[c]});
+    }
+    return found;
+}
+
+template<class Exec, class Real>
+NewTouch SandBodyCoupling<Exec, Real>::new_touch(const dem::BodiesView&           bodies,
+                                                 const std::vector<std::int32_t>& material, const TouchChange& change)
+{
+    const NewTouch own = own_new_touch(bodies, material, change);
+    if (communicator_ == nullptr) { return own; }
+    NewTouch all;
+    for (const auto& of_rank : decomp::gather_values<NewTouch>(*communicator_, {own}))
+    {
+        all = together(all, of_rank.front());
+    }
+    return all;
+}
+
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                   \
+    template void     SandBodyCoupling<Exec, Real>::add_contact_energies(const std::vector<std::int32_t>&, std::size_t, \
+                                                                         std::vector<double>&) const;                   \
+    template NewTouch SandBodyCoupling<Exec, Real>::new_touch(const dem::BodiesView&,                                   \
+                                                              const std::vector<std::int32_t>&, const TouchChange&)
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+} // namespace tread::solver
