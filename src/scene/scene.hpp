@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -119,6 +120,9 @@ struct Material
     double        void_ratio_max     = 0;
     double        bolton_q           = 10; ///< strength of the grains
     BoltonFit     bolton_fit         = BoltonFit::triaxial;
+
+    std::optional<double> softening_length;    ///< m; empty: softens by each point's own density
+    double                nonlocal_weight = 2; ///< of the mean density in the density that the law sees
 
     bool operator==(const Material&) const = default;
 };
@@ -356,5 +360,16 @@ struct Scene
 
     bool operator==(const Scene&) const = default;
 };
+
+/// Returns the softening length of the materials that have one, m, the same for all; 0 if none has.
+inline double softening_length(const Scene& scene)
+{
+    double length = 0;
+    for (const Material& material : scene.materials)
+    {
+        length = std::max(length, material.softening_length.value_or(0));
+    }
+    return length;
+}
 
 } // namespace tread::scene

@@ -114,6 +114,23 @@ TEST(Bolton, DenseAndLooseEndAtTheSameVoidRatio)
     }
 }
 
+/// Weighs the mean log volume ratio by m and the own one by 1 - m; the gap is no part of the skeleton.
+TEST(Bolton, SeesTheMeanOfItsSurroundings)
+{
+    DensityDependence nonlocal = dense;
+    nonlocal.nonlocal_weight   = 2;
+    const auto            law  = make_bolton<double>({critical_angle, 0, 0}, nonlocal);
+    PlasticState<double>  state{0, 0, 0.01, std::exp(0.04)};
+    constexpr const char* why = "the formula, to rounding";
+    expect_law("skeleton of a law without a length", seen_skeleton(make_bolton<double>({33, 0, 0}, dense), state),
+               std::exp(0.03), 1e-15, why);
+    for (const double mean : {0.0, 0.01, 0.03})
+    {
+        state.mean_strain = mean;
+        expect_law("seen skeleton", seen_skeleton(law, state), std::exp(2 * mean - 0.03), 1e-15, why);
+    }
+}
+
 TEST(Bolton, PressureSuppressesDilation)
 {
     const auto law = make_bolton<double>({critical_angle, 0, 0}, dense);
