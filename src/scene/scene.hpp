@@ -121,8 +121,8 @@ struct Material
     double        bolton_q           = 10; ///< strength of the grains
     BoltonFit     bolton_fit         = BoltonFit::triaxial;
 
-    std::optional<double> softening_length;    ///< m; empty: softens by each point's own density
-    double                nonlocal_weight = 2; ///< of the mean density in the density that the law sees
+    std::optional<double> softening_length = std::nullopt; ///< m; empty: softens by each point's own density
+    double                nonlocal_weight  = 2;            ///< of the mean density in the density that the law sees
 
     bool operator==(const Material&) const = default;
 };

@@ -17,7 +17,7 @@ class ShearBand : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(ShearBand, test::Backends, test::BackendNames);
 
-constexpr double width = 0.1, height = 0.2, speed = 0.1, length = 0.01;
+constexpr double width = 0.06, speed = 0.1, duration = 0.12;
 
 /// Biaxial compression of moist dense sand between smooth plates, free at its sides; a corner is weaker. `softening`:
 /// keys of both sands.
@@ -45,7 +45,7 @@ bolton_fit         = "plane-strain"
     return sand("dense", 0.8) + sand("weaker", 0.6) +
            fmt::format(R"(
 [domain]
-size    = [0.3, {h}, 0.24]
+size    = [0.26, {h}, 0.16]
 gravity = [0.0, 0.0, 0.0]
 walls   = {{ x = "open", y = "slip", bottom = "slip", top = "open" }}
 [grid]
@@ -62,28 +62,28 @@ between  = ["steel", "dense"]
 friction = 0.0
 [[shape]]
 name     = "plate"
-generate = {{ kind = "box", size = [0.16, {plate}, 0.02] }}
+generate = {{ kind = "box", size = [0.12, {plate}, 0.02] }}
 [[terrain]]
 material = "dense"
-region   = {{ box = [[0.1, 0.0, 0.0], [0.2, {h}, 0.02]] }}
+region   = {{ box = [[0.1, 0.0, 0.0], [0.16, {h}, 0.02]] }}
 [[terrain]]
 material = "weaker"
 region   = {{ box = [[0.1, 0.0, 0.02], [0.12, {h}, 0.04]] }}
 [[terrain]]
 material = "dense"
-region   = {{ box = [[0.12, 0.0, 0.02], [0.2, {h}, 0.04]] }}
+region   = {{ box = [[0.12, 0.0, 0.02], [0.16, {h}, 0.04]] }}
 [[terrain]]
 material = "dense"
-region   = {{ box = [[0.1, 0.0, 0.04], [0.2, {h}, 0.2]] }}
+region   = {{ box = [[0.1, 0.0, 0.04], [0.16, {h}, 0.12]] }}
 [[body]]
 name     = "top"
 shape    = "plate"
 material = "steel"
 mass     = 1.0
-position = [0.15, {middle}, 0.21001]
+position = [0.13, {middle}, 0.13001]
 [[phase]]
 name     = "shorten"
-duration = 0.2
+duration = {duration}
 [[phase.motion]]
 body  = "top"
 x     = "held"
@@ -94,7 +94,7 @@ pitch = "held"
 yaw   = "held"
 )",
                        fmt::arg("h", h), fmt::arg("plate", 0.96 * h), fmt::arg("middle", 0.5 * h),
-                       fmt::arg("speed", speed));
+                       fmt::arg("speed", speed), fmt::arg("duration", duration));
 }
 
 /// What a sample did.
@@ -136,22 +136,42 @@ Sample compress(const Exec& exec, double h, const std::string& softening)
     test::Experiment<Exec>          sample(exec, compression_text(h, softening));
     std::map<std::uint32_t, double> middle;
     Sample                          result{0, 0, 0};
-    double                          part = 0.02;
+    double                          part = 0.1 * duration;
     sample.simulation().begin_mean();
     sample.run(
         [&](double time)
         {
-            if (middle.empty() && time >= 0.1) { middle = shear_of(sample.simulation()); }
+            if (middle.empty() && time >= 0.5 * duration) { middle = shear_of(sample.simulation()); }
             if (time < part - 1e-9) { return; }
             result.last = sample.simulation().named_bodies().at(0).force[2] / (width * h);
             result.peak = std::max(result.peak, result.last);
             sample.simulation().begin_mean();
-            part += 0.02;
+            part += 0.1 * duration;
         });
     result.band = spread(middle, shear_of(sample.simulation()));
     return result;
 }
 
-TYPED_TEST(ShearBand, HasTheThicknessOfTheSofteningLength) {}
+/// Without a length the band is as thick as cells, so that cells half as wide halve the sheared share. With a length of
+/// 10 mm, one coarse cell, it stays. What is left is the grid's own width, which adds to the length's: a variance of
+/// some h^2/4 per transfer.
+TYPED_TEST(ShearBand, HasTheThicknessOfTheSofteningLength)
+{
+    const auto ratio = [&](const char* what, const std::string& softening)
+    {
+        const Sample coarse = compress(this->exec(), 0.01, softening), fine = compress(this->exec(), 0.005, softening);
+        for (const Sample& sample : {coarse, fine})
+        {
+            std::printf("  %s: sheared share %.3f, peak %.1f kPa, at the end %.1f kPa\n", what, sample.band,
+                        1e-3 * sample.peak, 1e-3 * sample.last);
+        }
+        return fine.band / coarse.band;
+    };
+    const double kept = ratio("length of 10 mm", "softening_length = 0.01"), lost = ratio("no length", "");
+    test::report("sheared share with 5 mm over that with 10 mm, length of 10 mm", kept, 1, 0.2, "the grid's own width");
+    EXPECT_NEAR(kept, 1, 0.2);
+    test::report("the same without a length", lost, 0.5, 0.15, "halved, or a little less: the spot keeps its size");
+    EXPECT_NEAR(lost, 0.5, 0.15);
+}
 
 } // namespace

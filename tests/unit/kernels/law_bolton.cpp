@@ -144,12 +144,15 @@ TEST(Bolton, PressureSuppressesDilation)
                "Bolton's limit is 4; I_D is not above 1");
 }
 
-/// Random strain increments from random stresses: every number finite, dissipation never negative, stress admissible.
+/// Random strain increments from random stresses, with random means of the surroundings: every number finite,
+/// dissipation never negative, stress admissible.
 template<class Real>
-void random_paths()
+void random_paths(double nonlocal_weight)
 {
-    Random     random(7);
-    const auto material = make_material(make_elasticity<Real>(1e7, 0.3, 1600), make_bolton<Real>({30, 0, 50}, dense));
+    Random            random(7);
+    DensityDependence density = dense;
+    density.nonlocal_weight   = nonlocal_weight;
+    const auto material = make_material(make_elasticity<Real>(1e7, 0.3, 1600), make_bolton<Real>({30, 0, 50}, density));
     double     least    = 0;
     for (int path = 0; path < 2000; ++path)
     {
@@ -162,6 +165,7 @@ void random_paths()
             const double size = std::pow(10.0, random.uniform(-7, -2));
             for (int i = 0; i < 9; ++i) { gradient(i) = static_cast<Real>(random.uniform(-1, 1) * size); }
             state.volume_ratio = ratio;
+            state.mean_strain  = static_cast<Real>(random.uniform(-0.3, 0.3));
             const auto update  = update_stress(material, stress, state, gradient, Real(1));
             stress             = update.stress;
             state              = update.state;
@@ -174,7 +178,9 @@ void random_paths()
                  "rounding of stresses to 1e5 Pa times strains to 1e-2");
 }
 
-TEST(Bolton, RandomPaths) { random_paths<double>(); }
-TEST(Bolton, RandomPathsSingle) { random_paths<float>(); }
+TEST(Bolton, RandomPaths) { random_paths<double>(0); }
+TEST(Bolton, RandomPathsSingle) { random_paths<float>(0); }
+TEST(Bolton, RandomPathsAmongAnySurroundings) { random_paths<double>(2); }
+TEST(Bolton, RandomPathsAmongAnySurroundingsSingle) { random_paths<float>(2); }
 
 } // namespace
