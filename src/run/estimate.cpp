@@ -40,6 +40,7 @@ std::int64_t field_bytes(const scene::Scene& scene, const solver::Plan& plan)
     if (plan.affine) { fields += 9 * real; }
     if (plan.plasticity) { fields += 3 * real; }
     if (plan.cap) { fields += real; }
+    if (plan.nonlocal) { fields += real; }
     if (plan.coupling) { fields += 9 * real; }
     if (scene.numerics.volume_strain == scene::VolumeStrain::cell_average) { fields += 6 * real; }
     return fields;
@@ -121,12 +122,13 @@ PageCounts count_pages(const world::World& world)
 
 /// Bytes of tiles, lists and sums of the pages (kernels/mpm/pages/pages.hpp, solver/sand/mpm_solver.cpp), and of their
 /// keys.
-std::int64_t page_bytes(const scene::Scene& scene, const PageCounts& pages)
+std::int64_t page_bytes(const scene::Scene& scene, const solver::Plan& plan, const PageCounts& pages)
 {
     const std::int64_t real       = bytes_of_real(scene);
     const bool         means      = scene.numerics.volume_strain == scene::VolumeStrain::cell_average;
     const std::int64_t point_page = mpm::node_channels * mpm::tile_nodes * real + (means ? mpm::page_cells * real : 0) +
-                                    2 * 4 * (mpm::page_cells + 1) + 8 + 4 * (mpm::directions + mpm::move_counts + 8) +
+                                    (plan.nonlocal ? 3 * mpm::page_cells * real : 0) + 2 * 4 * (mpm::page_cells + 1) +
+                                    8 + 4 * (mpm::directions + mpm::move_counts + 8) +
                                     8 * (std::int64_t{mpm::tally_width(mpm::point_sums)} +
                                          std::int64_t{mpm::point_peaks} + std::int64_t{mpm::census_count});
     const std::int64_t node_page = mpm::motion_channels * mpm::page_cells * real +
@@ -155,7 +157,7 @@ std::int64_t checkpoint_bytes_per_point(const scene::Scene& scene, const solver:
 {
     const std::int64_t real = bytes_of_real(scene);
     return 24 + 10 * real + 4 + 4 + 1 + (plan.affine ? 9 * real : 0) + (plan.plasticity ? 3 * real : 0) +
-           (plan.coupling ? 9 * real : 0) + (plan.cap ? real : 0);
+           (plan.coupling ? 9 * real : 0) + (plan.cap ? real : 0) + (plan.nonlocal ? real : 0);
 }
 
 /// Bytes of the page lists in a checkpoint (kernels/mpm/pages/pages.hpp).
@@ -287,7 +289,7 @@ Estimate estimate(const scene::Scene& scene, const world::World& world, const so
     if (plan.sand)
     {
         const std::int64_t of_point = bytes_per_point(scene, plan) + sleep_bytes_per_point(scene, plan);
-        const std::int64_t sand     = points * of_point + page_bytes(scene, pages);
+        const std::int64_t sand     = points * of_point + page_bytes(scene, plan, pages);
         wants.memory_bytes += sand;
         wants.bytes_a_point = static_cast<double>(sand) / static_cast<double>(points);
     }

@@ -123,6 +123,10 @@ void require_ranks_can(const Communicator& communicator, const scene::Scene& sce
     {
         decomp::require_single_rank(communicator, "scenes with volume_strain = \"cell-average\" run");
     }
+    if (scene::softening_length(scene) > 0)
+    {
+        decomp::require_single_rank(communicator, "scenes with softening_length run");
+    }
     if (!scene.grid.refine.empty()) { decomp::require_single_rank(communicator, "scenes with [grid] refine run"); }
     if (scene.sleep.distance) { decomp::require_single_rank(communicator, "scenes with sleep.distance run"); }
 }

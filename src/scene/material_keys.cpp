@@ -33,6 +33,8 @@ std::string when(bool (*wanted)(MaterialModel))
     return condition;
 }
 
+bool is_nonlocal(const Material& material) { return is_bolton(material) && material.softening_length.has_value(); }
+
 bool has_cap(const Material& material) { return material.model == MaterialModel::drucker_prager_cap; }
 
 bool has_cone(const Material& material) { return material.model == MaterialModel::drucker_prager || has_cap(material); }
@@ -94,6 +96,16 @@ Keys<Material> material_keys()
             "Tests to which the friction angle is fitted: 3 degrees (triaxial compression) or 5 (plane strain) per "
             "unit of the dilatancy index.")
             .when(bolton, is_bolton),
+        optional("softening_length", "m", &Material::softening_length, number_or("", length()),
+                 "The law sees the density as a mean over the surroundings, weighted by a bell curve of this standard "
+                 "deviation, so that thickness of shear bands and softening are not the grid's. At least one cell; "
+                 "docs/theory.md#softening-length.",
+                 "each point's own density")
+            .when(bolton, is_bolton),
+        optional("nonlocal_weight", "", &Material::nonlocal_weight, number(between(1, 10)),
+                 "Weight m of the mean density in the one that the law sees; the point's own has 1 - m. With 1 bands "
+                 "stay as thick as cells.")
+            .when("softening_length given", is_nonlocal),
         optional("family", "", &Material::family, name(),
                  "Contact class, looked up in [[contact]]. \"wall\" is reserved for the domain's walls.",
                  "the material's name"),

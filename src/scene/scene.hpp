@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -120,6 +121,9 @@ struct Material
     double        bolton_q           = 10; ///< strength of the grains
     BoltonFit     bolton_fit         = BoltonFit::triaxial;
     std::string   soil{}; ///< published soil that fills keys left out; empty in a loaded scene, which has all of them
+
+    std::optional<double> softening_length = std::nullopt; ///< m; empty: softens by each point's own density
+    double                nonlocal_weight  = 2;            ///< of the mean density in the density that the law sees
 
     bool operator==(const Material&) const = default;
 };
@@ -384,5 +388,16 @@ struct Scene
 
     bool operator==(const Scene&) const = default;
 };
+
+/// Returns the softening length of the materials that have one, m, the same for all; 0 if none has.
+inline double softening_length(const Scene& scene)
+{
+    double length = 0;
+    for (const Material& material : scene.materials)
+    {
+        length = std::max(length, material.softening_length.value_or(0));
+    }
+    return length;
+}
 
 } // namespace tread::scene

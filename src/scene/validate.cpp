@@ -60,6 +60,32 @@ void validate_bolton(const Material& material, const TableAt& at, Checker& check
     }
 }
 
+/// Checks limitations of a mean density: one mean serves all materials, over whole cells of one size.
+void validate_softening(const Scene& scene, const Material& material, const TableAt& at, Checker& checker)
+{
+    if (!material.softening_length || !checker.sound(at, {"softening_length"})) { return; }
+    const double length = *material.softening_length;
+    const auto   refuse = [&](const std::string& what, const std::string& accepted)
+    { checker.report(at, "softening_length", what, accepted); };
+    if (checker.sound({"grid"}, {"spacing"}) && length < scene.grid.spacing)
+    {
+        refuse(fmt::format("{} is less than a cell, so that it would have no effect", length),
+               fmt::format("number >= [grid] spacing = {} (m)", scene.grid.spacing));
+    }
+    const auto other = [&](const Material& m) { return m.softening_length && *m.softening_length != length; };
+    const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), other);
+    if (found != scene.materials.end())
+    {
+        refuse(fmt::format("{} differs from that of \"{}\"", length, found->name),
+               fmt::format("{} (m), one length for all materials", *found->softening_length));
+    }
+    if (!scene.grid.refine.empty())
+    {
+        refuse("the mean does not cross the seams of a refined grid", "no [grid] refine");
+    }
+    if (scene.sleep.distance) { refuse("the mean would miss sand that sleeps", "no [sleep] distance"); }
+}
+
 void validate_material(const Scene& scene, const Material& material, const TableAt& at, Checker& checker)
 {
     if (checker.sound(at, {"friction_angle_deg", "dilation_angle_deg"}) &&
@@ -72,6 +98,7 @@ void validate_material(const Scene& scene, const Material& material, const Table
     if (checker.sound(at, {"model"}) && material.model == MaterialModel::bolton)
     {
         validate_bolton(material, at, checker);
+        validate_softening(scene, material, at, checker);
     }
     if (checker.sound(at, {"model"}) && material.model != MaterialModel::rigid && checker.given(at, "young") == nullptr)
     {

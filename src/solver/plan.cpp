@@ -26,6 +26,7 @@ Plan make_plan(const scene::Scene& scene, const world::World& world, int ranks)
     plan.sleep        = plan.sand && scene.sleep.distance.has_value();
     plan.motions      = std::any_of(scene.phases.begin(), scene.phases.end(), moved);
     plan.cap          = plan.sand && std::any_of(scene.materials.begin(), scene.materials.end(), capped);
+    plan.nonlocal     = plan.sand && scene::softening_length(scene) > 0;
     return plan;
 }
 

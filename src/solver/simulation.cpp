@@ -62,7 +62,8 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     if (decomposition != nullptr) { balance_.emplace(*decomposition, scene.balance.threshold); }
     if (plan.sand)
     {
-        sand_.emplace(exec, scene, world, mpm::PointFields{plan.affine, plan.plasticity, plan.coupling, plan.cap},
+        sand_.emplace(exec, scene, world,
+                      mpm::PointFields{plan.affine, plan.plasticity, plan.coupling, plan.cap, plan.nonlocal},
                       decomposition);
     }
     if (plan.bodies) { rigid_.emplace(exec, scene, world, plan, decomposition); }

@@ -39,7 +39,8 @@ mpm::DensityDependence density_dependence(const scene::Material& material)
             material.void_ratio_max,
             material.bolton_q,
             1,
-            material.bolton_fit == scene::BoltonFit::triaxial ? 3.0 : 5.0};
+            material.bolton_fit == scene::BoltonFit::triaxial ? 3.0 : 5.0,
+            material.softening_length ? material.nonlocal_weight : 0};
 }
 
 mpm::ConeFit cone_fit(scene::ConeFit fit)

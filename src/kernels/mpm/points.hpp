@@ -33,6 +33,7 @@ struct PointsView
     Real* volume_gap;    ///< log volume opened at the apex that must close before compression
 
     Real* cap_pressure; ///< Pa, pressure at which the cap flows; capped materials only, otherwise null
+    Real* mean_strain;  ///< nonlocal mean of the skeleton's log volume ratio; nonlocal materials only, otherwise null
 
     // Coupling with bodies only, otherwise null.
     Planes<Real, 3> contact_force; ///< N, contact impulse of the step divided by dt
@@ -46,7 +47,8 @@ struct PointFields
     bool affine;
     bool plastic;
     bool coupled;
-    bool capped = false; ///< some material has a cap
+    bool capped   = false; ///< some material has a cap
+    bool nonlocal = false; ///< some material softens by a mean over its surroundings
 };
 
 /// Memory of PointsView. Fields that the scene does not need are not allocated.
@@ -68,6 +70,7 @@ struct Points
         , plastic_rate(exec, "point plastic rate")
         , volume_gap(exec, "point volume gap")
         , cap_pressure(exec, "point cap pressure")
+        , mean_strain(exec, "point mean strain")
         , contact_force(exec, "point contact force")
         , grid_velocity(exec, "point grid velocity")
         , support(exec, "point support")
@@ -98,6 +101,7 @@ struct Points
         take(plastic_rate, 1, fields.plastic);
         take(volume_gap, 1, fields.plastic);
         take(cap_pressure, 1, fields.capped);
+        take(mean_strain, 1, fields.nonlocal);
         take(contact_force, 3, fields.coupled);
         take(grid_velocity, 3, fields.coupled);
         take(support, 3, fields.coupled);
@@ -139,6 +143,7 @@ struct Points
                 plastic_rate.data(),
                 volume_gap.data(),
                 cap_pressure.data(),
+                mean_strain.data(),
                 {contact_force.data(), stride},
                 {grid_velocity.data(), stride},
                 {support.data(), stride}};
@@ -173,6 +178,7 @@ struct Points
         visit("plastic_rate", plastic_rate, 1);
         visit("volume_gap", volume_gap, 1);
         visit("cap_pressure", cap_pressure, 1);
+        visit("mean_strain", mean_strain, 1);
         visit("contact_force", contact_force, 3);
         visit("grid_velocity", grid_velocity, 3);
         visit("support", support, 3);
@@ -195,6 +201,7 @@ struct Points
     Array<Exec, Real>          plastic_rate;
     Array<Exec, Real>          volume_gap;
     Array<Exec, Real>          cap_pressure;
+    Array<Exec, Real>          mean_strain;
     Array<Exec, Real>          contact_force;
     Array<Exec, Real>          grid_velocity;
     Array<Exec, Real>          support;

@@ -139,6 +139,10 @@ template<class Exec, class Real>
 void MpmSolver<Exec, Real>::gather(double dt)
 {
     ++order_.step;
+    if (laws_.mean_strain && order_.step % laws_.mean_strain->smoothing.interval == 0)
+    {
+        mpm::average_strain(exec_, points_.view(), pages(), laws_.materials.data(), *laws_.mean_strain);
+    }
     if (laws_.cell_means)
     {
         for_each_level(grid_, pages(),

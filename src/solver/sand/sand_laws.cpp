@@ -21,13 +21,19 @@ SandLaws<Exec, Real>::SandLaws(const Exec& exec, const scene::Scene& scene, cons
 {
     materials.assign(world::law_parameters<Real>(scene));
     if (scene.numerics.volume_strain == scene::VolumeStrain::cell_average) { cell_means.emplace(exec); }
+    if (const double length = scene::softening_length(scene); length > 0)
+    {
+        mean_strain.emplace(exec, mpm::make_smoothing(length / scene.grid.spacing));
+    }
 }
 
 template<class Exec, class Real>
 void resize_cell_means(SandLaws<Exec, Real>& laws, const mpm::Points<Exec, Real>& points, const mpm::Pages<Exec>& pages)
 {
+    const std::int64_t cells = pages.point_page_key.size() * mpm::page_cells;
+    if (laws.mean_strain) { laws.mean_strain->resize(cells); }
     if (!laws.cell_means) { return; }
-    laws.cell_means->divergence.resize(pages.point_page_key.size() * mpm::page_cells);
+    laws.cell_means->divergence.resize(cells);
     laws.cell_means->stress.resize(points.stress.size());
 }
 

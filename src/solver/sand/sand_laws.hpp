@@ -4,6 +4,7 @@
 
 #include "kernels/mpm/laws/material_parameters.hpp"
 #include "kernels/mpm/transfers/gather.hpp"
+#include "kernels/mpm/transfers/mean_strain.hpp"
 #include "world/world.hpp"
 
 namespace tread::solver
@@ -25,12 +26,13 @@ struct SandLaws
 {
     SandLaws(const Exec& exec, const scene::Scene& scene, const world::World& world);
 
-    Array<Exec, mpm::MaterialParameters<Real>> materials;  ///< indexed by PointsView::material
-    double                                     pic_rate;   ///< 1/s, world::pic_rate
-    std::optional<CellMeans<Exec, Real>>       cell_means; ///< only with cell-average volumetric strain
+    Array<Exec, mpm::MaterialParameters<Real>> materials;   ///< indexed by PointsView::material
+    double                                     pic_rate;    ///< 1/s, world::pic_rate
+    std::optional<CellMeans<Exec, Real>>       cell_means;  ///< only with cell-average volumetric strain
+    std::optional<mpm::MeanStrain<Exec, Real>> mean_strain; ///< only with a softening length
 };
 
-/// Allocates the cell averages, if there are any.
+/// Allocates the cells' values, if there are any.
 template<class Exec, class Real>
 void resize_cell_means(SandLaws<Exec, Real>& laws, const mpm::Points<Exec, Real>& points,
                        const mpm::Pages<Exec>& pages);

@@ -116,6 +116,23 @@ TEST(Bolton, DenseAndLooseEndAtTheSameVoidRatio)
     }
 }
 
+/// Weighs the mean log volume ratio by m and the own one by 1 - m; the gap is no part of the skeleton.
+TEST(Bolton, SeesTheMeanOfItsSurroundings)
+{
+    DensityDependence nonlocal = dense;
+    nonlocal.nonlocal_weight   = 2;
+    const auto            law  = make_bolton<double>({critical_angle, 0, 0}, nonlocal);
+    PlasticState<double>  state{0, 0, 0.01, std::exp(0.04)};
+    constexpr const char* why = "the formula, to rounding";
+    expect_law("skeleton of a law without a length", seen_skeleton(make_bolton<double>({33, 0, 0}, dense), state),
+               std::exp(0.03), 1e-15, why);
+    for (const double mean : {0.0, 0.01, 0.03})
+    {
+        state.mean_strain = mean;
+        expect_law("seen skeleton", seen_skeleton(law, state), std::exp(2 * mean - 0.03), 1e-15, why);
+    }
+}
+
 TEST(Bolton, PressureSuppressesDilation)
 {
     const auto law = make_bolton<double>({critical_angle, 0, 0}, dense);
@@ -134,9 +151,8 @@ template<class Real>
 MohrCoulomb<Real> strength_before(const MaterialParameters<Real>& material, const Sym3<Real>& trial,
                                   const PlasticState<Real>& state)
 {
-    const Real mean     = (trial[0] + trial[1] + trial[2]) * Real(1.0 / 3);
-    const Real skeleton = state.volume_ratio * std::exp(-state.volume_gap);
-    return strength_at(material.bolton, dilatancy_index(material.bolton, skeleton, mean));
+    const Real mean = (trial[0] + trial[1] + trial[2]) * Real(1.0 / 3);
+    return strength_at(material.bolton, dilatancy_index(material.bolton, seen_skeleton(material.bolton, state), mean));
 }
 
 /// Yield function over |s1| + |s3| + c.
@@ -149,12 +165,15 @@ double beyond_yield(const MohrCoulomb<Real>& strength, const Sym3<Real>& stress)
     return yield_function(exact, sigma[2], sigma[0]) / (std::abs(sigma[2]) + std::abs(sigma[0]) + exact.cohesion);
 }
 
-/// Random strain increments: every number finite, dissipation never negative, stress admissible.
+/// Random strain increments from random stresses, with random means of the surroundings: every number finite,
+/// dissipation never negative, stress admissible.
 template<class Real>
-void random_paths()
+void random_paths(double nonlocal_weight)
 {
-    Random     random(7);
-    const auto material = make_material(make_elasticity<Real>(1e7, 0.3, 1600), make_bolton<Real>({30, 0, 50}, dense));
+    Random            random(7);
+    DensityDependence density = dense;
+    density.nonlocal_weight   = nonlocal_weight;
+    const auto material = make_material(make_elasticity<Real>(1e7, 0.3, 1600), make_bolton<Real>({30, 0, 50}, density));
     double     least = 0, beyond = 0;
     for (int path = 0; path < 2000; ++path)
     {
@@ -167,6 +186,7 @@ void random_paths()
             const double size = std::pow(10.0, random.uniform(-7, -2));
             for (int i = 0; i < 9; ++i) { gradient(i) = static_cast<Real>(random.uniform(-1, 1) * size); }
             state.volume_ratio  = ratio;
+            state.mean_strain   = static_cast<Real>(random.uniform(-0.3, 0.3));
             const auto strength = strength_before(material, trial_stress(material, stress, gradient, Real(1)), state);
             const auto update   = update_stress(material, stress, state, gradient, Real(1));
             beyond              = std::max(beyond, beyond_yield(strength, update.stress));
@@ -184,7 +204,9 @@ void random_paths()
                  "what the law counts as elastic, and its principal values (law_eigen)");
 }
 
-TEST(Bolton, RandomPaths) { random_paths<double>(); }
-TEST(Bolton, RandomPathsSingle) { random_paths<float>(); }
+TEST(Bolton, RandomPaths) { random_paths<double>(0); }
+TEST(Bolton, RandomPathsSingle) { random_paths<float>(0); }
+TEST(Bolton, RandomPathsAmongAnySurroundings) { random_paths<double>(2); }
+TEST(Bolton, RandomPathsAmongAnySurroundingsSingle) { random_paths<float>(2); }
 
 } // namespace

@@ -78,6 +78,17 @@ TEST(LeftOut, SandThatMaySleep)
     expect_uses(test::sand_text + "\n[sleep]\ndistance = 0.2\n", soil + sleep);
 }
 
+std::string bolton(const std::string& more)
+{
+    std::string text = test::sand_text;
+    return text.replace(text.find("\"mohr-coulomb\""), 14,
+                        "\"bolton\"\nrelative_density = 0.8\nvoid_ratio_min = 0.5\nvoid_ratio_max = 0.9\n" + more);
+}
+
+TEST(LeftOut, SandThatKnowsItsDensity) { expect_uses(bolton(""), soil); }
+
+TEST(LeftOut, SandWithASofteningLength) { expect_uses(bolton("softening_length = 0.1\n"), soil + mean_strain); }
+
 TEST(LeftOut, RocksAlone)
 {
     expect_uses(without_terrain(test::sand_text) + above, bodies + pairs + pairs_without_sand);

@@ -65,6 +65,11 @@ TEST(Memory, EstimateIsTrueWithinATenth)
     expect_true_estimate<float>(finer(test::sand_text), {single});
     expect_true_estimate<float>(finer(test::sand_text), {single, "terrain[0].points_per_cell=1"});
     expect_true_estimate<float>(test::sand_text, {single, "numerics.volume_strain=cell-average"});
+    std::string nonlocal = test::sand_text;
+    nonlocal.replace(nonlocal.find("\"mohr-coulomb\""), 14,
+                     "\"bolton\"\nrelative_density = 0.8\nvoid_ratio_min = 0.5\nvoid_ratio_max = 0.9\n"
+                     "softening_length = 0.1");
+    expect_true_estimate<float>(nonlocal, {single});
     expect_true_estimate<double>(finer(test::sand_text), {two});
     expect_true_estimate<double>(finer(test::sand_text), {two, apic});
     expect_true_estimate<float>(finer(test::roller_text), {single});

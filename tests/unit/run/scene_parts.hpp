@@ -120,6 +120,11 @@ inline const Part affine_velocities = {{"point affine velocity"}, {}};
 /// Additions of a granular material.
 inline const Part plastic_state = {{"point plastic rate", "point plastic shear", "point volume gap"}, {}};
 
+/// Additions of a softening length.
+inline const Part mean_strain = {
+    {"cell mass of mean strain", "cell mean strain", "cell mean strain smoothed", "point mean strain"},
+    {"cell strain", "mean strain of points", "smooth cell strain"}};
+
 /// Bodies that may touch a wall or each other.
 inline const Part bodies = {{"bodies by cell",
                              "bodies in contact",

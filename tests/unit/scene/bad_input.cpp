@@ -127,6 +127,8 @@ const std::vector<BadCase> cross_cases{
      "[material.sand] cap_pressure: missing; accepted: number >= 1 and <= 1e+12 (Pa)"},
     {"cap_index_of_mohr_coulomb", "poisson = 0.3", "poisson = 0.3\ncap_index = 0.01", 13,
      "[material.sand] cap_index: may stand only with model = \"drucker-prager-cap\""},
+    {"softening_length_of_mohr_coulomb", "poisson = 0.3", "poisson = 0.3\nsoftening_length = 0.1", 13,
+     "[material.sand] softening_length: may stand only with model = \"bolton\""},
     {"cone_fit_missing", "model = \"mohr-coulomb\"", "model = \"drucker-prager\"", 7,
      "[material.sand] drucker_prager_fit: missing; accepted: \"compression\" | \"extension\" | \"plane-strain\""},
     {"friction_angle_missing", "friction_angle_deg = 30\ndilation_angle_deg = 5\n", "", 7,
@@ -336,6 +338,31 @@ TEST(BadInput, saved_bed_of_a_capped_material)
     const std::string made = "region = { box = [[0, 0, 0], [1, 1, 0.2]] }\npoints_per_cell = 8\n";
     EXPECT_THAT(refusal(replaced(capped, made, "from = \"bed.h5\"\n")),
                 HasSubstr("[terrain[0]] from: a saved bed has no pressure of the cap of \"sand\""));
+}
+
+TEST(BadInput, softening_lengths)
+{
+    const auto dense = replaced(replaced(good_scene, "model = \"mohr-coulomb\"",
+                                         "model = \"bolton\"\nrelative_density = 0.8\nvoid_ratio_min = 0.5\n"
+                                         "void_ratio_max = 0.9\nsoftening_length = 0.05"),
+                                "dilation_angle_deg = 5\n", "");
+    EXPECT_EQ(refusal(dense), "");
+    const auto expect = [&](const char* before, const char* after, const char* message)
+    { EXPECT_THAT(refusal(replaced(dense, before, after)), HasSubstr(message)); };
+    expect("softening_length = 0.05", "softening_length = 0.04",
+           "[material.sand] softening_length: 0.04 is less than a cell, so that it would have no effect; "
+           "accepted: number >= [grid] spacing = 0.05 (m)");
+    expect("softening_length = 0.05", "nonlocal_weight = 2",
+           "[material.sand] nonlocal_weight: may stand only with softening_length given");
+    expect("spacing = 0.05", "spacing = 0.05\nrefine = [[[0.3, 0.3, 0.0], [0.7, 0.7, 0.2]]]",
+           "softening_length: the mean does not cross the seams of a refined grid; accepted: no [grid] refine");
+    expect("[[terrain]]", "[sleep]\ndistance = 0.2\n[[terrain]]",
+           "softening_length: the mean would miss sand that sleeps; accepted: no [sleep] distance");
+    expect("[[contact]]",
+           "[[material]]\nname = \"loose\"\nmodel = \"bolton\"\ndensity = 1500.0\nyoung = 1e6\n"
+           "friction_angle_deg = 30\nrelative_density = 0.2\nvoid_ratio_min = 0.5\nvoid_ratio_max = 0.9\n"
+           "softening_length = 0.1\n[[contact]]",
+           "softening_length: 0.05 differs from that of \"loose\"; accepted: 0.1 (m), one length for all materials");
 }
 
 TEST(BadInput, all_errors_come_at_once_in_the_order_of_the_file)

@@ -29,6 +29,7 @@ struct Bolton
     Real offset;             ///< R
     Real friction_per_index; ///< radians, a
     Real cohesion;           ///< Pa
+    Real nonlocal_weight;    ///< of the mean strain in the strain that the density follows; 0: the point's own alone
 };
 
 /// Density, grain and fit constants of Bolton's correlation.
@@ -40,6 +41,7 @@ struct DensityDependence
     double grain_strength         = 10; ///< Q: 10 for quartz and feldspar, 8 for limestone, 5.5 for chalk
     double offset                 = 1;  ///< R
     double friction_per_index_deg = 3;  ///< 3 in triaxial compression, 5 in plane strain
+    double nonlocal_weight        = 0;  ///< 0: a law without a length
 
     double initial_void_ratio() const { return void_ratio_max - relative_density * (void_ratio_max - void_ratio_min); }
 };
@@ -64,7 +66,8 @@ Bolton<Real> make_bolton(const Strength& strength, const DensityDependence& dens
             static_cast<Real>(density.grain_strength),
             static_cast<Real>(density.offset),
             static_cast<Real>(density.friction_per_index_deg * radians),
-            static_cast<Real>(strength.cohesion)};
+            static_cast<Real>(strength.cohesion),
+            static_cast<Real>(density.nonlocal_weight)};
 }
 
 /// Computes I_R at the volume ratio of the grain skeleton (gaps between separated grains excluded) and the mean stress
@@ -91,6 +94,17 @@ TREAD_HD MohrCoulomb<Real> strength_at(const Bolton<Real>& law, Real index)
             law.cohesion > 0 ? law.cohesion * cosine / sine : Real(0)};
 }
 
+/// Computes the volume ratio of the skeleton whose density the law sees. Of the log volume ratio it takes m times the
+/// mean over the surroundings and 1 - m times the point's own (over-nonlocal softening: Vermeer and Brinkgreve 1994;
+/// docs/theory.md#softening-length).
+template<class Real>
+TREAD_HD Real seen_skeleton(const Bolton<Real>& law, const PlasticState<Real>& state)
+{
+    const Real own = state.volume_ratio * std::exp(-state.volume_gap);
+    if (law.nonlocal_weight == 0) { return own; }
+    return own * std::exp(law.nonlocal_weight * (state.mean_strain - std::log(own)));
+}
+
 /// Returns stress and state for a trial stress (Pa) after the step dt (s), with the strength of the density before the
 /// step. Grains that cohesion holds in tension do not contract in shear: contraction against a tension would make
 /// energy.
@@ -99,8 +113,7 @@ TREAD_HD_OUT_OF_LINE StressUpdate<Real> respond(const Elasticity<Real>& elastici
                                                 const Sym3<Real>& trial, const PlasticState<Real>& state, Real dt)
 {
     const Real         mean     = (trial[0] + trial[1] + trial[2]) * Real(1.0 / 3);
-    const Real         skeleton = state.volume_ratio * std::exp(-state.volume_gap);
-    MohrCoulomb<Real>  strength = strength_at(law, dilatancy_index(law, skeleton, mean));
+    MohrCoulomb<Real>  strength = strength_at(law, dilatancy_index(law, seen_skeleton(law, state), mean));
     StressUpdate<Real> update   = respond(elasticity, strength, trial, state, dt);
     if (update.plastic_work < 0)
     {

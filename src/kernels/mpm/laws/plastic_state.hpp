@@ -15,6 +15,7 @@ struct PlasticState
     Real volume_gap;   ///< log volume opened at the apex that must close before compression, >= 0
     Real volume_ratio = 1; ///< volume over initial volume before the step; no law changes it
     Real cap_pressure = 0; ///< Pa, pressure at which the cap of a capped law flows; 0 before the first step
+    Real mean_strain  = 0; ///< mean of the skeleton's log volume ratio over the surroundings; no law changes it
 };
 
 /// State of a point after a step of its law.

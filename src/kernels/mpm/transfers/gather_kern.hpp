@@ -206,8 +206,12 @@ TREAD_HD Sym3<Real> update_material(const PointsView<Real>& points, std::int64_t
     const Real                      swelling = step.dt * gradient.trace(); // logarithmic volume change
     points.volume_ratio[i]          = point.volume_ratio * (Real(1) + swelling * (Real(1) + Real(0.5) * swelling));
     const bool               capped = points.cap_pressure != nullptr;
-    const PlasticState<Real> state{point.plastic_shear, Real(0), point.volume_gap, point.volume_ratio,
-                                   capped ? points.cap_pressure[i] : Real(0)};
+    const PlasticState<Real> state{point.plastic_shear,
+                                   Real(0),
+                                   point.volume_gap,
+                                   point.volume_ratio,
+                                   capped ? points.cap_pressure[i] : Real(0),
+                                   points.mean_strain != nullptr ? points.mean_strain[i] : Real(0)};
     const StressUpdate<Real> update = update_stress(material, point.stress, state, gradient, step.dt);
     points.stress.set(i, update.stress);
     sums[point_stress_power] += Sum(point.volume * stress_power(update.stress, gradient));
