@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <mpi.h>
@@ -17,9 +18,13 @@
 #include "edited_file.hpp"
 #include "io/checksum.hpp"
 #include "io/h5.hpp"
-#include "run/run_scene.hpp"
+#include "run/drive_room.hpp"
+#include "run/driver.hpp"
+#include "run/restart.hpp"
 #include "scene/load.hpp"
+#include "scene/resolved.hpp"
 #include "scratch_file.hpp"
+#include "world/world.hpp"
 
 // Goes on from a checkpoint with changed values, rows and attributes, to the end of the run: the result must be a
 // finished run or one of tread's errors.
@@ -31,35 +36,60 @@ using namespace tread;
 constexpr std::size_t  scenes     = 3;
 constexpr std::int64_t head_bytes = 512;
 
-std::unique_ptr<Communicator>                     world;
-std::array<std::unique_ptr<scene::Scene>, scenes> scene_of;
+/// A scene as built, which takes most of a restart's time: once for all executions.
+struct Built
+{
+    explicit Built(const std::string& file)
+        : scene(scene::load_scene(file, {}))
+        , world(world::build_world(scene))
+        , plan(solver::make_plan(scene, world, 1))
+        , rooms(run::drive_rooms(scene, world))
+    {
+    }
+
+    scene::Scene                scene;
+    world::World                world;
+    solver::Plan                plan;
+    std::vector<run::DriveRoom> rooms;
+};
+
+std::unique_ptr<Communicator>              alone;
+std::array<std::unique_ptr<Built>, scenes> built;
 
 /// Makes the head of a checkpoint right for what it holds (src/io/checkpoint_file.cpp).
 void seal(const std::string& path)
 {
     const auto  bytes = static_cast<std::int64_t>(std::filesystem::file_size(path));
     std::string head  = fmt::format("tread checkpoint\nbytes {}\nchecksum {:016x}\n", bytes,
-                                    io::checksum(*world, path, head_bytes, bytes));
+                                    io::checksum(*alone, path, head_bytes, bytes));
     head.resize(static_cast<std::size_t>(head_bytes), '\0');
     std::fstream(path, std::ios::in | std::ios::out | std::ios::binary).write(head.data(), head_bytes);
 }
 
-void go_on(const scene::Scene& scene, const std::string& checkpoint)
+/// Runs from the plan of the restart to the last step, as run_scene does.
+void go_on(const Built& from, const std::string& checkpoint)
 {
-    run::RunOptions options;
-    options.output  = checkpoint + ".run";
-    options.backend = run::BackendChoice::cpu;
-    options.threads = 1;
-    options.restart = {run::RestartMode::file, checkpoint};
+    const std::string output = checkpoint + ".run";
     try
     {
-        Log log(*world, Terminal::silent);
-        run::run_scene(*world, log, nullptr, scene, options);
+        Log                    log(*alone, Terminal::silent);
+        const run::RestartPlan restart =
+            run::plan_restart(*alone, from.scene, {run::RestartMode::file, checkpoint}, output, io::Existing::refuse);
+        const auto directory =
+            io::RunDirectory::create(*alone, {output, restart.existing, scene::resolved_toml(from.scene), {}});
+        Counters                       counters;
+        const Cpu                      cpu{&counters};
+        solver::Simulation<Cpu, float> simulation(cpu, from.scene, from.world, from.plan, nullptr);
+        run::DriverOptions             options;
+        options.checkpoint = restart.checkpoint;
+        run::Driver<Cpu, float> driver(*alone, log, from.scene, from.world, directory, from.plan, simulation,
+                                       from.rooms, options);
+        driver.run();
     }
     catch (const Error&)
     {
     }
-    std::filesystem::remove_all(options.output);
+    std::filesystem::remove_all(output);
 }
 
 } // namespace
@@ -68,11 +98,10 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv)
 {
     io::h5::begin();
     MPI_Init(argc, argv);
-    world = std::make_unique<Communicator>(MPI_COMM_WORLD);
+    alone = std::make_unique<Communicator>(MPI_COMM_WORLD);
     for (std::size_t i = 0; i < scenes; ++i)
     {
-        scene_of[i] =
-            std::make_unique<scene::Scene>(scene::load_scene(fmt::format("{}/{}.toml", fuzz::originals(), i), {}));
+        built[i] = std::make_unique<Built>(fmt::format("{}/{}.toml", fuzz::originals(), i));
     }
     return 0;
 }
@@ -85,6 +114,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::write_edited(fmt::format("{}/{}.h5", fuzz::originals(), which), file.path(), data + 1, size - 1,
                        "run/timeseries");
     seal(file.path());
-    go_on(*scene_of[which], file.path());
+    go_on(*built[which], file.path());
     return 0;
 }

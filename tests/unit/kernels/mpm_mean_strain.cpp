@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "backend.hpp"
 #include "kernels/mpm/pages/order.hpp"
@@ -21,25 +22,33 @@ constexpr int cells = 24;
 using Field = std::function<double(const Vec3<double>&)>;
 
 template<class Exec>
+struct Sand
+{
+    explicit Sand(const Exec& exec)
+        : points(exec)
+        , pages(exec)
+        , scratch(exec)
+        , materials(exec, "materials")
+    {
+        const auto elasticity = make_elasticity<double>(1e7, 0.3, 1600);
+        materials.assign({make_material(elasticity, make_bolton<double>({33, 0, 0}, {0.8, 0.6, 1, 10, 1, 3, 2})),
+                          make_material(elasticity, make_bolton<double>({33, 0, 0}, {0.8, 0.6, 1}))});
+    }
+
+    Points<Exec, double>                    points;
+    Pages<Exec>                             pages;
+    OrderScratch<Exec, double>              scratch;
+    Array<Exec, MaterialParameters<double>> materials;
+};
+
+template<class Exec>
 class MeanStrainTest : public test::BackendTest<Exec>
 {
 protected:
-    using Points = mpm::Points<Exec, double>;
-
-    MeanStrainTest()
-        : points_(this->exec())
-        , pages_(this->exec())
-        , scratch_(this->exec())
-        , materials_(this->exec(), "materials")
-    {
-        const auto elasticity = make_elasticity<double>(1e7, 0.3, 1600);
-        materials_.assign({make_material(elasticity, make_bolton<double>({33, 0, 0}, {0.8, 0.6, 1, 10, 1, 3, 2})),
-                           make_material(elasticity, make_bolton<double>({33, 0, 0}, {0.8, 0.6, 1}))});
-    }
-
     /// Two points a cell and axis, of one mass, in the cells along x for which `kept` holds.
     void fill(const std::function<bool(int)>& kept = [](int) { return true; })
     {
+        sand_.emplace(this->exec());
         std::vector<double> x, y, z;
         for (int k = 0; k < 2 * cells; ++k)
         {
@@ -57,39 +66,36 @@ protected:
         std::vector<double> all(x);
         all.insert(all.end(), y.begin(), y.end());
         all.insert(all.end(), z.begin(), z.end());
-        points_.allocate(static_cast<std::int64_t>(x.size()), {false, true, false, false, true});
-        points_.position.assign(all);
-        points_.mass.assign(std::vector<double>(x.size(), 0.7));
-        order_points(this->exec(), points_, pages_, {spacing, 0.5, {size, size, size}}, scratch_);
+        sand_->points.allocate(static_cast<std::int64_t>(x.size()), {false, true, false, false, true});
+        sand_->points.position.assign(all);
+        sand_->points.mass.assign(std::vector<double>(x.size(), 0.7));
+        order_points(this->exec(), sand_->points, sand_->pages, {spacing, 0.5, {size, size, size}}, sand_->scratch);
     }
 
     /// Sets the log volume ratio of every point and computes the means.
     void average(double length, const Field& strain)
     {
         std::vector<double> ratio;
-        for (std::int64_t i = 0; i < points_.count; ++i) { ratio.push_back(std::exp(strain(place(i)))); }
-        points_.volume_ratio.assign(ratio);
+        for (std::int64_t i = 0; i < sand_->points.count; ++i) { ratio.push_back(std::exp(strain(place(i)))); }
+        sand_->points.volume_ratio.assign(ratio);
         MeanStrain<Exec, double> means(this->exec(), make_smoothing(length));
-        const PagesView          view = pages_.view(spacing, 0.5);
+        const PagesView          view = sand_->pages.view(spacing, 0.5);
         means.resize(view.point_pages * page_cells);
-        average_strain(this->exec(), points_.view(), view, materials_.data(), means);
-        mean_ = points_.mean_strain.to_host();
+        average_strain(this->exec(), sand_->points.view(), view, sand_->materials.data(), means);
+        mean_ = sand_->points.mean_strain.to_host();
     }
 
     Vec3<double> place(std::int64_t i)
     {
-        if (position_.empty()) { position_ = points_.position.to_host(); }
-        const auto at = static_cast<std::size_t>(i), s = static_cast<std::size_t>(points_.stride);
+        if (position_.empty()) { position_ = sand_->points.position.to_host(); }
+        const auto at = static_cast<std::size_t>(i), s = static_cast<std::size_t>(sand_->points.stride);
         return {position_[at], position_[s + at], position_[2 * s + at]};
     }
 
     double mean(std::int64_t i) const { return mean_[static_cast<std::size_t>(i)]; }
 
-    Points                                  points_;
-    Pages<Exec>                             pages_;
-    OrderScratch<Exec, double>              scratch_;
-    Array<Exec, MaterialParameters<double>> materials_;
-    std::vector<double>                     position_, mean_;
+    std::optional<Sand<Exec>> sand_;
+    std::vector<double>       position_, mean_;
 };
 TYPED_TEST_SUITE(MeanStrainTest, test::Backends, test::BackendNames);
 
@@ -113,7 +119,7 @@ TYPED_TEST(MeanStrainTest, WeightsHaveTheLengthForStandardDeviation)
                       { return (x - centre).cwiseAbs().maxCoeff() < 0.5 * spacing ? 1.0 : 0.0; });
         double       sum = 0, least = 0;
         Vec3<double> first = Vec3<double>::Zero(), second = first;
-        for (std::int64_t i = 0; i < this->points_.count; ++i)
+        for (std::int64_t i = 0; i < this->sand_->points.count; ++i)
         {
             const Vec3<double> off = (this->place(i) - centre) / spacing;
             const double       w   = this->mean(i) / 8;
@@ -138,12 +144,15 @@ TYPED_TEST(MeanStrainTest, AConstantIsKeptExactly)
 {
     this->fill([](int i) { return i % 5 != 2; });
     std::vector<double> mass;
-    for (std::int64_t i = 0; i < this->points_.count; ++i) { mass.push_back(0.1 + static_cast<double>(i % 7) / 3); }
-    this->points_.mass.assign(mass);
+    for (std::int64_t i = 0; i < this->sand_->points.count; ++i)
+    {
+        mass.push_back(0.1 + static_cast<double>(i % 7) / 3);
+    }
+    this->sand_->points.mass.assign(mass);
     const double ratio = std::exp(-0.0123);
     this->average(2, [](const Vec3<double>&) { return -0.0123; });
     std::int64_t wrong = 0;
-    for (std::int64_t i = 0; i < this->points_.count; ++i) { wrong += this->mean(i) == this->mean(0) ? 0 : 1; }
+    for (std::int64_t i = 0; i < this->sand_->points.count; ++i) { wrong += this->mean(i) == this->mean(0) ? 0 : 1; }
     EXPECT_EQ(wrong, 0);
     expect_moment("mean of a constant", this->mean(0), std::log(ratio), 2e-18, "the logarithm of another library");
 }
@@ -158,7 +167,7 @@ TYPED_TEST(MeanStrainTest, ALinearFieldIsKept)
                  high  = (cells + 0.5) * spacing - reach;
     double       worst = 0;
     std::int64_t inner = 0;
-    for (std::int64_t i = 0; i < this->points_.count; ++i)
+    for (std::int64_t i = 0; i < this->sand_->points.count; ++i)
     {
         const Vec3<double> x = this->place(i);
         if (x.minCoeff() < low || x.maxCoeff() > high) { continue; }
@@ -176,7 +185,7 @@ TYPED_TEST(MeanStrainTest, NothingCrossesAGap)
     const double gap = spacing * 11;
     this->average(3, [&](const Vec3<double>& x) { return x[0] < gap ? 0.0 : 0.02; });
     double worst = 0;
-    for (std::int64_t i = 0; i < this->points_.count; ++i)
+    for (std::int64_t i = 0; i < this->sand_->points.count; ++i)
     {
         const double own = this->place(i)[0] < gap ? 0.0 : std::log(std::exp(0.02));
         worst            = std::max(worst, std::abs(this->mean(i) - own));
@@ -189,11 +198,17 @@ TYPED_TEST(MeanStrainTest, OtherMaterialsTakeNoPart)
 {
     this->fill();
     std::vector<std::uint8_t> material;
-    for (std::int64_t i = 0; i < this->points_.count; ++i) { material.push_back(this->place(i)[2] < 1.25 ? 1 : 0); }
-    this->points_.material.assign(material);
+    for (std::int64_t i = 0; i < this->sand_->points.count; ++i)
+    {
+        material.push_back(this->place(i)[2] < 1.25 ? 1 : 0);
+    }
+    this->sand_->points.material.assign(material);
     this->average(2, [&](const Vec3<double>& x) { return x[2] < 1.25 ? 0.02 : 0.0; });
     double largest = 0;
-    for (std::int64_t i = 0; i < this->points_.count; ++i) { largest = std::max(largest, std::abs(this->mean(i))); }
+    for (std::int64_t i = 0; i < this->sand_->points.count; ++i)
+    {
+        largest = std::max(largest, std::abs(this->mean(i)));
+    }
     expect_moment("strain from another material", largest, 0, 0, "nothing is added");
 }
 
