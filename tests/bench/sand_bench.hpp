@@ -21,7 +21,11 @@ public:
     SandBench(const Exec& exec, const MpmCase& what, const scene::Scene& scene, const world::World& world,
               decomp::Decomposition<Exec>* decomposition)
         : exec_(exec)
-        , sand_(exec, scene, world, {what.transfer != scene::Transfer::flip, scene::is_granular(what.law), false},
+        , sand_(exec, scene, world,
+                {.affine  = what.transfer != scene::Transfer::flip,
+                 .plastic = scene::is_granular(what.law),
+                 .coupled = false,
+                 .capped  = what.law == scene::MaterialModel::drucker_prager_cap},
                 decomposition)
         , ranks_(decomposition == nullptr ? 1 : decomposition->ranks())
         , dt_((what.per_cell == 1 ? 0.35 : 0.5) * sand_spacing / world::compression_wave_speed(scene.materials[0]))
