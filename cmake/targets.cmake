@@ -66,6 +66,7 @@ function(tread_gpu_syntax name)
   target_link_libraries(${name} PRIVATE tread_flags ${CHECK_LINK})
   target_compile_definitions(${name} PRIVATE TREAD_WITH_CUDA)
   target_compile_options(${name} PRIVATE -fdevice-syntax-only)
-  set_target_properties(${name} PROPERTIES CUDA_PTX_COMPILATION ON UNITY_BUILD OFF)
+  list(GET CMAKE_CUDA_ARCHITECTURES 0 architecture) # PTX is of one
+  set_target_properties(${name} PROPERTIES CUDA_PTX_COMPILATION ON CUDA_ARCHITECTURES ${architecture} UNITY_BUILD OFF)
   add_dependencies(gpu_syntax ${name})
 endfunction()
