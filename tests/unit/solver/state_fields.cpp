@@ -22,7 +22,7 @@ TEST(ForEachField, VisitsEveryArrayOfThePoints)
 {
     Counters                 counters;
     mpm::Points<Cpu, double> points(Cpu{&counters});
-    points.allocate(1, {true, true, true, true});
+    points.allocate(1, {true, true, true, true, true});
     std::size_t fields = 0, components = 0;
     points.for_each_named_field(
         [&](const char*, auto& array, int width)
