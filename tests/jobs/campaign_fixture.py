@@ -1,5 +1,6 @@
 """What the tests of campaigns share: a small campaign, a place for it, and jobs/campaign.py."""
 
+import json
 import os
 import pathlib
 import stat
@@ -77,5 +78,5 @@ class CampaignTest(unittest.TestCase):
 
     def checked_only(self):
         """A program that says of every scene what `tread check` would: for tests that run nothing."""
-        return self.script("checks_only", "#!/bin/sh\necho '10 points, 1 bodies (0 rocks)\nmemory about 1 B, disk at most 2.5 kB\n"
-                                          "dt 1e-3 s at the start (limit: x), at most 2 s simulated: 2e3 steps at that dt'\n")
+        plan = {"points": 10, "bodies": 1, "time": 2.0, "steps": 2e3, "disk": 2500, "memory": 1, "scene": "", "substeps": 1.0}
+        return self.script("checks_only", f"#!/bin/sh\necho '{json.dumps(plan)}'\n")
