@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <mpi.h>
+#include <omp.h>
 
 #include "base/communicator.hpp"
 #include "base/errors.hpp"
@@ -96,6 +97,7 @@ void go_on(const Built& from, const std::string& checkpoint)
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv)
 {
+    omp_set_num_threads(1); // the fuzzer runs a process a core
     io::h5::begin();
     MPI_Init(argc, argv);
     alone = std::make_unique<Communicator>(MPI_COMM_WORLD);
