@@ -12,10 +12,10 @@ namespace
 using namespace tread;
 
 template<class Exec>
-class ShearBand : public test::BackendTest<Exec>
+class FullSizeShearBand : public test::BackendTest<Exec>
 {
 };
-TYPED_TEST_SUITE(ShearBand, test::Backends, test::BackendNames);
+TYPED_TEST_SUITE(FullSizeShearBand, test::Backends, test::BackendNames);
 
 constexpr double width = 0.06, speed = 0.1, duration = 0.12;
 
@@ -155,7 +155,7 @@ Sample compress(const Exec& exec, double h, const std::string& softening)
 /// Without a length the band is as thick as cells, so that cells half as wide halve the sheared share. With a length of
 /// 10 mm, one coarse cell, it stays. What is left is the grid's own width, which adds to the length's: a variance of
 /// some h^2/4 per transfer.
-TYPED_TEST(ShearBand, HasTheThicknessOfTheSofteningLength)
+TYPED_TEST(FullSizeShearBand, HasTheThicknessOfTheSofteningLength)
 {
     const auto ratio = [&](const char* what, const std::string& softening)
     {
