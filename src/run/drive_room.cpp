@@ -297,8 +297,9 @@ std::vector<DriveWay> drive_ways(const scene::Scene& scene, const world::World& 
             {
                 Path path{*drive, radii[room.body], spin, x};
                 time_to(path, drive->angular_velocity > 0 ? infinity : -infinity, scene::time_limit(scene.phases[p]));
-                ways.push_back({p, std::abs(path.x - x), distance_to_end(room, *drive, x)});
-                x = path.x;
+                const double way = std::abs(path.x - x), to_end = distance_to_end(room, *drive, x);
+                ways.push_back({p, way, to_end});
+                x += direction_of(*drive) * std::min(way, std::max(to_end, 0.0)); // a drive ends where the range does
             }
             spin = goes ? drive->angular_velocity : 0;
         }

@@ -55,7 +55,7 @@ inline scene::Scene make_scene(const MpmCase& what, const Lattice& points)
     sand.young              = 1e6;
     sand.poisson            = 0.3;
     sand.friction_angle_deg = 30;
-    // Of the laws that have them: medium dense sand, and a cap that the bottom of the bed reaches.
+    // The laws that ask for them see sand of medium density, and a cap that yields at the bottom of the bed.
     sand.relative_density = 0.5;
     sand.void_ratio_min   = 0.5;
     sand.void_ratio_max   = 0.9;

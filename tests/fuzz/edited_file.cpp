@@ -8,21 +8,21 @@
 
 #include <hdf5.h>
 
+#include "require.hpp"
+
 namespace tread::fuzz
 {
 namespace
 {
-
-void require(bool holds)
-{
-    if (!holds) { std::abort(); }
-}
 
 /// One change. What does not fit the place that it meets does nothing.
 struct Edit
 {
     static constexpr std::size_t bytes = 13;
 
+    /// Modulo 8: 0 to 4 change a value, 5 adds or removes rows, 6 removes a data set, 7 changes a value of an
+    /// attribute. An eighth of it, modulo 4, says how values change: overwritten, copied from another place, shifted,
+    /// one bit.
     std::uint8_t  kind;
     std::uint16_t object; ///< of the data sets, or of the attributes, modulo their number
     std::uint16_t place;  ///< of the values, modulo their number

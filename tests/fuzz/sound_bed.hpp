@@ -3,17 +3,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
 #include "io/bed_file.hpp"
+#include "require.hpp"
 
 namespace tread::fuzz
 {
-
-inline void require(bool holds)
-{
-    if (!holds) { std::abort(); }
-}
 
 /// Ends the process unless the bed's numbers are in range.
 inline void require_sound(const io::BedFile& bed)
