@@ -73,6 +73,7 @@ void write_points(const h5::File& file, const BedPoints& points)
         h5::write_attribute(file, group, "density", points.materials[m].density);
         h5::write_attribute(file, group, "young", points.materials[m].young);
         h5::write_attribute(file, group, "poisson", points.materials[m].poisson);
+        h5::write_attribute(file, group, "young_pressure", points.materials[m].young_pressure);
     }
     write_with_unit(file, "/points/material", points.material, 1, "1");
     write_with_unit(file, "/points/position", points.position, 3, "m");
@@ -122,8 +123,10 @@ BedPoints read_points(const h5::File& file)
     {
         const std::string group  = fmt::format("/materials/{}", m);
         const auto        number = [&](const char* name) { return h5::read_number_attribute(file, group, name); };
-        points.materials.push_back(
-            {h5::read_text_attribute(file, group, "name"), number("density"), number("young"), number("poisson")});
+        // Beds of versions before 0.3 have none.
+        const bool stiffens = h5::holds_attribute(file, group, "young_pressure");
+        points.materials.push_back({h5::read_text_attribute(file, group, "name"), number("density"), number("young"),
+                                    number("poisson"), stiffens ? number("young_pressure") : 0});
     }
     const std::size_t count     = rows_of(file, "/points/material");
     const auto        materials = accept::index(points.materials.size());

@@ -46,6 +46,7 @@ struct BedMaterial
     double      density; ///< kg/m3
     double      young;   ///< Pa
     double      poisson;
+    double      young_pressure; ///< Pa
 };
 
 /// Sand points of the bed. When loaded, their present volume becomes the reference of strain, which preserves volume

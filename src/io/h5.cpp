@@ -260,7 +260,7 @@ void write_fixed_attribute(const File& file, const std::string& object, const st
 
 void set_fixed_attribute(const File& file, const std::string& object, const std::string& name, const std::string& value)
 {
-    if (H5Aexists_by_name(file.id(), object.c_str(), name.c_str(), H5P_DEFAULT) <= 0)
+    if (!holds_attribute(file, object, name))
     {
         write_fixed_attribute(file, object, name, value);
         return;

@@ -131,6 +131,9 @@ bool holds(const File& file, const std::string& name);
 /// Number of objects in a group.
 std::int64_t count_members(const File& file, const std::string& group);
 
+/// Whether an object that exists has an attribute of that name.
+bool holds_attribute(const File& file, const std::string& object, const std::string& name);
+
 /// Reads an attribute written by write_attribute.
 std::string read_text_attribute(const File& file, const std::string& object, const std::string& name);
 double      read_number_attribute(const File& file, const std::string& object, const std::string& name);

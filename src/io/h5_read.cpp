@@ -169,6 +169,11 @@ std::int64_t count_members(const File& file, const std::string& group)
     return static_cast<std::int64_t>(info.nlinks);
 }
 
+bool holds_attribute(const File& file, const std::string& object, const std::string& name)
+{
+    return H5Aexists_by_name(file.id(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
 std::string read_text_attribute(const File& file, const std::string& object, const std::string& name)
 {
     const auto   what      = fmt::format("reading attribute {} of {}", name, object);

@@ -35,6 +35,11 @@ std::string when(bool (*wanted)(MaterialModel))
 
 bool is_nonlocal(const Material& material) { return is_bolton(material) && material.softening_length.has_value(); }
 
+/// The pressure of a cap follows a law of its own.
+bool may_stiffen(MaterialModel model) { return is_granular(model) && model != MaterialModel::drucker_prager_cap; }
+
+bool stiffens(const Material& material) { return may_stiffen(material.model); }
+
 bool has_cap(const Material& material) { return material.model == MaterialModel::drucker_prager_cap; }
 
 bool has_cone(const Material& material) { return material.model == MaterialModel::drucker_prager || has_cap(material); }
@@ -60,6 +65,11 @@ Keys<Material> material_keys()
                  "Young's modulus. Of two things that meet, walls included, one must have it.",
                  "required unless rigid; then perfectly stiff"),
         optional("poisson", "", &Material::poisson, number(between(0, 0.499)), "Poisson's ratio."),
+        optional("young_pressure", "Pa", &Material::young_pressure, number(between(0, 1e12)),
+                 "Mean stress under which the modulus is `young`. Below it stiffness falls as the root of the mean "
+                 "stress, above it stays nearly constant. Wants no cohesion. 0: one modulus for all pressures; "
+                 "docs/theory.md#stiffness-with-pressure.")
+            .when(when(may_stiffen), stiffens),
         required("friction_angle_deg", "degrees", &Material::friction_angle_deg, number(from_below(0, 90)),
                  "Internal friction angle; with \"bolton\" that of the critical state, at most 60.")
             .when(granular, flows),

@@ -86,6 +86,14 @@ void validate_softening(const Scene& scene, const Material& material, const Tabl
     if (scene.sleep.distance) { refuse("the mean would miss sand that sleeps", "no [sleep] distance"); }
 }
 
+/// Strength must grow with pressure as stiffness does, from none.
+void validate_stiffening(const Material& material, const TableAt& at, Checker& checker)
+{
+    if (material.young_pressure == 0 || material.cohesion == 0) { return; }
+    checker.report(at, "young_pressure", fmt::format("stiffness grows from none, but cohesion is {} Pa", material.cohesion),
+                   "0 (Pa), or cohesion = 0");
+}
+
 void validate_material(const Scene& scene, const Material& material, const TableAt& at, Checker& checker)
 {
     if (checker.sound(at, {"friction_angle_deg", "dilation_angle_deg"}) &&
@@ -100,6 +108,7 @@ void validate_material(const Scene& scene, const Material& material, const Table
         validate_bolton(material, at, checker);
         validate_softening(scene, material, at, checker);
     }
+    if (checker.sound(at, {"young_pressure", "cohesion"})) { validate_stiffening(material, at, checker); }
     if (checker.sound(at, {"model"}) && material.model != MaterialModel::rigid && checker.given(at, "young") == nullptr)
     {
         checker.report(at, "young", "missing", stiffness().text() + " (Pa)");

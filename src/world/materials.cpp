@@ -60,7 +60,8 @@ mpm::ConeFit cone_fit(scene::ConeFit fit)
 template<class Real>
 mpm::MaterialParameters<Real> law_of(const scene::Material& material)
 {
-    const auto elasticity = mpm::make_elasticity<Real>(material.young, material.poisson, material.density);
+    const auto elasticity =
+        mpm::make_elasticity<Real>(material.young, material.poisson, material.density, material.young_pressure);
     switch (material.model)
     {
     case scene::MaterialModel::mohr_coulomb:
@@ -204,9 +205,8 @@ std::vector<dem::PairProperties> pair_properties(const scene::Scene& scene, std:
 
 double compression_wave_speed(const scene::Material& material)
 {
-    const double modulus =
-        material.young * (1 - material.poisson) / ((1 + material.poisson) * (1 - 2 * material.poisson));
-    return std::sqrt(modulus / material.density);
+    return mpm::make_elasticity<double>(material.young, material.poisson, material.density, material.young_pressure)
+        .wave_speed;
 }
 
 double pic_rate(const scene::Scene& scene, const HostPoints& points)

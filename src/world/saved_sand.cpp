@@ -82,7 +82,8 @@ io::BedPoints saved_points(const Communicator& communicator, const scene::Scene&
     points.grid_spacing = scene.grid.spacing;
     for (const scene::Material& material : scene.materials)
     {
-        points.materials.push_back({material.name, material.density, material.young, material.poisson});
+        points.materials.push_back({material.name, material.density, material.young, material.poisson,
+                                    material.young_pressure});
     }
     points.material      = communicator.gather(fields.material);
     points.position      = communicator.gather(fields.position);
@@ -106,6 +107,7 @@ void append_saved_points(const scene::Scene& scene, std::size_t table, HostPoint
     require_same(scene, table, "density" + of, material.density, kind.density);
     require_same(scene, table, "young" + of, material.young, kind.young);
     require_same(scene, table, "poisson" + of, material.poisson, kind.poisson);
+    require_same(scene, table, "young_pressure" + of, material.young_pressure, kind.young_pressure);
     points.plastic_shear.resize(points.size(), 0.0);
     const std::size_t before = points.size();
     for (std::size_t i = 0; i < saved.material.size(); ++i)

@@ -78,13 +78,13 @@ def try_one(folder, seed, scene, original):
     return path, code, seconds
 
 
-def originals(folder):
-    """Scene and a checkpoint, of each."""
+def originals(folder, every_steps):
+    """Scene and its last checkpoint, of each."""
     found = []
     for number, text in enumerate(SCENES):
         scene, output = folder / f"scene{number}.toml", folder / f"original{number}"
         scene.write_text(text)
-        code, _ = run(scene, "--output", output, "--set=checkpoint.every_steps=5")
+        code, _ = run(scene, "--output", output, f"--set=checkpoint.every_steps={every_steps}")
         if code != 0:
             sys.exit(f"{scene}: exit code {code}")
         found.append((scene, sorted((output / "checkpoints").glob("*.h5"))[-1]))
@@ -101,7 +101,7 @@ def main():
     codes, slowest, finds = collections.Counter(), (0.0, ""), 0
     with tempfile.TemporaryDirectory(prefix="tread-fuzz-") as name, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         folder = pathlib.Path(name)
-        there = originals(folder)
+        there = originals(folder, every_steps=5)
         end, seed = time.monotonic() + asked.seconds, asked.seed
         while time.monotonic() < end:
             batch = range(seed, seed + 4 * os.cpu_count())

@@ -2,6 +2,7 @@
 
 #include "kernels/mpm/laws/elasticity.hpp"
 #include "kernels/mpm/laws/objective_rate_kern.hpp"
+#include "kernels/mpm/laws/stiffening_kern.hpp"
 
 namespace tread::mpm
 {
@@ -35,10 +36,12 @@ TREAD_HD Real elastic_product(const Elasticity<Real>& elasticity, const Sym3<Rea
     return mean * other * elasticity.bulk_compliance + product * elasticity.shear_compliance;
 }
 
-/// Computes p^2/(2K) + s:s/(4G), J/m3: the recoverable energy of the stress, without further state.
+/// Computes the recoverable energy of the stress, J/m3, without further state: p^2/(2K) + s:s/(4G) where stiffness
+/// does not grow with pressure.
 template<class Real>
 TREAD_HD Real elastic_energy_density(const Elasticity<Real>& elasticity, const Sym3<Real>& stress)
 {
+    if (elasticity.stiff_pressure > 0) { return stiffening_energy(elasticity, stress); }
     return Real(0.5) * elastic_product(elasticity, stress, stress);
 }
 

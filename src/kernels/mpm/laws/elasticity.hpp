@@ -13,28 +13,34 @@ struct Elasticity
     Real lame_modulus;  ///< Pa, lambda
     Real shear_modulus; ///< Pa
     Real bulk_modulus;  ///< Pa
-    Real wave_speed;    ///< m/s, compression (P) wave speed
+    Real wave_speed;    ///< m/s, of the fastest compression (P) wave at any pressure
 
     // Reciprocals, to avoid divisions in every step.
     Real bulk_compliance;  ///< 1/Pa, 1/K
     Real shear_compliance; ///< 1/Pa, 1/(2 G)
+
+    Real stiff_pressure; ///< Pa, up to which stiffness grows (stiffening_kern.hpp); 0: one modulus for all pressures
 };
 
 /// Makes the constants from `young` > 0 in Pa, -1 < `poisson` < 0.5 and `density` > 0 in kg/m3; computed in fp64, then
-/// rounded to Real.
+/// rounded to Real. With a `stiff_pressure` > 0, Pa, `young` and `poisson` are those under that pressure, and the
+/// constants those of the linear stress of stiffening_kern.hpp.
 template<class Real>
-Elasticity<Real> make_elasticity(double young, double poisson, double density)
+Elasticity<Real> make_elasticity(double young, double poisson, double density, double stiff_pressure = 0)
 {
-    const double shear = young / (2 * (1 + poisson));
-    const double lame  = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
-    const double bulk  = lame + 2 * shear / 3;
+    const double shear    = young / (2 * (1 + poisson));
+    const double lame     = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+    const bool   stiffens = stiff_pressure > 0;
+    const double bulk     = (stiffens ? 0.5 : 1) * (lame + 2 * shear / 3);
+    const double steepest = stiffens ? 2 * (bulk + 4 * shear / 3) : lame + 2 * shear;
     return {static_cast<Real>(density),
-            static_cast<Real>(lame),
+            static_cast<Real>(stiffens ? bulk - 2 * shear / 3 : lame),
             static_cast<Real>(shear),
             static_cast<Real>(bulk),
-            static_cast<Real>(std::sqrt((lame + 2 * shear) / density)),
+            static_cast<Real>(std::sqrt(steepest / density)),
             static_cast<Real>(1 / bulk),
-            static_cast<Real>(1 / (2 * shear))};
+            static_cast<Real>(1 / (2 * shear)),
+            static_cast<Real>(stiff_pressure)};
 }
 
 } // namespace tread::mpm

@@ -12,7 +12,9 @@ template<class Real>
 TREAD_HD StressUpdate<Real> update_stress(const MaterialParameters<Real>& material, const Sym3<Real>& stress,
                                           const PlasticState<Real>& state, const Mat3<Real>& gradient, Real dt)
 {
-    const Sym3<Real>   trial = trial_stress(material, stress, gradient, dt);
+    // Laws see the linear stress (stiffening_kern.hpp).
+    const Real         linear = linear_over_acting<Real>(material, stress);
+    const Sym3<Real>   trial  = trial_stress<Real>(material, linear * stress, gradient, dt);
     StressUpdate<Real> update{trial, state, Real(0)};
     switch (material.law)
     {
@@ -29,9 +31,12 @@ TREAD_HD StressUpdate<Real> update_stress(const MaterialParameters<Real>& materi
     case LawKind::elastic:
         return update;
     }
-    const Sym3<Real> drop = trial - update.stress;
+    const Sym3<Real> drop   = trial - update.stress;
+    const Real       acting = acting_over_linear<Real>(material, update.stress);
+    update.stress *= acting;
     if (drop.squaredNorm() == 0) { return update; }
-    const Sym3<Real> turned = trial - elastic_stress(material, strain_increment(gradient, dt));
+    update.plastic_work *= acting;
+    const Sym3<Real> turned = (trial - elastic_stress<Real>(material, strain_increment(gradient, dt))) / linear;
     update.work_to_mean     = Real(-0.5) * elastic_product<Real>(material, drop, update.stress - turned);
     return update;
 }
