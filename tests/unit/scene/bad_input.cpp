@@ -340,6 +340,19 @@ TEST(BadInput, saved_bed_of_a_capped_material)
                 HasSubstr("[terrain[0]] from: a saved bed has no pressure of the cap of \"sand\""));
 }
 
+TEST(BadInput, stiffness_that_grows_from_none)
+{
+    const auto stiffens = replaced(good_scene, "young = 1e6", "young = 1e6\nyoung_pressure = 2e4");
+    EXPECT_EQ(refusal(stiffens), "");
+    EXPECT_THAT(
+        refusal(replaced(stiffens, "dilation_angle_deg = 5", "cohesion = 10")),
+        HasSubstr("[material.sand] young_pressure: stiffness grows from none, but cohesion is 10 Pa; accepted: 0 "
+                  "(Pa), or cohesion = 0"));
+    EXPECT_THAT(refusal(replaced(stiffens, "model = \"mohr-coulomb\"", "model = \"elastic\"")),
+                HasSubstr("[material.sand] young_pressure: may stand only with model = \"mohr-coulomb\" or "
+                          "\"drucker-prager\" or \"bolton\""));
+}
+
 TEST(BadInput, softening_lengths)
 {
     const auto dense = replaced(replaced(good_scene, "model = \"mohr-coulomb\"",

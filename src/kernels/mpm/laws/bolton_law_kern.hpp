@@ -107,13 +107,13 @@ TREAD_HD Real seen_skeleton(const Bolton<Real>& law, const PlasticState<Real>& s
 }
 
 /// Returns stress and state for a trial stress (Pa; the linear one of stiffening_kern.hpp) after the step dt (s), with
-/// the strength of the density before the step. Grains that cohesion holds in tension do not contract in shear: contraction against a tension would make
-/// energy.
+/// the strength of the density before the step. Grains that cohesion holds in tension do not contract in shear:
+/// contraction against a tension would make energy.
 template<class Real>
 TREAD_HD_OUT_OF_LINE StressUpdate<Real> respond(const Elasticity<Real>& elasticity, const Bolton<Real>& law,
                                                 const Sym3<Real>& trial, const PlasticState<Real>& state, Real dt)
 {
-    const Real         mean     = (trial[0] + trial[1] + trial[2]) * Real(1.0 / 3) * acting_over_linear(elasticity, trial);
+    const Real         mean = (trial[0] + trial[1] + trial[2]) * Real(1.0 / 3) * acting_over_linear(elasticity, trial);
     MohrCoulomb<Real>  strength = strength_at(law, dilatancy_index(law, seen_skeleton(law, state), mean));
     StressUpdate<Real> update   = respond(elasticity, strength, trial, state, dt);
     if (update.plastic_work < 0)

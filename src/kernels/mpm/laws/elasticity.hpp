@@ -23,21 +23,20 @@ struct Elasticity
 };
 
 /// Makes the constants from `young` > 0 in Pa, -1 < `poisson` < 0.5 and `density` > 0 in kg/m3; computed in fp64, then
-/// rounded to Real. With a `stiff_pressure` > 0, Pa, `young` and `poisson` are those under that pressure, and the
-/// constants those of the linear stress of stiffening_kern.hpp.
+/// rounded to Real. With a `stiff_pressure` > 0, Pa, they are those of the linear stress of stiffening_kern.hpp, half
+/// as stiff.
 template<class Real>
 Elasticity<Real> make_elasticity(double young, double poisson, double density, double stiff_pressure = 0)
 {
-    const double shear    = young / (2 * (1 + poisson));
-    const double lame     = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
-    const bool   stiffens = stiff_pressure > 0;
-    const double bulk     = (stiffens ? 0.5 : 1) * (lame + 2 * shear / 3);
-    const double steepest = stiffens ? 2 * (bulk + 4 * shear / 3) : lame + 2 * shear;
+    const double part  = stiff_pressure > 0 ? 0.5 : 1;
+    const double shear = part * young / (2 * (1 + poisson));
+    const double lame  = part * young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+    const double bulk  = lame + 2 * shear / 3;
     return {static_cast<Real>(density),
-            static_cast<Real>(stiffens ? bulk - 2 * shear / 3 : lame),
+            static_cast<Real>(lame),
             static_cast<Real>(shear),
             static_cast<Real>(bulk),
-            static_cast<Real>(std::sqrt(steepest / density)),
+            static_cast<Real>(std::sqrt((lame + 2 * shear) / (part * density))),
             static_cast<Real>(1 / bulk),
             static_cast<Real>(1 / (2 * shear)),
             static_cast<Real>(stiff_pressure)};

@@ -10,8 +10,8 @@
 // t = C : elastic strain, the linear stress, and its size |t| = sqrt(mean^2 + K/(2G) s:s),
 //   stress = h(x)/x t,   x = |t|/p_s,   h = x^2 up to x = 1 and its tangent 2x - 1 above.
 // Both are parallel: strength without cohesion, whose yield surface is a cone, and its flow are the same in both, so
-// that laws take t for stress. Tangents of isotropic states are 2 K x and G x, hence K/G = 1/2 that of young and poisson
-// (make_elasticity); no tangent of any state exceeds 2 C.
+// that laws take t for stress. Tangents are 2 C x along t and C x across it, at most 2 C, which is that of young and
+// poisson (make_elasticity).
 namespace tread::mpm
 {
 
@@ -21,8 +21,12 @@ TREAD_HD Real relative_size(const Elasticity<Real>& elasticity, const Sym3<Real>
 {
     const Real mean   = (stress[0] + stress[1] + stress[2]) * Real(1.0 / 3);
     Real       square = 0;
-    for (int i = 0; i < 3; ++i) { square += (stress[i] - mean) * (stress[i] - mean) + Real(2) * stress[3 + i] * stress[3 + i]; }
-    return std::sqrt(mean * mean + elasticity.bulk_modulus * elasticity.shear_compliance * square) / elasticity.stiff_pressure;
+    for (int i = 0; i < 3; ++i)
+    {
+        square += (stress[i] - mean) * (stress[i] - mean) + Real(2) * stress[3 + i] * stress[3 + i];
+    }
+    return std::sqrt(mean * mean + elasticity.bulk_modulus * elasticity.shear_compliance * square) /
+           elasticity.stiff_pressure;
 }
 
 /// Computes the linear stress over the stress that acts.
