@@ -56,7 +56,7 @@ TEST(Stiffening, TangentsGrowWithTheRootOfPressure)
     }
 }
 
-/// As a bed that settles: |t|^2 = K M strain^2, with M the modulus of uniaxial strain.
+/// Strain of a bed that settles: |t|^2 = K M strain^2, with M the modulus of uniaxial strain.
 TEST(Stiffening, UniaxialStrain)
 {
     Element element{sand<double>({60, 0, 0})}; // strong, so that it stays elastic
