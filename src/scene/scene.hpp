@@ -108,7 +108,6 @@ struct Material
     double        density = 0; ///< kg/m3
     double        young   = 0; ///< Pa; infinity: perfectly stiff, for a rigid material without a given modulus
     double        poisson = 0.3;
-    double        young_pressure     = 0; ///< Pa, up to which stiffness grows; 0: one modulus for all pressures
     double        friction_angle_deg = 0; ///< granular models
     double        dilation_angle_deg = 0;
     double        cohesion           = 0; ///< Pa
@@ -125,6 +124,7 @@ struct Material
 
     std::optional<double> softening_length = std::nullopt; ///< m; empty: softens by each point's own density
     double                nonlocal_weight  = 2;            ///< of the mean density in the density that the law sees
+    double                young_pressure   = 0; ///< Pa, up to which stiffness grows; 0: one modulus for all pressures
 
     bool operator==(const Material&) const = default;
 };
