@@ -19,6 +19,7 @@
 #include "edited_file.hpp"
 #include "io/checksum.hpp"
 #include "io/h5.hpp"
+#include "run/checkpoint_clock.hpp"
 #include "run/drive_room.hpp"
 #include "run/driver.hpp"
 #include "run/restart.hpp"
@@ -82,7 +83,9 @@ void go_on(const Built& from, const std::string& checkpoint)
         const Cpu                      cpu{&counters};
         solver::Simulation<Cpu, float> simulation(cpu, from.scene, from.world, from.plan, nullptr);
         run::DriverOptions             options;
-        options.checkpoint = restart.checkpoint;
+        options.checkpoint     = restart.checkpoint;
+        options.wall_start     = run::wall_clock();
+        options.walltime_limit = 2; // time and steps of a changed file may be those of a long run
         run::Driver<Cpu, float> driver(*alone, log, from.scene, from.world, directory, from.plan, simulation,
                                        from.rooms, options);
         driver.run();

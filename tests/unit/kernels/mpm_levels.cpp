@@ -1,4 +1,6 @@
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -25,6 +27,19 @@ double weight_at(int level, std::int32_t node, double x)
     const Stencil<double> stencil = stencil_above<double>(cell, at, lattice.inverse_spacing, lattice);
     const std::int32_t    n       = node - cell.x;
     return n < 0 || n > 2 ? 0 : stencil.weight[0][n];
+}
+
+TEST(Levels, PlacesFarAwayHaveCellsOutside)
+{
+    const double nowhere           = std::numeric_limits<double>::quiet_NaN();
+    const Index3 far               = cell_of({1.5e9, 1e300, -1e300}, scene_lattice),
+                 lost              = cell_of({nowhere, 0.3, 0.3}, scene_lattice);
+    constexpr std::int32_t outside = 1 << 29;
+    EXPECT_EQ(far.x, outside);
+    EXPECT_EQ(far.y, outside);
+    EXPECT_EQ(far.z, -outside);
+    EXPECT_EQ(std::abs(lost.x), outside);
+    EXPECT_EQ(lost.y, 2);
 }
 
 TEST(Levels, ACellIsTwoOfTheNextLevel)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -26,15 +27,23 @@ TREAD_HD Lattice make_lattice(double spacing, double stencil_shift) { return {sp
 /// square of this slack, the rounding of fp32. Linear (hat) functions have a kink at the boundary and get no slack.
 constexpr double quadratic_cell_slack = 1.0 / 1024;
 
+/// Returns the number of the cell that a distance from the first stencil, in spacings, lies in. Points that flew far
+/// away, and positions that are no number, get a cell outside of every domain to which offsets can be added.
+TREAD_HD std::int32_t cell_along_axis(double spacings)
+{
+    constexpr double farthest = 1 << 29;
+    return static_cast<std::int32_t>(std::floor(std::min(farthest, std::max(-farthest, spacings))));
+}
+
 /// Returns the node that names the cell of a position: the lowest of its stencil. Multiplies by the inverse spacing,
 /// because an fp64 division costs a GPU as much as the rest of the stencil. The fused multiply-add is explicit:
 /// otherwise compilers would fuse it in some kernels only, and these would disagree about points on a cell boundary.
 TREAD_HD Index3 cell_of(const Vec3<double>& position, const Lattice& lattice)
 {
     const double inverse = lattice.inverse_spacing, shift = lattice.stencil_shift + lattice.node_shift;
-    return {static_cast<std::int32_t>(std::floor(std::fma(position[0], inverse, -shift))),
-            static_cast<std::int32_t>(std::floor(std::fma(position[1], inverse, -shift))),
-            static_cast<std::int32_t>(std::floor(std::fma(position[2], inverse, -shift)))};
+    return {cell_along_axis(std::fma(position[0], inverse, -shift)),
+            cell_along_axis(std::fma(position[1], inverse, -shift)),
+            cell_along_axis(std::fma(position[2], inverse, -shift))};
 }
 
 /// Whether a point listed in `cell` may remain listed there.
