@@ -39,6 +39,18 @@ def _at(place, quantity, rows):
     return getattr(chosen, quantity), getattr(chosen, f"{quantity}_grid"), min(alike), max(alike), chosen.spacing, chosen.verdict
 
 
+def sensitivity(measured_set, curve, rows):
+    """{what is assumed: (points, {quantity: mean change})} against the set's own scene in cells of the same size, over the points that have both."""
+    changes = {}
+    own = [row for row in rows if row.set == measured_set.name and row.curve == curve.name]
+    for row in own:
+        base = next((other for other in own if not other.assumed and abs(row.spacing / other.spacing - 1) < 1e-6
+                     and abs(row.at - other.at) <= NEAR[measured_set.against]), None)
+        if row.assumed and base:
+            changes.setdefault(row.assumed, []).append([getattr(row, name) - getattr(base, name) for name in measured_set.quantities])
+    return {what: (len(found), dict(zip(measured_set.quantities, np.mean(found, axis=0)))) for what, found in changes.items()}
+
+
 @dataclass(frozen=True)
 class Deviation:
     """Deviation of values from measured ones, over the points where both are known."""

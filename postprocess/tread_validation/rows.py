@@ -58,6 +58,7 @@ def assumed_values(scene):
         "rim friction": contact.get("friction", 0.3), "modulus [Pa]": sand["young"], "density [kg/m3]": sand["density"],
         "friction angle [deg]": sand["friction_angle_deg"], "dilation angle [deg]": sand.get("dilation_angle_deg", 0.0),
         "cohesion [Pa]": sand.get("cohesion", 0.0), "law": sand["model"], "relative density": sand.get("relative_density", math.nan),
+        "modulus grows up to [Pa]": sand.get("young_pressure", 0.0), "softening length [m]": sand.get("softening_length") or 0.0,
     }
 
 

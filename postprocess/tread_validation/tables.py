@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tread_validation.compare import deviation, tread_answers
+from tread_validation.compare import deviation, sensitivity, tread_answers
 
 BEGIN, END = "<!-- written by postprocess/validation.py: begin -->", "<!-- written by postprocess/validation.py: end -->"
 LOCKED = "locked"  # of a wheel that does not turn, whose slip is no number
@@ -17,6 +17,7 @@ def page_text(sets, rows, pictures, theories):
         if measured_set.name in pictures:
             parts += [f"![{measured_set.title}]({pictures[measured_set.name]})", ""]
         parts += [*_deviations(measured_set, rows, theories), ""]
+        parts += [*_sensitivities(measured_set, rows), ""]
         for curve in measured_set.curves:
             parts += [*_values(measured_set, curve, rows, theories[measured_set.name, curve.name]), ""]
     return "\n".join(parts).rstrip() + "\n"
@@ -49,12 +50,28 @@ def _deviations(measured_set, rows, theories):
 
 
 def _deviation_line(measured_set, curve, quantity, name, found):
-    label, factor, unit, digits = SHOWN[quantity]
-    head = f"| {curve.name} | {label}{f' [{unit}]' if unit else ''} | {name} |"
+    _, factor, _, digits = SHOWN[quantity]
+    head = f"| {curve.name} | {_head(quantity)} | {name} |"
     if found is None:
         return f"{head} 0 | {'not run yet' if name == 'tread' else '-'} | | | |"
     numbers = [f"{factor * value:+.{digits}f}" for value in (found.bias,)] + [f"{factor * found.mean:.{digits}f}", f"{factor * found.largest:+.{digits}f}"]
     return f"{head} {found.points} | {' | '.join(numbers)} | {_place(measured_set, found.at)} |"
+
+
+def _sensitivities(measured_set, rows):
+    """What an assumption changes, as the mean over the measured points."""
+    heads = [_head(quantity) for quantity in measured_set.quantities]
+    lines = [f"| wheel: assumed instead | points | {' | '.join(f'change of {head}' for head in heads)} |", "|" + "---|" * (2 + len(heads))]
+    for curve in measured_set.curves:
+        for what, (points, change) in sorted(sensitivity(measured_set, curve, rows).items()):
+            numbers = [f"{SHOWN[name][1] * value:+.{SHOWN[name][3]}f}" for name, value in change.items()]
+            lines.append(f"| {curve.name}: {what} | {points} | {' | '.join(numbers)} |")
+    return lines if len(lines) > 2 else []
+
+
+def _head(quantity):
+    label, _, unit, _ = SHOWN[quantity]
+    return f"{label}{f' [{unit}]' if unit else ''}"
 
 
 def _place(measured_set, value):
@@ -76,7 +93,7 @@ def _values(measured_set, curve, rows, theories):
 
 
 def _value_line(measured_set, curve, quantity, point, answers, theories):
-    label, factor, unit, digits = SHOWN[quantity]
+    _, factor, _, digits = SHOWN[quantity]
     place = curve.measured.column(measured_set.against)[point]
 
     def shown(value):
@@ -85,7 +102,7 @@ def _value_line(measured_set, curve, quantity, point, answers, theories):
     def with_error(value, error):
         return shown(value) + ("" if np.isnan(error) or np.isnan(value) else f" +- {shown(error)}")
 
-    cells = [f"{place:g}" if np.isfinite(place) else LOCKED, f"{label}{f' [{unit}]' if unit else ''}",
+    cells = [f"{place:g}" if np.isfinite(place) else LOCKED, _head(quantity),
              with_error(curve.measured.column(quantity)[point], curve.measured.column(f"{quantity}_spread")[point]),
              with_error(answers.value[point], answers.grid[point]),
              f"{shown(answers.low[point])} to {shown(answers.high[point])}" if answers.low[point] < answers.high[point] else "-",

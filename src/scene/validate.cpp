@@ -90,7 +90,8 @@ void validate_softening(const Scene& scene, const Material& material, const Tabl
 void validate_stiffening(const Material& material, const TableAt& at, Checker& checker)
 {
     if (material.young_pressure == 0 || material.cohesion == 0) { return; }
-    checker.report(at, "young_pressure", fmt::format("stiffness grows from none, but cohesion is {} Pa", material.cohesion),
+    checker.report(at, "young_pressure",
+                   fmt::format("stiffness grows from none, but cohesion is {} Pa", material.cohesion),
                    "0 (Pa), or cohesion = 0");
 }
 

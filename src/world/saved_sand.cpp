@@ -82,8 +82,8 @@ io::BedPoints saved_points(const Communicator& communicator, const scene::Scene&
     points.grid_spacing = scene.grid.spacing;
     for (const scene::Material& material : scene.materials)
     {
-        points.materials.push_back({material.name, material.density, material.young, material.poisson,
-                                    material.young_pressure});
+        points.materials.push_back(
+            {material.name, material.density, material.young, material.poisson, material.young_pressure});
     }
     points.material      = communicator.gather(fields.material);
     points.position      = communicator.gather(fields.position);

@@ -23,7 +23,7 @@ from tread_jobs.campaign_file import read_campaign  # noqa: E402
 from tread_jobs.cases import make_cases  # noqa: E402
 from tread_post import RunError  # noqa: E402
 from tread_post.measured import read_measured  # noqa: E402
-from tread_validation.compare import deviation, tread_answers  # noqa: E402
+from tread_validation.compare import deviation, sensitivity, tread_answers  # noqa: E402
 from tread_validation.rows import assumed_values, differences, row_of, store_rows, stored_rows, wheel_of  # noqa: E402
 from tread_validation.sets import read_sets  # noqa: E402
 from tread_validation.tables import BEGIN, END, page_text, replaced  # noqa: E402
@@ -169,6 +169,16 @@ class Rows(unittest.TestCase):
         found = tread_answers(SETS["ding"], SETS["ding"].curves[0], "drawbar_pull", rows)
         self.assertEqual(np.flatnonzero(np.isfinite(found.value)).tolist(), [3])
         self.assertEqual((found.value[3], found.low[3], found.high[3], found.spacing[3]), (row.drawbar_pull, -4.0, row.drawbar_pull, 0.005))
+
+    def test_sensitivity_is_the_mean_change_at_points_and_spacings_of_both(self):
+        row = row_of(SETS["ding"], self.run_of("ding", 3)[0])
+        rows = [row, replace(row, at=0.1, drawbar_pull=2.0), replace(row, assumed="rim friction 0.3", drawbar_pull=row.drawbar_pull - 4.0),
+                replace(row, at=0.1, assumed="rim friction 0.3", drawbar_pull=0.0), replace(row, at=0.2, assumed="rim friction 0.3", drawbar_pull=-90.0),
+                replace(row, spacing=0.01, assumed="rim friction 0.3", drawbar_pull=90.0)]
+        points, change = sensitivity(SETS["ding"], SETS["ding"].curves[0], rows)["rim friction 0.3"]
+        self.assertEqual(points, 2)
+        self.assertAlmostEqual(change["drawbar_pull"], -3.0)
+        self.assertAlmostEqual(change["torque"], 0.0)
 
     def test_deviations(self):
         found = deviation(np.array([0.0, 0.1, 0.2, 0.3]), np.array([1.0, 4.0, np.nan, -1.0]), np.array([0.0, 5.0, 1.0, 3.0]))
