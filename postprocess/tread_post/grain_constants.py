@@ -59,27 +59,33 @@ def _inner(grains, low, high, axes=(0, 1, 2)):
 def compression_of(run):
     """Compression of a run whose [reference] form is "triaxial"."""
     curve, (low, high) = curves_of(run)[0], sample_of(run)
-    strain, ratio, deviator = (curve[name] for name in ("axial_strain", "stress_ratio", "deviator"))
-    size = max(1, len(ratio) // 20)
-    top = int(np.argmax(np.convolve(ratio, np.ones(size) / size, "valid"))) + size // 2
-    near = np.flatnonzero(np.abs(strain - strain[top]) <= NEAR_PEAK)
+    modulus, pressure = _secant(run, curve)
+    begin, end = (grains_of(run, number) for number in _snapshots_of_last_phase(run))
+    shrunk = high - (high - low) * np.array([curve["volume_strain"][-1] - curve["axial_strain"][-1], 0.0, curve["axial_strain"][-1]])
+    return Compression(
+        curve.plateau("confining_stress"), _angle(curve.peak("stress_ratio")), _angle(curve.plateau("stress_ratio")), _rate(curve, _near_peak(run, curve)),
+        _rate(curve, slice(3 * len(curve["axial_strain"]) // 4, None)), modulus, pressure, void_ratio(begin, *_inner(begin, low, high)),
+        void_ratio(end, *_inner(end, low, shrunk)), float(overlaps(end).mean()))
+
+
+def _near_peak(run, curve):
+    """Rows around the largest mean of a twentieth of the rows."""
+    size = max(1, len(curve["stress_ratio"]) // 20)
+    top = int(np.argmax(np.convolve(curve["stress_ratio"], np.ones(size) / size, "valid"))) + size // 2
+    rows = np.flatnonzero(np.abs(curve["axial_strain"] - curve["axial_strain"][top]) <= NEAR_PEAK)
+    if len(rows) < 4:
+        raise RunError(f"{run.path}: {len(rows)} rows around the peak; 4 at least: lower [output] every")
+    return rows
+
+
+def _secant(run, curve):
+    """(Young's modulus to half of the peak's deviator, mean stress there), Pa: in plane strain eps_1 = (1 - nu^2) (s_1 - s_3) / E under constant s_3."""
+    deviator, strain = curve["deviator"], curve["axial_strain"]
     half = int(np.argmax(deviator >= 0.5 * curve.peak("deviator")))
-    if half == 0 or len(near) < 4:
-        raise RunError(f"{run.path}: too few rows before or at the peak; lower [output] every")
-    risen = deviator[half] - deviator[0]
-    modulus = (1 - POISSON**2) * risen / (strain[half] - strain[0])
-    pressure = (1 + POISSON) / 3 * (2 * curve["confining_stress"][half] + deviator[half])
-    late = slice(3 * len(ratio) // 4, None)
-    begin, end = _snapshots_of_last_phase(run)
-    grains = grains_of(run, end)
-    final = high - (high - low) * np.array([_side_strain(curve), 0.0, strain[-1]])
-    return Compression(curve.plateau("confining_stress"), _angle(curve.peak("stress_ratio")), _angle(curve.plateau("stress_ratio")),
-                       _rate(curve, near), _rate(curve, late), modulus, pressure, void_ratio(grains_of(run, begin), *_inner(grains, low, high)),
-                       void_ratio(grains, *_inner(grains, low, final)), float(overlaps(grains).mean()))
-
-
-def _side_strain(curve):
-    return float(curve["volume_strain"][-1] - curve["axial_strain"][-1])
+    if half == 0:
+        raise RunError(f"{run.path}: no rows before half of the peak; lower [output] every")
+    modulus = (1 - POISSON**2) * (deviator[half] - deviator[0]) / (strain[half] - strain[0])
+    return float(modulus), float((1 + POISSON) / 3 * (2 * curve["confining_stress"][half] + deviator[half]))
 
 
 def _snapshots_of_last_phase(run):
