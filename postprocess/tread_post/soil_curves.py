@@ -71,9 +71,9 @@ def _generator(run, body):
 
 def sample_of(run):
     """(low, high) corners of the sand, m; of grains between plates, when the last phase begins."""
-    terrain = run.scene.get("terrain", [{}])
     if "terrain" not in run.scene and "rocks" in run.scene:
         return _between_plates(run)
+    terrain = run.scene.get("terrain", [{}])
     if "box" not in terrain[0].get("region", {}):
         raise RunError(f"{run.path}: the test wants a first [[terrain]] with region = {{ box = ... }}")
     return tuple(np.array(corner, float) for corner in terrain[0]["region"]["box"])
