@@ -36,12 +36,12 @@ def arguments():
 def write_constants(options):
     dense, loose = ([compression_of(Run(path)) for path in paths] for paths in (options.dense, options.loose))
     friction, bed = plate_friction(Run(options.interface)), bed_of(Run(options.bed))
-    settings = settings_of(dense, loose, friction, bed)
+    settings, rate = settings_of(dense, loose, friction, bed)
     print(" " * 16 + "".join(f"{path.name[-13:]:>14}" for path in options.dense + options.loose))
     for field in fields(dense[0]):
         print(f"{field.name:16}" + "".join(f"{getattr(one, field.name):14.5g}" for one in dense + loose))
     print(f"bed: void ratio {bed.void_ratio:.4f}, density {bed.density:.1f} kg/m3, overlap {bed.overlap:.2g} of the diameter")
-    print(f"friction of the plate {friction:.4f}")
+    print(f"friction of the plate {friction:.4f}; rate of dilation of the law at the peak {rate:.3f}")
     options.output.write_text("".join(f"--set\n{key}={value:.6g}\n" for key, value in settings.items()), encoding="utf-8")
     print(options.output.read_text(encoding="utf-8"), end="")
 

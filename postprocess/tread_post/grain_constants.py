@@ -10,8 +10,9 @@ from tread_post.run import RunError
 from tread_post.soil_curves import curves_of, sample_of
 
 POISSON = 0.2  # assumed, as configs/grains/continuum.toml does
-# Bolton (1986) with Q = 10 under 150 kPa, plane strain: I_R = DENSITY_FACTOR I_D - 1, phi = phi_crit + DEGREES I_R.
-DENSITY_FACTOR, DEGREES, LARGEST_INDEX = 10 - math.log(150), 5.0, 4.0
+# Bolton (1986) with Q = 10 under 150 kPa, plane strain: I_R = DENSITY_FACTOR I_D - 1, phi = phi_crit + DEGREES I_R,
+# -d eps_v / d eps_1 = RATE I_R.
+DENSITY_FACTOR, DEGREES, RATE, LARGEST_INDEX = 10 - math.log(150), 5.0, 0.3, 4.0
 # Walls, plates and free surfaces order and loosen grains within some diameters; a quarter of a slab on each side at most.
 LAYER = 3.0
 # Share of axial strain on either side of the peak over which the rate of dilation is taken.
@@ -119,9 +120,10 @@ def bed_of(run):
 
 
 def settings_of(dense, loose, friction, bed):
-    """{key: value} of configs/grains/continuum.toml from Compressions. Dense grains give the peak and its void ratio; loose ones, which shear without
-    bands, angle and void ratio of the critical state; extreme void ratios are those with which the law has both. The modulus is that under the highest
-    pressure, below which it falls with the root. RunError where dense grains are no denser or no stronger than loose ones."""
+    """({key: value} of configs/grains/continuum.toml, -d eps_v / d eps_1 that the law then has at the peak) from Compressions. Dense grains give the peak
+    and its void ratio; loose ones, which shear without bands, angle and void ratio of the critical state; extreme void ratios are those with which the
+    law has both. The modulus is that under the highest pressure, below which it falls with the root. RunError where dense grains are no denser or no
+    stronger than loose ones."""
     peak, before = (float(np.mean([getattr(one, name) for one in dense])) for name in ("peak_angle", "void_ratio"))
     critical, after = (float(np.mean([getattr(one, name) for one in loose])) for name in ("end_angle", "end_void_ratio"))
     index = min((peak - critical) / DEGREES, LARGEST_INDEX)
@@ -132,6 +134,7 @@ def settings_of(dense, loose, friction, bed):
     loosest = after + extent / DENSITY_FACTOR
     stiffest = max(dense, key=lambda one: one.pressure)
     relative = min(max((loosest - bed.void_ratio) / extent, 0.0), 1.0)
-    return {"material.sand.density": bed.density, "material.sand.young": stiffest.modulus, "material.sand.young_pressure": stiffest.pressure,
-            "material.sand.friction_angle_deg": critical, "material.sand.relative_density": relative,
-            "material.sand.void_ratio_min": loosest - extent, "material.sand.void_ratio_max": loosest, "contact[0].friction": friction}
+    settings = {"material.sand.density": bed.density, "material.sand.young": stiffest.modulus, "material.sand.young_pressure": stiffest.pressure,
+                "material.sand.friction_angle_deg": critical, "material.sand.relative_density": relative,
+                "material.sand.void_ratio_min": loosest - extent, "material.sand.void_ratio_max": loosest, "contact[0].friction": friction}
+    return settings, RATE * index

@@ -166,7 +166,7 @@ class GrainsTest(unittest.TestCase):
         dense = Compression(2e3, 40.0, 31.0, 0.8, 0.1, 1e6, 3e3, 0.55, 0.7, 0.005)
         stiffer = Compression(8e3, 38.0, 31.0, 0.8, 0.1, 2e6, 12e3, 0.55, 0.7, 0.005)
         loose = Compression(8e3, 30.0, 29.0, 0.0, 0.0, 1e6, 12e3, 0.68, 0.67, 0.005)
-        found = settings_of([dense, stiffer], [loose], 0.4, Bed(0.58, 1650.0, 0.005))
+        found, rate = settings_of([dense, stiffer], [loose], 0.4, Bed(0.58, 1650.0, 0.005))
         low, high = found["material.sand.void_ratio_min"], found["material.sand.void_ratio_max"]
 
         def angle(void):
@@ -174,6 +174,7 @@ class GrainsTest(unittest.TestCase):
 
         self.check("angle of dense grains", angle(0.55), 39.0, 1e-9, "Bolton's relation solved for its void ratios")
         self.check("angle of the critical state", angle(0.67), 29.0, 1e-9, "likewise")
+        self.check("rate of dilation", rate, 0.3 * 10.0 / DEGREES, 1e-12, "Bolton's 0.3 I_R at ten degrees over the critical state")
         self.check("relative density of the bed", found["material.sand.relative_density"], (high - 0.58) / (high - low), 1e-12, "of the bed's own void ratio")
         self.assertEqual((found["material.sand.young"], found["material.sand.young_pressure"], found["contact[0].friction"]), (2e6, 12e3, 0.4))
         with self.assertRaisesRegex(RunError, "wants dense grains that are stronger"):
