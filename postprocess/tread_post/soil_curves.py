@@ -69,12 +69,26 @@ def _generator(run, body):
     return shapes[0]["generate"]
 
 
-def _sample(run):
-    """(low, high) corners of the sand, m."""
+def sample_of(run):
+    """(low, high) corners of the sand, m; of grains between plates, when the last phase begins."""
+    if "terrain" not in run.scene and "rocks" in run.scene:
+        return _between_plates(run)
     terrain = run.scene.get("terrain", [{}])
     if "box" not in terrain[0].get("region", {}):
         raise RunError(f"{run.path}: the test wants a first [[terrain]] with region = {{ box = ... }}")
-    return (np.array(corner, float) for corner in terrain[0]["region"]["box"])
+    return tuple(np.array(corner, float) for corner in terrain[0]["region"]["box"])
+
+
+def _between_plates(run):
+    """(low, high) corners of what the first body, "side_x" and "side_y" hold against the domain's corner, m."""
+    low, high = np.zeros(3), np.array(run.scene["domain"]["size"], float)
+    for axis, name in ((2, _body(run)["name"]), (0, "side_x"), (1, "side_y")):
+        for body in (body for body in run.scene["body"] if body["name"] == name):
+            shape = _generator(run, body)
+            if shape["kind"] != "box":
+                raise RunError(f"{run.path}: the shape of '{name}' is a {shape['kind']}, not a box, whose face bounds the sample")
+            high[axis] = _of_last_phase(run, name)[1]["position"][axis] - 0.5 * shape["size"][axis]
+    return low, high
 
 
 def soil_of(run):
@@ -125,7 +139,7 @@ def _cone(run):
 def _direct_shear(run):
     """Forces on the upper half and the lid together: what they exert on each other cancels, and the rest acts on the plane of shear."""
     upper, lid = _body(run), _body(run, "lid")
-    low, high = _sample(run)
+    low, high = sample_of(run)
     area = float(np.prod((high - low)[:2]))
     (rows, first), (lid_rows, lid_first) = _of_last_phase(run, upper["name"]), _of_last_phase(run, lid["name"])
     forces = rows["force"] + lid_rows["force"]
@@ -159,7 +173,7 @@ def _triaxial(run):
     sides = {axis: body["name"] for axis, name in ((0, "side_x"), (1, "side_y")) for body in run.scene["body"] if body["name"] == name}
     if 0 not in sides:
         raise RunError(f"{run.path}: the test wants a [[body]] named 'side_x'")
-    low, high = _sample(run)
+    low, high = sample_of(run)
     size, (rows, first) = high - low, _of_last_phase(run, top["name"])
     strain = {2: (first["position"][2] - rows["position"][:, 2]) / size[2], 1: np.zeros(len(rows["time"]))}
     stress = {}
@@ -179,7 +193,7 @@ def _triaxial(run):
 
 def _oedometer(run):
     lid = _body(run)
-    low, high = _sample(run)
+    low, high = sample_of(run)
     size, (rows, first) = high - low, _of_last_phase(run, lid["name"])
     columns = {"strain": (first["position"][2] - rows["position"][:, 2]) / size[2], "stress": rows["force"][:, 2] / (size[0] * size[1])}
     return [Curve("oedometer", lid["name"], columns | _inner_columns(run, rows["time"]), {"strain": "1", "stress": "Pa"} | INNER_UNITS)]
@@ -213,7 +227,7 @@ def _inner_columns(run, times):
 
 def _inner_half(run, place):
     """Which places [n] lie in the middle half of the sample along each axis; of a slab, along x and z."""
-    low, high = _sample(run)
+    low, high = sample_of(run)
     size = high - low
     axes = [axis for axis in range(3) if size[axis] >= 0.5 * min(size[0], size[2])]
     inside = np.all((np.abs(place - 0.5 * (low + high)) <= 0.25 * size)[:, axes], axis=1)
