@@ -1,7 +1,12 @@
+#include <array>
+#include <set>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "scene/checker.hpp"
 #include "scene/contacts.hpp"
+#include "scene/keys.hpp"
 #include "scene/phase_settings.hpp"
 
 // Which pairs of families may be told not to touch, and what that excludes.
