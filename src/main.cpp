@@ -17,6 +17,7 @@
 #include "base/log.hpp"
 #include "base/printable.hpp"
 #include "base/script.hpp"
+#include "base/terminal.hpp"
 #include "base/thread_wait.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
@@ -58,7 +59,7 @@ struct RunArguments
     SceneArguments  scene;
     run::RunOptions options;
     double          hang_timeout = 600; ///< s
-    Terminal        terminal     = Terminal::shown;
+    Terminal        terminal     = terminal_here();
 };
 
 enum class Report
