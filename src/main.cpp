@@ -344,6 +344,7 @@ std::vector<std::pair<CLI::App*, std::string>> add_script_commands(CLI::App& app
         {app.add_subcommand("validate", "Measured wheels beside tread: docs/validation.md"), "jobs/validate.py"},
         {app.add_subcommand("calibrate", "Constants of a scene from measured curves: docs/calibration.md"),
          "jobs/calibrate.py"},
+        {app.add_subcommand("watch", "Follow a run or a campaign in a browser: docs/watching.md"), "jobs/watch.py"},
         {app.add_subcommand("post", "Pictures, figures and reports of runs; alone, it lists them"),
          "postprocess/post.py"}};
     for (auto& [command, script] : commands)
