@@ -23,13 +23,13 @@
 #include "decomp/single_rank.hpp"
 #include "io/describe.hpp"
 #include "io/sdf_report.hpp"
+#include "misspelt.hpp"
 #include "run/agreement.hpp"
 #include "run/check.hpp"
 #include "run/features.hpp"
 #include "run/on_ranks.hpp"
 #include "run/run_scene.hpp"
 #include "scene/load.hpp"
-#include "scene/problems.hpp"
 #include "scene/soil_text.hpp"
 #include "shape/generators/form.hpp"
 #include "shape/report.hpp"
@@ -355,18 +355,6 @@ std::vector<std::pair<CLI::App*, std::string>> add_script_commands(CLI::App& app
     return commands;
 }
 
-/// Throws InputError, with the nearest one, if the first word is no subcommand.
-void require_known_command(const CLI::App& app, int argc, char** argv)
-{
-    const std::string word = argc > 1 ? argv[1] : "--help";
-    if (word.rfind('-', 0) == 0) { return; }
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands({})) { names.push_back(command->get_name()); }
-    if (std::find(names.begin(), names.end(), word) != names.end()) { return; }
-    throw InputError(fmt::format("there is no command \"{}\"{}; accepted: {} (tread --help)", printable(word),
-                                 scene::suggestion(word, names), fmt::join(names, ", ")));
-}
-
 /// Requires one subcommand; throws CLI::ParseError for --help, --version and invalid arguments.
 ExitCode dispatch(CLI::App& app, int argc, char** argv)
 {
@@ -407,6 +395,7 @@ int main(int argc, char** argv)
     if (argc > 1 && std::string_view(argv[1]) == "run") { limit_spinning(argv); }
     CLI::App app("tread: rover wheels on sand and rock", "tread");
     app.set_version_flag("--version", run::features);
+    app.failure_message(usage_message);
     try
     {
         return static_cast<int>(dispatch(app, argc, argv));

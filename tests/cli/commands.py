@@ -35,6 +35,15 @@ class Commands(CommandTest):
             self.assertIn(f'there is no command "{word}"', refused.stderr)
             self.assertIn(said, refused.stderr)
 
+    def test_a_misspelt_option_is_refused_with_the_nearest(self):
+        for words, said in ((("run", "scene.toml", "--overwirte"), 'not expected: --overwirte; did you mean "--overwrite"? (tread run --help)'),
+                            (("check", "scene.toml", "--xyzxyz"), "not expected: --xyzxyz (tread check --help)"), (("run",), "scene is required (tread run --help)"),
+                            (("run", "scene.toml", "--x\x1b"), "not expected: --x\\x1b (")):
+            refused = self.tread(*words)
+            self.assertEqual((refused.returncode, refused.stdout), (2, ""))
+            self.assertIn(said, refused.stderr)
+            self.assertTrue(refused.stderr.startswith("tread: error: "), refused.stderr)
+
     def test_runs_limit_the_spinning_of_threads_unless_told_otherwise(self):
         """GNU's OpenMP says what it goes by, once for each start of the program."""
         def spins(**environment):
