@@ -126,6 +126,7 @@ def holds_series(case):
 
 
 def process_lives(pid):
+    """Whether this machine has the process."""
     try:
         os.kill(pid, 0)
     except ProcessLookupError:

@@ -18,6 +18,7 @@ from tread_watch.run_page import AXES, PICTURES, newest_picture, run_parts, run_
 
 HERE = Path(__file__).resolve().parent
 RUN_PAUSE = 1  # s for which the page of a run is kept
+COST = 5  # times as long as it took to make, at least: a login node has other users
 HOST = re.compile(r"(localhost|127\.0\.0\.1)(:\d{1,5})?")
 HEADERS = {
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; base-uri 'none'; "
@@ -56,9 +57,11 @@ class Watched:
             return None
         with self._lock:  # of many visitors, one makes the page
             kept = self._pages.get((case, along))
-            if kept is None or time.monotonic() > kept[0]:
+            begun = time.monotonic()
+            if kept is None or begun > kept[0]:
+                text, done = self._made(case, along), time.monotonic()
                 pause = pause_of(self.campaign) if self.campaign and not case else RUN_PAUSE
-                kept = self._pages[(case, along)] = (time.monotonic() + pause, self._made(case, along))
+                kept = self._pages[(case, along)] = (done + max(pause, COST * (done - begun)), text)
         return kept[1]
 
     def picture(self, case):

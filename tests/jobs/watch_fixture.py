@@ -38,9 +38,10 @@ class WatchTest(unittest.TestCase):
         self.addCleanup(directory.cleanup)
         self.directory = pathlib.Path(directory.name)
         self.run_folder = self.directory / "run"
-        patched = mock.patch.object(server, "RUN_PAUSE", 0.0)  # each request sees the files as they are
-        patched.start()
-        self.addCleanup(patched.stop)
+        for name in ("RUN_PAUSE", "COST"):
+            patched = mock.patch.object(server, name, 0.0)  # each request sees the files as they are
+            patched.start()
+            self.addCleanup(patched.stop)
 
     def make_running(self, line=LINE):
         """A run of this process that has come as far as `line`."""
