@@ -17,18 +17,19 @@
 #include "base/log.hpp"
 #include "base/printable.hpp"
 #include "base/script.hpp"
+#include "base/terminal.hpp"
 #include "base/thread_wait.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
 #include "io/describe.hpp"
 #include "io/sdf_report.hpp"
+#include "misspelt.hpp"
 #include "run/agreement.hpp"
 #include "run/check.hpp"
 #include "run/features.hpp"
 #include "run/on_ranks.hpp"
 #include "run/run_scene.hpp"
 #include "scene/load.hpp"
-#include "scene/problems.hpp"
 #include "scene/soil_text.hpp"
 #include "shape/generators/form.hpp"
 #include "shape/report.hpp"
@@ -58,7 +59,7 @@ struct RunArguments
     SceneArguments  scene;
     run::RunOptions options;
     double          hang_timeout = 600; ///< s
-    Terminal        terminal     = Terminal::shown;
+    Terminal        terminal     = terminal_here();
 };
 
 enum class Report
@@ -343,6 +344,7 @@ std::vector<std::pair<CLI::App*, std::string>> add_script_commands(CLI::App& app
         {app.add_subcommand("validate", "Measured wheels beside tread: docs/validation.md"), "jobs/validate.py"},
         {app.add_subcommand("calibrate", "Constants of a scene from measured curves: docs/calibration.md"),
          "jobs/calibrate.py"},
+        {app.add_subcommand("watch", "Follow a run or a campaign in a browser: docs/watching.md"), "jobs/watch.py"},
         {app.add_subcommand("post", "Pictures, figures and reports of runs; alone, it lists them"),
          "postprocess/post.py"}};
     for (auto& [command, script] : commands)
@@ -351,18 +353,6 @@ std::vector<std::pair<CLI::App*, std::string>> add_script_commands(CLI::App& app
         command->prefix_command();
     }
     return commands;
-}
-
-/// Throws InputError, with the nearest one, if the first word is no subcommand.
-void require_known_command(const CLI::App& app, int argc, char** argv)
-{
-    const std::string word = argc > 1 ? argv[1] : "--help";
-    if (word.rfind('-', 0) == 0) { return; }
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands({})) { names.push_back(command->get_name()); }
-    if (std::find(names.begin(), names.end(), word) != names.end()) { return; }
-    throw InputError(fmt::format("there is no command \"{}\"{}; accepted: {} (tread --help)", printable(word),
-                                 scene::suggestion(word, names), fmt::join(names, ", ")));
 }
 
 /// Requires one subcommand; throws CLI::ParseError for --help, --version and invalid arguments.
@@ -405,6 +395,7 @@ int main(int argc, char** argv)
     if (argc > 1 && std::string_view(argv[1]) == "run") { limit_spinning(argv); }
     CLI::App app("tread: rover wheels on sand and rock", "tread");
     app.set_version_flag("--version", run::features);
+    app.failure_message(usage_message);
     try
     {
         return static_cast<int>(dispatch(app, argc, argv));

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
@@ -58,7 +59,10 @@ def check_cases(program, cases, most, scratch):
         except OSError as error:
             raise MachineError(f"{program}: {error.strerror}; --tread names the program") from error
         if done.returncode:
-            raise CampaignError(f"case {case.name} ({case.labels}): {done.stderr.strip() or done.stdout.strip()}")
+            values = ", ".join(f"{name} {label}" for name, label in case.labels.items())
+            # The file that was checked is gone when this is read.
+            words = re.sub(rf"{re.escape(str(scene))}(:\d+)?: ", "", done.stderr.strip() or done.stdout.strip())
+            raise CampaignError(f"case {case.name} ({values}): {words}")
         return _plan(done.stdout, program)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -109,7 +109,7 @@ def _is_alive(attempt, case, queue, quiet_for):
     if attempt.job.rpartition("_")[0] in queue.jobs:
         return False
     if attempt.host == socket.gethostname():
-        return _process_lives(attempt.pid)
+        return process_lives(attempt.pid)
     return time.time() - _last_touched(case) < quiet_for
 
 
@@ -125,7 +125,8 @@ def holds_series(case):
     return head.startswith(HDF5_SIGNATURE) and length >= int.from_bytes(head[end_at:end_at + 8], "little")
 
 
-def _process_lives(pid):
+def process_lives(pid):
+    """Whether this machine has the process."""
     try:
         os.kill(pid, 0)
     except ProcessLookupError:

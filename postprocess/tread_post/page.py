@@ -15,10 +15,14 @@ img { max-width: 100%; } figcaption { color: #555; font-size: 0.9em; }
 """
 
 
-def page(title, parts):
-    """The text of the page; `parts` are pieces of HTML."""
-    head = f"<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{escape(title)}</title>\n<style>{STYLE}</style>\n</head>\n"
-    return head + f"<body>\n<h1>{escape(title)}</h1>\n" + "\n".join(parts) + "\n</body>\n</html>\n"
+def page(title, parts, head=f"<style>{STYLE}</style>"):
+    """The text of the page; `parts` are pieces of HTML, `head` what stands beside its title."""
+    begin = f"<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{escape(title)}</title>\n{head}\n</head>\n"
+    return begin + f"<body>\n<h1>{escape(title)}</h1>\n" + "\n".join(parts) + "\n</body>\n</html>\n"
+
+
+class Markup(str):
+    """A piece of HTML, which a table takes as it is."""
 
 
 def escape(text):
@@ -50,14 +54,14 @@ def figure(picture, caption):
 
 
 def table(head, rows, kinds=()):
-    """Cells are texts, to the left, or numbers. `kinds`: class of each row, by which it stands out; empty of those that do not."""
+    """Cells are texts or Markup, to the left, or numbers. `kinds`: class of each row, by which it stands out; empty of those that do not."""
     def cell(tag, value):
         is_text = isinstance(value, str)
         shown = value if is_text else "" if value != value else f"{value:.4g}"
-        return f"<{tag}{' class=text' if is_text else ''}>{escape(shown)}</{tag}>"
+        return f"<{tag}{' class=text' if is_text else ''}>{shown if isinstance(shown, Markup) else escape(shown)}</{tag}>"
 
     lines = ["<tr>" + "".join(cell("th", name) for name in head) + "</tr>"]
     for number, row in enumerate(rows):
-        kind = f' class="{kinds[number]}"' if kinds and kinds[number] else ""
+        kind = f' class="{escape(kinds[number])}"' if kinds and kinds[number] else ""
         lines.append(f"<tr{kind}>" + "".join(cell("td", value) for value in row) + "</tr>")
     return "<div class=\"wide\"><table>\n" + "\n".join(lines) + "\n</table></div>"

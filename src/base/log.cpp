@@ -17,19 +17,44 @@ Log::Log(const Communicator& communicator, Terminal terminal)
 {
 }
 
+Log::~Log() { remove_status(); }
+
 void Log::info(std::string_view line)
 {
     if (!speaks_) { return; }
     std::string shown = printable(line);
-    if (terminal_ == Terminal::shown) { std::cout << shown << std::endl; }
+    remove_status();
+    if (terminal_ != Terminal::silent) { std::cout << shown << std::endl; }
     keep(std::move(shown));
+}
+
+void Log::progress(std::string_view line)
+{
+    if (terminal_ != Terminal::live) { info(line); }
+    else if (speaks_) { keep(printable(line)); }
+}
+
+void Log::status(std::string_view line)
+{
+    if (!speaks_ || terminal_ != Terminal::live) { return; }
+    remove_status();
+    std::cout << printable(line) << std::flush;
+    has_status_ = true;
+}
+
+void Log::remove_status()
+{
+    if (!has_status_) { return; }
+    std::cout << "\r\x1b[K" << std::flush; // ECMA-48: to the first column, erase in line
+    has_status_ = false;
 }
 
 void Log::warning(std::string_view line)
 {
     if (!speaks_) { return; }
     std::string marked = fmt::format("warning: {}", printable(line));
-    if (terminal_ == Terminal::shown) { std::cerr << marked << std::endl; }
+    remove_status();
+    if (terminal_ != Terminal::silent) { std::cerr << marked << std::endl; }
     keep(std::move(marked));
 }
 

@@ -7,15 +7,10 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "base/terminal.hpp"
 
 namespace tread
 {
-
-enum class Terminal
-{
-    shown,
-    silent
-};
 
 enum class LogFile
 {
@@ -29,9 +24,19 @@ class Log
 {
 public:
     Log(const Communicator& communicator, Terminal terminal);
+    ~Log();
+    Log(const Log&)            = delete;
+    Log& operator=(const Log&) = delete;
 
     /// Writes to standard output.
     void info(std::string_view line);
+
+    /// Writes to the file, and to a terminal that shows no status.
+    void progress(std::string_view line);
+
+    /// Shows the status below all lines of a live terminal, in place of the one before; nowhere else. The next line
+    /// removes it.
+    void status(std::string_view line);
 
     /// Writes to standard error, marked "warning: ".
     void warning(std::string_view line);
@@ -50,9 +55,11 @@ private:
     static File open_file(const std::string& path, LogFile file);
 
     void keep(std::string line);
+    void remove_status();
 
     bool                     speaks_;
     Terminal                 terminal_;
+    bool                     has_status_ = false; ///< a status is on the terminal
     std::string              path_;
     File                     file_;
     std::vector<std::string> early_; ///< lines logged before a file was open

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,18 @@ struct Progress
     double       time_per_s  = 0; ///< s simulated per second of wall time, recent
     double       dt          = 0; ///< s
     std::string  limit;           ///< what limits dt: "elastic wave"
+
+    std::optional<double> pull    = {}; ///< N, mean so far
+    std::optional<double> sinkage = {}; ///< m
 };
 
-/// Log line, such as "drive  t 1.20 / 3.60 s  24000 steps  812 steps/s  ETA 0:04:12  dt 5.0e-05 s (elastic wave)".
+/// Log line, such as "drive  t 1.2 / 3.6 s  24000 steps  812 steps/s  ETA 0:04:12  dt 5.00e-05 s (elastic wave)  pull
+/// 57 N  sinkage 0.049 m".
 std::string progress_line(const Progress& progress);
+
+/// Status for a terminal, "[######--------------] 33 %  drive  t 1.2 / 3.6 s  ETA 0:04:12  pull 57 N ...". What comes
+/// last is left out where it does not fit into `columns`.
+std::string status_line(const Progress& progress, int columns);
 
 /// Formats seconds as "h:mm:ss".
 std::string clock_text(double seconds);

@@ -30,7 +30,7 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , loop_(scene, world, simulation)
     , output_({communicator, scene, world, plan, directory, options.provenance}, loop_)
     , wall_start_(wall_clock())
-    , messages_{wall_start_}
+    , messages_{wall_start_, wall_start_}
 {
     on_root(communicator, [&] { io::Checkpoints(directory_.checkpoints()).prepare(); });
 }
@@ -131,7 +131,7 @@ template<class Exec, class Real>
 void Driver<Exec, Real>::after_step()
 {
     if (options_.watchdog != nullptr) { options_.watchdog->advance(); }
-    if (const auto line = progress_message(messages_, scene_, loop_.phase, loop_.progress)) { log_.info(*line); }
+    log_progress(log_, messages_, scene_, loop_.phase, loop_.progress, output_.answers());
     output_.after_step();
 }
 

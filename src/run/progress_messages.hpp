@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "base/log.hpp"
+#include "run/answers_so_far.hpp"
 #include "run/time_loop.hpp"
 
 namespace tread::run
@@ -11,15 +13,16 @@ namespace tread::run
 /// Progress messages of a run so far.
 struct ProgressMessages
 {
-    double       wall;           ///< wall_clock() of the last message
-    std::int64_t steps  = 0;     ///< at the last message
-    double       time   = 0;     ///< s simulated, at the last message
+    double       wall;           ///< wall_clock() of the last line
+    double       status_wall;    ///< wall_clock() of the last status
+    std::int64_t steps  = 0;     ///< at the last line
+    double       time   = 0;     ///< s simulated, at the last line
     bool         warned = false; ///< a warning of steps over their limits was given in this phase
 };
 
-/// Returns a log line with recent speeds if one is due.
-std::optional<std::string> progress_message(ProgressMessages& messages, const scene::Scene& scene,
-                                            const RunningPhase& phase, const RunProgress& progress);
+/// Logs how far a run is, with recent speeds, where that is due: a line and, on a live terminal, a status.
+void log_progress(Log& log, ProgressMessages& messages, const scene::Scene& scene, const RunningPhase& phase,
+                  const RunProgress& progress, const AnswersSoFar& answers);
 
 /// Returns a warning of a step over its limits, once a phase.
 std::optional<std::string> limit_warning(ProgressMessages& messages, const solver::TimeStep& step, double time,

@@ -135,6 +135,7 @@ void RunOutput<Exec, Real>::write_row()
             if (files_are_free()) { recorder_->flush(); }
         };
         on_root(place_.communicator, on_file);
+        answers_.add(place_.scene, loop_.phase, time, bodies);
         simulation.begin_mean();
     };
     loop_.clock.run(simulation.exec(), solver::stage::output, write);

@@ -7,6 +7,7 @@
 
 #include "io/provenance.hpp"
 #include "io/run_directory.hpp"
+#include "run/answers_so_far.hpp"
 #include "run/axle_turn.hpp"
 #include "run/recorder.hpp"
 #include "run/snapshots.hpp"
@@ -83,6 +84,9 @@ public:
     /// Continues at the loop's time, which transfer() may have loaded after this.
     void resume();
 
+    /// Answers from the rows that this process has written.
+    const AnswersSoFar& answers() const { return answers_; }
+
     /// Closes the time series.
     void close() { recorder_.reset(); }
 
@@ -101,6 +105,7 @@ private:
     std::optional<Snapshots<Exec, Real>> snapshots_; ///< only if the scene wants snapshots
     std::vector<AxleTurn>                turns_;     ///< of the named bodies
     OutputsDue                           due_;
+    AnswersSoFar                         answers_;
 };
 
 } // namespace tread::run

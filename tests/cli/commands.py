@@ -24,7 +24,7 @@ class Commands(CommandTest):
     def test_help_names_every_command(self):
         result = self.tread("--help")
         self.assertEqual(result.returncode, 0)
-        for command in ("run", "check", "study", "validate", "calibrate", "post", "sdf", "info", "soils"):
+        for command in ("run", "check", "study", "validate", "calibrate", "watch", "post", "sdf", "info", "soils"):
             self.assertIn(f"  {command} ", result.stdout)
             self.assertEqual(self.tread(command, "--help").returncode, 0)
 
@@ -34,6 +34,15 @@ class Commands(CommandTest):
             self.assertEqual((refused.returncode, refused.stdout), (2, ""))
             self.assertIn(f'there is no command "{word}"', refused.stderr)
             self.assertIn(said, refused.stderr)
+
+    def test_a_misspelt_option_is_refused_with_the_nearest(self):
+        for words, said in ((("run", "scene.toml", "--overwirte"), 'not expected: --overwirte; did you mean "--overwrite"? (tread run --help)'),
+                            (("check", "scene.toml", "--xyzxyz"), "not expected: --xyzxyz (tread check --help)"), (("run",), "scene is required (tread run --help)"),
+                            (("run", "scene.toml", "--x\x1b"), "not expected: --x\\x1b (")):
+            refused = self.tread(*words)
+            self.assertEqual((refused.returncode, refused.stdout), (2, ""))
+            self.assertIn(said, refused.stderr)
+            self.assertTrue(refused.stderr.startswith("tread: error: "), refused.stderr)
 
     def test_runs_limit_the_spinning_of_threads_unless_told_otherwise(self):
         """GNU's OpenMP says what it goes by, once for each start of the program."""
@@ -67,7 +76,7 @@ class Commands(CommandTest):
         self.assertIn("2 variants", done.stdout)
         self.assertEqual(self.files(), ["scene.toml"])
 
-    def test_validate_and_calibrate_are_their_scripts_with_this_program(self):
+    def test_validate_calibrate_and_watch_are_their_scripts_with_this_program(self):
         listed = self.tread("validate", "--list")
         self.assertEqual(listed.returncode, 0, listed.stderr)
         self.assertIn("cmu", listed.stdout)
@@ -76,6 +85,10 @@ class Commands(CommandTest):
         self.assertIn("2 runs", planned.stdout)
         self.assertIn("--fit", self.tread("calibrate", "--help").stdout)
         self.assertEqual(self.tread("calibrate", self.write("scene.toml", SCENE)).returncode, 2)
+        self.assertIn("--no-browser", self.tread("watch", "--help").stdout)
+        nothing = self.tread("watch", self.output)
+        self.assertEqual((nothing.returncode, nothing.stdout), (2, ""))
+        self.assertIn("is no run (it has no scene.toml) and no campaign", nothing.stderr)
         self.assertEqual(self.files(), ["scene.toml"])
 
     def test_study_needs_python(self):

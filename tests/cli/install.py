@@ -30,6 +30,7 @@ class Install(CommandTest):
         checked = self.installed("check", self.share / "configs" / "quickstart.toml")
         self.assertEqual(checked.returncode, 0, checked.stderr)
         self.assertIn("--vary", self.installed("study", "--help").stdout)
+        self.assertIn("--no-browser", self.installed("watch", "--help").stdout)
         self.assertIn("wheel_history", self.installed("post").stdout)
         self.assertIn("RUN", self.installed("post", "wheel_history", "--help").stdout)
         for path in ("docs/install.md", "jobs/campaign.py", "README.md", "LICENSE"):

@@ -46,6 +46,36 @@ TEST(Log, warnings_go_to_standard_error)
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "warning: b\n");
 }
 
+TEST(Log, a_status_stands_below_all_lines_and_in_no_file)
+{
+    const test::TemporaryDirectory directory;
+    ::testing::internal::CaptureStdout();
+    {
+        Log log(world(), Terminal::live);
+        log.open(directory.path("log.txt"));
+        log.info("a");
+        log.status("half");
+        log.progress("1 of 2");
+        log.status("whole\x1b");
+        log.info("b");
+        log.status("end");
+    }
+    const std::string erase = "\r\x1b[K";
+    EXPECT_EQ(::testing::internal::GetCapturedStdout(), "a\nhalf" + erase + "whole\\x1b" + erase + "b\nend" + erase);
+    EXPECT_EQ(test::read_text(directory.path("log.txt")), "a\n1 of 2\nb\n");
+}
+
+TEST(Log, a_terminal_that_cannot_redraw_gets_lines)
+{
+    ::testing::internal::CaptureStdout();
+    {
+        Log log(world(), Terminal::shown);
+        log.status("half");
+        log.progress("1 of 2");
+    }
+    EXPECT_EQ(::testing::internal::GetCapturedStdout(), "1 of 2\n");
+}
+
 TEST(Log, unwritable_file_is_an_environment_error)
 {
     Log log(world(), Terminal::silent);

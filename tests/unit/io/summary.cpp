@@ -155,6 +155,36 @@ TEST(Progress, line)
               "drive  t 1.2 / 3.6 s  24000 steps  800 steps/s  ETA 0:01:00  dt 5.00e-05 s (elastic wave)");
     EXPECT_NE(progress_line({"drive", 1.2, 3.6, 24000, 0, 0, 5e-5, "elastic wave"}).find("ETA ?"), std::string::npos);
     EXPECT_EQ(clock_text(3725), "1:02:05");
+    EXPECT_EQ(progress_line({"drive", 1.2, 3.6, 24000, 800, 0.04, 5e-5, "elastic wave", 57.12, 0.0489}),
+              "drive  t 1.2 / 3.6 s  24000 steps  800 steps/s  ETA 0:01:00  dt 5.00e-05 s (elastic wave)  "
+              "pull 57.1 N  sinkage 0.0489 m");
+}
+
+TEST(Progress, status_leaves_out_what_does_not_fit)
+{
+    const Progress    progress{"drive", 1.2, 3.6, 24000, 800, 0.04, 5e-5, "elastic wave", 57.12, 0.0489};
+    const std::string first  = "[######--------------] 33 %  drive  t 1.2 / 3.6 s  ETA 0:01:00";
+    const std::string whole  = first + "  pull 57.1 N  sinkage 0.0489 m  dt 5.00e-05 s (elastic wave)  800 steps/s";
+    const int         length = static_cast<int>(whole.size());
+    EXPECT_EQ(status_line(progress, length + 1), whole);
+    EXPECT_EQ(status_line(progress, length), whole.substr(0, whole.rfind("  ")));
+    EXPECT_EQ(status_line(progress, static_cast<int>(first.size()) + 1), first);
+    for (int columns = 28; columns < length; ++columns)
+    {
+        EXPECT_LT(status_line(progress, columns).size(), static_cast<std::size_t>(columns));
+    }
+}
+
+TEST(Progress, bar_is_empty_at_the_start_and_full_at_the_end_only)
+{
+    const auto bar = [](double time)
+    {
+        const std::string line = status_line({"", time, 3.6, 0, 0, 0, 0, ""}, 80);
+        return line.substr(0, line.find('%') + 1);
+    };
+    EXPECT_EQ(bar(0), "[--------------------] 0 %");
+    EXPECT_EQ(bar(3.599), "[###################-] 99 %");
+    EXPECT_EQ(bar(3.6), "[####################] 100 %");
 }
 
 TEST(Progress, table_is_sorted_and_says_what_was_left_out)

@@ -1,0 +1,1 @@
+"""The pages of `tread watch`. They read runs and campaigns and write nothing."""
