@@ -99,7 +99,10 @@ def draw(run, snapshot, view, output, size, look=Look(), remark=""):
             renderer.AddActor(beads(points.position, shades, spacing))
         if shades.title:
             add_scale(renderer, shades, size)
-    (add_lamplit if look.light == "lamps" else add_under_sun)(renderer, meshes, sand)
+    if look.light == "lamps":
+        add_lamplit(renderer, meshes, sand)
+    else:
+        add_under_sun(renderer, meshes, sand, VIEWS[look.view])
     add_title(renderer, f"{run.title}\nt = {(points or bodies).time:.3f} s{remark}", size)
     aim(renderer, view.content, size, look.view)
     write(renderer, output, size)
@@ -140,10 +143,10 @@ def add_lamplit(renderer, meshes, sand):
         renderer.AddActor(shaded(mapper, shades))
 
 
-def add_under_sun(renderer, meshes, sand):
+def add_under_sun(renderer, meshes, sand, camera):
     parts = [(data, np.broadcast_to(np.array(colour), (data.GetNumberOfPoints(), 3))) for data, colour in meshes]
     if sand is not None:
         surface, shades = sand
         colours = shades.table.MapScalars(surface.GetPointData().GetArray("shade"), vtk.VTK_COLOR_MODE_MAP_SCALARS, 0)
         parts.append((surface, vtk_to_numpy(colours)[:, :3] / 255))
-    add_sunlit(renderer, parts)
+    add_sunlit(renderer, parts, camera)

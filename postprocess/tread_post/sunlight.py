@@ -6,7 +6,7 @@ from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 from tread_post.vtk_data import normals_of, positions_of
 
-SUN = np.array((-0.75, -0.25, 0.8))  # towards it: from behind a wheel that drives along +x, so that the rut is lit
+LEFT, HEIGHT = np.radians((40.0, 45.0))  # where the sun stands: left of the camera as seen in plan, and over the horizon
 SUN_RADIUS = 0.08  # rad; larger than the sun's, for shadows with soft edges
 SUN_SAMPLES, SKY_SAMPLES = 16, 48
 AMBIENT, SKY, DIRECT = 0.12, 0.42, 0.6
@@ -14,9 +14,10 @@ MAP = 1024  # texels across a depth map
 OFFSET = 1.5  # texels along the normal, and towards the light, by which a vertex clears its own surface
 
 
-def add_sunlit(renderer, parts):
-    """Adds meshes, each (vtkPolyData with normals, colours [v, 3] from 0 to 1), lit by sun and sky."""
-    shares = illuminance([data for data, _ in parts])
+def add_sunlit(renderer, parts, camera):
+    """Adds meshes, each (vtkPolyData with normals, colours [v, 3] from 0 to 1), lit by the sky and by a sun behind the camera, in whose direction
+    `camera` points."""
+    shares = illuminance([data for data, _ in parts], sun_of(camera))
     for (data, colours), share in zip(parts, shares):
         shown = np.clip(255 * colours * share[:, None], 0, 255).astype(np.uint8)
         array = numpy_to_vtk(shown, deep=True)
@@ -30,8 +31,14 @@ def add_sunlit(renderer, parts):
         renderer.AddActor(actor)
 
 
-def illuminance(meshes):
-    """Light at each vertex of each mesh, [v]: about 1 on open level ground."""
+def sun_of(camera):
+    """Unit vector towards the sun."""
+    bearing = np.arctan2(camera[1], camera[0]) - LEFT
+    return np.array((np.cos(HEIGHT) * np.cos(bearing), np.cos(HEIGHT) * np.sin(bearing), np.sin(HEIGHT)))
+
+
+def illuminance(meshes, sun):
+    """Light at each vertex of each mesh, [v]: about 1 on open level ground. `sun` is the unit vector towards it."""
     window, renderer = _depth_window(meshes)
     bounds = np.array(renderer.ComputeVisiblePropBounds()).reshape(3, 2)
     centre, radius = bounds.mean(axis=1), 0.5 * np.linalg.norm(np.ptp(bounds, axis=1))
@@ -39,7 +46,7 @@ def illuminance(meshes):
     normals = [normals_of(data) for data in meshes]
     places = [positions_of(data) + OFFSET * texel * normal - centre for data, normal in zip(meshes, normals)]
     totals = [np.full(len(place), AMBIENT) for place in places]
-    for direction, weight in _samples():
+    for direction, weight in _samples(sun):
         depths = _depths(window, renderer, centre, radius, direction)
         for total, place, normal in zip(totals, places, normals):
             facing = np.maximum(normal @ direction, 0)
@@ -47,10 +54,10 @@ def illuminance(meshes):
     return totals
 
 
-def _samples():
+def _samples(sun):
     """(unit vector towards the light, weight of a surface that faces it)"""
     turn = np.pi * (3 - 5**0.5)  # golden angle: directions are spread evenly
-    right, up, sun = _axes(SUN / np.linalg.norm(SUN))
+    right, up, _ = _axes(sun)
     for index in range(SUN_SAMPLES):
         off, angle = SUN_RADIUS * ((index + 0.5) / SUN_SAMPLES) ** 0.5, index * turn
         yield _unit(sun + off * (np.cos(angle) * right + np.sin(angle) * up)), DIRECT / SUN_SAMPLES

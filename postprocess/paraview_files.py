@@ -4,7 +4,7 @@
 Writes bodies.pvd (the [[body]] tables) and rocks.pvd, and beside them a .vtp a snapshot. ParaView 5.4 and later read them.
 Needs Debian's python3-h5py and python3-numpy.
 
-    tread post paraview runs/quickstart
+    tread post paraview_files runs/quickstart
     paraview runs/quickstart/paraview/bodies.pvd
 """
 
@@ -115,4 +115,4 @@ if __name__ == "__main__":
     try:
         main()
     except RunError as error:
-        sys.exit(f"paraview: {error}")
+        sys.exit(f"paraview_files: {error}")
