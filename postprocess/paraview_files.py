@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Wheels, tools and rocks of a run as files for ParaView, with time and what moves them, beside the sand that it opens as it is.
 
-Writes bodies.pvd (the [[body]] tables) and rocks.pvd, and beside them a .vtp a snapshot. ParaView 5.4 and later read them.
+Writes bodies.pvd (the [[body]] tables) and rocks.pvd, and beside them a .vtp a snapshot: docs/looking.md defines what they hold.
 Needs Debian's python3-h5py and python3-numpy.
 
     tread post paraview_files runs/quickstart

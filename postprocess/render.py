@@ -35,6 +35,7 @@ def arguments():
     parser.add_argument("--sand", default="beads", choices=("beads", "surface"), help="a bead for each point, or their surface; default: beads")
     parser.add_argument("--light", default="lamps", choices=("lamps", "sun"), help="sun: soft shadows, of sand as a surface; default: lamps")
     parser.add_argument("--view", default="oblique", choices=VIEWS, help="where the camera is; default: oblique, from behind, the right and above")
+    parser.add_argument("--backdrop", default="sky", choices=("sky", "white"), help="default: sky")
     parser.add_argument("--follow", metavar="BODY", help="the camera goes with this [[body]]")
     parser.add_argument("--cut", metavar="AXIS[=M]", help="leave out sand and rocks on the camera's side of a plane, x=0.3 or y or z; default place: "
                         "the middle of the body that is followed, else of the first, else of the domain")
@@ -124,7 +125,7 @@ def main():
     ensure_display()
     from tread_post.picture import Look
 
-    look = Look(options.colour, options.sand, options.light, options.view, cut)
+    look = Look(options.colour, options.sand, options.light, options.view, options.backdrop, cut)
     if not options.film:
         draw_all(run, [number], row, [""], [output], options, look)
     else:
@@ -132,7 +133,7 @@ def main():
         times = [of_points[snapshot] if snapshot in of_points else run.bodies(snapshot).time for snapshot in run.snapshots]
         with tempfile.TemporaryDirectory() as folder:
             frames = [Path(folder) / f"{snapshot:04}.png" for snapshot in run.snapshots]
-            remarks = [f", {rate:.2g} times as fast as real" for rate in rates(times, options.fps)]
+            remarks = [f", {rate:.2g} x real time" for rate in rates(times, options.fps)]
             draw_all(run, run.snapshots, row, remarks, frames, options, look)
             write_film(frames, output, options.fps)
     print(output)

@@ -4,18 +4,20 @@ import vtk
 from vtk.util.numpy_support import numpy_to_vtk
 
 TEXT_COLOUR = (0.15, 0.15, 0.15)
+PANEL = 0.5  # opacity of what stands behind letters: what a camera that follows passes is seen under them
 # Heights of letters in pictures of 1600 x 1000 pixels.
 TITLE_LETTERS, SCALE_LETTERS = 26, 22
 # Drawn larger by this factor and averaged: Mesa's software renderer shows black through VTK's own FXAA.
 SMOOTHING = 2
 
 
-def background():
-    """Renderer of an empty picture."""
+def empty_picture(backdrop):
+    """Renderer of a picture before a "sky" or "white"."""
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1.0, 1.0, 1.0)
-    renderer.SetBackground2(0.80, 0.86, 0.93)
-    renderer.GradientBackgroundOn()
+    if backdrop == "sky":
+        renderer.SetBackground2(0.80, 0.86, 0.93)
+        renderer.GradientBackgroundOn()
     return renderer
 
 
@@ -47,6 +49,9 @@ def add_scale(renderer, shades, size):
     bar.SetBarRatio(0.25)
     bar.SetVerticalTitleSeparation(round(14 * size[1] / 1000))
     bar.UnconstrainedFontSizeOn()
+    bar.DrawBackgroundOn()
+    bar.GetBackgroundProperty().SetColor(1.0, 1.0, 1.0)
+    bar.GetBackgroundProperty().SetOpacity(PANEL)
     for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
         plain(text, SCALE_LETTERS, size)
     renderer.AddActor2D(bar)
@@ -58,6 +63,8 @@ def add_title(renderer, text, size):
     plain(actor.GetTextProperty(), TITLE_LETTERS, size)
     actor.GetTextProperty().SetVerticalJustificationToTop()
     actor.GetTextProperty().SetLineSpacing(1.3)
+    actor.GetTextProperty().SetBackgroundColor(1.0, 1.0, 1.0)
+    actor.GetTextProperty().SetBackgroundOpacity(PANEL)
     actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
     actor.SetPosition(0.015, 0.98)
     renderer.AddActor2D(actor)

@@ -7,7 +7,7 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 from tread_post.camera import VIEWS, aim, around, outline
-from tread_post.canvas import add_lights, add_scale, add_title, background, mesh_actor, write
+from tread_post.canvas import add_lights, add_scale, add_title, empty_picture, mesh_actor, write
 from tread_post.detail import choose_levels, levels_of
 from tread_post.geometry import point_spacing
 from tread_post.run import RunError
@@ -18,6 +18,8 @@ from tread_post.vtk_data import smooth_surface
 
 WHEEL_COLOUR = (0.78, 0.79, 0.82)
 ROCK_COLOUR = (0.62, 0.47, 0.38)
+FLOOR_COLOUR = (0.86, 0.85, 0.82)
+FLOOR_CELLS = 200  # along the longer side: shadows fall on its vertices
 # Triangles of all rocks, at most: more are smaller than pixels.
 ROCK_TRIANGLES = 400_000
 # The largest displacements are those of single grains thrown about: they do not stretch the scale.
@@ -32,6 +34,7 @@ class Look:
     sand: str = "beads"  # or "surface"
     light: str = "lamps"  # or "sun", with soft shadows; of sand as a surface
     view: str = "oblique"  # of camera.VIEWS
+    backdrop: str = "sky"  # or "white"
     cut: tuple[int, float] | None = None  # axis and place (m) of a plane: sand and rocks on the camera's side are left out
 
 
@@ -88,9 +91,11 @@ def _rows(table, kept):
 def draw(run, snapshot, view, output, size, look=Look(), remark=""):
     """Writes the picture of a snapshot to `output` (.png), `size` pixels wide and high. `remark` stands behind the time."""
     points, bodies = shown(run, snapshot, look)
-    renderer = background()
+    renderer = empty_picture(look.backdrop)
     meshes = list(body_meshes(run, bodies)) if bodies is not None else []
     sand = None
+    if points is None:
+        meshes += floor_meshes(run)
     if points is not None and len(points.position):
         shades, spacing = shades_of(points, look.colour, view.displacement), point_spacing(run.scene, points)
         if look.sand == "surface":
@@ -126,6 +131,21 @@ def body_meshes(run, bodies):
             chosen = choose_levels(levels, bodies, rows, ROCK_TRIANGLES) if colour == ROCK_COLOUR else np.zeros(len(rows), int)
             mesh = mesh_of(bodies, rows, levels, chosen)
             yield smooth_surface(mesh.vertices, mesh.triangles), colour
+
+
+def floor_meshes(run):
+    """(mesh, colour) of the domain's floor; none where it is open."""
+    domain = run.scene["domain"]
+    if domain.get("walls", {}).get("bottom") == "open":
+        return []
+    cells = np.maximum(np.rint(FLOOR_CELLS * np.array(domain["size"][:2]) / max(domain["size"][:2])), 1).astype(int)
+    lines = [np.linspace(0, length, count + 1) for length, count in zip(domain["size"], cells)]
+    vertices = np.stack([*np.meshgrid(*lines, indexing="ij"), np.zeros(cells + 1)], axis=-1).reshape(-1, 3)
+    across = cells[1] + 1
+    first = (np.arange(cells[0])[:, None] * across + np.arange(cells[1])).ravel()
+    triangles = np.concatenate([np.stack(corners, axis=1) for corners in
+                                ((first, first + across, first + 1), (first + 1, first + across, first + across + 1))])
+    return [(smooth_surface(vertices, triangles), FLOOR_COLOUR)]
 
 
 def add_lamplit(renderer, meshes, sand):

@@ -1,5 +1,5 @@
 """Writes triangles for ParaView: PolyData of VTK's XML formats, and collections of them over time. Layout:
-https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html (binary appended data, compressed by zlib)
+https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html and, of compressed data, https://vtk.org/Wiki/VTK_XML_Formats
 """
 
 import os
