@@ -10,6 +10,7 @@ Needs Debian's python3-h5py, python3-numpy and python3-vtk9, xvfb where there is
 
 import argparse
 import multiprocessing
+import re
 import sys
 import tempfile
 from concurrent.futures import ProcessPoolExecutor
@@ -18,11 +19,10 @@ from pathlib import Path
 import numpy as np
 
 from tread_post import Run, RunError
+from tread_post.camera import VIEWS
 from tread_post.display import ensure_display
 from tread_post.film import require_writer, write_film
 
-AXES = "xyz"
-VIEWS = ("oblique", "side", "front", "top")
 
 
 def arguments():
@@ -77,19 +77,20 @@ def cut_of(run, text, row, number):
     """(axis, place in m) of `--cut`; without a place, that of the body of the row in this snapshot."""
     if text is None:
         return None
-    name, _, place = text.partition("=")
+    matched = re.fullmatch(r"([xyz])(?:=([0-9.eE+-]+))?", text)
     try:
-        if name not in AXES or not name:
-            raise ValueError
-        axis = AXES.index(name)
-        if place:
-            return axis, float(place)
-    except ValueError:
+        axis, at = "xyz".index(matched[1]), None if matched[2] is None else float(matched[2])
+    except (TypeError, ValueError):
         raise RunError(f"--cut {text}: accepted: x, y or z, and a place in metres, as y=0.25") from None
+    size = run.scene["domain"]["size"]
+    if at is not None:
+        if not 0 <= at <= size[axis]:
+            raise RunError(f"--cut {text}: accepted: 0 to {size[axis]:g} m, the domain")
+        return axis, at
     bodies = run.bodies(number)
     if bodies is not None and run.scene.get("body"):
         return axis, float(bodies.position[row or 0, axis])
-    return axis, 0.5 * run.scene["domain"]["size"][axis]
+    return axis, 0.5 * size[axis]
 
 
 def rates(times, fps):

@@ -60,7 +60,13 @@ def view_of(run, snapshots, look=Look()):
 
 def views_around(run, snapshots, row, view):
     """A View for each of the snapshots, of what is around the body of a row; its scale is that of `view`."""
-    return [replace(view, content=around(bodies, row, run.shapes)) for bodies in map(run.bodies, snapshots)]
+    shapes, views = run.shapes, []
+    for snapshot in snapshots:
+        bodies = run.bodies(snapshot)
+        if bodies is None:
+            raise RunError(f"{run.path / 'snapshots'}: snapshot {snapshot} has no bodies to follow")
+        views.append(replace(view, content=around(bodies, row, shapes)))
+    return views
 
 
 def shown(run, snapshot, look):
@@ -74,6 +80,8 @@ def shown(run, snapshot, look):
         points = _rows(points, _is_behind(points.position, look))
     if bodies is not None:
         bodies = _rows(bodies, _is_behind(bodies.position, look) | (np.arange(len(bodies.shape)) < len(run.scene.get("body", []))))
+    if not any(len(table.position) for table in (points, bodies) if table is not None):
+        raise RunError(f"{run.path / 'snapshots'}: in snapshot {snapshot} nothing lies behind the cut")
     return points, bodies
 
 
@@ -92,11 +100,10 @@ def draw(run, snapshot, view, output, size, look=Look(), remark=""):
     """Writes the picture of a snapshot to `output` (.png), `size` pixels wide and high. `remark` stands behind the time."""
     points, bodies = shown(run, snapshot, look)
     renderer = empty_picture(look.backdrop)
-    meshes = list(body_meshes(run, bodies)) if bodies is not None else []
-    sand = None
+    meshes, sand = list(body_meshes(run, bodies)) if bodies is not None else [], None
     if points is None:
         meshes += floor_meshes(run)
-    if points is not None and len(points.position):
+    elif len(points.position):
         shades, spacing = shades_of(points, look.colour, view.displacement), point_spacing(run.scene, points)
         if look.sand == "surface":
             sand = surface_of(points.position, shades.values, spacing, sand_box(run, look)), shades
@@ -126,10 +133,9 @@ def body_meshes(run, bodies):
     """(mesh with normals, its colour) of the bodies of [[body]] tables, and of the rocks."""
     levels = [levels_of(shape) for shape in run.shapes]
     named = min(len(run.scene.get("body", [])), len(bodies.shape))
-    for rows, colour in ((np.arange(named), WHEEL_COLOUR), (np.arange(named, len(bodies.shape)), ROCK_COLOUR)):
+    for rows, most, colour in ((np.arange(named), np.inf, WHEEL_COLOUR), (np.arange(named, len(bodies.shape)), ROCK_TRIANGLES, ROCK_COLOUR)):
         if len(rows):
-            chosen = choose_levels(levels, bodies, rows, ROCK_TRIANGLES) if colour == ROCK_COLOUR else np.zeros(len(rows), int)
-            mesh = mesh_of(bodies, rows, levels, chosen)
+            mesh = mesh_of(bodies, rows, levels, choose_levels(levels, bodies, rows, most))
             yield smooth_surface(mesh.vertices, mesh.triangles), colour
 
 

@@ -158,9 +158,11 @@ class ParaViewTest(LookingTest):
         empty = self.command("paraview_files.py", self.path / "absent")
         self.assertEqual(empty.returncode, 1)
         self.assertIn("no scene.toml", empty.stderr)
-        few = self.command("paraview_files.py", self.path, "--triangles", "many")
-        self.assertEqual(few.returncode, 2)
-        self.assertIn("--triangles", few.stderr)
+        for wrong in ("many", "999", "inf"):
+            few = self.command("paraview_files.py", self.path, "--triangles", wrong)
+            self.assertEqual(few.returncode, 2)
+            self.assertIn("--triangles", few.stderr)
+            self.assertNotIn("Traceback", few.stderr)
 
 
 class DetailTest(LookingTest):
@@ -201,6 +203,14 @@ class PictureTest(LookingTest):
         """A bed [1, 0.5, 0.15] m of points on a lattice."""
         axes = [np.arange(0.5 * spacing, size, spacing) for size in (1.0, 0.5, 0.15)]
         return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+
+    def without_bodies(self):
+        """A copy of the run that has sand only."""
+        path = self.path.parent / "sand"
+        make_run(path)
+        for file in (path / "snapshots").glob("bodies_*.h5"):
+            file.unlink()
+        return path
 
     def test_the_surface_of_a_level_bed_is_level(self):
         from tread_post.sand import surface_of
@@ -272,6 +282,8 @@ class PictureTest(LookingTest):
         whole = run.bodies(7)
         self.assertEqual(len(bodies.shape), 1 + (whole.position[1:, 1] >= 0.2).sum())
         self.assertTrue((bodies.position[0] == whole.position[0]).all())
+        with self.assertRaisesRegex(RunError, "snapshot 7 nothing lies behind the cut"):
+            shown(Run(self.without_bodies()), 7, Look(cut=(1, 0.5)))
         above, _ = shown(run, 7, Look(view="top", cut=(2, 0.1)))
         self.assertLessEqual(above.position[:, 2].max(), 0.1)
         views = views_around(run, [0, 7], 0, view_of(run, [0, 7]))
@@ -298,6 +310,7 @@ class PictureTest(LookingTest):
     def test_errors_name_what_is_wrong(self):
         for code, options, words in ((1, ("--follow", "rear"), "--follow rear: accepted: front wheel"),
                                      (1, ("--cut", "w"), "--cut w: accepted: x, y or z"), (1, ("--cut", "y=wide"), "--cut y=wide: accepted"),
+                                     (1, ("--cut", "y=0.6"), "--cut y=0.6: accepted: 0 to 0.5 m"), (1, ("--cut", "y=nan"), "--cut y=nan: accepted"),
                                      (2, ("--light", "sun"), "--light sun: needs --sand surface"), (2, ("--jobs", "0"), "--jobs 0: at least 1"),
                                      (2, ("--sand", "surface", "--colour", "rank"), "--colour rank: needs --sand beads")):
             done = self.command("render.py", self.path, *options)
