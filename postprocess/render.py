@@ -24,7 +24,6 @@ from tread_post.display import ensure_display
 from tread_post.film import require_writer, write_film
 
 
-
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("run", type=Path, metavar="RUN", help="output directory of a run")

@@ -18,4 +18,5 @@ def ensure_display():
     xvfb = shutil.which("xvfb-run")
     if xvfb is None:
         raise RunError("no display; install xvfb (apt-get install xvfb) or set DISPLAY")
-    os.execv(xvfb, [xvfb, "--auto-servernum", "--server-args=-screen 0 2048x1536x24", sys.executable, *sys.argv])
+    # A server that starts anew when its last client leaves refuses whoever comes just then.
+    os.execv(xvfb, [xvfb, "--auto-servernum", "--server-args=-screen 0 2048x1536x24 -noreset", sys.executable, *sys.argv])
