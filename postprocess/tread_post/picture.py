@@ -9,7 +9,7 @@ from vtk.util.numpy_support import vtk_to_numpy
 from tread_post.camera import VIEWS, aim, around, outline
 from tread_post.canvas import add_lights, add_scale, add_title, empty_picture, mesh_actor, write
 from tread_post.detail import choose_levels, levels_of
-from tread_post.geometry import point_spacing
+from tread_post.geometry import point_spacings
 from tread_post.run import RunError
 from tread_post.sand import beads, shaded, shades_of, surface_of
 from tread_post.sunlight import add_sunlit
@@ -104,11 +104,11 @@ def draw(run, snapshot, view, output, size, look=Look(), remark=""):
     if points is None:
         meshes += floor_meshes(run)
     elif len(points.position):
-        shades, spacing = shades_of(points, look.colour, view.displacement), point_spacing(run.scene, points)
+        shades, spacings = shades_of(points, look.colour, view.displacement), point_spacings(run.scene, points)
         if look.sand == "surface":
-            sand = surface_of(points.position, shades.values, spacing, sand_box(run, look)), shades
+            sand = surface_of(points.position, shades.values, spacings, sand_box(run, look)), shades
         else:
-            renderer.AddActor(beads(points.position, shades, spacing))
+            renderer.AddActor(beads(points.position, shades, spacings))
         if shades.title:
             add_scale(renderer, shades, size)
     if look.light == "lamps":

@@ -17,7 +17,8 @@ COLOURS = "YlGnBu"
 RANK_COLOURS = ("#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7")
 PLAIN_COLOUR = "#D9BF94"
 SURFACE_FRACTION = 0.5  # of the bed's density, where the surface is
-FULL_CELL = 6  # points of a cell that eight would fill, behind which none is seen
+BEAD = 0.62  # radius of a bead over its spacing: beads of a lattice overlap
+FULL = 0.7  # of a cell's volume, behind which no bead is seen
 MARGIN = 3  # empty nodes around the points, so that their surface closes
 
 
@@ -68,30 +69,33 @@ def lookup_table(colours, low, high):
     return table
 
 
-def beads(position, shades, spacing):
-    """Actor with points as spheres as wide as their share of the sand, without those that others hide."""
-    rows = outer_rows(position, spacing)
+def beads(position, shades, spacings):
+    """Actor with points as spheres as wide as their share of the sand, without those that others hide. `spacings` (m): of each to its neighbours."""
+    rows = outer_rows(position, spacings)
     data = vtk.vtkPolyData()
     data.SetPoints(vtk_points(position[rows]))
-    scalars = numpy_to_vtk(np.ascontiguousarray(shades.values[rows], dtype=np.float32), deep=True)
-    scalars.SetName("shade")
-    data.GetPointData().SetScalars(scalars)
+    for name, values in (("shade", shades.values[rows]), ("radius", BEAD * spacings[rows])):
+        array = numpy_to_vtk(np.ascontiguousarray(values, dtype=np.float32), deep=True)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    data.GetPointData().SetActiveScalars("shade")
     cells = vtk.vtkCellArray()
     count = len(rows)
     cells.SetData(id_array(np.arange(count + 1)), id_array(np.arange(count)))
     data.SetVerts(cells)
     mapper = vtk.vtkOpenGLSphereMapper()
     mapper.SetInputData(data)
-    mapper.SetRadius(0.62 * spacing)
+    mapper.SetScaleArray("radius")
     return shaded(mapper, shades)
 
 
-def outer_rows(position, spacing):
-    """Rows of the points that may be seen: in cells of eight points with a cell beside them that is not full."""
-    cell = ((position - position.min(axis=0)) / (2 * spacing) + 1.25).astype(np.int64)  # a lattice lies well inside of cells
+def outer_rows(position, spacings):
+    """Rows of the points that may be seen: in cells twice as wide as the widest spacing, with a cell beside them that is not full."""
+    width = 2 * spacings.max()
+    cell = ((position - position.min(axis=0)) / width + 1.25).astype(np.int64)  # a lattice lies well inside of cells
     size = cell.max(axis=0) + 2
     number = (cell[:, 0] * size[1] + cell[:, 1]) * size[2] + cell[:, 2]
-    inside = (np.bincount(number, minlength=np.prod(size)) >= FULL_CELL).reshape(size)
+    inside = (np.bincount(number, (spacings / width) ** 3, np.prod(size)) >= FULL).reshape(size)
     for axis in range(3):
         inside = inside & np.roll(inside, 1, axis) & np.roll(inside, -1, axis)
     return np.flatnonzero(~inside.ravel()[number])
@@ -106,24 +110,29 @@ def shaded(mapper, shades):
     return actor
 
 
-def surface_of(position, values, spacing, box):
-    """Surface (vtkPolyData with normals, and the values as scalars) around points that were `spacing` (m) apart: where they are half as dense as a
+def surface_of(position, values, spacings, box):
+    """Surface (vtkPolyData with normals, and the values as scalars) around points that were `spacings` (m) apart: where they are half as dense as a
     bed at rest. Single points that fly have none. All points lie in `box`, [2, 3] (m), and the sand that touches a side of it ends there in a plane.
     """
+    spacing = spacings.max()
     low = np.maximum(box[0], position.min(axis=0) - MARGIN * spacing)
     high = np.minimum(box[1], position.max(axis=0) + MARGIN * spacing)
     size = np.maximum(np.rint((high - low) / spacing).astype(int), 1)
     cell = (high - low) / size
     places = (position - low) / cell - 0.5  # nodes are the middles of cells
-    density = _smoothed(_deposited(places, np.full(len(places), spacing**3 / np.prod(cell)), size))
-    sums = _smoothed(_deposited(places, values * spacing**3 / np.prod(cell), size))
-    means = np.pad(sums / np.maximum(density, 1e-3), 1, "edge")
-    density = _closed(density)
+    shares = spacings**3 / np.prod(cell)  # of a cell that a point fills
+    density = _smoothed(_deposited(places, shares, size))
+    means = _smoothed(_deposited(places, shares * values, size)) / np.maximum(density, 1e-3)
+    return _contour(_closed(density), np.pad(means, 1, "edge"), low - 0.5 * cell, cell)
+
+
+def _contour(density, values, origin, spacing):
+    """Surface where the density is SURFACE_FRACTION, with the values there; both fields are [z, y, x], with a first node and distances in m."""
     image = vtk.vtkImageData()
-    image.SetDimensions(*map(int, size + 2))
-    image.SetOrigin(*(low - 0.5 * cell))
-    image.SetSpacing(*cell)
-    for name, field in (("density", density), ("shade", means)):
+    image.SetDimensions(*reversed(density.shape))
+    image.SetOrigin(*origin)
+    image.SetSpacing(*spacing)
+    for name, field in (("density", density), ("shade", values)):
         array = numpy_to_vtk(np.ascontiguousarray(field, dtype=np.float32).ravel(), deep=True)
         array.SetName(name)
         image.GetPointData().AddArray(array)
@@ -156,20 +165,16 @@ def _deposited(places, values, size):
 def _smoothed(field):
     """Binomial means over five nodes along each axis; sides are mirrors."""
     for axis in (0, 1, 2):
+        along = np.moveaxis(field, axis, 0)
         for _ in range(2):
-            first, last = np.take(field, [0], axis), np.take(field, [-1], axis)
-            padded = np.concatenate((first, field, last), axis)
-            middle = [slice(None)] * 3
-            sides = []
-            for begin, end in ((0, -2), (2, None)):
-                middle[axis] = slice(begin, end)
-                sides.append(padded[tuple(middle)])
-            field = 0.5 * field + 0.25 * (sides[0] + sides[1])
+            padded = np.concatenate((along[:1], along, along[-1:]))
+            along = 0.5 * along + 0.25 * (padded[:-2] + padded[2:])
+        field = np.moveaxis(along, 0, axis)
     return field
 
 
 def _closed(density):
-    """The densities with a layer of nodes around them, with which the surface of sand that touches a side is half a cell outside of it."""
+    """The densities with a layer of nodes around them, with which the surface of sand that touches a side of the grid lies in it."""
     padded = np.pad(density, 1, "edge")
     inner = np.zeros(padded.shape, bool)
     inner[1:-1, 1:-1, 1:-1] = True

@@ -17,7 +17,8 @@ from made_up_run import RADIUS, SURFACE, colours_of, make_run, octahedron  # noq
 from tread_post import Run, RunError  # noqa: E402
 from tread_post.detail import choose_levels, levels_of, volume_of  # noqa: E402
 from tread_post.display import ensure_display  # noqa: E402
-from tread_post.run import Bodies, Shape  # noqa: E402
+from tread_post.geometry import point_spacings  # noqa: E402
+from tread_post.run import Bodies, Points, Shape  # noqa: E402
 
 SINGLE = 1e-7  # m: rounding of a metre in single precision
 
@@ -218,7 +219,9 @@ class PictureTest(LookingTest):
 
         spacing = 0.01
         position, box = self.bed(spacing), np.array([(0, 0, 0), (1.0, 0.5, 0.6)])
-        surface = surface_of(position, position[:, 0], spacing, box)
+        even = np.full(len(position), spacing)
+        surface = surface_of(position, position[:, 0], even, box)
+        # The grid fits the box: its cells are 3 % lower than the points are apart, and points do not stand in their middles.
         self.near("bounds", np.reshape(surface.GetBounds(), (3, 2)), [(0, 1), (0, 0.5), (0, 0.15)], 0.02 * spacing)
         places = positions_of(surface)
         top = (places[:, 2] > 0.145) & (np.abs(places[:, :2] - (0.5, 0.25)) < (0.45, 0.2)).all(axis=1)
@@ -227,16 +230,24 @@ class PictureTest(LookingTest):
         from vtk.util.numpy_support import vtk_to_numpy
 
         self.near("values", vtk_to_numpy(surface.GetPointData().GetArray("shade"))[top], places[top, 0], 1e-5)
+        # Half of the bed has points half as wide, as where the grid is refined. It lies as high.
+        small = self.bed(0.5 * spacing)
+        mixed = np.concatenate((position[position[:, 0] < 0.5], small[small[:, 0] > 0.5]))
+        scene = {"grid": {"spacing": 2 * spacing, "refine": [[(0.51, 0, 0), (1, 0.5, 0.15)]]}, "terrain": [{"points_per_cell": 8}]}
+        sizes = point_spacings(scene, Points(0.0, mixed, {"displacement": np.zeros_like(mixed)}, {}))  # the box begins a cell of 20 mm lower, at 0.5
+        self.assertEqual(sizes.tolist(), np.where(mixed[:, 0] < 0.5, spacing, 0.5 * spacing).tolist())
+        refined = surface_of(mixed, mixed[:, 0], sizes, box)
+        self.near("bounds, refined", np.reshape(refined.GetBounds(), (3, 2)), [(0, 1), (0, 0.5), (0, 0.15)], 0.05 * spacing)
         # Cut open at y = 0.2 it ends there in a plane.
         behind = position[position[:, 1] >= 0.2]
-        opened = surface_of(behind, behind[:, 0], spacing, np.array([(0, 0.2, 0), (1.0, 0.5, 0.6)]))
+        opened = surface_of(behind, behind[:, 0], even[:len(behind)], np.array([(0, 0.2, 0), (1.0, 0.5, 0.6)]))
         self.near("cut", opened.GetBounds()[2], 0.2, 0.02 * spacing)
 
     def test_hidden_beads_are_left_out(self):
         from tread_post.sand import outer_rows
 
         position, spacing = self.bed(0.01), 0.01
-        kept = outer_rows(position, spacing)
+        kept = outer_rows(position, np.full(len(position), spacing))
         depth = np.minimum(position, (1.0, 0.5, 0.15) - position).min(axis=1) / spacing
         hidden = np.setdiff1d(np.arange(len(position)), kept)
         print(f"beads: {len(kept)} of {len(position)}, hidden ones are {depth[hidden].min():.1f} spacings deep at least")
