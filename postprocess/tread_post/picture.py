@@ -21,7 +21,7 @@ ROCK_COLOUR = (0.62, 0.47, 0.38)
 FLOOR_COLOUR = (0.86, 0.85, 0.82)
 FLOOR_CELLS = 200  # along the longer side: shadows fall on its vertices
 # Triangles of all rocks, at most: more are smaller than pixels.
-ROCK_TRIANGLES = 400_000
+ROCK_TRIANGLES = 250_000
 # The largest displacements are those of single grains thrown about: they do not stretch the scale.
 SCALE_PERCENTILE = 99.5
 
