@@ -6,8 +6,10 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-from tread_post.picture import FEATURE_ANGLE, WHEEL_COLOUR, add_lights, plain, write
+from tread_post.canvas import add_lights, mesh_actor, plain, write
+from tread_post.picture import WHEEL_COLOUR
 from tread_post.run import RunError
+from tread_post.vtk_data import FEATURE_ANGLE
 
 READERS = {".stl": vtk.vtkSTLReader, ".obj": vtk.vtkOBJReader}
 # From the right-hand side, ahead and above: a wheel shows its tread and its inside.
@@ -105,11 +107,7 @@ def smooth(data):
 
 
 def add_mesh(renderer, mesh, place):
-    mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputData(mesh.surface)
-    mapper.ScalarVisibilityOff()
-    actor = vtk.vtkActor()
-    actor.SetMapper(mapper)
+    actor = mesh_actor(mesh.surface)
     actor.SetPosition(*place)
     actor.GetProperty().SetColor(*WHEEL_COLOUR)
     actor.GetProperty().SetSpecular(0.2)

@@ -68,6 +68,7 @@ class Bodies:
     orientation: np.ndarray  # [n, 4], w x y z, body to world
     scale: np.ndarray  # [n]
     shape: np.ndarray  # [n], index into Run.shapes
+    fields: dict[str, np.ndarray]  # other columns by name, each [n] or [n, components]
 
 
 @dataclass(frozen=True)
@@ -177,8 +178,9 @@ class Run:
         if not path.is_file():
             return None
         with _open(path) as file:
-            columns = (file[name][:] for name in ("position", "orientation", "scale", "shape"))
-            return Bodies(float(file.attrs["time"]), *columns)
+            columns = {name: column[:] for name, column in file.items()}
+            own = [columns.pop(name) for name in ("position", "orientation", "scale", "shape")]
+            return Bodies(float(file.attrs["time"]), *own, columns)
 
     @property
     def shapes(self):

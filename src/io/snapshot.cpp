@@ -60,6 +60,7 @@ void write_bodies(const std::string& path, double time, const BodyFields& bodies
     write_with_unit(file, "/angular_velocity", bodies.angular_velocity, 3, "rad/s");
     write_with_unit(file, "/scale", bodies.scale, 1, "1");
     write_with_unit(file, "/shape", bodies.shape, 1, "1");
+    write_with_unit(file, "/material", bodies.material, 1, "1");
     file.close();
 }
 

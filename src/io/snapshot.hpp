@@ -36,6 +36,7 @@ struct BodyFields
     std::vector<double>       angular_velocity; ///< [n][3] rad/s
     std::vector<double>       scale;            ///< [n] of the shape
     std::vector<std::int32_t> shape;            ///< [n] index in shapes.h5
+    std::vector<std::int32_t> material;         ///< [n] number of the [[material]] table, from 0
 };
 
 /// Surface of a shape at scale 1 in the body frame, to draw bodies.

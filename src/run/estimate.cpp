@@ -242,7 +242,7 @@ solver::TimeStep automatic_step(scene::TimeOptions options, const solver::PaceLi
 DiskUse disk_use(const scene::Scene& scene, const world::World& world, const solver::Plan& plan,
                  const PageCounts& pages)
 {
-    constexpr std::int64_t of_file = 30000, snapshot_of_body = 116, checkpoint_of_body = 2500;
+    constexpr std::int64_t of_file = 30000, snapshot_of_body = 120, checkpoint_of_body = 2500;
     const auto             points   = static_cast<std::int64_t>(world.points.size());
     const auto             bodies   = static_cast<std::int64_t>(world.bodies.size());
     const double           time     = longest_time(scene);

@@ -148,6 +148,7 @@ class RunOutput(CommandTest):
             self.assertEqual(grid.GetPointData().GetArray("stress").GetNumberOfComponents(), 6)
         with h5py.File(snapshots / "bodies_0000.h5", "r") as bodies, h5py.File(snapshots / "shapes.h5", "r") as shapes:
             self.assertEqual(bodies["orientation"].shape, (1, 4))
+            self.assertEqual(bodies["material"][:].tolist(), [1])
             self.assertEqual(shapes[str(bodies["shape"][0])].attrs["name"], "roller")
 
     def check_resolved_scene_runs_to_the_same_result(self):

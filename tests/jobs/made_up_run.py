@@ -165,6 +165,9 @@ def write_bodies(path, time):
                 "orientation": (np.concatenate(([(1, 0, 0, 0)], turns)), "1"),
                 "scale": (np.concatenate(([1.0], random.uniform(0.01, 0.02, 60))), "1"),
                 "shape": (np.concatenate(([0], np.ones(60, int))), "1"),
+                "velocity": (random.normal(size=(61, 3)), "m/s"),
+                "angular_velocity": (random.normal(size=(61, 3)), "rad/s"),
+                "material": (np.concatenate(([1], np.full(60, 2, np.int32))).astype(np.int32), "1"),
             },
         )
 

@@ -85,6 +85,7 @@ io::BodyFields body_fields(BodyState<Exec>& state)
     fields.angular_velocity = rows(state.bodies.angular_velocity.to_host());
     fields.scale            = state.bodies.scale.to_host();
     fields.shape            = state.bodies.shape.to_host();
+    fields.material         = state.bodies.material.to_host();
     return fields;
 }
 

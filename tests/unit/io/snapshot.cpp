@@ -29,7 +29,7 @@ PointFields two_points()
     return points;
 }
 
-BodyFields one_body() { return {{1, 2, 3}, {1, 0, 0, 0}, {4, 5, 6}, {7, 8, 9}, {0.025}, {2}}; }
+BodyFields one_body() { return {{1, 2, 3}, {1, 0, 0, 0}, {4, 5, 6}, {7, 8, 9}, {0.025}, {2}, {1}}; }
 
 TEST(Snapshot, points_are_vtkhdf_vertices)
 {
@@ -96,6 +96,8 @@ TEST(Snapshot, scene_without_points_has_no_point_files)
     EXPECT_FALSE(fs::exists(directory.path("snapshots/points.hdf.series")));
     EXPECT_EQ(test::read_dataset(directory.path("snapshots/bodies_0000.h5"), "/orientation").values,
               (std::vector<double>{1, 0, 0, 0}));
+    EXPECT_EQ(test::read_dataset(directory.path("snapshots/bodies_0000.h5"), "/material").values,
+              (std::vector<double>{1}));
 }
 
 TEST(Snapshot, shapes_keep_names_and_triangles)
