@@ -35,6 +35,13 @@ BodyJoints<Exec>::BodyJoints(const Exec& exec, const scene::Scene& scene, const 
 {
 }
 
+/// m/s, largest speed that a joint's motor can give a point of its bodies.
+template<class Exec>
+double BodyJoints<Exec>::motor_speed(const dem::Joint& joint) const
+{
+    return std::abs(joint.speed) * std::max(radius(joint, 0), radius(joint, 1));
+}
+
 template<class Exec>
 double BodyJoints<Exec>::begin_phase(std::size_t phase)
 {
@@ -42,11 +49,17 @@ double BodyJoints<Exec>::begin_phase(std::size_t phase)
     world::set_motors(scene_, phase, host_);
     joints_.update(host_);
     double largest = 0;
-    for (const dem::Joint& joint : host_)
-    {
-        for (int s = 0; s < 2; ++s) { largest = std::max(largest, std::abs(joint.speed) * radius(joint, s)); }
-    }
+    for (const dem::Joint& joint : host_) { largest = std::max(largest, motor_speed(joint)); }
     return largest;
+}
+
+template<class Exec>
+double BodyJoints<Exec>::set_motor(std::size_t joint, double speed, std::optional<double> most_torque)
+{
+    host_[joint].speed       = speed;
+    host_[joint].most_effort = most_torque.value_or(host_[joint].most_effort);
+    joints_.update(host_);
+    return motor_speed(host_[joint]);
 }
 
 template<class Exec>
