@@ -19,6 +19,11 @@ target_compile_options(
     $<$<COMPILE_LANGUAGE:CUDA>:-diag-suppress=20012,20014
     -Xcompiler=-ffp-contract=off>)
 target_link_options(tread_flags INTERFACE -fopenmp)
+if(TREAD_PYTHON_MODULE)
+  # The rooms are part of a shared library, which nothing outside interposes: functions are inlined as in the program.
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(tread_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fno-semantic-interposition>)
+endif()
 if(TREAD_SANITIZE)
   # GCC's manual: sanitizers bring false positives of maybe-uninitialized; here from libstdc++'s own <regex>.
   target_compile_options(
