@@ -19,11 +19,6 @@ target_compile_options(
     $<$<COMPILE_LANGUAGE:CUDA>:-diag-suppress=20012,20014
     -Xcompiler=-ffp-contract=off>)
 target_link_options(tread_flags INTERFACE -fopenmp)
-if(TREAD_PYTHON_MODULE)
-  # The rooms are part of a shared library, which nothing outside interposes: functions are inlined as in the program.
-  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(tread_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fno-semantic-interposition>)
-endif()
 if(TREAD_SANITIZE)
   # GCC's manual: sanitizers bring false positives of maybe-uninitialized; here from libstdc++'s own <regex>.
   target_compile_options(
@@ -58,6 +53,11 @@ function(tread_room name)
   add_library(tread_${name} STATIC ${sources})
   target_link_libraries(tread_${name} PUBLIC tread_flags ${ROOM_LINK})
   set_target_properties(tread_${name} PROPERTIES CUDA_RUNTIME_LIBRARY Static)
+  if(TREAD_PYTHON_MODULE)
+    # For a shared library in which nothing outside replaces a function: they are inlined as in the program.
+    set_target_properties(tread_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_compile_options(tread_${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-fno-semantic-interposition>)
+  endif()
   tread_precompile(tread_${name} ${ROOM_PRECOMPILE})
   if(TREAD_GPU_SYNTAX AND device_sources)
     tread_gpu_syntax(tread_${name}_gpu_syntax SOURCES ${device_sources} LINK ${ROOM_LINK})

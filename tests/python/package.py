@@ -9,7 +9,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "cli"))
 import numpy
 
 import tread
-from command import BODY, SCENE, CommandTest
+from command import BODY, MPIRUN, SCENE, TREAD, CommandTest
 
 # A ball of 2 kg that no weight pulls, in a domain without walls near it.
 BALL = """\

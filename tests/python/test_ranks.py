@@ -9,8 +9,7 @@ import sys
 import unittest
 
 import tread
-from command import MPIRUN
-from package import SCENE, PackageTest
+from package import MPIRUN, SCENE, PackageTest
 
 PROGRAM = pathlib.Path(__file__).with_name("rank_program.py")
 

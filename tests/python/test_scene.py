@@ -10,8 +10,21 @@ import unittest
 import numpy
 
 import tread
-from command import TREAD
-from package import BODY, SCENE, PackageTest, keys_of
+from package import BODY, SCENE, TREAD, PackageTest, keys_of
+
+
+DOCS = pathlib.Path(__file__).parents[2] / "docs"
+
+
+class Readers(PackageTest):
+    def test_runs_and_studies_are_read(self):
+        run = tread.Run(DOCS / "paper" / "runs" / "slip_sand")
+        self.assertEqual((run.summary["status"], run.wheels), ("finished", ["wheel"]))
+        self.assertGreater(len(run.wheel("wheel")["drawbar_pull"]), 100)
+        study = tread.read_study(DOCS / "studies" / "study_column.csv")
+        self.assertTrue(study.quantities and all(isinstance(row.measured, float) for row in study.rows))
+        with self.assertRaisesRegex(tread.RunError, "no campaign.h5"):
+            tread.CampaignTable(self.directory)
 
 
 class Scenes(PackageTest):

@@ -6,7 +6,7 @@ import unittest
 import numpy
 
 import tread
-from package import BALL, SCENE, PackageTest, assert_close, sand_and_roller
+from package import BALL, PackageTest, assert_close, sand_and_roller
 
 # The ball's motion in both phases leaves all its axes free.
 FREE = BALL.replace("duration = 0.05\n", 'duration = 0.05\n[[phase.motion]]\nbody = "ball"\n')

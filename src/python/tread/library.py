@@ -122,6 +122,15 @@ def _require_one_mpi(library: ctypes.CDLL) -> None:
         raise MachineError(f"mpi4py uses {theirs.splitlines()[0]}, tread {ours}: build both with one MPI")
 
 
+def handle_of(comm: Any) -> int | None:
+    """The Fortran handle of a communicator of mpi4py."""
+    if comm is None:
+        return None
+    _require_one_mpi(_library())
+    handle: int = comm.py2f()
+    return handle
+
+
 _turn = threading.Lock()
 
 

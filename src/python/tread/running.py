@@ -51,7 +51,7 @@ def run(
     request = {
         "scene": scene_of(scene).request, "output": os.fspath(output), "existing": existing, "backend": backend, "threads": int(threads),
         "restart": os.fspath(restart), "walltime_limit": float(walltime_limit), "hang_timeout": float(hang_timeout), "terminal": terminal,
-        "every": float(span), "every_steps": int(span_steps), "communicator": None if comm is None else _handle(comm),
+        "every": float(span), "every_steps": int(span_steps), "communicator": library.handle_of(comm),
     }
     visits = None if on_span is None else _Visits(on_span)
     visit = None if visits is None else library.Guarded(visits, library.STOP)
@@ -95,10 +95,6 @@ def _ended(left: Run, code: int) -> Run:
     if reason.startswith(f"stopped by {FAILED}"):
         raise TreadError(f"another rank: {reason}")
     return left
-
-
-def _handle(comm: Any) -> int:
-    return comm.py2f() if hasattr(comm, "py2f") else int(comm)
 
 
 def _require(is_right: bool, name: str, value: Any, accepted: str) -> None:

@@ -66,7 +66,8 @@ class Scene:
 
     def check(self) -> dict[str, Any]:
         """What `tread check --json` prints: warnings, cost, phases, ground under each wheel. SceneError as `resolved`."""
-        return json.loads(library.ask("check", scene=self.request))
+        answer: dict[str, Any] = json.loads(library.ask("check", scene=self.request))
+        return answer
 
     def report(self, stages: Literal["hidden", "shown"] = "hidden") -> str:
         """What `tread check` prints for people."""
