@@ -5,6 +5,7 @@ import copy
 import json
 import pathlib
 import subprocess
+import tomllib
 import unittest
 
 import numpy
@@ -92,6 +93,8 @@ class Scenes(PackageTest):
 
     def test_features_and_soils(self):
         self.assertIn("\nbackends: cpu", tread.features())
+        project = tomllib.loads((DOCS.parent / "pyproject.toml").read_text())["project"]
+        self.assertEqual(tread.features().splitlines()[0], f"tread {project['version']}")
         self.assertIn("GRC-1", tread.soils())
 
 
