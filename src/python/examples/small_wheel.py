@@ -1,4 +1,4 @@
-"""The scene of the examples as Python objects: a smooth wheel of 10 kg on 3000 points of sand, seconds of wall time a run. Too coarse for
+"""The scene of the examples as Python objects: a smooth wheel of 10 kg on 8000 points of sand, seconds of wall time a run. Too coarse for
 answers that count: docs/accuracy.md."""
 
 import copy

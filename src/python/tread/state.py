@@ -212,4 +212,5 @@ def _number(value: float | None) -> float | None:
 
 
 def _arrays(answer: dict[str, Any]) -> dict[str, Any]:
-    return {key: np.array(value, dtype=float) if isinstance(value, list) else value for key, value in answer.items()}
+    """Lists as arrays; null, which stands for a number that is not finite, as NaN."""
+    return {key: np.array(value, dtype=float) if isinstance(value, list) else math.nan if value is None else value for key, value in answer.items()}
