@@ -1,5 +1,6 @@
 """What the tests of the Python package share: small scenes, a place to run in, and the package itself, which PYTHONPATH names."""
 
+import os
 import pathlib
 import sys
 import tomllib
@@ -10,6 +11,8 @@ import numpy
 
 import tread
 from command import BODY, MPIRUN, SCENE, TREAD, CommandTest
+
+BACKEND = os.environ.get("TREAD_TEST_BACKEND", "cpu")  # as the tests of tests/run
 
 # A ball of 2 kg that no weight pulls, in a domain without walls near it.
 BALL = """\
@@ -59,7 +62,7 @@ FREE_MOTION = '[[phase.motion]]\nbody = "ball"\n'
 
 class PackageTest(CommandTest):
     def run_scene(self, text, name="run", **options):
-        return tread.run(tread.Scene.from_text(text), self.directory / name, **{"threads": 1, "backend": "cpu"} | options)
+        return tread.run(tread.Scene.from_text(text), self.directory / name, **{"threads": 1, "backend": BACKEND} | options)
 
 
 def sand_and_roller():
