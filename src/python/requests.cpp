@@ -64,8 +64,7 @@ Json body_json(const run::VisitedBody& body)
             {"axle", numbers(row.axle)},
             {"spin", solver::spin_of(row)},
             {"lowest", row.lowest},
-            {"force", numbers(row.force)},
-            {"torque", numbers(row.torque)},
+            {"force", numbers(body.force)},
             {"impulse", numbers(body.impulse)},
             {"mass", number(body.mass)},
             {"rolling_radius", body.rolling_radius}};

@@ -43,11 +43,12 @@ struct VisitTime
     bool         over        = false; ///< all phases ran; nothing can be steered
 };
 
-/// A named body. Force and torque of `row` are means since the last row of the time series.
+/// A named body. Force and torque of `row` are means since the last row of the time series, 0 right after one.
 struct VisitedBody
 {
     solver::BodyRow row;
     Vec3<double>    impulse;        ///< N s, of its contacts since the run began
+    Vec3<double>    force;          ///< N, of its contacts, mean since the last visit; 0 in the first
     double          mass;           ///< kg
     double          rolling_radius; ///< m
 };

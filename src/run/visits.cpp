@@ -37,15 +37,24 @@ class Present final : public Visit
 {
 public:
     Present(const world::World& world, TimeLoop<Exec, Real>& loop, VisitedArrays<Exec, Real>& arrays,
-            Steering& steering)
+            Steering& steering, VisitedImpulses& impulses)
         : world_(world)
         , loop_(loop)
         , arrays_(arrays)
         , steering_(steering)
         , rows_(loop.simulation.named_bodies())
         , joints_(loop.simulation.joints())
+        , forces_(rows_.size(), Vec3<double>::Zero())
+        , impulses_(impulses)
     {
-        for (std::size_t b = 0; b < rows_.size(); ++b) { impulses_.push_back(loop.simulation.contact_impulse(b)); }
+        VisitedImpulses now{loop.progress.time, {}};
+        for (std::size_t b = 0; b < rows_.size(); ++b) { now.of.push_back(loop.simulation.contact_impulse(b)); }
+        const double span = now.time - impulses.time;
+        for (std::size_t b = 0; b < impulses.of.size() && span > 0; ++b)
+        {
+            forces_[b] = (now.of[b] - impulses.of[b]) / span;
+        }
+        impulses = std::move(now);
     }
 
     VisitTime when() const override
@@ -64,7 +73,7 @@ public:
     VisitedBody body(const std::string& name) override
     {
         const std::size_t b = index_in("[[body]]", loop_.scene.bodies, name);
-        return {rows_[b], impulses_[b], world_.bodies.mass[b], loop_.rolling_radii[b]};
+        return {rows_[b], impulses_.of[b], forces_[b], world_.bodies.mass[b], loop_.rolling_radii[b]};
     }
 
     solver::JointRow joint(const std::string& name) override
@@ -103,7 +112,8 @@ private:
     Steering&                     steering_;
     std::vector<solver::BodyRow>  rows_;
     std::vector<solver::JointRow> joints_;
-    std::vector<Vec3<double>>     impulses_;
+    std::vector<Vec3<double>>     forces_;
+    const VisitedImpulses&        impulses_;
 };
 
 /// Replaces the values by those of rank 0.
@@ -178,7 +188,7 @@ std::optional<std::string> Visits<Exec, Real>::visit()
     VisitedArrays<Exec, Real>  arrays(loop_.simulation, plan_, loop_.progress.last_dt > 0);
     std::optional<std::string> stop;
     {
-        Present<Exec, Real> present(world_, loop_, arrays, steering_);
+        Present<Exec, Real> present(world_, loop_, arrays, steering_, impulses_);
         stop = visitor_.visit(present);
     }
     if (visitor_.keeps_memory && visitor_.keeps_memory())

@@ -18,6 +18,13 @@ struct Steering
     std::vector<std::optional<MotorSteering>> motors; ///< of the joints, since the visit began
 };
 
+/// Impulses of the contacts of the named bodies (N s) at a visit.
+struct VisitedImpulses
+{
+    double                    time = 0; ///< s
+    std::vector<Vec3<double>> of;       ///< empty before the first visit
+};
+
 /// Calls the visitor of a run when that is due, and steers as it has asked. A run whose visitor only looks takes the
 /// same steps as one without: visits wait for a measured state. Collective.
 template<class Exec, class Real>
@@ -50,6 +57,7 @@ private:
     Visitor               visitor_;
     TimeLoop<Exec, Real>& loop_;
     Steering              steering_;
+    VisitedImpulses       impulses_;
     std::size_t           phase_; ///< of the last visit; number of phases: none yet
     std::int64_t          spans_       = 0;
     std::int64_t          last_step_   = 0;

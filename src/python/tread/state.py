@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tread import library
+from tread.errors import SceneError
 
 KINDS = "fiu"  # of numbers: NumberKind of run/visit.hpp in NumPy's letters
 
 
 @dataclass(frozen=True)
 class BodyState:
-    """A named body. World frame; force and torque are means of its contacts since the last row of the time series."""
+    """A named body, world frame."""
 
     position: NDArray[np.float64]  # [3] m, centre of mass
     orientation: NDArray[np.float64]  # [4], w x y z, body to world
@@ -28,8 +29,7 @@ class BodyState:
     axle: NDArray[np.float64]  # [3], unit vector
     spin: float  # rad/s about the axle
     lowest: float  # m, height of its lowest point
-    force: NDArray[np.float64]  # [3] N
-    torque: NDArray[np.float64]  # [3] N m, about the centre of mass
+    force: NDArray[np.float64]  # [3] N, of its contacts, mean since the last callback; 0 in the first
     impulse: NDArray[np.float64]  # [3] N s, of its contacts since the run began
     mass: float  # kg
     rolling_radius: float  # m
@@ -43,7 +43,7 @@ class BodyState:
 
 @dataclass(frozen=True)
 class JointState:
-    """A joint; force, torque and motor_torque are means since the last row of the time series."""
+    """A joint; force, torque and motor_torque are means since the last row of the time series, and 0 right after one."""
 
     coordinate: float  # m or rad
     motor_torque: float  # N m
@@ -166,12 +166,12 @@ class State:
         spin: rad/s about its axle; forward: m/s along x. They replace those of the phase's drive or motion. force (N) and torque
         (N m, both world frame) and axle_torque (N m about the body's own y axis) act besides those of its motion, and need one.
         SceneError where the phase does not let it: a held or lowered body, or an axis that its motion leaves free."""
-        self._ask("steer body", name=body, spin=_number(spin), forward=_number(forward), force=[float(value) for value in force],
-                  torque=[float(value) for value in torque], axle_torque=float(axle_torque))
+        self._ask("steer body", name=body, spin=_number("spin", spin), forward=_number("forward", forward), force=_vector("force", force),
+                  torque=_vector("torque", torque), axle_torque=_number("axle_torque", axle_torque))
 
     def motor(self, joint: str, speed: float, max_torque: float | None = None) -> None:
         """Sets the speed (rad/s) and the largest torque (N m; None: as before) of a joint's motor until the phase ends."""
-        self._ask("steer motor", name=joint, speed=float(speed), max_torque=_number(max_torque))
+        self._ask("steer motor", name=joint, speed=_number("speed", speed), max_torque=_number("max_torque", max_torque))
 
     def stop(self, why: str) -> None:
         """Ends the run after this callback and a checkpoint; `why` goes into its summary."""
@@ -207,8 +207,16 @@ class State:
         return sorted({name for name, lent in self._lent if lent() is not None})
 
 
-def _number(value: float | None) -> float | None:
+def _number(key: str, value: float | None) -> float | None:
+    if value is not None and not math.isfinite(value):
+        raise SceneError(f"steering: {key} = {value}; accepted: a finite number")
     return None if value is None else float(value)
+
+
+def _vector(key: str, values: Sequence[float]) -> list[float | None]:
+    if len(values) != 3:
+        raise SceneError(f"steering: {key} has {len(values)} numbers; accepted: 3")
+    return [_number(key, value) for value in values]
 
 
 def _arrays(answer: dict[str, Any]) -> dict[str, Any]:

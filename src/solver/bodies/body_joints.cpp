@@ -32,6 +32,7 @@ BodyJoints<Exec>::BodyJoints(const Exec& exec, const scene::Scene& scene, const 
     , host_(world.joints)
     , phase_(scene.phases.size())
     , joints_(exec, host_, static_cast<std::int64_t>(world.bodies.size()))
+    , coordinates_(host_.size(), 0)
 {
 }
 
@@ -83,10 +84,20 @@ std::vector<JointRow> BodyJoints<Exec>::rows(double span) const
     std::vector<JointRow> rows;
     for (const dem::JointRecord& record : joints_.records())
     {
-        rows.push_back({over * record.impulse, over * record.angular_impulse, over * record.motor_impulse,
-                        record.coordinate, record.gap, record.misalignment});
+        const double coordinate = span > 0 ? record.coordinate : coordinates_[rows.size()];
+        rows.push_back({over * record.impulse, over * record.angular_impulse, over * record.motor_impulse, coordinate,
+                        record.gap, record.misalignment});
     }
     return rows;
+}
+
+template<class Exec>
+void BodyJoints<Exec>::begin_mean()
+{
+    const std::vector<dem::JointRecord> records = joints_.records();
+    std::transform(records.begin(), records.end(), coordinates_.begin(),
+                   [](const dem::JointRecord& record) { return record.coordinate; });
+    joints_.clear_records();
 }
 
 template<class Exec>

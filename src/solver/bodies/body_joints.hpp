@@ -49,7 +49,7 @@ public:
 
     /// Returns the rows of all joints over `span` (s) since begin_mean().
     std::vector<JointRow> rows(double span) const;
-    void                  begin_mean() { joints_.clear_records(); }
+    void                  begin_mean();
 
     void transfer(StateFile& file);
 
@@ -62,6 +62,7 @@ private:
     std::vector<dem::Joint> host_;
     std::size_t             phase_; ///< number of phases: none has begun
     dem::Joints<Exec>       joints_;
+    std::vector<double>     coordinates_; ///< at begin_mean(), m or rad
 };
 
 } // namespace tread::solver
