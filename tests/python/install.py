@@ -31,7 +31,7 @@ class Install(unittest.TestCase):
             self.skipTest(f"pip reaches no index: {got.stderr[-300:]}")
 
     def test_pip_installs_the_package(self):
-        subprocess.run([self.python, "-m", "pip", "install", SOURCE, "-C", "cmake.define.TREAD_CUDA=OFF"], check=True, cwd=self.environment)
+        subprocess.run([self.python, "-m", "pip", "install", SOURCE, "--config-settings=cmake.define.TREAD_CUDA=OFF"], check=True, cwd=self.environment)
         text = PROGRAM.format(output=self.environment / "run")
         # In the sources, whose folder `src/python` must not be what is imported.
         ran = subprocess.run([self.python, "-c", text], cwd=SOURCE, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": ""})

@@ -66,8 +66,8 @@ class PackageTest(CommandTest):
 
 
 def sand_and_roller():
-    """SCENE with a roller that rests on the sand, in two phases."""
-    return SCENE.replace('duration = 0.02\n', 'duration = 0.01\n\n[[phase]]\nname = "go"\nduration = 0.01\n') + BODY.replace("0.2, 0.2, 0.3", "0.2, 0.2, 0.165")
+    """SCENE with a roller that falls into the sand, in two phases."""
+    return SCENE.replace('duration = 0.02\n', 'duration = 0.01\n\n[[phase]]\nname = "go"\nduration = 0.01\n') + BODY.replace("0.2, 0.2, 0.3", "0.2, 0.2, 0.165") + "velocity = [0.0, 0.0, -0.5]\n"
 
 
 def assert_close(test, what, measured, expected, tolerance, why):

@@ -81,6 +81,18 @@ class Runs(PackageTest):
         numpy.testing.assert_array_equal(kept["named"], bodies.position[0])
         self.assertAlmostEqual(kept["mass"], 1600 * 0.4 * 0.4 * 0.1, places=4)
 
+    def test_forces_are_means_since_the_last_callback(self):
+        seen = []
+        run = self.run_scene(sand_and_roller(), on_span=lambda state: seen.append((state.time, state.body("roller"))), span=0.005)
+        wheel = run.wheel("roller")
+        numpy.testing.assert_allclose([time for time, _ in seen], wheel["time"], atol=1e-12)
+        forces = numpy.array([body.force for _, body in seen])
+        scale = abs(wheel["force"]).max()
+        error = abs(forces - wheel["force"]).max()
+        print(f"largest force {scale:.3g} N; from what rows of the same spans have: {error:.3g} N, tolerance 1e-9 of it (rounding of sums of impulses)")
+        self.assertGreater(scale, 1)
+        self.assertLess(error, 1e-9 * scale)
+
     def test_parts_that_a_scene_lacks_are_none(self):
         seen = []
         self.run_scene(BALL, on_span=lambda state: seen.append((state.points.position, state.points.stress, state.bodies.mass.tolist())))
