@@ -11,7 +11,7 @@ import tread
 from small_wheel import means, pulling
 
 SPAN = 0.01  # s, from one call to the next
-PROPORTIONAL, INTEGRAL = 20.0, 150.0  # N, N/s for a slip that is wrong by one
+PROPORTIONAL, INTEGRAL = 20.0, 500.0  # N, N/s for a slip that is wrong by one
 SMOOTHING = 0.2  # share of the newest slip in the mean that is controlled
 
 
