@@ -19,6 +19,7 @@ BELOW = {
     "world": ["io", "kernels/mpm", "kernels/dem", "kernels/contact", "backend", "scene", "shape", "base"],
     "solver": ["world", "decomp", "io", "kernels/mpm", "kernels/dem", "kernels/contact", "backend", "scene", "shape", "base"],
     "run": ["solver", "world", "decomp", "io", "kernels/mpm", "kernels/dem", "backend", "scene", "shape", "base"],
+    "python": ["run", "io", "scene", "base"],
     "": ["run", "decomp", "io", "scene", "shape", "base"],  # main.cpp
 }
 

@@ -1,6 +1,5 @@
 # cmake --install BUILD --prefix PREFIX: the program, the scripts that it becomes and that read its runs, scenes, pages, and
 # completion for bash. The program finds its scripts by its own place, so that a prefix may be moved.
-include(GNUInstallDirs)
 set_target_properties(tread PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
 install(TARGETS tread RUNTIME)
 set(share ${CMAKE_INSTALL_DATAROOTDIR}/tread)

@@ -16,7 +16,9 @@
 #include "base/errors.hpp"
 #include "base/log.hpp"
 #include "base/printable.hpp"
+#include "base/process_age.hpp"
 #include "base/script.hpp"
+#include "base/signals.hpp"
 #include "base/terminal.hpp"
 #include "base/thread_wait.hpp"
 #include "base/version.hpp"
@@ -26,6 +28,7 @@
 #include "misspelt.hpp"
 #include "run/agreement.hpp"
 #include "run/check.hpp"
+#include "run/checkpoint_clock.hpp"
 #include "run/features.hpp"
 #include "run/on_ranks.hpp"
 #include "run/run_scene.hpp"
@@ -85,11 +88,13 @@ ExitCode run(const RunArguments& arguments)
     return run::on_ranks(
         [&](const Communicator& world)
         {
+            const SignalWatch  signals;
             const auto         watchdog = run::watch_ranks(world, arguments.hang_timeout);
             Log                log(world, arguments.terminal);
             const scene::Scene scene = run::load_on_every_rank(world, arguments.scene.path, arguments.scene.overrides);
             run::RunOptions    options = arguments.options;
             options.scene_file         = arguments.scene.path;
+            options.wall_start         = run::wall_clock() - process_age();
             if (options.output.empty())
             {
                 options.output = "runs/" + std::filesystem::path(arguments.scene.path).stem().string();

@@ -16,12 +16,12 @@ def toml_text(scene):
             for item in value:
                 tables += [f"\n[[{_key(key)}]]", *_lines(item)]
         else:
-            plain.append(f"{_key(key)} = {_inline(value)}")
+            plain.append(f"{_key(key)} = {value_text(value)}")
     return "\n".join(plain + tables) + "\n"
 
 
 def _lines(table):
-    return [f"{_key(key)} = {_inline(value)}" for key, value in table.items()]
+    return [f"{_key(key)} = {value_text(value)}" for key, value in table.items()]
 
 
 def _key(key):
@@ -33,7 +33,8 @@ def _string(text):
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def _inline(value):
+def value_text(value):
+    """A value in one line."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
@@ -41,7 +42,7 @@ def _inline(value):
     if isinstance(value, str):
         return _string(value)
     if isinstance(value, list):
-        return "[" + ", ".join(map(_inline, value)) + "]"
+        return "[" + ", ".join(map(value_text, value)) + "]"
     if isinstance(value, dict):
-        return "{ " + ", ".join(f"{_key(key)} = {_inline(item)}" for key, item in value.items()) + " }"
+        return "{ " + ", ".join(f"{_key(key)} = {value_text(item)}" for key, item in value.items()) + " }"
     raise TypeError(f"scenes hold no {type(value).__name__}")

@@ -12,7 +12,6 @@
 #include "io/checksum.hpp"
 #include "scene/differences.hpp"
 #include "scene/input_files.hpp"
-#include "scene/load.hpp"
 
 namespace tread::run
 {
@@ -128,6 +127,14 @@ scene::Scene load_on_every_rank(const Communicator& communicator, const std::str
 {
     scene::Scene scene;
     on_every_rank(communicator, [&] { scene = scene::load_scene(path, overrides); });
+    return scene;
+}
+
+scene::Scene load_on_every_rank(const Communicator& communicator, const scene::SceneText& source,
+                                const std::vector<std::string>& overrides)
+{
+    scene::Scene scene;
+    on_every_rank(communicator, [&] { scene = scene::load_scene(source, overrides); });
     return scene;
 }
 

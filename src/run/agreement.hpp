@@ -5,6 +5,7 @@
 
 #include "base/communicator.hpp"
 #include "run/run_scene.hpp"
+#include "scene/load.hpp"
 #include "scene/scene.hpp"
 
 // Checks, before anything is computed or written, that all ranks are about to compute the same problem.
@@ -21,6 +22,8 @@ struct Fact
 /// Collective: calls load_scene on every rank. If it fails on some ranks only, the error names one of them and its
 /// host.
 scene::Scene load_on_every_rank(const Communicator& communicator, const std::string& path,
+                                const std::vector<std::string>& overrides);
+scene::Scene load_on_every_rank(const Communicator& communicator, const scene::SceneText& source,
                                 const std::vector<std::string>& overrides);
 
 /// Lists what this rank is about to run, besides the scene: program, backend, options that decide what ranks do

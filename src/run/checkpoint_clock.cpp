@@ -21,6 +21,7 @@ enum Wish : std::int64_t
     go_on,
     write,
     stop_by_limit,
+    stop_by_caller,
     stop_by_signal
 };
 
@@ -44,7 +45,11 @@ std::string signal_text()
     return name.empty() ? "a signal to another rank" : "signal " + name;
 }
 
-std::string reason_of(std::int64_t stop) { return stop == stop_by_limit ? "the wall-time limit" : signal_text(); }
+std::string reason_of(std::int64_t stop)
+{
+    if (stop == stop_by_limit) { return "the wall-time limit"; }
+    return stop == stop_by_caller ? "the calling program" : signal_text();
+}
 
 } // namespace
 
@@ -70,6 +75,7 @@ Interruption CheckpointClock::check(const Communicator& communicator, double tim
     slowest_         = std::max(slowest_, now - last_check_);
     last_check_      = now;
     Wish wish        = wish_of(SignalWatch::take());
+    if (stop_asked_ && stop_asked_()) { wish = std::max(wish, stop_by_caller); }
     if (communicator.rank() == 0)
     {
         const bool due = (options_.every_wall > 0 && now - last_written_ >= options_.every_wall) ||
@@ -86,6 +92,7 @@ Interruption CheckpointClock::check(const Communicator& communicator, double tim
 std::optional<std::string> CheckpointClock::check_within_step(const Communicator& communicator) const
 {
     Wish wish = SignalWatch::stop_is_asked() ? stop_by_signal : go_on;
+    if (stop_asked_ && stop_asked_()) { wish = std::max(wish, stop_by_caller); }
     if (communicator.rank() == 0 && wall_clock() + least_margin >= end_) { wish = std::max(wish, stop_by_limit); }
     const auto all = communicator.maximum(wish);
     return all < stop_by_limit ? std::nullopt : std::optional<std::string>(reason_of(all));

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "base/communicator.hpp"
 #include "scene/scene.hpp"
@@ -22,7 +24,8 @@ struct Interruption
 };
 
 /// Decides when to write a checkpoint and when a run must end: by the scene's options, by signals (base/signals.hpp)
-/// to any rank, and by a limit on wall time, before which it reserves twice the time of a checkpoint.
+/// to any rank, by a further source, and by a limit on wall time, before which it reserves twice the time of a
+/// checkpoint.
 class CheckpointClock
 {
 public:
@@ -30,6 +33,9 @@ public:
     /// initial state.
     CheckpointClock(const scene::CheckpointOptions& options, double limit, double start, double time,
                     std::int64_t step);
+
+    /// Sets a further source of requests to stop, of this rank; empty: none.
+    void set_stop_source(std::function<bool()> stop_asked) { stop_asked_ = std::move(stop_asked); }
 
     /// Collective: the same result on all ranks; rank 0's clock decides.
     Interruption check(const Communicator& communicator, double time, std::int64_t step);
@@ -52,6 +58,7 @@ private:
     double                   last_written_; ///< wall_clock() of the last checkpoint, or of the start
     double                   last_time_;    ///< s simulated, at the last checkpoint, or at the start
     std::int64_t             last_step_;
+    std::function<bool()>    stop_asked_;
 };
 
 } // namespace tread::run

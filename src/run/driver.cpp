@@ -29,6 +29,7 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , rooms_(std::move(rooms))
     , loop_(scene, world, simulation)
     , output_({communicator, scene, world, plan, directory, options.provenance}, loop_)
+    , visits_(communicator, log, world, plan, options.visitor, loop_)
     , wall_start_(wall_clock())
     , messages_{wall_start_, wall_start_}
 {
@@ -69,10 +70,13 @@ std::optional<std::string> Driver<Exec, Real>::run_to_end()
     checkpoint_clock_.emplace(scene_.checkpoint, options_.walltime_limit, options_.wall_start, progress.time,
                               progress.steps);
     checkpoint_clock_->expect(state_bytes());
+    checkpoint_clock_->set_stop_source(options_.visitor.stop_asked);
     simulation_.set_stop_check([this] { return checkpoint_clock_->check_within_step(communicator_); });
     std::optional<std::string> interruption = run_phases(loop_, calls());
-    if (!interruption) { output_.write_last(); }
-    return interruption;
+    if (interruption) { return interruption; }
+    output_.write_last();
+    visits_.visit_last();
+    return {};
 }
 
 template<class Exec, class Real>
@@ -80,6 +84,7 @@ LoopCalls Driver<Exec, Real>::calls()
 {
     LoopCalls calls;
     calls.reason_to_stop = [this] { return checkpoint_or_stop(); };
+    calls.adjust         = [this](std::vector<solver::BodyCommand>& commands) { visits_.steer(commands); };
     calls.before_step    = [this](const solver::TimeStep& step) { before_step(step); };
     calls.after_step     = [this] { after_step(); };
     calls.early_end      = [this] { return end_of_bed(); };
@@ -108,15 +113,18 @@ std::int64_t Driver<Exec, Real>::state_bytes() const
            of_body * static_cast<std::int64_t>(world_.bodies.size()) + (none ? 0 : static_cast<std::int64_t>(series));
 }
 
-/// Writes a checkpoint if one is due; returns the reason if the run has to stop. Only a measured state can be saved;
-/// that takes a few steps at most.
+/// Writes a checkpoint if one is due, and has the visitor come; returns the reason if the run has to stop. Only a
+/// measured state can be saved; that takes a few steps at most.
 template<class Exec, class Real>
 std::optional<std::string> Driver<Exec, Real>::checkpoint_or_stop()
 {
     if (!simulation_.measured()) { return {}; }
     const Interruption due = checkpoint_clock_->check(communicator_, loop_.progress.time, loop_.progress.steps);
     if (due.write) { write_checkpoint(); }
-    return due.stop ? std::optional<std::string>(due.why) : std::nullopt;
+    if (due.stop) { return due.why; }
+    std::optional<std::string> reason = visits_.visit_if_due();
+    if (reason) { write_checkpoint(); }
+    return reason;
 }
 
 template<class Exec, class Real>

@@ -15,6 +15,7 @@
 #include "run/progress_messages.hpp"
 #include "run/run_output.hpp"
 #include "run/time_loop.hpp"
+#include "run/visits.hpp"
 
 namespace tread::run
 {
@@ -27,6 +28,7 @@ struct DriverOptions
     double         wall_start     = 0;       ///< wall_clock() of the process's start
     double         walltime_limit = 0;       ///< s since then; 0 = none
     Watchdog*      watchdog       = nullptr; ///< watchdog to notify of steps; none on one rank
+    Visitor        visitor        = {};
 };
 
 /// What a run keeps of the runs that it continues.
@@ -91,6 +93,7 @@ private:
     DriveWatch                      drive_watch_;
     TimeLoop<Exec, Real>            loop_;
     RunOutput<Exec, Real>           output_;
+    Visits<Exec, Real>              visits_;
     double                          wall_start_;
     ProgressMessages                messages_;
     RestartHistory                  history_;

@@ -48,7 +48,7 @@ ExitCode run_together(const Communicator& world, const std::function<ExitCode(co
     catch (const std::exception& error)
     {
         code = code_of(error);
-        if (!world.all_arrive(agreement_timeout)) { abort_ranks(world, error); }
+        require_all_failed(world, error);
         if (world.rank() == 0) { std::cerr << "tread: error: " << tread::text_of(error) << std::endl; }
     }
     return static_cast<ExitCode>(world.maximum(static_cast<std::int64_t>(code)));
@@ -76,6 +76,11 @@ ExitCode on_ranks(const std::function<ExitCode(const Communicator&)>& command)
     {
         abort_ranks(session.world(), error); // other ranks may wait for this one, and MPI_Finalize would wait for them
     }
+}
+
+void require_all_failed(const Communicator& world, const std::exception& error)
+{
+    if (!world.all_arrive(agreement_timeout)) { abort_ranks(world, error); }
 }
 
 std::unique_ptr<Watchdog> watch_ranks(const Communicator& world, double timeout)

@@ -1,6 +1,7 @@
 #include "run/run_scene.hpp"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,8 +12,6 @@
 
 #include "backend/backends.hpp"
 #include "backend/memory.hpp"
-#include "base/process_age.hpp"
-#include "base/signals.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
 #include "io/checkpoint_file.hpp"
@@ -135,9 +134,16 @@ template<class Exec, class Real>
 ExitCode run_on(const Exec& exec, Job& job)
 {
     std::optional<decomp::Decomposition<Exec>> decomposition = decompose(exec, job);
-    solver::Simulation<Exec, Real>             simulation(exec, job.scene, job.world, job.plan,
-                                              decomposition ? &*decomposition : nullptr);
-    Driver<Exec, Real> driver(job.communicator, job.log, job.scene, job.world, job.directory, job.plan, simulation,
+    const Visitor&                             visitor       = job.options.visitor;
+    const auto                                 drop          = [&visitor](solver::Simulation<Exec, Real>* simulation)
+    {
+        if (!visitor.keeps_memory || !visitor.keeps_memory()) { delete simulation; }
+    };
+    const std::unique_ptr<solver::Simulation<Exec, Real>, decltype(drop)> simulation(
+        new solver::Simulation<Exec, Real>(exec, job.scene, job.world, job.plan,
+                                           decomposition ? &*decomposition : nullptr),
+        drop);
+    Driver<Exec, Real> driver(job.communicator, job.log, job.scene, job.world, job.directory, job.plan, *simulation,
                               job.rooms, job.driver);
     try
     {
@@ -285,10 +291,8 @@ std::vector<io::NeededFile> needed_files(const scene::Scene& scene, const RunOpt
 ExitCode run_scene(const Communicator& communicator, Log& log, Watchdog* watchdog, const scene::Scene& scene,
                    const RunOptions& options)
 {
-    const double      wall_start = wall_clock() - process_age();
-    const SignalWatch signals;
-    const Backend     backend = agreed_backend(communicator, scene, options);
-    const int         threads = choose_threads(communicator, options.threads);
+    const Backend backend = agreed_backend(communicator, scene, options);
+    const int     threads = choose_threads(communicator, options.threads);
     omp_set_num_threads(threads);
     RestartPlan restart = plan_restart(communicator, scene, options.restart, options.output, options.existing);
     if (restart.finished)
@@ -330,9 +334,10 @@ ExitCode run_scene(const Communicator& communicator, Log& log, Watchdog* watchdo
                             start};
     job.driver           = {{run.scene_hash, run.backend, {}, run.ranks, run.start},
                             job.restart.checkpoint,
-                            wall_start,
+                            options.wall_start,
                             options.walltime_limit,
-                            watchdog};
+                            watchdog,
+                            options.visitor};
     const ExitCode code  = run_backend(backend, job);
     log.info(fmt::format("\n{}", io::timing_table(job.summary.cost.stages, job.summary.cost.wall_s)));
     log.info(fmt::format("errors: mass {:.3g}, momentum {:.3g}, energy {:.3g}", job.summary.errors.mass,

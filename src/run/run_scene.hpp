@@ -9,6 +9,7 @@
 #include "decomp/decomposition.hpp"
 #include "io/run_directory.hpp"
 #include "run/restart.hpp"
+#include "run/visit.hpp"
 #include "scene/scene.hpp"
 
 namespace tread::run
@@ -38,7 +39,10 @@ struct RunOptions
     GpuSharing    gpus     = GpuSharing::refused;
 
     RestartOptions restart;
-    double         walltime_limit = 0; ///< s since the start of the process; 0 = none
+    double         wall_start     = 0; ///< wall_clock() at which the run's wall time begins
+    double         walltime_limit = 0; ///< s since then; 0 = none
+
+    Visitor visitor; ///< the calling program; on several ranks all visit at the same steps
 
     decomp::DecompositionOptions decomposition; ///< for runs on several ranks
 };
@@ -49,7 +53,7 @@ struct RunOptions
 /// a signal or the wall-time limit leaves a summary that says so, and its exit code is returned. Continues an earlier
 /// run if options.restart says so; if that is finished, nothing is done. Collective: each rank computes with the pages
 /// that it owns. Throws InputError and EnvironmentError for errors found before the first step.
-/// `watchdog`, on several ranks, is notified of every step.
+/// `watchdog`, on several ranks, is notified of every step. Signals end it early while a SignalWatch lives.
 ExitCode run_scene(const Communicator& communicator, Log& log, Watchdog* watchdog, const scene::Scene& scene,
                    const RunOptions& options);
 

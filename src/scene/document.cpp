@@ -184,18 +184,19 @@ const Node* find(const Node& node, const std::string& key)
     return found == table->end() ? nullptr : &found->second;
 }
 
-Node parse_document(const std::string& path)
+Node parse_document(const std::string& path) { return parse_document_text(without_mark(read_file(path)), path); }
+
+Node parse_document_text(const std::string& text, const std::string& name)
 {
-    const std::string text = without_mark(read_file(path));
     if (const auto excess = excess_of(text))
     {
-        throw InputError(fmt::format("{}:{}: {}; accepted: {}", path, excess->line, excess->what, excess->accepted));
+        throw InputError(fmt::format("{}:{}: {}; accepted: {}", name, excess->line, excess->what, excess->accepted));
     }
     std::istringstream stream(text);
     try
     {
-        const auto root = toml::parse(stream, path);
-        return convert(root, LineNumbers(path, text));
+        const auto root = toml::parse(stream, name);
+        return convert(root, LineNumbers(name, text));
     }
     catch (const std::bad_alloc&)
     {
@@ -203,7 +204,7 @@ Node parse_document(const std::string& path)
     }
     catch (const std::exception& error)
     {
-        throw InputError(syntax_message(path, error.what()));
+        throw InputError(syntax_message(name, error.what()));
     }
 }
 

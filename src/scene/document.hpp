@@ -43,6 +43,9 @@ const Node* find(const Node& node, const std::string& key);
 /// exceeds the limits of text_limits.hpp.
 Node parse_document(const std::string& path);
 
+/// The same of a text; `name` stands in messages for the file.
+Node parse_document_text(const std::string& text, const std::string& name);
+
 /// Parses one TOML value from a text within the limits of text_limits.hpp; text that is not TOML is taken as a bare
 /// word, that is a string.
 Node parse_value(const std::string& text, const Location& where);

@@ -199,17 +199,15 @@ void complete_places(Scene& scene, std::vector<T>& items, const Node& document, 
     }
 }
 
-} // namespace
-
-Scene load_scene(const std::string& path, const std::vector<std::string>& overrides)
+/// Makes a scene of a document; `directory`: base of relative file names.
+Scene make_scene(Node document, const std::filesystem::path& directory, const std::vector<std::string>& overrides)
 {
     Problems problems;
-    Node     document = parse_document(path);
     apply_overrides(document, overrides, problems);
     SoilUses soils  = fill_from_soils(document, problems);
     Scene    scene  = read_scene(document, problems);
     scene.soils     = std::move(soils);
-    scene.directory = std::filesystem::absolute(path).parent_path().string();
+    scene.directory = directory.string();
     if (problems.size() > most_problems) { throw_if_any(problems); }
     complete_gravity(scene.domain);
     complete_materials(scene);
@@ -226,6 +224,19 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
     complete_contacts(scene);
     note_lines(scene, document);
     return scene;
+}
+
+} // namespace
+
+Scene load_scene(const std::string& path, const std::vector<std::string>& overrides)
+{
+    return make_scene(parse_document(path), std::filesystem::absolute(path).parent_path(), overrides);
+}
+
+Scene load_scene(const SceneText& source, const std::vector<std::string>& overrides)
+{
+    return make_scene(parse_document_text(source.text, source.name), std::filesystem::absolute(source.directory),
+                      overrides);
 }
 
 } // namespace tread::scene

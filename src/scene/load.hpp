@@ -18,4 +18,15 @@ namespace tread::scene
 /// every problem found, one per line: `file:line: [table] key: what; accepted: range`.
 Scene load_scene(const std::string& path, const std::vector<std::string>& overrides);
 
+/// A scene that is not in a file.
+struct SceneText
+{
+    std::string text;      ///< TOML
+    std::string name;      ///< stands in messages for the file
+    std::string directory; ///< base of relative file names
+};
+
+/// The same of a text.
+Scene load_scene(const SceneText& source, const std::vector<std::string>& overrides);
+
 } // namespace tread::scene

@@ -51,6 +51,9 @@ public:
     /// The scene must have sand.
     MpmSolver<Exec, Real>& sand() { return *sand_; }
 
+    /// The scene must have bodies.
+    DemSolver<Exec>& rigid() { return *rigid_; }
+
     /// Mean share of the points that have slept so far; empty where sleep is off.
     std::optional<double> mean_asleep() const { return sand_ ? sand_->mean_asleep() : std::nullopt; }
 
@@ -62,6 +65,17 @@ public:
 
     /// Call before each step with the index of its phase: sets gravity, contacts and motors to those of the phase.
     void begin_phase(std::size_t phase);
+
+    /// Sets the speed (rad/s) and the largest torque (N m; empty: as before) of a joint's motor until the phase ends.
+    /// Call after begin_phase.
+    void set_motor(std::size_t joint, double speed, std::optional<double> most_torque)
+    {
+        rigid_->set_motor(joint, speed, most_torque);
+    }
+
+    /// Call when measured(), before commands whose forces the scene does not hold: `acceleration` (m/s2) bounds what
+    /// they cause at any point of a body.
+    void expect_acceleration(double acceleration);
 
     /// Sets a check that all ranks call together from time to time within a step of many substeps; if it returns a
     /// reason, the run stops there (StoppedInStep).

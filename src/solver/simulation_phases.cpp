@@ -31,6 +31,16 @@ void Simulation<Exec, Real>::begin_phase(std::size_t phase)
     if (rigid_) { rigid_->begin_phase(phase); }
 }
 
+/// Lists are made for the next step only: the number of steps was chosen for less acceleration.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::expect_acceleration(double acceleration)
+{
+    const double more = rigid_->expect_acceleration(acceleration);
+    if (more <= 0) { return; }
+    limits_.gravity += more;
+    measuring_.every = 1;
+}
+
 template<class Exec, class Real>
 void Simulation<Exec, Real>::set_gravity(const Vec3<double>& gravity)
 {
@@ -107,6 +117,7 @@ void Simulation<Exec, Real>::transfer_contacts(StateFile& file)
 
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
     template void Simulation<Exec, Real>::begin_phase(std::size_t);                                                    \
+    template void Simulation<Exec, Real>::expect_acceleration(double);                                                 \
     template void Simulation<Exec, Real>::set_gravity(const Vec3<double>&);                                            \
     template void Simulation<Exec, Real>::require_apart(double);                                                       \
     template void Simulation<Exec, Real>::transfer_contacts(StateFile&)

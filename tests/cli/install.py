@@ -4,6 +4,7 @@
 import os
 import pathlib
 import subprocess
+import sys
 import unittest
 
 from command import CommandTest
@@ -35,6 +36,14 @@ class Install(CommandTest):
         self.assertIn("RUN", self.installed("post", "wheel_history", "--help").stdout)
         for path in ("docs/install.md", "jobs/campaign.py", "README.md", "LICENSE"):
             self.assertTrue((self.share / path).is_file(), path)
+
+    @unittest.skipUnless((pathlib.Path(os.environ["BUILD"]) / "python").is_dir(), "built without the Python package")
+    def test_python_finds_its_package(self):
+        command = [sys.executable, "-c", "import tread, tread_post; print(tread.features(), tread_post.__file__)"]
+        place = self.prefix / "lib" / "tread"
+        shown = subprocess.run(command, capture_output=True, text=True, cwd=self.directory, env={**os.environ, "PYTHONPATH": str(place)})
+        self.assertEqual(shown.returncode, 0, shown.stderr)
+        self.assertIn(str(place), shown.stdout)
 
     def test_scripts_are_those_of_the_prefix(self):
         (self.share / "postprocess" / "thin.py").unlink()

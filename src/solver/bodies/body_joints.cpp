@@ -32,7 +32,15 @@ BodyJoints<Exec>::BodyJoints(const Exec& exec, const scene::Scene& scene, const 
     , host_(world.joints)
     , phase_(scene.phases.size())
     , joints_(exec, host_, static_cast<std::int64_t>(world.bodies.size()))
+    , coordinates_(host_.size(), 0)
 {
+}
+
+/// m/s, largest speed that a joint's motor can give a point of its bodies.
+template<class Exec>
+double BodyJoints<Exec>::motor_speed(const dem::Joint& joint) const
+{
+    return std::abs(joint.speed) * std::max(radius(joint, 0), radius(joint, 1));
 }
 
 template<class Exec>
@@ -42,11 +50,17 @@ double BodyJoints<Exec>::begin_phase(std::size_t phase)
     world::set_motors(scene_, phase, host_);
     joints_.update(host_);
     double largest = 0;
-    for (const dem::Joint& joint : host_)
-    {
-        for (int s = 0; s < 2; ++s) { largest = std::max(largest, std::abs(joint.speed) * radius(joint, s)); }
-    }
+    for (const dem::Joint& joint : host_) { largest = std::max(largest, motor_speed(joint)); }
     return largest;
+}
+
+template<class Exec>
+double BodyJoints<Exec>::set_motor(std::size_t joint, double speed, std::optional<double> most_torque)
+{
+    host_[joint].speed       = speed;
+    host_[joint].most_effort = most_torque.value_or(host_[joint].most_effort);
+    joints_.update(host_);
+    return motor_speed(host_[joint]);
 }
 
 template<class Exec>
@@ -70,10 +84,20 @@ std::vector<JointRow> BodyJoints<Exec>::rows(double span) const
     std::vector<JointRow> rows;
     for (const dem::JointRecord& record : joints_.records())
     {
-        rows.push_back({over * record.impulse, over * record.angular_impulse, over * record.motor_impulse,
-                        record.coordinate, record.gap, record.misalignment});
+        const double coordinate = span > 0 ? record.coordinate : coordinates_[rows.size()];
+        rows.push_back({over * record.impulse, over * record.angular_impulse, over * record.motor_impulse, coordinate,
+                        record.gap, record.misalignment});
     }
     return rows;
+}
+
+template<class Exec>
+void BodyJoints<Exec>::begin_mean()
+{
+    const std::vector<dem::JointRecord> records = joints_.records();
+    std::transform(records.begin(), records.end(), coordinates_.begin(),
+                   [](const dem::JointRecord& record) { return record.coordinate; });
+    joints_.clear_records();
 }
 
 template<class Exec>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "kernels/dem/joints/joints.hpp"
@@ -39,23 +40,29 @@ public:
     /// point of its bodies, if the phase has changed; else 0.
     double begin_phase(std::size_t phase);
 
+    /// Sets the speed (rad/s) and the largest torque (N m; empty: as before) of a joint's motor until the next phase;
+    /// returns the largest speed (m/s) that it can give a point of its bodies.
+    double set_motor(std::size_t joint, double speed, std::optional<double> most_torque);
+
     /// Throws NumericalError if a joint's error exceeds its drift; `time` (s) is for that message. Synchronises.
     void check(double time) const;
 
     /// Returns the rows of all joints over `span` (s) since begin_mean().
     std::vector<JointRow> rows(double span) const;
-    void                  begin_mean() { joints_.clear_records(); }
+    void                  begin_mean();
 
     void transfer(StateFile& file);
 
 private:
     double radius(const dem::Joint& joint, int side) const;
+    double motor_speed(const dem::Joint& joint) const;
 
     const scene::Scene&     scene_;
     const world::World&     world_;
     std::vector<dem::Joint> host_;
     std::size_t             phase_; ///< number of phases: none has begun
     dem::Joints<Exec>       joints_;
+    std::vector<double>     coordinates_; ///< at begin_mean(), m or rad
 };
 
 } // namespace tread::solver

@@ -48,6 +48,20 @@ void DemSolver<Exec>::begin_phase(std::size_t phase)
 }
 
 template<class Exec>
+void DemSolver<Exec>::set_motor(std::size_t joint, double speed, std::optional<double> most_torque)
+{
+    commands_.largest_speed = std::max(commands_.largest_speed, joints_->set_motor(joint, speed, most_torque));
+}
+
+template<class Exec>
+double DemSolver<Exec>::expect_acceleration(double acceleration)
+{
+    const double before      = prescribed_acceleration_;
+    prescribed_acceleration_ = std::max(before, acceleration);
+    return prescribed_acceleration_ - before;
+}
+
+template<class Exec>
 void DemSolver<Exec>::set_contacts(std::size_t phase)
 {
     state_.tables.properties.assign(world::pair_properties(state_.scene, phase));

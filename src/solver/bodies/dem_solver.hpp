@@ -53,6 +53,8 @@ public:
               decomp::Decomposition<Exec>* decomposition = nullptr);
 
     dem::BodiesView          view() { return state_.view(); }
+    const dem::Bodies<Exec>& bodies() const { return state_.bodies; }
+    const dem::Pairs<Exec>&  pairs() const { return state_.pairs; }
     const dem::TemplateView* templates() const { return state_.tables.law.templates; }
     dem::PairTable           pair_table() const { return state_.tables.law.pairs; }
 
@@ -78,6 +80,12 @@ public:
 
     /// Step 1. Sets the motors of joints to a phase of the scene.
     void begin_phase(std::size_t phase);
+
+    /// Sets the motor of a joint (BodyJoints::set_motor).
+    void set_motor(std::size_t joint, double speed, std::optional<double> most_torque);
+
+    /// Raises the bound (m/s2) on what prescribed forces cause at any point of a body; returns by how much.
+    double expect_acceleration(double acceleration);
 
     /// Sets gravity, m/s2, and the properties of contacts to those of a phase of the scene.
     void set_gravity(const Vec3<double>& gravity) { state_.gravity = gravity; }

@@ -31,25 +31,29 @@ double sum_of(const std::array<scene::AxisMotion, 3>& axes)
 /// Bounds of one motion of named body `b`.
 MotionBounds bounds_of(const scene::Motion& motion, const world::World& world, std::size_t b)
 {
-    const double mass = world.bodies.mass[b], scale = world.bodies.scale[b];
-    const auto&  form   = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
-    const double radius = scale * form.bounding_radius;
-    double       force  = sum_of(motion.translation);
+    double force = sum_of(motion.translation);
     if (motion.load) { force += largest({scene::AxisKind::effort, *motion.load}); }
     MotionBounds bounds;
     if (motion.carriage)
     {
-        const double away = std::abs(world.bodies.position[b][2] - motion.carriage->height) + radius;
+        const double radius = world.bodies.scale[b] * world::template_of(world, b).bounding_radius;
+        const double away   = std::abs(world.bodies.position[b][2] - motion.carriage->height) + radius;
         force += motion.carriage->stiffness * away;
-        bounds.longest_step = spring_share * std::sqrt(mass / motion.carriage->stiffness);
+        bounds.longest_step = spring_share * std::sqrt(world.bodies.mass[b] / motion.carriage->stiffness);
     }
-    const Mat3<double> inertia = mass / form.unit.volume * scale * scale * form.unit.inertia;
-    const double       torque  = sum_of(motion.rotation) + largest(motion.axle);
-    bounds.acceleration        = force / mass + radius * torque * inertia.inverse().norm();
+    bounds.acceleration = acceleration_by(world, b, force, sum_of(motion.rotation) + largest(motion.axle));
     return bounds;
 }
 
 } // namespace
+
+double acceleration_by(const world::World& world, std::size_t body, double force, double torque)
+{
+    const double       mass = world.bodies.mass[body], scale = world.bodies.scale[body];
+    const auto&        form    = world::template_of(world, body);
+    const Mat3<double> inertia = mass / form.unit.volume * scale * scale * form.unit.inertia;
+    return force / mass + scale * form.bounding_radius * torque * inertia.inverse().norm();
+}
 
 MotionBounds motion_bounds(const scene::Scene& scene, const world::World& world)
 {

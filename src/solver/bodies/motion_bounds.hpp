@@ -15,6 +15,9 @@ struct MotionBounds
     double longest_step = std::numeric_limits<double>::infinity(); ///< s, that resolves the springs of carriages
 };
 
+/// m/s2, largest acceleration of any point of named body `body` by a force (N) and a torque (N m) in any direction.
+double acceleration_by(const world::World& world, std::size_t body, double force, double torque);
+
 MotionBounds motion_bounds(const scene::Scene& scene, const world::World& world);
 
 } // namespace tread::solver

@@ -102,6 +102,9 @@ public:
     /// kg, of awake points in the domain, at the last census or since points last left or fell asleep.
     double mass() const { return tallies_.mass - (sleep_ ? sleep_->census().mass : 0); }
 
+    /// This rank's points: awake ones, then sleeping ones where sand may sleep.
+    std::vector<const mpm::Points<Exec, Real>*> all_points() const;
+
     /// m, positions of this rank's points in memory order.
     std::vector<Vec3<double>> positions() const;
 
@@ -119,9 +122,6 @@ private:
     void transfer_lists(StateFile& file, const world::HostPoints& built, std::vector<bool>& seen);
     void order_in_memory();
     void make_room();
-
-    /// Awake points, then sleeping ones.
-    std::vector<const mpm::Points<Exec, Real>*> all_points() const;
 
     const Communicator* communicator() const { return ranks_ ? &ranks_->communicator() : nullptr; }
 

@@ -49,6 +49,20 @@ TEST(CheckpointClock, TheLimitLeavesTwiceWhatACheckpointTakes)
     EXPECT_TRUE(check(clock).stop);
 }
 
+TEST(CheckpointClock, AFurtherSourceStopsIt)
+{
+    bool            stop = false;
+    CheckpointClock clock(never(), 0, wall_clock(), 0, 0);
+    clock.set_stop_source([&] { return stop; });
+    EXPECT_FALSE(check(clock).stop);
+    EXPECT_FALSE(clock.check_within_step(test::world()));
+    stop                     = true;
+    const Interruption asked = check(clock);
+    EXPECT_TRUE(asked.write && asked.stop);
+    EXPECT_EQ(asked.why, "the calling program");
+    EXPECT_EQ(clock.check_within_step(test::world()), "the calling program");
+}
+
 TEST(CheckpointClock, BeforeTheFirstItExpectsWhatItsBytesTake)
 {
     constexpr std::int64_t hundred_megabytes = 100000000;
