@@ -24,9 +24,9 @@ void expect_contacts(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, 
 template<class Exec>
 void expect_shared_contacts(const Exec& exec, Pairs<Exec>& pairs, const SharedView& shared);
 
-/// Returns the minimum of sqrt(m/K) (s) over the bodies that can move, where K is the larger of the body's present
-/// stiffness and of the expected one (expect_contacts); 0 without any contact, present or expected. Substeps of 0.2
-/// times that conserve energy (docs/theory.md#time-step).
+/// Returns the minimum of sqrt(m/K) (s) over the bodies that can move and do not sleep, where K is the larger of the
+/// body's present stiffness and of the expected one (expect_contacts); 0 without any contact, present or expected.
+/// Substeps of 0.2 times that conserve energy (docs/theory.md#time-step).
 template<class Exec>
 double smallest_contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
 

@@ -73,7 +73,9 @@ BodySums sum_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodi
         double    contact;
     };
     const Result found = read(exec, reinterpret_cast<const Result*>(result));
-    return {found.row.kinetic, found.row.potential, found.row.momentum, found.row.spin, found.contact, found.total};
+    return {
+        found.row.kinetic, found.row.potential, found.row.momentum, found.row.spin, found.contact + pairs.sleep.energy,
+        found.total};
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
