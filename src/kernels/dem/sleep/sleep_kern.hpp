@@ -63,10 +63,10 @@ struct LookAtBody
     }
 
 private:
-    /// Whether a body and all that it may touch have been at rest for long enough.
+    /// Whether a body that something holds and all that it may touch have been at rest for long enough.
     TREAD_HD bool is_tired(std::int64_t b) const
     {
-        bool rests = quiet[b] >= rule.rest;
+        bool rests = quiet[b] >= rule.rest && bodies.stiffness[b] > 0;
         if (!rests) { return false; }
         each_neighbour(pairs, b,
                        [&](std::int64_t other)
