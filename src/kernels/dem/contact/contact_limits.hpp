@@ -11,11 +11,11 @@
 namespace tread::dem
 {
 
-/// Computes pairs.expected_stiffness of every body, N/m: the larger of two sums over its listed pairs. The first sum
-/// covers first touches (two nodes in the linear part of the traction) of separated pairs. The second covers the nodes
-/// in contact and those that enter when they move by twice the displacement that velocity and gravity (m/s2) give in dt
-/// (s). Call after find_pairs. For bodies that several ranks integrate it uses this rank's pairs and writes their
-/// shares to shared.stiffness.
+/// Computes pairs.expected_stiffness of every body that substeps compute, N/m: the larger of two sums over its listed
+/// pairs. The first sum covers first touches (two nodes in the linear part of the traction) of separated pairs. The
+/// second covers the nodes in contact and those that enter when they move by twice the displacement that velocity and
+/// gravity (m/s2) give in dt (s). Call after find_pairs. For bodies that several ranks integrate it uses this rank's
+/// pairs and writes their shares to shared.stiffness.
 template<class Exec>
 void expect_contacts(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law,
                      const Vec3<double>& gravity, double dt, const SharedView& shared = {});

@@ -86,18 +86,9 @@ auto moved_part(const Pairs<Gpu>& pairs, std::int64_t bodies, const F& f)
     return group_part<threads, lanes>(pairs.sleep.listed(bodies), OfMoved<F>{f, pairs.sleep.list()});
 }
 
-/// Calls f(b, lanes) for every body; a large body, such as a wheel in a bed of rocks, may have thousands of pairs.
+/// Does so with a block for each large body: one such as a wheel in a bed of rocks may have thousands of pairs.
 template<int threads, int lanes, class F>
 auto body_part(std::int64_t bodies, Pairs<Gpu>& pairs, const F& f)
-{
-    const ItemOfBlock<threads, OfListed<F>> of_large{{f, pairs.sizes.large.data()}};
-    return beside(Part{pairs.sizes.large.size(), of_large},
-                  group_part<threads, lanes>(bodies, OfSmallBodies<F>{f, pairs.sizes.is_large.data()}));
-}
-
-/// Does so for the bodies that substeps compute.
-template<int threads, int lanes, class F>
-auto moved_body_part(std::int64_t bodies, Pairs<Gpu>& pairs, const F& f)
 {
     const ItemOfBlock<threads, OfListed<F>> of_large{{f, pairs.sizes.large.data()}};
     return beside(Part{pairs.sizes.large.size(), of_large},

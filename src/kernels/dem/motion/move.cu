@@ -12,7 +12,7 @@ template<int lanes, class Move>
 void launch(const Gpu& gpu, const BodyStep<Gpu>& step, const Move& move)
 {
     constexpr int threads = 128, blocks_an_sm = 4; // limits the registers
-    const auto    part = moved_body_part<threads, lanes>(step.bodies.count, step.pairs, move);
+    const auto    part = body_part<threads, lanes>(step.bodies.count, step.pairs, move);
     for_each_block<threads, blocks_an_sm>(gpu, "move bodies", part.blocks, part.f);
 }
 

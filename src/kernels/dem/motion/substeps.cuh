@@ -42,7 +42,7 @@ template<class Move>
 auto move_part(const Move& move, Pairs<Gpu>& pairs)
 {
     constexpr int lanes = 4;
-    return moved_body_part<repeat_threads, lanes>(move.bodies.count, pairs, move);
+    return body_part<repeat_threads, lanes>(move.bodies.count, pairs, move);
 }
 
 } // namespace tread::dem

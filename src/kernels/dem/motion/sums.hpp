@@ -13,9 +13,8 @@ struct BodySums
     double       potential; ///< -m g . x
     Vec3<double> momentum;  ///< N s
     Vec3<double> spin;      ///< N m s, angular momentum about the world's origin
-    double
-        contact; ///< elastic energy of normal tractions and of the patches' springs, of the last substep of each pair
-    BodyTotal total; ///< since the totals were cleared
+    double       contact;   ///< elastic energy of normal tractions and of the patches' springs, of the last substep
+    BodyTotal    total;     ///< since the totals were cleared
 };
 
 /// Computes the sums in a fixed order; waits for the backend. gravity in m/s2.

@@ -15,13 +15,12 @@ struct BodyTotal
 {
     Vec3<double> wall_impulse;    ///< from planes
     Vec3<double> damping_impulse; ///< from the local damping
-    Vec3<double> holding_impulse; ///< from constraints: locked velocities, a carried share of the weight, joints, sleep
-                                  ///< (without the sleepers' weight)
-    double friction;     ///< dissipated by tangential and torsional friction, of the pairs whose first body this is
-    double restitution;  ///< dissipated by normal damping, of the same pairs
-    double damping;      ///< dissipated by local damping
-    double holding_work; ///< done on the body by the constraint of holding_impulse
-    double sand_work;    ///< done on the body by sand
+    Vec3<double> holding_impulse; ///< from constraints: locked velocities, a share of the weight, joints, sleep
+    double       friction; ///< dissipated by tangential and torsional friction, of the pairs whose first body this is
+    double       restitution;  ///< dissipated by normal damping, of the same pairs
+    double       damping;      ///< dissipated by local damping
+    double       holding_work; ///< done on the body by the constraint of holding_impulse
+    double       sand_work;    ///< done on the body by sand
 };
 
 /// Number of doubles in a BodyTotal, for sums over rows.
