@@ -72,7 +72,7 @@ void wake_for_phase(BodyState<Exec>& state, PairLists<Exec>& lists, SleepSetting
     if (!state.pairs.sleep.wanted || settings.phase == static_cast<std::int64_t>(phase)) { return; }
     settings.phase = static_cast<std::int64_t>(phase);
     dem::wake_all(state.pairs, state.bodies);
-    lists.listed = false;
+    if (state.pairs.sleep.count > 0) { lists.listed = false; }
 }
 
 template<class Exec>

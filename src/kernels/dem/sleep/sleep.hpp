@@ -32,7 +32,7 @@ template<class Exec>
 void fall_asleep(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, BodyTotal* totals,
                  double substep, const Vec3<double>& gravity);
 
-/// Wakes all bodies; the list must then be found anew.
+/// Wakes all bodies, whose times at rest begin anew; the list must then be found anew if any slept.
 template<class Exec>
 void wake_all(Pairs<Exec>& pairs, Bodies<Exec>& bodies);
 

@@ -230,7 +230,7 @@ void wake_all(Pairs<Exec>& pairs, Bodies<Exec>& bodies)
     bodies.asleep.fill_zero();
     pairs.sleep.quiet.fill_zero();
     pairs.sleep.mark.fill_zero();
-    pairs.sleep.change = true;
+    pairs.sleep.change = pairs.sleep.change || pairs.sleep.count > 0;
 }
 
 template<class Exec>
