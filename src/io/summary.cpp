@@ -190,26 +190,27 @@ std::string to_json(const Summary& summary)
     json["start"]             = summary.run.start;
     json["end"]               = utc_now();
     json["restarts"]          = summary.cost.restarts;
-    json["checkpoint"]  = summary.cost.checkpoints.newest.empty() ? Json() : Json(summary.cost.checkpoints.newest);
-    json["checkpoints"] = {{"written", summary.cost.checkpoints.written},
-                           {"bytes", summary.cost.checkpoints.bytes},
-                           {"seconds", summary.cost.checkpoints.seconds}};
-    json["terrain"]     = terrain_of(summary.bed);
-    json["rocks"]       = rocks_of(summary.bed);
-    json["layers"]      = layers_of(summary.bed);
-    json["rock_share"]  = summary.bed.rock_share;
-    json["phases"]      = phases_of(summary);
-    json["asleep"]      = summary.cost.asleep ? Json(*summary.cost.asleep) : Json();
-    json["stages"]      = stages_of(summary);
-    json["errors"]      = {{"mass", summary.errors.mass},
-                           {"momentum", summary.errors.momentum},
-                           {"energy", summary.errors.energy},
-                           {"transfer", summary.errors.transfer},
-                           {"coupling", summary.errors.coupling}};
-    json["resolution"]  = resolution_of(summary);
-    json["answers"]     = answers_of(summary);
-    json["grid_error"]  = grid_error_of(summary);
-    json["warnings"]    = summary.warnings;
+    json["checkpoint"]   = summary.cost.checkpoints.newest.empty() ? Json() : Json(summary.cost.checkpoints.newest);
+    json["checkpoints"]  = {{"written", summary.cost.checkpoints.written},
+                            {"bytes", summary.cost.checkpoints.bytes},
+                            {"seconds", summary.cost.checkpoints.seconds}};
+    json["terrain"]      = terrain_of(summary.bed);
+    json["rocks"]        = rocks_of(summary.bed);
+    json["layers"]       = layers_of(summary.bed);
+    json["rock_share"]   = summary.bed.rock_share;
+    json["phases"]       = phases_of(summary);
+    json["asleep"]       = summary.cost.asleep ? Json(*summary.cost.asleep) : Json();
+    json["rocks_asleep"] = summary.cost.rocks_asleep ? Json(*summary.cost.rocks_asleep) : Json();
+    json["stages"]       = stages_of(summary);
+    json["errors"]       = {{"mass", summary.errors.mass},
+                            {"momentum", summary.errors.momentum},
+                            {"energy", summary.errors.energy},
+                            {"transfer", summary.errors.transfer},
+                            {"coupling", summary.errors.coupling}};
+    json["resolution"]   = resolution_of(summary);
+    json["answers"]      = answers_of(summary);
+    json["grid_error"]   = grid_error_of(summary);
+    json["warnings"]     = summary.warnings;
     return json.dump(2) + "\n";
 }
 

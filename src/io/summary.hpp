@@ -160,7 +160,8 @@ struct CostReport
     std::int64_t             peak_device_bytes = 0;
     std::int64_t             peak_host_bytes   = 0;
     std::vector<StageReport> stages;
-    std::optional<double>    asleep; ///< mean share of sleeping points; null if sleep is off
+    std::optional<double>    asleep;       ///< mean share of sleeping points; null if sleep is off
+    std::optional<double>    rocks_asleep; ///< mean share of sleeping rocks; null if none may sleep
     CheckpointReport         checkpoints;
     std::int64_t             restarts = 0; ///< number of times it was stopped and resumed
 };

@@ -157,6 +157,8 @@ void Driver<Exec, Real>::report(io::Summary& summary, const std::vector<solver::
     summary.cost.restarts = history_.restarts;
     summary.cost.asleep   = simulation_.mean_asleep();
 
+    summary.cost.rocks_asleep = simulation_.mean_rocks_asleep();
+
     summary.cost.checkpoints         = history_.checkpoints;
     summary.resolution.points_across = points_across(simulation_.extremes(), world_);
 

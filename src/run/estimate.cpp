@@ -12,6 +12,7 @@
 #include "base/errors.hpp"
 #include "base/saturated.hpp"
 #include "kernels/dem/contact/ray_kern.hpp"
+#include "kernels/dem/sleep/sleeping_bodies.hpp"
 #include "kernels/mpm/grid/wall_kern.hpp"
 #include "kernels/mpm/pages/census.hpp"
 #include "kernels/mpm/pages/moves.hpp"
@@ -214,6 +215,16 @@ double resting_contact(const scene::Scene& scene, const world::World& world)
 /// bodies in contact with each other.
 std::int64_t bytes_per_body(const solver::Plan& plan) { return plan.body_contact ? 2200 : 700; }
 
+/// Extra bytes of a body that may sleep: its load, flags and lists, and its pairs, of which a rock at rest has 2.8,
+/// twice while they are sorted.
+std::int64_t sleep_bytes_per_body(const solver::Plan& plan)
+{
+    constexpr double       pairs_a_body = 2.8;
+    constexpr std::int64_t of_body      = sizeof(dem::SleepWatch) + 8 + 3 * 4 + 2 * 4;
+    constexpr std::int64_t of_pair      = 2 * (8 + 4 + sizeof(dem::Patch) + sizeof(dem::HeldContact) + 3 * 8) + 4;
+    return plan.rock_sleep ? of_body + static_cast<std::int64_t>(pairs_a_body * static_cast<double>(of_pair)) : 0;
+}
+
 /// Bytes of the columns of doubles (run/recorder.cpp), which grow by 1024 rows (io/h5.cpp), and of their names.
 double time_series_bytes(double rows, std::int64_t named)
 {
@@ -285,7 +296,8 @@ Estimate estimate(const scene::Scene& scene, const world::World& world, const so
     const PageCounts pages  = plan.sand ? count_pages(world) : PageCounts{};
     Estimate         wants{};
     wants.time         = longest_time(scene);
-    wants.memory_bytes = bodies * bytes_per_body(plan) + template_bytes(world) + (plan.rays ? ray_bytes(world) : 0);
+    wants.memory_bytes = bodies * (bytes_per_body(plan) + sleep_bytes_per_body(plan)) + template_bytes(world) +
+                         (plan.rays ? ray_bytes(world) : 0);
     if (plan.sand)
     {
         const std::int64_t of_point = bytes_per_point(scene, plan) + sleep_bytes_per_point(scene, plan);

@@ -128,6 +128,7 @@ void require_ranks_can(const Communicator& communicator, const scene::Scene& sce
     }
     if (!scene.grid.refine.empty()) { decomp::require_single_rank(communicator, "scenes with [grid] refine run"); }
     if (scene.sleep.distance) { decomp::require_single_rank(communicator, "scenes with sleep.distance run"); }
+    if (scene.sleep.rock_speed) { decomp::require_single_rank(communicator, "scenes with sleep.rock_speed run"); }
 }
 
 template<class Exec, class Real>

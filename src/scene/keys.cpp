@@ -295,6 +295,7 @@ Keys<Balance> balance_keys()
 Keys<Sleep> sleep_keys()
 {
     const auto given = [](const Sleep& sleep) { return sleep.distance.has_value(); };
+    const auto rocks = [](const Sleep& sleep) { return sleep.rock_speed.has_value(); };
     return {
         optional("distance", "m", &Sleep::distance, number_or("", above_up_to(0, 1e5)),
                  "Sand falls asleep, page by page, only further than this from the bounding sphere of every body, and "
@@ -310,6 +311,18 @@ Keys<Sleep> sleep_keys()
                  "A sleeping page wakes when the pressure that the sand beside it holds it with changes by this share "
                  "of the bed's weight over the area of the domain's floor.")
             .when("distance given", given),
+        optional("rock_speed", "m/s", &Sleep::rock_speed, number_or("", speed()),
+                 "Rocks fall asleep when neither they nor any body beside them has a point faster than this, and wake "
+                 "when a faster body comes near. One rank only.",
+                 "no rock sleeps"),
+        optional("rock_rest", "s", &Sleep::rock_rest, number(span_of_time()),
+                 "Simulated time for which a rock and all beside it must have been at rest before it falls asleep, and "
+                 "over which loads on sleeping rocks are averaged.")
+            .when("rock_speed given", rocks),
+        optional("rock_load", "", &Sleep::rock_load, number(above_up_to(0, 1e6)),
+                 "A sleeping rock wakes when the mean of all forces on it changes by this share of the load that it "
+                 "carried when it fell asleep, half the sum of the forces on it.")
+            .when("rock_speed given", rocks),
     };
 }
 

@@ -82,7 +82,9 @@ void for_each_table(Visit&& visit)
     visit("balance", "How the sand falls to the ranks of a run on several: docs/ranks.md.", &Scene::balance,
           balance_keys());
     visit("sleep",
-          "Sand that lies still far from what moves is left out of the steps, if `distance` is given: docs/sleep.md.",
+          "Sand that lies still far from what moves is left out of the steps, if `distance` is given, and rocks at "
+          "rest, if "
+          "`rock_speed` is: docs/sleep.md.",
           &Scene::sleep, sleep_keys());
     visit("reference", "The right answer, as far as it is known, for `tread study`: docs/study.md. Changes no run.",
           &Scene::reference, reference_keys());

@@ -310,13 +310,17 @@ struct Balance
     bool operator==(const Balance&) const = default;
 };
 
-/// Sand at rest, far from anything that moves, is left out of the steps.
+/// Sand at rest, far from anything that moves, and rocks at rest are left out of the steps.
 struct Sleep
 {
     std::optional<double> distance;     ///< m from every body; empty = no sand sleeps
     double                speed = 0.01; ///< m/s; sand sleeps if it never moved faster ...
     double                rest  = 0.05; ///< s; ... for this long
     double                load  = 0.2;  ///< change of pressure that wakes it, over the mean pressure on the bed's base
+
+    std::optional<double> rock_speed;      ///< m/s; rocks sleep if they never moved faster ...; empty = no rock sleeps
+    double                rock_rest = 0.1; ///< s; ... for this long
+    double                rock_load = 0.1; ///< change of load that wakes a rock, over the load that it carries
 
     bool operator==(const Sleep&) const = default;
 };

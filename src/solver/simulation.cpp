@@ -86,7 +86,9 @@ template<class Exec, class Real>
 void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, double damping)
 {
     damping_ = damping;
-    if (rigid_) { rigid_->command(commands); }
+    if (!rigid_) { return; }
+    rigid_->command(commands);
+    rigid_->set_damping(damping);
 }
 
 /// Preconditions: command() has set the commands of the named bodies. If measured(), `step` was chosen from pace()

@@ -57,6 +57,12 @@ public:
     /// Mean share of the points that have slept so far; empty where sleep is off.
     std::optional<double> mean_asleep() const { return sand_ ? sand_->mean_asleep() : std::nullopt; }
 
+    /// Mean share of the rocks that have slept so far; empty where none may.
+    std::optional<double> mean_rocks_asleep() const { return rigid_ ? rigid_->mean_asleep() : std::nullopt; }
+
+    /// Number of rocks that sleep.
+    std::int64_t rocks_asleep() const { return rigid_ ? rigid_->asleep() : 0; }
+
     /// Number of points of this rank.
     std::int64_t points() const { return sand_ ? sand_->count() : 0; }
 

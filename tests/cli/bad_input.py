@@ -83,6 +83,8 @@ class BadScene(RefusedScene):
     def test_sleep(self):
         self.refuse(SCENE + "[sleep]\ndistance = 0.0\n", ["sleep", "distance", "> 0"])
         self.refuse(SCENE + "[sleep]\nspeed = 0.1\n", ["sleep", "speed", "distance given"])
+        self.refuse(SCENE + "[sleep]\nrock_speed = 0.0\n", ["sleep", "rock_speed", ">= 1e-09"])
+        self.refuse(SCENE + "[sleep]\nrock_load = 0.1\n", ["sleep", "rock_load", "rock_speed given"])
 
     def test_refined_grid(self):
         def refuse(boxes, mentions, more=""):

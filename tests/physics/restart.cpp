@@ -100,6 +100,9 @@ public:
     /// Number of sleeping points.
     std::int64_t asleep() { return simulation_.sand().count() - simulation_.sand().view().count; }
 
+    /// Number of sleeping rocks.
+    std::int64_t rocks_asleep() const { return simulation_.rocks_asleep(); }
+
     io::PointFields points() const { return simulation_.point_fields(); }
     io::BodyFields  bodies() { return simulation_.body_fields(); }
 
@@ -149,7 +152,8 @@ protected:
         phase_saved_              = stopped.phase();
         time_saved_               = stopped.time();
         const std::int64_t asleep = stopped.asleep();
-        Run<Exec>          resumed(this->exec(), text);
+        rocks_saved_              = stopped.rocks_asleep();
+        Run<Exec> resumed(this->exec(), text);
         resumed.load(path, solver::Fidelity::exact);
         stopped.step(after);
         resumed.step(after);
@@ -157,11 +161,14 @@ protected:
         EXPECT_EQ(stopped.state(), expected) << "to save changed what came after it";
         EXPECT_EQ(resumed.state(), expected) << "what went on from the file differs";
         phase_at_end_ = resumed.phase();
+        rocks_at_end_ = resumed.rocks_asleep();
         return {asleep, resumed.asleep()};
     }
 
     std::size_t phase_saved_ = 0, phase_at_end_ = 0;
     double      time_saved_ = 0; ///< s
+
+    std::int64_t rocks_saved_ = 0, rocks_at_end_ = 0; ///< asleep
 };
 TYPED_TEST_SUITE(Restart, test::Backends, test::BackendNames);
 
@@ -303,6 +310,16 @@ TYPED_TEST(Restart, OfSleepingSandGivesTheSameBits)
     const Sleepers asleep = this->expect_same_bits(text);
     EXPECT_GT(asleep.saved, 0);
     EXPECT_NE(asleep.at_end, asleep.saved);
+}
+
+/// Sleeping rocks are saved asleep with their contacts; others fall asleep or wake afterwards.
+TYPED_TEST(Restart, OfSleepingRocksGivesTheSameBits)
+{
+    this->expect_same_bits(rocks_alone + test::rocks_text + "placement = \"grid\"\n" + test::thrown_roller_text +
+                           "[time]\ndt = 2e-3\n[sleep]\nrock_speed = 0.1\nrock_rest = 0.02\n");
+    std::cout << this->rocks_saved_ << " rocks asleep when saved, " << this->rocks_at_end_ << " at the end\n";
+    EXPECT_GT(this->rocks_saved_, 0);
+    EXPECT_NE(this->rocks_at_end_, this->rocks_saved_);
 }
 
 /// Moves all points and bodies of a saved state by up to `distance` (m) along each axis.

@@ -98,9 +98,9 @@ void run_substeps(const Exec& gpu, PointContact<Exec>& contact, const PointBodyL
                               [&](const auto& move)
                               {
                                   const std::int64_t bodies = step.bodies.count;
-                                  if (bodies < few_bodies)
+                                  if (step.pairs.sleep.listed(bodies) < few_bodies)
                                   {
-                                      run(dem::group_part<repeat_threads, warp_size>(bodies, move));
+                                      run(dem::moved_part<repeat_threads, warp_size>(step.pairs, bodies, move));
                                   }
                                   else { run(dem::move_part(move, step.pairs)); }
                               });

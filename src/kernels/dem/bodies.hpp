@@ -62,8 +62,12 @@ struct BodiesView
 
     const double* weight = nullptr; ///< share of the weight that acts on each named body with `hangs`
 
+    std::int32_t* asleep = nullptr; ///< 1 = held at rest (sleep/sleep.hpp); null: no body may sleep
+
     TREAD_HD bool is_owned(std::int64_t b) const { return role == nullptr || role[b] == role_owner; }
     TREAD_HD bool is_here(std::int64_t b) const { return role == nullptr || role[b] != role_none; }
+
+    TREAD_HD bool is_asleep(std::int64_t b) const { return asleep != nullptr && asleep[b] != 0; }
 
     /// Whether no force moves the body, as if its mass were infinite.
     TREAD_HD bool is_fixed(std::int64_t b) const
@@ -99,6 +103,7 @@ struct Bodies
         , stiffness(exec, "body stiffness")
         , role(exec, "body roles")
         , weight(exec, "shares of weight")
+        , asleep(exec, "sleeping bodies")
     {
     }
 
@@ -107,10 +112,11 @@ struct Bodies
         return {position.size(), position.data(), orientation.data(), velocity.data(), angular_velocity.data(),
                 mass.data(),     inertia.data(),  scale.data(),       shape.data(),    material.data(),
                 locked.data(),   damped.data(),   force.data(),       torque.data(),   stiffness.data(),
-                role.data(),     weight.data()};
+                role.data(),     weight.data(),   asleep.data()};
     }
 
-    /// Calls f(name, array) for every array except the roles, which differ between ranks.
+    /// Calls f(name, array) for every array except the roles, which differ between ranks, and `asleep`, which belongs
+    /// to the sleep of bodies.
     template<class F>
     void for_each_field(F f)
     {
@@ -147,6 +153,7 @@ struct Bodies
     Array<Exec, double>        stiffness;
     Array<Exec, std::int32_t>  role;   ///< empty in a run with one rank
     Array<Exec, double>        weight; ///< of the named bodies
+    Array<Exec, std::int32_t>  asleep; ///< empty where no body may sleep
 };
 
 } // namespace tread::dem

@@ -73,6 +73,13 @@ void add_contact_energies(const BodyState<Exec>& state, std::size_t sides, std::
         const auto [a, b] = materials_of(state, sides - 1, keys[p]);
         energies[a * sides + b] += energy[p];
     }
+    const std::vector<std::uint64_t>    kept     = state.pairs.sleep.pairs.key.to_host();
+    const std::vector<dem::HeldContact> contacts = state.pairs.sleep.pairs.contact.to_host();
+    for (std::size_t p = 0; p < kept.size(); ++p)
+    {
+        const auto [a, b] = materials_of(state, sides - 1, kept[p]);
+        energies[a * sides + b] += contacts[p].energy;
+    }
 }
 
 template<class Exec>

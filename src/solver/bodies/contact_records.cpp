@@ -21,20 +21,6 @@ bool decides(const BodyState<Exec>& state, const std::vector<std::int32_t>& is_l
     return !state.ranks || state.owns(deciding_body(is_large, key));
 }
 
-/// Accepts keys of two bodies, or of a body and a wall.
-auto accepted_keys(const world::World& world)
-{
-    const auto        bodies = static_cast<std::int64_t>(world.bodies.size());
-    const auto        sides  = bodies + static_cast<std::int64_t>(world.planes.size());
-    const std::string pair   = fmt::format("the key of two of {} bodies and walls, the first a body", sides);
-    const auto        is_key = [=](std::uint64_t key)
-    {
-        const std::int64_t a = dem::first_of(key), b = dem::second_of(key);
-        return a < bodies && a < b && b < sides;
-    };
-    return accept::each(pair, is_key);
-}
-
 /// Records of pairs as they are in memory, an array each.
 struct RecordArrays
 {
@@ -70,7 +56,36 @@ RecordArrays chosen_records(const BodyState<Exec>& state, const RecordArrays& al
     return {chosen(all.key), chosen(all.patch), chosen(all.rolling), chosen(all.place)};
 }
 
+/// Adds the contacts of sleepers, in the order of keys.
+template<class Exec>
+void add_sleeping_contacts(const BodyState<Exec>& state, std::vector<world::ContactRecord>& found)
+{
+    const dem::SleepingPairs<Exec>& pairs = state.pairs.sleep.pairs;
+    if (pairs.key.size() == 0) { return; }
+    const RecordArrays kept{pairs.key.to_host(), pairs.patch.to_host(), pairs.rolling.to_host(), pairs.place.to_host()};
+    for (std::size_t p = 0; p < kept.key.size(); ++p)
+    {
+        if (!(kept.patch[p].stiffness > 0)) { continue; }
+        found.push_back({dem::whole_pair(kept.key[p]), kept.patch[p],
+                         kept.rolling.empty() ? dem::no_rolling() : kept.rolling[p], kept.place[p]});
+    }
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
+}
+
 } // namespace
+
+KeyBound accepted_keys(const world::World& world)
+{
+    const auto        bodies = static_cast<std::int64_t>(world.bodies.size());
+    const auto        sides  = bodies + static_cast<std::int64_t>(world.planes.size());
+    const std::string pair   = fmt::format("the key of two of {} bodies and walls, the first a body", sides);
+    const auto        is_key = [=](std::uint64_t key)
+    {
+        const std::int64_t a = dem::first_of(key), b = dem::second_of(key);
+        return a < bodies && a < b && b < sides;
+    };
+    return accept::each(pair, is_key);
+}
 
 template<class Exec>
 void restore_contacts(BodyState<Exec>& state)
@@ -113,6 +128,7 @@ std::vector<world::ContactRecord> live_contacts(const BodyState<Exec>& state)
                          state.pairs.resists_rolling ? listed.rolling[p] : dem::no_rolling(),
                          listed.place.empty() ? Vec3<double>::Zero() : listed.place[p]});
     }
+    add_sleeping_contacts(state, found);
     if (!state.ranks) { return found; }
     std::vector<world::ContactRecord> all;
     for (const auto& records : decomp::gather_values(*state.communicator(), found))

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
+#include "io/accept.hpp"
 #include "solver/bodies/body_state.hpp"
 #include "world/world.hpp"
 
@@ -11,6 +13,12 @@ namespace tread::solver
 {
 
 class StateFile;
+
+/// Bound on keys of pairs that are loaded.
+using KeyBound = std::function<io::accept::Verdict(const std::vector<std::uint64_t>&)>;
+
+/// Accepts keys of two bodies, or of a body and a wall.
+KeyBound accepted_keys(const world::World& world);
 
 /// Stores the world's contacts as the previous list: pairs found again keep their records.
 template<class Exec>

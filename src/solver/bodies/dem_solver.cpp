@@ -31,6 +31,7 @@ DemSolver<Exec>::DemSolver(const Exec& exec, const scene::Scene& scene, const wo
     if (plan.motions) { motions_.emplace(exec, world.bodies.named); }
     if (!world.joints.empty()) { joints_.emplace(exec, scene, world); }
     restore_contacts(state_);
+    if (plan.rock_sleep) { begin_sleep(state_); }
 }
 
 template<class Exec>
@@ -65,6 +66,7 @@ template<class Exec>
 void DemSolver<Exec>::set_contacts(std::size_t phase)
 {
     state_.tables.properties.assign(world::pair_properties(state_.scene, phase));
+    wake_for_phase(state_, lists_, sleep_, phase);
 }
 
 template<class Exec>
@@ -76,7 +78,17 @@ double DemSolver<Exec>::take_commanded_speed()
 template<class Exec>
 void DemSolver<Exec>::find_pairs(double dt)
 {
-    update_pairs(state_, lists_, dt, substep_ > 0 ? dt / substep_ : 1);
+    update_sleep(state_, lists_, reports_, sleep_, substep_);
+    state_.pairs.sleep.wakes = state_.pairs.sleep.wanted;
+    update_pairs(state_, lists_, dt, substeps_in(dt));
+    state_.pairs.sleep.wakes = false;
+}
+
+template<class Exec>
+void DemSolver<Exec>::list_moved(const dem::OutsideWrenches& outside)
+{
+    if (!state_.pairs.sleep.wanted || outside.run == nullptr) { return; }
+    dem::list_moved_bodies(state_.exec, state_.pairs, state_.view(), outside);
 }
 
 template<class Exec>
@@ -104,7 +116,8 @@ std::int64_t DemSolver<Exec>::substeps_without_check(const TimeStep& step, doubl
     return solver::substeps_without_check(state_, lists_, step, bound(speed), contact_time);
 }
 
-/// The list is built for a whole step, so that it may serve the next.
+/// The list is built for a whole step, so that it may serve the next. Nobody wakes within a step: the substep was
+/// chosen for those that are awake.
 template<class Exec>
 void DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time)
 {
@@ -115,7 +128,7 @@ void DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t
     }
     const double dt = step.dt / static_cast<double>(step.substeps);
     check_before_search(state_, reports_, time + dt * static_cast<double>(done));
-    find_pairs(step.dt);
+    update_pairs(state_, lists_, step.dt, substeps_in(step.dt));
 }
 
 template<class Exec>
@@ -172,6 +185,7 @@ template<class Exec>
 void DemSolver<Exec>::count_substeps(double dt, std::int64_t count)
 {
     means_.time += static_cast<double>(count) * dt;
+    state_.pairs.sleep.pass(static_cast<double>(count) * dt);
     substep_ = dt;
 }
 
@@ -187,6 +201,7 @@ RigidReport DemSolver<Exec>::report(double time)
     if (!reports_.activity) { request_report(); }
     RigidReport report = take_report(state_, reports_, lists_, {time, substep_, commands_.take_totals()});
     if (joints_) { joints_->check(time); }
+    report.driver_impulse -= std::exchange(state_.pairs.sleep.clock.weight, 0.0) * state_.gravity;
     return report;
 }
 
@@ -277,6 +292,7 @@ void DemSolver<Exec>::transfer(StateFile& file)
     lists_.transfer(file, state_);
     reports_.transfer(file);
     if (joints_) { joints_->transfer(file); }
+    if (state_.pairs.sleep.wanted) { transfer_sleep(state_, sleep_, file); }
 }
 
 #define TREAD_INSTANTIATE(Exec) template class DemSolver<Exec>

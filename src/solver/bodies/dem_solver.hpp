@@ -12,6 +12,7 @@
 #include "solver/bodies/body_joints.hpp"
 #include "solver/bodies/body_reports.hpp"
 #include "solver/bodies/body_row.hpp"
+#include "solver/bodies/body_sleep.hpp"
 #include "solver/bodies/body_state.hpp"
 #include "solver/bodies/body_touch.hpp"
 #include "solver/bodies/named_means.hpp"
@@ -91,6 +92,15 @@ public:
     void set_gravity(const Vec3<double>& gravity) { state_.gravity = gravity; }
     void set_contacts(std::size_t phase);
 
+    /// Sets the damping of the phase; no rock falls asleep where there is any.
+    void set_damping(double damping) { sleep_.damping = damping; }
+
+    /// Mean share of the rocks that have slept so far; empty where none may.
+    std::optional<double> mean_asleep() const { return solver::mean_asleep(state_); }
+
+    /// Number of rocks that sleep.
+    std::int64_t asleep() const { return static_cast<std::int64_t>(state_.pairs.sleep.count); }
+
     /// Has the next find_pairs list pairs anew, as where others touch from now on.
     void forget_list() { lists_.listed = false; }
 
@@ -107,7 +117,8 @@ public:
     /// Returns and resets the largest speed (m/s) set by commands on any rank since the last call.
     double take_commanded_speed();
 
-    /// Step 3. Lists pairs of bodies, and of bodies and walls, that may touch within dt (update_pairs).
+    /// Step 3. Lists pairs of bodies, and of bodies and walls, that may touch within dt (update_pairs). Rocks fall
+    /// asleep and wake here.
     void find_pairs(double dt);
 
     /// Passes changes made through view() on to the contacts. find_pairs and command do this themselves.
@@ -132,6 +143,9 @@ public:
     /// the check requested before the last batch says that a body may move too far in the next; if not, requests the
     /// check for the next two batches.
     void find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time);
+
+    /// Step 4. Call before the substeps when pairs or external wrenches may have changed.
+    void list_moved(const dem::OutsideWrenches& outside);
 
     // Step 4. One substep.
     void contact(double dt);
@@ -177,6 +191,9 @@ public:
     void transfer(StateFile& file);
 
 private:
+    /// Number of substeps in dt (s), as the last one was.
+    double substeps_in(double dt) const { return substep_ > 0 ? dt / substep_ : 1; }
+
     MotionBound bound(double speed) const
     {
         return {speed, commands_.heaviest * state_.gravity.norm() + prescribed_acceleration_};
@@ -187,6 +204,7 @@ private:
     PairLists<Exec>   lists_;
     BodyReports<Exec> reports_;
     NamedMeans<Exec>  means_;
+    SleepSettings     sleep_;
     double            substep_ = 0;             ///< s, duration of the last substep
     double            prescribed_acceleration_; ///< m/s2, bound on what prescribed forces cause
 

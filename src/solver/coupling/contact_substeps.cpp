@@ -87,16 +87,26 @@ template<class Exec, class Real>
 void run_substeps(const ContactSubsteps<Exec, Real>& parts, const TimeStep& step, double time, const Pace& pace,
                   StageClock& clock)
 {
-    const double dt    = step.dt / static_cast<double>(step.substeps);
-    const auto   batch = parts.plan.body_contact
-                             ? parts.bodies.substeps_without_check(step, pace.largest_speed, pace.shortest_contact)
-                             : step.substeps;
+    const double dt         = step.dt / static_cast<double>(step.substeps);
+    const auto   batch      = parts.plan.body_contact
+                                  ? parts.bodies.substeps_without_check(step, pace.largest_speed, pace.shortest_contact)
+                                  : step.substeps;
+    const auto   list_moved = [&]
+    {
+        if (parts.coupling != nullptr) { parts.bodies.list_moved(parts.coupling->wrenches()); }
+    };
+    list_moved();
     for (std::int64_t done = 0; done < step.substeps; done += batch)
     {
         const std::int64_t next = std::min(step.substeps - done, batch);
         if (done > 0)
         {
-            clock.run(parts.exec, stage::pairs, [&] { parts.bodies.find_pairs_if_displaced(step, batch, done, time); });
+            clock.run(parts.exec, stage::pairs,
+                      [&]
+                      {
+                          parts.bodies.find_pairs_if_displaced(step, batch, done, time);
+                          list_moved();
+                      });
         }
         run_batch(parts, dt, done, next, clock);
     }

@@ -127,8 +127,11 @@ TEST(Summary, json_holds_every_field)
     EXPECT_EQ(json["rocks"][0]["largest_diameter"], 0.04);
     EXPECT_TRUE(json["errors"]["energy"].is_null());
     EXPECT_TRUE(json["asleep"].is_null());
-    summary.cost.asleep = 0.75;
+    EXPECT_TRUE(json["rocks_asleep"].is_null());
+    summary.cost.asleep       = 0.75;
+    summary.cost.rocks_asleep = 0.5;
     EXPECT_EQ(nlohmann::json::parse(to_json(summary))["asleep"], 0.75);
+    EXPECT_EQ(nlohmann::json::parse(to_json(summary))["rocks_asleep"], 0.5);
 }
 
 TEST(Summary, log_and_file_agree_on_the_verdict_of_a_failed_run)

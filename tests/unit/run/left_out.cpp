@@ -78,6 +78,16 @@ TEST(LeftOut, SandThatMaySleep)
     expect_uses(test::sand_text + "\n[sleep]\ndistance = 0.2\n", soil + sleep);
 }
 
+/// Rocks that may sleep are looked at; five steps after the start none does.
+TEST(LeftOut, RocksThatMaySleep)
+{
+    const Part sleep = {
+        {"bodies of substeps", "body sleep marks", "body times at rest", "loads of sleeping bodies", "sleeping bodies"},
+        {"bodies of substeps", "look at sleep", "time at rest"}};
+    expect_uses(without_terrain(test::sand_text) + above + "[sleep]\nrock_speed = 1e-3\n",
+                bodies + pairs + pairs_without_sand + sleep);
+}
+
 std::string bolton(const std::string& more)
 {
     std::string text = test::sand_text;

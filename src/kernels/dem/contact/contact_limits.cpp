@@ -9,12 +9,13 @@ template<class Exec>
 void expect_contacts(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law,
                      const Vec3<double>& gravity, double dt, const SharedView& shared)
 {
-    const auto each = [&](std::int64_t count)
+    const auto each = [&](std::int64_t count, const std::int32_t* list)
     {
-        return [&cpu, count](const char* name, const auto& item)
-        { for_each(cpu, name, count, [=](std::int64_t i) { item(i, OneLane{}); }); };
+        return [&cpu, count, list](const char* name, const auto& item)
+        { for_each(cpu, name, count, [=](std::int64_t i) { item(list == nullptr ? i : list[i], OneLane{}); }); };
     };
-    contact_limits::expect(cpu, pairs, bodies, law, gravity, dt, shared, each(pairs.key.size()), each(bodies.count));
+    contact_limits::expect(cpu, pairs, bodies, law, gravity, dt, shared, each(pairs.key.size(), nullptr),
+                           each(pairs.sleep.listed(bodies.count), pairs.sleep.list()));
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \

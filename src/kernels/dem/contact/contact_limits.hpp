@@ -11,11 +11,11 @@
 namespace tread::dem
 {
 
-/// Computes pairs.expected_stiffness of every body, N/m: the larger of two sums over its listed pairs. The first sum
-/// covers first touches (two nodes in the linear part of the traction) of separated pairs. The second covers the nodes
-/// in contact and those that enter when they move by twice the displacement that velocity and gravity (m/s2) give in dt
-/// (s). Call after find_pairs. For bodies that several ranks integrate it uses this rank's pairs and writes their
-/// shares to shared.stiffness.
+/// Computes pairs.expected_stiffness of every body that substeps compute, N/m: the larger of two sums over its listed
+/// pairs. The first sum covers first touches (two nodes in the linear part of the traction) of separated pairs. The
+/// second covers the nodes in contact and those that enter when they move by twice the displacement that velocity and
+/// gravity (m/s2) give in dt (s). Call after find_pairs. For bodies that several ranks integrate it uses this rank's
+/// pairs and writes their shares to shared.stiffness.
 template<class Exec>
 void expect_contacts(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law,
                      const Vec3<double>& gravity, double dt, const SharedView& shared = {});
@@ -24,9 +24,9 @@ void expect_contacts(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, 
 template<class Exec>
 void expect_shared_contacts(const Exec& exec, Pairs<Exec>& pairs, const SharedView& shared);
 
-/// Returns the minimum of sqrt(m/K) (s) over the bodies that can move, where K is the larger of the body's present
-/// stiffness and of the expected one (expect_contacts); 0 without any contact, present or expected. Substeps of 0.2
-/// times that conserve energy (docs/theory.md#time-step).
+/// Returns the minimum of sqrt(m/K) (s) over the bodies that can move and do not sleep, where K is the larger of the
+/// body's present stiffness and of the expected one (expect_contacts); 0 without any contact, present or expected.
+/// Substeps of 0.2 times that conserve energy (docs/theory.md#time-step).
 template<class Exec>
 double smallest_contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
 

@@ -107,7 +107,7 @@ struct WriteFrequency
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const bool moves = bodies.is_owned(b) && !bodies.is_fixed(b);
+        const bool moves = bodies.is_owned(b) && !bodies.is_fixed(b) && !bodies.is_asleep(b);
         squared[b]       = moves ? std::fmax(bodies.stiffness[b], expected[b]) / bodies.mass[b] : 0.0;
     }
 };

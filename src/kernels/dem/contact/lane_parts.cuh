@@ -65,13 +65,34 @@ struct OfSmallBodies
     }
 };
 
-/// Calls f(b, lanes) for every body; a large body, such as a wheel in a bed of rocks, may have thousands of pairs.
+/// Calls f for the bodies of a list.
+template<class F>
+struct OfMoved
+{
+    F                   f;
+    const std::int32_t* list; ///< null: all bodies
+
+    template<class Lanes>
+    __device__ void operator()(std::int64_t i, const Lanes& lanes) const
+    {
+        f(list == nullptr ? i : list[i], lanes);
+    }
+};
+
+/// Calls f(b, lanes) for every body that substeps compute.
+template<int threads, int lanes, class F>
+auto moved_part(const Pairs<Gpu>& pairs, std::int64_t bodies, const F& f)
+{
+    return group_part<threads, lanes>(pairs.sleep.listed(bodies), OfMoved<F>{f, pairs.sleep.list()});
+}
+
+/// Does so with a block for each large body: one such as a wheel in a bed of rocks may have thousands of pairs.
 template<int threads, int lanes, class F>
 auto body_part(std::int64_t bodies, Pairs<Gpu>& pairs, const F& f)
 {
     const ItemOfBlock<threads, OfListed<F>> of_large{{f, pairs.sizes.large.data()}};
     return beside(Part{pairs.sizes.large.size(), of_large},
-                  group_part<threads, lanes>(bodies, OfSmallBodies<F>{f, pairs.sizes.is_large.data()}));
+                  moved_part<threads, lanes>(pairs, bodies, OfSmallBodies<F>{f, pairs.sizes.is_large.data()}));
 }
 
 } // namespace tread::dem

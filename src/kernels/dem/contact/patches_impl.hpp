@@ -9,8 +9,8 @@
 namespace tread::dem::patches
 {
 
-/// Rows of the previous list: a pair that stays keeps as many rows, because it may need them again.
-struct LastRows
+/// Rows of pairs with their records, ascending by key.
+struct RowTable
 {
     std::int64_t         count;
     const std::uint64_t* key;
@@ -25,6 +25,20 @@ struct LastRows
         while (start + rows < count && same_pair(key[start + rows], pair)) { ++rows; }
         return {rows, patch + start, rolling == nullptr ? nullptr : rolling + start,
                 place == nullptr ? nullptr : place + start};
+    }
+};
+
+/// Rows of the previous list, and of pairs whose bodies slept: a pair that stays keeps as many rows, because it may
+/// need them again.
+struct LastRows
+{
+    RowTable listed;
+    RowTable asleep;
+
+    TREAD_HD RowRecords of(std::uint64_t pair) const
+    {
+        const RowRecords found = listed.of(pair);
+        return found.count > 0 ? found : asleep.of(pair);
     }
 };
 
@@ -214,9 +228,11 @@ bool write_rows(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     const std::int64_t count   = pairs.key.size();
     patches.group.resize(pairs.nodes.node.size());
     patches.first.resize(count + 1);
-    const LastRows last{pairs.last.key.size(), pairs.last.key.data(), pairs.last.patch.data(),
-                        pairs.resists_rolling ? pairs.last.rolling.data() : nullptr,
-                        patches.last_place.size() > 0 ? patches.last_place.data() : nullptr};
+    const SleepingPairsView asleep = pairs.sleep.pairs.view();
+    const LastRows          last{{pairs.last.key.size(), pairs.last.key.data(), pairs.last.patch.data(),
+                         pairs.resists_rolling ? pairs.last.rolling.data() : nullptr,
+                         patches.last_place.size() > 0 ? patches.last_place.data() : nullptr},
+                        {asleep.count, asleep.key, asleep.patch, asleep.rolling, asleep.place}};
     run("group pair nodes", count + 1,
         CountRows{{bodies, law, pairs.view(), pairs.sizes.node_area.data(), patches.group.data()},
                   last,

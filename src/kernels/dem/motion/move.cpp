@@ -17,9 +17,12 @@ template<class Exec>
 void move_bodies(const Exec& cpu, const BodyStep<Exec>& step)
 {
     if (step.joints.row_count > 0) { solve_joints(cpu, step); }
+    const std::int32_t* list  = step.pairs.sleep.list();
+    const std::int64_t  count = step.pairs.sleep.listed(step.bodies.count);
     moving::with_move(step,
                       [&](const auto& move) {
-                          for_each(cpu, "move bodies", step.bodies.count, [=](std::int64_t b) { move(b, OneLane{}); });
+                          for_each(cpu, "move bodies", count,
+                                   [=](std::int64_t i) { move(list == nullptr ? i : list[i], OneLane{}); });
                       });
 }
 

@@ -34,7 +34,7 @@ void move_bodies(const Exec& gpu, const BodyStep<Exec>& step)
     moving::with_move(step,
                       [&](const auto& move)
                       {
-                          if (step.bodies.count < few) { launch<4>(gpu, step, move); }
+                          if (step.pairs.sleep.listed(step.bodies.count) < few) { launch<4>(gpu, step, move); }
                           else { launch<1>(gpu, step, move); }
                       });
 }

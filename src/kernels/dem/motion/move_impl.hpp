@@ -187,6 +187,7 @@ struct Move
     BodyTotal*    totals;
     NamedImpulses named;
     JointWrenches joints;
+    SleepWatch*   watch;   ///< of each body; null: none may sleep
     Vec3<double>  gravity; ///< m/s2
     double        dt;      ///< s
     Damping       damping;
@@ -208,6 +209,11 @@ struct Move
         const WrenchShare acting = of_all_ranks(b, {outside(b, lanes), share.contact});
         if (lanes.lane() != 0) { return; }
         const ContactWrench contact = acting.outside + acting.pairs;
+        if (bodies.is_asleep(b))
+        {
+            hold(b, share, contact);
+            return;
+        }
         account_contacts(b, share, contact);
         BodyTotal        unused;
         const double     weight = bodies.acting_weight(b, body.locked);
@@ -220,6 +226,16 @@ struct Move
     }
 
 private:
+    /// Holds a sleeper at rest against `pull`, the wrench of awake bodies and sand.
+    TREAD_HD void hold(std::int64_t b, const BodyShare& share, const ContactWrench& pull) const
+    {
+        SleepWatch& load = watch[b];
+        account_contacts(b, share, pull + load.held);
+        load.impulse += dt * pull.force;
+        load.angular_impulse += dt * pull.torque;
+        totals[b].holding_impulse -= dt * pull.force;
+    }
+
     TREAD_HD MeanMotion integrate(std::int64_t b, BodyMotion& body, const ContactWrench& contact,
                                   const Vec3<double>& pull, BodyTotal& total) const
     {
@@ -351,8 +367,17 @@ Move<Damping, Outside, Ranks, Prescription> make_move(const BodyStep<Exec>& step
                                                       const Outside& outside, const Ranks& ranks,
                                                       const Prescription& prescription)
 {
-    return {step.bodies,         step.pairs.view(), step.totals, step.named, step.joints.wrenches(),
-            step.motion.gravity, step.motion.dt,    damping,     outside,    ranks,
+    return {step.bodies,
+            step.pairs.view(),
+            step.totals,
+            step.named,
+            step.joints.wrenches(),
+            step.pairs.sleep.watch.data(),
+            step.motion.gravity,
+            step.motion.dt,
+            damping,
+            outside,
+            ranks,
             prescription};
 }
 

@@ -72,8 +72,9 @@ BodySums sum_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodi
         BodyTotal total;
         double    contact;
     };
-    const Result found = read(exec, reinterpret_cast<const Result*>(result));
-    return {found.row.kinetic, found.row.potential, found.row.momentum, found.row.spin, found.contact, found.total};
+    const Result found   = read(exec, reinterpret_cast<const Result*>(result));
+    const double contact = found.contact + pairs.sleep.energy;
+    return {found.row.kinetic, found.row.potential, found.row.momentum, found.row.spin, contact, found.total};
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \

@@ -15,7 +15,7 @@ struct BodyTotal
 {
     Vec3<double> wall_impulse;    ///< from planes
     Vec3<double> damping_impulse; ///< from the local damping
-    Vec3<double> holding_impulse; ///< from constraints: locked velocities, a carried share of the weight, joints
+    Vec3<double> holding_impulse; ///< from constraints: locked velocities, a share of the weight, joints, sleep
     double       friction; ///< dissipated by tangential and torsional friction, of the pairs whose first body this is
     double       restitution;  ///< dissipated by normal damping, of the same pairs
     double       damping;      ///< dissipated by local damping

@@ -74,21 +74,28 @@ double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
     return cell_size;
 }
 
+/// Makes the search of bodies sorted into cells.
+template<class Exec>
+PairSearch make_search(const Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double cell_size)
+{
+    return {bodies,
+            law,
+            pairs.displacement.allowed.data(),
+            cell_size,
+            pairs.search.cell_key.data(),
+            pairs.search.cell_body.data(),
+            pairs.sizes.large.data(),
+            pairs.sizes.large.size(),
+            pairs.sizes.is_large.data(),
+            pairs.jointed.data(),
+            pairs.jointed.size()};
+}
+
 template<class Exec>
 void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double cell_size)
 {
-    const PairSearch   search{bodies,
-                            law,
-                            pairs.displacement.allowed.data(),
-                            cell_size,
-                            pairs.search.cell_key.data(),
-                            pairs.search.cell_body.data(),
-                            pairs.sizes.large.data(),
-                            pairs.sizes.large.size(),
-                            pairs.sizes.is_large.data(),
-                            pairs.jointed.data(),
-                            pairs.jointed.size()};
-    const std::int64_t items = bodies.count * PairSearch::parts;
+    const PairSearch   search = make_search(pairs, bodies, law, cell_size);
+    const std::int64_t items  = bodies.count * PairSearch::parts;
     pairs.search.found.resize(items + 1);
     for_each(exec, "count pairs", items + 1, CountPairs{search, pairs.search.found.data()});
     pairs.key.resize(exclusive_scan(exec, pairs.search.found, pairs.sort));

@@ -12,6 +12,7 @@
 #include "kernels/dem/contact/ray_kern.hpp"
 #include "kernels/dem/contact/rolling_kern.hpp"
 #include "kernels/dem/motion/shared.hpp"
+#include "kernels/dem/sleep/sleeping_bodies.hpp"
 #include "kernels/dem/templates.hpp"
 
 // Contact lists: body pairs, body-wall pairs and their nodes, found for several coming steps and constant in between.
@@ -204,6 +205,7 @@ struct Pairs
         , jointed(exec, "pairs of jointed bodies")
         , sizes(exec)
         , displacement(exec)
+        , sleep(exec)
         , search(exec)
         , measure(exec, "pair measures")
         , sort(exec)
@@ -251,6 +253,7 @@ struct Pairs
     Array<Exec, std::uint64_t> jointed;            ///< keys of pairs that never touch, ascending; set once
     BodySizes<Exec>            sizes;
     AllowedDisplacement<Exec>  displacement;
+    SleepingBodies<Exec>       sleep;
 
     // Scratch memory.
     PairSearchScratch<Exec> search;
@@ -297,7 +300,7 @@ template<class Exec>
 void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                         double substeps);
 
-/// Last part: lists the pairs that this rank evaluates.
+/// Last part: lists the pairs that this rank evaluates, except those of two sleepers (sleep/sleep.hpp).
 template<class Exec>
 void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 

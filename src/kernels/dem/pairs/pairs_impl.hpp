@@ -6,6 +6,7 @@
 #include "kernels/dem/contact/contact_nodes.hpp"
 #include "kernels/dem/pairs/allowed_displacement_impl.hpp"
 #include "kernels/dem/pairs/pair_search_impl.hpp"
+#include "kernels/dem/sleep/sleep.hpp"
 
 // Steps of find_pairs, for both backends; pairs.cpp and pairs.cu provide for_each and instantiate.
 namespace tread::dem
@@ -119,20 +120,37 @@ struct ClearAnswers
     TREAD_HD void operator()(std::int64_t p) const { answers.store(p, answers.place[p], no_response()); }
 };
 
-/// Restores the patch of a pair that was in the previous list.
+/// Records by key.
+struct RecordTable
+{
+    std::int64_t         count;
+    const std::uint64_t* key; ///< ascending
+    const Patch*         patch;
+    const Rolling*       rolling;
+};
+
+/// Restores the patch of a pair that was in the previous list, or whose bodies slept.
 struct Recall
 {
-    PairsView            pairs;
-    std::int64_t         last_count;
-    const std::uint64_t* last_key;
-    const Patch*         last_patch;
-    const Rolling*       last_rolling;
+    PairsView   pairs;
+    RecordTable last;
+    RecordTable asleep;
 
     TREAD_HD void operator()(std::int64_t p) const
     {
-        const std::int64_t last = find_sorted(last_key, last_count, pairs.key[p]);
-        pairs.patch[p]          = last < 0 ? no_patch() : last_patch[last];
-        if (pairs.rolling != nullptr) { pairs.rolling[p] = last < 0 ? no_rolling() : last_rolling[last]; }
+        if (found_in(last, p) || found_in(asleep, p)) { return; }
+        pairs.patch[p] = no_patch();
+        if (pairs.rolling != nullptr) { pairs.rolling[p] = no_rolling(); }
+    }
+
+private:
+    TREAD_HD bool found_in(const RecordTable& table, std::int64_t p) const
+    {
+        const std::int64_t at = find_sorted(table.key, table.count, pairs.key[p]);
+        if (at < 0) { return false; }
+        pairs.patch[p] = table.patch[at];
+        if (pairs.rolling != nullptr) { pairs.rolling[p] = table.rolling[at]; }
+        return true;
     }
 };
 
@@ -240,8 +258,10 @@ void order_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
     pairs.patch.resize(count);
     if (pairs.resists_rolling) { pairs.rolling.resize(count); }
     for_each(exec, "recall pairs", count,
-             Recall{pairs.view(), pairs.last.key.size(), pairs.last.key.data(), pairs.last.patch.data(),
-                    pairs.last.rolling.data()});
+             Recall{pairs.view(),
+                    {pairs.last.key.size(), pairs.last.key.data(), pairs.last.patch.data(), pairs.last.rolling.data()},
+                    {pairs.sleep.pairs.key.size(), pairs.sleep.pairs.key.data(), pairs.sleep.pairs.patch.data(),
+                     pairs.sleep.pairs.rolling.data()}});
     order_again(exec, pairs, bodies);
 }
 
@@ -298,6 +318,7 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     update_search_radii(exec, pairs, bodies, law);
     release_memory(pairs.of_body.by_second);
     const double cell_size = fill_cells(exec, pairs, bodies);
+    if (pairs.sleep.wakes) { wake_bodies(exec, pairs, bodies, law, cell_size); }
     search(exec, pairs, bodies, law, cell_size);
     release_memory(pairs.displacement.search_radius, pairs.displacement.speed, pairs.displacement.per_step,
                    pairs.search.cell_key, pairs.search.cell_body, pairs.search.found);
@@ -305,6 +326,7 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     order_pairs(exec, pairs, bodies);
     if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }
     list_pairs_of_many_nodes(exec, pairs);
+    if (pairs.sleep.wanted) { settle_sleepers(exec, pairs, bodies); }
     release_memory(pairs.last.key, pairs.last.patch, pairs.last.rolling, pairs.search.second_key, pairs.search.found);
     release_memory(pairs.sort);
     begin_substeps(exec, pairs);

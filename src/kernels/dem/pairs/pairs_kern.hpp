@@ -132,8 +132,8 @@ TREAD_HD std::int64_t decider_of(const std::int32_t* is_large, std::int64_t a, s
     return is_large[b] > is_large[a] ? a : b;
 }
 
-/// Finds the pairs of one body; each pair is found from only one of its two bodies. The search is split into parts, so
-/// that few bodies fill a device.
+/// Finds the pairs of one body; each pair is found from only one of its two bodies, one of an awake and a sleeping body
+/// from the awake one. Two sleepers have no pair. The search is split into parts, so that few bodies fill a device.
 struct PairSearch
 {
     BodiesView           bodies;
@@ -178,7 +178,7 @@ struct PairSearch
     {
         if (!bodies.is_here(a)) { return; }
         if (part == cell_rows) { beside_cells(a, visit); }
-        else if (is_large[a] == 0) { in_row(a, part, visit); }
+        else if (is_large[a] == 0 && !bodies.is_asleep(a)) { in_row(a, part, visit); }
     }
 
 private:
@@ -194,8 +194,10 @@ private:
         for (std::int64_t i = lower_bound(cell_key, gridded, cell_key_of(x - 1, y, z));
              i < gridded && cell_key[i] <= last; ++i)
         {
-            const std::int64_t b = cell_body[i];
-            if (b > a && answered_here(a, b) && near(a, b)) { visit(pair_key(a, b)); }
+            const std::int64_t b     = cell_body[i];
+            const bool         found = b > a || (b < a && bodies.is_asleep(b));
+            const std::int64_t first = a < b ? a : b, second = a < b ? b : a;
+            if (found && answered_here(first, second) && near(first, second)) { visit(pair_key(first, second)); }
         }
     }
 
@@ -206,13 +208,16 @@ private:
         for (std::int64_t l = 0; l < large_count; ++l)
         {
             const std::int64_t b = large[l];
-            if (is_large[a] != 0 && b <= a) { continue; }
+            if ((is_large[a] != 0 && b <= a) || (bodies.is_asleep(a) && bodies.is_asleep(b))) { continue; }
             const std::int64_t first = a < b ? a : b, second = a < b ? b : a;
             if (answered_here(first, second) && near(first, second)) { visit(pair_key(first, second)); }
         }
         for (std::int32_t p = 0; p < law.plane_count; ++p)
         {
-            if (bodies.is_owned(a) && near(a, law.planes[p])) { visit(pair_key(a, bodies.count + p)); }
+            if (bodies.is_owned(a) && !bodies.is_asleep(a) && near(a, law.planes[p]))
+            {
+                visit(pair_key(a, bodies.count + p));
+            }
         }
     }
 };

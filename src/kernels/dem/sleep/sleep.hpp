@@ -1,0 +1,61 @@
+#pragma once
+
+#include "kernels/dem/motion/totals.hpp"
+#include "kernels/dem/pairs/pairs.hpp"
+
+// Sleep of bodies (docs/sleep.md). A look decides who falls asleep or wakes; both take effect with the next list of
+// pairs. Allocates only in scenes where pairs.sleep.wanted.
+namespace tread::dem
+{
+
+/// Allocates the state of `count` bodies, all awake.
+template<class Exec>
+void begin_sleep(const Exec&, Pairs<Exec>& pairs, Bodies<Exec>& bodies, const BodyRestRule& rule);
+
+/// Result of a look, in bodies.
+struct SleepCount
+{
+    double wake;  ///< sleepers that wake
+    double tired; ///< awake ones that may fall asleep
+    double awake; ///< awake ones, of those that may sleep
+};
+
+/// Marks the bodies that may fall asleep and those that wake: by a moving neighbour in the list, or by a change of
+/// their mean load. The list of pairs must be valid. Waits for the counts.
+template<class Exec>
+SleepCount look_at_sleep(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
+
+/// Stops the bodies marked as tired: their motion counts as work and impulse of what holds them. Their contacts are
+/// computed once more at rest and kept, with their records, among pairs.sleep.pairs. The list must then be found anew.
+/// `substep`: s, the last one; `gravity`: m/s2.
+template<class Exec>
+void fall_asleep(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, BodyTotal* totals,
+                 double substep, const Vec3<double>& gravity);
+
+/// Wakes all bodies, whose times at rest begin anew; the list must then be found anew if any slept.
+template<class Exec>
+void wake_all(Pairs<Exec>& pairs, Bodies<Exec>& bodies);
+
+/// Wakes the marked bodies, those near moving ones, and their neighbours up to waking_rings contacts on. Called by
+/// list_pairs, with the cells of the search.
+template<class Exec>
+void wake_bodies(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double cell_size);
+
+/// Drops the pairs of bodies that woke, updates what follows from the sleepers, and lists the bodies of the substeps.
+/// Called by list_pairs at its end.
+template<class Exec>
+void settle_sleepers(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
+
+/// Rebuilds what settle_sleepers derives, from loaded pairs and loads.
+template<class Exec>
+void resume_sleep(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
+
+/// Lists the bodies that substeps compute: awake ones, and sleepers with a listed pair or an external wrench.
+template<class Exec>
+void list_moved_bodies(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const OutsideWrenches& outside);
+
+/// Number of contacts beyond a body that wakes within which sleepers wake, too: a blow passes through several bodies
+/// before the next look.
+inline constexpr int waking_rings = 2; // assumed
+
+} // namespace tread::dem

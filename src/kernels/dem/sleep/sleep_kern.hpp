@@ -1,0 +1,354 @@
+#pragma once
+
+#include <cmath>
+
+#include "kernels/dem/motion/move_impl.hpp"
+#include "kernels/dem/pairs/pairs_kern.hpp"
+
+// Item functions of sleep.hpp.
+namespace tread::dem::sleeping
+{
+
+/// Calls visit(other) for the other side of every listed pair of body b; a wall is a number from `bodies` on.
+template<class Visit>
+TREAD_HD void each_neighbour(const PairsView& pairs, std::int64_t b, Visit visit)
+{
+    for (std::int32_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p) { visit(second_of(pairs.key[p])); }
+    for (std::int32_t i = pairs.second[b]; i < pairs.second[b + 1]; ++i)
+    {
+        visit(first_of(pairs.key[pairs.by_second[i]]));
+    }
+}
+
+/// Adds the time since the last look to the quiet time of an awake body, or sets it to zero.
+struct TimeQuiet
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    double              speed; ///< m/s
+    double              time;  ///< s
+    double*             quiet;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        if (bodies.is_asleep(b)) { return; }
+        const bool moves = speed_of(bodies, b, bounding_radius(bodies, templates, b)) > speed;
+        quiet[b]         = moves ? 0.0 : quiet[b] + time;
+    }
+};
+
+/// Decides who falls asleep or wakes; `row`: whether b wakes, may fall asleep, is awake.
+struct LookAtBody
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    PairsView           pairs;
+    BodyRestRule        rule;
+    double              window; ///< s, of the window that ends now; 0: it goes on
+    double              held;   ///< s, since SleepWatch::held last changed, or the window began
+    const double*       quiet;
+    SleepWatch*         watch;
+    std::int32_t*       mark;
+    double*             rows; ///< [bodies x 3]
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const bool sleeps = bodies.is_asleep(b), may = b >= rule.first;
+        mark[b] = mark_none;
+        if (sleeps && wakes(b)) { mark[b] = mark_wakes; }
+        if (may && !sleeps && is_tired(b)) { mark[b] = mark_tired; }
+        rows[3 * b]     = mark[b] == mark_wakes ? 1 : 0;
+        rows[3 * b + 1] = mark[b] == mark_tired ? 1 : 0;
+        rows[3 * b + 2] = may && !sleeps ? 1 : 0;
+    }
+
+private:
+    /// Whether a body that something holds and all that it may touch have been at rest for long enough.
+    TREAD_HD bool is_tired(std::int64_t b) const
+    {
+        bool rests = quiet[b] >= rule.rest && bodies.stiffness[b] > 0;
+        if (!rests) { return false; }
+        each_neighbour(pairs, b,
+                       [&](std::int64_t other)
+                       {
+                           const bool still = other >= bodies.count || bodies.is_asleep(other);
+                           rests            = rests && (still || quiet[other] >= rule.rest);
+                       });
+        return rests;
+    }
+
+    TREAD_HD bool wakes(std::int64_t b) const
+    {
+        bool found = window > 0 && load_has_changed(b, watch[b]);
+        each_neighbour(pairs, b,
+                       [&](std::int64_t other)
+                       {
+                           const bool moves = other < bodies.count && !bodies.is_asleep(other) && quiet[other] == 0;
+                           found            = found || moves;
+                       });
+        return found;
+    }
+
+    /// Takes the mean load of the window that ends: the first whole one is that of rest.
+    TREAD_HD bool load_has_changed(std::int64_t b, SleepWatch& load) const
+    {
+        const double       inverse = 1.0 / window;
+        const Vec3<double> force   = inverse * (load.impulse + held * load.held.force),
+                           torque  = inverse * (load.angular_impulse + held * load.held.torque);
+        load.impulse               = Vec3<double>::Zero();
+        load.angular_impulse       = Vec3<double>::Zero();
+        load.windows               = std::fmin(load.windows + 1, 3.0);
+        if (load.windows < 3)
+        {
+            load.rest_force  = force;
+            load.rest_torque = torque;
+            return false;
+        }
+        const double arm = bounding_radius(bodies, templates, b);
+        return (force - load.rest_force).norm() > load.limit || (torque - load.rest_torque).norm() > load.limit * arm;
+    }
+};
+
+/// Stops a tired body. Velocities are those of half a substep earlier, as where commands change them.
+struct StopBody
+{
+    BodiesView          bodies;
+    const std::int32_t* mark;
+    BodyTotal*          totals;
+    double              substep; ///< s
+    Vec3<double>        gravity; ///< m/s2
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        if (mark[b] != mark_tired) { return; }
+        const Mat3<double> rotation = bodies.orientation[b].toRotationMatrix();
+        const Vec3<double> spin     = rotation.transpose() * bodies.angular_velocity[b];
+        const Vec3<double> momentum = bodies.mass[b] * bodies.velocity[b];
+        const double kinetic = 0.5 * (momentum.dot(bodies.velocity[b]) + spin.dot(full(bodies.inertia[b]) * spin));
+        totals[b].holding_impulse -= momentum;
+        totals[b].holding_work -= kinetic + 0.5 * substep * gravity.dot(momentum);
+        bodies.velocity[b]         = Vec3<double>::Zero();
+        bodies.angular_velocity[b] = Vec3<double>::Zero();
+        bodies.asleep[b]           = 1;
+    }
+};
+
+/// Accounts for the friction of contacts that were computed once more at rest.
+struct BookFriction
+{
+    std::int64_t bodies;
+    PairsView    pairs;
+    BodyTotal*   totals;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        double friction = 0;
+        for (std::int32_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p) { friction += pairs.answers.friction[p]; }
+        if (friction != 0) { totals[b].friction += friction; }
+    }
+};
+
+/// Begins the watch over the load of a body that has just fallen asleep. What it carries is half the sum of all forces
+/// that hold it in balance: for a rock on a floor its weight.
+struct BeginWatch
+{
+    BodiesView    bodies;
+    PairsView     pairs;
+    double        share; ///< of the carried load, for the limit
+    Vec3<double>  gravity;
+    SleepWatch*   watch;
+    std::int32_t* mark;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        if (mark[b] != mark_tired) { return; }
+        mark[b]              = mark_none;
+        Vec3<double> between = Vec3<double>::Zero();
+        double       carried = bodies.mass[b] * gravity.norm();
+        for (std::int32_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p)
+        {
+            add(pairs.answers.force[p], between, carried);
+        }
+        for (std::int32_t i = pairs.second[b]; i < pairs.second[b + 1]; ++i)
+        {
+            add(pairs.answers.second_force[i], between, carried);
+        }
+        carried += (bodies.force[b] - between).norm(); // of sand
+        const Vec3<double> zero = Vec3<double>::Zero();
+        watch[b]                = {ContactWrench::zero(), zero, zero, zero, zero, 0.5 * share * carried, 0};
+    }
+
+private:
+    TREAD_HD static void add(const Vec3<double>& force, Vec3<double>& sum, double& carried)
+    {
+        sum += force;
+        carried += force.norm();
+    }
+};
+
+/// Whether a listed pair is one of two sleepers, or of one and a wall.
+TREAD_HD bool is_pair_of_sleepers(const BodiesView& bodies, std::uint64_t key)
+{
+    const std::int64_t b = second_of(key);
+    return bodies.is_asleep(first_of(key)) && (b >= bodies.count || bodies.is_asleep(b));
+}
+
+struct FallsAsleep
+{
+    BodiesView bodies;
+    PairsView  pairs;
+
+    TREAD_HD bool operator()(std::int64_t p) const { return is_pair_of_sleepers(bodies, pairs.key[p]); }
+};
+
+struct StaysAsleep
+{
+    BodiesView        bodies;
+    SleepingPairsView pairs;
+
+    TREAD_HD bool operator()(std::int64_t p) const { return is_pair_of_sleepers(bodies, pairs.key[p]); }
+};
+
+/// Marks sleepers near bodies that move; several threads may set the same mark.
+struct MarkNear
+{
+    PairSearch    search;
+    const double* speed; ///< m/s, of each body
+    double        limit; ///< m/s
+    std::int32_t* mark;
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        const std::int64_t a = i / PairSearch::parts, part = i % PairSearch::parts;
+        if (part < PairSearch::cell_rows && !(speed[a] > limit)) { return; }
+        search(a, part, [&](std::uint64_t key) { meet(first_of(key), second_of(key)); });
+    }
+
+private:
+    TREAD_HD void meet(std::int64_t a, std::int64_t b) const
+    {
+        const BodiesView& bodies = search.bodies;
+        if (b >= bodies.count) { return; }
+        if (bodies.is_asleep(a) && speed[b] > limit) { mark[a] = mark_wakes; }
+        if (bodies.is_asleep(b) && speed[a] > limit) { mark[b] = mark_wakes; }
+    }
+};
+
+/// Marks the neighbours, among sleepers, of bodies with the mark `level`.
+struct WidenMarks
+{
+    BodiesView        bodies;
+    SleepingPairsView pairs;
+    std::int32_t      level;
+    std::int32_t*     mark;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        if (!bodies.is_asleep(b) || mark[b] != mark_none) { return; }
+        bool found = false;
+        for (std::int32_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p)
+        {
+            const std::int64_t other = second_of(pairs.key[p]);
+            found                    = found || (other < bodies.count && mark[other] == level);
+        }
+        for (std::int32_t i = pairs.second[b]; i < pairs.second[b + 1]; ++i)
+        {
+            found = found || mark[first_of(pairs.key[pairs.by_second[i]])] == level;
+        }
+        if (found) { mark[b] = level + 1; }
+    }
+};
+
+struct WakeBody
+{
+    BodiesView    bodies;
+    std::int32_t* mark;
+    double*       quiet;
+    double*       woken; ///< [bodies]
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        woken[b] = mark[b] >= mark_wakes ? 1 : 0;
+        if (woken[b] > 0)
+        {
+            bodies.asleep[b] = 0;
+            quiet[b]         = 0;
+        }
+        mark[b] = mark_none;
+    }
+};
+
+/// Sums the contacts of a sleeper with other sleepers and walls.
+struct HoldBody
+{
+    BodiesView        bodies;
+    SleepingPairsView pairs;
+    double            held; ///< s, for which the last sum was held
+    SleepWatch*       watch;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        if (!bodies.is_asleep(b)) { return; }
+        ContactWrench sum = ContactWrench::zero();
+        for (std::int32_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p)
+        {
+            const HeldContact& contact = pairs.contact[p];
+            sum                        = sum + ContactWrench{contact.force, contact.torque_a, contact.stiffness};
+        }
+        for (std::int32_t i = pairs.second[b]; i < pairs.second[b + 1]; ++i)
+        {
+            const HeldContact& contact = pairs.contact[pairs.by_second[i]];
+            sum                        = sum + ContactWrench{-contact.force, contact.torque_b, contact.stiffness};
+        }
+        watch[b].impulse += held * watch[b].held.force;
+        watch[b].angular_impulse += held * watch[b].held.torque;
+        watch[b].held       = sum;
+        bodies.force[b]     = sum.force;
+        bodies.torque[b]    = sum.torque;
+        bodies.stiffness[b] = sum.stiffness;
+    }
+};
+
+/// Whether the substeps compute a body.
+struct IsMoved
+{
+    BodiesView      bodies;
+    PairsView       pairs;
+    OutsideWrenches outside;
+
+    TREAD_HD bool operator()(std::int64_t b) const
+    {
+        return !bodies.is_asleep(b) || pairs.first[b] < pairs.first[b + 1] || pairs.second[b] < pairs.second[b + 1] ||
+               (outside.run != nullptr && outside.run[b] >= 0);
+    }
+};
+
+/// Number and mass of sleepers.
+struct SleepersSum
+{
+    double count;
+    double mass; ///< kg
+};
+
+struct WriteSleeper
+{
+    BodiesView bodies;
+    double*    rows; ///< SleepersSum of each body
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const bool sleeps = bodies.is_asleep(b);
+        rows[2 * b]       = sleeps ? 1 : 0;
+        rows[2 * b + 1]   = sleeps ? bodies.mass[b] : 0.0;
+    }
+};
+
+struct WriteEnergy
+{
+    SleepingPairsView pairs;
+    double*           energy;
+
+    TREAD_HD void operator()(std::int64_t p) const { energy[p] = pairs.contact[p].energy; }
+};
+
+} // namespace tread::dem::sleeping

@@ -1,0 +1,153 @@
+#pragma once
+
+#include "backend/array.hpp"
+#include "kernels/dem/contact/patch_kern.hpp"
+#include "kernels/dem/contact/rolling_kern.hpp"
+#include "kernels/dem/motion/outside.hpp"
+
+// Bodies that sleep: they are held at rest, and pairs of two of them, or of one and a wall, are kept apart from the
+// list of the substeps (sleep.hpp).
+namespace tread::dem
+{
+
+/// Thresholds for the sleep of bodies.
+struct BodyRestRule
+{
+    double       speed; ///< m/s, largest speed of a body's points at rest
+    double       rest;  ///< s, time at rest before a body may sleep, and window over which loads are averaged
+    double       load;  ///< change of the mean load that wakes a body, over the load that it carries
+    std::int64_t first; ///< first body that may sleep
+};
+
+/// Load on a sleeping body. Forces in N, torques in N m about its centre of mass.
+struct SleepWatch
+{
+    ContactWrench held;            ///< sum of its contacts with sleeping bodies and walls, constant while they sleep
+    Vec3<double>  rest_force;      ///< mean force of all contacts in the first whole window of its sleep
+    Vec3<double>  rest_torque;     ///< likewise
+    Vec3<double>  impulse;         ///< N s, of all contacts in this window, `held` only up to when it last changed
+    Vec3<double>  angular_impulse; ///< N m s, likewise
+    double        limit;           ///< N, change of the mean force that wakes it
+    double        windows;         ///< whole windows since it fell asleep: 0, 1, or 2 for more
+};
+
+/// Response of a pair of sleepers.
+struct HeldContact
+{
+    Vec3<double> force;     ///< N, on the first body
+    Vec3<double> torque_a;  ///< N m, on the first body about its centre of mass
+    Vec3<double> torque_b;  ///< N m, on the second body about its centre of mass
+    double       stiffness; ///< N/m
+    double       energy;    ///< J, elastic, including the springs of the patch
+};
+
+struct SleepingPairsView
+{
+    std::int64_t         count;
+    const std::uint64_t* key; ///< ascending
+    Patch*               patch;
+    Rolling*             rolling; ///< null without rolling friction
+    Vec3<double>*        place;   ///< as Patches::place; zero for a pair of one patch
+    const HeldContact*   contact;
+    const std::int32_t*  first; ///< [bodies + 1], as in PairsView
+    const std::int32_t*  by_second;
+    const std::int32_t*  second;
+};
+
+/// Pairs of sleepers with their records.
+template<class Exec>
+struct SleepingPairs
+{
+    explicit SleepingPairs(const Exec& exec)
+        : key(exec, "sleeping pair keys")
+        , patch(exec, "sleeping pair patches")
+        , rolling(exec, "sleeping pair rolling moments")
+        , place(exec, "sleeping patch places")
+        , contact(exec, "sleeping contacts")
+        , first(exec, "sleeping pairs of first body")
+        , by_second(exec, "sleeping pairs by second body")
+        , second(exec, "sleeping pairs of second body")
+    {
+    }
+
+    SleepingPairsView view()
+    {
+        return {key.size(),   key.data(),     patch.data(), rolling.size() > 0 ? rolling.data() : nullptr,
+                place.data(), contact.data(), first.data(), by_second.data(),
+                second.data()};
+    }
+
+    Array<Exec, std::uint64_t> key;
+    Array<Exec, Patch>         patch;
+    Array<Exec, Rolling>       rolling;
+    Array<Exec, Vec3<double>>  place;
+    Array<Exec, HeldContact>   contact;
+    Array<Exec, std::int32_t>  first;
+    Array<Exec, std::int32_t>  by_second;
+    Array<Exec, std::int32_t>  second;
+};
+
+/// Marks of bodies at a look.
+enum SleepMark : std::int32_t
+{
+    mark_none  = 0,
+    mark_wakes = 1,  ///< and higher: neighbours of bodies that wake, by distance in contacts
+    mark_tired = -1, ///< falls asleep
+};
+
+/// Times of the substeps so far, s.
+struct SleepClock
+{
+    double look   = 0; ///< since the last look
+    double window = 0; ///< since the window of mean loads began
+    double held   = 0; ///< since SleepWatch::held last changed, or the window began
+    double weight = 0; ///< kg s, mass of the sleepers times time, since the last report
+    double slept  = 0; ///< s, summed over the sleepers, since the run began
+    double lived  = 0; ///< since the run began
+};
+
+/// Data of the sleep of bodies; all arrays are empty where no body may sleep. Flags are in BodiesView::asleep.
+template<class Exec>
+struct SleepingBodies
+{
+    explicit SleepingBodies(const Exec& exec)
+        : quiet(exec, "body times at rest")
+        , mark(exec, "body sleep marks")
+        , watch(exec, "loads of sleeping bodies")
+        , moved(exec, "bodies of substeps")
+        , pairs(exec)
+    {
+    }
+
+    bool         wanted = false; ///< whether bodies may sleep
+    bool         wakes  = false; ///< whether bodies near moving ones wake when the next list is found
+    bool         change = false; ///< whether some body fell asleep or woke since the last list
+    BodyRestRule rule{};
+    SleepClock   clock;
+    double       count  = 0; ///< number of sleepers
+    double       mass   = 0; ///< kg, of all sleepers
+    double       energy = 0; ///< J, elastic, of pairs of sleepers
+
+    Array<Exec, double>       quiet; ///< s, since each body was last faster than the rule's speed; 0 = it is
+    Array<Exec, std::int32_t> mark;  ///< SleepMark of each body
+    Array<Exec, SleepWatch>   watch; ///< of each body
+    Array<Exec, std::int32_t> moved; ///< bodies that the substeps compute: awake ones, and sleepers that they touch
+    SleepingPairs<Exec>       pairs;
+
+    /// Records that substeps have taken `time` (s).
+    void pass(double time)
+    {
+        clock.look += time;
+        clock.window += time;
+        clock.held += time;
+        clock.weight += time * mass;
+        clock.slept += time * count;
+        clock.lived += time;
+    }
+
+    /// List of the bodies that substeps compute; null: all.
+    const std::int32_t* list() const { return wanted ? moved.data() : nullptr; }
+    std::int64_t        listed(std::int64_t bodies) const { return wanted ? moved.size() : bodies; }
+};
+
+} // namespace tread::dem
