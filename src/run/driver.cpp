@@ -30,7 +30,7 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , loop_(scene, world, simulation)
     , output_({communicator, scene, world, plan, directory, options.provenance}, loop_)
     , wall_start_(wall_clock())
-    , messages_{wall_start_, wall_start_}
+    , messages_{wall_start_}
 {
     on_root(communicator, [&] { io::Checkpoints(directory_.checkpoints()).prepare(); });
 }
