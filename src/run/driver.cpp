@@ -31,7 +31,7 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , output_({communicator, scene, world, plan, directory, options.provenance}, loop_)
     , visits_(communicator, log, world, plan, options.visitor, loop_)
     , wall_start_(wall_clock())
-    , messages_{wall_start_, wall_start_}
+    , messages_{wall_start_}
 {
     on_root(communicator, [&] { io::Checkpoints(directory_.checkpoints()).prepare(); });
 }

@@ -13,11 +13,11 @@ namespace tread::run
 /// Progress messages of a run so far.
 struct ProgressMessages
 {
-    double       wall;           ///< wall_clock() of the last line
-    double       status_wall;    ///< wall_clock() of the last status
-    std::int64_t steps  = 0;     ///< at the last line
-    double       time   = 0;     ///< s simulated, at the last line
-    bool         warned = false; ///< a warning of steps over their limits was given in this phase
+    double       wall;                ///< wall_clock() of the last line
+    std::int64_t steps       = 0;     ///< at the last line
+    double       time        = 0;     ///< s simulated, at the last line
+    bool         warned      = false; ///< a warning of steps over their limits was given in this phase
+    double       status_wall = 0;     ///< wall_clock() of the last status
 };
 
 /// Logs how far a run is, with recent speeds, where that is due: a line and, on a live terminal, a status.

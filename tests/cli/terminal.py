@@ -37,7 +37,7 @@ class TerminalTest(CommandTest):
         status = text[text.index("[----"):].split(ERASE)[0]
         self.assertRegex(status, r"^\[-{20}\] 0 %  rest  t [0-9.e-]+ / 1000 s  ETA [0-9]+:[0-9:]+")
         self.assertLess(len(status), 80)
-        self.assertIn(ERASE + "\r\nstage ", text)  # what comes next removes it
+        self.assertIn(ERASE + "checkpoint at ", text)  # what comes next removes it
 
     def test_a_dumb_terminal_gets_lines(self):
         text = self.on_terminal("dumb", "ETA ")
