@@ -91,4 +91,16 @@ struct Visitor
     std::function<bool()> keeps_memory; ///< whether fields are still read after their visit: the run must not free them
 };
 
+/// Deletes what has fields, unless the visitor goes on reading them.
+struct DeleteUnlessKept
+{
+    const Visitor& visitor;
+
+    template<class T>
+    void operator()(T* object) const
+    {
+        if (!visitor.keeps_memory || !visitor.keeps_memory()) { delete object; }
+    }
+};
+
 } // namespace tread::run

@@ -1,7 +1,6 @@
 #include "run/visited_arrays.hpp"
 
 #include <type_traits>
-#include <utility>
 
 #include <fmt/format.h>
 

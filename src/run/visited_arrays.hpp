@@ -23,9 +23,6 @@ public:
     /// Empty for a field that the scene does not have. InputError for a name that no scene has.
     std::optional<HostArray> find(const std::string& name);
 
-    /// The copies so far, which the arrays point to.
-    std::vector<std::vector<std::byte>> take_copies() { return std::move(copies_); }
-
 private:
     using Points = mpm::Points<Exec, Real>;
 
@@ -42,7 +39,7 @@ private:
     solver::Simulation<Exec, Real>&     simulation_;
     solver::Plan                        plan_;
     bool                                moved_;
-    std::vector<std::vector<std::byte>> copies_;
+    std::vector<std::vector<std::byte>> copies_; ///< which arrays point to
 };
 
 } // namespace tread::run

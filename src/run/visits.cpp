@@ -27,6 +27,7 @@ std::size_t index_in(const char* kind, const std::vector<T>& items, const std::s
     const std::size_t index = scene::index_of(items, name);
     if (index < items.size()) { return index; }
     std::vector<std::string> names;
+    names.reserve(items.size());
     for (const T& item : items) { names.push_back(item.name); }
     throw InputError(fmt::format("the scene has no {} '{}'{}", kind, name, scene::suggestion(name, names)));
 }
@@ -185,17 +186,10 @@ void Visits<Exec, Real>::visit_last()
 template<class Exec, class Real>
 std::optional<std::string> Visits<Exec, Real>::visit()
 {
-    VisitedArrays<Exec, Real>  arrays(loop_.simulation, plan_, loop_.progress.last_dt > 0);
-    std::optional<std::string> stop;
-    {
-        Present<Exec, Real> present(world_, loop_, arrays, steering_, impulses_);
-        stop = visitor_.visit(present);
-    }
-    if (visitor_.keeps_memory && visitor_.keeps_memory())
-    {
-        // Who reads the copies frees them no more than the fields themselves: both stay until the process ends.
-        std::make_unique<std::vector<std::vector<std::byte>>>(arrays.take_copies()).release();
-    }
+    const std::unique_ptr<VisitedArrays<Exec, Real>, DeleteUnlessKept> arrays(
+        new VisitedArrays<Exec, Real>(loop_.simulation, plan_, loop_.progress.last_dt > 0), DeleteUnlessKept{visitor_});
+    Present<Exec, Real>        present(world_, loop_, *arrays, steering_, impulses_);
+    std::optional<std::string> stop = visitor_.visit(present);
     if (communicator_.size() == 1) { return stop; }
     const std::vector<std::int64_t> stops = communicator_.gather(static_cast<std::int64_t>(stop ? 1 : 0));
     const auto                      first = std::find(stops.begin(), stops.end(), 1);
