@@ -316,7 +316,7 @@ TYPED_TEST(Restart, OfSleepingSandGivesTheSameBits)
 TYPED_TEST(Restart, OfSleepingRocksGivesTheSameBits)
 {
     this->expect_same_bits(rocks_alone + test::rocks_text + "placement = \"grid\"\n" + test::thrown_roller_text +
-                           "[time]\ndt = 2e-3\n[sleep]\nrock_speed = 0.1\nrock_rest = 0.02\n");
+                           "[time]\ndt = 3e-3\n[sleep]\nrock_speed = 0.15\nrock_rest = 0.02\n");
     std::cout << this->rocks_saved_ << " rocks asleep when saved, " << this->rocks_at_end_ << " at the end\n";
     EXPECT_GT(this->rocks_saved_, 0);
     EXPECT_NE(this->rocks_at_end_, this->rocks_saved_);

@@ -43,11 +43,11 @@ const std::string held_rock_text = fmt::format(R"(
 name     = "stone"
 shape    = "clast"
 material = "stone"
-scale    = {}
+diameter = {}
 mass     = 1.4
 position = [0.175, 0.175, 1.2]
 )",
-                                               diameter / 2);
+                                               diameter);
 
 /// Result of a run.
 struct Outcome
@@ -119,12 +119,12 @@ protected:
 
     static void expect_balanced(const std::string& what, const Outcome& outcome, const Outcome& awake)
     {
-        test::report(what + ": energy unaccounted", outcome.energy, awake.energy, 1e-3,
-                     "what falls asleep gives its motion up, and the ledger accounts for it; 1e-3 as for sand");
-        test::report(what + ": momentum error", outcome.momentum, awake.momentum, 1e-9,
+        test::report(what + ": energy unaccounted", outcome.energy, awake.energy, 2e-3,
+                     "as without sleep, since the ledger accounts for what falls asleep; impacts part by chance");
+        test::report(what + ": momentum error", outcome.momentum, awake.momentum, 1e-12,
                      "the impulse that holds sleepers is accounted for; fp64");
-        EXPECT_LT(outcome.energy, std::max(1e-3, 2 * awake.energy));
-        EXPECT_LT(outcome.momentum, std::max(1e-9, 2 * awake.momentum));
+        EXPECT_LT(std::abs(outcome.energy - awake.energy), 2e-3);
+        EXPECT_LT(outcome.momentum, 1e-12);
     }
 };
 TYPED_TEST_SUITE(RockSleep, test::Backends, test::BackendNames);
@@ -184,39 +184,42 @@ TYPED_TEST(RockSleep, ARockFallsOnASleepingPile)
 TYPED_TEST(RockSleep, WhatSleptOnAPulledSlabFalls)
 {
     const std::string text =
-        test::rock_domain({0.6, 0.2, 1.2}, 0, "x = \"open\", y = \"slip\", bottom = \"fixed\", top = \"open\"",
+        test::rock_domain({0.8, 0.2, 1.2}, 0, "x = \"open\", y = \"slip\", bottom = \"fixed\", top = \"open\"",
                           "linear_overlap = 1e-2") +
-        test::stone(1e7, 0.5, 0.5) + clast_text + rain(2, "[[0.05, 0.02, 0.34], [0.25, 0.18, 0.7]]") +
-        "[[shape]]\nname = \"slab\"\ngenerate = { kind = \"box\", size = [0.3, 0.2, 0.04] }\n"
-        "[[body]]\nname = \"slab\"\nshape = \"slab\"\nmaterial = \"stone\"\nmass = 5.0\nposition = [0.15, 0.1, 0.3]\n"
+        test::stone(1e7, 0.5, 0.3) + clast_text + rain(2, "[[0.3, 0.02, 0.34], [0.5, 0.18, 0.7]]") +
+        "[[shape]]\nname = \"slab\"\ngenerate = { kind = \"box\", size = [0.7, 0.2, 0.04] }\n"
+        "[[body]]\nname = \"slab\"\nshape = \"slab\"\nmaterial = \"stone\"\nmass = 5.0\nposition = [0.4, 0.1, 0.3]\n"
         "[[phase]]\nname = \"settle\"\ndamping = 0.3\nduration = 1.0\nhold = [\"slab\"]\n"
-        "[[phase]]\nname = \"pull\"\nduration = 1.2\nhold = [\"slab\"]\n";
-    constexpr double            start = 1.4; ///< s
-    test::Experiment<TypeParam> experiment(this->exec(), text + sleep_text);
-    experiment.steer(
-        [&](auto& commands)
-        {
-            if (experiment.time() >= start) { commands[0].forward = 2.0; }
-        });
-    std::int64_t  asleep  = 0;
-    double        lowest  = 1;
-    const Outcome outcome = this->run(experiment,
-                                      [&](auto& run, double time)
-                                      {
-                                          if (time >= start) { return; }
-                                          asleep              = run.simulation().rocks_asleep();
-                                          const auto position = run.simulation().body_fields().position;
-                                          lowest              = std::min(position[5], position[8]);
-                                      });
+        "[[phase]]\nname = \"pull\"\nduration = 1.5\nhold = [\"slab\"]\n";
+    constexpr double start  = 1.4; ///< s
+    std::int64_t     asleep = 0;
+    double           lowest = 1;
+    const auto       pull   = [&](const std::string& scene)
+    {
+        test::Experiment<TypeParam> experiment(this->exec(), scene);
+        experiment.steer(
+            [&](auto& commands)
+            {
+                if (experiment.time() >= start) { commands[0].forward = 6.0; }
+            });
+        return this->run(experiment,
+                         [&](auto& run, double time)
+                         {
+                             if (time >= start) { return; }
+                             asleep              = std::max(asleep, run.simulation().rocks_asleep());
+                             const auto position = run.simulation().body_fields().position;
+                             lowest              = std::min(position[5], position[8]);
+                         });
+    };
+    const Outcome awake = pull(text), outcome = pull(text + sleep_text);
     const double  highest = std::max(outcome.position[5], outcome.position[8]);
     test::report("rocks asleep before the pull", static_cast<double>(asleep), 2, 0, "both lie on the slab");
     test::report("highest centre at the end (m)", highest, 0.5 * diameter, 0.1,
                  "on the floor, or one on the other; before, over 0.32 m");
     EXPECT_EQ(asleep, 2);
     EXPECT_GT(lowest, 0.32);
-    EXPECT_LT(highest, 0.05 + 0.1);
-    EXPECT_LT(outcome.momentum, 1e-9);
-    EXPECT_LT(outcome.energy, 1e-3);
+    EXPECT_LT(highest, 0.5 * diameter + 0.1);
+    this->expect_balanced("pulled slab", outcome, awake);
 }
 
 /// Gravity turns: all rocks wake at once and go the way of those that never slept.
@@ -255,9 +258,10 @@ TYPED_TEST(RockSleep, ARockOnSand)
                              "[[rocks]]\nshape = \"clast\"\nmaterial = \"stone\"\ncount = 2\ndiameter = 0.1\n"
                              "placement = \"rain\"\nregion = { box = [[0.0, 0.0, 0.21], [0.4, 0.4, 0.45]] }\n" +
                              test::phase("settle", 0.3, 0.5) + test::phase("lie", 0, 0.4);
-    const Outcome outcome = this->run(text + "[sleep]\nrock_speed = 5e-3\n"), awake = this->run(text);
+    const Outcome outcome = this->run(text + "[sleep]\nrock_speed = 1e-2\n"), awake = this->run(text);
     const double  height = mean_height(outcome.position), expected = mean_height(awake.position);
-    test::report("mean height of the rocks (m)", height, expected, 0.01 * diameter, "they lie still in both runs");
+    test::report("mean height of the rocks (m)", height, expected, 0.01 * diameter,
+                 "awake ones creep at 2 mm/s for the 0.3 s that the others sleep");
     test::report("rocks asleep", static_cast<double>(outcome.last), 2, 0, "both");
     EXPECT_EQ(outcome.last, 2);
     EXPECT_NEAR(height, expected, 0.01 * diameter);

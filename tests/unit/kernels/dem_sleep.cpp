@@ -10,7 +10,7 @@ namespace tread::test
 namespace
 {
 
-constexpr double radius = 0.1, dt = 2e-5, rest = 1e-3;
+constexpr double radius = 0.1, dt = 1e-4, rest = 5e-3;
 constexpr int    window = 51; ///< substeps, just over `rest`
 
 /// Two columns of three balls on a floor, damped until they lie still; the second column stands apart.
@@ -41,7 +41,7 @@ protected:
     static dem::SleepCount come_to_rest(const Exec& exec, Scene& scene, double load)
     {
         dem::begin_sleep(exec, scene.pairs, scene.bodies, {1e-3, rest, load, 0});
-        for (int step = 0; step < 100; ++step)
+        for (int step = 0; step < 200; ++step)
         {
             scene.find(100 * dt);
             for (int i = 0; i < 100; ++i)
