@@ -134,9 +134,9 @@ class Forged(RestartTest):
         self.assertIn("asleep/id_0", datasets(self.check_every_value(ASLEEP)))
 
     def test_every_data_set_of_sleeping_rocks_is_checked(self):
-        rocks = '[[rocks]]\nshape = "roller"\nmaterial = "steel"\ncount = 1\ndiameter = 0.1\nplacement = "grid"\n' \
-            'region = { box = [[0.0, 0.0, 0.0], [0.15, 0.15, 0.12]] }\n'
-        original = self.check_every_value(lasting(BODIES, 0.3) + rocks + "[sleep]\nrock_speed = 0.1\nrock_rest = 0.02\n")
+        rocks = '[[rocks]]\nshape = "roller"\nmaterial = "steel"\ncount = 1\ndiameter = 0.04\nplacement = "grid"\n' \
+            'region = { box = [[0.0, 0.0, 0.0], [0.08, 0.08, 0.06]] }\n'
+        original = self.check_every_value(lasting(BODIES, 0.5) + rocks + "[sleep]\nrock_speed = 0.1\nrock_rest = 0.02\n")
         for name in ("rock_sleep/asleep", "rock_sleep/quiet", "rock_sleep/load", "rock_sleep/key", "rock_sleep/contact"):
             self.assertIn(name, datasets(original))
 
