@@ -123,7 +123,7 @@ BedPoints read_points(const h5::File& file)
     {
         const std::string group  = fmt::format("/materials/{}", m);
         const auto        number = [&](const char* name) { return h5::read_number_attribute(file, group, name); };
-        // Beds of versions before 0.3 have none.
+        // Beds that were made before the key have no such attribute, and one modulus for all pressures.
         const bool stiffens = h5::holds_attribute(file, group, "young_pressure");
         points.materials.push_back({h5::read_text_attribute(file, group, "name"), number("density"), number("young"),
                                     number("poisson"), stiffens ? number("young_pressure") : 0});

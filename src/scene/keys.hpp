@@ -83,8 +83,7 @@ void for_each_table(Visit&& visit)
           balance_keys());
     visit("sleep",
           "Sand that lies still far from what moves is left out of the steps, if `distance` is given, and rocks at "
-          "rest, if "
-          "`rock_speed` is: docs/sleep.md.",
+          "rest, if `rock_speed` is: docs/sleep.md.",
           &Scene::sleep, sleep_keys());
     visit("reference", "The right answer, as far as it is known, for `tread study`: docs/study.md. Changes no run.",
           &Scene::reference, reference_keys());
