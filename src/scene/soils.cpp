@@ -182,6 +182,7 @@ const Soil* find_soil(std::string_view name)
 std::vector<std::string> soil_names()
 {
     std::vector<std::string> names;
+    names.reserve(library.size());
     for (const Soil& soil : library) { names.emplace_back(soil.name); }
     return names;
 }

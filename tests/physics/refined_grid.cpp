@@ -127,7 +127,7 @@ duration = 0.08
 const std::string boxes = "refine = [[[0.2, 0.2, 0.18], [0.62, 0.6, 0.6]]]";
 
 /// Only the seams could disturb a bed at rest: the splines of both levels represent linear stress.
-TYPED_TEST(RefinedGrid, BedStaysAtRest)
+TYPED_TEST(FullSizeRefinedGrid, BedStaysAtRest)
 {
     const std::string           rest = "[[phase]]\nname = \"rest\"\nduration = 0.3\n";
     test::Experiment<TypeParam> run(this->exec(), bed(boxes) + rest);

@@ -161,9 +161,10 @@ TYPED_TEST(RockSleep, APileAtRestCostsNothing)
 /// A rock falls 0.6 m onto a sleeping pile: what it hits wakes, and all comes to rest as without sleep.
 TYPED_TEST(RockSleep, ARockFallsOnASleepingPile)
 {
-    const std::string text = pile_text() + held_rock_text +
-                             "[[phase]]\nname = \"settle\"\ndamping = 0.3\nduration = 1.5\nhold = [\"stone\"]\n" +
-                             test::phase("fall", 0, 1.5);
+    const std::string text =
+        pile_text() + held_rock_text +
+        "[[phase]]\nname = \"settle\"\ndamping = 0.3\nduration = 1.5\nhold = [\"stone\"]\n" +
+        test::phase("fall", 0, 3.0); // ten other beds: none to 20 asleep after 1.5 s, 18 to 20 after 3 s
     const Outcome outcome = this->run(text + sleep_text), awake = this->run(text);
     const double  height = mean_height(outcome.position), expected = mean_height(awake.position);
     const double  stone = outcome.position[2], stone_awake = awake.position[2];
