@@ -22,8 +22,9 @@ struct BedScene
 /// Clay under a slope, sand that moves in the box above.
 inline std::string two_materials_text()
 {
-    std::string       text = sand_text;
-    const std::string clay = R"([[material]]
+    std::string       text  = sand_text;
+    const std::string table = "[[terrain]]\nmaterial = \"sand\"\n";
+    const std::string clay  = R"([[material]]
 name    = "clay"
 model   = "elastic"
 density = 2000.0
@@ -36,7 +37,7 @@ height   = "0.1 + 0.3*x"
 material = "sand"
 velocity = [0.0, 0.1, 0.0]
 )";
-    return text.replace(text.find("[[terrain]]\nmaterial = \"sand\"\n"), 31, clay);
+    return text.replace(text.find(table), table.size(), clay);
 }
 
 /// Saves all sand of a scene as if it had settled, each point with a stress and a strain of its own.

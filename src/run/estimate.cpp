@@ -116,23 +116,31 @@ std::unordered_map<std::uint64_t, std::uint8_t> octants_of_pages(const world::Wo
     return octants;
 }
 
-PageCounts count_pages(const world::World& world)
+/// Pages within reach of the points.
+std::unordered_set<std::uint64_t> reached_pages(const world::World&                                    world,
+                                                const std::unordered_map<std::uint64_t, std::uint8_t>& octants)
 {
-    const std::unordered_map<std::uint64_t, std::uint8_t> holding = octants_of_pages(world);
-    std::unordered_set<std::uint64_t>                     points, nodes;
-    for (const auto& [key, octants] : holding)
+    constexpr std::int32_t            half = mpm::page_edge / 2;
+    std::unordered_set<std::uint64_t> reached;
+    for (const auto& [key, held] : octants)
     {
-        const Index3 page = mpm::page_coordinates(key);
+        const Index3 low = mpm::node_at(mpm::page_coordinates(key), 0);
         for (int octant = 0; octant < 8; ++octant)
         {
-            if ((octants >> octant & 1) == 0) { continue; }
-            const int    half = mpm::page_edge / 2;
-            const Index3 cell{page.x * mpm::page_edge + half * (octant & 1),
-                              page.y * mpm::page_edge + half * (octant >> 1 & 1),
-                              page.z * mpm::page_edge + half * (octant >> 2)};
-            add_reached(cell, world.geometry, [&](std::uint64_t reached) { points.insert(reached); });
+            if ((held >> octant & 1) == 0) { continue; }
+            const Index3 cell{low.x + half * (octant & 1), low.y + half * (octant >> 1 & 1),
+                              low.z + half * (octant >> 2)};
+            add_reached(cell, world.geometry, [&](std::uint64_t page) { reached.insert(page); });
         }
     }
+    return reached;
+}
+
+PageCounts count_pages(const world::World& world)
+{
+    const auto                              holding = octants_of_pages(world);
+    const std::unordered_set<std::uint64_t> points  = reached_pages(world, holding);
+    std::unordered_set<std::uint64_t>       nodes;
     for (const std::uint64_t key : points)
     {
         const Index3 page = mpm::page_coordinates(key);
