@@ -128,7 +128,7 @@ std::vector<Weight> sorted_weights(const scene::Scene& scene, const HostBodies& 
     const Plan          plan{width, static_cast<std::int64_t>(std::ceil(scene.domain.size[0] / width)) + 4};
     const ColumnSet     columns(plan, points.position);
     std::vector<Weight> weights;
-    weights.reserve(points.size() + bodies.size());
+    weights.reserve(points.size() + points.size() / 8 + bodies.size()); // columns at the border hold more than `points`
     add_sand(sand, plan, columns, points, weights);
     add_rocks(bodies, plan, columns, weights);
     std::sort(weights.begin(), weights.end());

@@ -78,14 +78,17 @@ std::size_t count(const Sites& sites) { return static_cast<std::size_t>(std::max
 void require_room(const Space& space, const std::array<Sites, 3>& axes, const std::string& owner)
 {
     constexpr double of_column = sizeof(std::pair<double, double>), of_row = 2 * sizeof(PointRow), slack = 1.1;
-    const double     rows    = static_cast<double>(count(axes[1])) * static_cast<double>(count(axes[2]));
-    const double     columns = static_cast<double>(count(axes[0])) * static_cast<double>(count(axes[1]));
-    require_host_memory({of_column * columns + of_row * rows,
-                         fmt::format("{}: its {:.3g} columns and {:.3g} rows of points", owner, columns, rows),
-                         "coarsen [grid] spacing, points_per_cell or the table's spacing"});
-    if (rows * static_cast<double>(count(axes[0])) < most_points) { return; }
-    const double points = volume(space) / std::pow(axes[0].spacing, 3);
+    const char*      advice   = "coarsen [grid] spacing, points_per_cell or the table's spacing";
+    const double     across   = std::max(1.0, static_cast<double>(count(axes[0])));
+    const double     columns  = across * static_cast<double>(count(axes[1]));
+    const double     all_rows = static_cast<double>(count(axes[1])) * static_cast<double>(count(axes[2]));
+    require_host_memory({of_column * columns, fmt::format("{}: its {:.3g} columns of points", owner, columns), advice});
+    const bool few = of_row * all_rows < 0.1 * static_cast<double>(available_host_memory());
+    if (few && across * all_rows < most_points) { return; }
+    const double points = std::min(across * all_rows, volume(space) / std::pow(axes[0].spacing, 3));
     if (points > slack * most_points) { refuse_count(points); }
+    require_host_memory({of_column * columns + of_row * points / across,
+                         fmt::format("{}: its {:.3g} rows of points", owner, points / across), advice});
 }
 
 /// Sites along z between the lowest and the highest level of all columns.
