@@ -46,8 +46,8 @@ TEST(RankParts, TogetherAreTheBedOfOneRankToTheBit)
         const double share = static_cast<double>(most) * ranks.size() / static_cast<double>(all.size());
         std::cout << "[ ranks    ] " << bed.name << ": at most " << most << " of " << all.size() << " points on one of "
                   << ranks.size() << " ranks; " << partition << '\n';
-        // Pages are few here: 5 x 5 x 3, so that parts are uneven by a page of 36.
-        EXPECT_LT(share, 1.5) << "of an even share";
+        // The partitioner may load a rank by 1.05 of the mean; rocks count, and a page is a twentieth of a share.
+        EXPECT_LT(share, 1.15) << "of an even share";
     }
 }
 
