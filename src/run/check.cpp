@@ -19,6 +19,7 @@
 #include "solver/ranks/page_loads.hpp"
 #include "world/bed.hpp"
 #include "world/footing.hpp"
+#include "world/host_points.hpp"
 #include "world/layers.hpp"
 
 namespace tread::run
@@ -83,7 +84,7 @@ std::string cost_lines(const scene::Scene& scene, const world::World& world, con
                        const Estimate& wants)
 {
     const int   cores = cores_here();
-    std::string text  = fmt::format("{} points, {} bodies ({} rocks)\n", world.points.size(), world.bodies.size(),
+    std::string text  = fmt::format("{} points, {} bodies ({} rocks)\n", world.sand.size(), world.bodies.size(),
                                     static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named);
     text += fmt::format("wall time about {} on {} of this machine's cores, {} on one GPU (H200), by model\n",
                         duration_text(wall_time(wants, world, core_cost, cores)), cores,
@@ -100,6 +101,18 @@ std::string cost_lines(const scene::Scene& scene, const world::World& world, con
         text += fmt::format("host memory about {} while a snapshot is written\n", bytes_text(wants.snapshot_bytes));
     }
     return text;
+}
+
+/// Memory of each of several ranks.
+std::string rank_line(const world::World& world, const Estimate& wants, int ranks)
+{
+    const std::int64_t share = (static_cast<std::int64_t>(world.sand.size()) + ranks - 1) / ranks;
+    return fmt::format(
+        "each of {} ranks: memory about {} on the backend; set-up of the sand {} on the host, {} of them "
+        "for its {} points and {} for the rows of all\n",
+        ranks, bytes_text(wants.memory_bytes / ranks),
+        bytes_text(share * world::bytes_of_made_point() + world::bytes_of(world.sand)),
+        bytes_text(share * world::bytes_of_made_point()), share, bytes_text(world::bytes_of(world.sand)));
 }
 
 /// Gravity, and the slope that corresponds to its direction.
@@ -149,6 +162,7 @@ std::string check_scene(const Communicator& communicator, const scene::Scene& sc
     for (const std::string& line : world::layer_advice(scene, world)) { text += line + "\n"; }
     if (plan.sand) { text += fmt::format("sand {:.0f} bytes a point, pages included\n", wants.bytes_a_point); }
     if (plan.bodies) { text += "shapes at scale 1:\n" + shape_lines(world); }
+    if (ranks > 1 && plan.sand) { text += rank_line(world, wants, ranks); }
     text += ranks == 1 ? std::string("partition: one rank\n") : solver::partition_lines(communicator, world, ranks);
     return form == CheckForm::page ? text : text + "\n" + stage_lines(scene, world, plan, ranks);
 }

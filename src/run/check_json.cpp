@@ -104,7 +104,7 @@ std::string check_json(const scene::Scene& scene, const world::World& world, con
         {"title", scene.title},
         {"scene", scene::scene_hash(scene)},
         {"warnings", warnings},
-        {"points", world.points.size()},
+        {"points", world.sand.size()},
         {"bodies", world.bodies.size()},
         {"rocks", static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named},
         {"gravity", std::hypot(along, g[2])},

@@ -50,9 +50,10 @@ Rim rim_of(const world::World& world, std::size_t body)
 template<class Visit>
 void for_each_piece(const world::World& world, Visit visit)
 {
-    for (std::size_t i = 0; i < world.points.size(); ++i)
+    for (const world::PointRow& row : world.sand.rows)
     {
-        visit(world.points.position[i], 0.5 * std::cbrt(world.points.volume[i]));
+        const double half = 0.5 * std::cbrt(world.sand.kind_of(row).volume);
+        world::for_each_point(world.sand, row, [&](const world::SandPoint& point) { visit(point.position, half); });
     }
     for (auto rock = static_cast<std::size_t>(world.bodies.named); rock < world.bodies.size(); ++rock)
     {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <unordered_map>
 #include <unordered_set>
 
 #include <fmt/format.h>
@@ -95,18 +96,51 @@ void add_reached(mpm::Index3 cell, const mpm::GridGeometry& geometry, const Add&
     }
 }
 
+/// Octants of the pages that hold points, as bits: the pages within reach of a cell depend on its octant.
+std::unordered_map<std::uint64_t, std::uint8_t> octants_of_pages(const world::World& world)
+{
+    constexpr std::int32_t                          nowhere = std::numeric_limits<std::int32_t>::min();
+    std::unordered_map<std::uint64_t, std::uint8_t> octants;
+    Index3                                          last{nowhere, nowhere, nowhere};
+    const mpm::Lattice                              lattice = world.geometry.lattice();
+    const auto                                      add     = [&](const world::SandPoint& point)
+    {
+        const Index3 cell = mpm::finest_cell(lattice, world.geometry.refinement, point.position);
+        const Index3 half{cell.x >> 1, cell.y >> 1, cell.z >> 1}; // consecutive points are often in one octant
+        if (half.x == last.x && half.y == last.y && half.z == last.z) { return; }
+        last             = half;
+        const int octant = (half.x & 1) | (half.y & 1) << 1 | (half.z & 1) << 2;
+        octants[mpm::page_key(mpm::page_of(cell))] |= static_cast<std::uint8_t>(1 << octant);
+    };
+    world::for_each_point(world.sand, add);
+    return octants;
+}
+
+/// Pages within reach of the points.
+std::unordered_set<std::uint64_t> reached_pages(const world::World&                                    world,
+                                                const std::unordered_map<std::uint64_t, std::uint8_t>& octants)
+{
+    constexpr std::int32_t            half = mpm::page_edge / 2;
+    std::unordered_set<std::uint64_t> reached;
+    for (const auto& [key, held] : octants)
+    {
+        const Index3 low = mpm::node_at(mpm::page_coordinates(key), 0);
+        for (int octant = 0; octant < 8; ++octant)
+        {
+            if ((held >> octant & 1) == 0) { continue; }
+            const Index3 cell{low.x + half * (octant & 1), low.y + half * (octant >> 1 & 1),
+                              low.z + half * (octant >> 2)};
+            add_reached(cell, world.geometry, [&](std::uint64_t page) { reached.insert(page); });
+        }
+    }
+    return reached;
+}
+
 PageCounts count_pages(const world::World& world)
 {
-    std::unordered_set<std::uint64_t> holding, points, nodes;
-    std::uint64_t                     last = mpm::no_page; // points are stored cell by cell along x
-    for (const Vec3<double>& x : world.points.position)
-    {
-        const Index3 cell = mpm::finest_cell(world.geometry.lattice(), world.geometry.refinement, x);
-        if (mpm::cell_key(cell) == last) { continue; }
-        last = mpm::cell_key(cell);
-        holding.insert(mpm::page_key(mpm::page_of(cell)));
-        add_reached(cell, world.geometry, [&](std::uint64_t key) { points.insert(key); });
-    }
+    const auto                              holding = octants_of_pages(world);
+    const std::unordered_set<std::uint64_t> points  = reached_pages(world, holding);
+    std::unordered_set<std::uint64_t>       nodes;
     for (const std::uint64_t key : points)
     {
         const Index3 page = mpm::page_coordinates(key);
@@ -254,7 +288,7 @@ DiskUse disk_use(const scene::Scene& scene, const world::World& world, const sol
                  const PageCounts& pages)
 {
     constexpr std::int64_t of_file = 30000, snapshot_of_body = 120, checkpoint_of_body = 2500;
-    const auto             points   = static_cast<std::int64_t>(world.points.size());
+    const auto             points   = static_cast<std::int64_t>(world.sand.size());
     const auto             bodies   = static_cast<std::int64_t>(world.bodies.size());
     const double           time     = longest_time(scene);
     const std::int64_t     snapshot = points * snapshot_bytes_per_point(plan) + bodies * snapshot_of_body + 2 * of_file;
@@ -291,7 +325,7 @@ void require_disk(const std::string& directory, std::int64_t wanted, std::int64_
 
 Estimate estimate(const scene::Scene& scene, const world::World& world, const solver::Plan& plan)
 {
-    const auto       points = static_cast<std::int64_t>(world.points.size());
+    const auto       points = static_cast<std::int64_t>(world.sand.size());
     const auto       bodies = static_cast<std::int64_t>(world.bodies.size());
     const PageCounts pages  = plan.sand ? count_pages(world) : PageCounts{};
     Estimate         wants{};

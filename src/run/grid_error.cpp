@@ -33,7 +33,7 @@ ErrorLaws laws_on(SoilKind soil)
 const scene::Material* soil_of(const scene::Scene& scene, const world::World& world)
 {
     std::vector<std::size_t> points(scene.materials.size(), 0);
-    for (const std::uint8_t material : world.points.material) { ++points[material]; }
+    for (const world::PointRow& row : world.sand.rows) { points[world.sand.kind_of(row).material] += row.count; }
     const scene::Material* soil = nullptr;
     std::size_t            most = 0;
     for (std::size_t m = 0; m < points.size(); ++m)

@@ -33,7 +33,7 @@ struct Price
 std::vector<Price> prices(const scene::Scene& scene, const world::World& world)
 {
     const double real   = scene.numerics.precision == scene::Precision::single_ ? 4 : 8;
-    const Item   point  = {"point", static_cast<std::int64_t>(world.points.size())};
+    const Item   point  = {"point", static_cast<std::int64_t>(world.sand.size())};
     const Item   body   = {"body", static_cast<std::int64_t>(world.bodies.size())};
     const Item   near   = {"point near a body", 0};
     const Item   moving = {"point and body", point.count + body.count};

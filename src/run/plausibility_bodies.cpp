@@ -30,14 +30,14 @@ struct Placed
 };
 
 /// Extent of the sand in the plan, "x 0 to 1 m, y 0 to 0.6 m".
-std::string plan_text(const world::HostPoints& points)
+std::string plan_text(const world::Sand& sand)
 {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Vec3<double>     low = Vec3<double>::Constant(infinity), high = -low;
-    for (const Vec3<double>& x : points.position)
+    for (const world::PointRow& row : sand.rows)
     {
-        low  = low.cwiseMin(x);
-        high = high.cwiseMax(x);
+        low  = low.cwiseMin(row.at(0));
+        high = high.cwiseMax(row.at(row.count - 1));
     }
     return fmt::format("x {:.3g} to {:.3g} m, y {:.3g} to {:.3g} m", low[0], high[0], low[1], high[1]);
 }
@@ -46,12 +46,12 @@ std::string plan_text(const world::HostPoints& points)
 void check_place(const Placed& placed, Warnings& warnings)
 {
     const world::Footing& footing = placed.footing;
-    if (placed.world.points.size() == 0 || footing.ground) { return; }
+    if (placed.world.sand.size() == 0 || footing.ground) { return; }
     if (!footing.driven && !placed.form().is_wheel) { return; }
     const auto& at = placed.world.bodies.position[footing.body];
     warnings.add(placed.table, fmt::format("{}: no sand lies under it: it stands at x = {:.4g}, y = {:.4g} m, the sand "
                                            "fills {}",
-                                           placed.name(), at[0], at[1], plan_text(placed.world.points)));
+                                           placed.name(), at[0], at[1], plan_text(placed.world.sand)));
 }
 
 /// Bed width required beside a body, m. At a free edge half its width. Beside a wall a quarter of it, or less where

@@ -67,7 +67,7 @@ Backend agreed_backend(const Communicator& communicator, const scene::Scene& sce
 
 void log_plan(Log& log, const scene::Scene& scene, const world::World& world, const std::vector<solver::Stage>& stages)
 {
-    log.info(fmt::format("{} points, {} bodies ({} rocks)", world.points.size(), world.bodies.size(),
+    log.info(fmt::format("{} points, {} bodies ({} rocks)", world.sand.size(), world.bodies.size(),
                          static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named));
     for (const auto& form : world.templates)
     {

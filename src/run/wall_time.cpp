@@ -12,7 +12,7 @@ namespace tread::run
 
 double wall_time(const Estimate& wants, const world::World& world, const StepCost& cost, int units)
 {
-    const auto   points  = static_cast<double>(world.points.size());
+    const auto   points  = static_cast<double>(world.sand.size());
     const auto   bodies  = static_cast<double>(world.bodies.size());
     const double further = wants.substeps - 1;
     const double shared  = cost.point * points + (cost.body + cost.body_substep * further) * bodies;

@@ -13,7 +13,7 @@ Plan make_plan(const scene::Scene& scene, const world::World& world, int ranks)
     const auto damped = [](const scene::Phase& phase) { return phase.damping > 0; };
     const auto moved  = [](const scene::Phase& phase) { return !phase.motion.empty(); };
     Plan       plan{};
-    plan.sand         = world.points.size() > 0;
+    plan.sand         = world.sand.size() > 0;
     plan.bodies       = world.bodies.size() > 0;
     plan.coupling     = plan.sand && plan.bodies;
     plan.body_contact = plan.bodies && (ranks > 1 || world.bodies.size() > 1 || !world.planes.empty());

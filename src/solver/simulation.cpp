@@ -21,7 +21,7 @@ Vec3<double> vector(const scene::Vector3& v) { return {v[0], v[1], v[2]}; }
 
 double free_mass(const world::World& world)
 {
-    const double sand  = std::accumulate(world.points.mass.begin(), world.points.mass.end(), 0.0);
+    const double sand  = world::total_mass(world.sand);
     const double rocks = std::accumulate(world.bodies.mass.begin() + world.bodies.named, world.bodies.mass.end(), 0.0);
     return sand + rocks;
 }
@@ -365,13 +365,12 @@ template<class Exec, class Real>
 void Simulation<Exec, Real>::transfer(StateFile& file)
 {
     if (balance_ && file.exact()) { balance_->transfer(file); }
-    if (sand_) { sand_->transfer(file, world_.points); }
+    if (sand_) { sand_->transfer(file, world_.sand); }
     if (rigid_) { rigid_->transfer(file); }
     if (coupling_)
     {
-        coupling_->transfer(
-            file, rigid_->view(),
-            {world_.bodies.size(), static_cast<std::size_t>(sand_->view().count), world_.points.size()});
+        coupling_->transfer(file, rigid_->view(),
+                            {world_.bodies.size(), static_cast<std::size_t>(sand_->view().count), world_.sand.size()});
     }
     transfer_contacts(file);
     solver::transfer(file, measuring_, last_, damping_);

@@ -12,20 +12,21 @@ namespace tread::world
 namespace
 {
 
-std::vector<io::TerrainReport> describe_terrain(const scene::Scene& scene, const HostPoints& points)
+std::vector<io::TerrainReport> describe_terrain(const scene::Scene& scene, const Sand& sand)
 {
     std::vector<io::TerrainReport> tables(scene.terrain.size());
     for (std::size_t table = 0; table < tables.size(); ++table)
     {
         tables[table].material = scene.terrain[table].material;
     }
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-        auto& table = tables[static_cast<std::size_t>(points.terrain[i])];
-        ++table.points;
-        table.volume += points.volume[i];
-        table.mass += points.mass[i];
-    }
+    for_each_point(sand,
+                   [&](const SandPoint& point)
+                   {
+                       auto& table = tables[static_cast<std::size_t>(point.kind.terrain)];
+                       ++table.points;
+                       table.volume += point.kind.volume;
+                       table.mass += point.kind.mass;
+                   });
     return tables;
 }
 
@@ -58,7 +59,7 @@ double without_sign_of_zero(double percent) { return std::abs(percent) < 0.05 ? 
 io::BedReport describe_bed(const scene::Scene& scene, const World& world)
 {
     io::BedReport bed;
-    bed.terrain = describe_terrain(scene, world.points);
+    bed.terrain = describe_terrain(scene, world.sand);
     for (std::size_t table = 0; table < scene.rocks.size(); ++table)
     {
         bed.rocks.push_back(describe_rocks(scene, table, world.bodies));

@@ -1,7 +1,5 @@
 #include "world/cover.hpp"
 
-#include <algorithm>
-
 #include "kernels/contact/samples_kern.hpp"
 #include "world/body_grid.hpp"
 #include "world/materials.hpp"
@@ -12,16 +10,16 @@ namespace tread::world
 
 double PointReach::search(double radius) const { return (sampled_below > 0 ? 1 + contact::patch_reach : 1.0) * radius; }
 
-double sampled_below(const scene::Scene& scene, const HostPoints& points)
+double sampled_below(const scene::Scene& scene, const Sand& sand)
 {
-    if (points.size() == 0) { return 0; }
-    const double largest = *std::max_element(points.volume.begin(), points.volume.end());
-    return scene.numerics.refine_below * contact::point_radius(largest, radius_rule(scene.numerics.point_radius));
+    if (sand.size() == 0) { return 0; }
+    const double largest = contact::point_radius(largest_volume(sand), radius_rule(scene.numerics.point_radius));
+    return scene.numerics.refine_below * largest;
 }
 
-PointReach make_point_reach(const scene::Scene& scene, const HostPoints& points)
+PointReach make_point_reach(const scene::Scene& scene, const Sand& sand)
 {
-    return {radius_rule(scene.numerics.point_radius), sampled_below(scene, points)};
+    return {radius_rule(scene.numerics.point_radius), sampled_below(scene, sand)};
 }
 
 NearestPlace nearest_place(const World& world, const PointReach& reach, std::size_t body, const Vec3<double>& x,
@@ -42,32 +40,32 @@ NearestPlace nearest_place(const World& world, const PointReach& reach, std::siz
     return nearest;
 }
 
-std::vector<std::int32_t> covering_bodies(const scene::Scene& scene, const World& world, std::size_t first,
-                                          std::size_t last)
+std::vector<std::int64_t> covered_points(const scene::Scene& scene, const World& world)
 {
     BodyGrid grid(world);
-    for (std::size_t body = first; body < last; ++body) { grid.add(body); }
-    const HostPoints&         points = world.points;
-    const PointReach          reach  = make_point_reach(scene, points);
-    const TouchTable          touch  = touch_table(scene, 0);
-    std::vector<std::int32_t> covering(points.size(), -1);
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t body = 0; body < world.bodies.size(); ++body) { grid.add(body); }
+    const PointReach          reach = make_point_reach(scene, world.sand);
+    const TouchTable          touch = touch_table(scene, 0);
+    std::vector<std::int64_t> covered(world.bodies.size(), 0);
+    const auto                look = [&](const SandPoint& point)
     {
-        const double radius = reach.radius(points.volume[i]);
-        grid.any_near(points.position[i], reach.search(radius),
+        const double radius = reach.radius(point.kind.volume);
+        grid.any_near(point.position, reach.search(radius),
                       [&](std::size_t body)
                       {
-                          if (!touch(points.material[i], world.bodies.material[body]) ||
-                              nearest_place(world, reach, body, points.position[i], radius).distance >= radius)
+                          if (!touch(point.kind.material, world.bodies.material[body]) ||
+                              nearest_place(world, reach, body, point.position, radius).distance >= radius)
                           {
                               return false;
                           }
-                          covering[i] = static_cast<std::int32_t>(body);
+#pragma omp atomic
+                          ++covered[body];
                           return true;
                       });
-    }
-    return covering;
+    };
+#pragma omp parallel for schedule(dynamic, 16)
+    for (const PointRow& row : world.sand.rows) { for_each_point(world.sand, row, look); }
+    return covered;
 }
 
 } // namespace tread::world

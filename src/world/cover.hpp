@@ -22,9 +22,9 @@ struct PointReach
 };
 
 /// Equivalent radius of a body, m, under which sand samples it at nine places; 0 = never.
-double sampled_below(const scene::Scene& scene, const HostPoints& points);
+double sampled_below(const scene::Scene& scene, const Sand& sand);
 
-PointReach make_point_reach(const scene::Scene& scene, const HostPoints& points);
+PointReach make_point_reach(const scene::Scene& scene, const Sand& sand);
 
 /// Place of a point that is nearest to a body: its centre, or one of its samples.
 struct NearestPlace
@@ -36,10 +36,9 @@ struct NearestPlace
 NearestPlace nearest_place(const World& world, const PointReach& reach, std::size_t body, const Vec3<double>& x,
                            double radius);
 
-/// For each sand point, a body of [first, last) in which it lies or which is within its contact radius (phi < r_p), by
-/// its centre or one of its samples; -1 where there is none that it touches in the first phase. Sand that starts in
-/// such contact would be ejected.
-std::vector<std::int32_t> covering_bodies(const scene::Scene& scene, const World& world, std::size_t first,
-                                          std::size_t last);
+/// Counts for each body the sand points that lie in it or are within their contact radius of it (phi < r_p), by their
+/// centre or one of their samples, and touch it in the first phase; a point counts for one body only. Sand that starts
+/// in such contact would be ejected.
+std::vector<std::int64_t> covered_points(const scene::Scene& scene, const World& world);
 
 } // namespace tread::world

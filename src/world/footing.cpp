@@ -19,17 +19,18 @@ double half_strip(const Footing& footing, const World& world)
     return std::max(0.25 * footing.radius, world.point_spacing);
 }
 
-/// Calls act(i) for the points of the strip, across the path, that contains the body.
+/// Calls act(point) for the points of the strip, across the path, that contains the body.
 template<class Act>
 void each_in_strip(const Footing& footing, const World& world, const Act& act)
 {
     const Vec3<double>& at   = world.bodies.position[footing.body];
     const double        half = half_strip(footing, world);
-    for (std::size_t i = 0; i < world.points.size(); ++i)
-    {
-        const Vec3<double>& x = world.points.position[i];
-        if (std::abs(x[0] - at[0]) <= half && x[2] < at[2]) { act(i); }
-    }
+    for_each_point(world.sand,
+                   [&](const SandPoint& point)
+                   {
+                       const Vec3<double>& x = point.position;
+                       if (std::abs(x[0] - at[0]) <= half && x[2] < at[2]) { act(point); }
+                   });
 }
 
 /// Whether a bed that ends at y does so at a wall of the domain.
@@ -46,22 +47,22 @@ std::optional<Ground> ground_under(const scene::Scene& scene, const Footing& foo
     double       top = -infinity, bottom = infinity;
     int          material = -1;
     each_in_strip(footing, world,
-                  [&](std::size_t i)
+                  [&](const SandPoint& point)
                   {
-                      const Vec3<double>& x = world.points.position[i];
+                      const Vec3<double>& x = point.position;
                       if (std::abs(x[1] - y) > half) { return; }
                       bottom = std::min(bottom, x[2]);
                       if (x[2] <= top) { return; }
                       top      = x[2];
-                      material = world.points.material[i];
+                      material = point.kind.material;
                   });
     if (material < 0) { return std::nullopt; }
     const double upper = 0.5 * (top + bottom);
     double       low = infinity, high = -infinity;
     each_in_strip(footing, world,
-                  [&](std::size_t i)
+                  [&](const SandPoint& point)
                   {
-                      const Vec3<double>& x = world.points.position[i];
+                      const Vec3<double>& x = point.position;
                       if (x[2] < upper) { return; }
                       low  = std::min(low, x[1]);
                       high = std::max(high, x[1]);
@@ -83,7 +84,7 @@ std::optional<double> gap_of(const Footing& footing, const World& world)
         if (to[2] > 0 || std::abs(to[1]) > 0.5 * footing.width + radius || std::abs(to[0]) > footing.radius) { return; }
         nearest = std::min(nearest, std::hypot(to[0], to[2]) - footing.radius - radius);
     };
-    for (const Vec3<double>& x : world.points.position) { meet(x, 0.5 * world.point_spacing); }
+    for_each_point(world.sand, [&](const SandPoint& point) { meet(point.position, 0.5 * world.point_spacing); });
     for (auto b = static_cast<std::size_t>(world.bodies.named); b < world.bodies.size(); ++b)
     {
         meet(world.bodies.position[b], world.bodies.radius[b]);

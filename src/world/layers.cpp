@@ -97,17 +97,18 @@ std::vector<double> shares_in_sand(const World& world, const SandMap& sand)
 Layer find_layer(const scene::Scene& scene, std::size_t table, const World& world, const std::vector<double>& in_sand)
 {
     const Space       space  = rocks_space(scene, table);
-    const HostPoints& points = world.points;
     const HostBodies& bodies = world.bodies;
     const auto        rule   = radius_rule(scene.numerics.point_radius);
-    Layer             layer{table, 0, 0, mean_radius(bodies, table), 0, std::vector<std::uint8_t>(points.size(), 0)};
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-        if (!contains(space, points.position[i])) { continue; }
-        layer.holds[i] = 1;
-        layer.sand += points.volume[i];
-        layer.point_radius = std::max(layer.point_radius, contact::point_radius(points.volume[i], rule));
-    }
+    Layer             layer{table, 0, 0, mean_radius(bodies, table), 0, std::vector<bool>(world.sand.size(), false)};
+    for_each_point(world.sand,
+                   [&](const SandPoint& point)
+                   {
+                       if (!contains(space, point.position)) { return; }
+                       const double volume   = point.kind.volume;
+                       layer.holds[point.id] = true;
+                       layer.sand += volume;
+                       layer.point_radius = std::max(layer.point_radius, contact::point_radius(volume, rule));
+                   });
     for (auto body = static_cast<std::size_t>(bodies.named); body < bodies.size(); ++body)
     {
         if (in_sand[body] > 0 && contains(space, bodies.position[body]))
@@ -118,13 +119,14 @@ Layer find_layer(const scene::Scene& scene, std::size_t table, const World& worl
     return layer;
 }
 
-LayerShares shares_of(const Layer& layer, const HostPoints& points, const std::vector<std::uint8_t>& kept)
+LayerShares shares_of(const Layer& layer, const Sand& sand, const std::vector<bool>& kept)
 {
     double left = 0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-        if (layer.holds[i] != 0 && kept[i] != 0) { left += points.volume[i]; }
-    }
+    for_each_point(sand,
+                   [&](const SandPoint& point)
+                   {
+                       if (layer.holds[point.id] && kept[point.id]) { left += point.kind.volume; }
+                   });
     return {layer.table, left / layer.sand, layer.rock / layer.sand, layer.sand, layer.rock_radius, layer.point_radius};
 }
 

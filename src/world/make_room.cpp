@@ -52,32 +52,34 @@ bool settled_together(const scene::Rocks& rocks, const scene::Terrain& terrain)
 std::vector<Touch> find_touches(const scene::Scene& scene, const World& world, const BodyGrid& grid,
                                 const PointReach& reach)
 {
-    const HostPoints&  points = world.points;
-    const auto         table  = tables_of(world.bodies);
-    const TouchTable   touch  = touch_table(scene, 0);
+    const auto         table = tables_of(world.bodies);
+    const TouchTable   touch = touch_table(scene, 0);
     std::vector<Touch> touches;
+    const auto         find = [&](const SandPoint& point, std::vector<Touch>& found)
+    {
+        const Vec3<double>& x      = point.position;
+        const double        radius = reach.radius(point.kind.volume);
+        const auto&         own    = scene.terrain[static_cast<std::size_t>(point.kind.terrain)];
+        grid.any_near(x, reach.search(radius),
+                      [&](std::size_t body)
+                      {
+                          const auto rocks = table[body];
+                          if (rocks >= 0 && touch(point.kind.material, world.bodies.material[body]) &&
+                              !settled_together(scene.rocks[static_cast<std::size_t>(rocks)], own) &&
+                              nearest_place(world, reach, body, x, radius).distance < radius)
+                          {
+                              found.push_back({body, distance(world, body, x), point.id});
+                          }
+                          return false;
+                      });
+    };
 #pragma omp parallel
     {
         std::vector<Touch> mine;
-#pragma omp for schedule(static)
-        for (std::size_t i = 0; i < points.size(); ++i)
+#pragma omp for schedule(dynamic, 16)
+        for (const PointRow& row : world.sand.rows)
         {
-            const Vec3<double>& x      = points.position[i];
-            const double        radius = reach.radius(points.volume[i]);
-            const auto&         own    = scene.terrain[static_cast<std::size_t>(points.terrain[i])];
-            grid.any_near(x, reach.search(radius),
-                          [&](std::size_t body)
-                          {
-                              const auto rocks = table[body];
-                              if (rocks < 0 || !touch(points.material[i], world.bodies.material[body]) ||
-                                  settled_together(scene.rocks[static_cast<std::size_t>(rocks)], own) ||
-                                  nearest_place(world, reach, body, x, radius).distance >= radius)
-                              {
-                                  return false;
-                              }
-                              mine.push_back({body, distance(world, body, x), i});
-                              return false;
-                          });
+            for_each_point(world.sand, row, [&](const SandPoint& point) { find(point, mine); });
         }
 #pragma omp critical
         touches.insert(touches.end(), mine.begin(), mine.end());
@@ -124,13 +126,12 @@ std::vector<std::size_t> in_rows(const World& world)
     return order;
 }
 
-/// Returns 0 for removed points: of each rock the deepest, up to the volume of the rock that lies in sand.
-std::vector<std::uint8_t> keep_all_but_rock_volume(const World& world, const std::vector<Touch>& touches,
-                                                   const std::vector<double>& in_sand)
+/// Returns false for removed points: of each rock the deepest, up to the volume of the rock that lies in sand.
+std::vector<bool> keep_all_but_rock_volume(const World& world, const std::vector<Touch>& touches,
+                                           const std::vector<double>& in_sand)
 {
-    const HostPoints&         points = world.points;
-    std::vector<std::uint8_t> kept(points.size(), 1);
-    double                    due = 0; // m3, volume still to be removed
+    std::vector<bool> kept(world.sand.size(), true);
+    double            due = 0; // m3, volume still to be removed
     for (const std::size_t body : in_rows(world))
     {
         due += in_sand[body] * sphere_volume(2 * world.bodies.radius[body]);
@@ -138,39 +139,39 @@ std::vector<std::uint8_t> keep_all_but_rock_volume(const World& world, const std
                                       [](const Touch& one, std::size_t b) { return one.body < b; });
         for (; touch != touches.end() && touch->body == body; ++touch)
         {
-            const double volume = points.volume[touch->point];
+            const double volume = point_of(world.sand, touch->point).kind.volume;
             if (due < 0.5 * volume) { break; }
-            if (kept[touch->point] == 0) { continue; }
-            kept[touch->point] = 0;
+            if (!kept[touch->point]) { continue; }
+            kept[touch->point] = false;
             due -= volume;
         }
     }
     return kept;
 }
 
-/// Pushes remaining points off the bodies; removes those that find no place.
-void push_off(const Surroundings& near, const std::vector<Touch>& touches, std::vector<std::uint8_t>& kept,
-              HostPoints& points)
+/// Touching points, each once, by ascending id.
+std::vector<PointChange> changes_of(const std::vector<Touch>& touches)
 {
     std::vector<std::size_t> touching;
-    for (const Touch& touch : touches)
-    {
-        if (kept[touch.point] != 0) { touching.push_back(touch.point); }
-    }
+    for (const Touch& touch : touches) { touching.push_back(touch.point); }
     std::sort(touching.begin(), touching.end());
     touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
-    std::vector<Vec3<double>> place(touching.size());
+    std::vector<PointChange> changes;
+    for (const std::size_t point : touching) { changes.push_back({point, {}}); }
+    return changes;
+}
+
+/// Pushes the touching points that are kept off the bodies; removes the others, and those that find no place.
+std::vector<PointChange> push_off(const Surroundings& near, const std::vector<Touch>& touches, std::vector<bool>& kept)
+{
+    std::vector<PointChange> changes = changes_of(touches);
 #pragma omp parallel for schedule(dynamic, 64)
-    for (std::size_t i = 0; i < touching.size(); ++i)
+    for (PointChange& change : changes)
     {
-        const auto found = free_place(near, touching[i]);
-        if (found) { place[i] = *found; }
-        else { kept[touching[i]] = 0; }
+        if (kept[change.id]) { change.place = free_place(near, point_of(near.world.sand, change.id)); }
     }
-    for (std::size_t i = 0; i < touching.size(); ++i)
-    {
-        if (kept[touching[i]] != 0) { points.position[touching[i]] = place[i]; }
-    }
+    for (const PointChange& change : changes) { kept[change.id] = change.place.has_value(); }
+    return changes;
 }
 
 /// Whether rocks of this table replace sand.
@@ -185,13 +186,13 @@ bool makes_room(const scene::Scene& scene, const scene::Rocks& rocks)
 
 void make_room(const scene::Scene& scene, World& world)
 {
-    if (world.points.size() == 0 || scene.rocks.empty()) { return; }
+    if (world.sand.size() == 0 || scene.rocks.empty()) { return; }
     BodyGrid grid(world);
     for (std::size_t body = 0; body < world.bodies.size(); ++body) { grid.add(body); }
-    const PointReach reach   = make_point_reach(scene, world.points);
+    const PointReach reach   = make_point_reach(scene, world.sand);
     const auto       touches = find_touches(scene, world, grid, reach);
     refuse_sand_in_the_way(scene, world, touches);
-    const SandMap      sand(scene, world.points);
+    const SandMap      sand(scene, world.sand);
     const auto         in_sand = shares_in_sand(world, sand);
     std::vector<Layer> layers;
     for (std::size_t table = 0; table < scene.rocks.size(); ++table)
@@ -201,10 +202,10 @@ void make_room(const scene::Scene& scene, World& world)
         if (layer.sand > 0) { layers.push_back(std::move(layer)); }
     }
     if (layers.empty() && touches.empty()) { return; }
-    auto kept = keep_all_but_rock_volume(world, touches, in_sand);
-    push_off({world, grid, reach, sand, world.geometry.spacing}, touches, kept, world.points);
-    for (const Layer& layer : layers) { world.layers.push_back(shares_of(layer, world.points, kept)); }
-    keep_points(world.points, kept);
+    auto       kept    = keep_all_but_rock_volume(world, touches, in_sand);
+    const auto changes = push_off({world, grid, reach, sand, world.geometry.spacing}, touches, kept);
+    for (const Layer& layer : layers) { world.layers.push_back(shares_of(layer, world.sand, kept)); }
+    apply_changes(changes, world.sand);
 }
 
 } // namespace tread::world

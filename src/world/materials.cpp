@@ -209,11 +209,12 @@ double compression_wave_speed(const scene::Material& material)
         .wave_speed;
 }
 
-double pic_rate(const scene::Scene& scene, const HostPoints& points)
+double pic_rate(const scene::Scene& scene, const Sand& sand)
 {
     if (scene.numerics.transfer == scene::Transfer::apic) { return std::numeric_limits<double>::infinity(); }
-    const std::set<std::uint8_t> present(points.material.begin(), points.material.end());
-    double                       largest = 0;
+    std::set<std::uint8_t> present;
+    for (const PointRow& row : sand.rows) { present.insert(sand.kind_of(row).material); }
+    double largest = 0;
     for (const std::uint8_t m : present)
     {
         const scene::Material& material = scene.materials[m];

@@ -32,7 +32,7 @@ double compression_wave_speed(const scene::Material& material);
 /// Rate at which the points' velocities relax towards the grid's, 1/s: the scene's pic_rate, or 0.2 c_p/h for granular
 /// and 0.04 c_p/h for elastic materials; the largest over the materials of `points`, since different rates lose
 /// momentum where materials share nodes. Infinite for APIC.
-double pic_rate(const scene::Scene& scene, const HostPoints& points);
+double pic_rate(const scene::Scene& scene, const Sand& sand);
 
 /// PIC share of a step of dt (s) at that rate: between 0 and 1, with the same decay per unit time at any small dt.
 double pic_share(double rate, double dt);

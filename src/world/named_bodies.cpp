@@ -89,12 +89,7 @@ void add_body(const scene::Scene& scene, const scene::Body& body, World& world)
 
 void require_clear_of_sand(const scene::Scene& scene, const World& world)
 {
-    const auto               covering = covering_bodies(scene, world, 0, world.bodies.size());
-    std::vector<std::size_t> inside(world.bodies.size(), 0);
-    for (const std::int32_t body : covering)
-    {
-        if (body >= 0) { ++inside[static_cast<std::size_t>(body)]; }
-    }
+    const std::vector<std::int64_t> inside = covered_points(scene, world);
     for (std::size_t b = 0; b < inside.size(); ++b)
     {
         if (inside[b] > 0)

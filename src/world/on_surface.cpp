@@ -51,18 +51,24 @@ void count(GroundBelow& ground, double height, double reach)
 GroundBelow ground_under(const scene::Scene& scene, const World& world, std::size_t body)
 {
     const auto&  form    = template_of(world, body);
-    const bool   sampled = world.bodies.scale[body] * form.equivalent_radius < sampled_below(scene, world.points);
+    const bool   sampled = world.bodies.scale[body] * form.equivalent_radius < sampled_below(scene, world.sand);
     const double share   = sampled ? 1 + contact::patch_reach : 1.0; // samples lie beside the point's centre
     const auto   rule    = radius_rule(scene.numerics.point_radius);
     const auto   own     = world.bodies.material[body];
     const auto   touch   = touch_table(scene, 0);
     GroundBelow  ground;
-    for (std::size_t i = 0; i < world.points.size(); ++i)
+    for (const PointRow& row : world.sand.rows)
     {
-        const Grain grain{world.points.position[i], share * contact::point_radius(world.points.volume[i], rule)};
-        if (!touch(world.points.material[i], own) || !is_under(world, body, grain.position, grain.reach)) { continue; }
-        ground.grains.push_back(grain);
-        count(ground, grain.position[2], grain.reach);
+        const PointKind& kind  = world.sand.kind_of(row);
+        const double     reach = share * contact::point_radius(kind.volume, rule);
+        if (!touch(kind.material, own)) { continue; }
+        for_each_point(world.sand, row,
+                       [&](const SandPoint& point)
+                       {
+                           if (!is_under(world, body, point.position, reach)) { return; }
+                           ground.grains.push_back({point.position, reach});
+                           count(ground, point.position[2], reach);
+                       });
     }
     for (auto rock = static_cast<std::size_t>(world.bodies.named); rock < world.bodies.size(); ++rock)
     {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -301,8 +300,11 @@ std::size_t place_on_sites(Placer& placer, const SiteList& sites, const std::vec
 std::vector<Vec3<double>> points_in(const Space& space, const World& world, Random& random)
 {
     std::vector<Vec3<double>> sites;
-    std::copy_if(world.points.position.begin(), world.points.position.end(), std::back_inserter(sites),
-                 [&](const Vec3<double>& x) { return contains(space, x); });
+    for_each_point(world.sand,
+                   [&](const SandPoint& point)
+                   {
+                       if (contains(space, point.position)) { sites.push_back(point.position); }
+                   });
     for (std::size_t left = sites.size(); left > 1; --left)
     {
         std::swap(sites[left - 1], sites[static_cast<std::size_t>(random.uniform() * static_cast<double>(left))]);

@@ -62,13 +62,13 @@ Vec3<double> outwards(const World& world, std::size_t body, const Vec3<double>& 
 class Search
 {
 public:
-    Search(const Surroundings& near, std::size_t i)
+    Search(const Surroundings& near, const SandPoint& point)
         : near_(near)
-        , origin_(near.world.points.position[i])
-        , table_(near.world.points.terrain[i])
-        , radius_(near.reach.radius(near.world.points.volume[i]))
-        , margin_(off_the_walls * std::cbrt(near.world.points.volume[i]))
-        , random_(0x5eed0f5a7dull + i)
+        , origin_(point.position)
+        , table_(point.kind.terrain)
+        , radius_(near.reach.radius(point.kind.volume))
+        , margin_(off_the_walls * std::cbrt(point.kind.volume))
+        , random_(0x5eed0f5a7dull + point.id)
     {
     }
 
@@ -122,6 +122,9 @@ private:
 
 } // namespace
 
-std::optional<Vec3<double>> free_place(const Surroundings& near, std::size_t i) { return Search(near, i).run(); }
+std::optional<Vec3<double>> free_place(const Surroundings& near, const SandPoint& point)
+{
+    return Search(near, point).run();
+}
 
 } // namespace tread::world

@@ -20,8 +20,8 @@ struct Surroundings
     double            farthest; ///< m, largest distance that a point may be moved
 };
 
-/// Finds the nearest place at which point i touches no body, along the gradients of the signed distances: from its
-/// position, else from places around it. Depends only on the bodies and i; thread-safe.
-std::optional<Vec3<double>> free_place(const Surroundings& near, std::size_t i);
+/// Finds the nearest place at which a point touches no body, along the gradients of the signed distances: from its
+/// position, else from places around it. Depends only on the bodies and the point; thread-safe.
+std::optional<Vec3<double>> free_place(const Surroundings& near, const SandPoint& point);
 
 } // namespace tread::world

@@ -18,18 +18,19 @@ constexpr double widening_of_disorder = 1.5;
 
 } // namespace
 
-SandMap::SandMap(const scene::Scene& scene, const HostPoints& points)
+SandMap::SandMap(const scene::Scene& scene, const Sand& sand)
     : tables_(scene.terrain.size())
 {
     constexpr double          far = std::numeric_limits<double>::infinity();
     std::vector<Vec3<double>> low(tables_.size(), Vec3<double>::Constant(far)), high(tables_.size(), -low[0]);
-    for (std::size_t i = 0; i < points.size(); ++i)
+    for (const PointRow& row : sand.rows)
     {
-        const auto table = static_cast<std::size_t>(points.terrain[i]);
-        Sites&     sites = tables_[table];
-        low[table]       = low[table].cwiseMin(points.position[i]);
-        high[table]      = high[table].cwiseMax(points.position[i]);
-        sites.spacing    = std::max(sites.spacing, std::cbrt(points.volume[i]));
+        const PointKind& kind  = sand.kind_of(row);
+        const auto       table = static_cast<std::size_t>(kind.terrain);
+        Sites&           sites = tables_[table];
+        low[table]             = low[table].cwiseMin(row.at(0));
+        high[table]            = high[table].cwiseMax(row.at(row.count - 1));
+        sites.spacing          = std::max(sites.spacing, std::cbrt(kind.volume));
     }
     for (std::size_t table = 0; table < tables_.size(); ++table)
     {
@@ -47,11 +48,12 @@ SandMap::SandMap(const scene::Scene& scene, const HostPoints& points)
                              "coarsen its points, or several tables of smaller regions"});
         sites.taken.resize(static_cast<std::size_t>(sites.size[0] * sites.size[1] * sites.size[2]));
     }
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-        Sites& sites = tables_[static_cast<std::size_t>(points.terrain[i])];
-        sites.taken[static_cast<std::size_t>(site(sites, points.position[i]))] = true;
-    }
+    for_each_point(sand,
+                   [&](const SandPoint& point)
+                   {
+                       Sites& sites = tables_[static_cast<std::size_t>(point.kind.terrain)];
+                       sites.taken[static_cast<std::size_t>(site(sites, point.position))] = true;
+                   });
 }
 
 /// Index of the site; -1 outside the lattice.

@@ -9,12 +9,12 @@
 namespace tread::world
 {
 
-/// Space occupied by sand, by [[terrain]] table: the cubes of the volume of its points. Later changes of the points
+/// Space occupied by sand, by [[terrain]] table: the cubes of the volume of its points. Later changes of the sand
 /// have no effect. Thread-safe.
 class SandMap
 {
 public:
-    SandMap(const scene::Scene& scene, const HostPoints& points);
+    SandMap(const scene::Scene& scene, const Sand& sand);
 
     /// Whether x lies in the sand of a table.
     bool holds(std::int32_t table, const Vec3<double>& x) const;

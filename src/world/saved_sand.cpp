@@ -64,6 +64,14 @@ void require_in_domain(const scene::Scene& scene, std::size_t table, const doubl
     }
 }
 
+/// Makes room for single points.
+void reserve(Sand& sand, std::size_t points)
+{
+    sand.rows.reserve(sand.rows.size() + points);
+    sand.kinds.reserve(sand.kinds.size() + points);
+    sand.saved.reserve(sand.saved.size() + points);
+}
+
 } // namespace
 
 io::BedPoints saved_points(const Communicator& communicator, const scene::Scene& scene, const World& world,
@@ -73,8 +81,9 @@ io::BedPoints saved_points(const Communicator& communicator, const scene::Scene&
     std::vector<double> volume(count), mass(count);
     for (std::size_t i = 0; i < count; ++i)
     {
-        volume[i] = world.points.volume[fields.id[i]] * static_cast<double>(fields.volume_ratio[i]);
-        mass[i]   = world.points.mass[fields.id[i]];
+        const PointKind& kind = point_of(world.sand, fields.id[i]).kind;
+        volume[i]             = kind.volume * static_cast<double>(fields.volume_ratio[i]);
+        mass[i]               = kind.mass;
     }
     const auto doubles = [](const std::vector<float>& values)
     { return std::vector<double>(values.begin(), values.end()); };
@@ -95,7 +104,7 @@ io::BedPoints saved_points(const Communicator& communicator, const scene::Scene&
     return points;
 }
 
-void append_saved_points(const scene::Scene& scene, std::size_t table, HostPoints& points)
+void append_saved_points(const scene::Scene& scene, std::size_t table, Sand& sand)
 {
     const io::BedPoints    saved    = read_bed(scene, table).points;
     const std::int32_t     theirs   = material_in_bed(scene, table, saved);
@@ -108,24 +117,21 @@ void append_saved_points(const scene::Scene& scene, std::size_t table, HostPoint
     require_same(scene, table, "young" + of, material.young, kind.young);
     require_same(scene, table, "poisson" + of, material.poisson, kind.poisson);
     require_same(scene, table, "young_pressure" + of, material.young_pressure, kind.young_pressure);
-    points.plastic_shear.resize(points.size(), 0.0);
-    const std::size_t before = points.size();
+    const std::size_t before = sand.size();
+    reserve(sand, saved.material.size());
     for (std::size_t i = 0; i < saved.material.size(); ++i)
     {
         if (saved.material[i] != theirs) { continue; }
         const double* x = saved.position.data() + 3 * i;
         require_in_domain(scene, table, x);
-        Sym3<double> stress;
-        for (int c = 0; c < 6; ++c) { stress[c] = saved.stress[6 * i + static_cast<std::size_t>(c)]; }
-        points.position.emplace_back(x);
-        points.volume.push_back(saved.volume[i]);
-        points.mass.push_back(saved.mass[i]);
-        points.stress.push_back(stress);
-        points.material.push_back(static_cast<std::uint8_t>(ours));
-        points.terrain.push_back(static_cast<std::int32_t>(table));
-        points.plastic_shear.push_back(saved.plastic_shear[i]);
+        SavedState state{Sym3<double>::Zero(), saved.plastic_shear[i]};
+        for (int c = 0; c < 6; ++c) { state.stress[c] = saved.stress[6 * i + static_cast<std::size_t>(c)]; }
+        append(sand, alone_at(Vec3<double>(x), static_cast<std::int32_t>(sand.kinds.size())));
+        sand.kinds.push_back({saved.volume[i], saved.mass[i], static_cast<std::int32_t>(table),
+                              static_cast<std::int32_t>(sand.saved.size()), static_cast<std::uint8_t>(ours)});
+        sand.saved.push_back(state);
     }
-    if (points.size() == before) { refuse(scene, table, "it has no point" + of); }
+    if (sand.size() == before) { refuse(scene, table, "it has no point" + of); }
 }
 
 } // namespace tread::world

@@ -15,6 +15,6 @@ io::BedPoints saved_points(const Communicator& communicator, const scene::Scene&
 
 /// Appends the points of the table's bed that have its material, at rest at their saved positions. InputError, with
 /// file, key and accepted values, for a file that is not a bed, and where scene and bed do not match.
-void append_saved_points(const scene::Scene& scene, std::size_t table, HostPoints& points);
+void append_saved_points(const scene::Scene& scene, std::size_t table, Sand& sand);
 
 } // namespace tread::world

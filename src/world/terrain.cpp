@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -49,65 +50,45 @@ std::array<Sites, 3> lattice(const scene::Terrain& terrain, double spacing, cons
     return axes;
 }
 
-bool moves(const scene::Terrain& terrain) { return terrain.velocity != scene::Vector3{}; }
-
-/// Properties that a table gives each of its points.
-struct PointKind
+void remove_inside(Sand& sand, const Space& space)
 {
-    double       volume;
-    double       mass;
-    std::uint8_t material;
-    std::int32_t table;
-};
-
-void append(HostPoints& points, const Vec3<double>& x, const PointKind& kind)
-{
-    points.position.push_back(x);
-    points.volume.push_back(kind.volume);
-    points.mass.push_back(kind.mass);
-    points.stress.push_back(Sym3<double>::Zero());
-    points.material.push_back(kind.material);
-    points.terrain.push_back(kind.table);
-    if (!points.plastic_shear.empty()) { points.plastic_shear.push_back(0); }
-}
-
-void remove_inside(HostPoints& points, const Space& space)
-{
-    std::vector<std::uint8_t> kept(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) { kept[i] = contains(space, points.position[i]) ? 0 : 1; }
-    keep_points(points, kept);
-}
-
-/// Throws if there are more points than 32-bit lists can index.
-void require_countable(const HostPoints& points)
-{
-    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
-    if (points.size() > most)
+    const scene::Box            box    = bounds(space.region);
+    const std::vector<PointRow> before = std::exchange(sand.rows, {});
+    for (const PointRow& row : before)
     {
-        throw InputError(fmt::format("[[terrain]]: over {} points; accepted: at most that many on one device; coarsen "
-                                     "[grid] spacing or points_per_cell",
-                                     most));
+        const bool beside = row.y < box.low[1] || row.y > box.high[1] || row.z < box.low[2] || row.z > box.high[2];
+        append_where(sand, row, [&](std::uint32_t k) { return beside || !contains(space, row.at(k)); });
     }
+}
+
+/// Most points that 32-bit lists can index.
+constexpr double most_points = std::numeric_limits<std::int32_t>::max();
+
+[[noreturn]] void refuse_count(double points)
+{
+    throw InputError(fmt::format("[[terrain]]: {:.3g} points; accepted: at most {:.0f}; coarsen [grid] spacing, "
+                                 "points_per_cell or the table's spacing",
+                                 points, most_points));
 }
 
 std::size_t count(const Sites& sites) { return static_cast<std::size_t>(std::max(0L, sites.end - sites.first)); }
 
-/// Throws EnvironmentError where a table's columns or points do not fit into memory. Points are estimated from the
-/// space's volume, since its bounding box may be mostly empty.
-void require_room_for_points(const Space& space, const std::array<Sites, 3>& axes, const std::string& owner)
+/// Throws where a table's columns and rows do not fit into memory, or its points into 32-bit lists. Points are
+/// estimated from the space's volume, since its bounding box may be mostly empty.
+void require_room(const Space& space, const std::array<Sites, 3>& axes, const std::string& owner)
 {
-    constexpr double of_column = sizeof(std::pair<double, double>), growth = 2; // reallocation of a growing vector
-    constexpr double of_point = growth * (sizeof(Vec3<double>) + sizeof(Sym3<double>) + 2 * sizeof(double) +
-                                          sizeof(std::uint8_t) + sizeof(std::int32_t));
+    constexpr double of_column = sizeof(std::pair<double, double>), of_row = 2 * sizeof(PointRow), slack = 1.1;
     const char*      advice   = "coarsen [grid] spacing, points_per_cell or the table's spacing";
-    const double     columns  = static_cast<double>(count(axes[0])) * static_cast<double>(count(axes[1]));
-    const double     sites    = columns * static_cast<double>(count(axes[2]));
+    const double     across   = std::max(1.0, static_cast<double>(count(axes[0])));
+    const double     columns  = across * static_cast<double>(count(axes[1]));
+    const double     all_rows = static_cast<double>(count(axes[1])) * static_cast<double>(count(axes[2]));
     require_host_memory({of_column * columns, fmt::format("{}: its {:.3g} columns of points", owner, columns), advice});
-    if (of_column * columns + of_point * sites < 0.1 * static_cast<double>(available_host_memory())) { return; }
-    const double points = std::min(sites, volume(space) / std::pow(axes[0].spacing, 3));
-    require_host_memory({of_column * columns + of_point * points,
-                         fmt::format("{}: its {:.3g} points, {:.3g} m apart,", owner, points, axes[0].spacing),
-                         advice});
+    const bool few = of_row * all_rows < 0.1 * static_cast<double>(available_host_memory());
+    if (few && across * all_rows < most_points) { return; }
+    const double points = std::min(across * all_rows, volume(space) / std::pow(axes[0].spacing, 3));
+    if (points > slack * most_points) { refuse_count(points); }
+    require_host_memory({of_column * columns + of_row * points / across,
+                         fmt::format("{}: its {:.3g} rows of points", owner, points / across), advice});
 }
 
 /// Sites along z between the lowest and the highest level of all columns.
@@ -130,8 +111,7 @@ Sites sites_of_levels(Sites along_z, const std::vector<std::pair<double, double>
 
 /// Adds a point at each site in the space for which `wanted` is true.
 template<class Wanted>
-void fill(const Space& space, const std::array<Sites, 3>& axes, const PointKind& kind, const Wanted& wanted,
-          HostPoints& points)
+void fill(const Space& space, const std::array<Sites, 3>& axes, std::int32_t kind, const Wanted& wanted, Sand& sand)
 {
     // Points are added layer by layer; levels are computed once per column.
     const auto& [along_x, along_y, all_along_z] = axes;
@@ -149,66 +129,79 @@ void fill(const Space& space, const std::array<Sites, 3>& axes, const PointKind&
     const Sites along_z = sites_of_levels(all_along_z, level);
     for (long k = along_z.first; k < along_z.end; ++k)
     {
-        for (std::size_t column = 0; column < level.size(); ++column)
+        for (std::size_t j = 0; j < columns_y; ++j)
         {
-            const Vec3<double> x(along_x.at(along_x.first + static_cast<long>(column % columns_x)),
-                                 along_y.at(along_y.first + static_cast<long>(column / columns_x)), along_z.at(k));
-            const auto& [low, high] = level[column];
-            if (low <= x[2] && x[2] < high && contains(space.region, x) && wanted(x)) { append(points, x, kind); }
+            const PointRow row{along_x.origin,
+                               along_x.spacing,
+                               along_y.at(along_y.first + static_cast<long>(j)),
+                               along_z.at(k),
+                               along_x.first,
+                               static_cast<std::uint32_t>(columns_x),
+                               kind};
+            append_where(sand, row,
+                         [&](std::uint32_t i)
+                         {
+                             const auto& [low, high] = level[j * columns_x + i];
+                             if (!(low <= row.z && row.z < high)) { return false; }
+                             const Vec3<double> x = row.at(i);
+                             return contains(space.region, x) && wanted(x);
+                         });
         }
-        require_countable(points);
+        if (static_cast<double>(sand.size()) > most_points) { refuse_count(static_cast<double>(sand.size())); }
     }
 }
 
-PointKind kind_of(const scene::Scene& scene, std::size_t table, double spacing)
+/// Adds the kind of a table's points; returns its index.
+std::int32_t add_kind(const scene::Scene& scene, std::size_t table, double spacing, Sand& sand)
 {
     const int    material = material_index(scene, scene.terrain[table].material);
     const double volume   = spacing * spacing * spacing;
-    return {volume, scene.materials[static_cast<std::size_t>(material)].density * volume,
-            static_cast<std::uint8_t>(material), static_cast<std::int32_t>(table)};
+    sand.kinds.push_back({volume, scene.materials[static_cast<std::size_t>(material)].density * volume,
+                          static_cast<std::int32_t>(table), -1, static_cast<std::uint8_t>(material)});
+    return static_cast<std::int32_t>(sand.kinds.size()) - 1;
 }
 
 /// Adds the points in one level of the grid, on the lattice of its cells.
 void fill_level(const scene::Scene& scene, std::size_t table, const Space& space, const mpm::Refinement& refinement,
-                int level, HostPoints& points)
+                int level, Sand& sand)
 {
     const scene::Terrain& terrain = scene.terrain[table];
     const double          spacing = lattice_spacing(scene, terrain) / (1 << level);
     const scene::Box      within  = level == 0 ? bounds(terrain.region) : box_of(scene, refinement, level);
     const auto            here    = [&](const Vec3<double>& x) { return level_at(scene, refinement, x) == level; };
     const auto            sites   = lattice(terrain, spacing, within);
-    require_room_for_points(space, sites, fmt::format("[[terrain]] {}", table));
-    fill(space, sites, kind_of(scene, table, spacing), here, points);
+    require_room(space, sites, fmt::format("[[terrain]] {}", table));
+    fill(space, sites, add_kind(scene, table, spacing, sand), here, sand);
 }
 
-void add_table(const scene::Scene& scene, std::size_t table, const mpm::Refinement& refinement, HostPoints& points)
+void add_table(const scene::Scene& scene, std::size_t table, const mpm::Refinement& refinement, Sand& sand)
 {
     const scene::Terrain& terrain = scene.terrain[table];
     if (!terrain.from.empty())
     {
-        append_saved_points(scene, table, points);
+        append_saved_points(scene, table, sand);
         return;
     }
     const auto  owner = fmt::format("[[terrain]] {}", table);
     const Space space = make_space(terrain.region, terrain.height, terrain.floor, owner);
-    remove_inside(points, space);
+    remove_inside(sand, space);
     const double spacing = lattice_spacing(scene, terrain);
-    const auto   before  = points.size();
+    const auto   before  = sand.size();
     if (refinement.levels == 0 || terrain.spacing)
     {
         const auto anywhere = [](const Vec3<double>&) { return true; };
         const auto sites    = lattice(terrain, spacing, bounds(terrain.region));
-        require_room_for_points(space, sites, owner);
-        fill(space, sites, kind_of(scene, table, spacing), anywhere, points);
+        require_room(space, sites, owner);
+        fill(space, sites, add_kind(scene, table, spacing, sand), anywhere, sand);
     }
     else
     {
         for (int level = 0; level <= refinement.levels; ++level)
         {
-            fill_level(scene, table, space, refinement, level, points);
+            fill_level(scene, table, space, refinement, level, sand);
         }
     }
-    if (points.size() == before)
+    if (sand.size() == before)
     {
         throw InputError(fmt::format("{}: no point of its lattice (spacing {:.4g} m) lies in its region {} between "
                                      "floor and height; enlarge them, or refine the grid",
@@ -216,28 +209,18 @@ void add_table(const scene::Scene& scene, std::size_t table, const mpm::Refineme
     }
 }
 
-void set_velocities(const scene::Scene& scene, HostPoints& points)
-{
-    if (std::none_of(scene.terrain.begin(), scene.terrain.end(), moves)) { return; }
-    points.velocity.reserve(points.size());
-    for (const std::int32_t table : points.terrain)
-    {
-        points.velocity.emplace_back(scene.terrain[static_cast<std::size_t>(table)].velocity.data());
-    }
-}
-
 } // namespace
 
-HostPoints make_terrain(const scene::Scene& scene, const mpm::Refinement& refinement)
+Sand make_terrain(const scene::Scene& scene, const mpm::Refinement& refinement)
 {
-    HostPoints points;
+    Sand sand;
+    for (const scene::Terrain& terrain : scene.terrain) { sand.velocity.emplace_back(terrain.velocity.data()); }
     for (std::size_t table = 0; table < scene.terrain.size(); ++table)
     {
         scene::with_line_of(scene, fmt::format("terrain[{}]", table),
-                            [&] { add_table(scene, table, refinement, points); });
+                            [&] { add_table(scene, table, refinement, sand); });
     }
-    set_velocities(scene, points);
-    return points;
+    return sand;
 }
 
 double lattice_spacing(const scene::Scene& scene, const scene::Terrain& terrain)
@@ -245,45 +228,20 @@ double lattice_spacing(const scene::Scene& scene, const scene::Terrain& terrain)
     return terrain.spacing.value_or(scene.grid.spacing / std::round(std::cbrt(terrain.points_per_cell)));
 }
 
-double terrain_spacing(const scene::Scene& scene, const HostPoints& points)
+double terrain_spacing(const scene::Scene& scene, const Sand& sand)
 {
     double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < points.size(); ++i)
+    for (const PointRow& row : sand.rows)
     {
-        const bool on_scene_lattice = scene.grid.refine.empty();
-        if (on_scene_lattice && scene.terrain[static_cast<std::size_t>(points.terrain[i])].from.empty()) { continue; }
-        smallest = std::min(smallest, std::cbrt(points.volume[i]));
+        const PointKind& kind             = sand.kind_of(row);
+        const bool       on_scene_lattice = scene.grid.refine.empty() && kind.saved < 0;
+        if (!on_scene_lattice) { smallest = std::min(smallest, std::cbrt(kind.volume)); }
     }
     for (const scene::Terrain& terrain : scene.terrain)
     {
         if (terrain.from.empty()) { smallest = std::min(smallest, lattice_spacing(scene, terrain)); }
     }
     return std::isinf(smallest) ? 0 : smallest;
-}
-
-std::int64_t keep_points(HostPoints& points, const std::vector<std::uint8_t>& kept)
-{
-    const std::size_t before  = points.size();
-    const auto        compact = [&](auto& values)
-    {
-        if (values.empty()) { return; }
-        std::size_t end = 0;
-        for (std::size_t i = 0; i < before; ++i)
-        {
-            if (kept[i] != 0) { values[end++] = values[i]; }
-        }
-        values.resize(end);
-    };
-    compact(points.volume);
-    compact(points.mass);
-    compact(points.stress);
-    compact(points.material);
-    compact(points.terrain);
-    compact(points.velocity);
-    compact(points.plastic_shear);
-    compact(points.id);
-    compact(points.position);
-    return static_cast<std::int64_t>(before - points.size());
 }
 
 } // namespace tread::world

@@ -10,7 +10,6 @@
 
 #include "base/errors.hpp"
 #include "scene/lines.hpp"
-#include "world/geostatic.hpp"
 #include "world/grading.hpp"
 #include "world/joints.hpp"
 #include "world/layers.hpp"
@@ -105,7 +104,7 @@ std::vector<std::vector<RockDraw>> draw_all_rocks(const scene::Scene& scene, con
 }
 
 /// A template needed by bodies or rocks.
-struct Wanted
+struct WantedShape
 {
     scene::Shape shape;
     double       smallest; ///< m, diameter of the smallest instance; infinite if all are bodies of the shape's own size
@@ -119,17 +118,17 @@ public:
     {
         const auto [at, is_new] = index_.try_emplace(shape.name, wanted.size());
         if (is_new) { wanted.push_back({shape, diameter}); }
-        Wanted& one  = wanted[at->second];
-        one.smallest = std::min(one.smallest, diameter);
+        WantedShape& one = wanted[at->second];
+        one.smallest     = std::min(one.smallest, diameter);
     }
 
-    std::vector<Wanted> wanted;
+    std::vector<WantedShape> wanted;
 
 private:
     std::map<std::string, std::size_t> index_;
 };
 
-std::vector<Wanted> wanted_shapes(const scene::Scene& scene, const std::vector<std::vector<RockDraw>>& draws)
+std::vector<WantedShape> wanted_shapes(const scene::Scene& scene, const std::vector<std::vector<RockDraw>>& draws)
 {
     WantedShapes shapes;
     for (const scene::Body& body : scene.bodies)
@@ -153,12 +152,10 @@ constexpr double most_point_radii = 8;
 
 /// m at the shape's scale 1, largest contact radius of a point at the smallest instance of a shape: the distance at
 /// which contact with sand begins.
-double contact_reach(const scene::Scene& scene, const HostPoints& points, const Wanted& wanted,
-                     double equivalent_radius)
+double contact_reach(const scene::Scene& scene, const Sand& sand, const WantedShape& wanted, double equivalent_radius)
 {
-    if (points.size() == 0) { return 0; }
-    const double volume  = *std::max_element(points.volume.begin(), points.volume.end());
-    const double largest = contact::point_radius(volume, radius_rule(scene.numerics.point_radius));
+    if (sand.size() == 0) { return 0; }
+    const double largest = contact::point_radius(largest_volume(sand), radius_rule(scene.numerics.point_radius));
     const double radius  = std::min(equivalent_radius, 0.5 * wanted.smallest);
     if (largest > most_point_radii * radius)
     {
@@ -171,12 +168,11 @@ double contact_reach(const scene::Scene& scene, const HostPoints& points, const 
     return largest / std::min(1.0, 0.5 * wanted.smallest / equivalent_radius);
 }
 
-shape::ShapeTemplate make_template(const scene::Scene& scene, const HostPoints& points, const Wanted& wanted)
+shape::ShapeTemplate make_template(const scene::Scene& scene, const Sand& sand, const WantedShape& wanted)
 {
     const auto& size  = scene.domain.size;
-    const auto  reach = [&](double equivalent_radius)
-    { return contact_reach(scene, points, wanted, equivalent_radius); };
-    auto         form   = shape::make_template(wanted.shape, scene.directory, reach);
+    const auto  reach = [&](double equivalent_radius) { return contact_reach(scene, sand, wanted, equivalent_radius); };
+    auto        form  = shape::make_template(wanted.shape, scene.directory, reach);
     const double extent = form.box.extent().maxCoeff();
     if (std::isinf(wanted.smallest) && extent > 100 * *std::max_element(size.begin(), size.end()))
     {
@@ -196,15 +192,15 @@ std::string shape_table(const scene::Scene& scene, const std::string& name)
     return "shape." + family;
 }
 
-std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene, const HostPoints& points,
-                                                 const std::vector<Wanted>& wanted)
+std::vector<shape::ShapeTemplate> make_templates(const scene::Scene& scene, const Sand& sand,
+                                                 const std::vector<WantedShape>& wanted)
 {
     std::vector<shape::ShapeTemplate> templates;
     templates.reserve(wanted.size());
-    for (const Wanted& one : wanted)
+    for (const WantedShape& one : wanted)
     {
         templates.push_back(scene::with_line_of(scene, shape_table(scene, one.shape.name),
-                                                [&] { return make_template(scene, points, one); }));
+                                                [&] { return make_template(scene, sand, one); }));
     }
     return templates;
 }
@@ -265,15 +261,14 @@ World build_world(const scene::Scene& scene)
     world.planes              = body_planes(scene);
     SavedBeds  beds(scene);
     const auto draws    = draw_all_rocks(scene, beds);
-    world.points        = make_terrain(scene, world.geometry.refinement);
-    world.point_spacing = terrain_spacing(scene, world.points);
-    world.templates     = make_templates(scene, world.points, wanted_shapes(scene, draws));
+    world.sand          = make_terrain(scene, world.geometry.refinement);
+    world.point_spacing = terrain_spacing(scene, world.sand);
+    world.templates     = make_templates(scene, world.sand, wanted_shapes(scene, draws));
     add_named_bodies(scene, world);
     add_rocks(scene, draws, beds, world);
     require_room_for_columns(scene, world);
     find_heights(scene, world);
     if (!scene.joints.empty()) { world.joints = make_joints(scene, world.bodies); }
-    set_geostatic_stress(scene, world.bodies, world.points);
     return world;
 }
 

@@ -12,32 +12,11 @@
 #include "kernels/mpm/pages/order.hpp"
 #include "scene/scene.hpp"
 #include "shape/template.hpp"
+#include "world/sand.hpp"
 
 // The world that a scene describes, built once on the host: identical on every machine and for every backend.
 namespace tread::world
 {
-
-/// Material points before they are copied to a backend; one entry per point in every array.
-struct HostPoints
-{
-    std::vector<Vec3<double>> position; ///< m
-    std::vector<double>       volume;   ///< m3
-    std::vector<double>       mass;     ///< kg
-    std::vector<Sym3<double>> stress;   ///< Pa
-    std::vector<std::uint8_t> material;
-    std::vector<std::int32_t> terrain;  ///< index of the [[terrain]] table that created the point
-    std::vector<Vec3<double>> velocity; ///< m/s; empty if all points are at rest
-
-    std::vector<double> plastic_shear; ///< initial, of the points of a saved bed; empty without such points
-
-    /// Ids in the scene, if these points are one rank's own. Empty: all points of the scene, in their order.
-    std::vector<std::uint32_t> id;
-
-    std::size_t size() const { return position.size(); }
-};
-
-/// Keeps the points for which kept[i] is not 0, in their order; returns the number removed.
-std::int64_t keep_points(HostPoints& points, const std::vector<std::uint8_t>& kept);
 
 /// Rigid bodies: first the scene's [[body]] tables in their order, then the rocks.
 struct HostBodies
@@ -86,7 +65,7 @@ struct World
     mpm::GridWalls                    grid_walls;
     std::vector<dem::Plane>           planes; ///< walls in contact with bodies
     std::vector<shape::ShapeTemplate> templates;
-    HostPoints                        points;
+    Sand                              sand;
     HostBodies                        bodies;
     std::vector<LayerShares>          layers;   ///< for [[rocks]] tables that replace sand
     std::vector<ContactRecord>        contacts; ///< initial contacts of the bodies, by ascending key
@@ -94,7 +73,7 @@ struct World
     double point_spacing;                       ///< m, smallest distance between neighbouring points; 0 without sand
 };
 
-/// Builds points, rocks and bodies of a scene; InputError where geometry is impossible: a body or rock that overlaps
+/// Builds sand, rocks and bodies of a scene; InputError where geometry is impossible: a body or rock that overlaps
 /// another, a wall or the sand (unless it replaces it), a shape over 100 times the domain, a region too small.
 World build_world(const scene::Scene& scene);
 

@@ -11,17 +11,45 @@ namespace
 constexpr double      largest_rounding = 1e-9; ///< relative, of a sum of up to 1e9 terms
 constexpr std::size_t weights          = 101;  ///< number of cyclic weights, which make the sums depend on the order
 
-/// Sum of the masses, and of places times masses and weights.
-void add_masses(const std::vector<Vec3<double>>& place, const std::vector<double>& mass, std::vector<double>& to)
+/// Sum of masses, and of places times masses and weights.
+struct Moments
 {
+    std::size_t  count  = 0;
     double       sum    = 0;
     Vec3<double> moment = Vec3<double>::Zero();
-    for (std::size_t i = 0; i < mass.size(); ++i)
+
+    void add(const Vec3<double>& place, double mass)
     {
-        sum += mass[i];
-        moment += static_cast<double>(1 + i % weights) * mass[i] * place[i];
+        sum += mass;
+        moment += static_cast<double>(1 + count % weights) * mass * place;
+        ++count;
     }
-    to.insert(to.end(), {static_cast<double>(mass.size()), sum, moment[0], moment[1], moment[2]});
+};
+
+void append(const Moments& all, std::vector<double>& to)
+{
+    to.insert(to.end(), {static_cast<double>(all.count), all.sum, all.moment[0], all.moment[1], all.moment[2]});
+}
+
+/// Moments of the points' masses, and of their volumes.
+void add_sand(const Sand& sand, std::vector<double>& to)
+{
+    Moments mass, volume;
+    for_each_point(sand,
+                   [&](const SandPoint& point)
+                   {
+                       mass.add(point.position, point.kind.mass);
+                       volume.add(point.position, point.kind.volume);
+                   });
+    append(mass, to);
+    append(volume, to);
+}
+
+void add_masses(const std::vector<Vec3<double>>& place, const std::vector<double>& mass, std::vector<double>& to)
+{
+    Moments all;
+    for (std::size_t i = 0; i < mass.size(); ++i) { all.add(place[i], mass[i]); }
+    append(all, to);
 }
 
 } // namespace
@@ -29,8 +57,7 @@ void add_masses(const std::vector<Vec3<double>>& place, const std::vector<double
 std::vector<double> measures(const World& world)
 {
     std::vector<double> found;
-    add_masses(world.points.position, world.points.mass, found);
-    add_masses(world.points.position, world.points.volume, found);
+    add_sand(world.sand, found);
     add_masses(world.bodies.position, world.bodies.mass, found);
     add_masses(world.bodies.position, world.bodies.scale, found);
     for (const shape::ShapeTemplate& form : world.templates)

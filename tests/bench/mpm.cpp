@@ -20,8 +20,8 @@ void run_on(const Exec& exec, const MpmCase& what)
 {
     const Lattice         points = lattice(what);
     const scene::Scene    scene  = make_scene(what, points);
-    const world::World    world  = make_world(what, scene, points, [](std::uint64_t) { return true; });
-    const auto            count  = static_cast<double>(world.points.size());
+    const world::World    world  = make_world(what, scene, points);
+    const auto            count  = static_cast<double>(world.sand.size());
     SandBench<Exec, Real> bench(exec, what, scene, world, nullptr);
     const double          height = static_cast<double>(points.across[2]) * points.distance;
     const bool            moving = what.state == SandState::collapsing;

@@ -2,15 +2,11 @@
 
 #include <cmath>
 #include <cstdint>
-#include <map>
-#include <utility>
-#include <vector>
 
-#include "decomp/page_graph.hpp"
 #include "mpm.hpp"
 #include "world/world.hpp"
 
-// A bed or a column of sand on a lattice; each rank generates only the points of its own pages.
+// A bed or a column of sand on a lattice.
 namespace tread::bench
 {
 
@@ -71,65 +67,6 @@ inline Vec3<double> corner_of(const MpmCase& what, const scene::Scene& scene)
     return column ? Vec3<double>(scene.domain.size[0] / 3, scene.domain.size[1] / 3, 0) : Vec3<double>::Zero();
 }
 
-/// Range [first, end) of points along each axis in one page.
-struct PagePoints
-{
-    std::int64_t first[3];
-    std::int64_t end[3];
-
-    std::int64_t count() const { return (end[0] - first[0]) * (end[1] - first[1]) * (end[2] - first[2]); }
-};
-
-/// Start of each page of the lattice along one axis, and one past the end.
-inline std::vector<std::pair<std::int32_t, std::int64_t>> page_starts(const mpm::GridGeometry& geometry, double corner,
-                                                                      double distance, std::int64_t count)
-{
-    std::vector<std::pair<std::int32_t, std::int64_t>> starts;
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-        const Vec3<double> at   = Vec3<double>::Constant(corner + distance * (double(i) + 0.5));
-        const std::int32_t page = mpm::page_of(mpm::cell_of(at, geometry.lattice())).x;
-        if (starts.empty() || starts.back().first != page) { starts.emplace_back(page, i); }
-    }
-    starts.emplace_back(0, count);
-    return starts;
-}
-
-using LatticePages = std::map<std::uint64_t, PagePoints>;
-
-/// All pages of a lattice, computed without visiting its points.
-inline LatticePages pages_of(const mpm::GridGeometry& geometry, const Vec3<double>& corner, const Lattice& lattice)
-{
-    std::vector<std::pair<std::int32_t, std::int64_t>> axes[3];
-    for (int c = 0; c < 3; ++c) { axes[c] = page_starts(geometry, corner[c], lattice.distance, lattice.across[c]); }
-    LatticePages pages;
-    for (std::size_t z = 0; z + 1 < axes[2].size(); ++z)
-    {
-        for (std::size_t y = 0; y + 1 < axes[1].size(); ++y)
-        {
-            for (std::size_t x = 0; x + 1 < axes[0].size(); ++x)
-            {
-                const mpm::Index3 page{axes[0][x].first, axes[1][y].first, axes[2][z].first};
-                pages[mpm::page_key(page)] = {{axes[0][x].second, axes[1][y].second, axes[2][z].second},
-                                              {axes[0][x + 1].second, axes[1][y + 1].second, axes[2][z + 1].second}};
-            }
-        }
-    }
-    return pages;
-}
-
-inline decomp::PageGraph graph_of(const LatticePages& pages)
-{
-    std::vector<std::uint64_t> key;
-    std::vector<double>        load;
-    for (const auto& [page, points] : pages)
-    {
-        key.push_back(page);
-        load.push_back(static_cast<double>(points.count()));
-    }
-    return decomp::page_graph(std::move(key), std::move(load));
-}
-
 /// World with walls and grid, without points.
 inline world::World empty_world(const scene::Scene& scene)
 {
@@ -148,55 +85,23 @@ inline world::World empty_world(const scene::Scene& scene)
     return world;
 }
 
-/// Memory matters: a thousand million points must fit on the host.
-inline void fill(world::HostPoints& points, const scene::Material& sand, const Vec3<double>& corner,
-                 const Lattice& lattice, const std::vector<PagePoints>& pages)
+/// World with the points of the lattice.
+inline world::World make_world(const MpmCase& what, const scene::Scene& scene, const Lattice& lattice)
 {
-    std::vector<std::int64_t> first{0};
-    for (const PagePoints& page : pages) { first.push_back(first.back() + page.count()); }
-    const auto   count  = static_cast<std::size_t>(first.back());
-    const double volume = std::pow(lattice.distance, 3);
-    const double height = static_cast<double>(lattice.across[2]) * lattice.distance;
-    const double k      = sand.poisson / (1 - sand.poisson);
-    points.position.resize(count);
-    points.stress.resize(count);
-    points.id.resize(count);
-    points.volume.assign(count, volume);
-    points.mass.assign(count, sand.density * volume);
-    points.material.assign(count, 0);
-#pragma omp parallel for
-    for (std::size_t p = 0; p < pages.size(); ++p)
+    world::World       world  = empty_world(scene);
+    const Vec3<double> corner = corner_of(what, scene);
+    const double       volume = std::pow(lattice.distance, 3);
+    world.sand.kinds          = {{volume, scene.materials[0].density * volume}};
+    world.sand.velocity       = {Vec3<double>::Zero()};
+    const auto along          = [&](int c, std::int64_t i) { return corner[c] + lattice.distance * (double(i) + 0.5); };
+    for (std::int64_t z = 0; z < lattice.across[2]; ++z)
     {
-        const PagePoints& page = pages[p];
-        auto              at   = static_cast<std::size_t>(first[p]);
-        for (std::int64_t z = page.first[2]; z < page.end[2]; ++z)
+        for (std::int64_t y = 0; y < lattice.across[1]; ++y)
         {
-            for (std::int64_t y = page.first[1]; y < page.end[1]; ++y)
-            {
-                for (std::int64_t x = page.first[0]; x < page.end[0]; ++x, ++at)
-                {
-                    points.position[at] =
-                        corner + lattice.distance * Vec3<double>(double(x) + 0.5, double(y) + 0.5, double(z) + 0.5);
-                    const double vertical = -9.81 * sand.density * (height - points.position[at][2]);
-                    points.stress[at] << k * vertical, k * vertical, vertical, 0, 0, 0;
-                    points.id[at] = static_cast<std::uint32_t>((z * lattice.across[1] + y) * lattice.across[0] + x);
-                }
-            }
+            append(world.sand, {corner[0], lattice.distance, along(1, y), along(2, z), 0,
+                                static_cast<std::uint32_t>(lattice.across[0]), 0});
         }
     }
-}
-
-/// World with the points of the pages for which owned(page key) holds.
-template<class Owned>
-world::World make_world(const MpmCase& what, const scene::Scene& scene, const Lattice& lattice, Owned owned)
-{
-    world::World            world = empty_world(scene);
-    std::vector<PagePoints> own;
-    for (const auto& [key, points] : pages_of(world.geometry, corner_of(what, scene), lattice))
-    {
-        if (owned(key)) { own.push_back(points); }
-    }
-    fill(world.points, scene.materials[0], corner_of(what, scene), lattice, own);
     return world;
 }
 

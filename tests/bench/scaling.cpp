@@ -15,7 +15,8 @@ void run_on(const Exec& exec, const Communicator& communicator, const MpmCase& w
 {
     const Lattice      points = lattice(what);
     const scene::Scene scene  = make_scene(what, points);
-    const auto         count  = static_cast<double>(points.across[0] * points.across[1] * points.across[2]);
+    const world::World world  = make_world(what, scene, points);
+    const auto         count  = static_cast<double>(world.sand.size());
 
     std::unique_ptr<decomp::Decomposition<Exec>> decomposition;
     std::string                                  partition = "one rank";
@@ -23,12 +24,8 @@ void run_on(const Exec& exec, const Communicator& communicator, const MpmCase& w
     {
         decomposition = std::make_unique<decomp::Decomposition<Exec>>(
             communicator, exec, decomp::DecompositionOptions{transport, decomp::Checksums::off});
-        const auto geometry = empty_world(scene).geometry;
-        partition = solver::share_out(*decomposition, graph_of(pages_of(geometry, corner_of(what, scene), points)));
+        partition = solver::share_out(*decomposition, world);
     }
-    const auto owned = [&](std::uint64_t page)
-    { return !decomposition || decomposition->owners.owner(page) == communicator.rank(); };
-    const world::World    world = make_world(what, scene, points, owned);
     SandBench<Exec, Real> bench(exec, what, scene, world, decomposition.get());
     bench.time_steps(20);
     std::vector<double> times(3);

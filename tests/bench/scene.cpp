@@ -91,7 +91,7 @@ template<class Exec, class Real>
 void run_on(const Exec& exec, const Communicator& communicator, const SceneCase& what, const scene::Scene& scene)
 {
     const world::World world = world::build_world(scene);
-    const auto         count = static_cast<double>(world.points.size());
+    const auto         count = static_cast<double>(world.sand.size());
 
     std::unique_ptr<decomp::Decomposition<Exec>> decomposition;
     std::string                                  partition = "one rank";

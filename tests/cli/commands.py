@@ -179,6 +179,9 @@ class Commands(CommandTest):
         self.assertIn("partition: one rank", self.tread("check", scene).stdout)
         result = self.tread("check", scene, "--ranks", "3")
         self.assertEqual(result.returncode, 0, result.stderr)
+        share = re.search(r"each of 3 ranks: .*; set-up of the sand [\d.]+ .B on the host, .* its (\d+) points", result.stdout)
+        points = int(re.search(r"(\d+) points, 1 bodies", result.stdout)[1])
+        self.assertEqual(int(share[1]), -(-points // 3))
         pages = int(re.search(r"partition of (\d+) pages into 3 ranks:", result.stdout)[1])
         self.assertGreaterEqual(pages, 3)
         for partitioner in ("METIS", "Morton"):

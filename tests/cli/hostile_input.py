@@ -83,9 +83,19 @@ class HostileCounts(HostileInput):
         self.refuse(text, ["out of host memory", "is free", *mentions], code=4)
 
     def test_points(self):
-        text = SCENE.replace("spacing = 0.05", "spacing = 0.0005")
-        self.refuse_for_memory(text, [f"scene.toml:{line_of(text, '[[terrain]]')}: ", "[[terrain]] 0", "1.02e+09 points",
-                                      "coarsen [grid] spacing"])
+        text = SCENE.replace("spacing = 0.05", "spacing = 0.0002")
+        self.refuse(text, [f"scene.toml:{line_of(text, '[[terrain]]')}: ", "1.6e+10 points", "at most 2147483647",
+                           "coarsen [grid] spacing"])
+
+    def test_points_that_fit_no_memory_are_checked_but_not_run(self):
+        scene = self.write("scene.toml", SCENE.replace("spacing = 0.05", "spacing = 0.0016"))
+        checked = self.tread("check", scene)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        self.assertIn("31250000 points", checked.stdout)
+        run = self.tread("run", scene, "--output", self.output)
+        self.assertEqual(run.returncode, 4, run.stderr)
+        self.assertIn("out of host memory", run.stderr)
+        self.assertFalse(self.output.exists())
 
     def test_columns_of_points(self):
         text = SCENE.replace("spacing = 0.05", "spacing = 2e-6")

@@ -1,6 +1,5 @@
 #include "solver/coupling/sand_body_coupling.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,11 +18,6 @@ namespace
 /// Skin over the largest point's radius. A wider skin has more candidates, a narrower one more searches: at 0.3 m/s
 /// and steps of 1e-5 s it lasts 60 steps.
 constexpr double skin_share = 0.25;
-
-double largest_point_radius(const world::World& world, contact::RadiusRule rule)
-{
-    return contact::point_radius(*std::max_element(world.points.volume.begin(), world.points.volume.end()), rule);
-}
 
 /// The scene's limit, m; 0 where no body is below it, so that contacts use the plain path.
 double met_limit(const world::World& world, double limit)
@@ -50,7 +44,7 @@ SandBodyCoupling<Exec, Real>::SandBodyCoupling(const Exec& exec, const scene::Sc
            world::radius_rule(scene.numerics.point_radius),
            world::point_motion(scene.numerics.point_motion),
            0.0}
-    , largest_radius_(largest_point_radius(world, law_.radius))
+    , largest_radius_(contact::point_radius(world::largest_volume(world.sand), law_.radius))
     , skin_(skin_share * largest_radius_)
     , named_(world.bodies.named)
     , readback_(exec, "contact summary on the host")
@@ -61,7 +55,7 @@ SandBodyCoupling<Exec, Real>::SandBodyCoupling(const Exec& exec, const scene::Sc
     {
         throw NumericalError(fmt::format("{} bodies meet sand: at most {}", world.bodies.size(), most));
     }
-    law_.sampled_below = met_limit(world, world::sampled_below(scene, world.points));
+    law_.sampled_below = met_limit(world, world::sampled_below(scene, world.sand));
 }
 
 template<class Exec, class Real>

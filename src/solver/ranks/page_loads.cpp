@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -11,6 +11,7 @@
 
 #include "decomp/partition.hpp"
 #include "kernels/mpm/pages/pages.hpp"
+#include "solver/ranks/page_runs.hpp"
 
 namespace tread::solver
 {
@@ -21,7 +22,7 @@ namespace
 double spacing_of(const world::World& world)
 {
     std::vector<double> radii = world.bodies.radius;
-    if (world.points.size() > 0 || radii.empty()) { return world.geometry.spacing; }
+    if (world.sand.size() > 0 || radii.empty()) { return world.geometry.spacing; }
     const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
     std::nth_element(radii.begin(), middle, radii.end());
     return 2 * *middle;
@@ -54,27 +55,25 @@ decomp::PageLattice page_lattice_of(const world::World& world)
 
 decomp::PageGraph page_graph_of(const world::World& world)
 {
-    const double                    spacing = spacing_of(world);
-    std::map<std::uint64_t, double> loads;
-    auto                            last = loads.end(); // consecutive points are often in one page
-    const auto                      add  = [&](const Vec3<double>& at, double load)
+    const mpm::Lattice lattice = mpm::make_lattice(spacing_of(world), world.geometry.stencil_shift);
+    std::unordered_map<std::uint64_t, double> loads;
+    for (const world::PointRow& row : world.sand.rows)
     {
-        const mpm::Index3   cell = mpm::cell_of(at, mpm::make_lattice(spacing, world.geometry.stencil_shift));
-        const std::uint64_t page = mpm::page_key(mpm::page_of(cell));
-        if (last == loads.end() || last->first != page) { last = loads.try_emplace(page, 0.0).first; }
-        last->second += load;
-    };
-    for (const Vec3<double>& at : world.points.position) { add(at, 1); }
-    for (const Vec3<double>& at : world.bodies.position) { add(at, body_load); }
+        for_each_page_run(lattice, row,
+                          [&](std::uint64_t page, std::uint32_t from, std::uint32_t to)
+                          { loads[page] += static_cast<double>(to - from); });
+    }
+    for (const Vec3<double>& at : world.bodies.position)
+    {
+        loads[mpm::page_key(mpm::page_of(mpm::cell_of(at, lattice)))] += body_load;
+    }
     std::vector<std::uint64_t> key;
     std::vector<double>        load;
     key.reserve(loads.size());
     load.reserve(loads.size());
-    for (const auto& [page, weight] : loads)
-    {
-        key.push_back(page);
-        load.push_back(weight);
-    }
+    for (const auto& entry : loads) { key.push_back(entry.first); }
+    std::sort(key.begin(), key.end());
+    for (const std::uint64_t page : key) { load.push_back(loads.at(page)); }
     return decomp::page_graph(std::move(key), std::move(load));
 }
 

@@ -25,22 +25,16 @@ decomp::PageLattice page_lattice_of(const world::World& world);
 /// bodies wide.
 decomp::PageGraph page_graph_of(const world::World& world);
 
-/// Collective: assigns every page of a graph that all ranks have to a rank. Returns a description for the log.
+/// Collective: assigns every page of a world to a rank. Returns a description for the log.
 template<class Exec>
-std::string share_out(decomp::Decomposition<Exec>& decomposition, const decomp::PageGraph& graph)
+std::string share_out(decomp::Decomposition<Exec>& decomposition, const world::World& world)
 {
+    const decomp::PageGraph  graph = page_graph_of(world);
     decomp::PartitionOptions options;
     options.ranks                 = decomposition.ranks();
     const decomp::Partition found = decomp::make_partition(decomposition.communicator, graph, options);
     decomposition.owners.assign(graph.key, found.rank);
     return describe_partition(graph, found, options.ranks);
-}
-
-/// Assigns the pages of a world.
-template<class Exec>
-std::string share_out(decomp::Decomposition<Exec>& decomposition, const world::World& world)
-{
-    return share_out(decomposition, page_graph_of(world));
 }
 
 /// Collective: describes the partition of a world over `ranks`, one line for each partitioner.

@@ -23,9 +23,8 @@ MpmSolver<Exec, Real>::MpmSolver(const Exec& exec, const scene::Scene& scene, co
 {
     if (decomposition != nullptr) { ranks_.emplace(*decomposition); }
     if (scene.sleep.distance) { sleep_.emplace(exec, scene, world, fields); }
-    const bool only_own = decomposition == nullptr || !world.points.id.empty();
-    if (only_own) { upload_points(points_, world.points, fields); }
-    else { upload_points(points_, own_points(world, *decomposition), fields); }
+    if (decomposition == nullptr) { upload_points(points_, world::make_points(scene, world, world.sand.rows), fields); }
+    else { upload_points(points_, own_points(scene, world, *decomposition), fields); }
 }
 
 template<class Exec, class Real>
@@ -221,7 +220,7 @@ void MpmSolver<Exec, Real>::add_to(world::TerrainBins& bins) const
 
 /// Listed points need no other data of the last step.
 template<class Exec, class Real>
-void MpmSolver<Exec, Real>::transfer(StateFile& file, const world::HostPoints& built)
+void MpmSolver<Exec, Real>::transfer(StateFile& file, const world::Sand& built)
 {
     if (!file.loads()) { order(); }
     std::vector<bool> seen(built.size(), false);
@@ -241,7 +240,7 @@ void MpmSolver<Exec, Real>::transfer(StateFile& file, const world::HostPoints& b
 
 /// Transfers the additional data of an exact state. `seen`: ids.
 template<class Exec, class Real>
-void MpmSolver<Exec, Real>::transfer_lists(StateFile& file, const world::HostPoints& built, std::vector<bool>& seen)
+void MpmSolver<Exec, Real>::transfer_lists(StateFile& file, const world::Sand& built, std::vector<bool>& seen)
 {
     PageBounds bounds(points_.count);
     order_.pages.for_each_field(

@@ -116,10 +116,10 @@ public:
 
     /// Saves to a checkpoint, or loads into sand of the same scene, built as `built`. Call right after a report; does
     /// not change later results. Collective.
-    void transfer(StateFile& file, const world::HostPoints& built);
+    void transfer(StateFile& file, const world::Sand& built);
 
 private:
-    void transfer_lists(StateFile& file, const world::HostPoints& built, std::vector<bool>& seen);
+    void transfer_lists(StateFile& file, const world::Sand& built, std::vector<bool>& seen);
     void order_in_memory();
     void make_room();
 

@@ -55,36 +55,39 @@ auto accepted_plane(std::string_view name, double lowest, double highest, std::v
     };
 }
 
-/// Restores constant fields by id, which is the index in `built`.
+/// Restores constant fields by id.
 template<class Exec, class Real>
-void restore_lasting(mpm::Points<Exec, Real>& points, const world::HostPoints& built)
+void restore_lasting(mpm::Points<Exec, Real>& points, const world::Sand& built)
 {
-    const std::vector<std::uint32_t> id      = points.id.to_host();
-    const auto                       count   = static_cast<std::size_t>(points.count);
-    const auto                       restore = [&](auto& field, int component, const auto& value)
+    const std::vector<std::uint32_t> id    = points.id.to_host();
+    const auto                       count = static_cast<std::size_t>(points.count);
+    std::vector<world::SandPoint>    known;
+    known.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) { known.push_back(world::point_of(built, id[i])); }
+    const auto restore = [&](auto& field, int component, const auto& value)
     {
         std::vector<std::decay_t<decltype(*field.data())>> plane(count);
         for (std::size_t i = 0; i < count; ++i)
         {
-            plane[i] = static_cast<std::decay_t<decltype(*field.data())>>(value(id[i]));
+            plane[i] = static_cast<std::decay_t<decltype(*field.data())>>(value(known[i]));
         }
         copy_from_host(points.position.exec(), field.data() + component * points.stride, plane.data(),
                        count * sizeof(plane[0]));
     };
     for (int c = 0; c < 3; ++c)
     {
-        restore(points.start, c, [&](std::uint32_t i) { return built.position[i][c]; });
+        restore(points.start, c, [c](const world::SandPoint& point) { return point.position[c]; });
     }
-    restore(points.mass, 0, [&](std::uint32_t i) { return built.mass[i]; });
-    restore(points.volume, 0, [&](std::uint32_t i) { return built.volume[i]; });
-    restore(points.material, 0, [&](std::uint32_t i) { return built.material[i]; });
+    restore(points.mass, 0, [](const world::SandPoint& point) { return point.kind.mass; });
+    restore(points.volume, 0, [](const world::SandPoint& point) { return point.kind.volume; });
+    restore(points.material, 0, [](const world::SandPoint& point) { return point.kind.material; });
 }
 
 } // namespace
 
 template<class Exec, class Real>
 void transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std::string& folder,
-                     const mpm::GridGeometry& geometry, const world::HostPoints& built, std::vector<bool>& seen)
+                     const mpm::GridGeometry& geometry, const world::Sand& built, std::vector<bool>& seen)
 {
     const double     beyond = outside * geometry.spacing;
     StateFile::Share rows{0, points.count, points.count};
@@ -109,7 +112,7 @@ void transfer_points(StateFile& file, mpm::Points<Exec, Real>& points, const std
 
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
     template void transfer_points(StateFile&, mpm::Points<Exec, Real>&, const std::string&, const mpm::GridGeometry&,  \
-                                  const world::HostPoints&, std::vector<bool>&)
+                                  const world::Sand&, std::vector<bool>&)
 TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -1,8 +1,7 @@
 #include "solver/sand/point_upload.hpp"
 
-#include <numeric>
-
 #include "backend/instantiate.hpp"
+#include "solver/ranks/page_runs.hpp"
 
 namespace tread::solver
 {
@@ -31,14 +30,6 @@ std::vector<Real> planes(const std::vector<Eigen::Matrix<double, components, 1>>
     return out;
 }
 
-std::vector<std::uint32_t> numbers(const world::HostPoints& points)
-{
-    if (!points.id.empty()) { return points.id; }
-    std::vector<std::uint32_t> ids(points.size());
-    std::iota(ids.begin(), ids.end(), 0U);
-    return ids;
-}
-
 } // namespace
 
 template<class Exec, class Real>
@@ -57,26 +48,35 @@ void upload_points(mpm::Points<Exec, Real>& points, const world::HostPoints& hos
     if (!host.velocity.empty()) { points.velocity.assign(planes<Real, 3>(host.velocity)); }
     if (!host.velocity.empty() && fields.coupled) { points.grid_velocity.assign(planes<Real, 3>(host.velocity)); }
     if (!host.plastic_shear.empty() && fields.plastic) { points.plastic_shear.assign(cast<Real>(host.plastic_shear)); }
-    points.id.assign(numbers(host));
+    points.id.assign(host.id);
 }
 
 template<class Exec>
-world::HostPoints own_points(const world::World& world, const decomp::Decomposition<Exec>& decomposition)
+world::HostPoints own_points(const scene::Scene& scene, const world::World& world,
+                             const decomp::Decomposition<Exec>& decomposition)
 {
-    world::HostPoints         own = world.points;
-    std::vector<std::uint8_t> kept;
-    own.id = numbers(own);
-    for (const Vec3<double>& at : own.position)
+    const mpm::Lattice           lattice = world.geometry.lattice();
+    std::vector<world::PointRow> own;
+    const auto                   add = [&](const world::PointRow& row, std::uint32_t from, std::uint32_t to)
     {
-        const mpm::Index3 cell = mpm::cell_of(at, world.geometry.lattice());
-        kept.push_back(decomposition.owners.owner(mpm::page_key(mpm::page_of(cell))) == decomposition.rank());
+        // Runs in neighbouring pages become one row.
+        const bool goes_on = from > 0 && !own.empty() && own.back().first + own.back().count == row.first + from;
+        if (goes_on) { own.back().count += to - from; }
+        else { own.push_back(part_of(row, from, to)); }
+    };
+    for (const world::PointRow& row : world.sand.rows)
+    {
+        for_each_page_run(lattice, row,
+                          [&](std::uint64_t page, std::uint32_t from, std::uint32_t to)
+                          {
+                              if (decomposition.owners.owner(page) == decomposition.rank()) { add(row, from, to); }
+                          });
     }
-    world::keep_points(own, kept);
-    return own;
+    return world::make_points(scene, world, own);
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
-    template world::HostPoints own_points(const world::World&, const decomp::Decomposition<Exec>&)
+    template world::HostPoints own_points(const scene::Scene&, const world::World&, const decomp::Decomposition<Exec>&)
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -1,7 +1,5 @@
 #include "solver/sand/sand_grid.hpp"
 
-#include <algorithm>
-
 #include "backend/instantiate.hpp"
 #include "kernels/mpm/transfers/scatter.hpp"
 
@@ -21,8 +19,7 @@ SandGrid<Exec, Real>::SandGrid(const Exec& exec, const scene::Scene& scene, cons
     : geometry(world.geometry)
     , walls(world.grid_walls)
     , gravity(Vec3<double>(scene.domain.gravity[0], scene.domain.gravity[1], scene.domain.gravity[2]).cast<Real>())
-    , mass_floor(
-          static_cast<Real>(mass_floor_share * *std::min_element(world.points.mass.begin(), world.points.mass.end())))
+    , mass_floor(static_cast<Real>(mass_floor_share * world::least_mass(world.sand)))
     , wall_pages(exec)
     , tiles(exec, "tiles")
     , motion(exec, "grid motion")

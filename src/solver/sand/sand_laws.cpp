@@ -17,7 +17,7 @@ CellMeans<Exec, Real>::CellMeans(const Exec& exec)
 template<class Exec, class Real>
 SandLaws<Exec, Real>::SandLaws(const Exec& exec, const scene::Scene& scene, const world::World& world)
     : materials(exec, "materials")
-    , pic_rate(world::pic_rate(scene, world.points))
+    , pic_rate(world::pic_rate(scene, world.sand))
 {
     materials.assign(world::law_parameters<Real>(scene));
     if (scene.numerics.volume_strain == scene::VolumeStrain::cell_average) { cell_means.emplace(exec); }

@@ -25,9 +25,7 @@ constexpr std::int64_t census_run = 512;
 /// Mass of the bed over the area of the domain's floor, kg/m2.
 double mass_on_floor(const scene::Scene& scene, const world::World& world)
 {
-    double mass = 0;
-    for (const double m : world.points.mass) { mass += m; }
-    return mass / (scene.domain.size[0] * scene.domain.size[1]);
+    return world::total_mass(world.sand) / (scene.domain.size[0] * scene.domain.size[1]);
 }
 
 std::vector<std::uint64_t> without(const std::vector<std::uint64_t>& all, const std::vector<std::uint64_t>& these)

@@ -10,6 +10,7 @@
 #include "scene_text.hpp"
 #include "solver/simulation.hpp"
 #include "world/bed.hpp"
+#include "world/host_points.hpp"
 #include "world/rocks.hpp"
 
 namespace
@@ -144,16 +145,17 @@ TEST(Rocks, StandWherePointsStood)
     std::string text = test::sand_text + test::rocks_text;
     text.replace(text.find("count    = 8\ndiameter = 0.06"), 28,
                  "count = 100\ndiameter = 0.01\nplacement = \"points\"");
-    const world::World               sand  = world::build_world(load_text(test::sand_text));
-    const world::World               world = world::build_world(load_text(text));
-    const std::vector<Vec3<double>>& sites = sand.points.position;
+    const scene::Scene              plain = load_text(test::sand_text), scene = load_text(text);
+    const world::World              sand = world::build_world(plain), world = world::build_world(scene);
+    const std::vector<Vec3<double>> sites  = world::make_points(plain, sand, sand.sand.rows).position;
+    const std::vector<Vec3<double>> places = world::make_points(scene, world, world.sand.rows).position;
     ASSERT_EQ(world.bodies.size(), 100u);
-    EXPECT_EQ(static_cast<double>(sites.size() - world.points.size()),
-              std::round(100 * world::sphere_volume(0.01) / sand.points.volume[0]));
+    EXPECT_EQ(static_cast<double>(sites.size() - places.size()),
+              std::round(100 * world::sphere_volume(0.01) / world::largest_volume(sand.sand)));
     for (const Vec3<double>& x : world.bodies.position)
     {
         EXPECT_EQ(std::count(sites.begin(), sites.end(), x), 1);
-        EXPECT_EQ(std::count(world.points.position.begin(), world.points.position.end(), x), 0);
+        EXPECT_EQ(std::count(places.begin(), places.end(), x), 0);
     }
 }
 
@@ -208,8 +210,9 @@ TEST(Rocks, DoNotDependOnTheNumberOfThreads)
     const world::World three = world::build_world(scene);
     omp_set_num_threads(threads);
     EXPECT_EQ(one.bodies.position, three.bodies.position);
-    EXPECT_EQ(one.points.position, three.points.position);
-    EXPECT_LT(one.points.size(), 4u * 8 * 8 * 8 * 8);
+    EXPECT_EQ(world::make_points(scene, one, one.sand.rows).position,
+              world::make_points(scene, three, three.sand.rows).position);
+    EXPECT_LT(one.sand.size(), 4u * 8 * 8 * 8 * 8);
 }
 
 /// A body with a diameter is scaled: radius and mass follow from it, and no rock touches its surface.

@@ -5,8 +5,8 @@
 
 #include "kernels/mpm/laws/law_kern.hpp"
 #include "scene_text.hpp"
+#include "world/host_points.hpp"
 #include "world/materials.hpp"
-#include "world/world.hpp"
 
 namespace
 {
@@ -53,20 +53,27 @@ velocity = )" +
            velocity + "\n";
 }
 
+HostPoints points_of(const std::string& text)
+{
+    const auto  scene = load_text(text);
+    const World world = build_world(scene);
+    return make_points(scene, world, world.sand.rows);
+}
+
 /// Sand of 0.1 m over 0.2 m of clay: sigma_v from the weight above, and each material's own stress ratio: sand Ka = 1/3
 /// over K0 = 1/4, clay K0 = 2/3. Exact on the lattice.
 TEST(Geostatic, LayersOfTwoMaterials)
 {
-    const World world = build_world(load_text(layers("0.2")));
-    double      worst = 0;
-    for (std::size_t i = 0; i < world.points.size(); ++i)
+    const HostPoints points = points_of(layers("0.2"));
+    double           worst  = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
-        const double z        = world.points.position[i][2];
+        const double z        = points.position[i][2];
         const bool   sand     = z > 0.2;
         const double vertical = sand ? 16000 * (0.3 - z) : 16000 * 0.1 + 20000 * (0.2 - z);
         const double ratio    = sand ? 1.0 / 3 : 2.0 / 3;
-        worst                 = std::max({worst, std::abs(world.points.stress[i][2] + vertical),
-                                          std::abs(world.points.stress[i][0] + ratio * vertical)});
+        worst                 = std::max(
+                            {worst, std::abs(points.stress[i][2] + vertical), std::abs(points.stress[i][0] + ratio * vertical)});
     }
     std::cout << "two layers: worst error " << worst << " Pa of " << 5600 << ", tolerance 1e-8 Pa (rounding of sums)\n";
     EXPECT_LT(worst, 1e-8);
@@ -75,13 +82,13 @@ TEST(Geostatic, LayersOfTwoMaterials)
 /// Moving sand is not at rest: the clay carries only itself, the sand nothing.
 TEST(Geostatic, LeavesOutWhatMoves)
 {
-    const World world = build_world(load_text(layers("0.2", "[0, 0, -1]")));
-    double      worst = 0;
-    for (std::size_t i = 0; i < world.points.size(); ++i)
+    const HostPoints points = points_of(layers("0.2", "[0, 0, -1]"));
+    double           worst  = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
-        const double z        = world.points.position[i][2];
+        const double z        = points.position[i][2];
         const double vertical = z > 0.2 ? 0 : 20000 * (0.2 - z);
-        worst                 = std::max(worst, std::abs(world.points.stress[i][2] + vertical));
+        worst                 = std::max(worst, std::abs(points.stress[i][2] + vertical));
     }
     EXPECT_LT(worst, 1e-8);
 }
@@ -92,16 +99,17 @@ TEST(Geostatic, LeavesOutWhatMoves)
 /// columns have a point there.
 TEST(Geostatic, CarriesTheRocks)
 {
-    const World world = build_world(load_text(test::sand_text + test::rocks_text, {"rocks[0].region.box=[[0, 0, 0.06], "
-                                                                                   "[0.4, 0.4, 0.2]]"}));
-    double      force = 0, weight = 0;
-    double      lowest = 1;
-    for (const auto& x : world.points.position) { lowest = std::min(lowest, x[2]); }
-    for (std::size_t i = 0; i < world.points.size(); ++i)
+    const auto scene =
+        load_text(test::sand_text + test::rocks_text, {"rocks[0].region.box=[[0, 0, 0.06], [0.4, 0.4, 0.2]]"});
+    const World      world  = build_world(scene);
+    const HostPoints points = make_points(scene, world, world.sand.rows);
+    double           force = 0, weight = 0, lowest = 1;
+    for (const auto& x : points.position) { lowest = std::min(lowest, x[2]); }
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
-        const bool bottom = world.points.position[i][2] < lowest + 1e-9;
-        weight += 9.81 * world.points.mass[i] * (bottom ? 0.5 : 1);
-        if (bottom) { force -= world.points.stress[i][2] * 0.025 * 0.025; }
+        const bool bottom = points.position[i][2] < lowest + 1e-9;
+        weight += 9.81 * points.mass[i] * (bottom ? 0.5 : 1);
+        if (bottom) { force -= points.stress[i][2] * 0.025 * 0.025; }
     }
     for (const double mass : world.bodies.mass) { weight += 9.81 * mass; }
     std::cout << "force at the bottom " << force << " N, weight " << weight << " N, tolerance 1e-9 of it\n";

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include "world/bed.hpp"
 #include "world/cover.hpp"
 #include "world/grading.hpp"
+#include "world/host_points.hpp"
 #include "world/layers.hpp"
 #include "world/make_room.hpp"
 
@@ -33,10 +35,10 @@ std::string filled(const std::string& table, const std::string& grid = "spacing 
     return text + table;
 }
 
-double volume_of(const HostPoints& points)
+double volume_of(const World& world)
 {
     double sum = 0;
-    for (const double volume : points.volume) { sum += volume; }
+    for_each_point(world.sand, [&](const SandPoint& point) { sum += point.kind.volume; });
     return sum;
 }
 
@@ -49,8 +51,8 @@ double rock_volume(const World& world)
 
 std::int64_t touching(const scene::Scene& scene, const World& world)
 {
-    const auto covering = covering_bodies(scene, world, 0, world.bodies.size());
-    return std::count_if(covering.begin(), covering.end(), [](std::int32_t body) { return body >= 0; });
+    const auto covered = covered_points(scene, world);
+    return std::accumulate(covered.begin(), covered.end(), std::int64_t{0});
 }
 
 /// A rock removes its own volume of points: the last point is whole, so the error is half a point, plus the points
@@ -60,8 +62,8 @@ void expect_room(const std::string& text, int without_place)
     const auto   scene = load_text(text);
     const World  world = build_world(scene);
     std::string  plain = text;
-    const double sand  = volume_of(build_world(load_text(plain.erase(plain.find("[[rocks]]")))).points);
-    const double taken = sand - volume_of(world.points), point = world.points.volume[0];
+    const double sand  = volume_of(build_world(load_text(plain.erase(plain.find("[[rocks]]")))));
+    const double taken = sand - volume_of(world), point = largest_volume(world.sand);
     const double off = (0.5 + without_place) * point * (1 + 1e-9);
     std::cout << world.bodies.size() << " rocks of " << rock_volume(world) << " m3 take the place of " << taken
               << " m3 of sand, tolerance " << 0.5 + without_place << " points, " << off << " m3; void "
@@ -69,7 +71,7 @@ void expect_room(const std::string& text, int without_place)
     EXPECT_NEAR(taken, rock_volume(world), off);
     EXPECT_NEAR(world.layers.at(0).empty(), 0, off / world.layers.at(0).space + 1e-9);
     EXPECT_EQ(touching(scene, world), 0);
-    for (const Vec3<double>& x : world.points.position)
+    for (const Vec3<double>& x : make_points(scene, world, world.sand.rows).position)
     {
         ASSERT_TRUE(x.minCoeff() > 0 && x[0] < 0.4 && x[1] < 0.4 && x[2] < 0.2) << "out of the bed: " << x.transpose();
     }
@@ -95,8 +97,7 @@ TEST(MakeRoom, OnlyWhatStandsInSandCounts)
     const auto   scene = load_text(text);
     const World  world = build_world(scene);
     std::string  plain = text;
-    const double taken =
-        volume_of(build_world(load_text(plain.erase(plain.find("[[rocks]]")))).points) - volume_of(world.points);
+    const double taken = volume_of(build_world(load_text(plain.erase(plain.find("[[rocks]]"))))) - volume_of(world);
     const double share = taken / rock_volume(world);
     std::cout << "sand taken over rocks placed " << share
               << ", expected 0.5 within 0.2: three deviations of 49 random places\n";
@@ -114,8 +115,9 @@ TEST(MakeRoom, DoesNotDependOnTheNumberOfThreads)
     omp_set_num_threads(3);
     const World three = build_world(scene);
     omp_set_num_threads(threads);
-    EXPECT_EQ(one.points.position, three.points.position);
-    EXPECT_EQ(one.points.mass, three.points.mass);
+    const HostPoints points = make_points(scene, one, one.sand.rows), same = make_points(scene, three, three.sand.rows);
+    EXPECT_EQ(points.position, same.position);
+    EXPECT_EQ(points.stress, same.stress);
 }
 
 /// Points 25 mm apart keep 15.5 mm from rocks of 6 mm radius: there is hardly any place left.
@@ -152,7 +154,7 @@ TEST(MakeRoom, VoidsThatAreAllowedAreCounted)
     const auto  bed   = describe_bed(scene, world);
     EXPECT_GT(layer.empty(), most_void);
     EXPECT_NEAR(layer.rock, 0.23, 1e-3);
-    EXPECT_NEAR(layer.sand, (volume_of(world.points) - 0.016) / 0.016, 1e-6) << "what is left of the upper 0.016 m3";
+    EXPECT_NEAR(layer.sand, (volume_of(world) - 0.016) / 0.016, 1e-6) << "what is left of the upper 0.016 m3";
     EXPECT_EQ(bed.layers.at(0).empty, layer.empty());
     EXPECT_EQ(touching(scene, world), 0);
     ASSERT_EQ(layer_advice(scene, world).size(), 1u);
@@ -174,11 +176,12 @@ TEST(MakeRoom, PointsStayInTheSandOfTheirTable)
                  "0.2]] }\n[[phase]]");
     const World world = build_world(load_text(text));
     std::size_t fine  = 0;
-    for (std::size_t i = 0; i < world.points.size(); ++i)
-    {
-        fine += world.points.terrain[i] == 1 ? 1 : 0;
-        ASSERT_EQ(world.points.terrain[i] == 1, world.points.position[i][2] >= 0.1);
-    }
+    for_each_point(world.sand,
+                   [&](const SandPoint& point)
+                   {
+                       fine += point.kind.terrain == 1 ? 1 : 0;
+                       ASSERT_EQ(point.kind.terrain == 1, point.position[2] >= 0.1);
+                   });
     EXPECT_GT(fine, 40000u);
 }
 

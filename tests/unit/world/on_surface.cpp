@@ -26,11 +26,13 @@ double height_of(const std::string& text) { return build_world(test::load_text(t
 double clearance(const scene::Scene& scene, const World& world)
 {
     double least = 1;
-    for (std::size_t i = 0; i < world.points.size(); ++i)
-    {
-        const double radius = contact::point_radius(world.points.volume[i], radius_rule(scene.numerics.point_radius));
-        least               = std::min(least, distance(world, 0, world.points.position[i]) - radius);
-    }
+    for_each_point(world.sand,
+                   [&](const SandPoint& point)
+                   {
+                       const auto rule = radius_rule(scene.numerics.point_radius);
+                       least           = std::min(least, distance(world, 0, point.position) -
+                                                             contact::point_radius(point.kind.volume, rule));
+                   });
     return least;
 }
 
@@ -41,7 +43,7 @@ TEST(OnSurface, StandsOnFlatSandByTheRadiusOfItsPoints)
     EXPECT_GE(clearance(scene, world), 0);
     EXPECT_LE(clearance(scene, world), 1e-4);
     // Points are 25 mm apart, the highest 12.5 mm below the surface, the nearest 12.5 mm beside the roller's middle.
-    const double radius = contact::point_radius(world.points.volume[0], radius_rule(scene.numerics.point_radius));
+    const double radius = contact::point_radius(largest_volume(world.sand), radius_rule(scene.numerics.point_radius));
     const double along = 0.0125, roller = 0.1;
     EXPECT_NEAR(world.bodies.position[0][2], 0.2 - 0.0125 + std::sqrt(std::pow(roller + radius, 2) - along * along),
                 1e-3);

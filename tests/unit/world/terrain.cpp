@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "scene_text.hpp"
+#include "world/host_points.hpp"
 #include "world/region.hpp"
 #include "world/terrain.hpp"
 
@@ -39,7 +40,10 @@ duration = 0.01
 
 HostPoints points_of(const std::string& size, const std::string& spacing, const std::string& terrain)
 {
-    return make_terrain(load_text(scene_of(size, spacing, terrain)));
+    const auto scene = load_text(scene_of(size, spacing, terrain));
+    World      world{};
+    world.sand = make_terrain(scene);
+    return make_points(scene, world, world.sand.rows);
 }
 
 double total(const std::vector<double>& values)

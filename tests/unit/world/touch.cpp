@@ -75,8 +75,8 @@ TEST(Touch, RocksMayStandInSandThatTheyDoNotTouch)
 {
     const std::string  text   = test::sand_text + test::rocks_text + "placement = \"grid\"\n";
     const scene::Scene scene  = test::load_text(text + contact("rock", "sand"));
-    const std::size_t  points = build_world(scene).points.size();
-    EXPECT_EQ(points, build_world(test::load_text(test::sand_text)).points.size()) << "no sand makes room";
+    const std::size_t  points = build_world(scene).sand.size();
+    EXPECT_EQ(points, build_world(test::load_text(test::sand_text)).sand.size()) << "no sand makes room";
     EXPECT_THAT(refusal(text), HasSubstr("points of sand stand where rocks are placed"));
 }
 

@@ -8,8 +8,8 @@
 #include "kernels/contact/samples_kern.hpp"
 #include "scene_text.hpp"
 #include "world/body_grid.hpp"
+#include "world/host_points.hpp"
 #include "world/terrain.hpp"
-#include "world/world.hpp"
 
 namespace
 {
@@ -23,7 +23,7 @@ TEST(World, ReplacedRocksOverlapNeitherSandNorEachOther)
     const World  world  = build_world(load_text(test::sand_text + test::rocks_text));
     const auto&  bodies = world.bodies;
     const auto&  form   = world.templates.at(0);
-    const double reach  = contact::point_radius(world.points.volume[0], contact::RadiusRule::sphere);
+    const double reach  = contact::point_radius(largest_volume(world.sand), contact::RadiusRule::sphere);
     ASSERT_EQ(bodies.size(), 8u);
     double nearest_point = 1, nearest_node = 1;
     for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -34,7 +34,8 @@ TEST(World, ReplacedRocksOverlapNeitherSandNorEachOther)
             return bodies.scale[b] *
                    shape::sample(form.sdf, rotation.transpose() * (x - bodies.position[b]) / bodies.scale[b]);
         };
-        for (const auto& x : world.points.position) { nearest_point = std::min(nearest_point, distance(x)); }
+        for_each_point(world.sand, [&](const SandPoint& point)
+                       { nearest_point = std::min(nearest_point, distance(point.position)); });
         for (std::size_t other = 0; other < bodies.size(); ++other)
         {
             if (other == b) { continue; }
@@ -49,7 +50,7 @@ TEST(World, ReplacedRocksOverlapNeitherSandNorEachOther)
               << " m; nearest rock node to another rock: " << nearest_node << " m, contact begins at 0\n";
     EXPECT_GE(nearest_point, reach * (1 - 1e-12));
     EXPECT_GT(nearest_node, 0);
-    EXPECT_LT(world.points.size(), 4u * 8 * 8 * 8); // some sand was removed
+    EXPECT_LT(world.sand.size(), 4u * 8 * 8 * 8); // some sand was removed
 }
 
 TEST(World, SampledRocksKeepClearOfTheSamples)
@@ -57,18 +58,20 @@ TEST(World, SampledRocksKeepClearOfTheSamples)
     const auto nearest = [](const std::string& numerics)
     {
         const World  world  = build_world(load_text(test::sand_text + test::rocks_text + numerics));
-        const double radius = contact::point_radius(world.points.volume[0], contact::RadiusRule::sphere);
+        const double radius = contact::point_radius(largest_volume(world.sand), contact::RadiusRule::sphere);
         double       least  = 1;
         for (std::size_t b = 0; b < world.bodies.size(); ++b)
         {
-            for (const auto& x : world.points.position)
+            const auto sample = [&](const SandPoint& point)
             {
-                const auto axes = contact::patch_axes((x - world.bodies.position[b]).normalized());
+                const Vec3<double>& x    = point.position;
+                const auto          axes = contact::patch_axes((x - world.bodies.position[b]).normalized());
                 for (int s = 0; s < contact::patch_samples; ++s)
                 {
                     least = std::min(least, distance(world, b, x + contact::patch_offset(axes, s, radius)) / radius);
                 }
-            }
+            };
+            for_each_point(world.sand, sample);
         }
         return least;
     };
@@ -137,22 +140,22 @@ TEST(World, BodiesInEachOtherAreRefused)
 TEST(World, TheBedHasTheMassOfItsBox)
 {
     const World world = build_world(load_text(test::sand_text));
-    double      mass  = 0;
-    for (const double m : world.points.mass) { mass += m; }
-    EXPECT_NEAR(mass, 1600 * 0.4 * 0.4 * 0.2, 1e-9);
+    EXPECT_NEAR(total_mass(world.sand), 1600 * 0.4 * 0.4 * 0.2, 1e-9);
 }
 
 /// docs/verification.md#geostatic-column: sigma_h = max(K0, Ka) sigma_v; here K0 = 0.4286 > Ka = 1/3. Exact on a
 /// lattice: the stress of a point is the weight above its centre.
 TEST(World, TheBedStartsGeostatic)
 {
-    const World world = build_world(load_text(test::sand_text));
-    double      worst = 0;
-    for (std::size_t i = 0; i < world.points.size(); ++i)
+    const auto       scene  = load_text(test::sand_text);
+    const World      world  = build_world(scene);
+    const HostPoints points = make_points(scene, world, world.sand.rows);
+    double           worst  = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
-        const double vertical = 1600 * 9.81 * (0.2 - world.points.position[i][2]);
-        worst                 = std::max({worst, std::abs(-world.points.stress[i][2] - vertical),
-                                          std::abs(-world.points.stress[i][0] - 0.3 / 0.7 * vertical)});
+        const double vertical = 1600 * 9.81 * (0.2 - points.position[i][2]);
+        worst                 = std::max(
+                            {worst, std::abs(-points.stress[i][2] - vertical), std::abs(-points.stress[i][0] - 0.3 / 0.7 * vertical)});
     }
     std::cout << "geostatic start: worst error " << worst << " Pa of " << 1600 * 9.81 * 0.2 << ", tolerance 1e-8 Pa\n";
     EXPECT_LT(worst, 1e-8);

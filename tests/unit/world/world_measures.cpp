@@ -16,7 +16,7 @@ TEST(WorldMeasures, AreTheSameForWhatIsBuiltTwiceAndForWhatWasRounded)
     const World one   = built();
     World       other = built();
     EXPECT_TRUE(are_same(measures(one), measures(other)));
-    for (Vec3<double>& place : other.points.position) { place *= 1 + 1e-15; }
+    for (PointRow& row : other.sand.rows) { row.z *= 1 + 1e-15; }
     EXPECT_TRUE(are_same(measures(one), measures(other)));
 }
 
@@ -29,9 +29,20 @@ TEST(WorldMeasures, DistinguishAPointARockAndAShape)
         change(world);
         return !are_same(expected, measures(world));
     };
-    EXPECT_TRUE(differs([](World& world) { world.points.position.front()[2] += 1e-3; }));
-    EXPECT_TRUE(differs([](World& world) { std::swap(world.points.position.front(), world.points.position.back()); }));
-    EXPECT_TRUE(differs([](World& world) { world.points.mass.back() *= 1.01; }));
+    EXPECT_TRUE(differs(
+        [](World& world)
+        {
+            const Vec3<double> aside = Vec3<double>::UnitZ() * 1e-3;
+            apply_changes({{0, point_of(world.sand, 0).position + aside}}, world.sand);
+        }));
+    EXPECT_TRUE(differs(
+        [](World& world)
+        {
+            const std::size_t last = world.sand.size() - 1;
+            apply_changes({{0, point_of(world.sand, last).position}, {last, point_of(world.sand, 0).position}},
+                          world.sand);
+        }));
+    EXPECT_TRUE(differs([](World& world) { world.sand.kinds.back().mass *= 1.01; }));
     EXPECT_TRUE(differs([](World& world) { world.bodies.position.back()[0] += 1e-3; }));
     EXPECT_TRUE(differs([](World& world) { world.bodies.scale.back() *= 1.001; }));
     EXPECT_TRUE(differs([](World& world) { world.templates.front().unit.volume *= 1.001; }));
