@@ -5,9 +5,10 @@ import os
 import re
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 
 from tread_jobs.errors import CampaignError, MachineError
+from tread_jobs.resources import CORE_SPEED, GPU_SPEED, Speed
 
 
 @dataclass(frozen=True)
@@ -19,12 +20,13 @@ class Plan:
     disk: float  # bytes, at most
     memory: float  # bytes on the backend
     scene: str  # hash of the resolved scene: equal for equal runs
-    substeps: float  # of a step, once rocks lie on each other
+    set_up: float  # s, in which `check` built the world
+    work: dict[str, float]  # expected counts, named as in Speed
 
 
 @dataclass(frozen=True)
 class Cost:
-    """Cost of a whole campaign, at most: phases that end by themselves may end sooner."""
+    """Cost of a whole campaign; steps and disk at most, time as expected by the model."""
 
     cases: int
     checked: int
@@ -63,7 +65,7 @@ def check_cases(program, cases, most, scratch):
             # The file that was checked is gone when this is read.
             words = re.sub(rf"{re.escape(str(scene))}(:\d+)?: ", "", done.stderr.strip() or done.stdout.strip())
             raise CampaignError(f"case {case.name} ({values}): {words}")
-        return _plan(done.stdout, program)
+        return plan_of(done.stdout, program)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         return list(pool.map(check, picked))
@@ -81,18 +83,22 @@ def cost_of(plans, count, resources, site):
                 0.0 if resources.gpus else hours, scale * sum(plan.disk for plan in plans), longest)
 
 
+NOT_SHARED = ("sand_steps", "searches", "substeps", "joint_substeps", "rows")  # between cores or GPUs
+
+
 def seconds_of(plan, resources, site):
-    """What a case takes by the model, at most."""
-    speed = site.gpu_speed if resources.gpus else site.core_speed
+    """Expected wall time of a case by the model of src/run/wall_time.hpp."""
+    speed, factor = (GPU_SPEED, site.gpu_factor) if resources.gpus else (CORE_SPEED, site.core_factor)
     units = resources.gpus if resources.gpus else resources.ranks * resources.threads
-    further = plan.substeps - 1
-    shared = speed.point * plan.points + (speed.body + speed.body_substep * further) * plan.bodies
-    return plan.steps * (speed.step + speed.substep * further + shared / units)
+    costs = {count: getattr(speed, count) * number for count, number in plan.work.items()}
+    serial = sum(costs.pop(count) for count in NOT_SHARED)
+    return plan.set_up + factor * (speed.start + serial + sum(costs.values()) / units)
 
 
-def _plan(text, program):
+def plan_of(text, program):
     try:
         said = json.loads(text)
-        return Plan(said["points"], said["bodies"], said["time"], said["steps"], said["disk"], said["memory"], said["scene"], said["substeps"])
+        work = {item.name: said["work"][item.name] for item in fields(Speed) if item.name != "start"}
+        return Plan(said["points"], said["bodies"], said["time"], said["steps"], said["disk"], said["memory"], said["scene"], said["set_up"], work)
     except (ValueError, KeyError, TypeError) as error:
         raise MachineError(f"{program}: check says nothing of points, steps, memory and disk; is it tread?") from error

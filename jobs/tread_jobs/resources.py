@@ -40,20 +40,25 @@ class Resources:
 
 @dataclass(frozen=True)
 class Speed:
-    """Seconds that a step takes: step + point * points + body * bodies, and for each substep but the first substep +
-    body_substep * bodies; on one GPU, or on one CPU core with `cores` shared out."""
+    """Seconds that each count of "work" of `tread check --json` takes on one GPU or CPU core, and the start of a run."""
 
-    step: float
-    point: float
-    body: float
-    substep: float = 0.0
-    body_substep: float = 0.0
+    start: float
+    sand_steps: float
+    searches: float
+    substeps: float
+    joint_substeps: float
+    rows: float
+    points: float
+    yielding_points: float
+    pages: float
+    bodies: float
+    body_substeps: float
+    near_substeps: float
 
 
-# docs/performance.md: slip_sand and slip_mixed on an H200, substeps of 3,000 and 53,000 rocks there (25 to 32 and 200 us); one core
-# with Mohr-Coulomb, and with rocks ("What a stage costs").
-GPU_SPEED = Speed(2.0e-4, 3.4e-10, 5.0e-8, 1.5e-5, 3.5e-9)
-CORE_SPEED = Speed(2.0e-5, 4.5e-7, 1.0e-5, 0.0, 1.1e-6)
+# src/run/wall_time.hpp has the same figures; docs/performance.md, "Wall time by model", says where they come from.
+GPU_SPEED = Speed(2.0, 9.0e-5, 2.0e-4, 7.0e-5, 8.0e-5, 8.0e-4, 3.3e-10, 1.2e-11, 5.0e-9, 1.0e-8, 3.0e-9, 0.0)
+CORE_SPEED = Speed(0.2, 2.0e-5, 3.0e-5, 2.5e-5, 1.0e-4, 1.0e-3, 2.3e-7, 1.1e-7, 5.5e-6, 3.0e-6, 8.0e-7, 2.0e-7)
 
 
 @dataclass(frozen=True)
@@ -68,8 +73,8 @@ class Site:
     launcher: str = "mpirun"  # srun: srun --mpi=pmix
     gpus_a_node: int = 0  # 0: whatever is asked for
     program: str = "tread"
-    gpu_speed: Speed = GPU_SPEED
-    core_speed: Speed = CORE_SPEED
+    gpu_factor: float = 1.0  # time on a GPU of the site over that on the GPU of the model
+    core_factor: float = 1.0  # likewise of a CPU core
 
 
 def read_resources(table):
@@ -100,9 +105,6 @@ def read_site(name):
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         known = ", ".join(sorted(file.stem for file in SITES.glob("*.toml")))
         raise CampaignError(f"site {name}: {error}; jobs/sites has {known}") from error
-    for speed in ("gpu_speed", "core_speed"):
-        if speed in table:
-            table[speed] = _filled(Speed, table[speed], f"{path}: {speed}")
     site = _filled(Site, table, str(path))
     for option in ("partition", "account", "qos", "constraint"):
         if not TOKEN.fullmatch(getattr(site, option)):

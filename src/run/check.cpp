@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "base/bytes_text.hpp"
 #include "run/check_json.hpp"
 #include "run/check_phases.hpp"
+#include "run/checkpoint_clock.hpp"
 #include "run/drive_room.hpp"
 #include "run/estimate.hpp"
 #include "run/left_out.hpp"
@@ -79,16 +81,26 @@ std::string resting_text(const solver::Plan& plan, const Estimate& wants)
                        wants.substeps);
 }
 
+Expected expect(const scene::Scene& scene, const world::World& world, const solver::Plan& plan, const Estimate& wants,
+                const std::vector<DriveRoom>& rooms, double set_up)
+{
+    const std::vector<PhasePace> phases = expected_phases(scene, world, plan, wants, rooms);
+    const double                 time   = std::accumulate(phases.begin(), phases.end(), 0.0,
+                                                          [](double sum, const PhasePace& phase) { return sum + phase.time; });
+    return {set_up, time, workload(scene, world, plan, wants, phases)};
+}
+
 /// Cost of a run: points, time, memory and disk.
 std::string cost_lines(const scene::Scene& scene, const world::World& world, const solver::Plan& plan,
-                       const Estimate& wants)
+                       const Estimate& wants, const Expected& expected)
 {
     const int   cores = cores_here();
     std::string text  = fmt::format("{} points, {} bodies ({} rocks)\n", world.sand.size(), world.bodies.size(),
                                     static_cast<std::int64_t>(world.bodies.size()) - world.bodies.named);
-    text += fmt::format("wall time about {} on {} of this machine's cores, {} on one GPU (H200), by model\n",
-                        duration_text(wall_time(wants, world, core_cost, cores)), cores,
-                        duration_text(wall_time(wants, world, gpu_cost, 1)));
+    text += fmt::format(
+        "wall time about {} on {} of this machine's cores, {} on one GPU (H200), by model for {:.3g} s simulated\n",
+        duration_text(expected.set_up + wall_time(expected.work, core_cost, cores)), cores,
+        duration_text(expected.set_up + wall_time(expected.work, gpu_cost, 1)), expected.time);
     text += fmt::format("dt {:.4g} s at the start (limit: {}), at most {:.4g} s simulated: {:.3g} steps{}\n", wants.dt,
                         wants.limit, wants.time, wants.steps, resting_text(plan, wants));
     text += fmt::format("memory about {} on the backend, disk at most {}\n", bytes_text(wants.memory_bytes),
@@ -142,14 +154,17 @@ std::string stage_lines(const scene::Scene& scene, const world::World& world, co
 
 std::string check_scene(const Communicator& communicator, const scene::Scene& scene, int ranks, CheckForm form)
 {
-    const world::World world = world::build_world(scene);
-    const solver::Plan plan  = solver::make_plan(scene, world, ranks);
-    const Estimate     wants = estimate(scene, world, plan);
-    const auto         rooms = drive_rooms(scene, world);
-    if (form == CheckForm::json) { return check_json(scene, world, plan, wants, rooms); }
+    const double       start    = wall_clock();
+    const world::World world    = world::build_world(scene);
+    const double       set_up   = wall_clock() - start;
+    const solver::Plan plan     = solver::make_plan(scene, world, ranks);
+    const Estimate     wants    = estimate(scene, world, plan);
+    const auto         rooms    = drive_rooms(scene, world);
+    const Expected     expected = expect(scene, world, plan, wants, rooms, set_up);
+    if (form == CheckForm::json) { return check_json(scene, world, plan, wants, expected, rooms); }
     std::string text = warning_lines(scene, world, wants, rooms);
     text += fmt::format("{}\nscene {}\n\n", scene.title, scene::scene_hash(scene));
-    text += cost_lines(scene, world, plan, wants) + gravity_line(scene);
+    text += cost_lines(scene, world, plan, wants, expected) + gravity_line(scene);
     text += phase_lines(scene, drive_ways(scene, world, rooms));
     for (const std::string& line : scene::soil_lines(scene)) { text += line + "\n"; }
     for (const world::Footing& footing : world::footings(scene, world))

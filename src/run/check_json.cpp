@@ -90,10 +90,25 @@ Json bodies_of(const scene::Scene& scene, const world::World& world, const solve
     return list;
 }
 
+Json work_of(const Workload& work)
+{
+    return {{"sand_steps", work.sand_steps},
+            {"searches", work.searches},
+            {"substeps", work.substeps},
+            {"joint_substeps", work.joint_substeps},
+            {"rows", work.rows},
+            {"points", work.points},
+            {"yielding_points", work.yielding_points},
+            {"pages", work.pages},
+            {"bodies", work.bodies},
+            {"body_substeps", work.body_substeps},
+            {"near_substeps", work.near_substeps}};
+}
+
 } // namespace
 
 std::string check_json(const scene::Scene& scene, const world::World& world, const solver::Plan& plan,
-                       const Estimate& wants, const std::vector<DriveRoom>& rooms)
+                       const Estimate& wants, const Expected& expected, const std::vector<DriveRoom>& rooms)
 {
     Json warnings = Json::array();
     for (const Warning& warning : plausibility(scene, world, wants, rooms)) { warnings.push_back(text_of(warning)); }
@@ -117,8 +132,11 @@ std::string check_json(const scene::Scene& scene, const world::World& world, con
         {"steps", wants.steps},
         {"substeps", wants.substeps},
         {"cores", cores},
-        {"wall_time_cores", wall_time(wants, world, core_cost, cores)},
-        {"wall_time_gpu", wall_time(wants, world, gpu_cost, 1)},
+        {"wall_time_cores", expected.set_up + wall_time(expected.work, core_cost, cores)},
+        {"wall_time_gpu", expected.set_up + wall_time(expected.work, gpu_cost, 1)},
+        {"expected_time", expected.time},
+        {"set_up", expected.set_up},
+        {"work", work_of(expected.work)},
         {"memory", wants.memory_bytes},
         {"disk", wants.disk.all},
     };

@@ -226,23 +226,16 @@ std::int64_t ray_bytes(const world::World& world)
     return bytes;
 }
 
-/// s, least sqrt(m / sum K) of rocks that lie on each other, C R sqrt(density / E): in settled piles of irregular
-/// rocks C is 0.89 to 0.92 from 1e7 to 1e10 Pa, and with a tenth and ten times the linear_overlap 0.54 and 1.5 to 1.7
-/// (docs/studies, "The substep that contacts allow"). 0 without rocks.
-double resting_contact(const scene::Scene& scene, const world::World& world)
+/// s, least resting_contact of the rocks; 0 without rocks.
+double resting_contact_of_rocks(const scene::Scene& scene, const world::World& world)
 {
-    constexpr double pile = 0.9, usual_overlap = 1e-3;
-    double           least = 0;
+    double least = 0;
     for (auto b = static_cast<std::size_t>(world.bodies.named); b < world.bodies.size(); ++b)
     {
-        const double radius  = world.bodies.radius[b];
-        const double density = world.bodies.mass[b] / (4.0 / 3 * std::numbers::pi * std::pow(radius, 3));
-        const auto&  stone   = scene.materials[static_cast<std::size_t>(world.bodies.material[b])];
-        if (!std::isfinite(stone.young)) { continue; }
-        const double time = radius * std::sqrt(density / stone.young);
-        least             = least == 0 ? time : std::min(least, time);
+        const double time = resting_contact(scene, world, b);
+        if (std::isfinite(time)) { least = least == 0 ? time : std::min(least, time); }
     }
-    return pile * least * std::pow(scene.numerics.linear_overlap / usual_overlap, 0.25);
+    return least;
 }
 
 /// Measured at the peak, during the fall of a bed (docs/performance.md, "Bodies on the H200"): 1.94 to 2.7 kB for
@@ -305,6 +298,17 @@ DiskUse disk_use(const scene::Scene& scene, const world::World& world, const sol
 
 } // namespace
 
+double resting_contact(const scene::Scene& scene, const world::World& world, std::size_t body)
+{
+    constexpr double pile = 0.9, usual_overlap = 1e-3;
+    const double     radius  = world.bodies.radius[body];
+    const double     density = world.bodies.mass[body] / (4.0 / 3 * std::numbers::pi * std::pow(radius, 3));
+    const auto&      stone   = scene.materials[static_cast<std::size_t>(world.bodies.material[body])];
+    return std::isfinite(stone.young) ? pile * radius * std::sqrt(density / stone.young) *
+                                            std::pow(scene.numerics.linear_overlap / usual_overlap, 0.25)
+                                      : std::numeric_limits<double>::infinity();
+}
+
 void require_room(const char* memory, std::int64_t wanted, std::int64_t free)
 {
     if (0.9 * static_cast<double>(wanted) <= static_cast<double>(free)) { return; }
@@ -349,7 +353,9 @@ Estimate estimate(const scene::Scene& scene, const world::World& world, const so
     wants.hopeless = limits.wave_speed > 0 ? solver::SandGuard::hopeless_courant * limits.spacing / limits.wave_speed
                                            : std::numeric_limits<double>::infinity();
     solver::Pace resting;
-    resting.shortest_contact     = resting_contact(scene, world);
+    wants.node_pages             = static_cast<double>(pages.nodes);
+    wants.resting_contact        = resting_contact_of_rocks(scene, world);
+    resting.shortest_contact     = wants.resting_contact;
     const solver::TimeStep later = solver::choose_step(scene.time, limits, resting, 0);
     wants.resting_dt             = later.dt;
     wants.substeps               = static_cast<double>(later.substeps);

@@ -235,7 +235,8 @@ std::vector<Warning> implausible_cost(const scene::Scene& scene, const world::Wo
     Warnings         warnings(scene);
     check_step(wants, warnings);
     check_amount(scene, wants, warnings);
-    const double on_gpu = wall_time(wants, world, gpu_cost, 1);
+    const solver::Plan plan   = solver::make_plan(scene, world);
+    const double       on_gpu = wall_time(workload(scene, world, plan, wants, {longest_pace(wants)}), gpu_cost, 1);
     if (wants.steps > most_steps)
     {
         warnings.add("time",
@@ -245,9 +246,10 @@ std::vector<Warning> implausible_cost(const scene::Scene& scene, const world::Wo
     }
     if (on_gpu > most_wall_time)
     {
-        warnings.add("time", fmt::format("the run takes {} of wall time even on one GPU, by model: fewer points or "
-                                         "bodies, shorter phases or softer materials are meant",
-                                         duration_text(on_gpu)));
+        warnings.add("time",
+                     fmt::format("the run takes {} of wall time even on one GPU, at most, by model: fewer points "
+                                 "or bodies, shorter phases or softer materials are meant",
+                                 duration_text(on_gpu)));
     }
     return warnings.take();
 }

@@ -10,13 +10,15 @@
 namespace tread::run
 {
 
-double wall_time(const Estimate& wants, const world::World& world, const StepCost& cost, int units)
+double wall_time(const Workload& work, const WorkCost& cost, int units)
 {
-    const auto   points  = static_cast<double>(world.sand.size());
-    const auto   bodies  = static_cast<double>(world.bodies.size());
-    const double further = wants.substeps - 1;
-    const double shared  = cost.point * points + (cost.body + cost.body_substep * further) * bodies;
-    return wants.steps * (cost.step + cost.substep * further + shared / units);
+    const double serial = cost.sand_steps * work.sand_steps + cost.searches * work.searches +
+                          cost.substeps * work.substeps + cost.joint_substeps * work.joint_substeps +
+                          cost.rows * work.rows;
+    const double shared = cost.points * work.points + cost.yielding_points * work.yielding_points +
+                          cost.pages * work.pages + cost.bodies * work.bodies +
+                          cost.body_substeps * work.body_substeps + cost.near_substeps * work.near_substeps;
+    return cost.start + serial + shared / units;
 }
 
 std::string duration_text(double seconds)

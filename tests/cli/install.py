@@ -9,12 +9,16 @@ import unittest
 
 from command import CommandTest
 
+BUILD = pathlib.Path(os.environ["BUILD"])
+HAS_PYTHON = (BUILD / "python" / "tread" / "libtread_python.so").is_file()
+
 
 class Install(CommandTest):
     def setUp(self):
         super().setUp()
         first = self.directory / "first"
-        subprocess.run(["cmake", "--install", os.environ["BUILD"], "--prefix", first], check=True, capture_output=True)
+        for component in ["Unspecified", *(["python"] if HAS_PYTHON else [])]:
+            subprocess.run(["cmake", "--install", BUILD, "--prefix", first, "--component", component], check=True, capture_output=True)
         self.prefix = self.directory / "moved"
         first.rename(self.prefix)
         self.share = self.prefix / "share" / "tread"
@@ -37,7 +41,7 @@ class Install(CommandTest):
         for path in ("docs/install.md", "jobs/campaign.py", "README.md", "LICENSE"):
             self.assertTrue((self.share / path).is_file(), path)
 
-    @unittest.skipUnless((pathlib.Path(os.environ["BUILD"]) / "python").is_dir(), "built without the Python package")
+    @unittest.skipUnless(HAS_PYTHON, "built without the Python package")
     def test_python_finds_its_package(self):
         command = [sys.executable, "-c", "import tread, tread_post; print(tread.features(), tread_post.__file__)"]
         place = self.prefix / "lib" / "tread"

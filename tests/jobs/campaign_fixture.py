@@ -13,6 +13,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "jobs" / "campaign.py"
 TREAD = os.environ["TREAD"]
+WORK = ("sand_steps", "searches", "substeps", "joint_substeps", "rows", "points", "yielding_points", "pages", "bodies", "body_substeps", "near_substeps")
 TWIN = ROOT / "configs" / "paper" / "reduced" / "slip_sand.toml"
 
 CAMPAIGN = f"""
@@ -78,5 +79,6 @@ class CampaignTest(unittest.TestCase):
 
     def checked_only(self):
         """A program that says of every scene what `tread check` would: for tests that run nothing."""
-        plan = {"points": 10, "bodies": 1, "time": 2.0, "steps": 2e3, "disk": 2500, "memory": 1, "scene": "", "substeps": 1.0}
+        work = dict.fromkeys(WORK, 0.0) | {"sand_steps": 2e3, "points": 2e4}
+        plan = {"points": 10, "bodies": 1, "time": 2.0, "steps": 2e3, "disk": 2500, "memory": 1, "scene": "", "set_up": 0.5, "work": work}
         return self.script("checks_only", f"#!/bin/sh\necho '{json.dumps(plan)}'\n")

@@ -15,6 +15,7 @@ import h5py
 import numpy as np
 
 ROWS = 201
+WORK = ("sand_steps", "searches", "substeps", "joint_substeps", "rows", "points", "yielding_points", "pages", "bodies", "body_substeps", "near_substeps")
 
 
 def plate_force(young, friction_angle, sinkage):
@@ -64,7 +65,8 @@ def write_run(scene_path, folder):
 
 def main(arguments):
     if arguments[0] == "check":
-        print(json.dumps({"points": 10, "bodies": 1, "time": 2.0, "steps": 2e3, "disk": 2500, "memory": 1, "scene": "", "substeps": 1.0}))
+        print(json.dumps({"points": 10, "bodies": 1, "time": 2.0, "steps": 2e3, "disk": 2500, "memory": 1, "scene": "", "set_up": 0.5,
+                          "work": dict.fromkeys(WORK, 0.0)}))
         return 0
     if os.environ.get("STAND_IN_FAILS"):
         return 3

@@ -16,6 +16,10 @@ import h5py
 
 from campaign_fixture import CAMPAIGN, ROOT, TREAD, TWIN, CampaignTest
 
+sys.path.insert(0, str(ROOT / "jobs"))
+
+from tread_jobs.resources import CORE_SPEED  # noqa: E402
+
 AXIS = '[[axis]]\nkey = "material.sand.young"\nvalues = [1e6, 1e7]\n'
 
 
@@ -151,8 +155,9 @@ class Expand(CampaignTest):
 
     def test_the_cost_of_many_cases_from_some(self):
         done = self.campaign("expand", "--checks", 2, program=self.checked_only())
-        # 2e3 steps of 10 points and a body: 2e3 (2e-5 + 10 * 4.5e-7 + 1e-5) s a case.
-        self.assertIn("4 cases (from 2 of them, evenly spread): at most 8e+03 steps, 7.67e-05 core-hours", done.stdout)
+        # A case is set up in 0.5 s and takes 2e3 steps of 10 points.
+        hours = 4 / 3600 * (0.5 + CORE_SPEED.start + 2e3 * CORE_SPEED.sand_steps + 2e4 * CORE_SPEED.points)
+        self.assertIn(f"4 cases (from 2 of them, evenly spread): at most 8e+03 steps, {hours:.3g} core-hours", done.stdout)
 
 
 class Submit(CampaignTest):

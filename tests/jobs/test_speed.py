@@ -4,6 +4,7 @@
 import re
 import sys
 import unittest
+from dataclasses import astuple
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -15,14 +16,14 @@ HEADER = ROOT / "src" / "run" / "wall_time.hpp"
 
 
 def cost_of(name):
-    numbers = re.search(rf"StepCost {name}\s*= \{{([^}}]*)\}}", HEADER.read_text())[1]
+    numbers = re.search(rf"WorkCost {name}\s*= \{{([^}}]*)\}}", HEADER.read_text())[1]
     return tuple(float(number) for number in numbers.split(","))
 
 
 class Speeds(unittest.TestCase):
     def test_are_those_of_the_program(self):
         for name, speed in (("gpu_cost", GPU_SPEED), ("core_cost", CORE_SPEED)):
-            self.assertEqual(cost_of(name), (speed.step, speed.point, speed.body, speed.substep, speed.body_substep), name)
+            self.assertEqual(cost_of(name), astuple(speed), name)
 
 
 if __name__ == "__main__":

@@ -140,14 +140,19 @@ std::int64_t substeps_without_check(const BodyState<Exec>& state, PairLists<Exec
     return static_cast<std::int64_t>(std::clamp(batch, 1.0, number));
 }
 
+double unchecked_span(double smallest_radius, const MotionBound& motion)
+{
+    // Displacement bound in a time t by speed and gravity: t (4 v + g t) <= reserve.
+    const double fall = motion.acceleration, reserve = dem::rest_reserve * smallest_radius,
+                 start = hit_twice * motion.speed;
+    return 2 * reserve / (start + std::sqrt(start * start + 4 * fall * reserve));
+}
+
 template<class Exec>
 std::int64_t steps_without_check(const BodyState<Exec>& state, double dt, const MotionBound& motion)
 {
     if (!state.has_contact) { return std::numeric_limits<std::int64_t>::max(); }
-    // Displacement bound of n steps by speed and gravity: n dt (4 v + g n dt) <= reserve.
-    const double fall = motion.acceleration, reserve = dem::rest_reserve * state.tables.smallest_radius,
-                 start = hit_twice * motion.speed;
-    const double span  = 2 * reserve / (start + std::sqrt(start * start + 4 * fall * reserve));
+    const double span = unchecked_span(state.tables.smallest_radius, motion);
     return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(span / dt, 1e9)));
 }
 

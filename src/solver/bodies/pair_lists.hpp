@@ -6,6 +6,7 @@
 #include "backend/event.hpp"
 #include "kernels/dem/pairs/displacement_tracker.hpp"
 #include "solver/bodies/body_state.hpp"
+#include "solver/bodies/unchecked_span.hpp"
 #include "solver/time_step.hpp"
 
 namespace tread::solver
@@ -41,13 +42,6 @@ struct PairLists
 /// steps a new list should remain valid. Collective.
 template<class Exec>
 void update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps);
-
-/// Motion that bounds displacements until the next check.
-struct MotionBound
-{
-    double speed;        ///< m/s, the largest of anything
-    double acceleration; ///< m/s2, the largest by weight
-};
 
 /// Chooses whether the list is checked within the step, and returns the number of substeps that may be requested
 /// together. `contact_time`: s, the smallest sqrt(m / sum K) of a body, 0 = no contact.
