@@ -11,7 +11,7 @@ from pathlib import Path
 
 from campaign_fixture import ROOT, TREAD
 
-DRIVE, SHORTER = "duration = 2.0 ", "duration = 0.3 "
+DRIVE, SHORTER = "duration = 2.0 ", "duration = 0.7 "  # s: an answer needs 20 rows of 0.02 s after the ramp of 0.2 s
 
 
 def blocks_of(text):
