@@ -113,7 +113,7 @@ WARNED = {
 }
 
 # Where one mistake has several consequences that are each worth a warning.
-MORE = {"a wheel in mm", "mass in tonnes", "a step of a picosecond", "a drive of thirty years", "rolling radius in cm", "spin in degrees per second"}
+MORE = {"a wheel in mm", "mass in tonnes", "a step of a picosecond", "a drive of thirty years", "a row each nanosecond", "rolling radius in cm", "spin in degrees per second"}
 
 # What is set, and words of the refusal.
 REFUSED = {

@@ -110,9 +110,9 @@ material = "steel"
 mass     = 4.0
 lock     = ["x", "y", "roll", "pitch", "yaw"]
 position = )";
-    const auto        rest   = "\n[[phase]]\nname = \"drop\"\nduration = 0.1\n";
-    const Built       apart(driven_text(second + "[0.6, 0.2, 0.33]" + rest)),
-        near(driven_text(second + "[0.401, 0.2, 0.33]" + rest));
+    const auto        beside = [&](double x)
+    { return fmt::format("{}[{}, 0.2, 0.33]\n[[phase]]\nname = \"drop\"\nduration = 0.1\n", second, x); };
+    const Built apart(driven_text(beside(0.6))), near(driven_text(beside(0.401)));
     std::cout << "[ substeps ] " << apart.phases[0].substeps << " apart, " << near.phases[0].substeps
               << " side by side\n";
     EXPECT_EQ(apart.phases[0].substeps, 1);
