@@ -1,5 +1,6 @@
 #include "run/workload.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "run/wall_time.hpp"
