@@ -53,7 +53,7 @@ class Tutorial(unittest.TestCase):
         first = self.place / "runs" / "first"
         self.assertIn("15000 points", said["tread check runs/first/bed.toml"])
         wheel = said["tread check runs/first/wheel.toml"]
-        self.assertRegex(wheel, r"sinkage 0\.007")
+        self.assertRegex(wheel, r"sinkage 0\.00(6[5-9]|7[0-4])")  # 7 mm
         self.assertIn(", 3.8 cells", wheel)
         with open(first / "slip" / "campaign.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
