@@ -152,12 +152,13 @@ std::vector<bool> keep_all_but_rock_volume(const World& world, const std::vector
 /// Touching points, each once, by ascending id.
 std::vector<PointChange> changes_of(const std::vector<Touch>& touches)
 {
-    std::vector<std::size_t> touching;
-    for (const Touch& touch : touches) { touching.push_back(touch.point); }
+    std::vector<std::size_t> touching(touches.size());
+    std::transform(touches.begin(), touches.end(), touching.begin(), [](const Touch& touch) { return touch.point; });
     std::sort(touching.begin(), touching.end());
     touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
-    std::vector<PointChange> changes;
-    for (const std::size_t point : touching) { changes.push_back({point, {}}); }
+    std::vector<PointChange> changes(touching.size());
+    std::transform(touching.begin(), touching.end(), changes.begin(),
+                   [](std::size_t point) { return PointChange{point, {}}; });
     return changes;
 }
 

@@ -119,16 +119,16 @@ std::int64_t DemSolver<Exec>::substeps_without_check(const TimeStep& step, doubl
 /// The list is built for a whole step, so that it may serve the next. Nobody wakes within a step: the substep was
 /// chosen for those that are awake.
 template<class Exec>
-void DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time)
+bool DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time)
 {
     if (!is_displaced_too_far(state_, lists_))
     {
         request_lookahead(state_, lists_, step, batch, done);
-        return;
+        return false;
     }
     const double dt = step.dt / static_cast<double>(step.substeps);
     check_before_search(state_, reports_, time + dt * static_cast<double>(done));
-    update_pairs(state_, lists_, step.dt, substeps_in(step.dt));
+    return update_pairs(state_, lists_, step.dt, substeps_in(step.dt));
 }
 
 template<class Exec>

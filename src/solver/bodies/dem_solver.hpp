@@ -141,10 +141,10 @@ public:
 
     /// Call between two batches, after `done` substeps of a step that began at `time` (s). Rebuilds the pair list if
     /// the check requested before the last batch says that a body may move too far in the next; if not, requests the
-    /// check for the next two batches.
-    void find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time);
+    /// check for the next two batches. Returns whether the list was rebuilt.
+    bool find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time);
 
-    /// Step 4. Call before the substeps when pairs or external wrenches may have changed.
+    /// Step 4. Call before the substeps of a step, and where the pair list was rebuilt in it.
     void list_moved(const dem::OutsideWrenches& outside);
 
     // Step 4. One substep.

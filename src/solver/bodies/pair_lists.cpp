@@ -114,14 +114,18 @@ auto accepted_nodes(const world::World& world, const std::vector<std::uint64_t>&
 } // namespace
 
 template<class Exec>
-void update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps)
+bool update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps)
 {
-    if (is_valid(state, lists, dt)) { state.stage(); } // commands change bodies too
+    const bool valid = is_valid(state, lists, dt);
+    if (valid) { state.stage(); } // commands change bodies too
     else { build(state, lists, dt, substeps); }
     dem::expect_contacts(state.exec, state.pairs, state.view(), state.tables.law, state.gravity, dt, state.shared());
-    if (!state.ranks) { return; }
-    state.ranks->shared().exchange_stiffness();
-    dem::expect_shared_contacts(state.exec, state.pairs, state.shared());
+    if (state.ranks)
+    {
+        state.ranks->shared().exchange_stiffness();
+        dem::expect_shared_contacts(state.exec, state.pairs, state.shared());
+    }
+    return !valid;
 }
 
 template<class Exec>
@@ -213,7 +217,7 @@ void PairLists<Exec>::transfer(StateFile& file, BodyState<Exec>& state)
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template struct PairLists<Exec>;                                                                                   \
-    template void         update_pairs(BodyState<Exec>&, PairLists<Exec>&, double, double);                            \
+    template bool         update_pairs(BodyState<Exec>&, PairLists<Exec>&, double, double);                            \
     template std::int64_t substeps_without_check(const BodyState<Exec>&, PairLists<Exec>&, const TimeStep&,            \
                                                  const MotionBound&, double);                                          \
     template std::int64_t steps_without_check(const BodyState<Exec>&, double, const MotionBound&);                     \

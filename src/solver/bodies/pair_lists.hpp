@@ -39,9 +39,9 @@ struct PairLists
 
 /// Lists pairs of bodies, and of bodies and walls, that may touch within dt (s), and what stiffness to expect of their
 /// contacts; rebuilds the list if the old one may have expired. `substeps`: number of substeps in dt; it sets how many
-/// steps a new list should remain valid. Collective.
+/// steps a new list should remain valid. Returns whether it was rebuilt. Collective.
 template<class Exec>
-void update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps);
+bool update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps);
 
 /// Chooses whether the list is checked within the step, and returns the number of substeps that may be requested
 /// together. `contact_time`: s, the smallest sqrt(m / sum K) of a body, 0 = no contact.

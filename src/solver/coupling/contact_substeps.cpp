@@ -104,8 +104,7 @@ void run_substeps(const ContactSubsteps<Exec, Real>& parts, const TimeStep& step
             clock.run(parts.exec, stage::pairs,
                       [&]
                       {
-                          parts.bodies.find_pairs_if_displaced(step, batch, done, time);
-                          list_moved();
+                          if (parts.bodies.find_pairs_if_displaced(step, batch, done, time)) { list_moved(); }
                       });
         }
         run_batch(parts, dt, done, next, clock);

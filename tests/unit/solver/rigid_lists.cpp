@@ -84,10 +84,10 @@ TYPED_TEST(RigidLists, LookIsHeededABatchLater)
     const solver::TimeStep ten{step, 10, ""};
     ASSERT_EQ(rigid.substeps_without_check(ten, 5, 0), 1);
     this->run(1);
-    rigid.find_pairs_if_displaced(ten, 1, 1, 0);
-    EXPECT_EQ(this->searches(), 1) << "nobody has looked before";
+    EXPECT_FALSE(rigid.find_pairs_if_displaced(ten, 1, 1, 0)) << "nobody has looked before";
+    EXPECT_EQ(this->searches(), 1);
     this->run(1);
-    rigid.find_pairs_if_displaced(ten, 1, 2, 0);
+    EXPECT_TRUE(rigid.find_pairs_if_displaced(ten, 1, 2, 0));
     EXPECT_EQ(this->searches(), 2);
 }
 
