@@ -158,7 +158,9 @@ std::vector<PointChange> changes_of(const std::vector<Touch>& touches)
     touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
     std::vector<PointChange> changes(touching.size());
     std::transform(touching.begin(), touching.end(), changes.begin(),
-                   [](std::size_t point) { return PointChange{point, {}}; });
+                   [](std::size_t point) {
+                       return PointChange{point, {}};
+                   });
     return changes;
 }
 
