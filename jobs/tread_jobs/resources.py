@@ -57,7 +57,7 @@ class Speed:
 
 
 # src/run/wall_time.hpp has the same figures; docs/performance.md, "Wall time by model", says where they come from.
-GPU_SPEED = Speed(2.0, 9.0e-5, 2.0e-4, 7.0e-5, 8.0e-5, 8.0e-4, 3.3e-10, 1.2e-11, 5.0e-9, 1.0e-8, 3.0e-9, 0.0)
+GPU_SPEED = Speed(1.0, 9.0e-5, 2.0e-4, 7.0e-5, 8.0e-5, 8.0e-4, 3.3e-10, 1.2e-11, 5.0e-9, 1.0e-8, 3.0e-9, 0.0)
 CORE_SPEED = Speed(0.2, 2.0e-5, 3.0e-5, 2.5e-5, 1.0e-4, 1.0e-3, 2.3e-7, 1.1e-7, 5.5e-6, 3.0e-6, 8.0e-7, 2.0e-7)
 
 

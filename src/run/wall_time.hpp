@@ -30,7 +30,7 @@ struct WorkCost
 
 /// One H200 or H100, and one CPU core (docs/performance.md, "Wall time by model"). jobs/tread_jobs/resources.py has the
 /// same figures for campaigns.
-inline constexpr WorkCost gpu_cost  = {2.0,     9.0e-5,  2.0e-4, 7.0e-5, 8.0e-5, 8.0e-4,
+inline constexpr WorkCost gpu_cost  = {1.0,     9.0e-5,  2.0e-4, 7.0e-5, 8.0e-5, 8.0e-4,
                                        3.3e-10, 1.2e-11, 5.0e-9, 1.0e-8, 3.0e-9, 0.0};
 inline constexpr WorkCost core_cost = {0.2,    2.0e-5, 3.0e-5, 2.5e-5, 1.0e-4, 1.0e-3,
                                        2.3e-7, 1.1e-7, 5.5e-6, 3.0e-6, 8.0e-7, 2.0e-7};
