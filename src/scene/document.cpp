@@ -21,8 +21,8 @@ namespace tread::scene
 namespace
 {
 
-/// Finds line numbers of a document's values. toml11's own `location` copies a value's whole line and counts lines from
-/// the beginning of the file, for every value.
+/// Finds line numbers of a document's values. The `location` of toml11 3 copies a value's whole line and counts lines
+/// from the beginning of the file, for every value; 4 has counted them.
 class LineNumbers
 {
 public:
@@ -37,13 +37,25 @@ public:
 
     Location operator()(const toml::value& value) const
     {
-        const auto* region = dynamic_cast<const toml::detail::region*>(toml::detail::get_region(value));
-        const auto  at     = region != nullptr ? region->first() - region->begin() : 0;
-        const auto  line   = 1 + (std::lower_bound(ends_.begin(), ends_.end(), at) - ends_.begin());
-        return {fmt::format("{}:{}", file_, line), static_cast<std::int64_t>(line)};
+        const std::int64_t line = line_of(value);
+        return {fmt::format("{}:{}", file_, line), line};
     }
 
 private:
+    template<class Value>
+    std::int64_t line_of(const Value& value) const
+    {
+        using namespace toml::detail; // get_region, which only toml11 3 has
+        if constexpr (requires { get_region(value); })
+        {
+            const auto begin_of = [](const auto* region)
+            { return region != nullptr ? region->first() - region->begin() : 0; };
+            const auto at = begin_of(dynamic_cast<const toml::detail::region*>(get_region(value)));
+            return 1 + (std::lower_bound(ends_.begin(), ends_.end(), at) - ends_.begin());
+        }
+        else { return static_cast<std::int64_t>(value.location().first_line_number()); }
+    }
+
     std::string                 file_;
     std::vector<std::ptrdiff_t> ends_;
 };
@@ -57,6 +69,14 @@ decltype(Node::value) held(T number)
     return number;
 }
 
+/// A string of toml11 3, which is a struct, or of 4.
+template<class String>
+const std::string& text_of(const String& string)
+{
+    if constexpr (requires { string.str; }) { return string.str; }
+    else { return string; }
+}
+
 /// `locate` maps a toml::value to the Location of its node.
 template<class Locate>
 Node convert(const toml::value& value, const Locate& locate)
@@ -65,7 +85,7 @@ Node convert(const toml::value& value, const Locate& locate)
     if (value.is_boolean()) { node.value = value.as_boolean(); }
     else if (value.is_integer()) { node.value = held(value.as_integer()); }
     else if (value.is_floating()) { node.value = held(value.as_floating()); }
-    else if (value.is_string()) { node.value = value.as_string().str; }
+    else if (value.is_string()) { node.value = text_of(value.as_string()); }
     else if (value.is_array())
     {
         NodeArray array;
