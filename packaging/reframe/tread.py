@@ -1,4 +1,4 @@
-"""ReFrame test of an installed tread: a column of sand collapses; its run-out must be right, and points/s are kept.
+"""ReFrame test of an installed tread: a column of sand collapses; its run-out must be right, and points/s are reported.
 
     reframe -C SITE.py -c packaging/reframe/tread.py -r                       # tread is on PATH
     reframe -C SITE.py -c packaging/reframe/tread.py -r -S TreadCollapse.installation=/opt/tread --performance-report

@@ -135,7 +135,7 @@ duration = 0.15
 )";
 }
 
-/// Issue: phi = 0, c = 0 and nu -> 0.499 run, give finite states and generate no energy.
+/// phi = 0, c = 0 and nu -> 0.499 give finite states and generate no energy.
 TYPED_TEST(FullSizeFooting, LimitsOfTheLawsMakeNoEnergy)
 {
     const std::string cone        = "model = \"drucker-prager\"\ndrucker_prager_fit = \"plane-strain\"\n",
