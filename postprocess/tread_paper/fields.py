@@ -3,6 +3,8 @@
 Rocks of which a snapshot does not say how far they have come are grey.
 """
 
+from dataclasses import replace
+
 import h5py
 import matplotlib
 import numpy as np
@@ -82,7 +84,7 @@ def _outline(run, number):
     bodies, named = run.bodies(number), len(run.scene.get("body", []))
     if bodies is None:
         return np.empty((0, 2, 3))
-    first = type(bodies)(bodies.time, *(part[:named] for part in (bodies.position, bodies.orientation, bodies.scale, bodies.shape)))
+    first = replace(bodies, **{name: getattr(bodies, name)[:named] for name in ("position", "orientation", "scale", "shape")}, fields={})
     return outline_of(first, run.shapes, 1, float(bodies.position[0, 1]))
 
 
