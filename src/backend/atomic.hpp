@@ -23,4 +23,14 @@ TREAD_HD std::uint64_t compare_and_swap(std::uint64_t* at, std::uint64_t expecte
 #endif
 }
 
+/// Writes a value that other threads of the same launch may write as well.
+TREAD_HD void store_together(std::int32_t* at, std::int32_t value)
+{
+#if defined(__CUDA_ARCH__)
+    *static_cast<volatile std::int32_t*>(at) = value;
+#else
+    std::atomic_ref<std::int32_t>(*at).store(value, std::memory_order_relaxed);
+#endif
+}
+
 } // namespace tread

@@ -20,14 +20,16 @@ class Counters;
 /// Execution tag, the first argument of every function that runs on a backend: OpenMP threads of this process.
 struct Cpu
 {
-    Counters* counters;
+    Counters*           counters;
+    const std::int32_t* skip = nullptr; ///< launches do nothing while it points to anything but 0
 };
 
 /// Execution tag: one CUDA device; all work runs in order on one stream.
 struct Gpu
 {
-    CUstream_st* stream;
-    Counters*    counters;
+    CUstream_st*        stream;
+    Counters*           counters;
+    const std::int32_t* skip = nullptr; ///< as in Cpu, on the device: work that was requested in advance may be dropped
 };
 
 } // namespace tread

@@ -9,9 +9,12 @@
 namespace tread
 {
 
+__device__ inline bool is_skipped(const std::int32_t* skip) { return skip != nullptr && *skip != 0; }
+
 template<class F>
-__global__ void for_each_kernel(std::int64_t n, const __grid_constant__ F f)
+__global__ void for_each_kernel(const std::int32_t* skip, std::int64_t n, const __grid_constant__ F f)
 {
+    if (is_skipped(skip)) { return; }
     const std::int64_t i = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
     if (i < n) { f(i); }
 }
@@ -23,13 +26,15 @@ void for_each(const Gpu& gpu, const char* name, std::int64_t n, F f)
     if (n == 0) { return; }
     gpu.counters->launched(name);
     constexpr int threads = 128;
-    for_each_kernel<<<static_cast<unsigned>((n + threads - 1) / threads), threads, 0, gpu.stream>>>(n, f);
+    for_each_kernel<<<static_cast<unsigned>((n + threads - 1) / threads), threads, 0, gpu.stream>>>(gpu.skip, n, f);
     check_cuda(cudaGetLastError(), name);
 }
 
 template<int threads, int blocks_an_sm, class F>
-__global__ void __launch_bounds__(threads, blocks_an_sm) for_each_block_kernel(const __grid_constant__ F f)
+__global__ void __launch_bounds__(threads, blocks_an_sm)
+    for_each_block_kernel(const std::int32_t* skip, const __grid_constant__ F f)
 {
+    if (is_skipped(skip)) { return; }
     f(static_cast<std::int64_t>(blockIdx.x));
 }
 
@@ -40,7 +45,8 @@ void for_each_block(const Gpu& gpu, const char* name, std::int64_t blocks, F f)
 {
     if (blocks == 0) { return; }
     gpu.counters->launched(name);
-    for_each_block_kernel<threads, blocks_an_sm><<<static_cast<unsigned>(blocks), threads, 0, gpu.stream>>>(f);
+    for_each_block_kernel<threads, blocks_an_sm>
+        <<<static_cast<unsigned>(blocks), threads, 0, gpu.stream>>>(gpu.skip, f);
     check_cuda(cudaGetLastError(), name);
 }
 

@@ -105,20 +105,30 @@ Sequence<First, Rest...> sequence(const First& first, const Rest&... rest)
 
 template<int threads, int blocks_an_sm, class Parts>
 __global__ void __launch_bounds__(threads, blocks_an_sm)
-    repeat_kernel(std::int64_t times, const __grid_constant__ Parts parts)
+    repeat_kernel(std::int64_t times, std::int32_t* ended, const __grid_constant__ Parts parts)
 {
     const auto grid = cooperative_groups::this_grid();
-    for (std::int64_t time = 0; time < times; ++time) { parts.run(grid); }
+    for (std::int64_t time = 1; time <= times; ++time)
+    {
+        parts.run(grid);
+        if (ended == nullptr || *static_cast<volatile const std::int32_t*>(ended) == 0) { continue; }
+        if (blockIdx.x == 0 && threadIdx.x == 0) { *ended = static_cast<std::int32_t>(time); }
+        return;
+    }
 }
 
 /// Runs the sequence `times` times in one cooperative launch with at most as many blocks as are resident on the device.
+/// `ended`: null, or 0 until the last part ends the sequence by writing anything else; it then becomes the number of
+/// times that were run. The sequence must have two parts with blocks then: no block begins the last part before all
+/// blocks have seen what the part left there the time before.
 template<int threads, int blocks_an_sm, class Parts>
-void repeat(const Gpu& gpu, const char* name, std::int64_t times, const Parts& parts)
+void repeat(const Gpu& gpu, const char* name, std::int64_t times, const Parts& parts, std::int32_t* ended = nullptr)
 {
     const std::int64_t wanted = parts.most_blocks();
     if (wanted == 0 || times == 0) { return; }
     const auto kernel = repeat_kernel<threads, blocks_an_sm, Parts>;
-    launch_together(gpu, name, kernel, std::min(wanted, resident_blocks(name, kernel, threads)), threads, times, parts);
+    launch_together(gpu, name, kernel, std::min(wanted, resident_blocks(name, kernel, threads)), threads, times, ended,
+                    parts);
 }
 
 } // namespace tread

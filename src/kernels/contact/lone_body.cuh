@@ -49,6 +49,7 @@ struct LoneBodyState
     double              stiffness;
     dem::BodyTotal      total;
     dem::ContactImpulse impulse;
+    std::int32_t        reached; ///< as in DisplacementLimit
 };
 
 /// Move: dem::moving::Move of the body in device memory, with KnownWrench as external wrench. Every point has a thread.
@@ -80,28 +81,39 @@ struct LoneBody
         LoneBodyState&                                  state = *reinterpret_cast<LoneBodyState*>(memory);
         if (threadIdx.x == 0) { read(state); }
         __syncthreads();
-        const Move in_block = move_of(state);
-        Own        own      = read_own();
-        for (std::int64_t substep = 0; substep < substeps; ++substep)
+        const Move   in_block = move_of(state);
+        Own          own      = read_own();
+        std::int64_t substep  = 0;
+        while (substep < substeps && state.reached == 0)
         {
             dem::ContactWrench* of_blocks = parts + substep % 2 * gridDim.x;
-            Response*           kept      = substep + 1 == substeps ? respond.contacts.response + own.c : nullptr;
+            ++substep;
+            Response* kept = substep == substeps ? respond.contacts.response + own.c : nullptr;
             sum_of_block(answer(own, in_block.bodies, kept), of_blocks + blockIdx.x);
             grid.sync();
             if (threadIdx.x < warp_size) { move_body(of_blocks, in_block); }
             __syncthreads();
         }
         write_own(own);
-        if (blockIdx.x == 0 && threadIdx.x == 0) { write(state); }
+        if (blockIdx.x != 0 || threadIdx.x != 0) { return; }
+        write(state);
+        if (state.reached != 0) { *move.limit.reached = static_cast<std::int32_t>(substep); }
     }
 
 private:
     __device__ void read(LoneBodyState& state) const
     {
         const dem::BodiesView& from = move.bodies;
-        state                       = {from.position[0],         from.orientation[0], from.velocity[0],
-                                       from.angular_velocity[0], from.force[0],       from.torque[0],
-                                       from.stiffness[0],        move.totals[0],      {}};
+        state                       = {from.position[0],
+                                       from.orientation[0],
+                                       from.velocity[0],
+                                       from.angular_velocity[0],
+                                       from.force[0],
+                                       from.torque[0],
+                                       from.stiffness[0],
+                                       move.totals[0],
+                                       {},
+                                       0};
         if (move.named.count > 0) { state.impulse = move.named.impulse[0]; }
     }
 
@@ -134,6 +146,7 @@ private:
         own.totals                  = &state.total;
         own.named.impulse           = &state.impulse;
         own.pairs                   = {};
+        own.limit.reached           = &state.reached;
         return own;
     }
 

@@ -16,11 +16,12 @@ template<class Exec>
 void run_substeps(const Exec& cpu, PointContact<Exec>& contact, const PointBodyLaw& law,
                   const dem::BodyStep<Exec>& step, std::int64_t count)
 {
-    for (std::int64_t done = 0; done < count; ++done)
+    dem::BodyStep<Exec> each = step;
+    for (std::int64_t done = 0; done < count; ++done, ++each.limit.substep)
     {
-        substep(cpu, contact, step.bodies, law, step.motion.dt);
-        if (step.pairs.key.size() > 0) { evaluate_contacts(cpu, step.pairs, step.bodies, step.law, step.motion.dt); }
-        move_bodies(cpu, step);
+        substep(cpu, contact, each.bodies, law, each.motion.dt);
+        if (each.pairs.key.size() > 0) { evaluate_contacts(cpu, each.pairs, each.bodies, each.law, each.motion.dt); }
+        move_bodies(cpu, each);
     }
 }
 

@@ -92,7 +92,8 @@ void run_substeps(const Exec& gpu, PointContact<Exec>& contact, const PointBodyL
         repeat<repeat_threads, dem::repeat_blocks_an_sm>(gpu, "substeps of sand and bodies", count,
                                                          sequence(beside(dem::nodes_part(meet, step), forces),
                                                                   dem::answers_part(meet, step),
-                                                                  beside(moved, advance)));
+                                                                  beside(moved, advance)),
+                                                         step.limit.reached);
     };
     dem::moving::with_motions(step, dem::moving::SumOutside{step.motion.outside}, dem::moving::Alone{},
                               [&](const auto& move)

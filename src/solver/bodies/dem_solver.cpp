@@ -123,7 +123,7 @@ bool DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t
 {
     if (!is_displaced_too_far(state_, lists_))
     {
-        request_lookahead(state_, lists_, step, batch, done);
+        if (lists_.looks_ahead()) { request_lookahead(state_, lists_, step, batch, done); }
         return false;
     }
     const double dt = step.dt / static_cast<double>(step.substeps);
@@ -134,7 +134,7 @@ bool DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t
 template<class Exec>
 void DemSolver<Exec>::contact(double dt)
 {
-    dem::evaluate_contacts(state_.exec, state_.pairs, state_.view(), state_.tables.law, dt);
+    dem::evaluate_contacts(substep_exec(), state_.pairs, state_.view(), state_.tables.law, dt);
 }
 
 template<class Exec>
@@ -147,8 +147,8 @@ void DemSolver<Exec>::move(double dt, double damping, const dem::OutsideWrenches
         dem::share_wrenches(state_.exec, step);
         state_.ranks->shared().exchange_wrenches();
     }
-    dem::move_bodies(state_.exec, step);
-    count_substeps(dt, 1);
+    dem::move_bodies(substep_exec(), step);
+    requested(1);
 }
 
 template<class Exec>
@@ -163,8 +163,16 @@ void DemSolver<Exec>::run(double dt, double damping, std::int64_t count)
         }
         return;
     }
-    dem::run_substeps(state_.exec, body_step(dt, damping), count);
-    count_substeps(dt, count);
+    dem::run_substeps(substep_exec(), body_step(dt, damping), count);
+    requested(count);
+}
+
+template<class Exec>
+Exec DemSolver<Exec>::substep_exec()
+{
+    Exec exec = state_.exec;
+    exec.skip = lists_.limit(state_).reached;
+    return exec;
 }
 
 template<class Exec>
@@ -178,15 +186,18 @@ dem::BodyStep<Exec> DemSolver<Exec>::body_step(double dt, double damping)
             {state_.gravity, damping, dt},
             state_.shared(),
             motions_ ? motions_->view() : dem::PrescribedView{},
-            joints_ ? joints_->view() : dem::JointsView{}};
+            joints_ ? joints_->view() : dem::JointsView{},
+            lists_.limit(state_)};
 }
 
 template<class Exec>
-void DemSolver<Exec>::count_substeps(double dt, std::int64_t count)
+std::int64_t DemSolver<Exec>::take_done(double dt)
 {
-    means_.time += static_cast<double>(count) * dt;
-    state_.pairs.sleep.pass(static_cast<double>(count) * dt);
+    const std::int64_t done = lists_.take_done(state_.exec);
+    means_.time += static_cast<double>(done) * dt;
+    state_.pairs.sleep.pass(static_cast<double>(done) * dt);
     substep_ = dt;
+    return done;
 }
 
 template<class Exec>

@@ -40,7 +40,8 @@ struct ContactCount
 ///
 /// - 1, command: BodyCommands set what named bodies are held or driven to;
 /// - 3, find_pairs: PairLists renew the list of pairs;
-/// - 4, contact and move, or run: the substeps, with find_pairs_if_displaced between batches of them;
+/// - 4, contact and move, or run: the substeps, in batches with take_done after each and find_pairs_if_displaced
+///   between them;
 /// - 7, request_report and report: BodyReports sum up the steps since the last report.
 ///
 /// Output is named_bodies, fields, census and contacts (body_output.hpp, contact_records.hpp).
@@ -135,13 +136,13 @@ public:
     std::int64_t steps_without_check(double dt, double speed) const;
 
     /// Returns the number of substeps that may be requested together, called before the substeps of a step. `speed`:
-    /// m/s, the largest of anything; `contact_time`: s, the smallest sqrt(m / sum K) of a body, 0 = no contact. If the
-    /// result is less than all substeps, find_pairs_if_displaced is due after each batch.
+    /// m/s, the largest of anything; `contact_time`: s, the smallest sqrt(m / sum K) of a body, 0 = no contact.
+    /// find_pairs_if_displaced is due after each batch that is not the step's last.
     std::int64_t substeps_without_check(const TimeStep& step, double speed, double contact_time);
 
-    /// Call between two batches, after `done` substeps of a step that began at `time` (s). Rebuilds the pair list if
-    /// the check requested before the last batch says that a body may move too far in the next; if not, requests the
-    /// check for the next two batches. Returns whether the list was rebuilt.
+    /// Call between two batches, after `done` substeps of a step that began at `time` (s). Rebuilds the pair list if a
+    /// body has moved too far (is_displaced_too_far); if not, requests the check for the next two batches. Returns
+    /// whether the list was rebuilt.
     bool find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time);
 
     /// Step 4. Call before the substeps of a step, and where the pair list was rebuilt in it.
@@ -153,9 +154,16 @@ public:
     /// Calls contact and move `count` times, for bodies that touch only each other and walls.
     void run(double dt, double damping, std::int64_t count);
 
-    /// Data that a launch of whole substeps needs; its caller then reports how many it did.
+    /// Tag for launches of the substeps: they do nothing once the list of pairs has expired.
+    Exec substep_exec();
+
+    /// Data that a launch of whole substeps needs, `count` of which its caller then says to have requested.
     dem::BodyStep<Exec> body_step(double dt, double damping);
-    void                count_substeps(double dt, std::int64_t count);
+    void                requested(std::int64_t count) { lists_.requested += count; }
+
+    /// Returns how many of the substeps (of dt, s) requested since the last call were done, and counts their time. They
+    /// are fewer where the list has expired; find_pairs_if_displaced is due then.
+    std::int64_t take_done(double dt);
 
     /// Step 7. Requests the report early, so that one synchronisation serves several readbacks.
     void request_report();

@@ -133,12 +133,14 @@ std::int64_t substeps_without_check(const BodyState<Exec>& state, PairLists<Exec
                                     const MotionBound& motion, double contact_time)
 {
     lists.lookahead_pending = false;
+    lists.expired           = false;
     const auto   number     = static_cast<double>(step.substeps);
     const double dt = step.dt / number, reserve = dem::rest_reserve * state.tables.smallest_radius,
                  fall         = motion.acceleration * step.dt;
     const double unseen       = reserve / (dt * (hit_twice * motion.speed + fall)); // in substeps
     lists.checked_within_step = number > unseen;
-    if (!lists.checked_within_step) { return step.substeps; }
+    lists.in_substeps         = lists.checked_within_step && !state.ranks;
+    if (!lists.checked_within_step || lists.in_substeps) { return step.substeps; }
     const double soon  = std::min(contact_time / dt, reserve / (dt * (hit_soon * motion.speed + fall)));
     const double batch = std::max(unseen, soon) / static_cast<double>(batches_ahead);
     return static_cast<std::int64_t>(std::clamp(batch, 1.0, number));
@@ -163,6 +165,7 @@ std::int64_t steps_without_check(const BodyState<Exec>& state, double dt, const 
 template<class Exec>
 bool is_displaced_too_far(const BodyState<Exec>& state, PairLists<Exec>& lists)
 {
+    if (std::exchange(lists.expired, false)) { return true; }
     if (!std::exchange(lists.lookahead_pending, false)) { return false; }
     lists.lookahead_done.wait();
     return largest_over_ranks(state.communicator(), lists.lookahead.get()) > 1;
@@ -177,6 +180,30 @@ void request_lookahead(BodyState<Exec>& state, PairLists<Exec>& lists, const Tim
     lists.lookahead.request(displacement_ahead(state, lists, ahead));
     lists.lookahead_done.mark();
     lists.lookahead_pending = true;
+}
+
+template<class Exec>
+dem::DisplacementLimit PairLists<Exec>::limit(BodyState<Exec>& state)
+{
+    if (!in_substeps) { return {}; }
+    return {displacements.position.data(),
+            displacements.orientation.data(),
+            state.pairs.displacement.allowed.data(),
+            state.tables.law.templates,
+            reached.data(),
+            static_cast<std::int32_t>(requested + 1)};
+}
+
+template<class Exec>
+std::int64_t PairLists<Exec>::take_done(const Exec& exec)
+{
+    const std::int64_t all = std::exchange(requested, 0);
+    if (!in_substeps) { return all; }
+    const std::int64_t until = read(exec, reached.data());
+    expired                  = until > 0;
+    if (!expired) { return all; }
+    reached.fill_zero();
+    return until;
 }
 
 template<class Exec>

@@ -4,6 +4,7 @@
 
 #include "backend/async_readback.hpp"
 #include "backend/event.hpp"
+#include "kernels/dem/pairs/displacement_limit.hpp"
 #include "kernels/dem/pairs/displacement_tracker.hpp"
 #include "solver/bodies/body_state.hpp"
 #include "solver/bodies/unchecked_span.hpp"
@@ -21,8 +22,18 @@ struct PairLists
         : displacements(exec)
         , lookahead(exec, "body displacement ahead on the host")
         , lookahead_done(exec)
+        , reached(exec, "substeps until the list expired", 1)
     {
     }
+
+    /// Limit of displacements for the next substep; empty where nobody checks.
+    dem::DisplacementLimit limit(BodyState<Exec>& state);
+
+    /// Whether displacements are checked between batches of substeps.
+    bool looks_ahead() const { return checked_within_step && !in_substeps; }
+
+    /// Number of substeps requested since the last call that were done: up to the one after which the list expired.
+    std::int64_t take_done(const Exec& exec);
 
     /// Saves or loads the list and the positions of its search, where the state is exact; otherwise the next
     /// update_pairs builds a list.
@@ -35,6 +46,11 @@ struct PairLists
     bool                           listed              = false; ///< whether pairs were found
     bool                           checked_within_step = false; ///< the list is also checked within the step
     std::int64_t                   partition_version   = 0;     ///< counts assignments of bodies to ranks
+
+    bool                      in_substeps = false; ///< every substep of this step checks displacements
+    bool                      expired     = false; ///< a substep of the last batch found one too far
+    std::int64_t              requested   = 0;     ///< substeps of the present batch
+    Array<Exec, std::int32_t> reached;             ///< DisplacementLimit::reached of the present batch
 };
 
 /// Lists pairs of bodies, and of bodies and walls, that may touch within dt (s), and what stiffness to expect of their
@@ -44,7 +60,8 @@ template<class Exec>
 bool update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps);
 
 /// Chooses whether the list is checked within the step, and returns the number of substeps that may be requested
-/// together. `contact_time`: s, the smallest sqrt(m / sum K) of a body, 0 = no contact.
+/// together: all on one rank, where every substep checks displacements. Several ranks have to agree, and look ahead
+/// between batches. `contact_time`: s, the smallest sqrt(m / sum K) of a body, 0 = no contact.
 template<class Exec>
 std::int64_t substeps_without_check(const BodyState<Exec>& state, PairLists<Exec>& lists, const TimeStep& step,
                                     const MotionBound& motion, double contact_time);
@@ -53,8 +70,9 @@ std::int64_t substeps_without_check(const BodyState<Exec>& state, PairLists<Exec
 template<class Exec>
 std::int64_t steps_without_check(const BodyState<Exec>& state, double dt, const MotionBound& motion);
 
-/// Whether the check requested before the last batch of substeps says that a body may move too far in the next.
-/// Collective; waits for the readback. False if no check was requested: a new list is valid for two batches.
+/// Whether the list expired in the last batch of substeps, or, on several ranks, the check requested before that batch
+/// says that a body may move too far in the next. Collective; waits for the readback. False if no check was requested:
+/// a new list is valid for two batches.
 template<class Exec>
 bool is_displaced_too_far(const BodyState<Exec>& state, PairLists<Exec>& lists);
 

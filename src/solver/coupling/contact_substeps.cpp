@@ -18,7 +18,8 @@ void coupled_substep(const ContactSubsteps<Exec, Real>& parts, double dt, StageC
 {
     if (parts.coupling != nullptr)
     {
-        clock.run(parts.exec, stage::sand_contact, [&] { parts.coupling->substep(parts.bodies.view(), dt); });
+        clock.run(parts.exec, stage::sand_contact,
+                  [&] { parts.coupling->substep(parts.bodies.substep_exec(), parts.bodies.view(), dt); });
     }
     if (parts.plan.body_contact)
     {
@@ -40,7 +41,7 @@ bool run_in_one_launch(const ContactSubsteps<Exec, Real>& parts, double dt, std:
     const dem::BodyStep<Exec> step = parts.bodies.body_step(dt, parts.damping);
     if (!parts.coupling->worth_one_launch(step)) { return false; }
     clock.run(parts.exec, stage::sand_contact, [&] { parts.coupling->run_substeps(step, count); });
-    parts.bodies.count_substeps(dt, count);
+    parts.bodies.requested(count);
     return true;
 }
 
@@ -66,19 +67,17 @@ void check_stop(const ContactSubsteps<Exec, Real>& parts)
     if (const auto why = parts.why_stop()) { throw StoppedInStep(*why); }
 }
 
-/// Runs `count` substeps after `done` others of the step, with checks for a stop request in between.
+/// Runs up to `count` substeps after `done` others of the step, until the list of pairs expires or a check for a stop
+/// request is due; returns how many.
 template<class Exec, class Real>
-void run_batch(const ContactSubsteps<Exec, Real>& parts, double dt, std::int64_t done, std::int64_t count,
-               StageClock& clock)
+std::int64_t run_batch(const ContactSubsteps<Exec, Real>& parts, double dt, std::int64_t done, std::int64_t count,
+                       StageClock& clock)
 {
-    for (const std::int64_t end = done + count; done < end;)
-    {
-        const std::int64_t check = (done / substeps_between_checks + 1) * substeps_between_checks;
-        const std::int64_t next  = std::min(check, end);
-        run_unchecked(parts, dt, next - done, clock);
-        done = next;
-        if (done == check) { check_stop(parts); }
-    }
+    const std::int64_t check = (done / substeps_between_checks + 1) * substeps_between_checks;
+    run_unchecked(parts, dt, std::min(check - done, count), clock);
+    const std::int64_t ran = parts.bodies.take_done(dt);
+    if (done + ran == check) { check_stop(parts); }
+    return ran;
 }
 
 } // namespace
@@ -96,9 +95,8 @@ void run_substeps(const ContactSubsteps<Exec, Real>& parts, const TimeStep& step
         if (parts.coupling != nullptr) { parts.bodies.list_moved(parts.coupling->wrenches()); }
     };
     list_moved();
-    for (std::int64_t done = 0; done < step.substeps; done += batch)
+    for (std::int64_t done = 0; done < step.substeps;)
     {
-        const std::int64_t next = std::min(step.substeps - done, batch);
         if (done > 0)
         {
             clock.run(parts.exec, stage::pairs,
@@ -107,7 +105,7 @@ void run_substeps(const ContactSubsteps<Exec, Real>& parts, const TimeStep& step
                           if (parts.bodies.find_pairs_if_displaced(step, batch, done, time)) { list_moved(); }
                       });
         }
-        run_batch(parts, dt, done, next, clock);
+        done += run_batch(parts, dt, done, std::min(step.substeps - done, batch), clock);
     }
 }
 

@@ -99,9 +99,9 @@ void SandBodyCoupling<Exec, Real>::begin_step(const mpm::PointsView<Real>& point
 }
 
 template<class Exec, class Real>
-void SandBodyCoupling<Exec, Real>::substep(const dem::BodiesView& bodies, double dt)
+void SandBodyCoupling<Exec, Real>::substep(const Exec& exec, const dem::BodiesView& bodies, double dt)
 {
-    contact::substep(exec_, contact_, bodies, law_, dt);
+    contact::substep(exec, contact_, bodies, law_, dt);
 }
 
 template<class Exec, class Real>

@@ -54,8 +54,8 @@ public:
     /// so.
     void begin_step(const mpm::PointsView<Real>& points);
 
-    /// Computes forces on bodies, and the motion of the private points over a substep.
-    void substep(const dem::BodiesView& bodies, double dt);
+    /// Computes forces on bodies, and the motion of the private points over a substep. `exec`: tag of the substeps.
+    void substep(const Exec& exec, const dem::BodiesView& bodies, double dt);
 
     /// Wrenches of the last substep.
     dem::OutsideWrenches wrenches() const { return contact_.wrenches(); }

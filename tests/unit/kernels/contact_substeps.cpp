@@ -6,6 +6,8 @@
 #include <numeric>
 #include <random>
 
+#include "kernels/dem/pairs/displacement_tracker.hpp"
+
 // Substeps of sand and bodies in one launch, without the host.
 namespace tread::test
 {
@@ -105,6 +107,69 @@ TYPED_TEST(ContactSubsteps, OfALoneBodyAreTheSameInOneLaunch)
 {
     expect_the_same_in_one_launch<typename TestFixture::Scene>(this->exec(), {balls()[0]}, 20);
     expect_the_same_in_one_launch<typename TestFixture::Scene>(this->exec(), {balls()[0]}, 21);
+}
+
+/// A batch that ends early leaves bodies and points as that many substeps do: `bodies` fall, and the first one may not
+/// move as far as in 12 substeps.
+template<class Scene, class Exec>
+void expect_an_early_end(const Exec& exec, const std::vector<BodyState>& bodies)
+{
+    constexpr double    dt    = 1e-5;
+    const AnalyticShape shape = sphere_shape(0.05, 40);
+    Scene               one(exec, {shape}, bodies, crowd());
+    Scene               other(exec, {shape}, bodies, crowd());
+    one.begin();
+    other.begin();
+    dem::DisplacementTracker<Exec> places(exec);
+    Array<Exec, double>            allowed(exec, "test displacement allowed");
+    Array<Exec, std::int32_t>      reached(exec, "test substeps until a limit", 1);
+    reached.fill_zero();
+    mark_places(exec, places, one.bodies.view());
+    allowed.assign(std::vector<double>(bodies.size(), 1.0));
+    const auto moved = [&]
+    {
+        largest_displacement(exec, places, one.bodies.view(), one.law().templates, allowed.data());
+        return places.share.to_host()[0];
+    };
+    double before = 0;
+    for (int i = 0; i < 12; ++i)
+    {
+        before = moved();
+        contact::substep(exec, one.contact, one.bodies.view(), one.law(), dt);
+        move_bodies(exec, one.body_step(dt));
+    }
+    std::vector<double> limits(bodies.size(), 1.0);
+    limits[0] = (before + moved()) / 2;
+    allowed.assign(limits);
+    Exec until = exec;
+    until.skip = reached.data();
+    auto step  = other.body_step(dt);
+    step.limit = {places.position.data(), places.orientation.data(), allowed.data(), other.law().templates,
+                  reached.data()};
+    run_substeps(until, other.contact, other.law(), step, 30);
+    EXPECT_EQ(read(exec, reached.data()), 12);
+    const double limit = std::is_same_v<Exec, Cpu> ? 0.0 : 1e-10; // as in expect_the_same_in_one_launch
+    const auto   same  = [&](const char* name, const auto& value, const auto& expected)
+    {
+        const double found = difference(value, expected);
+        std::printf("%s after an early end off by %.1e, tolerance %.0e (rounding)\n", name, found, limit);
+        EXPECT_LE(found, limit);
+    };
+    same("velocity", other.bodies.velocity, one.bodies.velocity);
+    same("position", other.bodies.position, one.bodies.position);
+    same("place of a point", other.contact.position, one.contact.position);
+    same("impulse of a point", other.contact.impulse, one.contact.impulse);
+}
+
+TYPED_TEST(ContactSubsteps, EndWithTheOneThatMovesABodyTooFar)
+{
+    expect_an_early_end<typename TestFixture::Scene>(this->exec(), balls());
+}
+
+/// On a GPU every block finds that its copy of the body has moved too far.
+TYPED_TEST(ContactSubsteps, OfALoneBodyEndWhereItMovesTooFar)
+{
+    expect_an_early_end<typename TestFixture::Scene>(this->exec(), {balls()[0]});
 }
 
 /// No external force acts before the first contact.

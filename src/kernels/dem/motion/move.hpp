@@ -6,6 +6,7 @@
 #include "kernels/dem/motion/prescribed.hpp"
 #include "kernels/dem/motion/shared.hpp"
 #include "kernels/dem/motion/totals.hpp"
+#include "kernels/dem/pairs/displacement_limit.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
 
 namespace tread::dem
@@ -42,6 +43,8 @@ struct BodyStep
 
     PrescribedView prescribed = {}; ///< empty in a scene without motions
     JointsView     joints     = {}; ///< empty in a scene without joints
+
+    DisplacementLimit limit = {}; ///< empty where the list of pairs lasts for all substeps
 };
 
 /// First part of move_bodies on several ranks: computes this rank's shares step.shared.wrench, which are then
@@ -51,7 +54,8 @@ void share_wrenches(const Exec&, const BodyStep<Exec>& step);
 
 /// Second half of a substep, after evaluate_contacts. Sets every body's force, torque and stiffness to the sum of the
 /// external wrenches and of its pairs' responses (if pairs were ever found); adds wall impulses, losses and the
-/// impulses of named bodies to the energy and momentum balance; solves the joints; and moves all bodies that are awake.
+/// impulses of named bodies to the energy and momentum balance; solves the joints; moves all bodies that are awake, and
+/// holds them to step.limit.
 /// Every sum has a fixed order on one backend. Allocates nothing.
 template<class Exec>
 void move_bodies(const Exec&, const BodyStep<Exec>& step);

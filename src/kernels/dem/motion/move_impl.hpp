@@ -4,6 +4,7 @@
 #include "kernels/dem/motion/integrate_kern.hpp"
 #include "kernels/dem/motion/move.hpp"
 #include "kernels/dem/motion/prescribed_kern.hpp"
+#include "kernels/dem/pairs/displacement_kern.hpp"
 
 // Item functions of move.hpp; move.cpp and move.cu provide the schedule.
 namespace tread::dem::moving
@@ -195,6 +196,8 @@ struct Move
     Ranks         ranks;
     Prescription  prescription;
 
+    DisplacementLimit limit;
+
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
     {
@@ -223,6 +226,7 @@ struct Move
         if constexpr (Outside::acts) { account_outside(acting.outside, mean, *total_of(b, unused)); }
         store_motion(bodies, b, body);
         if (pairs.body != nullptr) { show(body, shown, pairs.body + b); }
+        check_displacement(limit, bodies, b);
     }
 
 private:
@@ -378,7 +382,8 @@ Move<Damping, Outside, Ranks, Prescription> make_move(const BodyStep<Exec>& step
             damping,
             outside,
             ranks,
-            prescription};
+            prescription,
+            step.limit};
 }
 
 /// Calls run with the Move of a scene without prescribed motions, for the damping.

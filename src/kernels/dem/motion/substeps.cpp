@@ -9,10 +9,11 @@ namespace tread::dem
 template<class Exec>
 void run_substeps(const Exec& cpu, const BodyStep<Exec>& step, std::int64_t count)
 {
-    for (std::int64_t substep = 0; substep < count; ++substep)
+    BodyStep<Exec> each = step;
+    for (std::int64_t substep = 0; substep < count; ++substep, ++each.limit.substep)
     {
-        evaluate_contacts(cpu, step.pairs, step.bodies, step.law, step.motion.dt);
-        move_bodies(cpu, step);
+        evaluate_contacts(cpu, each.pairs, each.bodies, each.law, each.motion.dt);
+        move_bodies(cpu, each);
     }
 }
 

@@ -9,12 +9,14 @@ namespace tread::dem
 template<class Exec>
 void run_substeps(const Exec& gpu, const BodyStep<Exec>& step, std::int64_t count)
 {
-    if (!worth_one_launch(step))
+    const bool moves_only = step.pairs.key.size() == 0; // a sequence of one part must not end early
+    if (!worth_one_launch(step) || (moves_only && step.limit.reached != nullptr))
     {
-        for (std::int64_t substep = 0; substep < count; ++substep)
+        BodyStep<Exec> each = step;
+        for (std::int64_t substep = 0; substep < count; ++substep, ++each.limit.substep)
         {
-            evaluate_contacts(gpu, step.pairs, step.bodies, step.law, step.motion.dt);
-            move_bodies(gpu, step);
+            evaluate_contacts(gpu, each.pairs, each.bodies, each.law, each.motion.dt);
+            move_bodies(gpu, each);
         }
         return;
     }
@@ -27,7 +29,8 @@ void run_substeps(const Exec& gpu, const BodyStep<Exec>& step, std::int64_t coun
                                                  repeat<repeat_threads, repeat_blocks_an_sm>(
                                                      gpu, "substeps of bodies", count,
                                                      sequence(nodes_part(meet, step), answers_part(meet, step),
-                                                              move_part(move, step.pairs)));
+                                                              move_part(move, step.pairs)),
+                                                     step.limit.reached);
                                              });
                     });
 }

@@ -4,15 +4,14 @@
 
 #include "backend/instantiate.hpp"
 #include "backend/reduce.hpp"
+#include "kernels/dem/pairs/displacement_kern.hpp"
 #include "kernels/dem/pairs/displacement_tracker.hpp"
-#include "kernels/dem/pairs/pairs_kern.hpp"
 
 // Steps of displacement_tracker.hpp, for both backends; displacement_tracker.cpp and .cu provide for_each.
 namespace tread::dem::displacement_steps
 {
 
-/// Measures displacements. A rotation by the angle t moves no point further than 2 sin(t/2) times the bounding radius;
-/// the norm of a quaternion's vector part is sin(t/2).
+/// Measures displacements.
 struct Measure
 {
     BodiesView          bodies;
@@ -26,8 +25,7 @@ struct Measure
 
     TREAD_HD double moved(std::int64_t b) const
     {
-        const double turned = (bodies.orientation[b] * orientation[b].conjugate()).vec().norm();
-        return (bodies.position[b] - position[b]).norm() + 2.0 * turned * radius(b);
+        return displacement_since(bodies, b, position[b], orientation[b], radius(b));
     }
 
     TREAD_HD void keep(std::int64_t b, double way) const
