@@ -24,6 +24,7 @@ struct PairLists
         , lookahead_done(exec)
         , reached(exec, "substeps until the list expired", 1)
     {
+        reached.fill_zero();
     }
 
     /// Limit of displacements for the next substep; empty where nobody checks.
