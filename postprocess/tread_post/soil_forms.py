@@ -48,6 +48,10 @@ def _plateau(name):
     return lambda run: curves_of(run)[0].plateau(name)
 
 
+def _peak(name):
+    return lambda run: curves_of(run)[0].peak(name)
+
+
 def slope_of_last_half(curve, x, y):
     """dy/dx over the last half of the rows."""
     half = len(curve[x]) // 2
@@ -79,7 +83,8 @@ def _shear_answers(run):
 def _triaxial_answers(run):
     ground, flow = ground_of(run), flow_value(ground_of(run).friction)
     confining = curves_of(run)[0].plateau("confining_stress")
-    return {"stress_ratio": flow + 2 * ground.cohesion * math.sqrt(flow) / confining, "dilation": math.degrees(ground.dilation)}
+    ratio = flow + 2 * ground.cohesion * math.sqrt(flow) / confining
+    return {"stress_ratio": ratio, "peak_ratio": ratio, "dilation": math.degrees(ground.dilation)}
 
 
 def _oedometer_answers(run):
@@ -116,7 +121,8 @@ SOIL_FORMS = {
                              0.15, _needs(PLASTIC)),
     "triaxial": ClosedForm(
         "tan^2(45 + phi/2)",
-        {"stress_ratio": _RATIO, "dilation": Quantity("deg", lambda run: triaxial_dilation(curves_of(run)[0]), "", lambda run: 45.0)},
+        {"stress_ratio": _RATIO, "peak_ratio": Quantity("1", _peak("stress_ratio"), "largest mean of a twentieth of the rows"),
+         "dilation": Quantity("deg", lambda run: triaxial_dilation(curves_of(run)[0]), "", lambda run: 45.0)},
         _triaxial_answers, 0.0, _needs(PLASTIC, 2)),
     "oedometer": ClosedForm(
         "E (1 - nu) / ((1 + nu)(1 - 2 nu))", {"modulus": Quantity("Pa", lambda run: oedometer_modulus(curves_of(run)[0]), "", reads_points=True)},

@@ -193,6 +193,22 @@ TYPED_TEST(Motions, AVelocityTableIsFollowed)
     EXPECT_LT(unaccounted, rounding);
 }
 
+TYPED_TEST(Motions, ATableOfForceGivesItsWholeImpulse)
+{
+    // 0 to 60 N in 0.1 s, down to -20 N in 0.15 s, up to 10 N in 0.15 s: 3 + 3 - 0.75 N s, kinks at ends of steps.
+    const test::TemporaryDirectory folder;
+    const std::string              path = folder.path("pull.csv");
+    std::ofstream(path) << "time,pull\n0.0,0.0\n0.1,60.0\n0.25,-20.0\n0.4,10.0\n";
+    test::Experiment<TypeParam> run(
+        this->exec(),
+        drum_text(0, 1e-3, "",
+                  motion(0.4, fmt::format("x = {{ force = {{ table = \"{}\", column = \"pull\" }} }}", path))));
+    expect_balance(run);
+    const double impulse = 10 * drum(run).velocity[0];
+    test::report("impulse, N s", impulse, 5.25, rounding * 5.25, "rounding: a force acts as in the middle of the step");
+    EXPECT_NEAR(impulse, 5.25, rounding * 5.25);
+}
+
 TYPED_TEST(Motions, AYawedBodyIsTowedAlongItsOwnAxes)
 {
     // Turned by a quarter about z in the first phase; then its own x is the world's y.

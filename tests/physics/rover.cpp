@@ -29,17 +29,19 @@ using Loads = std::array<double, 3>; ///< N, normal force on a front, a middle a
 ///                                               x_f N_f + x_m N_m + x_e N_e = (n sum m x - t sum m z) / 2.
 ///  3. Moments of bogie, middle and rear wheel about the bogie's pivot (x_b, h):
 ///                      (x_m - x_b) N_m + (x_e - x_b) N_e = -h T + n sum m (x - x_b) - t sum m (z - h).
-/// The differential makes the chassis one body with both rockers as long as left and right are alike.
-Loads statics(double n, double t)
+/// The differential makes the chassis one body with both rockers as long as left and right are alike. It and the front
+/// wheels may have turned by `climb` about the bogies' pivots; without traction the height of the ground has no part.
+Loads statics(double n, double t, double climb = 0)
 {
     using namespace test::curiosity;
-    const std::array<test::RoverPart, 6> all  = {{{chassis.mass, chassis.x, chassis.z},
-                                                  {2 * rocker.mass, rocker.x, rocker.z},
-                                                  {2 * bogie.mass, bogie.x, bogie.z},
-                                                  {2 * wheel, front, radius},
-                                                  {2 * wheel, middle, radius},
-                                                  {2 * wheel, rear, radius}}};
-    const std::array<test::RoverPart, 3> hung = {{bogie, {wheel, middle, radius}, {wheel, rear, radius}}};
+    const test::RoverPart                first = test::climbed({2 * wheel, front, radius}, climb);
+    const std::array<test::RoverPart, 6> all   = {{test::climbed(chassis, climb),
+                                                   test::climbed({2 * rocker.mass, rocker.x, rocker.z}, climb),
+                                                   {2 * bogie.mass, bogie.x, bogie.z},
+                                                   first,
+                                                   {2 * wheel, middle, radius},
+                                                   {2 * wheel, rear, radius}}};
+    const std::array<test::RoverPart, 3> hung  = {{bogie, {wheel, middle, radius}, {wheel, rear, radius}}};
 
     double mass = 0, along = 0, up = 0, hung_along = 0, hung_up = 0;
     for (const test::RoverPart& part : all)
@@ -54,7 +56,7 @@ Loads statics(double n, double t)
         hung_up += part.mass * (part.z - bogie_z);
     }
     Eigen::Matrix3d equations;
-    equations << 1, 1, 1, front, middle, rear, 0, middle - bogie_x, rear - bogie_x;
+    equations << 1, 1, 1, first.x, middle, rear, 0, middle - bogie_x, rear - bogie_x;
     const Eigen::Vector3d moments(0.5 * mass * n, 0.5 * (n * along - t * up),
                                   -bogie_z * 0.5 * mass * t + n * hung_along - t * hung_up);
     const Eigen::Vector3d loads = equations.inverse() * moments;
@@ -127,6 +129,21 @@ TYPED_TEST(Rovers, StandsOnAPlaneAsStaticsSay)
     EXPECT_NEAR(expected[0] / g, 158.2, 0.1);
     EXPECT_NEAR(expected[1] / g, 165.7, 0.1);
     EXPECT_NEAR(expected[2] / g, 125.6, 0.1);
+    expect_loads(standing_loads(rover, duration), expected);
+    EXPECT_LT(largest_error(rover), 1e-6);
+    expect_closed_energy(rover);
+}
+
+/// Front wheels on a step of 0.15 m: the weight goes to the rear, and the bogies stay level.
+TYPED_TEST(Rovers, StandsWithItsFrontWheelsOnAStepAsStaticsSay)
+{
+    constexpr double            g = 3.72, duration = 2, step = 0.15;
+    test::Experiment<TypeParam> rover(this->exec(), test::six_wheels_on_a_step(step, duration));
+    const Loads                 expected = statics(g, 0, test::climb_of(step));
+    // By hand, in units of g: 149.6, 170.7 and 129.2 kg.
+    EXPECT_NEAR(expected[0] / g, 149.6, 0.1);
+    EXPECT_NEAR(expected[1] / g, 170.7, 0.1);
+    EXPECT_NEAR(expected[2] / g, 129.2, 0.1);
     expect_loads(standing_loads(rover, duration), expected);
     EXPECT_LT(largest_error(rover), 1e-6);
     expect_closed_energy(rover);

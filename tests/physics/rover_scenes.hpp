@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include <fmt/format.h>
@@ -82,44 +84,88 @@ inline std::string rover_joint(const std::string& name, const std::string& one, 
 inline const std::string differential_text =
     "[[joint]]\nname = \"differential\"\ntype = \"differential\"\njoints = [\"pivot_left\", \"pivot_right\"]\n";
 
-/// Six wheels on a rocker-bogie; `brake`: the axle's keys of the rear wheels. Wheels turn freely otherwise. Bodies 5 to
-/// 10 are the wheels: front left, front right, middle left, ...
-inline std::string six_wheels(const std::string& gravity, double duration, const std::string& brake = "",
-                              double contact_share = rover_contact_share)
+/// Radians by which chassis and rockers turn, nose up, about the pivots of the bogies, when the front wheels stand on a
+/// step of that height and the others before it.
+inline double climb_of(double step)
 {
     using namespace curiosity;
-    constexpr double x = 2, y = 2, drop = 1e-4;
-    std::string      text = rover_head(gravity, 4, contact_share), joints;
-    text += rover_body("chassis", "chassis", chassis.mass, x + chassis.x, y, chassis.z);
-    for (const RoverPart& part : {rocker, bogie})
+    const double ahead = front - bogie_x, up = radius - bogie_z;
+    return std::asin((up + step) / std::hypot(ahead, up)) - std::atan2(up, ahead);
+}
+
+/// A part of chassis, rockers or front wheels after that turn.
+inline RoverPart climbed(const RoverPart& part, double climb)
+{
+    using namespace curiosity;
+    const double ahead = part.x - bogie_x, up = part.z - bogie_z;
+    return {part.mass, bogie_x + std::cos(climb) * ahead - std::sin(climb) * up,
+            bogie_z + std::sin(climb) * ahead + std::cos(climb) * up};
+}
+
+/// Bodies and joints of six wheels on a rocker-bogie at x = y = 2 m; `brake`: the axle's keys of the rear wheels.
+/// Wheels turn freely otherwise. Bodies 5 to 10 are the wheels: front left, front right, middle left, ...
+inline std::string six_wheels_parts(double climb, const std::string& brake)
+{
+    using namespace curiosity;
+    constexpr double  x = 2, y = 2, drop = 1e-4;
+    const std::string tilt = fmt::format("axis = [0, -1, 0]\nangle_deg = {}\n", climb * 180 / std::numbers::pi);
+    const RoverPart   body = climbed(chassis, climb), arm = climbed(rocker, climb),
+                    pivot = climbed({0, pivot_x, pivot_z}, climb);
+    std::string text      = rover_body("chassis", "chassis", body.mass, x + body.x, y, body.z) + tilt, joints;
+    for (const double side : {1.0, -1.0})
     {
-        const bool  first = part.z == rocker.z;
-        const char* name  = first ? "rocker" : "bogie";
-        for (const double side : {1.0, -1.0})
-        {
-            text += rover_body(fmt::format("{}_{}", name, side > 0 ? "left" : "right"), "beam", part.mass, x + part.x,
-                               y + side * (first ? 0.7 : 0.8), part.z);
-        }
+        text +=
+            rover_body(side > 0 ? "rocker_left" : "rocker_right", "beam", arm.mass, x + arm.x, y + 0.7 * side, arm.z) +
+            tilt;
+    }
+    for (const double side : {1.0, -1.0})
+    {
+        text += rover_body(side > 0 ? "bogie_left" : "bogie_right", "beam", bogie.mass, x + bogie.x, y + 0.8 * side,
+                           bogie.z);
     }
     for (const double side : {1.0, -1.0})
     {
         const std::string hand = side > 0 ? "left" : "right";
-        joints += rover_joint("pivot_" + hand, "chassis", "rocker_" + hand, x + pivot_x, y + 0.6 * side, pivot_z);
+        joints += rover_joint("pivot_" + hand, "chassis", "rocker_" + hand, x + pivot.x, y + 0.6 * side, pivot.z);
         joints += rover_joint("bogie_" + hand, "rocker_" + hand, "bogie_" + hand, x + bogie_x, y + 0.8 * side, bogie_z);
     }
     joints += differential_text;
     for (std::size_t w = 0; w < axles.size(); ++w)
     {
+        const RoverPart hub = climbed({wheel, axles[w], radius}, w == 0 ? climb : 0);
         for (const double side : {1.0, -1.0})
         {
             const std::string hand = side > 0 ? "left" : "right", name = fmt::format("{}_{}", names[w], hand);
-            const double      hub_x = x + axles[w], hub_y = y + 1.2 * side, hub_z = radius + drop;
-            text += rover_body(name, "ball", wheel, hub_x, hub_y, hub_z);
+            const double      hub_x = x + hub.x, hub_y = y + 1.2 * side, hub_z = hub.z + drop;
+            text += rover_body(name, "ball", hub.mass, hub_x, hub_y, hub_z);
             joints += rover_joint("axle_" + name, (w == 0 ? "rocker_" : "bogie_") + hand, name, hub_x, hub_y, hub_z,
                                   w == 2 ? brake : "");
         }
     }
-    return text + joints + fmt::format("[[phase]]\nname = \"stand\"\nduration = {}\n", duration);
+    return text + joints;
+}
+
+/// Six wheels on a plane.
+inline std::string six_wheels(const std::string& gravity, double duration, const std::string& brake = "",
+                              double contact_share = rover_contact_share)
+{
+    return rover_head(gravity, 4, contact_share) + six_wheels_parts(0, brake) +
+           fmt::format("[[phase]]\nname = \"stand\"\nduration = {}\n", duration);
+}
+
+/// Six wheels of which the front ones stand on a step, the last body. Balls meet a body by their nodes: so many of them
+/// that they carry some millimetres from the lowest place at most.
+inline std::string six_wheels_on_a_step(double step, double duration)
+{
+    constexpr double  gap  = 0.005; // under the step
+    const std::string few  = "nodes = 162";
+    std::string       text = rover_head("gravity = [0.0, 0.0, -3.72]", 4) + six_wheels_parts(climb_of(step), "");
+    text.replace(text.find(few), few.size(), "nodes = 2562");
+    text += fmt::format("[[shape]]\nname = \"step\"\ngenerate = {{ kind = \"box\", size = [0.9, 3.2, {}] }}\n"
+                        "sdf_cells = 160\n",
+                        step - gap);
+    text += rover_body("step", "step", 1000, 3.2, 2, 0.5 * (step + gap));
+    return text + fmt::format("[[phase]]\nname = \"stand\"\nduration = {}\nhold = [\"step\"]\n", duration);
 }
 
 /// Four driven wheels on rockers of 1.4 m, before a step of 0.15 m on the left. Bodies 1 and 2 are the rockers, 3 to 6

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -40,6 +41,58 @@ JointScene<Exec> double_pendulum(const Exec& exec)
 {
     return JointScene<Exec>(exec, {rod(1, 1, {0.5, 0, 0}), rod(1, 1, {1.5, 0, 0})},
                             {{dem::joint_revolute, {world, 0}, {0, 0, 0}}, {dem::joint_revolute, {0, 1}, {1, 0, 0}}});
+}
+
+/// s, from the first to the third time that the centre of body 0 passes x = 0; NaN if it does not. `look` is called
+/// after each substep.
+template<class Exec, class Look>
+double period_of(JointScene<Exec>& scene, double dt, const Look& look)
+{
+    std::vector<double> passages;
+    double              last = scene.position(0)[0];
+    for (int step = 1; passages.size() < 3 && step < 40000; ++step)
+    {
+        scene.run(dt, 1);
+        look();
+        const double next = scene.position(0)[0];
+        if ((last > 0) != (next > 0)) { passages.push_back(dt * (step - 1 + last / (last - next))); }
+        last = next;
+    }
+    return passages.size() == 3 ? passages[2] - passages[0] : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Direction of a rod that hangs at an angle from the vertical, positive towards +x.
+Vec3<double> hanging(double angle) { return {std::sin(angle), 0, -std::cos(angle)}; }
+
+// Two equal rods that hang swing in two modes. Small angles a, b: (4/3 a'' + b''/2) l + 3/2 g a = 0 and
+// (a''/2 + b''/3) l + g b/2 = 0, so that w^2 l/g = 3 -+ 6/sqrt(7) and b/a = 3 g/(w^2 l) - 8/3.
+TYPED_TEST(JointMachines, DoublePendulumSwingsInItsTwoModes)
+{
+    constexpr double dt = 1e-4, swing = 3e-4; // rad, of the upper rod
+    for (const double sign : {-1.0, 1.0})
+    {
+        const double          square = 3 + sign * 6 / std::sqrt(7.0), shape = 3 / square - 8.0 / 3;
+        const double          lower = shape * swing, expected = 2 * pi / std::sqrt(square * g);
+        const Vec3<double>    knee = hanging(swing);
+        JointScene<TypeParam> scene(
+            this->exec(),
+            {rod(1, 1, 0.5 * knee, 0.5 * pi - swing), rod(1, 1, knee + 0.5 * hanging(lower), 0.5 * pi - lower)},
+            {{dem::joint_revolute, {world, 0}, {0, 0, 0}}, {dem::joint_revolute, {0, 1}, knee}});
+        double     worst = 0;
+        const auto angle = [&](std::int64_t b)
+        {
+            const Vec3<double> along = scene.orientation(b) * Vec3<double>::UnitX();
+            return std::atan2(along[0], -along[2]);
+        };
+        const double period =
+            period_of(scene, dt, [&] { worst = std::max(worst, std::abs(angle(1) - shape * angle(0))); });
+        std::printf(
+            "period %.9f s, expected %.9f, tolerance 2e-6 of it: 4 a^2 = 4e-7 of a finite swing, (w dt)^2 = 5e-7; "
+            "angles off their ratio of %.6f by %.2e of the swing, expected 0, tolerance 1e-5: ten times these\n",
+            period, expected, shape, worst / swing);
+        EXPECT_NEAR(period, expected, 2e-6 * expected);
+        EXPECT_LT(worst, 1e-5 * swing);
+    }
 }
 
 TYPED_TEST(JointMachines, DoublePendulumKeepsItsEnergyAndItsJointsOverAMillionSubsteps)
@@ -179,6 +232,38 @@ TYPED_TEST(JointMachines, OverdeterminedFourBarMovesAsTheDeterminedOne)
                 over[2], determined[0], determined[2]);
     EXPECT_LT((over - determined).norm(), 1e-6);
     EXPECT_GT((over - bars[1].position).norm(), 0.01);
+}
+
+// A parallelogram that hangs: its coupler stays level and moves on a circle of the cranks' length l. Two cranks of m
+// l^2/3 and a coupler of m on that circle have 5/3 m l^2 and hang by 2 m g l, so that w^2 = 6 g/(5 l), and from 60
+// degrees the period is 4 K(sin 30)/w, with K = 1.6857503548 (Abramowitz and Stegun, table 17.1).
+TYPED_TEST(JointMachines, ParallelogramSwingsAsOnePendulumWithALevelCoupler)
+{
+    constexpr double      dt = 1e-4, crank = 0.3, span = 0.5, start = pi / 3, elliptic = 1.6857503548;
+    const Vec3<double>    arm      = crank * hanging(start), other(span, 0, 0);
+    const double          expected = 4 * elliptic / std::sqrt(6 * g / (5 * crank));
+    JointScene<TypeParam> scene(this->exec(),
+                                {rod(crank, 1, 0.5 * arm, 0.5 * pi - start), rod(span, 1, arm + 0.5 * other),
+                                 rod(crank, 1, 0.5 * arm + other, 0.5 * pi - start)},
+                                {{dem::joint_revolute, {world, 0}, {0, 0, 0}},
+                                 {dem::joint_revolute, {0, 1}, arm},
+                                 {dem::joint_revolute, {1, 2}, arm + other},
+                                 {dem::joint_revolute, {world, 2}, other}});
+    double                tilt = 0, off = 0;
+    const double          period = period_of(scene, dt,
+                                             [&]
+                                             {
+                                        tilt =
+                                            std::max(tilt, std::abs((scene.orientation(1) * Vec3<double>::UnitX())[2]));
+                                        off = std::max(off, std::abs((scene.position(1) - 0.5 * other).norm() - crank));
+                                    });
+    std::printf("period %.9f s, expected %.9f, tolerance 1e-6 of it: (w dt)^2 = 4e-7; coupler tilted by %.2e rad, "
+                "tolerance 1e-9: both cranks turn alike but for rounding; off its circle by %.2e m, tolerance 2e-7: "
+                "w^2 dt^2 l/2 = 6e-8 at 6.3 rad/s, for each of three joints\n",
+                period, expected, tilt, off);
+    EXPECT_NEAR(period, expected, 1e-6 * expected);
+    EXPECT_LT(tilt, 1e-9);
+    EXPECT_LT(off, 2e-7);
 }
 
 TEST(JointLoops, FourRevoluteJointsOfAPlaneLoopAreFoundDependent)
