@@ -61,7 +61,8 @@ std::vector<io::Column> joint_columns()
             {"motor_torque", 1, "N m"},
             {"coordinate", 1, "m or rad"},
             {"gap", 1, "m"},
-            {"misalignment", 1, "rad"}};
+            {"misalignment", 1, "rad"},
+            {"excess", 1, "m or rad"}};
 }
 
 std::string group(const scene::Joint& joint) { return "/joint/" + joint.name; }
@@ -112,7 +113,7 @@ void Recorder::write_joints(double time, const std::vector<solver::JointRow>& jo
         std::vector<double>     row   = {time};
         append(row, joint.force);
         append(row, joint.torque);
-        row.insert(row.end(), {joint.motor_torque, joint.coordinate, joint.gap, joint.misalignment});
+        row.insert(row.end(), {joint.motor_torque, joint.coordinate, joint.gap, joint.misalignment, joint.excess});
         series_.append(group(scene_.joints[j]), row);
     }
 }

@@ -52,7 +52,7 @@ struct Joint
     std::optional<double>      damping;    ///< N s/m or N m s/rad
     std::optional<double>      length;     ///< m, of a spring without load; empty: its length at the start
     std::optional<Motor>       motor;
-    double                     drift = 1e-4; ///< m and rad, error at which the run stops
+    double                     drift = 1e-4; ///< m and rad, error or way beyond a limit at which the run stops
 
     bool operator==(const Joint&) const = default;
 };

@@ -105,7 +105,7 @@ Keys<Joint> joint_keys()
                          "A motor with a speed controller about the axis.", "no motor")
             .when("type = \"revolute\"", is_revolute),
         optional("drift", "m and rad", &Joint::drift, number(above_up_to(0, 1)),
-                 "The error of the joint's place or direction at which the run stops."),
+                 "The error of the joint's place or direction, or the way beyond its limits, at which the run stops."),
     };
 }
 

@@ -7,7 +7,9 @@
 #include "scene/checker.hpp"
 #include "scene/keys.hpp"
 #include "scene/motion_tables.hpp"
+#include "scene/named.hpp"
 #include "scene/ranges.hpp"
+#include "scene/support.hpp"
 #include "scene/time_table.hpp"
 
 // Checks of [[phase]] motion that need more than one key.
@@ -25,11 +27,6 @@ bool stands_still(const AxisMotion& axis)
     const Course& course = axis.course;
     const bool    turns  = course.table || course.value != 0 || course.ramp > 0;
     return axis.kind == AxisKind::velocity && !turns;
-}
-
-bool names(const std::vector<std::string>& list, const std::string& name)
-{
-    return std::find(list.begin(), list.end(), name) != list.end();
 }
 
 /// One motion of a phase, with its place in the document.
@@ -56,7 +53,7 @@ struct MotionCheck
         return at == scene.bodies.end() ? nullptr : &*at;
     }
 
-    bool is_locked(const char* axis) const { return body() != nullptr && names(body()->lock, axis); }
+    bool is_locked(const char* axis) const { return body() != nullptr && contains(body()->lock, axis); }
     bool stays(const AxisMotion& axis, const char* name) const { return is_held(axis) || is_locked(name); }
 };
 
@@ -64,7 +61,7 @@ void check_body(const MotionCheck& check, std::size_t index)
 {
     const Motion& motion = check.motion;
     const auto    bodies = names_in(check.scene.bodies);
-    if (check.body() == nullptr && !names(bodies, ""))
+    if (check.body() == nullptr && !contains(bodies, ""))
     {
         check.refuse("body",
                      fmt::format("there is no [[body]] called \"{}\"{}", motion.body, suggestion(motion.body, bodies)),
@@ -83,7 +80,7 @@ void check_body(const MotionCheck& check, std::size_t index)
                      fmt::format("a body that `{}` does not name", key));
     };
     const Phase& phase = check.phase;
-    alone(names(phase.hold, motion.body), "hold");
+    alone(contains(phase.hold, motion.body), "hold");
     alone(phase.drive && phase.drive->body == motion.body, "drive");
     alone(phase.lower && phase.lower->body == motion.body, "lower");
     alone(phase.weight && phase.weight->body == motion.body, "weight");
@@ -165,26 +162,6 @@ void check_stops(const MotionCheck& check)
     }
 }
 
-/// Whether something can take up a force on a body in a phase: ground, a wall, the world through a joint, or a body
-/// that the phase holds or leads.
-bool has_support(const MotionCheck& check)
-{
-    const Scene& scene  = check.scene;
-    const Walls& walls  = scene.domain.walls;
-    const bool   walled = walls.x != WallKind::open || walls.y != WallKind::open || walls.bottom != WallKind::open ||
-                        walls.top != WallKind::open;
-    const auto is_tied = [](const Joint& joint)
-    { return joint.between[0] == world_side || joint.between[1] == world_side; };
-    const auto leads = [&](const Motion& motion)
-    {
-        const auto& axes = motion.translation;
-        return motion.body != check.motion.body && std::any_of(axes.begin(), axes.end(), is_held);
-    };
-    return walled || !scene.terrain.empty() || !scene.rocks.empty() || !check.phase.hold.empty() ||
-           std::any_of(scene.joints.begin(), scene.joints.end(), is_tied) ||
-           std::any_of(check.phase.motion.begin(), check.phase.motion.end(), leads);
-}
-
 /// The first key of a motion that is a force or torque; null if none is.
 const char* effort_key(const Motion& motion)
 {
@@ -198,12 +175,15 @@ const char* effort_key(const Motion& motion)
     return motion.load ? "load" : nullptr;
 }
 
-void check_support(const MotionCheck& check)
+void check_support(const MotionCheck& check, std::size_t phase)
 {
     const char* key = effort_key(check.motion);
-    if (key == nullptr || has_support(check)) { return; }
+    if (key == nullptr || check.body() == nullptr) { return; }
+    const std::size_t body = index_of(check.scene.bodies, check.motion.body);
+    if (has_support(check.scene, phase, body)) { return; }
     check.refuse(key, fmt::format("nothing takes up what acts on \"{}\"", check.motion.body),
-                 "a scene with a wall, [[terrain]], [[rocks]], a joint to \"world\", or a body that the phase holds");
+                 "joints, or pairs that touch, from it to \"world\", a wall, [[terrain]], [[rocks]], or another body "
+                 "that the phase holds or leads");
 }
 
 /// Calls visit(motion, node, label) for each motion of each phase that was read without a problem.
@@ -314,7 +294,7 @@ void validate_motions(const Scene& scene, Checker& checker)
                         check_axle(check);
                         check_load(check);
                         check_stops(check);
-                        check_support(check);
+                        check_support(check, i);
                     });
 }
 

@@ -17,4 +17,10 @@ std::size_t index_of(const std::vector<T>& items, const std::string& name)
     return static_cast<std::size_t>(at - items.begin());
 }
 
+/// Whether a list of names has this one.
+inline bool contains(const std::vector<std::string>& names, const std::string& name)
+{
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 } // namespace tread::scene

@@ -1,5 +1,8 @@
 #include <cmath>
+#include <cstdio>
+#include <numbers>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/errors.hpp"
@@ -163,6 +166,87 @@ TYPED_TEST(JointScenes, AJointThatDriftsStopsTheRunByName)
         EXPECT_THAT(error.what(), HasSubstr("joint 'elbow' has an error of"));
         EXPECT_THAT(error.what(), HasSubstr("over its drift of 1e-12"));
     }
+}
+
+/// Both stops are struck: the elbow's at -20 degrees, where it would swing to -34, and the pin's at 170.
+TYPED_TEST(JointScenes, AJointThatSwingsAgainstItsStopsGoesOn)
+{
+    constexpr double  stop = -20 * std::numbers::pi / 180;
+    std::string       text = test::swinging_under_gravity(1.0);
+    const std::string axis = "stiffness = 2";
+    text.replace(text.find(axis), axis.size(), "limits_deg = [-20, 20]\nstiffness = 2");
+    test::Experiment<TypeParam> chain(this->exec(), text);
+    double                      lowest = 0, beyond = 0;
+    chain.run(
+        [&](double)
+        {
+            const auto joints = chain.simulation().joints();
+            lowest            = std::min(lowest, joints[1].coordinate);
+            for (const solver::JointRow& joint : joints) { beyond = std::max(beyond, std::abs(joint.excess)); }
+        });
+    test::report("lowest angle of the elbow after a step, rad", lowest, stop, 1e-3,
+                 "it leaves the stop by less within a step");
+    test::report("way beyond a stop, rad", beyond, 0, 5e-7, "(w dt)^2 / 2 in a substep of 5e-5 s, w up to 20 rad/s");
+    EXPECT_NEAR(lowest, stop, 1e-3);
+    EXPECT_LT(beyond, 5e-7);
+}
+
+/// A joint that motions carry beyond a limit.
+struct Carried
+{
+    const char* joint;    ///< its keys
+    const char* led;      ///< motion of the first ball
+    const char* follower; ///< motion of the second
+    double      speed;    ///< of the coordinate towards the limit
+    double      limit;    ///< from the start, m or rad
+    const char* said;
+};
+
+/// Time and way beyond of the message that stops the run.
+template<class Exec>
+void expect_stop(const Exec& exec, const Carried& carried)
+{
+    constexpr double dt = 1e-3, substep = 5e-5, drift = 1e-4;
+    std::string      text =
+        test::moved_text(0.4, fmt::format("{} }}, {{ body = \"follower\", {}", carried.led, carried.follower));
+    const std::string weld = "name = \"weld\"\ntype = \"fixed\"", at = "at = [1.1, 0.5, 0.8]";
+    text.replace(text.find(at), at.size(), "at = [1.0, 0.5, 0.8]");
+    text.replace(text.find(weld), weld.size(), carried.joint);
+    test::Experiment<Exec> run(exec, text);
+    try
+    {
+        run.run();
+        FAIL() << "the run went on";
+    }
+    catch (const NumericalError& error)
+    {
+        double time = 0, beyond = 0;
+        EXPECT_THAT(error.what(), HasSubstr(carried.said));
+        ASSERT_EQ(std::sscanf(error.what(), "t = %lf s: joint '%*[a-z]' is %lf", &time, &beyond), 2) << error.what();
+        const double first = (carried.limit + drift) / carried.speed, way = carried.speed * time - carried.limit;
+        test::report("time of the message, s", time, first, dt + substep, "errors are looked at after each step");
+        test::report("way beyond the limit", beyond, way, carried.speed * substep + 5e-3 * way,
+                     "as of the start of the last substep; three digits are printed");
+        EXPECT_GE(time, first);
+        EXPECT_LE(time, first + dt + substep);
+        EXPECT_NEAR(beyond, way, carried.speed * substep + 5e-3 * way);
+    }
+}
+
+TYPED_TEST(JointScenes, AJointThatIsCarriedBeyondItsLimitStopsTheRunByName)
+{
+    const char* held = "x = \"held\", y = \"held\", z = \"held\", roll = \"held\", pitch = \"held\", yaw = \"held\"";
+    expect_stop(this->exec(),
+                Carried{"name = \"rail\"\ntype = \"prismatic\"\naxis = [1, 0, 0]\nlimits = [-0.05, 0.1]",
+                        "x = { velocity = -0.4 }, y = \"held\", z = \"held\", roll = \"held\", pitch = \"held\", yaw = "
+                        "\"held\"",
+                        "x = \"held\"", 0.4, 0.1, " m above the high end 0.1 of its limits, over its drift of 0.0001"});
+    expect_stop(this->exec(),
+                Carried{"name = \"hinge\"\ntype = \"revolute\"\naxis = [0, 1, 0]\nlimits_deg = [-5, 30]",
+                        "x = \"held\", y = \"held\", z = \"held\", roll = \"held\", pitch = { velocity = 0.5 }, yaw = "
+                        "\"held\"",
+                        held, 0.5, 5 * std::numbers::pi / 180,
+                        " rad below the low end -5 of its limits_deg, over its drift of 0.0001"});
 }
 
 /// The weld leaves the follower no velocity along x but the 0.4 m/s of the ball that leads it.

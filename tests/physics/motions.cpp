@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -193,20 +194,48 @@ TYPED_TEST(Motions, AVelocityTableIsFollowed)
     EXPECT_LT(unaccounted, rounding);
 }
 
-TYPED_TEST(Motions, ATableOfForceGivesItsWholeImpulse)
+/// Impulses since the start at the rows of a table, by hand: N s.
+struct Impulses
 {
-    // 0 to 60 N in 0.1 s, down to -20 N in 0.15 s, up to 10 N in 0.15 s: 3 + 3 - 0.75 N s, kinks at ends of steps.
+    double time, push, load;
+};
+
+/// Rows of the table are ends of steps, in which a force acts with its value at mid-step: its impulse is exact.
+TYPED_TEST(Motions, ForceAndLoadOfATableGiveTheirImpulses)
+{
     const test::TemporaryDirectory folder;
-    const std::string              path = folder.path("pull.csv");
-    std::ofstream(path) << "time,pull\n0.0,0.0\n0.1,60.0\n0.25,-20.0\n0.4,10.0\n";
-    test::Experiment<TypeParam> run(
-        this->exec(),
-        drum_text(0, 1e-3, "",
-                  motion(0.4, fmt::format("x = {{ force = {{ table = \"{}\", column = \"pull\" }} }}", path))));
-    expect_balance(run);
-    const double impulse = 10 * drum(run).velocity[0];
-    test::report("impulse, N s", impulse, 5.25, rounding * 5.25, "rounding: a force acts as in the middle of the step");
-    EXPECT_NEAR(impulse, 5.25, rounding * 5.25);
+    const std::string              path = folder.path("forces.csv");
+    std::ofstream(path) << "time,push,load\n0,0,98.1\n0.1,40,50\n0.3,-20,50\n0.4,-20,120\n";
+    const std::array<Impulses, 3> rows{{{0.1, 2, 7.405}, {0.3, 4, 17.405}, {0.4, 2, 25.905}}};
+    test::Experiment<TypeParam>   run(
+          this->exec(),
+          drum_text(g, 1e-3, "",
+                    motion(0.4, fmt::format("x = {{ force = {{ table = \"{0}\", column = \"push\" }} }}, y = "
+                                              "\"held\", load = {{ force = {{ table = \"{0}\", column = "
+                                              "\"load\" }} }}",
+                                            path))));
+    std::size_t met = 0;
+    run.run(
+        [&](double time)
+        {
+            if (met == rows.size() || time < rows[met].time - 1e-9) { return; }
+            const Vec3<double> momentum = 10 * drum(run).velocity;
+            const Impulses     row      = rows[met++];
+            test::report("momentum along x, N s", momentum[0], row.push, 1e-9, "rounding of 400 steps");
+            test::report("momentum along z, N s", momentum[2], -row.load, 1e-9, "likewise");
+            EXPECT_NEAR(momentum[0], row.push, 1e-9);
+            EXPECT_NEAR(momentum[2], -row.load, 1e-9);
+        });
+    EXPECT_EQ(met, rows.size());
+    run.simulation().ledger().energy(run.simulation().census());
+    const double       unaccounted = std::abs(run.simulation().ledger().errors().energy), up = 10 * g - 25.905 / 0.4;
+    const Vec3<double> reaction = drum(run).reaction_force;
+    test::report("mean reaction along x, N", reaction[0], 5, 1e-7, "2 N s in 0.4 s");
+    test::report("mean reaction along z, N", reaction[2], up, 1e-7, "the weight less the mean load");
+    EXPECT_NEAR(reaction[0], 5, 1e-7);
+    EXPECT_NEAR(reaction[2], up, 1e-7);
+    test::report("unaccounted energy", unaccounted, 0, rounding, "rounding in fp64");
+    EXPECT_LT(unaccounted, rounding);
 }
 
 TYPED_TEST(Motions, AYawedBodyIsTowedAlongItsOwnAxes)

@@ -32,7 +32,8 @@ inline constexpr std::array<const char*, 3> names = {"front", "middle", "rear"};
 /// Half of the default, with which a standing rover leaves 1 % of its energy unaccounted.
 inline constexpr double rover_contact_share = 0.1;
 
-inline std::string rover_head(const std::string& gravity, double length, double contact_share = rover_contact_share)
+inline std::string rover_head(const std::string& gravity, double length, double contact_share = rover_contact_share,
+                              int nodes = 162)
 {
     return fmt::format(R"(
 title = "rover"
@@ -53,7 +54,7 @@ friction    = 1.0
 restitution = 0.1
 [[shape]]
 name      = "ball"
-generate  = {{ kind = "sphere", nodes = 162 }}
+generate  = {{ kind = "sphere", nodes = {} }}
 sdf_cells = 24
 [[shape]]
 name     = "chassis"
@@ -62,7 +63,7 @@ generate = {{ kind = "box", size = [1.5, 1.0, 0.5] }}
 name     = "beam"
 generate = {{ kind = "box", size = [1.0, 0.05, 0.06] }}
 )",
-                       length, gravity, contact_share);
+                       length, gravity, contact_share, nodes);
 }
 
 inline std::string rover_body(const std::string& name, const std::string& shape, double mass, double x, double y,
@@ -168,19 +169,29 @@ inline std::string six_wheels_on_a_step(double step, double duration)
     return text + fmt::format("[[phase]]\nname = \"stand\"\nduration = {}\nhold = [\"step\"]\n", duration);
 }
 
-/// Four driven wheels on rockers of 1.4 m, before a step of 0.15 m on the left. Bodies 1 and 2 are the rockers, 3 to 6
-/// the wheels: front left, front right, rear left, rear right; the last body is the step.
-inline std::string four_wheels_before_a_step(double duration)
+/// A rover of four wheels: masses in kg, heights of its parts over flat ground and half of its length and width in m.
+namespace four
 {
-    constexpr double  x = 1.2, y = 2, radius = 0.25, half = 0.7, drop = 1e-4;
-    std::string       text  = rover_head("gravity = [0.0, 0.0, -3.72]", 6), joints;
-    const std::string drive = "motor = { speed = 1.6, max_torque = 60, gain = 200 }";
-    text += rover_body("chassis", "chassis", 150, x, y, 0.9);
+inline constexpr double radius = 0.25, half_length = 0.7, half_width = 1.0;
+inline constexpr double chassis = 150, chassis_z = 0.9, rocker = 10, rocker_z = 0.8, wheel = 10;
+} // namespace four
+
+/// The four wheels driven against a step of 0.15 m on the left for `drive` s, then braked for 1 s, then for 1 s on
+/// ground without friction. Bodies 1 and 2 are the rockers, 3 to 6 the wheels: front left, front right, rear left, rear
+/// right; the last body is the step. Nodes of a wheel are 2 cm apart: it stands on the step on some five of them, right
+/// below its axle.
+inline std::string four_wheels_before_a_step(double drive)
+{
+    using namespace four;
+    constexpr double  x = 1.2, y = 2, drop = 1e-4;
+    std::string       text  = rover_head("gravity = [0.0, 0.0, -3.72]", 6, rover_contact_share, 2562), joints, brakes;
+    const std::string motor = "motor = { speed = 1.6, max_torque = 60, gain = 200 }";
+    text += rover_body("chassis", "chassis", chassis, x, y, chassis_z);
     for (const double side : {1.0, -1.0})
     {
         const std::string hand = side > 0 ? "left" : "right";
-        text += rover_body("rocker_" + hand, "beam", 10, x, y + 0.7 * side, 0.8);
-        joints += rover_joint("pivot_" + hand, "chassis", "rocker_" + hand, x, y + 0.6 * side, 0.8);
+        text += rover_body("rocker_" + hand, "beam", rocker, x, y + 0.7 * side, rocker_z);
+        joints += rover_joint("pivot_" + hand, "chassis", "rocker_" + hand, x, y + 0.6 * side, rocker_z);
     }
     joints += differential_text;
     for (const double end : {1.0, -1.0})
@@ -188,15 +199,22 @@ inline std::string four_wheels_before_a_step(double duration)
         for (const double side : {1.0, -1.0})
         {
             const std::string hand = side > 0 ? "left" : "right", name = (end > 0 ? "front_" : "rear_") + hand;
-            text += rover_body(name, "ball", 10, x + end * half, y + 1.0 * side, radius + drop);
-            joints += rover_joint("axle_" + name, "rocker_" + hand, name, x + end * half, y + 1.0 * side, radius + drop,
-                                  drive);
+            const double      hub_x = x + end * half_length, hub_y = y + half_width * side, hub_z = radius + drop;
+            text += rover_body(name, "ball", wheel, hub_x, hub_y, hub_z);
+            joints += rover_joint("axle_" + name, "rocker_" + hand, name, hub_x, hub_y, hub_z, motor);
+            brakes += fmt::format("{{ joint = \"axle_{}\", speed = 0.0 }}, ", name);
         }
     }
     text += "[[contact]]\nbetween = [\"wheel\", \"wheel\"]\nfriction = 1.0\nrestitution = 0.1\n"
             "[[shape]]\nname = \"step\"\ngenerate = { kind = \"box\", size = [3.0, 1.2, 0.145] }\n";
     text += rover_body("step", "step", 1000, 2.3 + 1.5, y + 1.0, 0.0775);
-    return text + joints + fmt::format("[[phase]]\nname = \"drive\"\nduration = {}\nhold = [\"step\"]\n", duration);
+    return text + joints +
+           fmt::format("[[phase]]\nname = \"drive\"\nduration = {}\nhold = [\"step\"]\n"
+                       "[[phase]]\nname = \"stop\"\nduration = 1\nhold = [\"step\"]\nmotors = [ {} ]\n"
+                       "[[phase]]\nname = \"stand\"\nduration = 1\nhold = [\"step\"]\n"
+                       "contacts = [ {{ between = [\"wheel\", \"wheel\"], friction = 0.0 }}, {{ between = [\"wheel\", "
+                       "\"wall\"], friction = 0.0 }} ]\n",
+                       drive, brakes);
 }
 
 } // namespace tread::test

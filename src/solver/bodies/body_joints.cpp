@@ -14,6 +14,33 @@
 
 namespace tread::solver
 {
+namespace
+{
+
+void require_ties(double time, const scene::Joint& joint, const dem::JointRecord& record)
+{
+    if (std::max(record.gap, record.misalignment) <= joint.drift) { return; }
+    throw NumericalError(fmt::format("t = {:.6g} s: joint '{}' has an error of {:.3g} m and {:.3g} rad, over its drift "
+                                     "of {}: a smaller dt, more substeps, or a larger drift",
+                                     time, joint.name, record.gap, record.misalignment, joint.drift));
+}
+
+/// A stop removes what its coordinate misses within a substep, as a tie does: the same drift bounds both.
+void require_limits(double time, const scene::Joint& joint, const dem::JointRecord& record)
+{
+    if (std::abs(record.excess) <= joint.drift) { return; }
+    const bool                slides = joint.limits.has_value();
+    const scene::JointLimits& limits = slides ? *joint.limits : *joint.limits_deg;
+    throw NumericalError(fmt::format(
+        "t = {:.6g} s: joint '{}' is {:.3g} {} {} of its {}, over its drift of {}: motions that leave it within its "
+        "limits, a smaller dt, more substeps, or a larger drift",
+        time, joint.name, std::abs(record.excess), slides ? "m" : "rad",
+        record.excess < 0 ? fmt::format("below the low end {}", limits[0])
+                          : fmt::format("above the high end {}", limits[1]),
+        slides ? "limits" : "limits_deg", joint.drift));
+}
+
+} // namespace
 
 /// m, largest distance of a point of a joint's body from the joint's point; 0 for the world.
 template<class Exec>
@@ -69,11 +96,8 @@ void BodyJoints<Exec>::check(double time) const
     const std::vector<dem::JointRecord> records = joints_.records();
     for (std::size_t j = 0; j < records.size(); ++j)
     {
-        const double worst = std::max(records[j].gap, records[j].misalignment), most = scene_.joints[j].drift;
-        if (worst <= most) { continue; }
-        throw NumericalError(fmt::format("t = {:.6g} s: joint '{}' has an error of {:.3g} m and {:.3g} rad, over its "
-                                         "drift of {}: a smaller dt, more substeps, or a larger drift",
-                                         time, scene_.joints[j].name, records[j].gap, records[j].misalignment, most));
+        require_ties(time, scene_.joints[j], records[j]);
+        require_limits(time, scene_.joints[j], records[j]);
     }
 }
 
@@ -86,7 +110,7 @@ std::vector<JointRow> BodyJoints<Exec>::rows(double span) const
     {
         const double coordinate = span > 0 ? record.coordinate : coordinates_[rows.size()];
         rows.push_back({over * record.impulse, over * record.angular_impulse, over * record.motor_impulse, coordinate,
-                        record.gap, record.misalignment});
+                        record.gap, record.misalignment, record.excess});
     }
     return rows;
 }

@@ -22,6 +22,7 @@ struct JointRow
     double       coordinate;   ///< m or rad
     double       gap;          ///< m, largest since the last row
     double       misalignment; ///< rad, likewise
+    double       excess;       ///< m or rad, farthest beyond a limit, likewise; negative: below the low one
 };
 
 /// Joints of a scene on one backend. On several ranks every rank solves all of them, with the same bits.
@@ -44,7 +45,8 @@ public:
     /// returns the largest speed (m/s) that it can give a point of its bodies.
     double set_motor(std::size_t joint, double speed, std::optional<double> most_torque);
 
-    /// Throws NumericalError if a joint's error exceeds its drift; `time` (s) is for that message. Synchronises.
+    /// Throws NumericalError if a joint's error, or its way beyond a limit, exceeds its drift; `time` (s) is for that
+    /// message. Synchronises.
     void check(double time) const;
 
     /// Returns the rows of all joints over `span` (s) since begin_mean().

@@ -180,14 +180,37 @@ TYPED_TEST(JointForms, RodRestsOnItsStop)
     JointScene<TypeParam> scene(this->exec(), {rod(length, mass, {0.5 * length, 0, 0})},
                                 {{dem::joint_revolute, {world, 0}, {0, 0, 0}, {0, 1, 0}, limits(-stop, stop)}});
     scene.run(dt, 10000);
+    const double beyond = std::abs(scene.record(0).excess);
     scene.clear_records();
     scene.run(dt, 1000);
     const double moment   = mean(scene.record(0).angular_impulse, 1000 * dt)[1];
     const double expected = -0.5 * mass * g * length * std::cos(stop);
-    std::printf("angle %.12f rad, expected %.12f; moment %.9f N m, expected %.9f; tolerance 1e-9: rounding\n",
-                scene.record(0).coordinate, stop, moment, expected);
+    std::printf("angle %.12f rad, expected %.12f; %.3g rad beyond it when it struck, expected 0; moment %.9f N m, "
+                "expected %.9f; tolerance 1e-9: rounding, as the axis of the stop does not turn\n",
+                scene.record(0).coordinate, stop, beyond, moment, expected);
+    EXPECT_LT(beyond, 1e-9);
     EXPECT_NEAR(scene.record(0).coordinate, stop, 1e-9);
     EXPECT_NEAR(moment, expected, 1e-9);
+}
+
+// A disc whose rotation is prescribed gives way to no stop: its record has the way beyond it, with the sign of the end.
+TYPED_TEST(JointForms, ADiscThatIsTurnedPastItsStopRecordsTheWayBeyond)
+{
+    constexpr double dt = 1e-3, low = -0.1, high = 0.2, turned = 0.499; // rad at the start of the last substep
+    for (const double spin : {1.0, -1.0})
+    {
+        Solid disc  = block(1, {0, 0, 0});
+        disc.spin   = {0, spin, 0};
+        disc.locked = dem::lock_all;
+        JointScene<TypeParam> scene(this->exec(), {disc},
+                                    {{dem::joint_revolute, {world, 0}, {0, 0, 0}, {0, 1, 0}, limits(low, high)}});
+        scene.run(dt, 150);
+        if (spin > 0) { EXPECT_EQ(scene.record(0).excess, 0) << "0.15 rad are within the limits"; }
+        scene.run(dt, 350);
+        const double found = scene.record(0).excess, expected = spin > 0 ? turned - high : -turned - low;
+        std::printf("%.12f rad beyond, expected %.12f; tolerance 1e-9: rounding over 500 substeps\n", found, expected);
+        EXPECT_NEAR(found, expected, 1e-9);
+    }
 }
 
 // A motor that runs against a stop gives its largest torque, and the stop takes it.

@@ -145,22 +145,109 @@ motion = [ { body = "plate", )" +
            motion + " } ]\n" + more;
 }
 
+/// The message for a force or torque (key) in the motion of afloat() that reaches no ground.
+std::string without_ground(const std::string& text, const std::string& key)
+{
+    const int line = lines_of(text.substr(0, text.find("motion = ["))) + 1;
+    return fmt::format("bad.toml:{}: [phase.push.motion[0]] {}: nothing takes up what acts on \"plate\"; accepted: "
+                       "joints, or pairs that touch, from it to \"world\"",
+                       line, key);
+}
+
 TEST(Motion, with_a_force_that_nothing_takes_up_is_refused)
 {
-    const char* said =
-        "[phase.push.motion[0]] %s: nothing takes up what acts on \"plate\"; accepted: a scene with a wall";
     for (const auto& [key, motion] : {std::pair{"y", "y = { force = 1.0 }"}, std::pair{"yaw", "yaw = { torque = 1.0 }"},
                                       std::pair{"axle", "axle = { torque = 1.0 }"}, std::pair{"load", "load = 1.0"}})
     {
-        EXPECT_THAT(refusal(afloat(motion)), HasSubstr(replaced(said, "%s", key)));
+        EXPECT_THAT(refusal(afloat(motion)), HasSubstr(without_ground(afloat(motion), key)));
     }
     EXPECT_EQ(refusal(afloat("x = { velocity = 1.0 }")), "");
-    EXPECT_EQ(refusal(replaced(afloat("y = { force = 1.0 }"), "bottom = \"open\"", "bottom = \"fixed\"")), "");
-    EXPECT_EQ(refusal(afloat("y = { force = 1.0 }",
-                             "[[joint]]\nname = \"rail\"\ntype = \"prismatic\"\nbetween = [\"world\", \"plate\"]\nat "
-                             "= [0.5, 0.5, 0.5]\naxis = [0, 1, 0]\n")),
-              "");
 }
+
+/// What stands beside the plate: keys of the phase and tables after it, and the domain's floor.
+struct Beside
+{
+    const char* name;
+    bool        takes_up; ///< whether a force on the plate reaches ground
+    std::string more;
+    const char* floor = "open";
+};
+
+std::ostream& operator<<(std::ostream& stream, const Beside& beside) { return stream << beside.name; }
+
+class Forces : public ::testing::TestWithParam<Beside>
+{
+};
+
+TEST_P(Forces, need_a_path_to_ground)
+{
+    const std::string floor = fmt::format("bottom = \"{}\"", GetParam().floor);
+    const std::string text  = replaced(afloat("y = { force = 1.0 }", GetParam().more), "bottom = \"open\"", floor);
+    if (GetParam().takes_up) { EXPECT_EQ(refusal(text), ""); }
+    else { EXPECT_THAT(refusal(text), HasSubstr(without_ground(text, "y"))); }
+}
+
+const std::string arm_text = R"([[material]]
+name = "brass"
+model = "elastic"
+young = 1e9
+[[body]]
+name = "arm"
+shape = "plate"
+material = "brass"
+mass = 1.0
+position = [0.5, 0.8, 0.5]
+)";
+
+std::string apart(const std::string& one, const std::string& other)
+{
+    return fmt::format("[[contact]]\nbetween = [\"{}\", \"{}\"]\ntouch = false\n", one, other);
+}
+
+std::string joined(const std::string& one, const std::string& other)
+{
+    return fmt::format("[[joint]]\nname = \"{0}_{1}\"\ntype = \"spherical\"\nbetween = [\"{0}\", \"{1}\"]\nat = "
+                       "[0.5, 0.65, 0.5]\n",
+                       one, other);
+}
+
+const std::string ground_text = R"([grid]
+spacing = 0.1
+[[material]]
+name = "sand"
+model = "elastic"
+density = 1600
+young = 1e6
+poisson = 0.3
+[[terrain]]
+material = "sand"
+region = { box = [[0, 0, 0], [1, 1, 0.2]] }
+)";
+
+INSTANTIATE_TEST_SUITE_P(
+    Motion, Forces,
+    ::testing::Values(
+        Beside{"floor", true, "", "fixed"}, Beside{"floor_without_touch", false, apart("steel", "wall"), "fixed"},
+        Beside{"floor_without_touch_in_the_phase", false,
+               "contacts = [ { between = [\"steel\", \"wall\"], touch = false } ]\n", "fixed"},
+        Beside{"floor_under_a_body_that_it_touches", true, arm_text + apart("steel", "wall"), "fixed"},
+        Beside{"floor_under_a_body_that_it_passes", false, arm_text + apart("steel", "wall") + apart("steel", "brass"),
+               "fixed"},
+        Beside{"floor_under_a_body_of_its_joint", true,
+               arm_text + apart("steel", "wall") + apart("steel", "brass") + joined("plate", "arm"), "fixed"},
+        Beside{"sand", true, ground_text}, Beside{"sand_without_touch", false, ground_text + apart("steel", "sand")},
+        Beside{"joint_to_the_world", true, joined("world", "plate")},
+        Beside{"two_joints_to_the_world", true,
+               arm_text + apart("steel", "brass") + joined("world", "arm") + joined("arm", "plate")},
+        Beside{"joint_of_another_mechanism_to_the_world", false,
+               arm_text + apart("steel", "brass") + joined("world", "arm")},
+        Beside{"body_afloat", false, arm_text},
+        Beside{"joint_to_a_body_afloat", false, arm_text + joined("arm", "plate")},
+        Beside{"held_body", true, "hold = [\"arm\"]\n" + arm_text},
+        Beside{"held_body_that_it_passes", false, "hold = [\"arm\"]\n" + arm_text + apart("steel", "brass")},
+        Beside{"locked_body", true, replaced(arm_text, "mass = 1.0", "mass = 1.0\nlock = [\"y\"]")},
+        Beside{"body_that_may_not_roll", false, replaced(arm_text, "mass = 1.0", "mass = 1.0\nlock = [\"roll\"]")}),
+    [](const auto& beside) { return beside.param.name; });
 
 /// The fault of a table whose file has this text, read for a phase of 2 s.
 std::string fault_of(const std::string& text, const std::string& column)

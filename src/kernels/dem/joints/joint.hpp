@@ -55,6 +55,7 @@ struct JointRecord
     double       motor_impulse;   ///< N s or N m s along the coordinate; of a differential: its own, on both axes
     double       gap;             ///< m, largest distance of the two points in directions that are tied
     double       misalignment;    ///< rad, largest angle in directions that are tied
+    double       excess;          ///< m or rad, farthest beyond a limit; negative: below the low one
     double       coordinate;      ///< m or rad, at the start of the last substep; an angle in (-pi, pi]
 };
 

@@ -72,6 +72,7 @@ struct RowWriter
     std::int32_t      next;
     double            gap2          = 0; ///< m2
     double            misalignment2 = 0; ///< rad2
+    double            excess        = 0; ///< m or rad, of the coordinate beyond its limits
 
     TREAD_HD RowWriter(const JointsView& all, const BodiesView& in, const Joint& one, double step)
         : joints(all)
@@ -185,6 +186,7 @@ struct RowWriter
             JointRow& high = free_row(-direction);
             high.target    = (coordinate - joint.high) / dt;
             high.low       = 0;
+            excess         = coordinate - std::fmin(std::fmax(coordinate, joint.low), joint.high);
         }
     }
 };
@@ -246,6 +248,7 @@ TREAD_HD void write_rows(const JointsView& joints, const BodiesView& bodies, std
     }
     record.gap          = std::fmax(record.gap, std::sqrt(writer.gap2));
     record.misalignment = std::fmax(record.misalignment, std::sqrt(writer.misalignment2));
+    if (std::fabs(writer.excess) > std::fabs(record.excess)) { record.excess = writer.excess; }
 }
 
 /// Number of rows that write_rows makes.
