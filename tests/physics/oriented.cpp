@@ -71,72 +71,7 @@ TYPED_TEST(Oriented, ASteeredWheelTurnsAboutItsAxleAndMovesAlongX)
     EXPECT_NEAR(wheel.position[0], 0.5 + 0.4 * speed, 1e-9);
 }
 
-constexpr double g = 9.81;
-
-constexpr double steer = 20, grip = 0.4, towed_speed = 0.5;
-
-const std::string skidding_text = fmt::format(R"(
-title = "a steered wheel is towed over a plane"
-[domain]
-size    = [4.0, 1.0, 1.0]
-gravity = [0.0, 0.0, {}]
-walls   = {{ x = "open", y = "open", bottom = "fixed", top = "open" }}
-[[material]]
-name  = "steel"
-model = "elastic"
-young = 1.0e9
-[[contact]]
-between     = ["steel", "wall"]
-friction    = {}
-restitution = 0.1
-[[shape]]
-name      = "drum"
-generate  = {{ kind = "wheel", radius = {}, width = 0.1, wall_thickness = 0.04, grousers = 0, grouser_height = 0.0 }}
-sdf_cells = 32
-[[body]]
-name     = "drum"
-shape    = "drum"
-material = "steel"
-mass     = 10.0
-yaw_deg  = {}
-position = [1.0, 0.5, 0.1]
-[[phase]]
-name     = "tow"
-duration = 0.8
-motion   = [ {{ body = "drum", rotation_frame = "body", x = {{ velocity = {}, ramp = 0.2 }}, y = "held", roll = "held", yaw = "held" }} ]
-)",
-                                              -g, grip, radius, steer, towed_speed);
-
-/// A wheel steered to the left rolls along its heading and skids along its axle: the ground pushes it to the left.
-TYPED_TEST(Oriented, ASteeredWheelOnAPlaneIsPushedAlongItsAxle)
-{
-    test::Experiment<TypeParam> run(this->exec(), skidding_text);
-    bool                        steady = false;
-    run.run(
-        [&](double time)
-        {
-            if (steady || time < 0.4) { return; }
-            steady = true;
-            run.simulation().begin_mean();
-        });
-    const auto       wheel = run.simulation().named_bodies()[0];
-    const double     yaw = steer * std::numbers::pi / 180, weight = 10 * g;
-    const double     ahead = -grip * weight * std::sin(yaw), left = grip * weight * std::cos(yaw);
-    constexpr double tolerance = 0.02;
-    const char*      why       = "the drum is a polygon, which rolls on its edges";
-    test::report("force on the wheel along x, N", wheel.force[0], ahead, tolerance * left, why);
-    EXPECT_NEAR(wheel.force[0], ahead, tolerance * left);
-    test::report("force to the left, N", wheel.force[1], left, tolerance * left, why);
-    EXPECT_NEAR(wheel.force[1], left, tolerance * left);
-    test::report("force upwards, N", wheel.force[2], weight, tolerance * weight, "its weight, in the mean");
-    EXPECT_NEAR(wheel.force[2], weight, tolerance * weight);
-    const double spin_expected = towed_speed * std::cos(yaw) / radius;
-    test::report("spin about the axle, rad/s", solver::spin_of(wheel), spin_expected, 0.1 * spin_expected,
-                 "it rolls along its heading; on its edges it is slower and faster");
-    EXPECT_NEAR(solver::spin_of(wheel), spin_expected, 0.1 * spin_expected);
-}
-
-constexpr double friction = 0.2, slope = 30, direction = 40;
+constexpr double g = 9.81, friction = 0.2, slope = 30, direction = 40;
 
 const std::string block_text = fmt::format(R"(
 title = "a block on a slope"
