@@ -51,6 +51,11 @@ std::optional<std::string> Driver<Exec, Real>::run()
         output_.finish();
         throw;
     }
+    catch (const EnvironmentError&)
+    {
+        output_.keep_rows();
+        throw;
+    }
     catch (const StoppedInStep& stop)
     {
         output_.finish();

@@ -8,6 +8,7 @@
 
 #include "backend/instantiate.hpp"
 #include "io/files.hpp"
+#include "run/checkpoint_clock.hpp"
 #include "solver/state_file.hpp"
 #include "world/saved_bed.hpp"
 #include "world/saved_sand.hpp"
@@ -132,7 +133,7 @@ void RunOutput<Exec, Real>::write_row()
             if (ranks != nullptr) { recorder_->write_ranks(time, *ranks); }
             recorder_->write(time, bodies, energy, balance);
             recorder_->write_joints(time, joints);
-            if (files_are_free()) { recorder_->flush(); }
+            flush_if_due();
         };
         on_root(place_.communicator, on_file);
         answers_.add(place_.scene, loop_.phase, time, bodies);
@@ -149,6 +150,30 @@ void RunOutput<Exec, Real>::write_snapshot()
     due_.last_snapshot = loop_.progress.steps;
     loop_.clock.run(loop_.simulation.exec(), solver::stage::snapshots,
                     [&] { snapshots_->write(loop_.progress.time, loop_.simulation); });
+}
+
+/// Opening the file and extending all its columns takes a millisecond a body: as long as several steps.
+template<class Exec, class Real>
+void RunOutput<Exec, Real>::flush_if_due()
+{
+    constexpr double between = 0.5; // s of wall time
+    const double     now     = wall_clock();
+    if (now - last_flush_ < between || !files_are_free()) { return; }
+    recorder_->flush();
+    last_flush_ = now;
+}
+
+template<class Exec, class Real>
+void RunOutput<Exec, Real>::keep_rows() noexcept
+{
+    if (!recorder_) { return; }
+    try
+    {
+        recorder_->flush();
+    }
+    catch (const std::exception&) // the error that ends the run is the one to tell of
+    {
+    }
 }
 
 /// Rows wait while a snapshot is being written; an error of that snapshot is thrown here.

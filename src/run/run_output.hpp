@@ -77,6 +77,9 @@ public:
     /// Waits for all snapshots, and writes the rows that waited for them.
     void finish();
 
+    /// Writes waiting rows as far as that is possible, when another file could not be written.
+    void keep_rows() noexcept;
+
     /// Saves to a checkpoint, or loads from it; `checkpoint`: its path, for messages. Replaces nothing before all
     /// loaded data is checked.
     void transfer(solver::StateFile& file, const std::string& checkpoint);
@@ -93,6 +96,7 @@ public:
 private:
     std::vector<solver::BodyRow> wheel_rows();
 
+    void flush_if_due();
     bool files_are_free();
     void write_due();
     void transfer_series(solver::StateFile& file, const std::string& checkpoint);
@@ -105,6 +109,7 @@ private:
     std::optional<Snapshots<Exec, Real>> snapshots_; ///< only if the scene wants snapshots
     std::vector<AxleTurn>                turns_;     ///< of the named bodies
     OutputsDue                           due_;
+    double                               last_flush_ = 0; ///< wall_clock()
     AnswersSoFar                         answers_;
 };
 
