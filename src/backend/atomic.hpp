@@ -23,6 +23,16 @@ TREAD_HD std::uint64_t compare_and_swap(std::uint64_t* at, std::uint64_t expecte
 #endif
 }
 
+/// Reads a value that other threads of the same launch may write.
+TREAD_HD std::int32_t load_together(const std::int32_t* at)
+{
+#if defined(__CUDA_ARCH__)
+    return *static_cast<const volatile std::int32_t*>(at);
+#else
+    return std::atomic_ref<const std::int32_t>(*at).load(std::memory_order_relaxed);
+#endif
+}
+
 /// Writes a value that other threads of the same launch may write as well.
 TREAD_HD void store_together(std::int32_t* at, std::int32_t value)
 {

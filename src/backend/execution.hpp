@@ -17,19 +17,28 @@ namespace tread
 
 class Counters;
 
+/// Number of a launch that is requested before it is known whether it is due.
+struct LaunchNumber
+{
+    const std::int32_t* last  = nullptr; ///< in the backend's memory: number of the last launch that is due; 0: all are
+    std::int32_t        value = 0;
+
+    TREAD_HD bool is_over() const { return last != nullptr && *last != 0 && value > *last; }
+};
+
 /// Execution tag, the first argument of every function that runs on a backend: OpenMP threads of this process.
 struct Cpu
 {
-    Counters*           counters;
-    const std::int32_t* skip = nullptr; ///< launches do nothing while it points to anything but 0
+    Counters*    counters;
+    LaunchNumber number = {}; ///< launches that are over do nothing
 };
 
 /// Execution tag: one CUDA device; all work runs in order on one stream.
 struct Gpu
 {
-    CUstream_st*        stream;
-    Counters*           counters;
-    const std::int32_t* skip = nullptr; ///< as in Cpu, on the device: work that was requested in advance may be dropped
+    CUstream_st* stream;
+    Counters*    counters;
+    LaunchNumber number = {}; ///< as in Cpu
 };
 
 } // namespace tread

@@ -9,12 +9,10 @@
 namespace tread
 {
 
-__device__ inline bool is_skipped(const std::int32_t* skip) { return skip != nullptr && *skip != 0; }
-
 template<class F>
-__global__ void for_each_kernel(const std::int32_t* skip, std::int64_t n, const __grid_constant__ F f)
+__global__ void for_each_kernel(LaunchNumber number, std::int64_t n, const __grid_constant__ F f)
 {
-    if (is_skipped(skip)) { return; }
+    if (number.is_over()) { return; }
     const std::int64_t i = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
     if (i < n) { f(i); }
 }
@@ -26,15 +24,15 @@ void for_each(const Gpu& gpu, const char* name, std::int64_t n, F f)
     if (n == 0) { return; }
     gpu.counters->launched(name);
     constexpr int threads = 128;
-    for_each_kernel<<<static_cast<unsigned>((n + threads - 1) / threads), threads, 0, gpu.stream>>>(gpu.skip, n, f);
+    for_each_kernel<<<static_cast<unsigned>((n + threads - 1) / threads), threads, 0, gpu.stream>>>(gpu.number, n, f);
     check_cuda(cudaGetLastError(), name);
 }
 
 template<int threads, int blocks_an_sm, class F>
 __global__ void __launch_bounds__(threads, blocks_an_sm)
-    for_each_block_kernel(const std::int32_t* skip, const __grid_constant__ F f)
+    for_each_block_kernel(LaunchNumber number, const __grid_constant__ F f)
 {
-    if (is_skipped(skip)) { return; }
+    if (number.is_over()) { return; }
     f(static_cast<std::int64_t>(blockIdx.x));
 }
 
@@ -46,7 +44,7 @@ void for_each_block(const Gpu& gpu, const char* name, std::int64_t blocks, F f)
     if (blocks == 0) { return; }
     gpu.counters->launched(name);
     for_each_block_kernel<threads, blocks_an_sm>
-        <<<static_cast<unsigned>(blocks), threads, 0, gpu.stream>>>(gpu.skip, f);
+        <<<static_cast<unsigned>(blocks), threads, 0, gpu.stream>>>(gpu.number, f);
     check_cuda(cudaGetLastError(), name);
 }
 

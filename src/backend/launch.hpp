@@ -8,16 +8,13 @@
 namespace tread
 {
 
-/// Whether launches are to do nothing.
-inline bool is_skipped(const Cpu& cpu) { return cpu.skip != nullptr && *cpu.skip != 0; }
-
 /// Runs f(i) for i in [0, n) with light items: each thread takes an equal contiguous range.
 template<class F>
 void for_each(const Cpu& cpu, const char* name, std::int64_t n, F f)
 {
     if (n == 0) { return; }
     cpu.counters->launched(name);
-    if (is_skipped(cpu)) { return; }
+    if (cpu.number.is_over()) { return; }
     constexpr std::int64_t worth_threads =
         16384; // about a millisecond of work: a barrier can cost as much on a busy machine
 #pragma omp parallel for schedule(static) if (n >= worth_threads)
@@ -31,7 +28,7 @@ void for_each_heavy(const Cpu& cpu, const char* name, std::int64_t n, F f, std::
 {
     if (n == 0) { return; }
     cpu.counters->launched(name);
-    if (is_skipped(cpu)) { return; }
+    if (cpu.number.is_over()) { return; }
 #pragma omp parallel for schedule(dynamic, 4) if (n >= worth_threads)
     for (std::int64_t i = 0; i < n; ++i) { f(i); }
 }

@@ -103,32 +103,40 @@ Sequence<First, Rest...> sequence(const First& first, const Rest&... rest)
     return {first, sequence(rest...)};
 }
 
+/// Numbers of the times that a sequence is run, and an end to them.
+struct Times
+{
+    std::int64_t        count;
+    std::int32_t        before  = 0;       ///< the first time has the number before + 1
+    std::int32_t*       present = nullptr; ///< null, or in the device's memory: receives the number of each time
+    const std::int32_t* last    = nullptr; ///< null, or there: number of the last time, which parts may set; 0: none
+};
+
 template<int threads, int blocks_an_sm, class Parts>
 __global__ void __launch_bounds__(threads, blocks_an_sm)
-    repeat_kernel(std::int64_t times, std::int32_t* ended, const __grid_constant__ Parts parts)
+    repeat_kernel(const __grid_constant__ Times times, const __grid_constant__ Parts parts)
 {
     const auto grid = cooperative_groups::this_grid();
-    for (std::int64_t time = 1; time <= times; ++time)
+    for (std::int32_t number = times.before + 1; number <= times.before + times.count; ++number)
     {
+        if (times.present != nullptr && blockIdx.x == 0 && threadIdx.x == 0) { *times.present = number; }
         parts.run(grid);
-        if (ended == nullptr || *static_cast<volatile const std::int32_t*>(ended) == 0) { continue; }
-        if (blockIdx.x == 0 && threadIdx.x == 0) { *ended = static_cast<std::int32_t>(time); }
-        return;
+        if (times.last == nullptr) { continue; }
+        const std::int32_t last = *static_cast<volatile const std::int32_t*>(times.last);
+        if (last != 0 && number >= last) { return; }
     }
 }
 
-/// Runs the sequence `times` times in one cooperative launch with at most as many blocks as are resident on the device.
-/// `ended`: null, or 0 until the last part ends the sequence by writing anything else; it then becomes the number of
-/// times that were run. The sequence must have two parts with blocks then: no block begins the last part before all
-/// blocks have seen what the part left there the time before.
+/// Runs the sequence several times in one cooperative launch with at most as many blocks as are resident on the device.
+/// Parts may read times.present, and the last one may write times.last, only where another part with blocks comes
+/// before it: then no block is at it before all have read what it left there the time before.
 template<int threads, int blocks_an_sm, class Parts>
-void repeat(const Gpu& gpu, const char* name, std::int64_t times, const Parts& parts, std::int32_t* ended = nullptr)
+void repeat(const Gpu& gpu, const char* name, const Times& times, const Parts& parts)
 {
     const std::int64_t wanted = parts.most_blocks();
-    if (wanted == 0 || times == 0) { return; }
+    if (wanted == 0 || times.count == 0) { return; }
     const auto kernel = repeat_kernel<threads, blocks_an_sm, Parts>;
-    launch_together(gpu, name, kernel, std::min(wanted, resident_blocks(name, kernel, threads)), threads, times, ended,
-                    parts);
+    launch_together(gpu, name, kernel, std::min(wanted, resident_blocks(name, kernel, threads)), threads, times, parts);
 }
 
 } // namespace tread

@@ -223,12 +223,14 @@ void expect_stop(const Exec& exec, const Carried& carried)
         double time = 0, beyond = 0;
         EXPECT_THAT(error.what(), HasSubstr(carried.said));
         ASSERT_EQ(std::sscanf(error.what(), "t = %lf s: joint '%*[a-z]' is %lf", &time, &beyond), 2) << error.what();
-        const double first = (carried.limit + drift) / carried.speed, way = carried.speed * time - carried.limit;
-        test::report("time of the message, s", time, first, dt + substep, "errors are looked at after each step");
+        const double first = (carried.limit + drift) / carried.speed, end = time + dt,
+                     way = carried.speed * end - carried.limit;
+        test::report("end of the step of the message, s", end, first, dt + substep,
+                     "errors are looked at after each step");
         test::report("way beyond the limit", beyond, way, carried.speed * substep + 5e-3 * way,
                      "as of the start of the last substep; three digits are printed");
-        EXPECT_GE(time, first);
-        EXPECT_LE(time, first + dt + substep);
+        EXPECT_GE(end, first);
+        EXPECT_LE(end, first + dt + substep);
         EXPECT_NEAR(beyond, way, carried.speed * substep + 5e-3 * way);
     }
 }

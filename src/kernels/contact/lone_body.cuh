@@ -49,7 +49,8 @@ struct LoneBodyState
     double              stiffness;
     dem::BodyTotal      total;
     dem::ContactImpulse impulse;
-    std::int32_t        reached; ///< as in DisplacementLimit
+    std::int32_t        number; ///< of the present substep
+    std::int32_t        last;   ///< as in DisplacementLimit
 };
 
 /// Move: dem::moving::Move of the body in device memory, with KnownWrench as external wrench. Every point has a thread.
@@ -81,23 +82,20 @@ struct LoneBody
         LoneBodyState&                                  state = *reinterpret_cast<LoneBodyState*>(memory);
         if (threadIdx.x == 0) { read(state); }
         __syncthreads();
-        const Move   in_block = move_of(state);
-        Own          own      = read_own();
-        std::int64_t substep  = 0;
-        while (substep < substeps && state.reached == 0)
+        const Move in_block = move_of(state);
+        Own        own      = read_own();
+        for (std::int64_t substep = 0; substep < substeps && !is_over(state); ++substep)
         {
             dem::ContactWrench* of_blocks = parts + substep % 2 * gridDim.x;
-            ++substep;
-            Response* kept = substep == substeps ? respond.contacts.response + own.c : nullptr;
+            Response*           kept      = substep + 1 == substeps ? respond.contacts.response + own.c : nullptr;
             sum_of_block(answer(own, in_block.bodies, kept), of_blocks + blockIdx.x);
+            if (threadIdx.x == 0) { state.number = move.limit.substep + static_cast<std::int32_t>(substep); }
             grid.sync();
             if (threadIdx.x < warp_size) { move_body(of_blocks, in_block); }
             __syncthreads();
         }
         write_own(own);
-        if (blockIdx.x != 0 || threadIdx.x != 0) { return; }
-        write(state);
-        if (state.reached != 0) { *move.limit.reached = static_cast<std::int32_t>(substep); }
+        if (blockIdx.x == 0 && threadIdx.x == 0) { write(state); }
     }
 
 private:
@@ -113,8 +111,10 @@ private:
                                        from.stiffness[0],
                                        move.totals[0],
                                        {},
+                                       0,
                                        0};
         if (move.named.count > 0) { state.impulse = move.named.impulse[0]; }
+        if (move.limit.last != nullptr) { state.last = *move.limit.last; }
     }
 
     __device__ void write(const LoneBodyState& state) const
@@ -130,7 +130,11 @@ private:
         move.totals[0]            = state.total;
         if (move.named.count > 0) { move.named.impulse[0] = state.impulse; }
         if (shown != nullptr) { store(shown, contact_body(to, 0)); }
+        if (state.last != 0) { *move.limit.last = state.last; }
     }
+
+    /// Whether the list of pairs has expired.
+    __device__ static bool is_over(const LoneBodyState& state) { return state.last != 0 && state.number >= state.last; }
 
     /// Returns the Move of a block's own copy of the body.
     __device__ Move move_of(LoneBodyState& state) const
@@ -146,7 +150,8 @@ private:
         own.totals                  = &state.total;
         own.named.impulse           = &state.impulse;
         own.pairs                   = {};
-        own.limit.reached           = &state.reached;
+        own.limit.last              = &state.last;
+        own.limit.repeated          = &state.number;
         return own;
     }
 

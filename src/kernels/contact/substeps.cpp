@@ -2,6 +2,7 @@
 
 #include "backend/instantiate.hpp"
 #include "kernels/dem/contact/body_contact.hpp"
+#include "kernels/dem/motion/substeps.hpp"
 
 namespace tread::contact
 {
@@ -16,13 +17,16 @@ template<class Exec>
 void run_substeps(const Exec& cpu, PointContact<Exec>& contact, const PointBodyLaw& law,
                   const dem::BodyStep<Exec>& step, std::int64_t count)
 {
-    dem::BodyStep<Exec> each = step;
-    for (std::int64_t done = 0; done < count; ++done, ++each.limit.substep)
-    {
-        substep(cpu, contact, each.bodies, law, each.motion.dt);
-        if (each.pairs.key.size() > 0) { evaluate_contacts(cpu, each.pairs, each.bodies, each.law, each.motion.dt); }
-        move_bodies(cpu, each);
-    }
+    each_substep(cpu, step, count,
+                 [&](const Exec& exec, const dem::BodyStep<Exec>& each)
+                 {
+                     substep(exec, contact, each.bodies, law, each.motion.dt);
+                     if (each.pairs.key.size() > 0)
+                     {
+                         evaluate_contacts(exec, each.pairs, each.bodies, each.law, each.motion.dt);
+                     }
+                     move_bodies(exec, each);
+                 });
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \

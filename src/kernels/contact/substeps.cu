@@ -89,11 +89,10 @@ void run_substeps(const Exec& gpu, PointContact<Exec>& contact, const PointBodyL
         points.count, MovePoint{contact.candidates.by_point.view(), contacts, points, law.motion, dt});
     const auto run = [&](const auto& moved)
     {
-        repeat<repeat_threads, dem::repeat_blocks_an_sm>(gpu, "substeps of sand and bodies", count,
+        repeat<repeat_threads, dem::repeat_blocks_an_sm>(gpu, "substeps of sand and bodies", dem::times_of(step, count),
                                                          sequence(beside(dem::nodes_part(meet, step), forces),
                                                                   dem::answers_part(meet, step),
-                                                                  beside(moved, advance)),
-                                                         step.limit.reached);
+                                                                  beside(moved, advance)));
     };
     dem::moving::with_motions(step, dem::moving::SumOutside{step.motion.outside}, dem::moving::Alone{},
                               [&](const auto& move)

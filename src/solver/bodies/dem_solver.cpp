@@ -123,7 +123,7 @@ bool DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t
 {
     if (!is_displaced_too_far(state_, lists_))
     {
-        if (lists_.looks_ahead()) { request_lookahead(state_, lists_, step, batch, done); }
+        if (lists_.between_batches()) { request_lookahead(state_, lists_, step, batch, done); }
         return false;
     }
     const double dt = step.dt / static_cast<double>(step.substeps);
@@ -170,8 +170,9 @@ void DemSolver<Exec>::run(double dt, double damping, std::int64_t count)
 template<class Exec>
 Exec DemSolver<Exec>::substep_exec()
 {
-    Exec exec = state_.exec;
-    exec.skip = lists_.limit(state_).reached;
+    Exec                         exec  = state_.exec;
+    const dem::DisplacementLimit limit = lists_.limit(state_);
+    exec.number                        = {limit.last, limit.substep};
     return exec;
 }
 

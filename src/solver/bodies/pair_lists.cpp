@@ -9,6 +9,7 @@
 
 #include "backend/instantiate.hpp"
 #include "kernels/dem/contact/contact_limits.hpp"
+#include "kernels/dem/pairs/displacement_kern.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
 #include "solver/ranks/over_ranks.hpp"
 #include "solver/state_file.hpp"
@@ -24,8 +25,6 @@ constexpr double hit_twice = 4; ///< speed of a light body hit by one that was i
 /// w = sqrt(K / m); off its centre a ball yields 7/2 times as easily. Up to t = sqrt(m / K) that is less than
 /// hit_soon v t.
 constexpr double hit_soon = 0.5;
-
-constexpr std::int64_t batches_ahead = 2; ///< batches of substeps covered by a check, as its readback takes one
 
 /// Share of a step over which displacements are extrapolated at its start, if the list is also checked within the
 /// step.
@@ -132,18 +131,18 @@ template<class Exec>
 std::int64_t substeps_without_check(const BodyState<Exec>& state, PairLists<Exec>& lists, const TimeStep& step,
                                     const MotionBound& motion, double contact_time)
 {
-    lists.lookahead_pending = false;
-    lists.expired           = false;
-    const auto   number     = static_cast<double>(step.substeps);
+    lists.begin(step);
+    const auto   number = static_cast<double>(step.substeps);
     const double dt = step.dt / number, reserve = dem::rest_reserve * state.tables.smallest_radius,
                  fall         = motion.acceleration * step.dt;
     const double unseen       = reserve / (dt * (hit_twice * motion.speed + fall)); // in substeps
     lists.checked_within_step = number > unseen;
     lists.in_substeps         = lists.checked_within_step && !state.ranks;
-    if (!lists.checked_within_step || lists.in_substeps) { return step.substeps; }
+    if (!lists.checked_within_step) { return step.substeps; }
     const double soon  = std::min(contact_time / dt, reserve / (dt * (hit_soon * motion.speed + fall)));
-    const double batch = std::max(unseen, soon) / static_cast<double>(batches_ahead);
-    return static_cast<std::int64_t>(std::clamp(batch, 1.0, number));
+    const double batch = std::max(unseen, soon) / static_cast<double>(dem::batches_ahead);
+    lists.batch        = static_cast<std::int64_t>(std::clamp(batch, 1.0, number));
+    return lists.in_substeps ? step.substeps : lists.batch;
 }
 
 double unchecked_span(double smallest_radius, const MotionBound& motion)
@@ -176,10 +175,21 @@ void request_lookahead(BodyState<Exec>& state, PairLists<Exec>& lists, const Tim
                        std::int64_t done)
 {
     const double dt    = step.dt / static_cast<double>(step.substeps);
-    const double ahead = dt * static_cast<double>(std::min(batches_ahead * batch, step.substeps - done));
+    const double ahead = dt * static_cast<double>(std::min(dem::batches_ahead * batch, step.substeps - done));
     lists.lookahead.request(displacement_ahead(state, lists, ahead));
     lists.lookahead_done.mark();
     lists.lookahead_pending = true;
+}
+
+template<class Exec>
+void PairLists<Exec>::begin(const TimeStep& next)
+{
+    lookahead_pending = expired = in_substeps = false;
+
+    of_step    = next.substeps;
+    substep_dt = next.dt / static_cast<double>(next.substeps);
+    done = requested = 0;
+    if (std::exchange(last, 0) != 0) { substeps.fill_zero(); }
 }
 
 template<class Exec>
@@ -190,20 +200,27 @@ dem::DisplacementLimit PairLists<Exec>::limit(BodyState<Exec>& state)
             displacements.orientation.data(),
             state.pairs.displacement.allowed.data(),
             state.tables.law.templates,
-            reached.data(),
-            static_cast<std::int32_t>(requested + 1)};
+            substep_dt,
+            static_cast<std::int32_t>(batch),
+            static_cast<std::int32_t>(of_step),
+            substeps.data(),
+            static_cast<std::int32_t>(requested + 1),
+            substeps.data() + 1};
 }
 
 template<class Exec>
 std::int64_t PairLists<Exec>::take_done(const Exec& exec)
 {
-    const std::int64_t all = std::exchange(requested, 0);
-    if (!in_substeps) { return all; }
-    const std::int64_t until = read(exec, reached.data());
-    expired                  = until > 0;
-    if (!expired) { return all; }
-    reached.fill_zero();
-    return until;
+    const std::int64_t before = std::exchange(done, requested);
+    if (!in_substeps) { return done - before; }
+    last = read(exec, substeps.data());
+    if (last != 0 && last <= requested)
+    {
+        expired = last < of_step;
+        done = requested = std::exchange(last, 0);
+        substeps.fill_zero();
+    }
+    return done - before;
 }
 
 template<class Exec>

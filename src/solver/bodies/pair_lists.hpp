@@ -22,18 +22,21 @@ struct PairLists
         : displacements(exec)
         , lookahead(exec, "body displacement ahead on the host")
         , lookahead_done(exec)
-        , reached(exec, "substeps until the list expired", 1)
+        , substeps(exec, "substeps of a list", 2)
     {
-        reached.fill_zero();
+        substeps.fill_zero();
     }
 
-    /// Limit of displacements for the next substep; empty where nobody checks.
+    /// Limit of displacements for the next substep; empty where no substep looks.
     dem::DisplacementLimit limit(BodyState<Exec>& state);
 
-    /// Whether displacements are checked between batches of substeps.
-    bool looks_ahead() const { return checked_within_step && !in_substeps; }
+    /// Whether looks are launches between batches of substeps.
+    bool between_batches() const { return checked_within_step && !in_substeps; }
 
-    /// Number of substeps requested since the last call that were done: up to the one after which the list expired.
+    /// Begins the substeps of a step.
+    void begin(const TimeStep& next);
+
+    /// Number of substeps requested since the last call that were done: up to the last that the list serves.
     std::int64_t take_done(const Exec& exec);
 
     /// Saves or loads the list and the positions of its search, where the state is exact; otherwise the next
@@ -48,10 +51,15 @@ struct PairLists
     bool                           checked_within_step = false; ///< the list is also checked within the step
     std::int64_t                   partition_version   = 0;     ///< counts assignments of bodies to ranks
 
-    bool                      in_substeps = false; ///< every substep of this step checks displacements
-    bool                      expired     = false; ///< a substep of the last batch found one too far
-    std::int64_t              requested   = 0;     ///< substeps of the present batch
-    Array<Exec, std::int32_t> reached;             ///< DisplacementLimit::reached of the present batch
+    bool                      in_substeps = false; ///< the substeps of this step look ahead themselves
+    bool                      expired     = false; ///< the substeps have ended with the last that the list serves
+    std::int32_t              last        = 0;     ///< DisplacementLimit::last as it was read last
+    std::int64_t              done        = 0;     ///< substeps of this step
+    std::int64_t              requested   = 0;     ///< likewise
+    std::int64_t              of_step     = 1;     ///< all substeps of this step
+    double                    substep_dt  = 0;     ///< s
+    std::int64_t              batch       = 1;     ///< DisplacementLimit::batch
+    Array<Exec, std::int32_t> substeps;            ///< DisplacementLimit::last and repeated
 };
 
 /// Lists pairs of bodies, and of bodies and walls, that may touch within dt (s), and what stiffness to expect of their
@@ -61,8 +69,9 @@ template<class Exec>
 bool update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps);
 
 /// Chooses whether the list is checked within the step, and returns the number of substeps that may be requested
-/// together: all on one rank, where every substep checks displacements. Several ranks have to agree, and look ahead
-/// between batches. `contact_time`: s, the smallest sqrt(m / sum K) of a body, 0 = no contact.
+/// together: all on one rank, where the substeps look ahead themselves. Several ranks have to agree after each batch,
+/// by request_lookahead and is_displaced_too_far; both ways a list expires after the same substeps. `contact_time`: s,
+/// the smallest sqrt(m / sum K) of a body, 0 = no contact.
 template<class Exec>
 std::int64_t substeps_without_check(const BodyState<Exec>& state, PairLists<Exec>& lists, const TimeStep& step,
                                     const MotionBound& motion, double contact_time);

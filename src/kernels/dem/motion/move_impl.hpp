@@ -226,7 +226,7 @@ struct Move
         if constexpr (Outside::acts) { account_outside(acting.outside, mean, *total_of(b, unused)); }
         store_motion(bodies, b, body);
         if (pairs.body != nullptr) { show(body, shown, pairs.body + b); }
-        check_displacement(limit, bodies, b);
+        check_displacement_ahead(limit, bodies, b);
     }
 
 private:

@@ -9,12 +9,12 @@ namespace tread::dem
 template<class Exec>
 void run_substeps(const Exec& cpu, const BodyStep<Exec>& step, std::int64_t count)
 {
-    BodyStep<Exec> each = step;
-    for (std::int64_t substep = 0; substep < count; ++substep, ++each.limit.substep)
-    {
-        evaluate_contacts(cpu, each.pairs, each.bodies, each.law, each.motion.dt);
-        move_bodies(cpu, each);
-    }
+    each_substep(cpu, step, count,
+                 [](const Exec& exec, const BodyStep<Exec>& each)
+                 {
+                     evaluate_contacts(exec, each.pairs, each.bodies, each.law, each.motion.dt);
+                     move_bodies(exec, each);
+                 });
 }
 
 #define TREAD_INSTANTIATE(Exec) template void run_substeps(const Exec&, const BodyStep<Exec>&, std::int64_t)

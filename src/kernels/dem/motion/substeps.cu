@@ -10,14 +10,14 @@ template<class Exec>
 void run_substeps(const Exec& gpu, const BodyStep<Exec>& step, std::int64_t count)
 {
     const bool moves_only = step.pairs.key.size() == 0; // a sequence of one part must not end early
-    if (!worth_one_launch(step) || (moves_only && step.limit.reached != nullptr))
+    if (!worth_one_launch(step) || (moves_only && step.limit.last != nullptr))
     {
-        BodyStep<Exec> each = step;
-        for (std::int64_t substep = 0; substep < count; ++substep, ++each.limit.substep)
-        {
-            evaluate_contacts(gpu, each.pairs, each.bodies, each.law, each.motion.dt);
-            move_bodies(gpu, each);
-        }
+        each_substep(gpu, step, count,
+                     [](const Exec& exec, const BodyStep<Exec>& each)
+                     {
+                         evaluate_contacts(exec, each.pairs, each.bodies, each.law, each.motion.dt);
+                         move_bodies(exec, each);
+                     });
         return;
     }
     by_narrow_phase(step.law,
@@ -27,10 +27,9 @@ void run_substeps(const Exec& gpu, const BodyStep<Exec>& step, std::int64_t coun
                                              [&](const auto& move)
                                              {
                                                  repeat<repeat_threads, repeat_blocks_an_sm>(
-                                                     gpu, "substeps of bodies", count,
+                                                     gpu, "substeps of bodies", times_of(step, count),
                                                      sequence(nodes_part(meet, step), answers_part(meet, step),
-                                                              move_part(move, step.pairs)),
-                                                     step.limit.reached);
+                                                              move_part(move, step.pairs)));
                                              });
                     });
 }

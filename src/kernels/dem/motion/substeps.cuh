@@ -21,6 +21,12 @@ inline bool worth_one_launch(const BodyStep<Gpu>& step)
            step.bodies.role == nullptr;
 }
 
+/// Numbers of the substeps of one launch, which ends where step.limit says so.
+inline Times times_of(const BodyStep<Gpu>& step, std::int64_t count)
+{
+    return {count, step.limit.substep - 1, step.limit.repeated, step.limit.last};
+}
+
 template<class Meet>
 auto nodes_part(const Meet& meet, const BodyStep<Gpu>& step)
 {

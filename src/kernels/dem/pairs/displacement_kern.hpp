@@ -17,13 +17,30 @@ TREAD_HD double displacement_since(const BodiesView& bodies, std::int64_t b, con
     return (bodies.position[b] - position).norm() + 2.0 * turned * radius;
 }
 
-/// Ends the batch of substeps if the body has moved too far, or to no finite position.
-TREAD_HD void check_displacement(const DisplacementLimit& limit, const BodiesView& bodies, std::int64_t b)
+/// Upper bound of the way (m) that a body of this bounding radius (m) goes within the coming steps, of `ahead` (s)
+/// each, plus a reserve, since a body at rest may be set in motion.
+TREAD_HD double displacement_ahead(const BodiesView& bodies, std::int64_t b, double radius, double ahead)
+{
+    const double way = ahead * speed_of(bodies, b, radius);
+    return steps_ahead * way + rest_reserve * radius;
+}
+
+inline constexpr std::int64_t batches_ahead = 2; ///< batches of substeps that a look covers: it applies one later
+
+/// Looks ahead after the present substep, if it is the last of a batch and nobody has found the list to expire yet.
+TREAD_HD void check_displacement_ahead(const DisplacementLimit& limit, const BodiesView& bodies, std::int64_t b)
 {
     if (limit.allowed == nullptr) { return; }
-    const double moved = displacement_since(bodies, b, limit.position[b], limit.orientation[b],
-                                            bounding_radius(bodies, limit.templates, b));
-    if (!(moved <= limit.allowed[b])) { store_together(limit.reached, limit.substep); }
+    const std::int32_t now = limit.repeated != nullptr ? load_together(limit.repeated) : limit.substep;
+    if (now % limit.batch != 0 || now >= limit.substeps || load_together(limit.last) != 0) { return; }
+    const std::int64_t left = limit.substeps - now, covered = batches_ahead * limit.batch;
+    const double       ahead = limit.dt * static_cast<double>(covered < left ? covered : left),
+                 radius      = bounding_radius(bodies, limit.templates, b),
+                 moved       = displacement_since(bodies, b, limit.position[b], limit.orientation[b], radius);
+    if (!((moved + displacement_ahead(bodies, b, radius, ahead)) / limit.allowed[b] <= 1))
+    {
+        store_together(limit.last, now + limit.batch);
+    }
 }
 
 } // namespace tread::dem

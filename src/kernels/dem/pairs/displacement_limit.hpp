@@ -8,16 +8,22 @@
 namespace tread::dem
 {
 
-/// How far bodies may move before pairs are found again. Every substep checks it, and whoever moves too far ends the
-/// batch of substeps: their contacts would be incomplete from then on.
+/// How far bodies may move before pairs are found again. After every `batch` substeps of a step those that move look
+/// two batches ahead; a body that may be too far by then leaves one more batch to the list
+/// (largest_displacement_ahead).
 struct DisplacementLimit
 {
     const Vec3<double>* position    = nullptr; ///< m, at the search
     const Quat*         orientation = nullptr; ///< at the search
-    const double*       allowed     = nullptr; ///< m, of any point of the body; null: displacements are not checked
+    const double*       allowed     = nullptr; ///< m, of any point of the body; null: nobody looks
     const TemplateView* templates   = nullptr;
-    std::int32_t*       reached     = nullptr; ///< substeps of the batch after which a body was beyond; 0: none yet
-    std::int32_t        substep     = 1;       ///< this one's number in the batch, the first is 1
+    double              dt          = 0;       ///< s, of a substep
+    std::int32_t        batch       = 1;       ///< substeps
+    std::int32_t        substeps    = 0;       ///< of the step
+    std::int32_t*       last        = nullptr; ///< the last substep of the step with this list; 0: not known yet
+
+    std::int32_t        substep  = 1;       ///< number of the present one in the step, from 1
+    const std::int32_t* repeated = nullptr; ///< where one launch repeats substeps: that number instead
 };
 
 } // namespace tread::dem

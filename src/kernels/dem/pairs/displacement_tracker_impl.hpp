@@ -49,8 +49,7 @@ struct MeasureAhead
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const double way = ahead * speed_of(measure.bodies, b, measure.radius(b));
-        measure.keep(b, measure.moved(b) + steps_ahead * way + rest_reserve * measure.radius(b));
+        measure.keep(b, measure.moved(b) + displacement_ahead(measure.bodies, b, measure.radius(b), ahead));
     }
 };
 
