@@ -9,7 +9,7 @@ import unittest
 import h5py
 
 from command import BODY, SCENE
-from restart_test import BACKEND, BODIES, EVERY_FEW_STEPS, MIXED, MPIRUN, RestartTest, lasting
+from restart_test import BACKEND, BODIES, EVERY_FEW_STEPS, JOINTED, MIXED, MPIRUN, RestartTest, lasting
 
 
 class Restart(RestartTest):
@@ -91,8 +91,8 @@ class Restart(RestartTest):
         self.run_scene(text.partition("[sleep]")[0], self.directory / "third", "--restart", self.checkpoints()[0], code=2)
 
     def test_other_numbers_of_ranks_agree_as_far_as_chaos_lets_them(self):
-        text = lasting(MIXED, 0.06)
-        for first, second in ((1, 3), (3, 2)):
+        for scene, first, second in ((MIXED, 1, 3), (MIXED, 3, 2), (JOINTED, 2, 3)):
+            text = lasting(scene, 0.06)
             ranks = (*MPIRUN, "-n", str(first))
             checkpoint = self.stop_after_a_checkpoint(text, self.directory / f"on{first}", launcher=ranks)
             self.check_agreement(text, checkpoint, {f"{second} ranks": {"launcher": (*MPIRUN, "-n", str(second))}})

@@ -24,6 +24,16 @@ ROCK = BODY + "diameter = 0.1\n"
 
 MIXED = WITH_ROCK + ROCK.replace("0.3]", "0.155]") + "velocity = [0.3, 0.0, -0.8]\n"
 
+# The same with a second rock on a hinge above it, which swings as the first one hits the sand.
+JOINTED = MIXED + ROCK.replace('"roller"\nshape', '"arm"\nshape').replace("[0.2, 0.2, 0.3]", "[0.23, 0.2, 0.26]") + """
+[[joint]]
+name    = "hinge"
+type    = "revolute"
+between = ["roller", "arm"]
+at      = [0.21, 0.2, 0.205]
+axis    = [0, 1, 0]
+"""
+
 # Bodies alone: a rock on the floor, and one that falls on it.
 BODIES = re.sub(r"\[\[terrain\]\].*?\n\n", "", WITH_ROCK, flags=re.S) + ROCK.replace("0.3]", "0.06]") + ROCK.replace(
     '"roller"\nshape', '"other"\nshape').replace("[0.2, 0.2, 0.3]", "[0.22, 0.2, 0.18]")

@@ -22,8 +22,8 @@ struct DisplacementLimit
     std::int32_t        substeps    = 0;       ///< of the step
     std::int32_t*       last        = nullptr; ///< the last substep of the step with this list; 0: not known yet
 
-    std::int32_t        substep  = 1;       ///< number of the present one in the step, from 1
-    const std::int32_t* repeated = nullptr; ///< where one launch repeats substeps: that number instead
+    std::int32_t  substep  = 1;       ///< number of the present one in the step, from 1
+    std::int32_t* repeated = nullptr; ///< where one launch repeats substeps: that number instead
 };
 
 } // namespace tread::dem
