@@ -142,6 +142,7 @@ void DemSolver<Exec>::move(double dt, double damping, const dem::OutsideWrenches
 {
     dem::BodyStep<Exec> step = body_step(dt, damping);
     step.motion.outside      = outside;
+    step.limit.repeated      = nullptr;
     if (shares())
     {
         dem::share_wrenches(state_.exec, step);
