@@ -74,7 +74,8 @@ PageRanks morton_chunks(const PageGraph& graph, int ranks)
                                         : static_cast<double>(page) / static_cast<double>(pages);
         const int    wanted = static_cast<int>(share * ranks);
         const int    least =
-            ranks - static_cast<int>(std::min<std::size_t>(pages - page, ranks)); // leaves one page for each later rank
+            ranks - static_cast<int>(
+                        std::min(pages - page, static_cast<std::size_t>(ranks))); // leaves one page for each later rank
         const int last = rank.empty() ? -1 : rank.back();
         rank.push_back(std::clamp(std::max(wanted, least), std::max(last, 0), std::min(last + 1, ranks - 1)));
         before += graph.load[page];

@@ -108,6 +108,24 @@ dem::SharedView SharedBodies<Exec>::view()
             row_.data(),  wrench_.rows.data(), stiffness_.rows.data(), speed_.rows.data()};
 }
 
+template<class Exec>
+void SharedBodies<Exec>::exchange_wrenches()
+{
+    pass_on(wrench_);
+}
+
+template<class Exec>
+void SharedBodies<Exec>::exchange_stiffness()
+{
+    pass_on(stiffness_);
+}
+
+template<class Exec>
+void SharedBodies<Exec>::exchange_speeds()
+{
+    pass_on(speed_);
+}
+
 #define TREAD_INSTANTIATE(Exec) template class SharedBodies<Exec>
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

@@ -25,9 +25,9 @@ public:
     std::int64_t    count() const { return body_.size(); }
     dem::SharedView view();
 
-    void exchange_wrenches() { pass_on(wrench_); }
-    void exchange_stiffness() { pass_on(stiffness_); }
-    void exchange_speeds() { pass_on(speed_); }
+    void exchange_wrenches();
+    void exchange_stiffness();
+    void exchange_speeds();
 
 private:
     template<class Share>
