@@ -140,9 +140,9 @@ public:
     /// find_pairs_if_displaced is due after each batch that is not the step's last.
     std::int64_t substeps_without_check(const TimeStep& step, double speed, double contact_time);
 
-    /// Call between two batches, after `done` substeps of a step that began at `time` (s). Rebuilds the pair list if a
-    /// body has moved too far (is_displaced_too_far); if not, requests the check for the next two batches. Returns
-    /// whether the list was rebuilt.
+    /// Call between two batches, after `done` substeps of a step that began at `time` (s). Rebuilds the pair list if it
+    /// does not serve the next batch (is_displaced_too_far); where it does, several ranks request the check for the
+    /// next two. Returns whether the list was rebuilt.
     bool find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time);
 
     /// Step 4. Call before the substeps of a step, and where the pair list was rebuilt in it.
