@@ -56,6 +56,20 @@ double difference(const Array<Exec, Vec3<double>>& one, const Array<Exec, Vec3<d
     return apart / largest;
 }
 
+/// Limit of differences between one launch and many: the same operations in the same order, but a GPU compiler may fuse
+/// a product and a sum in one kernel and not in another: rounding over 20 substeps, and forces that amplify 1e-16 of a
+/// position to 1e-12 of an overlap.
+template<class Exec>
+constexpr double rounding = std::is_same_v<Exec, Cpu> ? 0.0 : 1e-10;
+
+template<class Exec>
+void expect_same(const char* name, const Array<Exec, Vec3<double>>& value, const Array<Exec, Vec3<double>>& expected)
+{
+    const double found = difference(value, expected);
+    std::printf("%s of one launch off by %.1e, tolerance %.0e (rounding)\n", name, found, rounding<Exec>);
+    EXPECT_LE(found, rounding<Exec>);
+}
+
 /// Bodies among points, with `count` substeps in one launch and one by one.
 template<class Scene, class Exec>
 void expect_the_same_in_one_launch(const Exec& exec, const std::vector<BodyState>& bodies, int count)
@@ -75,27 +89,17 @@ void expect_the_same_in_one_launch(const Exec& exec, const std::vector<BodyState
         move_bodies(exec, one.body_step(dt));
     }
     EXPECT_GT((one.bodies.velocity.to_host()[0] - before[0]).norm(), 5e-5);
-    // The same operations in the same order. A GPU compiler may fuse a product and a sum in one kernel and not in
-    // another: rounding over 20 substeps, and forces that amplify 1e-16 of a position to 1e-12 of an overlap.
-    const bool   host  = std::is_same_v<Exec, Cpu>;
-    const double limit = host ? 0.0 : 1e-10;
-    const auto   same  = [&](const char* name, const auto& value, const auto& expected)
-    {
-        const double found = difference(value, expected);
-        std::printf("%s of one launch off by %.1e, tolerance %.0e (rounding)\n", name, found, limit);
-        EXPECT_LE(found, limit);
-    };
-    same("velocity", other.bodies.velocity, one.bodies.velocity);
-    same("angular velocity", other.bodies.angular_velocity, one.bodies.angular_velocity);
-    same("position", other.bodies.position, one.bodies.position);
-    same("force", other.bodies.force, one.bodies.force);
-    same("place of a point", other.contact.position, one.contact.position);
-    same("impulse of a point", other.contact.impulse, one.contact.impulse);
+    expect_same("velocity", other.bodies.velocity, one.bodies.velocity);
+    expect_same("angular velocity", other.bodies.angular_velocity, one.bodies.angular_velocity);
+    expect_same("position", other.bodies.position, one.bodies.position);
+    expect_same("force", other.bodies.force, one.bodies.force);
+    expect_same("place of a point", other.contact.position, one.contact.position);
+    expect_same("impulse of a point", other.contact.impulse, one.contact.impulse);
     const double work = one.totals.to_host()[0].sand_work;
-    EXPECT_NEAR(other.totals.to_host()[0].sand_work, work, limit * std::fabs(work));
+    EXPECT_NEAR(other.totals.to_host()[0].sand_work, work, rounding<Exec> * std::fabs(work));
     const auto   lost = one.contact.dissipated.to_host(), lost_too = other.contact.dissipated.to_host();
     const double all = std::accumulate(lost.begin(), lost.end(), 0.0);
-    EXPECT_NEAR(std::accumulate(lost_too.begin(), lost_too.end(), 0.0), all, limit * all);
+    EXPECT_NEAR(std::accumulate(lost_too.begin(), lost_too.end(), 0.0), all, rounding<Exec> * all);
 }
 
 TYPED_TEST(ContactSubsteps, AreTheSameInOneLaunch)
@@ -155,17 +159,10 @@ void expect_an_early_end(const Exec& exec, const std::vector<BodyState>& bodies)
                   numbers.data() + 1};
     run_substeps(exec, other.contact, other.law(), step, 30);
     EXPECT_EQ(read(exec, numbers.data()), last);
-    const double limit = std::is_same_v<Exec, Cpu> ? 0.0 : 1e-10; // as in expect_the_same_in_one_launch
-    const auto   same  = [&](const char* name, const auto& value, const auto& expected)
-    {
-        const double apart = difference(value, expected);
-        std::printf("%s after an early end off by %.1e, tolerance %.0e (rounding)\n", name, apart, limit);
-        EXPECT_LE(apart, limit);
-    };
-    same("velocity", other.bodies.velocity, one.bodies.velocity);
-    same("position", other.bodies.position, one.bodies.position);
-    same("place of a point", other.contact.position, one.contact.position);
-    same("impulse of a point", other.contact.impulse, one.contact.impulse);
+    expect_same("velocity", other.bodies.velocity, one.bodies.velocity);
+    expect_same("position", other.bodies.position, one.bodies.position);
+    expect_same("place of a point", other.contact.position, one.contact.position);
+    expect_same("impulse of a point", other.contact.impulse, one.contact.impulse);
 }
 
 TYPED_TEST(ContactSubsteps, EndWithTheLastThatTheListServes)
