@@ -140,7 +140,7 @@ TYPED_TEST(Rovers, StandsWithItsFrontWheelsOnAStepAsStaticsSay)
     constexpr double            g = 3.72, duration = 2, step = 0.15;
     test::Experiment<TypeParam> rover(this->exec(), test::six_wheels_on_a_step(step, duration));
     const Loads                 expected = statics(g, 0, test::climb_of(step));
-    // By hand, in units of g: 149.6, 170.7 and 129.2 kg.
+    // Solved by hand, the equations give masses of 149.6, 170.7 and 129.2 kg for front, middle and rear.
     EXPECT_NEAR(expected[0] / g, 149.6, 0.1);
     EXPECT_NEAR(expected[1] / g, 170.7, 0.1);
     EXPECT_NEAR(expected[2] / g, 129.2, 0.1);
@@ -213,7 +213,7 @@ void expect_leaning_loads(test::Experiment<Exec>& rover, double rise)
 {
     constexpr double            g = 3.72, tolerance = 5e-3;
     const std::array<double, 2> expected = leaning_statics(rise, g);
-    // By hand, in units of g: 50.46 kg on the left and 54.54 kg on the right; 52.5 kg without the step.
+    // Solved by hand, a left wheel carries 50.46 kg and a right one 54.54 kg; without the step each carries 52.5 kg.
     EXPECT_NEAR(expected[0] / g, 50.46, 0.01);
     EXPECT_NEAR(expected[1] / g, 54.54, 0.01);
     const auto bodies = rover.simulation().named_bodies();

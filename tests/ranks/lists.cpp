@@ -3,8 +3,8 @@
 #include "rank_run.hpp"
 #include "solver/bodies/dem_solver.hpp"
 
-// Lifetime of a list of pairs on several ranks, which look ahead together; on one rank every substep checks it
-// (unit/solver/rigid_lists.cpp).
+// Lifetime of a list of pairs on several ranks, which look ahead together between batches of substeps; on one rank the
+// substeps look themselves (unit/solver/rigid_lists.cpp).
 namespace tread
 {
 namespace

@@ -105,7 +105,7 @@ TYPED_TEST(RigidLists, ListServesTwoSteps)
     this->throw_ball(speed);
     rigid.find_pairs(step);
     ASSERT_EQ(this->searches(), 1);
-    rigid.substeps_without_check({step, 10, ""}, speed, 0); // each of them checks
+    rigid.substeps_without_check({step, 10, ""}, speed, 0); // the substeps look ahead
     this->run(10);
     rigid.find_pairs(step);
     EXPECT_EQ(this->searches(), 1);
