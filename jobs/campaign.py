@@ -74,8 +74,6 @@ def expand(options):
         plans = check_cases(program_of(options, site), cases, options.checks, Path(scratch))
     cost = cost_of(plans, len(cases), campaign.resources, site)
     print(cost.text)
-    if campaign.resources.warning:
-        print(campaign.resources.warning)
     if options.dry_run:
         for case in cases:
             print(f"  {case.name}  " + ", ".join(f"{name} {label}" for name, label in case.labels.items()))

@@ -77,7 +77,7 @@ def cost_of(plans, count, resources, site):
     units = resources.gpus if resources.gpus else resources.ranks * resources.threads
     times = [seconds_of(plan, resources, site) for plan in plans]
     hours = scale * sum(times) * units / 3600
-    # Cases that share a GPU take turns on it: together they take as long as one after the other.
+    # Cases that share a GPU take at most as long as one after the other.
     longest = max(times) * (resources.cases_a_task if resources.gpus else 1)
     return Cost(count, len(plans), scale * sum(plan.steps for plan in plans), hours if resources.gpus else 0.0,
                 0.0 if resources.gpus else hours, scale * sum(plan.disk for plan in plans), longest)

@@ -12,6 +12,8 @@ TIME = re.compile(r"([0-9]{1,4}):([0-5][0-9]):([0-5][0-9])")
 # What may stand in a line of #SBATCH, which no shell ever reads, but sbatch splits at spaces.
 TOKEN = re.compile(r"[A-Za-z0-9_.:,@%/+=\[\]&|*-]*")
 
+MOST_ON_A_GPU = 48  # clients of NVIDIA's Multi-Process Service on one GPU
+
 
 @dataclass(frozen=True)
 class Resources:
@@ -30,12 +32,9 @@ class Resources:
     memory_gb: int = 0  # a node; 0 leaves it to the site
 
     @property
-    def warning(self):
-        """What costs more than it gives; empty where nothing does. The figures were measured on one H200."""
-        if self.gpus == 0 or self.cases_a_task == 1:
-            return ""
-        return (f"warning: cases_a_task = {self.cases_a_task}: cases take turns on a GPU; two at a time took 5 to 7 times as long each as one "
-                "alone. With cases_a_task = 1 the campaign ends sooner.")
+    def shares_gpu(self):
+        """Whether several cases of a task run on one GPU at the same time."""
+        return self.gpus > 0 and self.cases_a_task > 1
 
 
 @dataclass(frozen=True)
@@ -92,6 +91,8 @@ def read_resources(table):
         raise CampaignError("[resources] ranks and gpus are multiples of nodes")
     if resources.cases_a_task > 1 and (resources.ranks > 1 or resources.gpus > 1):
         raise CampaignError("[resources] cases_a_task: cases that share a task have one rank each, and one GPU together")
+    if resources.shares_gpu and resources.cases_a_task > MOST_ON_A_GPU:
+        raise CampaignError(f"[resources] cases_a_task: at most {MOST_ON_A_GPU} cases can share a GPU")
     return resources
 
 

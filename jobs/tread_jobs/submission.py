@@ -80,6 +80,7 @@ def _fillings(directory, tasks, resources, site, program):
         "campaign": shlex.quote(str(directory.path)),
         "command": shlex.join([*_launcher(resources, site), program]),
         "restarts": str(resources.restarts),
+        "share_gpu": "yes" if resources.shares_gpu else "",
         "modules": modules,
         "options": shlex.join(options),
     }

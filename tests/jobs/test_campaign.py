@@ -106,6 +106,7 @@ class Expand(CampaignTest):
             (CAMPAIGN.replace("00:10:00", "ten minutes"), "wall_time: HH:MM:SS"),
             (CAMPAIGN.replace("slip_sand.toml", "slip_snad.toml"), "slip_snad.toml"),
             (CAMPAIGN + "cases_a_task = 2\nranks = 2\n", "one rank each"),
+            (CAMPAIGN + "cases_a_task = 49\ngpus = 1\n", "at most 48 cases can share a GPU"),
             (CAMPAIGN + "[repeats]\ncount = 3\n", "the same bits"),
             (CAMPAIGN + "[repeats]\ncount = 30000\nseeds = ['rocks[0].seed']\n", "120000 cases; at most 100000"),
             ("title = 3 3", "line 1"),
@@ -253,12 +254,6 @@ class Local(CampaignTest):
         self.assertIn("4 done", self.campaign("status", output=output).stdout)
         self.assertEqual(list(self.directory.rglob("pwned*")), [])
         self.assertEqual({path.name for path in self.directory.iterdir()}, {"campaign.toml", hostile})
-
-    def test_cases_that_share_a_gpu_are_warned_of(self):
-        for resources, warned in (("cases_a_task = 2\ngpus = 1\n", True), ("cases_a_task = 2\n", False), ("gpus = 1\n", False)):
-            self.file.write_text(CAMPAIGN + resources, encoding="utf-8")
-            said = self.campaign("expand", "--dry-run", program=self.checked_only()).stdout
-            self.assertEqual("warning: cases_a_task = 2: cases take turns on a GPU" in said, warned, said)
 
     def test_stopped_runs_begin_again_by_themselves(self):
         # Stops early at each case's first attempt.
