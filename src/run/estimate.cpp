@@ -242,13 +242,13 @@ double resting_contact_of_rocks(const scene::Scene& scene, const world::World& w
 /// bodies in contact with each other.
 std::int64_t bytes_per_body(const solver::Plan& plan) { return plan.body_contact ? 2200 : 700; }
 
-/// Extra bytes of a body that may sleep: its load, flags and lists, and its pairs, of which a rock at rest has 2.8,
-/// twice while they are sorted.
+/// Extra bytes of a body that may sleep: its load, place at rest, flags and lists, and its pairs, of which a rock at
+/// rest has 2.8, twice while they are sorted.
 std::int64_t sleep_bytes_per_body(const solver::Plan& plan)
 {
     constexpr double       pairs_a_body = 2.8;
-    constexpr std::int64_t of_body      = sizeof(dem::SleepWatch) + 8 + 3 * 4 + 2 * 4;
-    constexpr std::int64_t of_pair      = 2 * (8 + 4 + sizeof(dem::Patch) + sizeof(dem::HeldContact) + 3 * 8) + 4;
+    constexpr std::int64_t of_body = sizeof(dem::SleepWatch) + sizeof(Vec3<double>) + sizeof(Quat) + 8 + 4 * 4 + 2 * 4;
+    constexpr std::int64_t of_pair = 2 * (8 + 4 + sizeof(dem::Patch) + sizeof(dem::HeldContact) + 3 * 8) + 4;
     return plan.rock_sleep ? of_body + static_cast<std::int64_t>(pairs_a_body * static_cast<double>(of_pair)) : 0;
 }
 

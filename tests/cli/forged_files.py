@@ -137,7 +137,7 @@ class Forged(RestartTest):
         rocks = '[[rocks]]\nshape = "roller"\nmaterial = "steel"\ncount = 1\ndiameter = 0.04\nplacement = "grid"\n' \
             'region = { box = [[0.0, 0.0, 0.0], [0.08, 0.08, 0.06]] }\n'
         original = self.check_every_value(lasting(BODIES, 0.5) + rocks + "[sleep]\nrock_speed = 0.1\nrock_rest = 0.02\n")
-        for name in ("rock_sleep/asleep", "rock_sleep/quiet", "rock_sleep/load", "rock_sleep/key", "rock_sleep/contact"):
+        for name in ("rock_sleep/asleep", "rock_sleep/position", "rock_sleep/orientation", "rock_sleep/quiet", "rock_sleep/moves", "rock_sleep/load", "rock_sleep/key", "rock_sleep/contact"):
             self.assertIn(name, datasets(original))
 
     def test_every_data_set_of_two_ranks_is_checked(self):

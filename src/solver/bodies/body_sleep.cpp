@@ -92,7 +92,11 @@ void transfer_sleep(BodyState<Exec>& state, SleepSettings& settings, StateFile& 
     transfer_clock(file, sleep.clock, settings, state.scene.phases.size());
     transfer_array(file, "rock_sleep/asleep", state.bodies.asleep,
                    accept::all(accept::rows(bodies), accept::within(0, 1)));
+    transfer_array(file, "rock_sleep/position", sleep.position, accept::all(accept::rows(bodies), accept::finite()));
+    transfer_array(file, "rock_sleep/orientation", sleep.orientation,
+                   accept::all(accept::rows(bodies), accept::finite()));
     transfer_array(file, "rock_sleep/quiet", sleep.quiet, accept::all(accept::rows(bodies), accept::not_negative()));
+    transfer_array(file, "rock_sleep/moves", sleep.moves, accept::all(accept::rows(bodies), accept::within(0, 1)));
     transfer_array(file, "rock_sleep/load", sleep.watch, accept::all(accept::rows(bodies), accept::finite()));
     transfer_array(file, "rock_sleep/key", pairs.key,
                    accept::all(accepted_keys(state.world), accept::ascending(), accept::distinct()));

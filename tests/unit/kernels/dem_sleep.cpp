@@ -124,6 +124,30 @@ TYPED_TEST(BodySleep, KeepsContactsAndComputesNothing)
     EXPECT_EQ(scene.sums().contact, 0) << "no answers yet, and nothing asleep";
 }
 
+/// A body that trembles about a place rests, however fast it is; one that creeps out of it does not.
+TYPED_TEST(BodySleep, WaysCountAndNotSpeeds)
+{
+    constexpr double limit = 1e-3 * rest;
+    auto             scene = this->columns(this->exec());
+    EXPECT_EQ(this->come_to_rest(this->exec(), scene, 0.1).tired, 6);
+    const auto look_at = [&](double height)
+    {
+        auto position = scene.bodies.position.to_host();
+        position[5][2] += height;
+        scene.bodies.position.assign(position);
+        scene.pairs.sleep.pass(0.25 * rest);
+        return dem::look_at_sleep(this->exec(), scene.pairs, scene.bodies.view(), scene.law());
+    };
+    for (int i = 0; i < 8; ++i) { EXPECT_EQ(look_at(i % 2 == 0 ? 0.9 * limit : -0.9 * limit).tired, 6) << i; }
+    EXPECT_EQ(look_at(1.1 * limit).tired, 4) << "nor what it may touch";
+    EXPECT_EQ(scene.pairs.sleep.moves.to_host()[5], 0) << "it had stayed for longer";
+    look_at(1.1 * limit);
+    EXPECT_EQ(scene.pairs.sleep.moves.to_host()[5], 1);
+    for (int i = 0; i < 3; ++i) { EXPECT_EQ(look_at(0).tired, 4) << i; }
+    EXPECT_EQ(look_at(0).tired, 6);
+    EXPECT_EQ(scene.pairs.sleep.moves.to_host()[5], 0);
+}
+
 /// A ball that comes near wakes the column that it may touch, and not the other.
 TYPED_TEST(BodySleep, WakesWhatAMovingBodyComesNear)
 {
@@ -140,6 +164,7 @@ TYPED_TEST(BodySleep, WakesWhatAMovingBodyComesNear)
     set(scene.bodies.position, 5, Vec3<double>(0, 0, 7.01 * radius));
     set(scene.bodies.velocity, 5, Vec3<double>(0, 0, -1));
     set(scene.bodies.asleep, 5, 0);
+    set(scene.pairs.sleep.moves, 5, 1);
     scene.pairs.sleep.change = true;
     this->find(scene);
     EXPECT_EQ(scene.bodies.asleep.to_host(), (std::vector<std::int32_t>{0, 0, 0, 1, 1, 0}))

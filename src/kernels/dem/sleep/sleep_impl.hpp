@@ -184,7 +184,7 @@ void begin_sleep(const Exec&, Pairs<Exec>& pairs, Bodies<Exec>& bodies, const Bo
     sleep.wanted                = true;
     sleep.rule                  = rule;
     const auto at_zero          = [&](auto&... arrays) { ((arrays.resize(count), arrays.fill_zero()), ...); };
-    at_zero(bodies.asleep, sleep.quiet, sleep.mark, sleep.watch);
+    at_zero(bodies.asleep, sleep.position, sleep.orientation, sleep.quiet, sleep.moves, sleep.mark, sleep.watch);
 }
 
 template<class Exec>
@@ -198,10 +198,10 @@ SleepCount look_at_sleep(const Exec& exec, Pairs<Exec>& pairs, const BodiesView&
     pairs.measure.resize(bodies.count * width + width);
     double* counts = pairs.measure.data() + bodies.count * width;
     for_each(exec, "time at rest", bodies.count,
-             TimeQuiet{bodies, law.templates, sleep.rule.speed, clock.look, sleep.quiet.data()});
+             WatchRest{bodies, law.templates, sleep.rule, clock.look, sleep.rest_watch()});
     for_each(exec, "look at sleep", bodies.count,
              LookAtBody{bodies, law.templates, pairs.view(), sleep.rule, ends ? clock.window : 0.0, clock.held,
-                        sleep.quiet.data(), sleep.watch.data(), sleep.mark.data(), pairs.measure.data()});
+                        sleep.rest_watch(), sleep.watch.data(), sleep.mark.data(), pairs.measure.data()});
     sum_rows(exec, pairs.measure.data(), bodies.count, width, counts);
     clock.look = 0;
     if (ends) { clock.window = clock.held = 0; }
@@ -229,6 +229,7 @@ void wake_all(Pairs<Exec>& pairs, Bodies<Exec>& bodies)
 {
     bodies.asleep.fill_zero();
     pairs.sleep.quiet.fill_zero();
+    pairs.sleep.moves.fill_zero();
     pairs.sleep.mark.fill_zero();
     pairs.sleep.change = pairs.sleep.change || pairs.sleep.count > 0;
 }
@@ -241,8 +242,7 @@ void wake_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
     if (sleep.count == 0 && !sleep.change) { return; }
     if (sleep.change) { order_contacts(exec, pairs, bodies); }
     for_each(exec, "mark sleepers near", bodies.count * PairSearch::parts,
-             MarkNear{pair_steps::make_search(pairs, bodies, law, cell_size), pairs.displacement.speed.data(),
-                      sleep.rule.speed, sleep.mark.data()});
+             MarkNear{pair_steps::make_search(pairs, bodies, law, cell_size), sleep.moves.data(), sleep.mark.data()});
     for (int ring = 0; ring < waking_rings; ++ring)
     {
         for_each(exec, "widen waking", bodies.count,
@@ -251,7 +251,7 @@ void wake_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
     pairs.measure.resize(bodies.count + 1);
     double* woken = pairs.measure.data() + bodies.count;
     for_each(exec, "wake bodies", bodies.count,
-             WakeBody{bodies, sleep.mark.data(), sleep.quiet.data(), pairs.measure.data()});
+             WakeBody{bodies, sleep.mark.data(), sleep.rest_watch(), pairs.measure.data()});
     sum_rows(exec, pairs.measure.data(), bodies.count, 1, woken);
     if (read(exec, woken) > 0) { sleep.change = true; }
 }

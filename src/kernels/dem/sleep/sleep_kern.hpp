@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kernels/dem/motion/move_impl.hpp"
+#include "kernels/dem/pairs/displacement_kern.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
 
 // Item functions of sleep.hpp.
@@ -20,22 +21,35 @@ TREAD_HD void each_neighbour(const PairsView& pairs, std::int64_t b, Visit visit
     }
 }
 
-/// Adds the time since the last look to the quiet time of an awake body, or sets it to zero.
-struct TimeQuiet
+/// Watches whether an awake body has left its place. A speed would not do: a rock in sand trembles with it without
+/// getting anywhere.
+struct WatchRest
 {
     BodiesView          bodies;
     const TemplateView* templates;
-    double              speed; ///< m/s
-    double              time;  ///< s
-    double*             quiet;
+    BodyRestRule        rule;
+    double              time; ///< s, since the last look
+    RestWatch           watch;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
         if (bodies.is_asleep(b)) { return; }
-        const bool moves = speed_of(bodies, b, bounding_radius(bodies, templates, b)) > speed;
-        quiet[b]         = moves ? 0.0 : quiet[b] + time;
+        const double quiet = watch.quiet[b] + time, radius = bounding_radius(bodies, templates, b),
+                     moved = displacement_since(bodies, b, watch.position[b], watch.orientation[b], radius);
+        if (moved > rule.speed * rule.rest)
+        {
+            watch.begin(bodies, b, quiet < rule.rest);
+            return;
+        }
+        watch.quiet[b] = quiet;
+        if (quiet >= rule.rest) { watch.moves[b] = 0; }
     }
 };
+
+TREAD_HD bool is_moving(const BodiesView& bodies, const std::int32_t* moves, std::int64_t b)
+{
+    return !bodies.is_asleep(b) && moves[b] != 0;
+}
 
 /// Decides who falls asleep or wakes; `row`: whether b wakes, may fall asleep, is awake.
 struct LookAtBody
@@ -46,7 +60,7 @@ struct LookAtBody
     BodyRestRule        rule;
     double              window; ///< s, of the window that ends now; 0: it goes on
     double              held;   ///< s, since SleepWatch::held last changed, or the window began
-    const double*       quiet;
+    RestWatch           rest;
     SleepWatch*         watch;
     std::int32_t*       mark;
     double*             rows; ///< [bodies x 3]
@@ -66,13 +80,13 @@ private:
     /// Whether a body that something holds and all that it may touch have been at rest for long enough.
     TREAD_HD bool is_tired(std::int64_t b) const
     {
-        bool rests = quiet[b] >= rule.rest && bodies.stiffness[b] > 0;
+        bool rests = rest.quiet[b] >= rule.rest && bodies.stiffness[b] > 0;
         if (!rests) { return false; }
         each_neighbour(pairs, b,
                        [&](std::int64_t other)
                        {
                            const bool still = other >= bodies.count || bodies.is_asleep(other);
-                           rests            = rests && (still || quiet[other] >= rule.rest);
+                           rests            = rests && (still || rest.quiet[other] >= rule.rest);
                        });
         return rests;
     }
@@ -82,10 +96,7 @@ private:
         bool found = window > 0 && load_has_changed(b, watch[b]);
         each_neighbour(pairs, b,
                        [&](std::int64_t other)
-                       {
-                           const bool moves = other < bodies.count && !bodies.is_asleep(other) && quiet[other] == 0;
-                           found            = found || moves;
-                       });
+                       { found = found || (other < bodies.count && is_moving(bodies, rest.moves, other)); });
         return found;
     }
 
@@ -212,15 +223,14 @@ struct StaysAsleep
 /// Marks sleepers near bodies that move; several threads may set the same mark.
 struct MarkNear
 {
-    PairSearch    search;
-    const double* speed; ///< m/s, of each body
-    double        limit; ///< m/s
-    std::int32_t* mark;
+    PairSearch          search;
+    const std::int32_t* moves; ///< RestWatch::moves
+    std::int32_t*       mark;
 
     TREAD_HD void operator()(std::int64_t i) const
     {
         const std::int64_t a = i / PairSearch::parts, part = i % PairSearch::parts;
-        if (part < PairSearch::cell_rows && !(speed[a] > limit)) { return; }
+        if (part < PairSearch::cell_rows && !is_moving(search.bodies, moves, a)) { return; }
         search(a, part, [&](std::uint64_t key) { meet(first_of(key), second_of(key)); });
     }
 
@@ -229,8 +239,8 @@ private:
     {
         const BodiesView& bodies = search.bodies;
         if (b >= bodies.count) { return; }
-        if (bodies.is_asleep(a) && speed[b] > limit) { mark[a] = mark_wakes; }
-        if (bodies.is_asleep(b) && speed[a] > limit) { mark[b] = mark_wakes; }
+        if (bodies.is_asleep(a) && is_moving(bodies, moves, b)) { mark[a] = mark_wakes; }
+        if (bodies.is_asleep(b) && is_moving(bodies, moves, a)) { mark[b] = mark_wakes; }
     }
 };
 
@@ -263,7 +273,7 @@ struct WakeBody
 {
     BodiesView    bodies;
     std::int32_t* mark;
-    double*       quiet;
+    RestWatch     watch;
     double*       woken; ///< [bodies]
 
     TREAD_HD void operator()(std::int64_t b) const
@@ -272,7 +282,7 @@ struct WakeBody
         if (woken[b] > 0)
         {
             bodies.asleep[b] = 0;
-            quiet[b]         = 0;
+            watch.begin(bodies, b, false);
         }
         mark[b] = mark_none;
     }

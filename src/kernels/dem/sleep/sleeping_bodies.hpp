@@ -13,10 +13,28 @@ namespace tread::dem
 /// Thresholds for the sleep of bodies.
 struct BodyRestRule
 {
-    double       speed; ///< m/s, largest speed of a body's points at rest
+    double       speed; ///< m/s; no point of a body at rest goes further than speed * rest in a time `rest`
     double       rest;  ///< s, time at rest before a body may sleep, and window over which loads are averaged
     double       load;  ///< change of the mean load that wakes a body, over the load that it carries
     std::int64_t first; ///< first body that may sleep
+};
+
+/// Watch over the motion of awake bodies: how long each has stayed near a place. Arrays by body.
+struct RestWatch
+{
+    Vec3<double>* position;    ///< m, of the place
+    Quat*         orientation; ///< likewise
+    double*       quiet;       ///< s, for which the body has stayed near it
+    std::int32_t* moves; ///< 1: it left the place before in less than BodyRestRule::rest, and may not have stopped
+
+    /// Begins anew at the present place of body b.
+    TREAD_HD void begin(const BodiesView& bodies, std::int64_t b, bool is_moving) const
+    {
+        position[b]    = bodies.position[b];
+        orientation[b] = bodies.orientation[b];
+        quiet[b]       = 0;
+        moves[b]       = is_moving ? 1 : 0;
+    }
 };
 
 /// Load on a sleeping body. Forces in N, torques in N m about its centre of mass.
@@ -111,7 +129,10 @@ template<class Exec>
 struct SleepingBodies
 {
     explicit SleepingBodies(const Exec& exec)
-        : quiet(exec, "body times at rest")
+        : position(exec, "body positions at rest")
+        , orientation(exec, "body orientations at rest")
+        , quiet(exec, "body times at rest")
+        , moves(exec, "moving bodies")
         , mark(exec, "body sleep marks")
         , watch(exec, "loads of sleeping bodies")
         , moved(exec, "bodies of substeps")
@@ -128,11 +149,17 @@ struct SleepingBodies
     double       mass   = 0; ///< kg, of all sleepers
     double       energy = 0; ///< J, elastic, of pairs of sleepers
 
-    Array<Exec, double>       quiet; ///< s, since each body was last faster than the rule's speed; 0 = it is
+    Array<Exec, Vec3<double>> position;    ///< RestWatch::position
+    Array<Exec, Quat>         orientation; ///< RestWatch::orientation
+    Array<Exec, double>       quiet;       ///< RestWatch::quiet
+    Array<Exec, std::int32_t> moves;       ///< RestWatch::moves
+
     Array<Exec, std::int32_t> mark;  ///< SleepMark of each body
     Array<Exec, SleepWatch>   watch; ///< of each body
     Array<Exec, std::int32_t> moved; ///< bodies that the substeps compute: awake ones, and sleepers that they touch
     SleepingPairs<Exec>       pairs;
+
+    RestWatch rest_watch() { return {position.data(), orientation.data(), quiet.data(), moves.data()}; }
 
     /// Records that substeps have taken `time` (s).
     void pass(double time)
