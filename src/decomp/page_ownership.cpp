@@ -4,26 +4,17 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/contact/candidates_kern.hpp"
-
 namespace tread::decomp
 {
 namespace
 {
 
-constexpr std::int32_t farthest_owner = 2;  ///< pages; farthest page that still determines an owner
-constexpr std::int32_t most_reach     = 15; ///< pages; largest reach for which a ball's surroundings are looked up
+constexpr std::int32_t farthest_owner = 2; ///< pages; farthest page that still determines an owner
 
 void keep_each_once(std::vector<std::int32_t>& ranks)
 {
     std::sort(ranks.begin(), ranks.end());
     ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
-}
-
-mpm::Index3 page_at(const PageLattice& lattice, const Vec3<double>& x)
-{
-    const auto along = [&](int c) { return contact::page_coordinate(x[c], lattice.spacing, lattice.stencil_shift); };
-    return {along(0), along(1), along(2)};
 }
 
 /// Calls visit for every page with a key up to `reach` away along each axis, including the page itself.
@@ -109,7 +100,7 @@ std::int32_t PageOwnership::owner_of(std::uint64_t page_key)
 
 std::uint64_t PageOwnership::page_of(const Vec3<double>& place) const
 {
-    return mpm::page_key(page_at(lattice_, place));
+    return mpm::page_key(mpm::page_at(lattice_, place));
 }
 
 std::int32_t PageOwnership::owner_of(const Vec3<double>& place) { return owner_of(page_of(place)); }
@@ -134,22 +125,16 @@ auto PageOwnership::others_near(std::uint64_t page_key, std::int32_t reach) -> c
     return at->second;
 }
 
-Surroundings PageOwnership::surroundings(const Vec3<double>& centre, double radius) const
-{
-    const double pages = std::ceil(radius / (lattice_.spacing * mpm::page_edge));
-    return {page_of(centre), static_cast<std::int32_t>(std::min<double>(pages, most_reach + 1))};
-}
-
 bool PageOwnership::is_within(const Surroundings& around, std::int32_t rank)
 {
-    return around.reach <= most_reach && owner_of(around.page) == rank &&
+    return around.reach <= mpm::most_reach && owner_of(around.page) == rank &&
            others_near(around.page, around.reach).empty();
 }
 
 std::vector<std::int32_t> PageOwnership::owners_near(const Vec3<double>& centre, double radius)
 {
-    const Surroundings around = surroundings(centre, radius);
-    if (around.reach > most_reach) { return all_; }
+    const Surroundings around = mpm::surroundings(lattice_, centre, radius);
+    if (around.reach > mpm::most_reach) { return all_; }
     std::vector<std::int32_t> ranks{owner_of(around.page)};
     for (const OwnedPage& other : others_near(around.page, around.reach))
     {

@@ -7,27 +7,14 @@
 
 #include "backend/vector.hpp"
 #include "decomp/partition.hpp"
-#include "kernels/mpm/pages/page_key.hpp"
+#include "kernels/mpm/pages/page_lattice.hpp"
 
 // Owning rank of any position, on pages of a partition and on pages that it does not contain.
 namespace tread::decomp
 {
 
-/// Mapping from positions to pages, as in kernels/mpm/pages/pages.hpp.
-struct PageLattice
-{
-    double spacing;       ///< m, of the grid
-    double stencil_shift; ///< in spacings
-};
-
-/// A page and the number of pages around it that a query considers; none by default.
-struct Surroundings
-{
-    std::uint64_t page  = mpm::no_page;
-    std::int32_t  reach = 0;
-
-    bool operator==(const Surroundings&) const = default;
-};
+using mpm::PageLattice;
+using mpm::Surroundings;
 
 /// Owner lookup for any page. A page outside the partition, above the sand or beside it, belongs to the owner of the
 /// nearest page of the partition within two pages, or else to that of the page before it by key (the first page's
@@ -48,10 +35,7 @@ public:
     /// neighbourhood of the ball's page is cached, so that later balls there cost next to nothing.
     std::vector<std::int32_t> owners_near(const Vec3<double>& centre, double radius);
 
-    /// Pages that a ball (m) can reach, wherever its centre lies within its page.
-    Surroundings surroundings(const Vec3<double>& centre, double radius) const;
-
-    /// Whether the rank owns all of them; false if they are very many. Caches the answer.
+    /// Whether the rank owns all of these pages; false if they are very many. Caches the answer.
     bool is_within(const Surroundings& around, std::int32_t rank);
 
 private:

@@ -7,6 +7,7 @@
 #include "kernels/contact/samples_kern.hpp"
 #include "kernels/dem/contact/sdf_kern.hpp"
 #include "kernels/mpm/grid/levels.hpp"
+#include "kernels/mpm/pages/page_lattice.hpp"
 
 namespace tread::contact
 {
@@ -36,21 +37,6 @@ struct PageBox
                 low.z + static_cast<std::int32_t>(i / (nx * ny))};
     }
 };
-
-/// Returns the page coordinate of a position along one axis, clamped to [low, high], because a body may be anywhere.
-TREAD_HD std::int32_t page_coordinate(double position, double spacing, double shift, double low, double high)
-{
-    const double page = std::floor((position / spacing - shift) / mpm::page_edge);
-    if (!(page > low)) { return static_cast<std::int32_t>(low); }
-    return static_cast<std::int32_t>(page < high ? page : high);
-}
-
-/// Returns the page coordinate of a position along one axis, clamped to the range that has keys.
-TREAD_HD std::int32_t page_coordinate(double position, double spacing, double stencil_shift)
-{
-    const double limit = mpm::page_bias - 1;
-    return page_coordinate(position, spacing, stencil_shift, -limit, limit);
-}
 
 /// Data of a body for the search.
 struct SearchBody
@@ -89,9 +75,9 @@ TREAD_HD PageBox page_box(const SearchBody& body, const mpm::PagesView& pages, i
     const double       high    = pages.levels == 0 ? mpm::page_bias - 1 : ((level + 1) << mpm::level_bits) - 1;
     const auto         page_at = [&](const Vec3<double>& x) -> mpm::Index3
     {
-        return {page_coordinate(x[0], lattice.spacing, shift, low, high),
-                page_coordinate(x[1], lattice.spacing, shift, low, high),
-                page_coordinate(x[2], lattice.spacing, shift, low, high)};
+        return {mpm::page_coordinate(x[0], lattice.spacing, shift, low, high),
+                mpm::page_coordinate(x[1], lattice.spacing, shift, low, high),
+                mpm::page_coordinate(x[2], lattice.spacing, shift, low, high)};
     };
     const Vec3<double> grown = half + Vec3<double>::Constant(margin);
     return {page_at(centre - grown), page_at(centre + grown)};

@@ -1,6 +1,7 @@
 #include "solver/ranks/body_owners.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -41,10 +42,9 @@ std::vector<std::uint8_t> jointed(const world::World& world)
 
 } // namespace
 
-BodyOwners::BodyOwners(const Communicator& communicator, const world::World& world, double sand_reach)
+BodyOwners::BodyOwners(const Communicator& communicator, const world::World& world)
     : communicator_(communicator)
     , lattice_(page_lattice_of(world))
-    , sand_reach_(sand_reach)
     , bounding_radius_(bounding_radii(world))
     , role_(world.bodies.size())
     , is_jointed_(jointed(world))
@@ -55,86 +55,93 @@ void BodyOwners::follow(const std::vector<std::uint64_t>& keys, const decomp::Pa
 {
     ownership_.emplace(lattice_, keys, ranks);
     pages_version_ = version;
-    inside_.assign(role_.size(), decomp::Surroundings{});
+}
+
+void BodyOwners::Owned::add(std::int32_t body, std::int32_t role, double sign)
+{
+    if (role != dem::role_owner) { return; }
+    count += sign;
+    sum += sign * static_cast<double>(body);
 }
 
 void BodyOwners::assign(const std::vector<Vec3<double>>& position)
 {
     const std::int32_t here = communicator_.rank();
+    ghosts_.clear();
+    owned_ = {};
     for (std::size_t b = 0; b < role_.size(); ++b)
     {
         role_[b] = ownership_->owner_of(position[b]) == here ? dem::role_owner : dem::role_none;
+        owned_.add(static_cast<std::int32_t>(b), role_[b], 1);
     }
 }
+
+double BodyOwners::slack() const { return owner_slack * lattice_.spacing; }
 
 std::int32_t BodyOwners::next_owner(std::size_t body, const Vec3<double>& position)
 {
-    const std::int32_t              own   = communicator_.rank();
-    const double                    slack = std::min(owner_slack * lattice_.spacing, bounding_radius_[body]);
-    const std::vector<std::int32_t> near  = ownership_->owners_near(position, slack);
+    const std::int32_t              own     = communicator_.rank();
+    const double                    near_by = std::min(slack(), bounding_radius_[body]);
+    const std::vector<std::int32_t> near    = ownership_->owners_near(position, near_by);
     return std::find(near.begin(), near.end(), own) != near.end() ? own : ownership_->owner_of(position);
 }
 
-/// Whether this rank owns all pages around one of its bodies. Cached: most bodies have the same surroundings as at the
-/// last check.
-bool BodyOwners::is_inside(std::size_t body, const decomp::Surroundings& around)
+BorderDecisions BodyOwners::decide(const BodiesAtBorders& bodies)
 {
-    if (inside_[body] == around) { return true; }
-    if (!ownership_->is_within(around, communicator_.rank())) { return false; }
-    inside_[body] = around;
-    return true;
-}
-
-std::vector<BodyHolding> BodyOwners::decide(const SearchedBodies& searched)
-{
-    const auto own_reach = [&](std::size_t b) { return bounding_radius_[b] + searched.allowed_displacement[b]; };
-    double     met[2]    = {}; // m, largest search radius of all bodies, and of small ones
-    for (std::size_t b = 0; b < role_.size(); ++b)
+    const std::int32_t here = communicator_.rank();
+    BorderDecisions    found;
+    for (std::size_t i = 0; i < bodies.body.size(); ++i)
     {
-        if (role_[b] != dem::role_owner) { continue; }
-        met[0] = std::max(met[0], own_reach(b));
-        if (searched.is_large[b] == 0) { met[1] = std::max(met[1], own_reach(b)); }
-    }
-    decomp::combine(communicator_, met, 0, 2);
-
-    const double             slack = owner_slack * lattice_.spacing;
-    std::vector<BodyHolding> decided;
-    for (std::size_t b = 0; b < role_.size(); ++b)
-    {
-        if (role_[b] != dem::role_owner) { continue; }
-        const Vec3<double>& position = searched.position[b];
-        const double radius     = own_reach(b) + std::max(met[searched.is_large[b] != 0 ? 0 : 1] + slack, sand_reach_);
-        const bool   everywhere = is_jointed_[b] != 0;
-        if (!everywhere && is_inside(b, ownership_->surroundings(position, radius))) { continue; }
+        const std::int32_t      body       = bodies.body[i];
+        const auto              b          = static_cast<std::size_t>(body);
+        const dem::BorderBody&  ball       = bodies.ball[i];
+        const bool              everywhere = is_jointed_[b] != 0;
+        const mpm::Surroundings around     = mpm::surroundings(lattice_, ball.position, ball.radius);
+        if (!everywhere && ownership_->is_within(around, here))
+        {
+            found.inside.push_back(body);
+            found.around.push_back(around);
+            continue;
+        }
         std::vector<std::int32_t> holders =
-            everywhere ? every_rank(communicator_) : ownership_->owners_near(position, radius);
-        if (holders.size() == 1 && holders.front() == communicator_.rank()) { continue; }
-        decided.push_back({static_cast<std::int32_t>(b), next_owner(b, position), std::move(holders)});
+            everywhere ? every_rank(communicator_) : ownership_->owners_near(ball.position, ball.radius);
+        if (holders.size() == 1 && holders.front() == here) { continue; }
+        found.shared.push_back({body, next_owner(b, ball.position), std::move(holders)});
     }
-    return decided;
+    return found;
 }
 
-void BodyOwners::take_roles(const std::vector<BodyHolding>& decided, const std::vector<BodyHolding>& held)
+RoleChanges BodyOwners::take_roles(const std::vector<BodyHolding>& decided, const std::vector<BodyHolding>& held)
 {
-    for (std::int32_t& role : role_) { role = role == dem::role_owner ? role : dem::role_none; }
-    for (const BodyHolding& body : decided) { role_[static_cast<std::size_t>(body.body)] = dem::role_none; }
+    std::map<std::int32_t, std::int32_t> roles; // of each body that may have another one now
+    for (const std::int32_t ghost : ghosts_) { roles[ghost] = dem::role_none; }
+    for (const BodyHolding& body : decided) { roles[body.body] = dem::role_none; }
+    ghosts_.clear();
     for (const BodyHolding& body : held)
     {
-        const bool own                             = body.owner == communicator_.rank();
-        role_[static_cast<std::size_t>(body.body)] = own ? dem::role_owner : dem::role_ghost;
+        const bool own   = body.owner == communicator_.rank();
+        roles[body.body] = own ? dem::role_owner : dem::role_ghost;
+        if (!own) { ghosts_.push_back(body.body); }
     }
+    RoleChanges changes;
+    for (const auto& [body, role] : roles)
+    {
+        std::int32_t& before = role_[static_cast<std::size_t>(body)];
+        if (before == role) { continue; }
+        owned_.add(body, before, -1);
+        owned_.add(body, role, 1);
+        before = role;
+        changes.body.push_back(body);
+        changes.role.push_back(role);
+    }
+    return changes;
 }
 
 bool BodyOwners::owner_has_changed(const std::vector<BodyHolding>& decided) const
 {
-    double count = 0, sum = 0, leaving = 0; // integers, exact in double
-    for (const std::int32_t body : owned())
-    {
-        ++count;
-        sum += static_cast<double>(body);
-    }
+    double leaving = 0;
     for (const BodyHolding& body : decided) { leaving += body.owner == communicator_.rank() ? 0 : 1; }
-    double sums[] = {count, sum, leaving};
+    double sums[] = {owned_.count, owned_.sum, leaving};
     decomp::combine(communicator_, sums, 3, 0);
     const auto all = static_cast<double>(role_.size());
     if (sums[0] != all || sums[1] != all * (all - 1) / 2)

@@ -6,18 +6,33 @@
 
 #include "decomp/page_map.hpp"
 #include "decomp/page_ownership.hpp"
+#include "kernels/dem/pairs/borders.hpp"
 #include "solver/ranks/body_holding.hpp"
 #include "world/world.hpp"
 
 namespace tread::solver
 {
 
-/// Data of the last search for pairs that the distribution of bodies depends on, on the host; one entry per body.
-struct SearchedBodies
+/// Bodies that the owners decide about, and the ball of each within which other ranks matter.
+struct BodiesAtBorders
 {
-    const Vec3<double>*              position;             ///< m
-    const double*                    allowed_displacement; ///< m, until the next search for pairs
-    const std::vector<std::int32_t>& is_large;             ///< dem::BodySizes::is_large
+    std::vector<std::int32_t> body;
+    const dem::BorderBody*    ball; ///< of each
+};
+
+/// Decisions of this rank about bodies at borders.
+struct BorderDecisions
+{
+    std::vector<BodyHolding>       shared; ///< of bodies that this rank owned and does not hold alone from now on
+    std::vector<std::int32_t>      inside; ///< bodies with no page of another rank around
+    std::vector<mpm::Surroundings> around; ///< of each of these
+};
+
+/// Bodies whose role on this rank has changed, ascending.
+struct RoleChanges
+{
+    std::vector<std::int32_t> body;
+    std::vector<std::int32_t> role; ///< dem::BodyRole
 };
 
 /// Roles of this rank for the bodies of a scene, and the decision who owns and who holds each body, on the host. A body
@@ -26,9 +41,8 @@ struct SearchedBodies
 class BodyOwners
 {
 public:
-    /// `sand_reach`: m, distance beyond a body's surface within which the owner of sand must hold the body. Call
-    /// follow_pages() and assign() before anything else.
-    BodyOwners(const Communicator& communicator, const world::World& world, double sand_reach);
+    /// Call follow_pages() and assign() before anything else.
+    BodyOwners(const Communicator& communicator, const world::World& world);
 
     /// Uses the present owners of pages from now on.
     template<class Exec>
@@ -43,12 +57,16 @@ public:
     /// Gives each body to the owner of its page; there are no ghosts.
     void assign(const std::vector<Vec3<double>>& position);
 
-    /// Decides about the bodies that this rank has owned until now; those that it alone still holds are left out.
-    /// Collective.
-    std::vector<BodyHolding> decide(const SearchedBodies& searched);
+    /// Decides about bodies that this rank has owned until now. All others stay with it alone.
+    BorderDecisions decide(const BodiesAtBorders& bodies);
 
     /// Takes the roles of exchanged decisions.
-    void take_roles(const std::vector<BodyHolding>& decided, const std::vector<BodyHolding>& held);
+    RoleChanges take_roles(const std::vector<BodyHolding>& decided, const std::vector<BodyHolding>& held);
+
+    /// m, how far a body may be from a page that it is said to reach, so that it does not change hands at every search.
+    double slack() const;
+
+    const decomp::PageLattice& lattice() const { return lattice_; }
 
     /// Whether any body of any rank has got a new owner by these decisions. Collective; NumericalError if the ranks
     /// together do not own every body once.
@@ -59,24 +77,33 @@ public:
 
     bool                      owns(std::int64_t body) const;
     std::vector<std::int32_t> owned() const; ///< ascending
+    double                    count() const { return owned_.count; }
 
     /// Page that holds a position (m).
     std::uint64_t page_of(const Vec3<double>& position) const { return ownership_->page_of(position); }
 
 private:
     void         follow(const std::vector<std::uint64_t>& keys, const decomp::PageRanks& ranks, std::int64_t version);
-    bool         is_inside(std::size_t body, const decomp::Surroundings& around);
     std::int32_t next_owner(std::size_t body, const Vec3<double>& position);
+
+    /// Number and sum of the numbers of the bodies that this rank owns: integers, exact in double.
+    struct Owned
+    {
+        double count = 0;
+        double sum   = 0;
+
+        void add(std::int32_t body, std::int32_t role, double sign);
+    };
 
     const Communicator&                  communicator_;
     decomp::PageLattice                  lattice_;
-    double                               sand_reach_;        ///< m
     std::int64_t                         pages_version_ = 0; ///< of the page map that `ownership_` was built from
     std::optional<decomp::PageOwnership> ownership_;
     std::vector<double>                  bounding_radius_; ///< m, by body
     std::vector<std::int32_t>            role_;            ///< by body
     std::vector<std::uint8_t>            is_jointed_;      ///< by body: 1 = every rank holds it, and solves its joints
-    std::vector<decomp::Surroundings>    inside_;          ///< by body: last surroundings inside this rank's pages
+    std::vector<std::int32_t>            ghosts_;          ///< bodies with that role
+    Owned                                owned_;
 };
 
 } // namespace tread::solver

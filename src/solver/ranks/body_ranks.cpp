@@ -3,6 +3,7 @@
 #include "backend/instantiate.hpp"
 #include "decomp/combine.hpp"
 #include "decomp/messages.hpp"
+#include "solver/bodies/bounding_radii.hpp"
 #include "solver/ranks/page_loads.hpp"
 #include "solver/ranks/record_migration.hpp"
 
@@ -14,17 +15,20 @@ BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const wor
                            dem::Bodies<Exec>& bodies)
     : decomposition_(decomposition)
     , exec_(decomposition.transport.exec())
-    , owners_(decomposition.communicator, world, sand_reach)
-    , shared_(decomposition.transport)
-    , position_(exec_, "body positions on the host")
-    , allowed_(exec_, "body allowed displacement on the host")
+    , sand_reach_(sand_reach)
+    , owners_(decomposition.communicator, world)
+    , shared_(decomposition.transport, world.bodies.size())
+    , borders_(exec_)
+    , border_body_(exec_, "bodies at borders on the host")
+    , border_ball_(exec_, "balls of bodies at borders on the host")
     , states_(decomposition.transport, "states of bodies")
     , arriving_(exec_, "bodies arriving")
 {
     owners_.follow_pages(decomposition.owners);
     owners_.assign(world.bodies.position);
     bodies.role.assign(owners_.roles());
-    shared_.plan({}, communicator(), owners_.roles().size());
+    dem::begin_borders(exec_, borders_, bounding_radii(world));
+    shared_.plan({}, communicator());
 }
 
 template<class Exec>
@@ -38,27 +42,39 @@ void BodyRanks<Exec>::sum_wanted_displacement(dem::Pairs<Exec>& pairs) const
 template<class Exec>
 void BodyRanks<Exec>::assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
 {
-    if (pages_have_changed()) { owners_.follow_pages(decomposition_.owners); }
+    if (pages_have_changed())
+    {
+        owners_.follow_pages(decomposition_.owners);
+        dem::forget_inside(exec_, borders_);
+    }
     const std::vector<BodyHolding> decided   = decide(bodies, pairs);
     const ExchangedHoldings        exchanged = exchange_holdings(communicator(), decided);
     const dem::BodiesView          view      = bodies.view();
     send_states(states_to_send(decided), exchanged.arriving,
                 decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.force,
                                 view.torque, view.stiffness, view.locked, pairs.displacement.allowed.data()));
-    owners_.take_roles(decided, exchanged.held);
-    bodies.role.assign(owners_.roles());
+    const RoleChanges changes = owners_.take_roles(decided, exchanged.held);
+    dem::set_roles(exec_, borders_, changes.body, changes.role, bodies);
     if (owners_.owner_has_changed(decided)) { migrate_records(communicator(), pairs, is_large_, decided); }
-    shared_.plan(exchanged.held, communicator(), owners_.roles().size());
+    shared_.plan(exchanged.held, communicator());
 }
 
 template<class Exec>
-std::vector<BodyHolding> BodyRanks<Exec>::decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs)
+std::vector<BodyHolding> BodyRanks<Exec>::decide(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
 {
-    position_.request(bodies.position);
-    allowed_.request(pairs.displacement.allowed);
     if (is_large_.empty()) { is_large_ = pairs.sizes.is_large.to_host(); }
+    std::array<double, 2> met = dem::largest_reaches(exec_, borders_, pairs, bodies.view());
+    decomp::combine(communicator(), met.data(), 0, 2);
+    const double slack = owners_.slack();
+    dem::list_borders(exec_, borders_, pairs, bodies.view(), owners_.lattice(),
+                      {met[0] + slack, met[1] + slack, sand_reach_});
+    border_body_.request(borders_.body);
+    border_ball_.request(borders_.ball);
     synchronize(exec_);
-    return owners_.decide({position_.data(), allowed_.data(), is_large_});
+    const BorderDecisions decided =
+        owners_.decide({{border_body_.data(), border_body_.data() + borders_.body.size()}, border_ball_.data()});
+    dem::keep_inside(exec_, borders_, decided.inside, decided.around);
+    return decided.shared;
 }
 
 /// Bodies whose state this rank sends, by destination.
@@ -102,7 +118,7 @@ void BodyRanks<Exec>::collect(dem::Bodies<Exec>& bodies)
 template<class Exec>
 double BodyRanks<Exec>::load() const
 {
-    return body_load * static_cast<double>(owners_.owned().size());
+    return body_load * owners_.count();
 }
 
 template<class Exec>

@@ -8,7 +8,7 @@
 #include "decomp/decomposition.hpp"
 #include "decomp/exchange.hpp"
 #include "kernels/dem/bodies.hpp"
-#include "kernels/dem/pairs/pairs.hpp"
+#include "kernels/dem/pairs/borders.hpp"
 #include "solver/ranks/body_owners.hpp"
 #include "solver/ranks/shared_bodies.hpp"
 #include "world/world.hpp"
@@ -51,19 +51,21 @@ public:
     const Communicator& communicator() const { return decomposition_.communicator; }
 
 private:
-    std::vector<BodyHolding> decide(const dem::Bodies<Exec>& bodies, const dem::Pairs<Exec>& pairs);
+    std::vector<BodyHolding> decide(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs);
     RankLists                states_to_send(const std::vector<BodyHolding>& decided) const;
     void send_states(const RankLists& leaving, const RankLists& arriving, const decomp::Columns& columns);
 
-    decomp::Decomposition<Exec>&     decomposition_;
-    Exec                             exec_;
-    BodyOwners                       owners_;
-    SharedBodies<Exec>               shared_;
-    FetchedArray<Exec, Vec3<double>> position_; ///< m
-    FetchedArray<Exec, double>       allowed_;  ///< m
-    std::vector<std::int32_t>        is_large_; ///< by body, from Pairs; empty before assign_owners()
-    decomp::Exchange<Exec>           states_;
-    Array<Exec, std::int32_t>        arriving_;
+    decomp::Decomposition<Exec>&        decomposition_;
+    Exec                                exec_;
+    double                              sand_reach_; ///< m
+    BodyOwners                          owners_;
+    SharedBodies<Exec>                  shared_;
+    dem::Borders<Exec>                  borders_;
+    FetchedArray<Exec, std::int32_t>    border_body_;
+    FetchedArray<Exec, dem::BorderBody> border_ball_;
+    std::vector<std::int32_t>           is_large_; ///< by body, from Pairs; empty before assign_owners()
+    decomp::Exchange<Exec>              states_;
+    Array<Exec, std::int32_t>           arriving_;
 };
 
 } // namespace tread::solver

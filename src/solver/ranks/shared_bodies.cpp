@@ -1,31 +1,28 @@
 #include "solver/ranks/shared_bodies.hpp"
 
 #include "backend/instantiate.hpp"
+#include "kernels/dem/pairs/borders.hpp"
 
 namespace tread::solver
 {
 namespace
 {
 
-constexpr std::int32_t alone = -1; ///< place of a body that only one rank holds
-
 /// The bodies of a plan, the row of each for every holder, and where each body's shares begin.
 struct SharingPlan
 {
-    std::vector<std::int32_t> body, first{0}, place, share;
+    std::vector<std::int32_t> body, first{0}, share;
     RankLists                 rows; ///< by rank: rows to send, in ascending order of bodies
 };
 
-SharingPlan list_bodies(const std::vector<BodyHolding>& held, std::size_t ranks, std::size_t bodies)
+SharingPlan list_bodies(const std::vector<BodyHolding>& held, std::size_t ranks)
 {
     SharingPlan plan;
-    plan.place.assign(bodies, alone);
     plan.rows.resize(ranks);
     for (const BodyHolding& one : held)
     {
         if (one.holders.size() < 2) { continue; }
-        const auto row                                 = static_cast<std::int32_t>(plan.body.size());
-        plan.place[static_cast<std::size_t>(one.body)] = row;
+        const auto row = static_cast<std::int32_t>(plan.body.size());
         plan.body.push_back(one.body);
         plan.first.push_back(plan.first.back() + static_cast<std::int32_t>(one.holders.size()));
         for (const std::int32_t holder : one.holders) { plan.rows[static_cast<std::size_t>(holder)].push_back(row); }
@@ -42,21 +39,23 @@ void number_shares(SharingPlan& plan, const std::vector<BodyHolding>& held, std:
     {
         next[r] = next[r - 1] + static_cast<std::int32_t>(plan.rows[r - 1].size());
     }
+    std::int32_t place = 0;
     for (const BodyHolding& one : held)
     {
         if (one.holders.size() < 2) { continue; }
         for (const std::int32_t holder : one.holders)
         {
             const auto r = static_cast<std::size_t>(holder);
-            plan.share.push_back(r == rank ? plan.place[static_cast<std::size_t>(one.body)] : next[r]++);
+            plan.share.push_back(r == rank ? place : next[r]++);
         }
+        ++place;
     }
 }
 
 } // namespace
 
 template<class Exec>
-SharedBodies<Exec>::SharedBodies(decomp::Transport<Exec>& transport)
+SharedBodies<Exec>::SharedBodies(decomp::Transport<Exec>& transport, std::size_t bodies)
     : body_(transport.exec(), "shared bodies")
     , place_(transport.exec(), "places of shared bodies")
     , first_(transport.exec(), "shares of bodies")
@@ -65,18 +64,19 @@ SharedBodies<Exec>::SharedBodies(decomp::Transport<Exec>& transport)
     , stiffness_(transport, "shares of stiffness")
     , speed_(transport, "shares of speeds")
 {
+    place_.assign(std::vector<std::int32_t>(bodies, -1));
 }
 
 template<class Exec>
-void SharedBodies<Exec>::plan(const std::vector<BodyHolding>& held, const Communicator& communicator,
-                              std::size_t bodies)
+void SharedBodies<Exec>::plan(const std::vector<BodyHolding>& held, const Communicator& communicator)
 {
     const auto  rank  = static_cast<std::size_t>(communicator.rank());
-    SharingPlan found = list_bodies(held, static_cast<std::size_t>(communicator.size()), bodies);
+    SharingPlan found = list_bodies(held, static_cast<std::size_t>(communicator.size()));
     found.rows[rank].clear();
     number_shares(found, held, rank);
+    dem::erase_places(place_.exec(), body_, place_);
     body_.assign(found.body);
-    place_.assign(found.place);
+    dem::write_places(place_.exec(), body_, place_);
     first_.assign(found.first);
     row_.assign(found.share);
 

@@ -16,11 +16,11 @@ template<class Exec>
 class SharedBodies
 {
 public:
-    explicit SharedBodies(decomp::Transport<Exec>& transport);
+    /// `bodies`: number of bodies of the scene; none is shared yet.
+    SharedBodies(decomp::Transport<Exec>& transport, std::size_t bodies);
 
-    /// Lists the bodies shared on each route, in the same order on both sides. `held`: ascending; `bodies`: number of
-    /// bodies of the scene.
-    void plan(const std::vector<BodyHolding>& held, const Communicator& communicator, std::size_t bodies);
+    /// Lists the bodies shared on each route, in the same order on both sides. `held`: ascending.
+    void plan(const std::vector<BodyHolding>& held, const Communicator& communicator);
 
     std::int64_t    count() const { return body_.size(); }
     dem::SharedView view();

@@ -77,12 +77,14 @@ TEST(PageOwnership, FindsAllRanksThatABallReaches)
 TEST(PageOwnership, KnowsWhereAllAroundAPageIsOneRanks)
 {
     PageOwnership ownership = row_of_pages();
-    EXPECT_TRUE(ownership.is_within(ownership.surroundings(middle(0, 0, 0), 0.1), 0));
-    EXPECT_FALSE(ownership.is_within(ownership.surroundings(middle(0, 0, 0), 0.1), 1));
-    EXPECT_FALSE(ownership.is_within(ownership.surroundings(middle(1, 0, 0), 0.19), 0)) << "another place in the page";
-    EXPECT_FALSE(ownership.is_within(ownership.surroundings(middle(0, 0, 0), 1e6), 0)) << "too many pages to look at";
-    EXPECT_EQ(ownership.surroundings(middle(1, 0, 0), 0.19), ownership.surroundings(middle(1, 0, 0), 0.3));
-    EXPECT_NE(ownership.surroundings(middle(1, 0, 0), 0.1), Surroundings{});
+    EXPECT_TRUE(ownership.is_within(mpm::surroundings(lattice, middle(0, 0, 0), 0.1), 0));
+    EXPECT_FALSE(ownership.is_within(mpm::surroundings(lattice, middle(0, 0, 0), 0.1), 1));
+    EXPECT_FALSE(ownership.is_within(mpm::surroundings(lattice, middle(1, 0, 0), 0.19), 0))
+        << "another place in the page";
+    EXPECT_FALSE(ownership.is_within(mpm::surroundings(lattice, middle(0, 0, 0), 1e6), 0))
+        << "too many pages to look at";
+    EXPECT_EQ(mpm::surroundings(lattice, middle(1, 0, 0), 0.19), mpm::surroundings(lattice, middle(1, 0, 0), 0.3));
+    EXPECT_NE(mpm::surroundings(lattice, middle(1, 0, 0), 0.1), Surroundings{});
 }
 
 TEST(PageOwnership, ABallThatPassesACornerDoesNotReachThePageBehindIt)

@@ -1,0 +1,207 @@
+#pragma once
+
+#include "backend/instantiate.hpp"
+#include "backend/reduce.hpp"
+#include "kernels/dem/pairs/borders.hpp"
+#include "kernels/dem/pairs/select.hpp"
+
+// Steps of borders.hpp, for both backends; borders.cpp and borders.cu provide for_each.
+namespace tread::dem::border_steps
+{
+
+template<class T>
+struct SetAt
+{
+    const std::int32_t* at;
+    const T*            value;
+    T*                  values;
+
+    TREAD_HD void operator()(std::int64_t i) const { values[at[i]] = value[i]; }
+};
+
+template<class T>
+struct Fill
+{
+    T  value;
+    T* values;
+
+    TREAD_HD void operator()(std::int64_t i) const { values[i] = value; }
+};
+
+template<class Exec, class T>
+void set_at(const Exec& exec, const char* name, const std::vector<std::int32_t>& body, const std::vector<T>& value,
+            Array<Exec, std::int32_t>& at, Array<Exec, T>& rows, T* values)
+{
+    if (body.empty()) { return; }
+    at.assign(body);
+    rows.assign(value);
+    for_each(exec, name, at.size(), SetAt<T>{at.data(), rows.data(), values});
+}
+
+struct WritePlace
+{
+    const std::int32_t* body;
+    std::int32_t*       place;
+
+    TREAD_HD void operator()(std::int64_t i) const { place[body[i]] = static_cast<std::int32_t>(i); }
+};
+
+struct ErasePlace
+{
+    const std::int32_t* body;
+    std::int32_t*       place;
+
+    TREAD_HD void operator()(std::int64_t i) const { place[body[i]] = -1; }
+};
+
+/// Own reaches of a rank's bodies; those of others are 0.
+struct OwnReach
+{
+    BodiesView          bodies;
+    const double*       bounding_radius;
+    const double*       allowed;
+    const std::int32_t* is_large;
+
+    TREAD_HD double of(std::int64_t b) const { return bounding_radius[b] + allowed[b]; }
+};
+
+struct WriteReaches
+{
+    OwnReach own;
+    double*  rows; ///< [bodies x 2]
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const double reach = own.bodies.is_owned(b) ? own.of(b) : 0.0;
+        rows[2 * b]        = reach;
+        rows[2 * b + 1]    = own.is_large[b] == 0 ? reach : 0.0;
+    }
+};
+
+struct Ball
+{
+    OwnReach    own;
+    BorderReach reach;
+
+    TREAD_HD BorderBody operator()(std::int64_t b) const
+    {
+        const double met = own.is_large[b] != 0 ? reach.met_by_large : reach.met_by_small;
+        return {own.bodies.position[b], own.of(b) + (met > reach.sand ? met : reach.sand)};
+    }
+};
+
+struct IsAtBorder
+{
+    Ball                     ball;
+    mpm::PageLattice         lattice;
+    const mpm::Surroundings* inside;
+
+    TREAD_HD bool operator()(std::int64_t b) const
+    {
+        if (!ball.own.bodies.is_owned(b)) { return false; }
+        const BorderBody body = ball(b);
+        return !(mpm::surroundings(lattice, body.position, body.radius) == inside[b]);
+    }
+};
+
+struct WriteBalls
+{
+    Ball                ball;
+    const std::int32_t* body;
+    BorderBody*         rows;
+
+    TREAD_HD void operator()(std::int64_t i) const { rows[i] = ball(body[i]); }
+};
+
+template<class Exec>
+OwnReach own_reach(const Borders<Exec>& borders, const Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    return {bodies, borders.bounding_radius.data(), pairs.displacement.allowed.data(), pairs.sizes.is_large.data()};
+}
+
+} // namespace tread::dem::border_steps
+
+namespace tread::dem
+{
+
+template<class Exec>
+void begin_borders(const Exec& exec, Borders<Exec>& borders, const std::vector<double>& bounding_radius)
+{
+    borders.bounding_radius.assign(bounding_radius);
+    borders.inside.resize(borders.bounding_radius.size());
+    forget_inside(exec, borders);
+}
+
+template<class Exec>
+void forget_inside(const Exec& exec, Borders<Exec>& borders)
+{
+    for_each(exec, "forget surroundings", borders.inside.size(),
+             border_steps::Fill<mpm::Surroundings>{{}, borders.inside.data()});
+}
+
+template<class Exec>
+void keep_inside(const Exec& exec, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
+                 const std::vector<mpm::Surroundings>& around)
+{
+    border_steps::set_at(exec, "keep surroundings", body, around, borders.at, borders.around, borders.inside.data());
+}
+
+template<class Exec>
+std::array<double, 2> largest_reaches(const Exec& exec, Borders<Exec>& borders, Pairs<Exec>& pairs,
+                                      const BodiesView& bodies)
+{
+    pairs.measure.resize(2 * bodies.count + 2);
+    double* rows = pairs.measure.data();
+    for_each(exec, "reaches of bodies", bodies.count,
+             border_steps::WriteReaches{border_steps::own_reach(borders, pairs, bodies), rows});
+    largest_of_rows(exec, rows, bodies.count, 2, rows + 2 * bodies.count);
+    return read(exec, reinterpret_cast<const std::array<double, 2>*>(rows + 2 * bodies.count));
+}
+
+template<class Exec>
+void list_borders(const Exec& exec, Borders<Exec>& borders, Pairs<Exec>& pairs, const BodiesView& bodies,
+                  const mpm::PageLattice& lattice, const BorderReach& reach)
+{
+    const border_steps::Ball ball{border_steps::own_reach(borders, pairs, bodies), reach};
+    select(exec, "bodies at borders", bodies.count, border_steps::IsAtBorder{ball, lattice, borders.inside.data()},
+           pairs.search.found, pairs.sort, borders.body);
+    borders.ball.resize(borders.body.size());
+    for_each(exec, "balls of bodies at borders", borders.body.size(),
+             border_steps::WriteBalls{ball, borders.body.data(), borders.ball.data()});
+}
+
+template<class Exec>
+void set_roles(const Exec& exec, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
+               const std::vector<std::int32_t>& role, Bodies<Exec>& bodies)
+{
+    border_steps::set_at(exec, "set roles", body, role, borders.at, borders.role, bodies.role.data());
+}
+
+template<class Exec>
+void write_places(const Exec& exec, const Array<Exec, std::int32_t>& body, Array<Exec, std::int32_t>& place)
+{
+    for_each(exec, "write places", body.size(), border_steps::WritePlace{body.data(), place.data()});
+}
+
+template<class Exec>
+void erase_places(const Exec& exec, const Array<Exec, std::int32_t>& body, Array<Exec, std::int32_t>& place)
+{
+    for_each(exec, "erase places", body.size(), border_steps::ErasePlace{body.data(), place.data()});
+}
+
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void                  begin_borders(const Exec&, Borders<Exec>&, const std::vector<double>&);             \
+    template void                  forget_inside(const Exec&, Borders<Exec>&);                                         \
+    template void                  keep_inside(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,          \
+                                               const std::vector<mpm::Surroundings>&);                                 \
+    template std::array<double, 2> largest_reaches(const Exec&, Borders<Exec>&, Pairs<Exec>&, const BodiesView&);      \
+    template void list_borders(const Exec&, Borders<Exec>&, Pairs<Exec>&, const BodiesView&, const mpm::PageLattice&,  \
+                               const BorderReach&);                                                                    \
+    template void set_roles(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,                             \
+                            const std::vector<std::int32_t>&, Bodies<Exec>&);                                          \
+    template void write_places(const Exec&, const Array<Exec, std::int32_t>&, Array<Exec, std::int32_t>&);             \
+    template void erase_places(const Exec&, const Array<Exec, std::int32_t>&, Array<Exec, std::int32_t>&)
+TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+} // namespace tread::dem
