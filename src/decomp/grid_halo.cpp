@@ -94,6 +94,21 @@ void GridHalo<Exec, Real>::plan(mpm::Pages<Exec>& pages, const mpm::GridWalls& w
     shared_.total.resize(count * mpm::node_page_values);
 }
 
+template<class Exec, class Real>
+void GridHalo<Exec, Real>::resume(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls)
+{
+    const PageKeys    listed = pages.node_page_key.to_host();
+    std::vector<bool> is_reached(listed.size(), false);
+    for (const std::int32_t page : pages.node_page_of.to_host()) { is_reached[static_cast<std::size_t>(page)] = true; }
+    PageKeys reached;
+    for (std::size_t page = 0; page < listed.size(); ++page)
+    {
+        if (is_reached[page]) { reached.push_back(listed[page]); }
+    }
+    if (reached.size() < listed.size()) { mpm::set_node_pages(decomposition_.transport.exec(), pages, reached); }
+    plan(pages, walls);
+}
+
 /// Uses all pages with a tile: points may reach one that is empty now before pages are rebuilt.
 template<class Exec, class Real>
 void GridHalo<Exec, Real>::list_border(const mpm::Pages<Exec>& pages, const std::vector<std::int32_t>& shared_number)

@@ -71,11 +71,9 @@ void Driver<Exec, Real>::write_checkpoint()
         io::CheckpointWriter writer(communicator_, path, state_bytes());
         writer.number("step", loop_.progress.steps);
         io::write_provenance(writer.file(), options_.provenance, communicator_.broadcast(io::utc_now()));
-        const solver::Fidelity fidelity =
-            simulation_.saves_exactly() ? solver::Fidelity::exact : solver::Fidelity::physical;
-        writer.text("fidelity", fidelity == solver::Fidelity::exact ? exact_word : "physical");
+        writer.text("fidelity", exact_word);
         writer.text("scene", scene::resolved_toml(scene_));
-        solver::StateFile file(communicator_, writer, fidelity);
+        solver::StateFile file(communicator_, writer, solver::Fidelity::exact);
         transfer(file);
         const std::int64_t bytes = writer.finish();
         checkpoints.newest       = directory_.within(path);

@@ -9,6 +9,7 @@
 #include "solver/bodies/body_reaches.hpp"
 #include "solver/ledger/contact_guards.hpp"
 #include "solver/pace_limits.hpp"
+#include "solver/ranks/page_owners.hpp"
 #include "solver/state_file.hpp"
 #include "world/terrain_bins.hpp"
 
@@ -364,6 +365,7 @@ std::vector<double> Simulation<Exec, Real>::surface_heights(const world::ColumnL
 template<class Exec, class Real>
 void Simulation<Exec, Real>::transfer(StateFile& file)
 {
+    if (decomposition_ != nullptr && file.exact()) { transfer_page_owners(file, *decomposition_); }
     if (balance_ && file.exact()) { balance_->transfer(file); }
     if (sand_) { sand_->transfer(file, world_.sand); }
     if (rigid_) { rigid_->transfer(file); }

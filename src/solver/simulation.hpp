@@ -132,10 +132,6 @@ public:
     /// Call when measured(). Saving does not change later results.
     void transfer(StateFile& file);
 
-    /// Whether a checkpoint of the present state restarts to the bit: on several ranks the lists of bodies and their
-    /// contacts are not saved.
-    bool saves_exactly() const { return decomposition_ == nullptr || !rigid_; }
-
     Ledger&       ledger() { return *ledger_; }
     const Ledger& ledger() const { return *ledger_; }
 

@@ -28,6 +28,15 @@ class Restart(RestartTest):
     def test_sand_and_a_body_restarted_give_the_same_bits(self):
         self.check_uninterrupted_is_stopped_and_restarted(lasting(MIXED, 0.1))
 
+    def test_sand_on_three_ranks_restarted_gives_the_same_bits(self):
+        self.check_uninterrupted_is_stopped_and_restarted(lasting(SCENE, 0.1), (*MPIRUN, "-n", "3"))
+
+    def test_bodies_on_two_ranks_restarted_give_the_same_bits(self):
+        self.check_uninterrupted_is_stopped_and_restarted(lasting(BODIES, 0.3), (*MPIRUN, "-n", "2"))
+
+    def test_sand_and_jointed_bodies_on_three_ranks_restarted_give_the_same_bits(self):
+        self.check_uninterrupted_is_stopped_and_restarted(lasting(JOINTED, 0.06), (*MPIRUN, "-n", "3"))
+
     def test_a_lowering_restarted_gives_the_same_bits(self):
         lowered = 'until = "lowered"\nmax_duration = 0.5\nlower = { body = "roller", speed = 0.02 }\n'
         text = (SCENE + BODY.replace("0.3]", '"on surface"]\ngap = 0.002')).replace("duration = 0.02\n", lowered, 1)

@@ -102,10 +102,10 @@ class RestartTest(CommandTest):
             for field, values in ours.items():
                 self.assertEqual(values.tobytes(), theirs[field].tobytes(), f"{name} {field}")
 
-    def check_uninterrupted_is_stopped_and_restarted(self, text):
+    def check_uninterrupted_is_stopped_and_restarted(self, text, launcher=()):
         whole = self.directory / "whole"
-        self.run_scene(text, whole, "--set=checkpoint.every_wall=0")
-        job = self.begin(text, EVERY_FEW_STEPS)
+        self.run_scene(text, whole, "--set=checkpoint.every_wall=0", launcher=launcher)
+        job = self.begin(text, EVERY_FEW_STEPS, launcher=launcher)
         self.wait_for(self.checkpoints, job)
         job.send_signal(signal.SIGUSR2)
         said = self.end(job, 75)
@@ -115,7 +115,7 @@ class RestartTest(CommandTest):
         self.assertTrue((self.output / stopped["checkpoint"]).exists())
         self.assertEqual((self.output / "checkpoints" / "latest").read_text().strip(),
                          stopped["checkpoint"].split("/")[1])
-        self.run_scene(text, self.output, EVERY_FEW_STEPS, "--restart", "auto")
+        self.run_scene(text, self.output, EVERY_FEW_STEPS, "--restart", "auto", launcher=launcher)
         ended = self.summary()
         self.assertEqual((ended["status"], ended["restarts"], ended["start"]), ("finished", 1, stopped["start"]))
         self.assertEqual(ended["steps"], self.summary(whole)["steps"])

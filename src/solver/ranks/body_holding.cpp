@@ -1,6 +1,7 @@
 #include "solver/ranks/body_holding.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "decomp/messages.hpp"
 
@@ -16,7 +17,41 @@ void write_words(std::vector<std::int32_t>& words, const BodyHolding& body)
     words.insert(words.end(), body.holders.begin(), body.holders.end());
 }
 
+/// Whether these are holders of a body that `owner` shares: ascending, and it is among them.
+bool can_hold(const std::vector<std::int32_t>& holders, std::int32_t owner, std::int32_t ranks)
+{
+    return holders.size() > 1 && std::is_sorted(holders.begin(), holders.end(), std::less_equal<>()) &&
+           holders.front() >= 0 && holders.back() < ranks &&
+           std::binary_search(holders.begin(), holders.end(), owner);
+}
+
 } // namespace
+
+std::vector<std::int32_t> words_of(const std::vector<BodyHolding>& holdings)
+{
+    std::vector<std::int32_t> words;
+    for (const BodyHolding& body : holdings) { write_words(words, body); }
+    return words;
+}
+
+std::optional<std::vector<BodyHolding>> read_holdings(const std::vector<std::int32_t>& words, std::int32_t owner,
+                                                      std::int32_t ranks, std::size_t bodies)
+{
+    std::vector<BodyHolding> holdings;
+    for (auto word = words.begin(); word != words.end();)
+    {
+        const auto left = words.end() - word;
+        if (left < 3 || word[2] < 0 || word[2] > left - 3) { return std::nullopt; }
+        const auto         first = word + 3, last = first + word[2];
+        const BodyHolding  read{word[0], word[1], {first, last}};
+        const std::int32_t least = holdings.empty() ? 0 : holdings.back().body + 1;
+        const bool         known = read.body >= least && static_cast<std::size_t>(read.body) < bodies;
+        if (!known || read.owner != owner || !can_hold(read.holders, owner, ranks)) { return std::nullopt; }
+        holdings.push_back(read);
+        word = last;
+    }
+    return holdings;
+}
 
 ExchangedHoldings exchange_holdings(const Communicator& communicator, const std::vector<BodyHolding>& decided)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/communicator.hpp"
@@ -27,6 +28,14 @@ struct ExchangedHoldings
     std::vector<BodyHolding> held;     ///< bodies that this rank shares from now on, ascending
     RankLists                arriving; ///< by rank: bodies whose state it sends
 };
+
+/// Writes holdings as words of a message or a file: body, owner, number of holders and holders of each.
+std::vector<std::int32_t> words_of(const std::vector<BodyHolding>& holdings);
+
+/// Reads what words_of has written; empty where these words are none of its, for `bodies` bodies that `owner`, one of
+/// `ranks` ranks, shares with others.
+std::optional<std::vector<BodyHolding>> read_holdings(const std::vector<std::int32_t>& words, std::int32_t owner,
+                                                      std::int32_t ranks, std::size_t bodies);
 
 /// Sends the decisions of this rank to the holders, and returns those that concern this rank. Collective.
 ExchangedHoldings exchange_holdings(const Communicator& communicator, const std::vector<BodyHolding>& decided);

@@ -76,6 +76,25 @@ void BodyOwners::assign(const std::vector<Vec3<double>>& position)
     }
 }
 
+void BodyOwners::restore(const std::vector<std::int32_t>& owned, const std::vector<BodyHolding>& held)
+{
+    std::fill(role_.begin(), role_.end(), dem::role_none);
+    ghosts_.clear();
+    owned_ = {};
+    for (const std::int32_t body : owned)
+    {
+        role_[static_cast<std::size_t>(body)] = dem::role_owner;
+        owned_.add(body, dem::role_owner, 1);
+    }
+    for (const BodyHolding& body : held)
+    {
+        std::int32_t& role = role_[static_cast<std::size_t>(body.body)];
+        if (role == dem::role_owner) { continue; }
+        role = dem::role_ghost;
+        ghosts_.push_back(body.body);
+    }
+}
+
 double BodyOwners::slack() const { return owner_slack * lattice_.spacing; }
 
 std::int32_t BodyOwners::next_owner(std::size_t body, const Vec3<double>& position)
@@ -137,18 +156,21 @@ RoleChanges BodyOwners::take_roles(const std::vector<BodyHolding>& decided, cons
     return changes;
 }
 
+bool BodyOwners::are_complete() const
+{
+    double sums[] = {owned_.count, owned_.sum};
+    decomp::combine(communicator_, sums, 2, 0);
+    const auto all = static_cast<double>(role_.size());
+    return sums[0] == all && sums[1] == all * (all - 1) / 2;
+}
+
 bool BodyOwners::owner_has_changed(const std::vector<BodyHolding>& decided) const
 {
+    if (!are_complete()) { throw NumericalError("a body was lost on its way from rank to rank"); }
     double leaving = 0;
     for (const BodyHolding& body : decided) { leaving += body.owner == communicator_.rank() ? 0 : 1; }
-    double sums[] = {owned_.count, owned_.sum, leaving};
-    decomp::combine(communicator_, sums, 3, 0);
-    const auto all = static_cast<double>(role_.size());
-    if (sums[0] != all || sums[1] != all * (all - 1) / 2)
-    {
-        throw NumericalError("a body was lost on its way from rank to rank");
-    }
-    return sums[2] > 0;
+    decomp::combine(communicator_, &leaving, 1, 0);
+    return leaving > 0;
 }
 
 bool BodyOwners::owns(std::int64_t body) const { return role_[static_cast<std::size_t>(body)] == dem::role_owner; }

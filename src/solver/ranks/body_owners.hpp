@@ -57,6 +57,9 @@ public:
     /// Gives each body to the owner of its page; there are no ghosts.
     void assign(const std::vector<Vec3<double>>& position);
 
+    /// Takes the bodies that this rank owned when a state was saved, and the holders of those that it shared.
+    void restore(const std::vector<std::int32_t>& owned, const std::vector<BodyHolding>& held);
+
     /// Decides about bodies that this rank has owned until now. All others stay with it alone.
     BorderDecisions decide(const BodiesAtBorders& bodies);
 
@@ -67,6 +70,9 @@ public:
     double slack() const;
 
     const decomp::PageLattice& lattice() const { return lattice_; }
+
+    /// Whether the ranks together own every body once. Collective.
+    bool are_complete() const;
 
     /// Whether any body of any rank has got a new owner by these decisions. Collective; NumericalError if the ranks
     /// together do not own every body once.

@@ -1,5 +1,11 @@
 #include "solver/ranks/body_ranks.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "backend/instantiate.hpp"
 #include "decomp/combine.hpp"
 #include "decomp/messages.hpp"
@@ -42,13 +48,9 @@ void BodyRanks<Exec>::sum_wanted_displacement(dem::Pairs<Exec>& pairs) const
 template<class Exec>
 void BodyRanks<Exec>::assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
 {
-    if (pages_have_changed())
-    {
-        owners_.follow_pages(decomposition_.owners);
-        dem::forget_inside(exec_, borders_);
-    }
+    if (pages_have_changed()) { follow_pages(); }
     const std::vector<BodyHolding> decided   = decide(bodies, pairs);
-    const ExchangedHoldings        exchanged = exchange_holdings(communicator(), decided);
+    ExchangedHoldings              exchanged = exchange_holdings(communicator(), decided);
     const dem::BodiesView          view      = bodies.view();
     send_states(states_to_send(decided), exchanged.arriving,
                 decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.force,
@@ -56,7 +58,48 @@ void BodyRanks<Exec>::assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>&
     const RoleChanges changes = owners_.take_roles(decided, exchanged.held);
     dem::set_roles(exec_, borders_, changes.body, changes.role, bodies);
     if (owners_.owner_has_changed(decided)) { migrate_records(communicator(), pairs, is_large_, decided); }
-    shared_.plan(exchanged.held, communicator());
+    held_ = std::move(exchanged.held);
+    shared_.plan(held_, communicator());
+}
+
+template<class Exec>
+void BodyRanks<Exec>::follow_pages()
+{
+    owners_.follow_pages(decomposition_.owners);
+    dem::forget_inside(exec_, borders_);
+}
+
+template<class Exec>
+void BodyRanks<Exec>::transfer(StateFile& file, dem::Bodies<Exec>& bodies)
+{
+    const std::int32_t        here  = communicator().rank();
+    const std::size_t         count = owners_.roles().size();
+    std::vector<BodyHolding>  own;
+    std::vector<std::int32_t> owned = owners_.owned();
+    std::copy_if(held_.begin(), held_.end(), std::back_inserter(own),
+                 [&](const BodyHolding& body) { return body.owner == here; });
+    std::vector<std::int32_t> words   = words_of(own);
+    bool                      follows = !pages_have_changed();
+
+    const auto held = [&](const std::vector<std::int32_t>& values) -> accept::Verdict
+    {
+        if (read_holdings(values, here, communicator().size(), count)) { return {}; }
+        return accept::Refusal{-1, "other words", "body, owner, number of holders and holders of shared bodies"};
+    };
+    file.own("ranks/body", owned, accept::all(accept::index(count), accept::ascending(), accept::distinct()));
+    file.own("ranks/holders", words, held);
+    file.numbers("ranks/follows_pages", follows);
+    if (!file.loads()) { return; }
+
+    held_ = exchange_holdings(communicator(), read_holdings(words, here, communicator().size(), count).value()).held;
+    owners_.restore(owned, held_);
+    if (!owners_.are_complete())
+    {
+        file.refuse("ranks/body", {-1, "other bodies", fmt::format("each of {} bodies on one rank", count)});
+    }
+    bodies.role.assign(owners_.roles());
+    shared_.plan(held_, communicator());
+    if (follows) { follow_pages(); }
 }
 
 template<class Exec>
@@ -112,7 +155,8 @@ void BodyRanks<Exec>::collect(dem::Bodies<Exec>& bodies)
     leaving[rank].clear();
     const dem::BodiesView view = bodies.view();
     send_states(leaving, arriving,
-                decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity));
+                decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.force,
+                                view.torque, view.stiffness, view.locked));
 }
 
 template<class Exec>

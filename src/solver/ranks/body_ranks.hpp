@@ -11,6 +11,7 @@
 #include "kernels/dem/pairs/borders.hpp"
 #include "solver/ranks/body_owners.hpp"
 #include "solver/ranks/shared_bodies.hpp"
+#include "solver/state_file.hpp"
 #include "world/world.hpp"
 
 namespace tread::solver
@@ -35,6 +36,10 @@ public:
     /// they may be in contact. Call between dem::allow_displacement and dem::list_pairs.
     void assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs);
 
+    /// Saves or loads who owns and who holds which body, as part of an exact state; the owners of pages are loaded
+    /// before.
+    void transfer(StateFile& file, dem::Bodies<Exec>& bodies);
+
     /// Gathers the state of all bodies on every rank; valid until they move.
     void collect(dem::Bodies<Exec>& bodies);
 
@@ -51,6 +56,7 @@ public:
     const Communicator& communicator() const { return decomposition_.communicator; }
 
 private:
+    void                     follow_pages();
     std::vector<BodyHolding> decide(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs);
     RankLists                states_to_send(const std::vector<BodyHolding>& decided) const;
     void send_states(const RankLists& leaving, const RankLists& arriving, const decomp::Columns& columns);
@@ -60,6 +66,7 @@ private:
     double                              sand_reach_; ///< m
     BodyOwners                          owners_;
     SharedBodies<Exec>                  shared_;
+    std::vector<BodyHolding>            held_; ///< bodies that this rank shares, ascending
     dem::Borders<Exec>                  borders_;
     FetchedArray<Exec, std::int32_t>    border_body_;
     FetchedArray<Exec, dem::BorderBody> border_ball_;

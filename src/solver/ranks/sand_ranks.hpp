@@ -24,11 +24,8 @@ public:
     std::int64_t                         moved() const { return moved_; }
     const decomp::Migration<Exec, Real>& migration() const { return migration_; }
 
-    /// Saves or loads the ownership of pages; requires the same number of ranks.
-    void transfer(StateFile& file);
-
-    /// Restores the halo plan after that, for the pages ordered then.
-    void resume(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls) { halo_.plan(pages, walls); }
+    /// Restores the halo plan for loaded pages, whose owners are known.
+    void resume(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls) { halo_.resume(pages, walls); }
 
     decomp::GridHalo<Exec, Real>& halo() { return halo_; }
     const Communicator&           communicator() const { return decomposition_.communicator; }

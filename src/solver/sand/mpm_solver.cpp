@@ -246,7 +246,6 @@ void MpmSolver<Exec, Real>::transfer_lists(StateFile& file, const world::Sand& b
     order_.pages.for_each_field(
         [&](const std::string& name, auto& array)
         { file.own("pages/" + name, array, [&](const auto& values) { return bounds(name, values); }); });
-    if (ranks_) { ranks_->transfer(file); }
     if (file.loads())
     {
         if (ranks_) { ranks_->resume(order_.pages, grid_.walls); }
