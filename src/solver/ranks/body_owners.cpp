@@ -156,21 +156,24 @@ RoleChanges BodyOwners::take_roles(const std::vector<BodyHolding>& decided, cons
     return changes;
 }
 
-bool BodyOwners::are_complete() const
+std::optional<double> BodyOwners::sum_if_complete(double value) const
 {
-    double sums[] = {owned_.count, owned_.sum};
-    decomp::combine(communicator_, sums, 2, 0);
+    double sums[] = {owned_.count, owned_.sum, value};
+    decomp::combine(communicator_, sums, 3, 0);
     const auto all = static_cast<double>(role_.size());
-    return sums[0] == all && sums[1] == all * (all - 1) / 2;
+    if (sums[0] != all || sums[1] != all * (all - 1) / 2) { return std::nullopt; }
+    return sums[2];
 }
+
+bool BodyOwners::are_complete() const { return sum_if_complete(0).has_value(); }
 
 bool BodyOwners::owner_has_changed(const std::vector<BodyHolding>& decided) const
 {
-    if (!are_complete()) { throw NumericalError("a body was lost on its way from rank to rank"); }
     double leaving = 0;
     for (const BodyHolding& body : decided) { leaving += body.owner == communicator_.rank() ? 0 : 1; }
-    decomp::combine(communicator_, &leaving, 1, 0);
-    return leaving > 0;
+    const std::optional<double> of_all = sum_if_complete(leaving);
+    if (!of_all) { throw NumericalError("a body was lost on its way from rank to rank"); }
+    return *of_all > 0;
 }
 
 bool BodyOwners::owns(std::int64_t body) const { return role_[static_cast<std::size_t>(body)] == dem::role_owner; }

@@ -92,6 +92,9 @@ private:
     void         follow(const std::vector<std::uint64_t>& keys, const decomp::PageRanks& ranks, std::int64_t version);
     std::int32_t next_owner(std::size_t body, const Vec3<double>& position);
 
+    /// Sum over ranks of a value; empty if the ranks together do not own every body once. Collective.
+    std::optional<double> sum_if_complete(double value) const;
+
     /// Number and sum of the numbers of the bodies that this rank owns: integers, exact in double.
     struct Owned
     {
