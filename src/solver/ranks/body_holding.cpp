@@ -20,8 +20,8 @@ void write_words(std::vector<std::int32_t>& words, const BodyHolding& body)
 /// Whether these are holders of a body that `owner` shares: ascending, and it is among them.
 bool can_hold(const std::vector<std::int32_t>& holders, std::int32_t owner, std::int32_t ranks)
 {
-    return holders.size() > 1 && std::is_sorted(holders.begin(), holders.end(), std::less_equal<>()) &&
-           holders.front() >= 0 && holders.back() < ranks &&
+    const bool ascends = std::adjacent_find(holders.begin(), holders.end(), std::greater_equal<>()) == holders.end();
+    return holders.size() > 1 && ascends && holders.front() >= 0 && holders.back() < ranks &&
            std::binary_search(holders.begin(), holders.end(), owner);
 }
 

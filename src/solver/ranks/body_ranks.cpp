@@ -11,7 +11,6 @@
 #include "decomp/messages.hpp"
 #include "solver/bodies/bounding_radii.hpp"
 #include "solver/ranks/page_loads.hpp"
-#include "solver/ranks/record_migration.hpp"
 
 namespace tread::solver
 {
@@ -27,6 +26,7 @@ BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const wor
     , borders_(exec_)
     , border_body_(exec_, "bodies at borders on the host")
     , border_ball_(exec_, "balls of bodies at borders on the host")
+    , records_(exec_, world.bodies.size())
     , states_(decomposition.transport, "states of bodies")
     , arriving_(exec_, "bodies arriving")
 {
@@ -57,7 +57,7 @@ void BodyRanks<Exec>::assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>&
                                 view.torque, view.stiffness, view.locked, pairs.displacement.allowed.data()));
     const RoleChanges changes = owners_.take_roles(decided, exchanged.held);
     dem::set_roles(exec_, borders_, changes.body, changes.role, bodies);
-    if (owners_.owner_has_changed(decided)) { migrate_records(communicator(), pairs, is_large_, decided); }
+    if (owners_.owner_has_changed(decided)) { records_.run(communicator(), pairs, is_large_, decided); }
     held_ = std::move(exchanged.held);
     shared_.plan(held_, communicator());
 }

@@ -10,6 +10,7 @@
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/pairs/borders.hpp"
 #include "solver/ranks/body_owners.hpp"
+#include "solver/ranks/record_migration.hpp"
 #include "solver/ranks/shared_bodies.hpp"
 #include "solver/state_file.hpp"
 #include "world/world.hpp"
@@ -71,6 +72,7 @@ private:
     FetchedArray<Exec, std::int32_t>    border_body_;
     FetchedArray<Exec, dem::BorderBody> border_ball_;
     std::vector<std::int32_t>           is_large_; ///< by body, from Pairs; empty before assign_owners()
+    RecordMigration<Exec>               records_;
     decomp::Exchange<Exec>              states_;
     Array<Exec, std::int32_t>           arriving_;
 };

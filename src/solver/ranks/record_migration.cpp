@@ -1,6 +1,5 @@
 #include "solver/ranks/record_migration.hpp"
 
-#include <algorithm>
 #include <map>
 
 #include "backend/instantiate.hpp"
@@ -13,15 +12,16 @@ namespace tread::solver
 namespace
 {
 
+using Records = std::vector<world::ContactRecord>;
+
 template<class Exec>
-std::vector<world::ContactRecord> last_records(const dem::Pairs<Exec>& pairs)
+Records on_host(const dem::RecordRows<Exec>& rows)
 {
-    const std::vector<std::uint64_t>  keys    = pairs.last.key.to_host();
-    const std::vector<dem::Patch>     patches = pairs.last.patch.to_host();
-    const std::vector<dem::Rolling>   rolling = pairs.last.rolling.to_host();
-    const std::vector<Vec3<double>>   places  = pairs.patches.last_place.to_host();
-    std::vector<world::ContactRecord> records;
-    records.reserve(keys.size());
+    const std::vector<std::uint64_t> keys    = rows.key.to_host();
+    const std::vector<dem::Patch>    patches = rows.patch.to_host();
+    const std::vector<dem::Rolling>  rolling = rows.rolling.to_host();
+    const std::vector<Vec3<double>>  places  = rows.place.to_host();
+    Records                          records;
     for (std::size_t p = 0; p < keys.size(); ++p)
     {
         records.push_back({keys[p], patches[p], rolling.empty() ? dem::no_rolling() : rolling[p],
@@ -30,30 +30,33 @@ std::vector<world::ContactRecord> last_records(const dem::Pairs<Exec>& pairs)
     return records;
 }
 
+/// Rows of records, with all arrays.
 template<class Exec>
-void put_back(const std::vector<world::ContactRecord>& records, dem::Pairs<Exec>& pairs)
+dem::RecordRows<Exec> rows_of(const Exec& exec, const Records& records)
 {
-    std::vector<std::uint64_t> keys;
-    std::vector<dem::Patch>    patches;
-    std::vector<dem::Rolling>  rolling;
-    for (const world::ContactRecord& record : records)
+    const auto values = [&](auto member)
     {
-        keys.push_back(record.key);
-        patches.push_back(record.patch);
-        rolling.push_back(record.rolling);
-    }
-    pairs.last.key.assign(keys);
-    pairs.last.patch.assign(patches);
-    if (pairs.resists_rolling) { pairs.last.rolling.assign(rolling); }
+        std::vector<std::decay_t<decltype(records[0].*member)>> found;
+        for (const world::ContactRecord& record : records) { found.push_back(record.*member); }
+        return found;
+    };
+    dem::RecordRows<Exec> rows(exec);
+    rows.key.assign(values(&world::ContactRecord::key));
+    rows.patch.assign(values(&world::ContactRecord::patch));
+    rows.rolling.assign(values(&world::ContactRecord::rolling));
+    rows.place.assign(values(&world::ContactRecord::place));
+    return rows;
 }
 
-template<class Exec>
-void put_places_back(const std::vector<world::ContactRecord>& records, dem::Pairs<Exec>& pairs)
+/// Destination rank of every body that leaves.
+std::map<std::int64_t, std::size_t> destinations(const std::vector<BodyHolding>& decided, std::int32_t here)
 {
-    std::vector<Vec3<double>> places;
-    places.reserve(records.size());
-    for (const world::ContactRecord& record : records) { places.push_back(record.place); }
-    pairs.patches.last_place.assign(places);
+    std::map<std::int64_t, std::size_t> moved;
+    for (const BodyHolding& body : decided)
+    {
+        if (body.owner != here) { moved[body.body] = static_cast<std::size_t>(body.owner); }
+    }
+    return moved;
 }
 
 } // namespace
@@ -65,37 +68,52 @@ std::int64_t deciding_body(const std::vector<std::int32_t>& is_large, std::uint6
 }
 
 template<class Exec>
-void migrate_records(const Communicator& communicator, dem::Pairs<Exec>& pairs,
-                     const std::vector<std::int32_t>& is_large, const std::vector<BodyHolding>& decided)
+RecordMigration<Exec>::RecordMigration(const Exec& exec, std::size_t bodies)
+    : exec_(exec)
+    , body_(exec, "leaving bodies")
+    , leaving_(exec, "marks of leaving bodies")
 {
-    std::map<std::int64_t, std::size_t> moved; // destination rank by body
-    for (const BodyHolding& body : decided)
-    {
-        if (body.owner != communicator.rank()) { moved[body.body] = static_cast<std::size_t>(body.owner); }
-    }
-    const bool have_places = communicator.maximum(pairs.patches.last_place.size() == 0 ? 0 : 1) > 0;
-
-    std::vector<world::ContactRecord>              kept;
-    std::vector<std::vector<world::ContactRecord>> leaving(static_cast<std::size_t>(communicator.size()));
-    for (const world::ContactRecord& record : last_records(pairs))
-    {
-        const auto to = moved.find(deciding_body(is_large, record.key));
-        (to == moved.end() ? kept : leaving[to->second]).push_back(record);
-    }
-    const auto by_key = [](const world::ContactRecord& a, const world::ContactRecord& b) { return a.key < b.key; };
-    for (const auto& arriving : decomp::exchange_values(communicator, leaving))
-    {
-        const auto own = static_cast<std::ptrdiff_t>(kept.size());
-        kept.insert(kept.end(), arriving.begin(), arriving.end());
-        std::inplace_merge(kept.begin(), kept.begin() + own, kept.end(), by_key); // both parts are sorted
-    }
-    put_back(kept, pairs);
-    if (have_places) { put_places_back(kept, pairs); }
+    leaving_.assign(std::vector<std::int32_t>(bodies, -1));
 }
 
-#define TREAD_INSTANTIATE(Exec)                                                                                        \
-    template void migrate_records(const Communicator&, dem::Pairs<Exec>&, const std::vector<std::int32_t>&,            \
-                                  const std::vector<BodyHolding>&)
+template<class Exec>
+void RecordMigration<Exec>::run(const Communicator& communicator, dem::Pairs<Exec>& pairs,
+                                const std::vector<std::int32_t>& is_large, const std::vector<BodyHolding>& decided)
+{
+    const auto moved      = destinations(decided, communicator.rank());
+    const bool has_places = communicator.maximum(pairs.patches.last_place.size() == 0 ? 0 : 1) > 0;
+
+    std::vector<Records> leaving(static_cast<std::size_t>(communicator.size()));
+    for (const world::ContactRecord& record : take(pairs, moved))
+    {
+        leaving[moved.at(deciding_body(is_large, record.key))].push_back(record);
+    }
+    Records all;
+    for (const Records& arriving : decomp::exchange_values(communicator, leaving))
+    {
+        all.insert(all.end(), arriving.begin(), arriving.end());
+    }
+    dem::RecordRows<Exec> rows = rows_of(exec_, all);
+    if (!pairs.resists_rolling) { rows.rolling.resize(0); }
+    if (!has_places) { rows.place.resize(0); }
+    dem::add_records(exec_, pairs, rows);
+}
+
+template<class Exec>
+std::vector<world::ContactRecord> RecordMigration<Exec>::take(dem::Pairs<Exec>&                          pairs,
+                                                              const std::map<std::int64_t, std::size_t>& moved)
+{
+    if (moved.empty()) { return {}; }
+    std::vector<std::int32_t> bodies;
+    for (const auto& [body, rank] : moved) { bodies.push_back(static_cast<std::int32_t>(body)); }
+    body_.assign(bodies);
+    dem::write_places(exec_, body_, leaving_);
+    Records records = on_host(dem::take_records(exec_, pairs, leaving_));
+    dem::erase_places(exec_, body_, leaving_);
+    return records;
+}
+
+#define TREAD_INSTANTIATE(Exec) template class RecordMigration<Exec>
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

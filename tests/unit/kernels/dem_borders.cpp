@@ -1,0 +1,121 @@
+#include <vector>
+
+#include "dem_scene.hpp"
+#include "kernels/dem/pairs/borders.hpp"
+
+// Bodies near pages of other ranks: which of them the host hears of.
+namespace tread::test
+{
+namespace
+{
+
+constexpr double           radius = 0.1, allowed = 0.05;
+constexpr mpm::PageLattice lattice{0.25, 0.0}; // pages of 1 m
+constexpr dem::BorderReach reach{0.2, 0.15, 0.0};
+
+template<class Exec>
+class DemBorders : public DemTest<Exec>
+{
+protected:
+    using Scene = SolidScene<Exec>;
+
+    /// Four balls, one in the middle of each page along x; the last is a ghost. The second is large.
+    static Scene row(const Exec& exec)
+    {
+        std::vector<Solid> solids;
+        for (int i = 0; i < 4; ++i) { solids.push_back(solid_sphere(radius, 2000, {i + 0.5, 0.5, 0.5})); }
+        Scene scene(exec, {exact_sphere()}, solids, {});
+        scene.pairs.displacement.allowed.assign(std::vector<double>(4, allowed));
+        scene.pairs.sizes.is_large.assign({0, 1, 0, 0});
+        scene.bodies.role.assign({dem::role_owner, dem::role_owner, dem::role_owner, dem::role_ghost});
+        return scene;
+    }
+
+    static dem::Borders<Exec> borders(const Exec& exec)
+    {
+        dem::Borders<Exec> made(exec);
+        dem::begin_borders(exec, made, std::vector<double>(4, radius));
+        return made;
+    }
+
+    static std::vector<std::int32_t> listed(const Exec& exec, Scene& scene, dem::Borders<Exec>& borders)
+    {
+        dem::list_borders(exec, borders, scene.pairs, scene.bodies.view(), lattice, reach);
+        return borders.body.to_host();
+    }
+
+    static std::vector<mpm::Surroundings> around(const dem::Borders<Exec>& borders)
+    {
+        std::vector<mpm::Surroundings> found;
+        for (const dem::BorderBody& ball : borders.ball.to_host())
+        {
+            found.push_back(mpm::surroundings(lattice, ball.position, ball.radius));
+        }
+        return found;
+    }
+};
+TYPED_TEST_SUITE(DemBorders, Backends, BackendNames);
+
+using Bodies = std::vector<std::int32_t>;
+
+/// Radii: own reach, and what may meet the body. A ghost is its owner's.
+TYPED_TEST(DemBorders, WhatIsNotKnownIsListed)
+{
+    auto scene = this->row(this->exec());
+    auto found = this->borders(this->exec());
+    EXPECT_EQ(this->listed(this->exec(), scene, found), (Bodies{0, 1, 2}));
+    const auto balls = found.ball.to_host();
+    EXPECT_EQ(balls[0].radius, radius + allowed + reach.met_by_small);
+    EXPECT_EQ(balls[1].radius, radius + allowed + reach.met_by_large);
+    EXPECT_EQ(balls[2].position, Vec3<double>(2.5, 0.5, 0.5));
+}
+
+/// Until it leaves its page, may go further, or owners of pages change.
+TYPED_TEST(DemBorders, WhatIsInsideStaysOnTheBackend)
+{
+    auto scene = this->row(this->exec());
+    auto found = this->borders(this->exec());
+    this->listed(this->exec(), scene, found);
+    dem::keep_inside(this->exec(), found, found.body.to_host(), this->around(found));
+    EXPECT_EQ(this->listed(this->exec(), scene, found), Bodies{});
+
+    auto position = scene.bodies.position.to_host();
+    position[0][0] += 0.3; // within its page
+    position[2][1] += 0.6;
+    scene.bodies.position.assign(position);
+    EXPECT_EQ(this->listed(this->exec(), scene, found), Bodies{2});
+
+    scene.pairs.displacement.allowed.assign({allowed, 1.0, allowed, allowed});
+    EXPECT_EQ(this->listed(this->exec(), scene, found), (Bodies{1, 2}));
+    dem::forget_inside(this->exec(), found);
+    EXPECT_EQ(this->listed(this->exec(), scene, found), (Bodies{0, 1, 2}));
+}
+
+TYPED_TEST(DemBorders, LargestReachesAreThoseOfOwnBodies)
+{
+    auto scene = this->row(this->exec());
+    auto found = this->borders(this->exec());
+    scene.pairs.displacement.allowed.assign({0.01, 0.03, 0.02, 9.0});
+    const auto largest = dem::largest_reaches(this->exec(), found, scene.pairs, scene.bodies.view());
+    EXPECT_EQ(largest[0], radius + 0.03);
+    EXPECT_EQ(largest[1], radius + 0.02) << "of small ones";
+}
+
+TYPED_TEST(DemBorders, RolesAndPlacesAreSetOneByOne)
+{
+    auto scene = this->row(this->exec());
+    auto found = this->borders(this->exec());
+    dem::set_roles(this->exec(), found, {1, 3}, {dem::role_none, dem::role_owner}, scene.bodies);
+    EXPECT_EQ(scene.bodies.role.to_host(),
+              (Bodies{dem::role_owner, dem::role_none, dem::role_owner, dem::role_owner}));
+    Array<TypeParam, std::int32_t> body(this->exec(), "bodies"), place(this->exec(), "places");
+    place.assign({-1, -1, -1, -1});
+    body.assign({1, 3});
+    dem::write_places(this->exec(), body, place);
+    EXPECT_EQ(place.to_host(), (Bodies{-1, 0, -1, 1}));
+    dem::erase_places(this->exec(), body, place);
+    EXPECT_EQ(place.to_host(), (Bodies{-1, -1, -1, -1}));
+}
+
+} // namespace
+} // namespace tread::test

@@ -1,0 +1,46 @@
+#include <gtest/gtest.h>
+
+#include "solver/ranks/body_holding.hpp"
+
+// Holdings of shared bodies as words of a checkpoint, which may come from anywhere.
+namespace tread::solver
+{
+namespace
+{
+
+using Words = std::vector<std::int32_t>;
+
+TEST(BodyHolding, WordsAreReadAsTheyWereWritten)
+{
+    const std::vector<BodyHolding> held{{3, 1, {0, 1}}, {7, 1, {1, 2, 3}}};
+    const auto                     read = read_holdings(words_of(held), 1, 4, 10);
+    ASSERT_TRUE(read.has_value());
+    ASSERT_EQ(read->size(), 2U);
+    EXPECT_EQ((*read)[1].body, 7);
+    EXPECT_EQ((*read)[1].owner, 1);
+    EXPECT_EQ((*read)[1].holders, (Words{1, 2, 3}));
+    EXPECT_TRUE(read_holdings({}, 1, 4, 10)->empty());
+}
+
+TEST(BodyHolding, OtherWordsAreRefused)
+{
+    const auto refused = [](const Words& words) { return !read_holdings(words, 1, 4, 10).has_value(); };
+    EXPECT_FALSE(refused({3, 1, 2, 0, 1}));
+    EXPECT_TRUE(refused({3, 1})) << "cut off";
+    EXPECT_TRUE(refused({3, 1, 2, 0})) << "cut off";
+    EXPECT_TRUE(refused({3, 1, -1, 0, 1})) << "a negative number of holders";
+    EXPECT_TRUE(refused({3, 1, 2000000000, 0, 1})) << "more holders than words";
+    EXPECT_TRUE(refused({10, 1, 2, 0, 1})) << "no such body";
+    EXPECT_TRUE(refused({-1, 1, 2, 0, 1})) << "no such body";
+    EXPECT_TRUE(refused({3, 1, 2, 0, 1, 3, 1, 2, 0, 1})) << "twice";
+    EXPECT_TRUE(refused({3, 2, 2, 1, 2})) << "another rank decides";
+    EXPECT_TRUE(refused({3, 1, 1, 1})) << "held by one alone";
+    EXPECT_TRUE(refused({3, 1, 2, 1, 0})) << "not ascending";
+    EXPECT_TRUE(refused({3, 1, 2, 1, 1})) << "a holder twice";
+    EXPECT_TRUE(refused({3, 1, 2, 1, 4})) << "no such rank";
+    EXPECT_TRUE(refused({3, 1, 2, -1, 1})) << "no such rank";
+    EXPECT_TRUE(refused({3, 1, 2, 0, 2})) << "not its owner";
+}
+
+} // namespace
+} // namespace tread::solver
