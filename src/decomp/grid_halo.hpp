@@ -25,8 +25,8 @@ public:
     /// included.
     void plan(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls);
 
-    /// The same for loaded pages, which plan() had once extended: a page that is only tied to a rank's own is no page of
-    /// its points, and another rank accounts for it.
+    /// The same for loaded pages, which plan() had once extended: a page that is only tied to a rank's own is no page
+    /// of its points, and another rank accounts for it.
     void resume(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls);
 
     /// Runs P2G of the border pages, `scatter(exec, list)`, on a secondary stream, and sends their contributions to

@@ -111,11 +111,11 @@ BorderDecisions BodyOwners::decide(const BodiesAtBorders& bodies)
     BorderDecisions    found;
     for (std::size_t i = 0; i < bodies.body.size(); ++i)
     {
-        const std::int32_t      body       = bodies.body[i];
-        const auto              b          = static_cast<std::size_t>(body);
-        const dem::BorderBody&  ball       = bodies.ball[i];
-        const bool              everywhere = is_jointed_[b] != 0;
-        const mpm::Surroundings around     = mpm::surroundings(lattice_, ball.position, ball.radius);
+        const std::int32_t         body       = bodies.body[i];
+        const auto                 b          = static_cast<std::size_t>(body);
+        const contact::BorderBody& ball       = bodies.ball[i];
+        const bool                 everywhere = is_jointed_[b] != 0;
+        const mpm::Surroundings    around     = mpm::surroundings(lattice_, ball.position, ball.radius);
         if (!everywhere && ownership_->is_within(around, here))
         {
             found.inside.push_back(body);

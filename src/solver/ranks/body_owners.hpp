@@ -6,7 +6,7 @@
 
 #include "decomp/page_map.hpp"
 #include "decomp/page_ownership.hpp"
-#include "kernels/dem/pairs/borders.hpp"
+#include "kernels/contact/borders.hpp"
 #include "solver/ranks/body_holding.hpp"
 #include "world/world.hpp"
 
@@ -16,8 +16,8 @@ namespace tread::solver
 /// Bodies that the owners decide about, and the ball of each within which other ranks matter.
 struct BodiesAtBorders
 {
-    std::vector<std::int32_t> body;
-    const dem::BorderBody*    ball; ///< of each
+    std::vector<std::int32_t>  body;
+    const contact::BorderBody* ball; ///< of each
 };
 
 /// Decisions of this rank about bodies at borders.

@@ -33,7 +33,7 @@ BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const wor
     owners_.follow_pages(decomposition.owners);
     owners_.assign(world.bodies.position);
     bodies.role.assign(owners_.roles());
-    dem::begin_borders(exec_, borders_, bounding_radii(world));
+    contact::begin_borders(exec_, borders_, bounding_radii(world));
     shared_.plan({}, communicator());
 }
 
@@ -56,7 +56,7 @@ void BodyRanks<Exec>::assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>&
                 decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.force,
                                 view.torque, view.stiffness, view.locked, pairs.displacement.allowed.data()));
     const RoleChanges changes = owners_.take_roles(decided, exchanged.held);
-    dem::set_roles(exec_, borders_, changes.body, changes.role, bodies);
+    contact::set_roles(exec_, borders_, changes.body, changes.role, bodies);
     if (owners_.owner_has_changed(decided)) { records_.run(communicator(), pairs, is_large_, decided); }
     held_ = std::move(exchanged.held);
     shared_.plan(held_, communicator());
@@ -66,7 +66,7 @@ template<class Exec>
 void BodyRanks<Exec>::follow_pages()
 {
     owners_.follow_pages(decomposition_.owners);
-    dem::forget_inside(exec_, borders_);
+    contact::forget_inside(exec_, borders_);
 }
 
 template<class Exec>
@@ -106,17 +106,17 @@ template<class Exec>
 std::vector<BodyHolding> BodyRanks<Exec>::decide(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
 {
     if (is_large_.empty()) { is_large_ = pairs.sizes.is_large.to_host(); }
-    std::array<double, 2> met = dem::largest_reaches(exec_, borders_, pairs, bodies.view());
+    std::array<double, 2> met = contact::largest_reaches(exec_, borders_, pairs, bodies.view());
     decomp::combine(communicator(), met.data(), 0, 2);
     const double slack = owners_.slack();
-    dem::list_borders(exec_, borders_, pairs, bodies.view(), owners_.lattice(),
-                      {met[0] + slack, met[1] + slack, sand_reach_});
+    contact::list_borders(exec_, borders_, pairs, bodies.view(), owners_.lattice(),
+                          {met[0] + slack, met[1] + slack, sand_reach_});
     border_body_.request(borders_.body);
     border_ball_.request(borders_.ball);
     synchronize(exec_);
     const BorderDecisions decided =
         owners_.decide({{border_body_.data(), border_body_.data() + borders_.body.size()}, border_ball_.data()});
-    dem::keep_inside(exec_, borders_, decided.inside, decided.around);
+    contact::keep_inside(exec_, borders_, decided.inside, decided.around);
     return decided.shared;
 }
 

@@ -7,8 +7,8 @@
 #include "decomp/balance.hpp"
 #include "decomp/decomposition.hpp"
 #include "decomp/exchange.hpp"
+#include "kernels/contact/borders.hpp"
 #include "kernels/dem/bodies.hpp"
-#include "kernels/dem/pairs/borders.hpp"
 #include "solver/ranks/body_owners.hpp"
 #include "solver/ranks/record_migration.hpp"
 #include "solver/ranks/shared_bodies.hpp"
@@ -62,19 +62,19 @@ private:
     RankLists                states_to_send(const std::vector<BodyHolding>& decided) const;
     void send_states(const RankLists& leaving, const RankLists& arriving, const decomp::Columns& columns);
 
-    decomp::Decomposition<Exec>&        decomposition_;
-    Exec                                exec_;
-    double                              sand_reach_; ///< m
-    BodyOwners                          owners_;
-    SharedBodies<Exec>                  shared_;
-    std::vector<BodyHolding>            held_; ///< bodies that this rank shares, ascending
-    dem::Borders<Exec>                  borders_;
-    FetchedArray<Exec, std::int32_t>    border_body_;
-    FetchedArray<Exec, dem::BorderBody> border_ball_;
-    std::vector<std::int32_t>           is_large_; ///< by body, from Pairs; empty before assign_owners()
-    RecordMigration<Exec>               records_;
-    decomp::Exchange<Exec>              states_;
-    Array<Exec, std::int32_t>           arriving_;
+    decomp::Decomposition<Exec>&            decomposition_;
+    Exec                                    exec_;
+    double                                  sand_reach_; ///< m
+    BodyOwners                              owners_;
+    SharedBodies<Exec>                      shared_;
+    std::vector<BodyHolding>                held_; ///< bodies that this rank shares, ascending
+    contact::Borders<Exec>                  borders_;
+    FetchedArray<Exec, std::int32_t>        border_body_;
+    FetchedArray<Exec, contact::BorderBody> border_ball_;
+    std::vector<std::int32_t>               is_large_; ///< by body, from Pairs; empty before assign_owners()
+    RecordMigration<Exec>                   records_;
+    decomp::Exchange<Exec>                  states_;
+    Array<Exec, std::int32_t>               arriving_;
 };
 
 } // namespace tread::solver

@@ -107,9 +107,9 @@ std::vector<world::ContactRecord> RecordMigration<Exec>::take(dem::Pairs<Exec>& 
     std::vector<std::int32_t> bodies;
     for (const auto& [body, rank] : moved) { bodies.push_back(static_cast<std::int32_t>(body)); }
     body_.assign(bodies);
-    dem::write_places(exec_, body_, leaving_);
+    contact::write_places(exec_, body_, leaving_);
     Records records = on_host(dem::take_records(exec_, pairs, leaving_));
-    dem::erase_places(exec_, body_, leaving_);
+    contact::erase_places(exec_, body_, leaving_);
     return records;
 }
 

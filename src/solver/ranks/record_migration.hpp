@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/communicator.hpp"
-#include "kernels/dem/pairs/borders.hpp"
+#include "kernels/contact/borders.hpp"
 #include "kernels/dem/pairs/records.hpp"
 #include "solver/ranks/body_holding.hpp"
 #include "world/world.hpp"
@@ -29,8 +29,7 @@ public:
              const std::vector<BodyHolding>& decided);
 
 private:
-    std::vector<world::ContactRecord> take(dem::Pairs<Exec>&                          pairs,
-                                           const std::map<std::int64_t, std::size_t>& moved);
+    std::vector<world::ContactRecord> take(dem::Pairs<Exec>& pairs, const std::map<std::int64_t, std::size_t>& moved);
 
     Exec                      exec_;
     Array<Exec, std::int32_t> body_;

@@ -1,7 +1,7 @@
 #include "solver/ranks/shared_bodies.hpp"
 
 #include "backend/instantiate.hpp"
-#include "kernels/dem/pairs/borders.hpp"
+#include "kernels/contact/borders.hpp"
 
 namespace tread::solver
 {
@@ -74,9 +74,9 @@ void SharedBodies<Exec>::plan(const std::vector<BodyHolding>& held, const Commun
     SharingPlan found = list_bodies(held, static_cast<std::size_t>(communicator.size()));
     found.rows[rank].clear();
     number_shares(found, held, rank);
-    dem::erase_places(place_.exec(), body_, place_);
+    contact::erase_places(place_.exec(), body_, place_);
     body_.assign(found.body);
-    dem::write_places(place_.exec(), body_, place_);
+    contact::write_places(place_.exec(), body_, place_);
     first_.assign(found.first);
     row_.assign(found.share);
 

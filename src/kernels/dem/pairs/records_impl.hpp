@@ -90,9 +90,9 @@ RecordRows<Exec> take_rows(const Exec& exec, const RecordsView& first, const Rec
                            const Array<Exec, std::int32_t>& origin)
 {
     RecordRows<Exec>   rows(exec);
-    const std::int64_t count   = origin.size();
-    const bool         rolls   = first.rolling != nullptr || second.rolling != nullptr,
-               has_places      = first.place != nullptr || second.place != nullptr;
+    const std::int64_t count = origin.size();
+    const bool         rolls = first.rolling != nullptr || second.rolling != nullptr,
+               has_places    = first.place != nullptr || second.place != nullptr;
     rows.key.resize(count);
     rows.patch.resize(count);
     rows.rolling.resize(rolls ? count : 0);
@@ -136,8 +136,8 @@ template<class Exec>
 RecordRows<Exec> take_records(const Exec& exec, Pairs<Exec>& pairs, const Array<Exec, std::int32_t>& leaving)
 {
     using namespace record_steps;
-    const std::int64_t        records = pairs.last.key.size();
-    const Leaves              leaves{leaving.size(), pairs.last.key.data(), pairs.sizes.is_large.data(), leaving.data()};
+    const std::int64_t records = pairs.last.key.size();
+    const Leaves       leaves{leaving.size(), pairs.last.key.data(), pairs.sizes.is_large.data(), leaving.data()};
     Array<Exec, std::int32_t> chosen(exec, "chosen records");
     select(exec, "records that leave", records, leaves, pairs.search.found, pairs.sort, chosen);
     RecordRows<Exec> taken = take_rows(exec, present(pairs), present(pairs), chosen);

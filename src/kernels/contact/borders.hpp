@@ -7,7 +7,7 @@
 
 // Bodies near pages of other ranks, which the host decides about; most bodies of a rank are none, and stay on the
 // backend.
-namespace tread::dem
+namespace tread::contact
 {
 
 /// What may meet a body before the next search for pairs, m.
@@ -66,18 +66,18 @@ void keep_inside(const Exec&, Borders<Exec>& borders, const std::vector<std::int
 /// Largest own reach, bounding radius plus allowed displacement, m, of this rank's bodies: of all, and of the small
 /// ones. Waits.
 template<class Exec>
-std::array<double, 2> largest_reaches(const Exec&, Borders<Exec>& borders, Pairs<Exec>& pairs,
-                                      const BodiesView& bodies);
+std::array<double, 2> largest_reaches(const Exec&, Borders<Exec>& borders, dem::Pairs<Exec>& pairs,
+                                      const dem::BodiesView& bodies);
 
 /// Lists this rank's bodies whose surroundings are not known to be this rank's alone. Waits for their number.
 template<class Exec>
-void list_borders(const Exec&, Borders<Exec>& borders, Pairs<Exec>& pairs, const BodiesView& bodies,
+void list_borders(const Exec&, Borders<Exec>& borders, dem::Pairs<Exec>& pairs, const dem::BodiesView& bodies,
                   const mpm::PageLattice& lattice, const BorderReach& reach);
 
-/// Sets the roles (BodyRole) of these bodies, each of which occurs once.
+/// Sets the roles (dem::BodyRole) of these bodies, each of which occurs once.
 template<class Exec>
 void set_roles(const Exec&, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
-               const std::vector<std::int32_t>& role, Bodies<Exec>& bodies);
+               const std::vector<std::int32_t>& role, dem::Bodies<Exec>& bodies);
 
 /// Sets place[body[i]] to i.
 template<class Exec>
@@ -87,4 +87,4 @@ void write_places(const Exec&, const Array<Exec, std::int32_t>& body, Array<Exec
 template<class Exec>
 void erase_places(const Exec&, const Array<Exec, std::int32_t>& body, Array<Exec, std::int32_t>& place);
 
-} // namespace tread::dem
+} // namespace tread::contact

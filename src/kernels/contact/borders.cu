@@ -1,3 +1,3 @@
 // Instantiates borders_impl.hpp for the GPU.
 #include "backend/launch.cuh"
-#include "kernels/dem/pairs/borders_impl.hpp"
+#include "kernels/contact/borders_impl.hpp"

@@ -2,11 +2,11 @@
 
 #include "backend/instantiate.hpp"
 #include "backend/reduce.hpp"
-#include "kernels/dem/pairs/borders.hpp"
+#include "kernels/contact/borders.hpp"
 #include "kernels/dem/pairs/select.hpp"
 
 // Steps of borders.hpp, for both backends; borders.cpp and borders.cu provide for_each.
-namespace tread::dem::border_steps
+namespace tread::contact::border_steps
 {
 
 template<class T>
@@ -57,7 +57,7 @@ struct ErasePlace
 /// Own reaches of a rank's bodies; those of others are 0.
 struct OwnReach
 {
-    BodiesView          bodies;
+    dem::BodiesView     bodies;
     const double*       bounding_radius;
     const double*       allowed;
     const std::int32_t* is_large;
@@ -114,14 +114,14 @@ struct WriteBalls
 };
 
 template<class Exec>
-OwnReach own_reach(const Borders<Exec>& borders, const Pairs<Exec>& pairs, const BodiesView& bodies)
+OwnReach own_reach(const Borders<Exec>& borders, const dem::Pairs<Exec>& pairs, const dem::BodiesView& bodies)
 {
     return {bodies, borders.bounding_radius.data(), pairs.displacement.allowed.data(), pairs.sizes.is_large.data()};
 }
 
-} // namespace tread::dem::border_steps
+} // namespace tread::contact::border_steps
 
-namespace tread::dem
+namespace tread::contact
 {
 
 template<class Exec>
@@ -147,8 +147,8 @@ void keep_inside(const Exec& exec, Borders<Exec>& borders, const std::vector<std
 }
 
 template<class Exec>
-std::array<double, 2> largest_reaches(const Exec& exec, Borders<Exec>& borders, Pairs<Exec>& pairs,
-                                      const BodiesView& bodies)
+std::array<double, 2> largest_reaches(const Exec& exec, Borders<Exec>& borders, dem::Pairs<Exec>& pairs,
+                                      const dem::BodiesView& bodies)
 {
     pairs.measure.resize(2 * bodies.count + 2);
     double* rows = pairs.measure.data();
@@ -159,12 +159,12 @@ std::array<double, 2> largest_reaches(const Exec& exec, Borders<Exec>& borders, 
 }
 
 template<class Exec>
-void list_borders(const Exec& exec, Borders<Exec>& borders, Pairs<Exec>& pairs, const BodiesView& bodies,
+void list_borders(const Exec& exec, Borders<Exec>& borders, dem::Pairs<Exec>& pairs, const dem::BodiesView& bodies,
                   const mpm::PageLattice& lattice, const BorderReach& reach)
 {
     const border_steps::Ball ball{border_steps::own_reach(borders, pairs, bodies), reach};
-    select(exec, "bodies at borders", bodies.count, border_steps::IsAtBorder{ball, lattice, borders.inside.data()},
-           pairs.search.found, pairs.sort, borders.body);
+    dem::select(exec, "bodies at borders", bodies.count, border_steps::IsAtBorder{ball, lattice, borders.inside.data()},
+                pairs.search.found, pairs.sort, borders.body);
     borders.ball.resize(borders.body.size());
     for_each(exec, "balls of bodies at borders", borders.body.size(),
              border_steps::WriteBalls{ball, borders.body.data(), borders.ball.data()});
@@ -172,7 +172,7 @@ void list_borders(const Exec& exec, Borders<Exec>& borders, Pairs<Exec>& pairs, 
 
 template<class Exec>
 void set_roles(const Exec& exec, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
-               const std::vector<std::int32_t>& role, Bodies<Exec>& bodies)
+               const std::vector<std::int32_t>& role, dem::Bodies<Exec>& bodies)
 {
     border_steps::set_at(exec, "set roles", body, role, borders.at, borders.role, bodies.role.data());
 }
@@ -189,19 +189,20 @@ void erase_places(const Exec& exec, const Array<Exec, std::int32_t>& body, Array
     for_each(exec, "erase places", body.size(), border_steps::ErasePlace{body.data(), place.data()});
 }
 
-#define TREAD_INSTANTIATE(Exec)                                                                                        \
-    template void                  begin_borders(const Exec&, Borders<Exec>&, const std::vector<double>&);             \
-    template void                  forget_inside(const Exec&, Borders<Exec>&);                                         \
-    template void                  keep_inside(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,          \
-                                               const std::vector<mpm::Surroundings>&);                                 \
-    template std::array<double, 2> largest_reaches(const Exec&, Borders<Exec>&, Pairs<Exec>&, const BodiesView&);      \
-    template void list_borders(const Exec&, Borders<Exec>&, Pairs<Exec>&, const BodiesView&, const mpm::PageLattice&,  \
-                               const BorderReach&);                                                                    \
-    template void set_roles(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,                             \
-                            const std::vector<std::int32_t>&, Bodies<Exec>&);                                          \
-    template void write_places(const Exec&, const Array<Exec, std::int32_t>&, Array<Exec, std::int32_t>&);             \
+#define TREAD_INSTANTIATE(Exec)                                                                                         \
+    template void                  begin_borders(const Exec&, Borders<Exec>&, const std::vector<double>&);              \
+    template void                  forget_inside(const Exec&, Borders<Exec>&);                                          \
+    template void                  keep_inside(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,           \
+                                               const std::vector<mpm::Surroundings>&);                                  \
+    template std::array<double, 2> largest_reaches(const Exec&, Borders<Exec>&, dem::Pairs<Exec>&,                      \
+                                                   const dem::BodiesView&);                                             \
+    template void                  list_borders(const Exec&, Borders<Exec>&, dem::Pairs<Exec>&, const dem::BodiesView&, \
+                                                const mpm::PageLattice&, const BorderReach&);                           \
+    template void                  set_roles(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,             \
+                                             const std::vector<std::int32_t>&, dem::Bodies<Exec>&);                     \
+    template void write_places(const Exec&, const Array<Exec, std::int32_t>&, Array<Exec, std::int32_t>&);              \
     template void erase_places(const Exec&, const Array<Exec, std::int32_t>&, Array<Exec, std::int32_t>&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 
-} // namespace tread::dem
+} // namespace tread::contact

@@ -1,7 +1,7 @@
 #include <vector>
 
 #include "dem_scene.hpp"
-#include "kernels/dem/pairs/borders.hpp"
+#include "kernels/contact/borders.hpp"
 
 // Bodies near pages of other ranks: which of them the host hears of.
 namespace tread::test
@@ -9,12 +9,12 @@ namespace tread::test
 namespace
 {
 
-constexpr double           radius = 0.1, allowed = 0.05;
-constexpr mpm::PageLattice lattice{0.25, 0.0}; // pages of 1 m
-constexpr dem::BorderReach reach{0.2, 0.15, 0.0};
+constexpr double               radius = 0.1, allowed = 0.05;
+constexpr mpm::PageLattice     lattice{0.25, 0.0}; // pages of 1 m
+constexpr contact::BorderReach reach{0.2, 0.15, 0.0};
 
 template<class Exec>
-class DemBorders : public DemTest<Exec>
+class Borders : public DemTest<Exec>
 {
 protected:
     using Scene = SolidScene<Exec>;
@@ -31,35 +31,35 @@ protected:
         return scene;
     }
 
-    static dem::Borders<Exec> borders(const Exec& exec)
+    static contact::Borders<Exec> borders(const Exec& exec)
     {
-        dem::Borders<Exec> made(exec);
-        dem::begin_borders(exec, made, std::vector<double>(4, radius));
+        contact::Borders<Exec> made(exec);
+        contact::begin_borders(exec, made, std::vector<double>(4, radius));
         return made;
     }
 
-    static std::vector<std::int32_t> listed(const Exec& exec, Scene& scene, dem::Borders<Exec>& borders)
+    static std::vector<std::int32_t> listed(const Exec& exec, Scene& scene, contact::Borders<Exec>& borders)
     {
-        dem::list_borders(exec, borders, scene.pairs, scene.bodies.view(), lattice, reach);
+        contact::list_borders(exec, borders, scene.pairs, scene.bodies.view(), lattice, reach);
         return borders.body.to_host();
     }
 
-    static std::vector<mpm::Surroundings> around(const dem::Borders<Exec>& borders)
+    static std::vector<mpm::Surroundings> around(const contact::Borders<Exec>& borders)
     {
         std::vector<mpm::Surroundings> found;
-        for (const dem::BorderBody& ball : borders.ball.to_host())
+        for (const contact::BorderBody& ball : borders.ball.to_host())
         {
             found.push_back(mpm::surroundings(lattice, ball.position, ball.radius));
         }
         return found;
     }
 };
-TYPED_TEST_SUITE(DemBorders, Backends, BackendNames);
+TYPED_TEST_SUITE(Borders, Backends, BackendNames);
 
 using Bodies = std::vector<std::int32_t>;
 
 /// Radii: own reach, and what may meet the body. A ghost is its owner's.
-TYPED_TEST(DemBorders, WhatIsNotKnownIsListed)
+TYPED_TEST(Borders, WhatIsNotKnownIsListed)
 {
     auto scene = this->row(this->exec());
     auto found = this->borders(this->exec());
@@ -71,12 +71,12 @@ TYPED_TEST(DemBorders, WhatIsNotKnownIsListed)
 }
 
 /// Until it leaves its page, may go further, or owners of pages change.
-TYPED_TEST(DemBorders, WhatIsInsideStaysOnTheBackend)
+TYPED_TEST(Borders, WhatIsInsideStaysOnTheBackend)
 {
     auto scene = this->row(this->exec());
     auto found = this->borders(this->exec());
     this->listed(this->exec(), scene, found);
-    dem::keep_inside(this->exec(), found, found.body.to_host(), this->around(found));
+    contact::keep_inside(this->exec(), found, found.body.to_host(), this->around(found));
     EXPECT_EQ(this->listed(this->exec(), scene, found), Bodies{});
 
     auto position = scene.bodies.position.to_host();
@@ -87,33 +87,32 @@ TYPED_TEST(DemBorders, WhatIsInsideStaysOnTheBackend)
 
     scene.pairs.displacement.allowed.assign({allowed, 1.0, allowed, allowed});
     EXPECT_EQ(this->listed(this->exec(), scene, found), (Bodies{1, 2}));
-    dem::forget_inside(this->exec(), found);
+    contact::forget_inside(this->exec(), found);
     EXPECT_EQ(this->listed(this->exec(), scene, found), (Bodies{0, 1, 2}));
 }
 
-TYPED_TEST(DemBorders, LargestReachesAreThoseOfOwnBodies)
+TYPED_TEST(Borders, LargestReachesAreThoseOfOwnBodies)
 {
     auto scene = this->row(this->exec());
     auto found = this->borders(this->exec());
     scene.pairs.displacement.allowed.assign({0.01, 0.03, 0.02, 9.0});
-    const auto largest = dem::largest_reaches(this->exec(), found, scene.pairs, scene.bodies.view());
+    const auto largest = contact::largest_reaches(this->exec(), found, scene.pairs, scene.bodies.view());
     EXPECT_EQ(largest[0], radius + 0.03);
     EXPECT_EQ(largest[1], radius + 0.02) << "of small ones";
 }
 
-TYPED_TEST(DemBorders, RolesAndPlacesAreSetOneByOne)
+TYPED_TEST(Borders, RolesAndPlacesAreSetOneByOne)
 {
     auto scene = this->row(this->exec());
     auto found = this->borders(this->exec());
-    dem::set_roles(this->exec(), found, {1, 3}, {dem::role_none, dem::role_owner}, scene.bodies);
-    EXPECT_EQ(scene.bodies.role.to_host(),
-              (Bodies{dem::role_owner, dem::role_none, dem::role_owner, dem::role_owner}));
+    contact::set_roles(this->exec(), found, {1, 3}, {dem::role_none, dem::role_owner}, scene.bodies);
+    EXPECT_EQ(scene.bodies.role.to_host(), (Bodies{dem::role_owner, dem::role_none, dem::role_owner, dem::role_owner}));
     Array<TypeParam, std::int32_t> body(this->exec(), "bodies"), place(this->exec(), "places");
     place.assign({-1, -1, -1, -1});
     body.assign({1, 3});
-    dem::write_places(this->exec(), body, place);
+    contact::write_places(this->exec(), body, place);
     EXPECT_EQ(place.to_host(), (Bodies{-1, 0, -1, 1}));
-    dem::erase_places(this->exec(), body, place);
+    contact::erase_places(this->exec(), body, place);
     EXPECT_EQ(place.to_host(), (Bodies{-1, -1, -1, -1}));
 }
 
