@@ -94,7 +94,7 @@ void transfer_sleep(BodyState<Exec>& state, SleepSettings& settings, StateFile& 
                    accept::all(accept::rows(bodies), accept::within(0, 1)));
     transfer_array(file, "rock_sleep/position", sleep.position, accept::all(accept::rows(bodies), accept::finite()));
     transfer_array(file, "rock_sleep/orientation", sleep.orientation,
-                   accept::all(accept::rows(bodies), accept::finite()));
+                   accept::all(accept::rows(bodies), accept::unit_quaternions()));
     transfer_array(file, "rock_sleep/quiet", sleep.quiet, accept::all(accept::rows(bodies), accept::not_negative()));
     transfer_array(file, "rock_sleep/moves", sleep.moves, accept::all(accept::rows(bodies), accept::within(0, 1)));
     transfer_array(file, "rock_sleep/load", sleep.watch, accept::all(accept::rows(bodies), accept::finite()));

@@ -77,13 +77,16 @@ void BodyRanks<Exec>::transfer(StateFile& file, dem::Bodies<Exec>& bodies)
     std::vector<BodyHolding>  own;
     std::vector<std::int32_t> owned = owners_.owned();
     std::copy_if(held_.begin(), held_.end(), std::back_inserter(own),
-                 [&](const BodyHolding& body) { return body.owner == here; });
+                 [&](const BodyHolding& body) { return body.owner == here && body.holders.size() > 1; });
     std::vector<std::int32_t> words   = words_of(own);
     bool                      follows = !pages_have_changed();
 
     const auto held = [&](const std::vector<std::int32_t>& values) -> accept::Verdict
     {
-        if (read_holdings(values, here, communicator().size(), count)) { return {}; }
+        const auto read     = read_holdings(values, here, communicator().size(), count);
+        const auto is_owned = [&](const BodyHolding& body)
+        { return std::binary_search(owned.begin(), owned.end(), body.body); };
+        if (read && std::all_of(read->begin(), read->end(), is_owned)) { return {}; }
         return accept::Refusal{-1, "other words", "body, owner, number of holders and holders of shared bodies"};
     };
     file.own("ranks/body", owned, accept::all(accept::index(count), accept::ascending(), accept::distinct()));

@@ -146,6 +146,8 @@ TYPED_TEST(BodySleep, WaysCountAndNotSpeeds)
     for (int i = 0; i < 3; ++i) { EXPECT_EQ(look_at(0).tired, 4) << i; }
     EXPECT_EQ(look_at(0).tired, 6);
     EXPECT_EQ(scene.pairs.sleep.moves.to_host()[5], 0);
+    look_at(2.1 * limit);
+    EXPECT_EQ(scene.pairs.sleep.moves.to_host()[5], 1) << "it was hit";
 }
 
 /// A ball that comes near wakes the column that it may touch, and not the other.

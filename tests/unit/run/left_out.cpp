@@ -81,9 +81,10 @@ TEST(LeftOut, SandThatMaySleep)
 /// Rocks that may sleep are looked at; five steps after the start none does.
 TEST(LeftOut, RocksThatMaySleep)
 {
-    const Part sleep = {
-        {"bodies of substeps", "body sleep marks", "body times at rest", "loads of sleeping bodies", "sleeping bodies"},
-        {"bodies of substeps", "look at sleep", "time at rest"}};
+    const Part sleep = {{"bodies of substeps", "body orientations at rest", "body positions at rest",
+                         "body sleep marks", "body times at rest", "loads of sleeping bodies", "moving bodies",
+                         "sleeping bodies"},
+                        {"bodies of substeps", "look at sleep", "time at rest"}};
     expect_uses(without_terrain(test::sand_text) + above + "[sleep]\nrock_speed = 1e-3\n",
                 bodies + pairs + pairs_without_sand + sleep);
 }

@@ -177,14 +177,18 @@ namespace tread::dem
 {
 
 template<class Exec>
-void begin_sleep(const Exec&, Pairs<Exec>& pairs, Bodies<Exec>& bodies, const BodyRestRule& rule)
+void begin_sleep(const Exec& exec, Pairs<Exec>& pairs, Bodies<Exec>& bodies, const BodyRestRule& rule)
 {
     SleepingBodies<Exec>& sleep = pairs.sleep;
     const std::int64_t    count = bodies.position.size();
     sleep.wanted                = true;
     sleep.rule                  = rule;
     const auto at_zero          = [&](auto&... arrays) { ((arrays.resize(count), arrays.fill_zero()), ...); };
-    at_zero(bodies.asleep, sleep.position, sleep.orientation, sleep.quiet, sleep.moves, sleep.mark, sleep.watch);
+    at_zero(bodies.asleep, sleep.quiet, sleep.moves, sleep.mark, sleep.watch);
+    sleep.position.resize(count);
+    sleep.orientation.resize(count);
+    copy(exec, sleep.position.data(), bodies.position.data(), static_cast<std::size_t>(count) * sizeof(Vec3<double>));
+    copy(exec, sleep.orientation.data(), bodies.orientation.data(), static_cast<std::size_t>(count) * sizeof(Quat));
 }
 
 template<class Exec>

@@ -34,15 +34,16 @@ struct WatchRest
     TREAD_HD void operator()(std::int64_t b) const
     {
         if (bodies.is_asleep(b)) { return; }
-        const double quiet = watch.quiet[b] + time, radius = bounding_radius(bodies, templates, b),
+        const double radius = bounding_radius(bodies, templates, b), near = rule.speed * rule.rest,
                      moved = displacement_since(bodies, b, watch.position[b], watch.orientation[b], radius);
-        if (moved > rule.speed * rule.rest)
+        if (moved > near)
         {
-            watch.begin(bodies, b, quiet < rule.rest);
+            const bool was_hit = moved > 2 * near;
+            watch.begin(bodies, b, was_hit || watch.quiet[b] < rule.rest);
             return;
         }
-        watch.quiet[b] = quiet;
-        if (quiet >= rule.rest) { watch.moves[b] = 0; }
+        watch.quiet[b] += time;
+        if (watch.quiet[b] >= rule.rest) { watch.moves[b] = 0; }
     }
 };
 
