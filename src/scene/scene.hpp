@@ -318,8 +318,8 @@ struct Sleep
     double                rest  = 0.05; ///< s; ... for this long
     double                load  = 0.2;  ///< change of pressure that wakes it, over the mean pressure on the bed's base
 
-    std::optional<double> rock_speed;      ///< m/s; rocks sleep if they never moved faster ...; empty = no rock sleeps
-    double                rock_rest = 0.1; ///< s; ... for this long
+    std::optional<double> rock_speed;      ///< m/s; rocks sleep if they went no further than at this speed ...; or none
+    double                rock_rest = 0.1; ///< s; ... in this time
     double                rock_load = 0.1; ///< change of load that wakes a rock, over the load that it carries
 
     bool operator==(const Sleep&) const = default;

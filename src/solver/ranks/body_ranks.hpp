@@ -67,7 +67,7 @@ private:
     double                                  sand_reach_; ///< m
     BodyOwners                              owners_;
     SharedBodies<Exec>                      shared_;
-    std::vector<BodyHolding>                held_; ///< bodies that this rank shares, ascending
+    std::vector<BodyHolding>                held_; ///< bodies that this rank shares or has just got, ascending
     contact::Borders<Exec>                  borders_;
     FetchedArray<Exec, std::int32_t>        border_body_;
     FetchedArray<Exec, contact::BorderBody> border_ball_;
