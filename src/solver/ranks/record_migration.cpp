@@ -105,6 +105,7 @@ std::vector<world::ContactRecord> RecordMigration<Exec>::take(dem::Pairs<Exec>& 
 {
     if (moved.empty()) { return {}; }
     std::vector<std::int32_t> bodies;
+    bodies.reserve(moved.size());
     for (const auto& [body, rank] : moved) { bodies.push_back(static_cast<std::int32_t>(body)); }
     body_.assign(bodies);
     contact::write_places(exec_, body_, leaving_);
