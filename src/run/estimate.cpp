@@ -11,6 +11,7 @@
 #include "base/bytes_text.hpp"
 #include "base/errors.hpp"
 #include "base/saturated.hpp"
+#include "kernels/contact/sleeping_contacts.hpp"
 #include "kernels/dem/contact/ray_kern.hpp"
 #include "kernels/dem/sleep/sleeping_bodies.hpp"
 #include "kernels/mpm/grid/wall_kern.hpp"
@@ -225,6 +226,22 @@ std::int64_t sleep_bytes_per_body(const solver::Plan& plan)
     return plan.rock_sleep ? of_body + static_cast<std::int64_t>(pairs_a_body * static_cast<double>(of_pair)) : 0;
 }
 
+/// Bytes of contacts of sleeping sand with sleeping rocks, if points cover the surface of each; twice while they are
+/// merged.
+std::int64_t sleeping_contact_bytes(const world::World& world, const solver::Plan& plan)
+{
+    if (!plan.sleep || !plan.rock_sleep) { return 0; }
+    constexpr std::int64_t of_row = 2 * (8 + sizeof(contact::Tangential) + sizeof(contact::HeldSand) + 4);
+    const double face = std::pow(*std::max_element(world.points.volume.begin(), world.points.volume.end()), 2.0 / 3);
+    double       rows = 0;
+    for (auto b = static_cast<std::size_t>(world.bodies.named); b < world.bodies.size(); ++b)
+    {
+        rows += 4 * std::numbers::pi * world.bodies.radius[b] * world.bodies.radius[b] / face;
+    }
+    const auto of_wrenches = static_cast<std::int64_t>(world.bodies.size() * sizeof(dem::ContactWrench));
+    return of_wrenches + static_cast<std::int64_t>(rows * static_cast<double>(of_row));
+}
+
 /// Bytes of the columns of doubles (run/recorder.cpp), which grow by 1024 rows (io/h5.cpp), and of their names.
 double time_series_bytes(double rows, std::int64_t named)
 {
@@ -297,7 +314,7 @@ Estimate estimate(const scene::Scene& scene, const world::World& world, const so
     Estimate         wants{};
     wants.time         = longest_time(scene);
     wants.memory_bytes = bodies * (bytes_per_body(plan) + sleep_bytes_per_body(plan)) + template_bytes(world) +
-                         (plan.rays ? ray_bytes(world) : 0);
+                         (plan.rays ? ray_bytes(world) : 0) + sleeping_contact_bytes(world, plan);
     if (plan.sand)
     {
         const std::int64_t of_point = bytes_per_point(scene, plan) + sleep_bytes_per_point(scene, plan);

@@ -150,6 +150,7 @@ private:
     void move_sand(double dt, StageClock& clock);
     void measure_if_due(const TimeStep& step, double time, StageClock& clock);
 
+    void          wake_sand_near_rocks(StageClock& clock);
     void          set_gravity(const Vec3<double>& gravity);
     void          set_contacts(std::size_t phase);
     void          require_apart(double time);
@@ -170,6 +171,9 @@ private:
     {
         return (sand_ ? sand_->reorder_count() : 0) + (rigid_ ? rigid_->partition_version() : 0);
     }
+
+    /// Has contacts of sand and rocks follow who sleeps; empty where rocks or sand do not.
+    typename MpmSolver<Exec, Real>::FollowSleep sleep_follower();
 
     Exec                         exec_;
     decomp::Decomposition<Exec>* decomposition_;

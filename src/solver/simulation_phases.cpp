@@ -25,7 +25,11 @@ void Simulation<Exec, Real>::begin_phase(std::size_t phase)
             ledger_->turn_gravity(gravity, before, census());
             wakes_ = sand_ && sand_->may_sleep();
         }
-        if (rigid_) { set_contacts(phase); }
+        if (rigid_)
+        {
+            if (rigid_->asleep() > 0 && !measured()) { measure(); } // rocks wake: their pairs must be listed at once
+            set_contacts(phase);
+        }
         phase_ = static_cast<std::int64_t>(phase);
     }
     if (rigid_) { rigid_->begin_phase(phase); }

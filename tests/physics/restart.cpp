@@ -123,6 +123,13 @@ private:
     tread::run::TimeLoop<Exec, double> loop_;
 };
 
+/// Number of rows of a data set of a state; 0 if there is none.
+std::int64_t rows_of(const std::string& path, const std::string& name)
+{
+    const io::CheckpointReader reader(path);
+    return reader.holds(name) ? reader.first_rows(name).back() : 0;
+}
+
 /// Numbers of points that slept in a run.
 struct Sleepers
 {
@@ -153,6 +160,7 @@ protected:
         time_saved_               = stopped.time();
         const std::int64_t asleep = stopped.asleep();
         rocks_saved_              = stopped.rocks_asleep();
+        contacts_saved_           = rows_of(path, "contact/asleep_key");
         Run<Exec> resumed(this->exec(), text);
         resumed.load(path, solver::Fidelity::exact);
         stopped.step(after);
@@ -169,6 +177,7 @@ protected:
     double      time_saved_ = 0; ///< s
 
     std::int64_t rocks_saved_ = 0, rocks_at_end_ = 0; ///< asleep
+    std::int64_t contacts_saved_ = 0;                 ///< of sand and rocks that sleep
 };
 TYPED_TEST_SUITE(Restart, test::Backends, test::BackendNames);
 
@@ -320,6 +329,31 @@ TYPED_TEST(Restart, OfSleepingRocksGivesTheSameBits)
     std::cout << this->rocks_saved_ << " rocks asleep when saved, " << this->rocks_at_end_ << " at the end\n";
     EXPECT_GT(this->rocks_saved_, 0);
     EXPECT_NE(this->rocks_at_end_, this->rocks_saved_);
+}
+
+/// Sand and rocks that sleep together are saved with what the sand presses the rocks with; the roller wakes both.
+TYPED_TEST(Restart, OfSleepingSandAndRocksGivesTheSameBits)
+{
+    for (const std::string diameter : {"0.06", "0.025"}) // smaller rocks take samples of points
+    {
+        std::string rocks = test::rocks_text + "placement = \"replace\"\n";
+        rocks.replace(rocks.find("= 0.06"), 6, "= " + diameter);
+        std::string text = test::sand_text + rocks + test::thrown_roller_text +
+                           "[sleep]\ndistance = 0.05\nspeed = 0.05\nrest = 2e-3\nload = 0.5\nrock_speed = 0.05\n"
+                           "rock_rest = 2e-3\nrock_load = 0.5\n";
+        for (const std::string box : {"[0.4, 0.4, 0.6]", "[0.4, 0.4, 0.2]"})
+        {
+            for (auto at = text.find(box); at != std::string::npos; at = text.find(box)) { text.replace(at, 4, "[1.6"); }
+        }
+        const Sleepers asleep = this->expect_same_bits(text);
+        std::cout << "rocks of " << diameter << " m: " << asleep.saved << " points and " << this->rocks_saved_
+                  << " rocks asleep when saved, " << asleep.at_end << " and " << this->rocks_at_end_ << " at the end, "
+                  << this->contacts_saved_ << " contacts of both saved\n";
+        EXPECT_GT(asleep.saved, 0);
+        EXPECT_GT(this->rocks_saved_, 0);
+        EXPECT_GT(this->contacts_saved_, 0);
+        EXPECT_NE(asleep.at_end, asleep.saved);
+    }
 }
 
 /// Moves all points and bodies of a saved state by up to `distance` (m) along each axis.

@@ -42,6 +42,9 @@ void begin_sleep(BodyState<Exec>& state)
     const scene::Sleep& sleep = state.scene.sleep;
     dem::begin_sleep(state.exec, state.pairs, state.bodies,
                      {sleep.rock_speed.value(), sleep.rock_rest, sleep.rock_load, state.named()});
+    if (!sleep.distance || state.world.points.size() == 0) { return; }
+    state.pairs.sleep.sand.resize(state.bodies.position.size());
+    state.pairs.sleep.sand.fill_zero();
 }
 
 template<class Exec>

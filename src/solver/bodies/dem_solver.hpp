@@ -101,6 +101,12 @@ public:
     /// Number of rocks that sleep.
     std::int64_t asleep() const { return static_cast<std::int64_t>(state_.pairs.sleep.count); }
 
+    /// Sleeping rocks, where rocks may sleep.
+    dem::SleepingBodies<Exec>& sleepers() { return state_.pairs.sleep; }
+
+    /// Call after the wrenches of sleeping sand on sleeping rocks, sleepers().sand, have changed.
+    void hold_sleepers() { dem::hold_sleepers(state_.exec, state_.pairs, state_.view()); }
+
     /// Has the next find_pairs list pairs anew, as where others touch from now on.
     void forget_list() { lists_.listed = false; }
 
@@ -205,7 +211,8 @@ private:
     BodyReports<Exec> reports_;
     NamedMeans<Exec>  means_;
     SleepSettings     sleep_;
-    double            substep_ = 0;             ///< s, duration of the last substep
+    double            substep_       = 0;     ///< s, duration of the last substep
+    bool              moved_in_sand_ = false; ///< whether bodies were last listed for substeps with sand
     double            prescribed_acceleration_; ///< m/s2, bound on what prescribed forces cause
 
     std::optional<PrescribedMotions<Exec>> motions_; ///< only if some phase prescribes a motion

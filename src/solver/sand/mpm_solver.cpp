@@ -80,12 +80,28 @@ void MpmSolver<Exec, Real>::make_room()
 }
 
 template<class Exec, class Real>
-void MpmSolver<Exec, Real>::update_sleeping_pages(const std::vector<BodyReach>& bodies, double damping)
+void MpmSolver<Exec, Real>::update_sleeping_pages(const std::vector<BodyReach>& bodies, double damping,
+                                                  const FollowSleep& follow)
 {
-    if (sleep_->look(points_, order_.pages, grid_.geometry, bodies, laws_.materials.data(), order_.scratch, damping))
+    follow_moves(sleep_->look(sleeping_sand(), order_.pages, bodies, damping), follow);
+}
+
+template<class Exec, class Real>
+void MpmSolver<Exec, Real>::wake_near(const std::vector<BodyReach>& bodies, const FollowSleep& follow)
+{
+    follow_moves(sleep_->wake_near(sleeping_sand(), bodies), follow);
+}
+
+template<class Exec, class Real>
+void MpmSolver<Exec, Real>::follow_moves(const std::optional<SleepMoves>& moves, const FollowSleep& follow)
+{
+    if (!moves) { return; }
+    if (follow)
     {
-        order_in_memory();
+        const mpm::PointsView<Real> asleep = sleep_->points().view(), awake = points_.view();
+        follow({asleep, asleep.count - moves->fallen, awake, awake.count - moves->woken});
     }
+    order_in_memory();
 }
 
 template<class Exec, class Real>

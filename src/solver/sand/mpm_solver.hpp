@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -57,10 +58,19 @@ public:
         if (sleep_) { sleep_->set_gravity(gravity.norm()); }
     }
 
+    /// Called with the points that fell asleep and woke, before they are sorted; empty: nobody follows.
+    using FollowSleep = std::function<void(const SleepChange<Real>&)>;
+
     /// Step 2, after order(). sleep_is_due: whether to update which pages sleep before a step with this damping, when
-    /// nothing is faster than `speed` (m/s). With damping none sleeps.
+    /// nothing is faster than `speed` (m/s). With damping none sleeps. `bodies` keep the sand around them awake.
     bool sleep_is_due(double speed, double damping) const { return sleep_ && sleep_->is_due(speed, damping); }
-    void update_sleeping_pages(const std::vector<BodyReach>& bodies, double damping);
+    void update_sleeping_pages(const std::vector<BodyReach>& bodies, double damping, const FollowSleep& follow);
+
+    /// Wakes the sand near these bodies, if any sleeps there.
+    void wake_near(const std::vector<BodyReach>& bodies, const FollowSleep& follow);
+
+    /// Number of sleeping points.
+    std::int64_t asleep() const { return sleep_ ? sleep_->points().count : 0; }
 
     /// Mean share of the points that have slept so far; empty where sleep is off.
     std::optional<double> mean_asleep() const;
@@ -122,6 +132,12 @@ private:
     void transfer_lists(StateFile& file, const world::HostPoints& built, std::vector<bool>& seen);
     void order_in_memory();
     void make_room();
+    void follow_moves(const std::optional<SleepMoves>& moves, const FollowSleep& follow);
+
+    typename SandSleep<Exec, Real>::Sand sleeping_sand()
+    {
+        return {points_, grid_.geometry, laws_.materials.data(), order_.scratch};
+    }
 
     const Communicator* communicator() const { return ranks_ ? &ranks_->communicator() : nullptr; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "kernels/mpm/pages/page_key.hpp"
 
@@ -155,6 +156,11 @@ void mark_near(const std::vector<BodyReach>& bodies, double edge, double distanc
     }
 }
 
+bool any_at(const PageMarks& marks, const std::vector<std::uint64_t>& pages)
+{
+    return std::any_of(pages.begin(), pages.end(), [&](std::uint64_t key) { return marks.at(key); });
+}
+
 } // namespace
 
 std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& state)
@@ -173,8 +179,7 @@ std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& 
     PageMarks near = wakes;
     mark_near(state.bodies, rule.page_edge, rule.distance + slack * rule.page_edge, near);
 
-    const bool any_wakes =
-        std::any_of(state.asleep.begin(), state.asleep.end(), [&](std::uint64_t key) { return wakes.at(key); });
+    const bool                 any_wakes = any_at(wakes, state.asleep);
     std::vector<std::uint64_t> asleep, tired;
     for (const std::uint64_t key : state.asleep)
     {
@@ -192,6 +197,19 @@ std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& 
     std::sort(asleep.begin(), asleep.end());
     asleep.erase(std::unique(asleep.begin(), asleep.end()), asleep.end()); // points may have entered a sleeping page
     return asleep;
+}
+
+std::vector<std::uint64_t> stay_asleep(const RestRule& rule, const std::vector<std::uint64_t>& asleep,
+                                       const std::vector<BodyReach>& bodies)
+{
+    PageMarks near = around_all({{}, asleep, {}, {}});
+    mark_near(bodies, rule.page_edge, rule.distance, near);
+    if (!any_at(near, asleep)) { return asleep; }
+    mark_near(bodies, rule.page_edge, rule.distance + slack * rule.page_edge, near);
+    std::vector<std::uint64_t> stay;
+    std::copy_if(asleep.begin(), asleep.end(), std::back_inserter(stay),
+                 [&](std::uint64_t key) { return !near.at(key); });
+    return stay;
 }
 
 } // namespace tread::solver

@@ -25,7 +25,7 @@ struct AwakePage
     double        quiet; ///< s, time since speeds last exceeded the threshold
 };
 
-/// A body's bounding sphere, m.
+/// Bounding sphere of a body that keeps sand awake, m.
 struct BodyReach
 {
     Vec3<double> centre;
@@ -49,5 +49,10 @@ inline constexpr int moving_ring = 2;
 /// asleep when it and all pages within moving_ring + 1 have been at rest for long enough and every body is two pages
 /// beyond the threshold distance, so that pages wake in slices that last a while.
 std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& state);
+
+/// Chooses those of the pages `asleep`, keys ascending, that stay so beside these bodies: if a page is nearer to one than
+/// the threshold distance, those within two pages beyond it wake, too.
+std::vector<std::uint64_t> stay_asleep(const RestRule& rule, const std::vector<std::uint64_t>& asleep,
+                                       const std::vector<BodyReach>& bodies);
 
 } // namespace tread::solver

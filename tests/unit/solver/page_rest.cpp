@@ -100,6 +100,19 @@ TEST(PageRest, PagesWakeInSlicesBeforeABodyReachesThem)
     EXPECT_EQ(along(choose_asleep(rule, state)), range(14, row_pages - 1));
 }
 
+/// Between two checks a body that wakes has the pages near it wake, with the slices of a check.
+TEST(PageRest, ABodyThatWakesWakesThePagesNearIt)
+{
+    const std::vector<std::uint64_t> all = choose_asleep(rule, quiet_row());
+    auto                             expected = range(0, 11);
+    const auto                       beyond   = range(28, row_pages - 1);
+    expected.insert(expected.end(), beyond.begin(), beyond.end());
+    EXPECT_EQ(along(stay_asleep(rule, all, {{{2.0, 0.05, 0.05}, 0.2}})), expected); // 0.55 m and two pages
+    EXPECT_EQ(stay_asleep(rule, all, {{{-0.6, 0.05, 0.05}, 0.2}}), all);            // 5 cm too far
+    EXPECT_EQ(stay_asleep(rule, all, {}), all);
+    EXPECT_TRUE(stay_asleep(rule, {}, {{{2.0, 0.05, 0.05}, 0.2}}).empty());
+}
+
 TEST(PageRest, WhatTheBodyHasLeftSleepsAgain)
 {
     RestState state = quiet_row();

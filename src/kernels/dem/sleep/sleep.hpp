@@ -46,6 +46,11 @@ void wake_bodies(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, cons
 template<class Exec>
 void settle_sleepers(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
 
+/// Sums the contacts that hold sleepers anew, after those with sleeping bodies, walls or sand (pairs.sleep.sand) have
+/// changed.
+template<class Exec>
+void hold_sleepers(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
+
 /// Rebuilds what settle_sleepers derives, from loaded pairs and loads.
 template<class Exec>
 void resume_sleep(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);

@@ -230,7 +230,7 @@ void wake_all(Pairs<Exec>& pairs, Bodies<Exec>& bodies)
     bodies.asleep.fill_zero();
     pairs.sleep.quiet.fill_zero();
     pairs.sleep.mark.fill_zero();
-    pairs.sleep.change = pairs.sleep.change || pairs.sleep.count > 0;
+    if (pairs.sleep.count > 0) { pairs.sleep.change = pairs.sleep.woken = true; }
 }
 
 template<class Exec>
@@ -253,7 +253,7 @@ void wake_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
     for_each(exec, "wake bodies", bodies.count,
              WakeBody{bodies, sleep.mark.data(), sleep.quiet.data(), pairs.measure.data()});
     sum_rows(exec, pairs.measure.data(), bodies.count, 1, woken);
-    if (read(exec, woken) > 0) { sleep.change = true; }
+    if (read(exec, woken) > 0) { sleep.change = sleep.woken = true; }
 }
 
 template<class Exec>
@@ -265,13 +265,20 @@ void settle_sleepers(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bod
     {
         drop_contacts(exec, pairs, bodies);
         order_contacts(exec, pairs, bodies);
-        for_each(exec, "hold bodies", bodies.count,
-                 HoldBody{bodies, sleep.pairs.view(), sleep.clock.held, sleep.watch.data()});
+        hold_sleepers(exec, pairs, bodies);
         weigh(exec, pairs, bodies);
-        sleep.clock.held = 0;
-        sleep.change     = false;
+        sleep.change = false;
     }
     list_moved_bodies(exec, pairs, bodies, {});
+}
+
+template<class Exec>
+void hold_sleepers(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    SleepingBodies<Exec>& sleep = pairs.sleep;
+    for_each(exec, "hold bodies", bodies.count,
+             sleeping::HoldBody{bodies, sleep.pairs.view(), sleep.sand.data(), sleep.clock.held, sleep.watch.data()});
+    sleep.clock.held = 0;
 }
 
 template<class Exec>
@@ -297,6 +304,7 @@ void list_moved_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& b
     template void       wake_all(Pairs<Exec>&, Bodies<Exec>&);                                                         \
     template void       wake_bodies(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, double);             \
     template void       settle_sleepers(const Exec&, Pairs<Exec>&, const BodiesView&);                                 \
+    template void       hold_sleepers(const Exec&, Pairs<Exec>&, const BodiesView&);                                   \
     template void       resume_sleep(const Exec&, Pairs<Exec>&, const BodiesView&);                                    \
     template void       list_moved_bodies(const Exec&, Pairs<Exec>&, const BodiesView&, const OutsideWrenches&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)

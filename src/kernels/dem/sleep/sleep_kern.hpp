@@ -89,7 +89,8 @@ private:
         return found;
     }
 
-    /// Takes the mean load of the window that ends: the first whole one is that of rest.
+    /// Takes the mean load of the window that ends. The first whole one is the reference; a change that was there when
+    /// sand fell asleep on the body stays.
     TREAD_HD bool load_has_changed(std::int64_t b, SleepWatch& load) const
     {
         const double       inverse = 1.0 / window;
@@ -100,12 +101,14 @@ private:
         load.windows               = std::fmin(load.windows + 1, 3.0);
         if (load.windows < 3)
         {
-            load.rest_force  = force;
-            load.rest_torque = torque;
+            load.rest_force  = force - load.change_force;
+            load.rest_torque = torque - load.change_torque;
             return false;
         }
-        const double arm = bounding_radius(bodies, templates, b);
-        return (force - load.rest_force).norm() > load.limit || (torque - load.rest_torque).norm() > load.limit * arm;
+        load.change_force  = force - load.rest_force;
+        load.change_torque = torque - load.rest_torque;
+        const double arm   = bounding_radius(bodies, templates, b);
+        return load.change_force.norm() > load.limit || load.change_torque.norm() > load.limit * arm;
     }
 };
 
@@ -175,7 +178,7 @@ struct BeginWatch
         }
         carried += (bodies.force[b] - between).norm(); // of sand
         const Vec3<double> zero = Vec3<double>::Zero();
-        watch[b]                = {ContactWrench::zero(), zero, zero, zero, zero, 0.5 * share * carried, 0};
+        watch[b] = {ContactWrench::zero(), zero, zero, zero, zero, zero, zero, 0.5 * share * carried, 0};
     }
 
 private:
@@ -278,18 +281,19 @@ struct WakeBody
     }
 };
 
-/// Sums the contacts of a sleeper with other sleepers and walls.
+/// Sums the contacts of a sleeper with other sleepers, walls and sleeping sand.
 struct HoldBody
 {
-    BodiesView        bodies;
-    SleepingPairsView pairs;
-    double            held; ///< s, for which the last sum was held
-    SleepWatch*       watch;
+    BodiesView           bodies;
+    SleepingPairsView    pairs;
+    const ContactWrench* sand; ///< null if no sand sleeps beside bodies
+    double               held; ///< s, for which the last sum was held
+    SleepWatch*          watch;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
         if (!bodies.is_asleep(b)) { return; }
-        ContactWrench sum = ContactWrench::zero();
+        ContactWrench sum = sand != nullptr ? sand[b] : ContactWrench::zero();
         for (std::int32_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p)
         {
             const HeldContact& contact = pairs.contact[p];

@@ -22,13 +22,15 @@ struct BodyRestRule
 /// Load on a sleeping body. Forces in N, torques in N m about its centre of mass.
 struct SleepWatch
 {
-    ContactWrench held;            ///< sum of its contacts with sleeping bodies and walls, constant while they sleep
-    Vec3<double>  rest_force;      ///< mean force of all contacts in the first whole window of its sleep
+    ContactWrench held;            ///< sum of its contacts with sleeping bodies, walls and sleeping sand, constant
+    Vec3<double>  rest_force;      ///< reference: mean force of all contacts in the first whole window of its sleep
     Vec3<double>  rest_torque;     ///< likewise
+    Vec3<double>  change_force;    ///< change of the mean force from the reference in the last window
+    Vec3<double>  change_torque;   ///< likewise
     Vec3<double>  impulse;         ///< N s, of all contacts in this window, `held` only up to when it last changed
     Vec3<double>  angular_impulse; ///< N m s, likewise
     double        limit;           ///< N, change of the mean force that wakes it
-    double        windows;         ///< whole windows since it fell asleep: 0, 1, or 2 for more
+    double        windows;         ///< windows since it, or sand on it, fell asleep; 3 for more
 };
 
 /// Response of a pair of sleepers.
@@ -114,6 +116,7 @@ struct SleepingBodies
         : quiet(exec, "body times at rest")
         , mark(exec, "body sleep marks")
         , watch(exec, "loads of sleeping bodies")
+        , sand(exec, "sleeping sand on bodies")
         , moved(exec, "bodies of substeps")
         , pairs(exec)
     {
@@ -122,6 +125,7 @@ struct SleepingBodies
     bool         wanted = false; ///< whether bodies may sleep
     bool         wakes  = false; ///< whether bodies near moving ones wake when the next list is found
     bool         change = false; ///< whether some body fell asleep or woke since the last list
+    bool         woken  = false; ///< whether some body woke since sand last followed
     BodyRestRule rule{};
     SleepClock   clock;
     double       count  = 0; ///< number of sleepers
@@ -131,6 +135,7 @@ struct SleepingBodies
     Array<Exec, double>       quiet; ///< s, since each body was last faster than the rule's speed; 0 = it is
     Array<Exec, std::int32_t> mark;  ///< SleepMark of each body
     Array<Exec, SleepWatch>   watch; ///< of each body
+    Array<Exec, ContactWrench> sand; ///< wrench of sleeping sand on each body; empty if none sleeps beside bodies
     Array<Exec, std::int32_t> moved; ///< bodies that the substeps compute: awake ones, and sleepers that they touch
     SleepingPairs<Exec>       pairs;
 

@@ -1,0 +1,298 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "strewn_bed.hpp"
+
+// Sand and rocks that sleep together, compared with the same bed that may not (docs/sleep.md).
+namespace
+{
+
+using namespace tread;
+using test::Bed;
+using test::StrewnBed;
+
+template<class Exec>
+class StrewnSleep : public StrewnBed<Exec>
+{
+};
+TYPED_TEST_SUITE(StrewnSleep, test::Backends, test::BackendNames);
+
+/// Rocks on and in sand: all of it falls asleep; from then on nothing is computed, and nothing changes its place by a
+/// bit.
+TYPED_TEST(StrewnSleep, ABedAtRestSleepsEntirely)
+{
+    const std::string    text = test::strewn_text + test::phase("settle", 0.3, test::settled) + test::phase("rest", 0, 0.5);
+    std::vector<double>  bodies, points;
+    std::vector<Vec3<double>> forces;
+    std::int64_t         launches = 0;
+    double               since    = 0;
+    const Bed            outcome  = this->run(text + test::strewn_sleep_text,
+                                              [&](auto& run, double time)
+                                              {
+                                      if (since > 0 || !this->all_asleep(run)) { return; }
+                                      since    = time;
+                                      bodies   = run.simulation().body_fields().position;
+                                      points   = run.simulation().point_fields().position;
+                                      forces   = this->forces(run);
+                                      launches = this->launches();
+                                  });
+    const std::int64_t   more     = this->launches() - launches;
+    const Bed            awake    = this->run(text);
+    const double         spell    = test::settled + 0.5 - since;
+    const double         most     = test::largest_difference(outcome.bodies, awake.bodies);
+    const double         creep    = 2 * test::rock_speed * spell;
+    std::cout << "all asleep for " << spell << " s\n";
+    ASSERT_GT(since, 0);
+    EXPECT_GT(spell, 0.1);
+    test::report("launches since", static_cast<double>(more), 0, 0, "nothing is computed");
+    EXPECT_EQ(more, 0);
+    EXPECT_EQ(outcome.bodies, bodies);
+    EXPECT_EQ(outcome.points, points);
+    EXPECT_EQ(outcome.forces, forces);
+    test::report("largest difference of a rock's coordinate (m)", most, 0, creep,
+                 "a rock that is held was slower than rock_speed, and its sand likewise, for as long as it slept");
+    EXPECT_LT(most, creep);
+    EXPECT_EQ(awake.most_rocks, 0);
+    this->expect_balanced("strewn bed at rest", outcome, awake);
+}
+
+/// A new phase wakes rocks and the sand around them in one step, and the contacts press as they did.
+TYPED_TEST(StrewnSleep, ANewPhaseWakesRocksAndTheirSandTogether)
+{
+    const std::string text = test::strewn_text + test::phase("settle", 0.3, test::settled) +
+                             test::phase("rest", 0, 0.4) + test::phase("again", 0, 0.02);
+    constexpr double  turn = test::settled + 0.4;
+    std::vector<Vec3<double>> before, after;
+    double            asleep = 0, nearest = 1;
+    std::int64_t      rocks = -1;
+    const Bed         outcome = this->run(text + test::strewn_sleep_text,
+                                          [&](auto& run, double time)
+                                          {
+                                      if (time < turn + 1e-9)
+                                      {
+                                          asleep = this->share_asleep(run);
+                                          before = this->forces(run);
+                                      }
+                                      else if (rocks < 0)
+                                      {
+                                          rocks   = run.simulation().rocks_asleep();
+                                          after   = this->forces(run);
+                                          nearest = this->nearest_sleeping_point(run);
+                                      }
+                                  });
+    double            most = 0;
+    for (std::size_t b = 0; b < before.size(); ++b)
+    {
+        most = std::max(most, (after[b] - before[b]).norm() / before[b].norm());
+    }
+    const Bed awake = this->run(text);
+    test::report("share of points asleep before", asleep, 1, 0, "the bed is at rest");
+    test::report("rocks asleep in the first step", static_cast<double>(rocks), 0, 0, "all wake");
+    test::report("nearest sleeping point (m)", nearest, test::sleep_distance, 0, "sand wakes with its rock");
+    test::report("largest change of the force on a rock, over the force", most, 0, 0.02,
+                 "contacts go on from what they held. In a step of 0.7 ms a rock whose load is off by the 10 % of "
+                 "rock_load moves 0.2 um, of 20 um that its sand is pressed in by");
+    EXPECT_EQ(asleep, 1);
+    EXPECT_EQ(rocks, 0);
+    EXPECT_GE(nearest, test::sleep_distance);
+    EXPECT_LT(most, 0.02);
+    this->expect_balanced("new phase", outcome, awake);
+}
+
+/// Gravity turns: all wakes at once and goes the way of what never slept.
+TYPED_TEST(StrewnSleep, GravityTurns)
+{
+    const std::string text = test::strewn_text + test::phase("settle", 0.3, test::settled) +
+                             test::phase("rest", 0, 0.4) + test::phase("turn", 0, 0.1) +
+                             "gravity = [6.0, 0.0, -7.7]\n";
+    constexpr double  turn = test::settled + 0.4;
+    double            before = 0, after = 0;
+    const Bed         outcome = this->run(text + test::strewn_sleep_text,
+                                          [&](auto& run, double time)
+                                          {
+                                      double& share = time < turn + 1e-9 ? before : after;
+                                      share         = std::max(share, this->share_asleep(run));
+                                  });
+    const Bed         awake   = this->run(text);
+    const double      most    = test::largest_difference(outcome.bodies, awake.bodies);
+    const double      creep   = 2 * test::rock_speed * 0.4;
+    test::report("share of points asleep before", before, 1, 0, "the bed is at rest");
+    test::report("share of points asleep after", after, 0, 0, "all wakes");
+    test::report("largest difference of a rock's coordinate after 0.1 s (m)", most, 0, creep,
+                 "what creep below rock_speed was held during the phase before");
+    EXPECT_EQ(before, 1);
+    EXPECT_EQ(after, 0);
+    EXPECT_LT(most, creep);
+    this->expect_balanced("gravity turns", outcome, awake);
+}
+
+/// A rock falls on the sleeping bed: what it hits wakes, sand included, before it is there; what is far never does.
+TYPED_TEST(StrewnSleep, ARockFallsOnASleepingStrewnBed)
+{
+    constexpr double   release = test::settled + 0.4; ///< s
+    const std::string  text    = test::strewn_text + test::held_stone_text +
+                             "[[phase]]\nname = \"settle\"\ndamping = 0.3\nduration = 0.4\nhold = [\"stone\"]\n" +
+                             test::phase("fall", 0, 1.2);
+    double              share = 0, nearest = 1;
+    std::vector<double> place;
+    std::int64_t        woken = 0, last = 0;
+    const auto          fall = [&](const std::string& scene, auto watch)
+    {
+        return this->run(scene, watch,
+                         [](double time, auto& commands)
+                         {
+                             if (time < release) { commands[0].locked = dem::lock_all; }
+                         });
+    };
+    const Bed    outcome = fall(text + test::strewn_sleep_text,
+                                [&](auto& run, double time)
+                                {
+                                 const std::int64_t rocks = run.simulation().rocks_asleep();
+                                 woken += std::max<std::int64_t>(last - rocks, 0);
+                                 last = rocks;
+                                 if (time < release)
+                                 {
+                                     share = this->share_asleep(run);
+                                     place = run.simulation().body_fields().position;
+                                 }
+                                 else { nearest = std::min(nearest, this->nearest_sleeping_point(run)); }
+                             });
+    const Bed    awake   = fall(text, [](auto&, double) {});
+    const double stone = outcome.bodies[2], stone_awake = awake.bodies[2];
+    const auto   far   = test::furthest_rock(place, 1);
+    test::report("share of points asleep at the release", share, 1, 0, "the stone hangs a metre above");
+    test::report("nearest sleeping point to a body that is awake (m)", nearest, 0.75 * test::sleep_distance, 0,
+                 "sand wakes before anything has moved a quarter of the distance");
+    test::report("height of the stone (m)", stone, stone_awake, 0.25 * test::diameter,
+                 "a quarter of its size: it may roll off a rock by chance");
+    test::report("shift of the furthest rock (m)", test::shift_of(far, place, outcome.bodies), 0, 0,
+                 "out of reach: it sleeps on");
+    std::cout << "woken " << woken << ", asleep at the end " << last << "\n";
+    EXPECT_EQ(share, 1);
+    EXPECT_GE(nearest, 0.75 * test::sleep_distance);
+    EXPECT_GT(woken, 0);
+    EXPECT_NEAR(stone, stone_awake, 0.25 * test::diameter);
+    EXPECT_EQ(test::shift_of(far, place, outcome.bodies), 0);
+    this->expect_balanced("rock on a strewn bed", outcome, awake);
+}
+
+/// A roller falls on one end of the sleeping bed and drives half a metre: around it all is awake, beyond its
+/// neighbourhood nothing is.
+TYPED_TEST(StrewnSleep, AWheelWakesItsNeighbourhoodOnly)
+{
+    constexpr double release = test::settled + 0.3; ///< s
+    const auto [text, reach] = std::pair(test::strewn_text + test::strewn_roller_text, test::neighbourhood);
+    std::vector<double> place, heights, awake_heights;
+    double              share = 0, nearest = 1, furthest = 0, asleep = 0, steps = 0;
+    const auto          drive = [&](const std::string& scene, auto watch)
+    {
+        return this->run(scene, watch,
+                         [](double time, auto& commands)
+                         {
+                             if (time < release) { commands[0].locked = dem::lock_all; }
+                             else
+                             {
+                                 const double spin   = 10.0 * std::min(1.0, (time - release) / 0.2);
+                                 commands[0].spin    = spin;
+                                 commands[0].locked |= dem::lock_pitch;
+                             }
+                         });
+    };
+    std::vector<std::int32_t> before;
+    const Bed outcome = drive(text + test::strewn_sleep_text,
+                              [&](auto& run, double time)
+                              {
+                                  const auto position = run.simulation().body_fields().position;
+                                  if (time < release)
+                                  {
+                                      share  = this->share_asleep(run);
+                                      place  = position;
+                                      before = this->sleepers(run);
+                                      return;
+                                  }
+                                  heights.push_back(position[2]);
+                                  const auto now = this->sleepers(run);
+                                  for (std::size_t b = 1; b < now.size(); ++b)
+                                  {
+                                      if (before[b] == 0 || now[b] != 0) { continue; }
+                                      furthest = std::max(furthest, std::abs(position[3 * b] - position[0]));
+                                  }
+                                  before = now;
+                                  asleep += this->share_asleep(run);
+                                  steps += 1;
+                                  nearest = std::min(nearest, this->nearest_sleeping_point(run));
+                              });
+    const Bed awake   = drive(text, [&](auto& run, double time)
+                              {
+                                if (time >= release)
+                                {
+                                    awake_heights.push_back(run.simulation().body_fields().position[2]);
+                                }
+                            });
+    const double sinkage = 0.3 - test::late_mean(awake_heights), other = 0.3 - test::late_mean(heights);
+    const auto   far     = test::furthest_rock(place, 1);
+    const double tolerance = 0.02 * std::abs(sinkage) + test::hidden_by_load;
+    std::cout << "asleep on the mean of the drive " << asleep / steps << ", driven "
+              << outcome.bodies[0] - place[0] << " m\n";
+    test::report("share of points asleep at the release", share, 1, 0, "the roller hangs above");
+    test::report("furthest rock that woke (m)", furthest, reach, 0,
+                 "beyond the sand that is awake around a wheel nothing changes the load on a rock");
+    test::report("nearest sleeping point to a body that is awake (m)", nearest, 0.75 * test::sleep_distance, 0,
+                 "sand wakes before anything has moved a quarter of the distance");
+    test::report("shift of the furthest rock (m)", test::shift_of(far, place, outcome.bodies), 0, 0, "it sleeps on");
+    test::report("mean sinkage of the second half (m)", other, sinkage, tolerance,
+                 "2 % as of sand alone, by chance, and what the criteria of load may hide in sleeping sand and rocks");
+    EXPECT_EQ(share, 1);
+    EXPECT_GT(asleep / steps, 0.3);
+    EXPECT_GT(furthest, 0);
+    EXPECT_LT(furthest, reach);
+    EXPECT_GE(nearest, 0.75 * test::sleep_distance);
+    EXPECT_EQ(test::shift_of(far, place, outcome.bodies), 0);
+    EXPECT_NEAR(other, sinkage, tolerance);
+    this->expect_balanced("wheel on a strewn bed", outcome, awake);
+}
+
+/// A slab that holds the bed's end is pulled away: the sleeping bed is undercut, and collapses as if it had never slept.
+TYPED_TEST(StrewnSleep, AnUndercutBedCollapses)
+{
+    constexpr double    pull  = test::settled + 0.4; ///< s
+    double              rocks = 0;
+    std::vector<double> place;
+    const auto          undercut = [&](const std::string& scene, auto watch)
+    {
+        return this->run(scene, watch,
+                         [](double time, auto& commands)
+                         {
+                             if (time >= pull) { commands[0].forward = time < pull + 0.25 ? -1.5 : 0.0; }
+                         });
+    };
+    const std::string text    = test::undercut_text;
+    double            share   = 0;
+    const Bed         outcome = undercut(text + test::strewn_sleep_text,
+                                         [&](auto& run, double time)
+                                         {
+                                     if (time >= pull) { return; }
+                                     share = this->share_asleep(run);
+                                     rocks = static_cast<double>(run.simulation().rocks_asleep());
+                                     place = run.simulation().body_fields().position;
+                                 });
+    const Bed         awake   = undercut(text, [](auto&, double) {});
+    const auto        first   = test::furthest_rock(place, -1);
+    const double      shift = test::shift_of(first, place, outcome.bodies), expected = test::shift_of(first, place, awake.bodies);
+    const double      mean = test::mean_height(outcome.bodies), mean_awake = test::mean_height(awake.bodies);
+    std::cout << "share of points asleep before the pull: " << share << "\n";
+    test::report("rocks asleep before the pull", rocks, test::undercut_rocks, 0, "the bed is at rest");
+    test::report("shift of the rock next to the slab (m)", shift, expected, 0.5 * test::diameter,
+                 "half a rock: where it rolls to is chance");
+    test::report("mean height of the rocks (m)", mean, mean_awake, 0.1 * test::diameter, "a tenth of a rock, by chance");
+    EXPECT_EQ(rocks, test::undercut_rocks);
+    EXPECT_GT(share, 0.2);
+    EXPECT_GT(expected, 0.5 * test::diameter);
+    EXPECT_NEAR(shift, expected, 0.5 * test::diameter);
+    EXPECT_NEAR(mean, mean_awake, 0.1 * test::diameter);
+    this->expect_balanced("undercut bed", outcome, awake);
+}
+
+} // namespace
