@@ -343,7 +343,10 @@ TYPED_TEST(Restart, OfSleepingSandAndRocksGivesTheSameBits)
                            "rock_rest = 2e-3\nrock_load = 0.5\n";
         for (const std::string box : {"[0.4, 0.4, 0.6]", "[0.4, 0.4, 0.2]"})
         {
-            for (auto at = text.find(box); at != std::string::npos; at = text.find(box)) { text.replace(at, 4, "[1.6"); }
+            for (auto at = text.find(box); at != std::string::npos; at = text.find(box))
+            {
+                text.replace(at, 4, "[1.6");
+            }
         }
         const Sleepers asleep = this->expect_same_bits(text);
         std::cout << "rocks of " << diameter << " m: " << asleep.saved << " points and " << this->rocks_saved_

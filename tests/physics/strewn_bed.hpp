@@ -19,12 +19,12 @@ inline constexpr double settled        = 0.4;  ///< s, end of the damped phase
 inline constexpr double sleep_distance = 0.1;  ///< m
 inline constexpr double rock_speed     = 1e-2; ///< m/s
 
-/// m, within which rocks may wake around a wheel of 0.1 m: sand is awake up to two pages of 0.2 m beyond the distance, a
-/// page has a length, and a rock at its end feels it.
+/// m, within which rocks may wake around a wheel of 0.1 m: sand is awake up to two pages of 0.2 m beyond the distance,
+/// a page has a length, and a rock at its end feels it.
 inline constexpr double neighbourhood = 0.1 + sleep_distance + 3 * 0.2 + 0.5 * diameter;
 
-/// m, settlement that the criteria of load may hide under a wheel: a fifth of the bed's mean pressure (1600 kg/m3, 0.2 m)
-/// over its depth of sand of 1.35 MPa in one dimension, and a tenth of what a rock's weight presses it in by, 1 mm.
+/// m, settlement that the criteria of load may hide under a wheel: a fifth of the bed's mean pressure (1600 kg/m3, 0.2
+/// m) over its depth of sand of 1.35 MPa in one dimension, and a tenth of what a rock's weight presses it in by, 1 mm.
 inline constexpr double hidden_by_load = 0.2 * 1600 * 9.81 * 0.2 / 1.35e6 * 0.2 + 0.1 * 1e-3;
 
 inline const std::string strewn_sleep_text =
@@ -69,8 +69,7 @@ inline std::string some_rocks(int count, const std::string& placement, const std
 }
 
 /// Eight rocks on the sand and four in it.
-inline const std::string strewn_text = strewn_ground(0) +
-                                       some_rocks(8, "rain", "[[0.0, 0.0, 0.21], [2.4, 0.4, 0.4]]") +
+inline const std::string strewn_text = strewn_ground(0) + some_rocks(8, "rain", "[[0.0, 0.0, 0.21], [2.4, 0.4, 0.4]]") +
                                        some_rocks(4, "replace", "[[0.0, 0.0, 0.05], [2.4, 0.4, 0.19]]");
 
 /// A rock that hangs a metre above one end.
@@ -111,8 +110,8 @@ duration = 1.2
 inline constexpr double undercut_rocks = 4;
 
 /// Sand from 0.6 m on with rocks on it, held by a slab.
-inline const std::string undercut_text = strewn_ground(0.6) +
-                                         some_rocks(4, "rain", "[[0.62, 0.0, 0.21], [2.4, 0.4, 0.4]]") + R"(
+inline const std::string undercut_text =
+    strewn_ground(0.6) + some_rocks(4, "rain", "[[0.62, 0.0, 0.21], [2.4, 0.4, 0.4]]") + R"(
 [[shape]]
 name     = "slab"
 generate = { kind = "box", size = [0.1, 0.4, 0.3] }
@@ -136,9 +135,9 @@ hold     = ["slab"]
 /// Result of a run.
 struct Bed
 {
-    std::vector<double>       bodies; ///< m, positions at the end
-    std::vector<double>       points; ///< m
-    std::vector<Vec3<double>> forces; ///< N, of contacts on bodies
+    std::vector<double>       bodies;         ///< m, positions at the end
+    std::vector<double>       points;         ///< m
+    std::vector<Vec3<double>> forces;         ///< N, of contacts on bodies
     std::int64_t              most_rocks = 0; ///< most sleeping rocks
     double                    energy     = 0; ///< unaccounted, over the largest exchange
     double                    momentum   = 0;
@@ -169,7 +168,7 @@ inline double shift_of(std::size_t body, const std::vector<double>& from, const 
     return std::sqrt(squared);
 }
 
-/// Of all bodies but the first.
+/// Mean height (m) of all bodies but the first.
 inline double mean_height(const std::vector<double>& position)
 {
     double sum = 0;

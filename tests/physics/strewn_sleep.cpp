@@ -23,14 +23,15 @@ TYPED_TEST_SUITE(StrewnSleep, test::Backends, test::BackendNames);
 /// bit.
 TYPED_TEST(StrewnSleep, ABedAtRestSleepsEntirely)
 {
-    const std::string    text = test::strewn_text + test::phase("settle", 0.3, test::settled) + test::phase("rest", 0, 0.5);
-    std::vector<double>  bodies, points;
+    const std::string text =
+        test::strewn_text + test::phase("settle", 0.3, test::settled) + test::phase("rest", 0, 0.5);
+    std::vector<double>       bodies, points;
     std::vector<Vec3<double>> forces;
-    std::int64_t         launches = 0;
-    double               since    = 0;
-    const Bed            outcome  = this->run(text + test::strewn_sleep_text,
-                                              [&](auto& run, double time)
-                                              {
+    std::int64_t              launches = 0;
+    double                    since    = 0;
+    const Bed                 outcome  = this->run(text + test::strewn_sleep_text,
+                                                   [&](auto& run, double time)
+                                                   {
                                       if (since > 0 || !this->all_asleep(run)) { return; }
                                       since    = time;
                                       bodies   = run.simulation().body_fields().position;
@@ -38,11 +39,11 @@ TYPED_TEST(StrewnSleep, ABedAtRestSleepsEntirely)
                                       forces   = this->forces(run);
                                       launches = this->launches();
                                   });
-    const std::int64_t   more     = this->launches() - launches;
-    const Bed            awake    = this->run(text);
-    const double         spell    = test::settled + 0.5 - since;
-    const double         most     = test::largest_difference(outcome.bodies, awake.bodies);
-    const double         creep    = 2 * test::rock_speed * spell;
+    const std::int64_t        more     = this->launches() - launches;
+    const Bed                 awake    = this->run(text);
+    const double              spell    = test::settled + 0.5 - since;
+    const double              most     = test::largest_difference(outcome.bodies, awake.bodies);
+    const double              creep    = 2 * test::rock_speed * spell;
     std::cout << "all asleep for " << spell << " s\n";
     ASSERT_GT(since, 0);
     EXPECT_GT(spell, 0.1);
@@ -63,13 +64,13 @@ TYPED_TEST(StrewnSleep, ANewPhaseWakesRocksAndTheirSandTogether)
 {
     const std::string text = test::strewn_text + test::phase("settle", 0.3, test::settled) +
                              test::phase("rest", 0, 0.4) + test::phase("again", 0, 0.02);
-    constexpr double  turn = test::settled + 0.4;
+    constexpr double          turn = test::settled + 0.4;
     std::vector<Vec3<double>> before, after;
-    double            asleep = 0, nearest = 1;
-    std::int64_t      rocks = -1;
-    const Bed         outcome = this->run(text + test::strewn_sleep_text,
-                                          [&](auto& run, double time)
-                                          {
+    double                    asleep = 0, nearest = 1;
+    std::int64_t              rocks   = -1;
+    const Bed                 outcome = this->run(text + test::strewn_sleep_text,
+                                                  [&](auto& run, double time)
+                                                  {
                                       if (time < turn + 1e-9)
                                       {
                                           asleep = this->share_asleep(run);
@@ -82,7 +83,7 @@ TYPED_TEST(StrewnSleep, ANewPhaseWakesRocksAndTheirSandTogether)
                                           nearest = this->nearest_sleeping_point(run);
                                       }
                                   });
-    double            most = 0;
+    double                    most    = 0;
     for (std::size_t b = 0; b < before.size(); ++b)
     {
         most = std::max(most, (after[b] - before[b]).norm() / before[b].norm());
@@ -105,19 +106,18 @@ TYPED_TEST(StrewnSleep, ANewPhaseWakesRocksAndTheirSandTogether)
 TYPED_TEST(StrewnSleep, GravityTurns)
 {
     const std::string text = test::strewn_text + test::phase("settle", 0.3, test::settled) +
-                             test::phase("rest", 0, 0.4) + test::phase("turn", 0, 0.1) +
-                             "gravity = [6.0, 0.0, -7.7]\n";
-    constexpr double  turn = test::settled + 0.4;
-    double            before = 0, after = 0;
-    const Bed         outcome = this->run(text + test::strewn_sleep_text,
-                                          [&](auto& run, double time)
-                                          {
+                             test::phase("rest", 0, 0.4) + test::phase("turn", 0, 0.1) + "gravity = [6.0, 0.0, -7.7]\n";
+    constexpr double turn   = test::settled + 0.4;
+    double           before = 0, after = 0;
+    const Bed        outcome = this->run(text + test::strewn_sleep_text,
+                                         [&](auto& run, double time)
+                                         {
                                       double& share = time < turn + 1e-9 ? before : after;
                                       share         = std::max(share, this->share_asleep(run));
                                   });
-    const Bed         awake   = this->run(text);
-    const double      most    = test::largest_difference(outcome.bodies, awake.bodies);
-    const double      creep   = 2 * test::rock_speed * 0.4;
+    const Bed        awake   = this->run(text);
+    const double     most    = test::largest_difference(outcome.bodies, awake.bodies);
+    const double     creep   = 2 * test::rock_speed * 0.4;
     test::report("share of points asleep before", before, 1, 0, "the bed is at rest");
     test::report("share of points asleep after", after, 0, 0, "all wakes");
     test::report("largest difference of a rock's coordinate after 0.1 s (m)", most, 0, creep,
@@ -131,8 +131,8 @@ TYPED_TEST(StrewnSleep, GravityTurns)
 /// A rock falls on the sleeping bed: what it hits wakes, sand included, before it is there; what is far never does.
 TYPED_TEST(StrewnSleep, ARockFallsOnASleepingStrewnBed)
 {
-    constexpr double   release = test::settled + 0.4; ///< s
-    const std::string  text    = test::strewn_text + test::held_stone_text +
+    constexpr double  release = test::settled + 0.4; ///< s
+    const std::string text    = test::strewn_text + test::held_stone_text +
                              "[[phase]]\nname = \"settle\"\ndamping = 0.3\nduration = 0.4\nhold = [\"stone\"]\n" +
                              test::phase("fall", 0, 1.2);
     double              share = 0, nearest = 1;
@@ -161,7 +161,7 @@ TYPED_TEST(StrewnSleep, ARockFallsOnASleepingStrewnBed)
                              });
     const Bed    awake   = fall(text, [](auto&, double) {});
     const double stone = outcome.bodies[2], stone_awake = awake.bodies[2];
-    const auto   far   = test::furthest_rock(place, 1);
+    const auto   far = test::furthest_rock(place, 1);
     test::report("share of points asleep at the release", share, 1, 0, "the stone hangs a metre above");
     test::report("nearest sleeping point to a body that is awake (m)", nearest, 0.75 * test::sleep_distance, 0,
                  "sand wakes before anything has moved a quarter of the distance");
@@ -194,16 +194,16 @@ TYPED_TEST(StrewnSleep, AWheelWakesItsNeighbourhoodOnly)
                              if (time < release) { commands[0].locked = dem::lock_all; }
                              else
                              {
-                                 const double spin   = 10.0 * std::min(1.0, (time - release) / 0.2);
-                                 commands[0].spin    = spin;
+                                 const double spin = 10.0 * std::min(1.0, (time - release) / 0.2);
+                                 commands[0].spin  = spin;
                                  commands[0].locked |= dem::lock_pitch;
                              }
                          });
     };
     std::vector<std::int32_t> before;
-    const Bed outcome = drive(text + test::strewn_sleep_text,
-                              [&](auto& run, double time)
-                              {
+    const Bed                 outcome = drive(text + test::strewn_sleep_text,
+                                              [&](auto& run, double time)
+                                              {
                                   const auto position = run.simulation().body_fields().position;
                                   if (time < release)
                                   {
@@ -224,18 +224,19 @@ TYPED_TEST(StrewnSleep, AWheelWakesItsNeighbourhoodOnly)
                                   steps += 1;
                                   nearest = std::min(nearest, this->nearest_sleeping_point(run));
                               });
-    const Bed awake   = drive(text, [&](auto& run, double time)
-                              {
+    const Bed                 awake   = drive(text,
+                                              [&](auto& run, double time)
+                                              {
                                 if (time >= release)
                                 {
                                     awake_heights.push_back(run.simulation().body_fields().position[2]);
                                 }
                             });
-    const double sinkage = 0.3 - test::late_mean(awake_heights), other = 0.3 - test::late_mean(heights);
-    const auto   far     = test::furthest_rock(place, 1);
-    const double tolerance = 0.02 * std::abs(sinkage) + test::hidden_by_load;
-    std::cout << "asleep on the mean of the drive " << asleep / steps << ", driven "
-              << outcome.bodies[0] - place[0] << " m\n";
+    const double              sinkage = 0.3 - test::late_mean(awake_heights), other = 0.3 - test::late_mean(heights);
+    const auto                far       = test::furthest_rock(place, 1);
+    const double              tolerance = 0.02 * std::abs(sinkage) + test::hidden_by_load;
+    std::cout << "asleep on the mean of the drive " << asleep / steps << ", driven " << outcome.bodies[0] - place[0]
+              << " m\n";
     test::report("share of points asleep at the release", share, 1, 0, "the roller hangs above");
     test::report("furthest rock that woke (m)", furthest, reach, 0,
                  "beyond the sand that is awake around a wheel nothing changes the load on a rock");
@@ -254,7 +255,8 @@ TYPED_TEST(StrewnSleep, AWheelWakesItsNeighbourhoodOnly)
     this->expect_balanced("wheel on a strewn bed", outcome, awake);
 }
 
-/// A slab that holds the bed's end is pulled away: the sleeping bed is undercut, and collapses as if it had never slept.
+/// A slab that holds the bed's end is pulled away: the sleeping bed is undercut, and collapses as if it had never
+/// slept.
 TYPED_TEST(StrewnSleep, AnUndercutBedCollapses)
 {
     constexpr double    pull  = test::settled + 0.4; ///< s
@@ -280,13 +282,15 @@ TYPED_TEST(StrewnSleep, AnUndercutBedCollapses)
                                  });
     const Bed         awake   = undercut(text, [](auto&, double) {});
     const auto        first   = test::furthest_rock(place, -1);
-    const double      shift = test::shift_of(first, place, outcome.bodies), expected = test::shift_of(first, place, awake.bodies);
-    const double      mean = test::mean_height(outcome.bodies), mean_awake = test::mean_height(awake.bodies);
+    const double      shift   = test::shift_of(first, place, outcome.bodies),
+                 expected     = test::shift_of(first, place, awake.bodies);
+    const double mean = test::mean_height(outcome.bodies), mean_awake = test::mean_height(awake.bodies);
     std::cout << "share of points asleep before the pull: " << share << "\n";
     test::report("rocks asleep before the pull", rocks, test::undercut_rocks, 0, "the bed is at rest");
     test::report("shift of the rock next to the slab (m)", shift, expected, 0.5 * test::diameter,
                  "half a rock: where it rolls to is chance");
-    test::report("mean height of the rocks (m)", mean, mean_awake, 0.1 * test::diameter, "a tenth of a rock, by chance");
+    test::report("mean height of the rocks (m)", mean, mean_awake, 0.1 * test::diameter,
+                 "a tenth of a rock, by chance");
     EXPECT_EQ(rocks, test::undercut_rocks);
     EXPECT_GT(share, 0.2);
     EXPECT_GT(expected, 0.5 * test::diameter);

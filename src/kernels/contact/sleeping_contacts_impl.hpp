@@ -54,7 +54,7 @@ void swap(SleepingContacts<Exec>& one, SleepingContacts<Exec>& other)
 template<class Exec>
 void merge(const Exec& exec, SleepingContacts<Exec>& sleeping, SleepingContacts<Exec>& more, SortScratch<Exec>& scratch)
 {
-    const std::int64_t old = sleeping.key.size(), count = old + more.key.size();
+    const std::int64_t        old = sleeping.key.size(), count = old + more.key.size();
     SleepingContacts<Exec>    all(exec);
     Array<Exec, std::int32_t> origin(exec, "origins of sleeping contacts", count);
     resize(all, count);
@@ -155,8 +155,7 @@ void sum_sleeping(const Exec& exec, SleepingContacts<Exec>& sleeping, Array<Exec
     for_each(exec, "press of sleeping sand", press.size(),
              SumRows{count, sleeping.key.data(), sleeping.response.data(), press.data()});
     Array<Exec, double> energy(exec, "energies of sleeping contacts", count + 1);
-    for_each(exec, "energies of sleeping contacts", count,
-             WriteEnergyOfRow{sleeping.response.data(), energy.data()});
+    for_each(exec, "energies of sleeping contacts", count, WriteEnergyOfRow{sleeping.response.data(), energy.data()});
     sum_rows(exec, energy.data(), count, 1, energy.data() + count);
     sleeping.energy = read(exec, energy.data() + count);
 }

@@ -137,10 +137,9 @@ struct WriteRows
         if (first[c + 1] == first[c]) { return; }
         const std::int32_t b = contacts.candidates.body[c], t = contacts.candidates.touched[c];
         const Response&    found = contacts.response[c];
-        HeldSand           held = {contact_steps::wrench_on_body(found, points.position[t] - body_position[b]),
-                                   found.energy};
-        double             lost = found.dissipated;
-        std::int64_t       row  = first[c];
+        HeldSand     held = {contact_steps::wrench_on_body(found, points.position[t] - body_position[b]), found.energy};
+        double       lost = found.dissipated;
+        std::int64_t row  = first[c];
         for (std::int64_t s = contacts.first_slot(c); s < contacts.first_slot(c + 1); ++s)
         {
             if (!is_known(contacts.tangential[s].normal)) { continue; }

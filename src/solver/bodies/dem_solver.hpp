@@ -211,8 +211,8 @@ private:
     BodyReports<Exec> reports_;
     NamedMeans<Exec>  means_;
     SleepSettings     sleep_;
-    double            substep_       = 0;     ///< s, duration of the last substep
-    bool              moved_in_sand_ = false; ///< whether bodies were last listed for substeps with sand
+    double            substep_       = 0;       ///< s, duration of the last substep
+    bool              moved_in_sand_ = false;   ///< whether bodies were last listed for substeps with sand
     double            prescribed_acceleration_; ///< m/s2, bound on what prescribed forces cause
 
     std::optional<PrescribedMotions<Exec>> motions_; ///< only if some phase prescribes a motion

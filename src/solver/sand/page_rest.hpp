@@ -50,8 +50,8 @@ inline constexpr int moving_ring = 2;
 /// beyond the threshold distance, so that pages wake in slices that last a while.
 std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& state);
 
-/// Chooses those of the pages `asleep`, keys ascending, that stay so beside these bodies: if a page is nearer to one than
-/// the threshold distance, those within two pages beyond it wake, too.
+/// Chooses those of the pages `asleep`, keys ascending, that stay so beside these bodies: if a page is nearer to one
+/// than the threshold distance, those within two pages beyond it wake, too.
 std::vector<std::uint64_t> stay_asleep(const RestRule& rule, const std::vector<std::uint64_t>& asleep,
                                        const std::vector<BodyReach>& bodies);
 

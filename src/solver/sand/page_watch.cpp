@@ -83,7 +83,8 @@ std::vector<AwakePage> PageWatch<Exec>::awake(const mpm::Pages<Exec>& pages, dou
         if (first[i] == first[i + 1]) { continue; }
         const auto   known   = rest_.find(keys_[i]);
         const double largest = known == rest_.end() ? 0 : std::sqrt(known->second.speed_squared);
-        const double quiet   = known == rest_.end() || largest > speed ? 0 : known->second.quiet + window_ - known->second.late;
+        const double quiet =
+            known == rest_.end() || largest > speed ? 0 : known->second.quiet + window_ - known->second.late;
         awake.push_back({keys_[i], largest, quiet});
         rest.emplace_hint(rest.end(), keys_[i], Rest{0, quiet, 0});
     }

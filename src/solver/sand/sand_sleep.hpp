@@ -94,8 +94,7 @@ public:
     void set_gravity(double gravity) { load_limit_ = load_mass_ * gravity; }
 
 private:
-    SleepMoves   sleep_on(const Sand& sand, std::vector<std::uint64_t> chosen,
-                          const std::vector<std::uint64_t>& falling);
+    SleepMoves sleep_on(const Sand& sand, std::vector<std::uint64_t> chosen, const std::vector<std::uint64_t>& falling);
     std::int64_t move(mpm::Points<Exec, Real>& from, mpm::Points<Exec, Real>& to,
                       const std::vector<std::uint64_t>& pages_to_move, const Sand& sand, SandCensus& moved);
     SandCensus   census_of_leaving(mpm::Points<Exec, Real>& points, const mpm::MaterialParameters<Real>* materials);

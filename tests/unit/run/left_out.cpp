@@ -92,10 +92,10 @@ TEST(LeftOut, RocksThatMaySleep)
 TEST(LeftOut, SandAndRocksThatMaySleep)
 {
     const std::string both = "[sleep]\ndistance = 0.2\n", rocks = both + "rock_speed = 1e-3\n";
-    const Part        without = used_by(test::sand_text + within + both), with = used_by(test::sand_text + within + rocks);
-    const Part        sleep = {{"bodies of substeps", "body sleep marks", "body times at rest", "loads of sleeping bodies",
-                                "sleeping bodies", "sleeping sand on bodies"},
-                               {"bodies of substeps", "look at sleep", "time at rest"}};
+    const Part without = used_by(test::sand_text + within + both), with = used_by(test::sand_text + within + rocks);
+    const Part sleep = {{"bodies of substeps", "body sleep marks", "body times at rest", "loads of sleeping bodies",
+                         "sleeping bodies", "sleeping sand on bodies"},
+                        {"bodies of substeps", "look at sleep", "time at rest"}};
     expect_equal(with, without + sleep);
 }
 

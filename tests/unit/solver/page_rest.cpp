@@ -103,7 +103,7 @@ TEST(PageRest, PagesWakeInSlicesBeforeABodyReachesThem)
 /// Between two checks a body that wakes has the pages near it wake, with the slices of a check.
 TEST(PageRest, ABodyThatWakesWakesThePagesNearIt)
 {
-    const std::vector<std::uint64_t> all = choose_asleep(rule, quiet_row());
+    const std::vector<std::uint64_t> all      = choose_asleep(rule, quiet_row());
     auto                             expected = range(0, 11);
     const auto                       beyond   = range(28, row_pages - 1);
     expected.insert(expected.end(), beyond.begin(), beyond.end());

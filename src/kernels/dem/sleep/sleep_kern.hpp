@@ -178,7 +178,7 @@ struct BeginWatch
         }
         carried += (bodies.force[b] - between).norm(); // of sand
         const Vec3<double> zero = Vec3<double>::Zero();
-        watch[b] = {ContactWrench::zero(), zero, zero, zero, zero, zero, zero, 0.5 * share * carried, 0};
+        watch[b]                = {ContactWrench::zero(), zero, zero, zero, zero, zero, zero, 0.5 * share * carried, 0};
     }
 
 private:

@@ -132,12 +132,12 @@ struct SleepingBodies
     double       mass   = 0; ///< kg, of all sleepers
     double       energy = 0; ///< J, elastic, of pairs of sleepers
 
-    Array<Exec, double>       quiet; ///< s, since each body was last faster than the rule's speed; 0 = it is
-    Array<Exec, std::int32_t> mark;  ///< SleepMark of each body
-    Array<Exec, SleepWatch>   watch; ///< of each body
-    Array<Exec, ContactWrench> sand; ///< wrench of sleeping sand on each body; empty if none sleeps beside bodies
-    Array<Exec, std::int32_t> moved; ///< bodies that the substeps compute: awake ones, and sleepers that they touch
-    SleepingPairs<Exec>       pairs;
+    Array<Exec, double>        quiet; ///< s, since each body was last faster than the rule's speed; 0 = it is
+    Array<Exec, std::int32_t>  mark;  ///< SleepMark of each body
+    Array<Exec, SleepWatch>    watch; ///< of each body
+    Array<Exec, ContactWrench> sand;  ///< wrench of sleeping sand on each body; empty if none sleeps beside bodies
+    Array<Exec, std::int32_t>  moved; ///< bodies that the substeps compute: awake ones, and sleepers that they touch
+    SleepingPairs<Exec>        pairs;
 
     /// Records that substeps have taken `time` (s).
     void pass(double time)
