@@ -11,7 +11,6 @@
 #include "base/bytes_text.hpp"
 #include "base/errors.hpp"
 #include "base/saturated.hpp"
-#include "kernels/contact/sleeping_contacts.hpp"
 #include "kernels/dem/contact/ray_kern.hpp"
 #include "kernels/dem/sleep/sleeping_bodies.hpp"
 #include "kernels/mpm/grid/wall_kern.hpp"
@@ -19,6 +18,7 @@
 #include "kernels/mpm/pages/moves.hpp"
 #include "kernels/mpm/pages/pages.hpp"
 #include "kernels/mpm/transfers/gather.hpp"
+#include "solver/coupling/sand_body_coupling.hpp"
 #include "solver/ledger/sand_guard.hpp"
 #include "solver/pace_limits.hpp"
 
@@ -226,12 +226,10 @@ std::int64_t sleep_bytes_per_body(const solver::Plan& plan)
     return plan.rock_sleep ? of_body + static_cast<std::int64_t>(pairs_a_body * static_cast<double>(of_pair)) : 0;
 }
 
-/// Bytes of contacts of sleeping sand with sleeping rocks, if points cover the surface of each; twice while they are
-/// merged.
+/// Bytes of contacts of sleeping sand with sleeping rocks, if points cover the surface of each.
 std::int64_t sleeping_contact_bytes(const world::World& world, const solver::Plan& plan)
 {
     if (!plan.sleep || !plan.rock_sleep) { return 0; }
-    constexpr std::int64_t of_row = 2 * (8 + sizeof(contact::Tangential) + sizeof(contact::HeldSand) + 4);
     const double face = std::pow(*std::max_element(world.points.volume.begin(), world.points.volume.end()), 2.0 / 3);
     double       rows = 0;
     for (auto b = static_cast<std::size_t>(world.bodies.named); b < world.bodies.size(); ++b)
@@ -239,7 +237,7 @@ std::int64_t sleeping_contact_bytes(const world::World& world, const solver::Pla
         rows += 4 * std::numbers::pi * world.bodies.radius[b] * world.bodies.radius[b] / face;
     }
     const auto of_wrenches = static_cast<std::int64_t>(world.bodies.size() * sizeof(dem::ContactWrench));
-    return of_wrenches + static_cast<std::int64_t>(rows * static_cast<double>(of_row));
+    return of_wrenches + static_cast<std::int64_t>(rows * static_cast<double>(solver::sleeping_contact_bytes));
 }
 
 /// Bytes of the columns of doubles (run/recorder.cpp), which grow by 1024 rows (io/h5.cpp), and of their names.

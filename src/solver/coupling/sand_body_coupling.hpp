@@ -24,6 +24,10 @@ struct ContactPartners
     std::size_t materials;
 };
 
+/// Bytes of a contact that sleeps, and of its copy while contacts are merged.
+inline constexpr std::int64_t sleeping_contact_bytes =
+    2 * (sizeof(std::uint64_t) + sizeof(contact::Tangential) + sizeof(contact::HeldSand) + sizeof(std::int32_t));
+
 /// Contact of the sand with the bodies of a scene, on one backend.
 template<class Exec, class Real>
 class SandBodyCoupling
