@@ -227,7 +227,7 @@ std::int64_t sleep_bytes_per_body(const solver::Plan& plan)
 }
 
 /// Bytes of contacts of sleeping sand with sleeping rocks, if points cover the surface of each.
-std::int64_t sleeping_contact_bytes(const world::World& world, const solver::Plan& plan)
+std::int64_t strewn_bed_bytes(const world::World& world, const solver::Plan& plan)
 {
     if (!plan.sleep || !plan.rock_sleep) { return 0; }
     const double face = std::pow(*std::max_element(world.points.volume.begin(), world.points.volume.end()), 2.0 / 3);
@@ -312,7 +312,7 @@ Estimate estimate(const scene::Scene& scene, const world::World& world, const so
     Estimate         wants{};
     wants.time         = longest_time(scene);
     wants.memory_bytes = bodies * (bytes_per_body(plan) + sleep_bytes_per_body(plan)) + template_bytes(world) +
-                         (plan.rays ? ray_bytes(world) : 0) + sleeping_contact_bytes(world, plan);
+                         (plan.rays ? ray_bytes(world) : 0) + strewn_bed_bytes(world, plan);
     if (plan.sand)
     {
         const std::int64_t of_point = bytes_per_point(scene, plan) + sleep_bytes_per_point(scene, plan);
