@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -15,9 +16,9 @@ namespace tread::test
 {
 
 inline constexpr double diameter       = 0.1;  ///< m, of the rocks
-inline constexpr double settled        = 0.4;  ///< s, end of the damped phase
+inline constexpr double settled        = 0.3;  ///< s, end of the damped phase
 inline constexpr double sleep_distance = 0.1;  ///< m
-inline constexpr double rock_speed     = 1e-2; ///< m/s
+inline constexpr double rock_speed     = 2e-3; ///< m/s
 
 /// m, within which rocks may wake around a wheel of 0.1 m: sand is awake up to two pages of 0.2 m beyond the distance,
 /// a page has a length, and a rock at its end feels it.
@@ -30,12 +31,13 @@ inline constexpr double hidden_by_load = 0.2 * 1600 * 9.81 * 0.2 / 1.35e6 * 0.2 
 inline const std::string strewn_sleep_text =
     fmt::format("[sleep]\ndistance = {}\nrock_speed = {}\n", sleep_distance, rock_speed);
 
-inline std::string strewn_ground(double from)
+/// Sand from `from` to `length` (m).
+inline std::string strewn_ground(double from, double length)
 {
     return fmt::format(R"(
 title = "strewn bed"
 [domain]
-size    = [2.4, 0.4, 1.6]
+size    = [{0}, 0.4, 1.6]
 gravity = [0.0, 0.0, -9.81]
 walls   = {{ x = "slip", y = "slip", bottom = "fixed", top = "open" }}
 [grid]
@@ -51,26 +53,32 @@ poisson            = 0.3
 friction_angle_deg = 30.0
 [[terrain]]
 material = "sand"
-region   = {{ box = [[{}, 0.0, 0.0], [2.4, 0.4, 0.2]] }}
+region   = {{ box = [[{1}, 0.0, 0.0], [{0}, 0.4, 0.2]] }}
 [[shape]]
 name      = "clast"
 generate  = {{ kind = "rock", seed = 3, aspect = 0.7, sphericity = 0.9, nodes = 42 }}
 sdf_cells = 20
 )",
-                       from) +
+                       length, from) +
            stone(1e7, 0.5, 0.5);
 }
 
-inline std::string some_rocks(int count, const std::string& placement, const std::string& box)
+/// Rocks with their centres in a box from `low` to `high` (m) along x and z.
+inline std::string some_rocks(int count, const std::array<double, 2>& low, const std::array<double, 2>& high)
 {
     return fmt::format("[[rocks]]\nshape = \"clast\"\nmaterial = \"stone\"\ncount = {}\ndiameter = {}\n"
-                       "placement = \"{}\"\nregion = {{ box = {} }}\n",
-                       count, diameter, placement, box);
+                       "placement = \"replace\"\nregion = {{ box = [[{}, 0.0, {}], [{}, 0.4, {}]] }}\n",
+                       count, diameter, low[0], low[1], high[0], high[1]);
 }
 
-/// Eight rocks on the sand and four in it.
-inline const std::string strewn_text = strewn_ground(0) + some_rocks(8, "rain", "[[0.0, 0.0, 0.21], [2.4, 0.4, 0.4]]") +
-                                       some_rocks(4, "replace", "[[0.0, 0.0, 0.05], [2.4, 0.4, 0.19]]");
+/// A bed with rocks half in the sand, and half as many under it.
+inline std::string strewn_text(double length, int rocks)
+{
+    return strewn_ground(0, length) + some_rocks(rocks, {0.0, 0.14}, {length, 0.25}) +
+           some_rocks(rocks / 2, {0.0, 0.02}, {length, 0.14});
+}
+
+inline const std::string short_bed = strewn_text(1.2, 4), long_bed = strewn_text(2.4, 8);
 
 /// A rock that hangs a metre above one end.
 inline const std::string held_stone_text = fmt::format("[[body]]\nname = \"stone\"\nshape = \"clast\"\n"
@@ -100,7 +108,7 @@ lock     = ["roll", "yaw"]
 [[phase]]
 name     = "settle"
 damping  = 0.3
-duration = 0.4
+duration = 0.3
 hold     = ["roller"]
 [[phase]]
 name     = "drive"
@@ -110,8 +118,7 @@ duration = 1.2
 inline constexpr double undercut_rocks = 4;
 
 /// Sand from 0.6 m on with rocks on it, held by a slab.
-inline const std::string undercut_text =
-    strewn_ground(0.6) + some_rocks(4, "rain", "[[0.62, 0.0, 0.21], [2.4, 0.4, 0.4]]") + R"(
+inline const std::string undercut_text = strewn_ground(0.6, 2.4) + some_rocks(4, {0.65, 0.14}, {2.4, 0.25}) + R"(
 [[shape]]
 name     = "slab"
 generate = { kind = "box", size = [0.1, 0.4, 0.3] }
@@ -124,7 +131,7 @@ position = [0.54, 0.2, 0.16]
 [[phase]]
 name     = "settle"
 damping  = 0.3
-duration = 0.4
+duration = 0.3
 hold     = ["slab"]
 [[phase]]
 name     = "pull"

@@ -23,8 +23,7 @@ TYPED_TEST_SUITE(StrewnSleep, test::Backends, test::BackendNames);
 /// bit.
 TYPED_TEST(StrewnSleep, ABedAtRestSleepsEntirely)
 {
-    const std::string text =
-        test::strewn_text + test::phase("settle", 0.3, test::settled) + test::phase("rest", 0, 0.5);
+    const std::string text = test::short_bed + test::phase("settle", 0.3, test::settled) + test::phase("rest", 0, 0.5);
     std::vector<double>       bodies, points;
     std::vector<Vec3<double>> forces;
     std::int64_t              launches = 0;
@@ -62,51 +61,50 @@ TYPED_TEST(StrewnSleep, ABedAtRestSleepsEntirely)
 /// A new phase wakes rocks and the sand around them in one step, and the contacts press as they did.
 TYPED_TEST(StrewnSleep, ANewPhaseWakesRocksAndTheirSandTogether)
 {
-    const std::string text = test::strewn_text + test::phase("settle", 0.3, test::settled) +
-                             test::phase("rest", 0, 0.4) + test::phase("again", 0, 0.02);
+    const std::string text = test::short_bed + test::phase("settle", 0.3, test::settled) + test::phase("rest", 0, 0.4) +
+                             test::phase("again", 0, 0.02);
     constexpr double          turn = test::settled + 0.4;
     std::vector<Vec3<double>> before, after;
     double                    asleep = 0, nearest = 1;
-    std::int64_t              rocks   = -1;
-    const Bed                 outcome = this->run(text + test::strewn_sleep_text,
-                                                  [&](auto& run, double time)
-                                                  {
-                                      if (time < turn + 1e-9)
-                                      {
-                                          asleep = this->share_asleep(run);
-                                          before = this->forces(run);
-                                      }
-                                      else if (rocks < 0)
-                                      {
-                                          rocks   = run.simulation().rocks_asleep();
-                                          after   = this->forces(run);
-                                          nearest = this->nearest_sleeping_point(run);
-                                      }
-                                  });
-    double                    most    = 0;
+    std::int64_t              rocks = -1;
+    this->run(text + test::strewn_sleep_text,
+              [&](auto& run, double time)
+              {
+                  if (time < turn + 1e-9)
+                  {
+                      asleep = this->share_asleep(run);
+                      before = this->forces(run);
+                  }
+                  else if (rocks < 0)
+                  {
+                      rocks   = run.simulation().rocks_asleep();
+                      after   = this->forces(run);
+                      nearest = this->nearest_sleeping_point(run);
+                  }
+              });
+    double most = 0;
     for (std::size_t b = 0; b < before.size(); ++b)
     {
         most = std::max(most, (after[b] - before[b]).norm() / before[b].norm());
     }
-    const Bed awake = this->run(text);
     test::report("share of points asleep before", asleep, 1, 0, "the bed is at rest");
     test::report("rocks asleep in the first step", static_cast<double>(rocks), 0, 0, "all wake");
     test::report("nearest sleeping point (m)", nearest, test::sleep_distance, 0, "sand wakes with its rock");
-    test::report("largest change of the force on a rock, over the force", most, 0, 0.02,
-                 "contacts go on from what they held. In a step of 0.7 ms a rock whose load is off by the 10 % of "
-                 "rock_load moves 0.2 um, of 20 um that its sand is pressed in by");
+    test::report(
+        "largest change of the force on a rock, over the force", most, 0, 0.02,
+        "contacts go on from what they held: a rock that was off balance by the 10 % of rock_load moves 0.24 um "
+        "in a step of 0.7 ms, of 20 um that it is pressed into its sand");
     EXPECT_EQ(asleep, 1);
     EXPECT_EQ(rocks, 0);
     EXPECT_GE(nearest, test::sleep_distance);
     EXPECT_LT(most, 0.02);
-    this->expect_balanced("new phase", outcome, awake);
 }
 
 /// Gravity turns: all wakes at once and goes the way of what never slept.
 TYPED_TEST(StrewnSleep, GravityTurns)
 {
-    const std::string text = test::strewn_text + test::phase("settle", 0.3, test::settled) +
-                             test::phase("rest", 0, 0.4) + test::phase("turn", 0, 0.1) + "gravity = [6.0, 0.0, -7.7]\n";
+    const std::string text = test::short_bed + test::phase("settle", 0.3, test::settled) + test::phase("rest", 0, 0.4) +
+                             test::phase("turn", 0, 0.1) + "gravity = [6.0, 0.0, -7.7]\n";
     constexpr double turn   = test::settled + 0.4;
     double           before = 0, after = 0;
     const Bed        outcome = this->run(text + test::strewn_sleep_text,
@@ -132,8 +130,8 @@ TYPED_TEST(StrewnSleep, GravityTurns)
 TYPED_TEST(StrewnSleep, ARockFallsOnASleepingStrewnBed)
 {
     constexpr double  release = test::settled + 0.4; ///< s
-    const std::string text    = test::strewn_text + test::held_stone_text +
-                             "[[phase]]\nname = \"settle\"\ndamping = 0.3\nduration = 0.4\nhold = [\"stone\"]\n" +
+    const std::string text    = test::long_bed + test::held_stone_text +
+                             "[[phase]]\nname = \"settle\"\ndamping = 0.3\nduration = 0.3\nhold = [\"stone\"]\n" +
                              test::phase("fall", 0, 1.2);
     double              share = 0, nearest = 1;
     std::vector<double> place;
@@ -183,7 +181,7 @@ TYPED_TEST(StrewnSleep, ARockFallsOnASleepingStrewnBed)
 TYPED_TEST(StrewnSleep, AWheelWakesItsNeighbourhoodOnly)
 {
     constexpr double release = test::settled + 0.3; ///< s
-    const auto [text, reach] = std::pair(test::strewn_text + test::strewn_roller_text, test::neighbourhood);
+    const auto [text, reach] = std::pair(test::long_bed + test::strewn_roller_text, test::neighbourhood);
     std::vector<double> place, heights, awake_heights;
     double              share = 0, nearest = 1, furthest = 0, asleep = 0, steps = 0;
     const auto          drive = [&](const std::string& scene, auto watch)
