@@ -80,10 +80,10 @@ inline std::string strewn_text(double length, int rocks)
 
 inline const std::string short_bed = strewn_text(1.2, 4), long_bed = strewn_text(2.4, 8);
 
-/// A rock that hangs a metre above one end.
+/// A rock that hangs 0.8 m above one end.
 inline const std::string held_stone_text = fmt::format("[[body]]\nname = \"stone\"\nshape = \"clast\"\n"
                                                        "material = \"stone\"\ndiameter = {}\nmass = 1.4\n"
-                                                       "position = [0.4, 0.2, 1.2]\n",
+                                                       "position = [0.4, 0.2, 1.0]\n",
                                                        diameter);
 
 /// A roller that hangs above one end, and phases.
@@ -112,7 +112,7 @@ duration = 0.3
 hold     = ["roller"]
 [[phase]]
 name     = "drive"
-duration = 1.2
+duration = 1.1
 )";
 
 inline constexpr double undercut_rocks = 4;
@@ -135,7 +135,7 @@ duration = 0.3
 hold     = ["slab"]
 [[phase]]
 name     = "pull"
-duration = 1.2
+duration = 0.9
 hold     = ["slab"]
 )";
 
