@@ -31,8 +31,8 @@ inline constexpr double hidden_by_load = 0.2 * 1600 * 9.81 * 0.2 / 1.35e6 * 0.2 
 inline const std::string strewn_sleep_text =
     fmt::format("[sleep]\ndistance = {}\nrock_speed = {}\n", sleep_distance, rock_speed);
 
-/// Sand from `from` to `length` (m).
-inline std::string strewn_ground(double from, double length)
+/// A trench of sand of a length (m).
+inline std::string strewn_ground(double length)
 {
     return fmt::format(R"(
 title = "strewn bed"
@@ -53,13 +53,13 @@ poisson            = 0.3
 friction_angle_deg = 30.0
 [[terrain]]
 material = "sand"
-region   = {{ box = [[{1}, 0.0, 0.0], [{0}, 0.4, 0.2]] }}
+region   = {{ box = [[0.0, 0.0, 0.0], [{0}, 0.4, 0.2]] }}
 [[shape]]
 name      = "clast"
 generate  = {{ kind = "rock", seed = 3, aspect = 0.7, sphericity = 0.9, nodes = 42 }}
 sdf_cells = 20
 )",
-                       length, from) +
+                       length) +
            stone(1e7, 0.5, 0.5);
 }
 
@@ -74,7 +74,7 @@ inline std::string some_rocks(int count, const std::array<double, 2>& low, const
 /// A bed with rocks half in the sand, and half as many under it.
 inline std::string strewn_text(double length, int rocks)
 {
-    return strewn_ground(0, length) + some_rocks(rocks, {0.0, 0.14}, {length, 0.25}) +
+    return strewn_ground(length) + some_rocks(rocks, {0.0, 0.14}, {length, 0.25}) +
            some_rocks(rocks / 2, {0.0, 0.02}, {length, 0.14});
 }
 
@@ -115,30 +115,6 @@ name     = "drive"
 duration = 1.1
 )";
 
-inline constexpr double undercut_rocks = 4;
-
-/// Sand from 0.6 m on with rocks on it, held by a slab.
-inline const std::string undercut_text = strewn_ground(0.6, 2.4) + some_rocks(4, {0.65, 0.14}, {2.4, 0.25}) + R"(
-[[shape]]
-name     = "slab"
-generate = { kind = "box", size = [0.1, 0.4, 0.3] }
-[[body]]
-name     = "slab"
-shape    = "slab"
-material = "stone"
-mass     = 5.0
-position = [0.54, 0.2, 0.16]
-[[phase]]
-name     = "settle"
-damping  = 0.3
-duration = 0.3
-hold     = ["slab"]
-[[phase]]
-name     = "pull"
-duration = 0.9
-hold     = ["slab"]
-)";
-
 /// Result of a run.
 struct Bed
 {
@@ -173,14 +149,6 @@ inline double shift_of(std::size_t body, const std::vector<double>& from, const 
     double squared = 0;
     for (std::size_t i = 3 * body; i < 3 * body + 3; ++i) { squared += (to[i] - from[i]) * (to[i] - from[i]); }
     return std::sqrt(squared);
-}
-
-/// Mean height (m) of all bodies but the first.
-inline double mean_height(const std::vector<double>& position)
-{
-    double sum = 0;
-    for (std::size_t i = 5; i < position.size(); i += 3) { sum += position[i]; }
-    return sum / static_cast<double>(position.size() / 3 - 1);
 }
 
 /// Mean over the second half.

@@ -253,48 +253,4 @@ TYPED_TEST(StrewnSleep, AWheelWakesItsNeighbourhoodOnly)
     this->expect_balanced("wheel on a strewn bed", outcome, awake);
 }
 
-/// A slab that holds the bed's end is pulled away: the sleeping bed is undercut, and collapses as if it had never
-/// slept.
-TYPED_TEST(StrewnSleep, AnUndercutBedCollapses)
-{
-    constexpr double    pull  = test::settled + 0.4; ///< s
-    double              rocks = 0;
-    std::vector<double> place;
-    const auto          undercut = [&](const std::string& scene, auto watch)
-    {
-        return this->run(scene, watch,
-                         [](double time, auto& commands)
-                         {
-                             if (time >= pull) { commands[0].forward = time < pull + 0.25 ? -1.5 : 0.0; }
-                         });
-    };
-    const std::string text    = test::undercut_text;
-    double            share   = 0;
-    const Bed         outcome = undercut(text + test::strewn_sleep_text,
-                                         [&](auto& run, double time)
-                                         {
-                                     if (time >= pull) { return; }
-                                     share = this->share_asleep(run);
-                                     rocks = static_cast<double>(run.simulation().rocks_asleep());
-                                     place = run.simulation().body_fields().position;
-                                 });
-    const Bed         awake   = undercut(text, [](auto&, double) {});
-    const auto        first   = test::furthest_rock(place, -1);
-    const double      shift   = test::shift_of(first, place, outcome.bodies),
-                 expected     = test::shift_of(first, place, awake.bodies);
-    const double mean = test::mean_height(outcome.bodies), mean_awake = test::mean_height(awake.bodies);
-    std::cout << "share of points asleep before the pull: " << share << "\n";
-    test::report("rocks asleep before the pull", rocks, test::undercut_rocks, 0, "the bed is at rest");
-    test::report("shift of the rock next to the slab (m)", shift, expected, 0.5 * test::diameter,
-                 "half a rock: where it rolls to is chance");
-    test::report("mean height of the rocks (m)", mean, mean_awake, 0.1 * test::diameter,
-                 "a tenth of a rock, by chance");
-    EXPECT_EQ(rocks, test::undercut_rocks);
-    EXPECT_GT(share, 0.2);
-    EXPECT_GT(expected, 0.5 * test::diameter);
-    EXPECT_NEAR(shift, expected, 0.5 * test::diameter);
-    EXPECT_NEAR(mean, mean_awake, 0.1 * test::diameter);
-    this->expect_balanced("undercut bed", outcome, awake);
-}
-
 } // namespace
