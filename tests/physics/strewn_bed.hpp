@@ -24,10 +24,6 @@ inline constexpr double rock_speed     = 2e-3; ///< m/s
 /// a page has a length, and a rock at its end feels it.
 inline constexpr double neighbourhood = 0.1 + sleep_distance + 3 * 0.2 + 0.5 * diameter;
 
-/// m, settlement that the criteria of load may hide under a wheel: a fifth of the bed's mean pressure (1600 kg/m3, 0.2
-/// m) over its depth of sand of 1.35 MPa in one dimension, and a tenth of what a rock's weight presses it in by, 1 mm.
-inline constexpr double hidden_by_load = 0.2 * 1600 * 9.81 * 0.2 / 1.35e6 * 0.2 + 0.1 * 1e-3;
-
 inline const std::string strewn_sleep_text =
     fmt::format("[sleep]\ndistance = {}\nrock_speed = {}\n", sleep_distance, rock_speed);
 
@@ -149,15 +145,6 @@ inline double shift_of(std::size_t body, const std::vector<double>& from, const 
     double squared = 0;
     for (std::size_t i = 3 * body; i < 3 * body + 3; ++i) { squared += (to[i] - from[i]) * (to[i] - from[i]); }
     return std::sqrt(squared);
-}
-
-/// Mean over the second half.
-inline double late_mean(const std::vector<double>& values)
-{
-    double            sum   = 0;
-    const std::size_t begin = values.size() / 2;
-    for (std::size_t i = begin; i < values.size(); ++i) { sum += values[i]; }
-    return sum / static_cast<double>(values.size() - begin);
 }
 
 template<class Exec>

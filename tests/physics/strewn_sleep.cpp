@@ -182,7 +182,7 @@ TYPED_TEST(StrewnSleep, AWheelWakesItsNeighbourhoodOnly)
 {
     constexpr double release = test::settled + 0.3; ///< s
     const auto [text, reach] = std::pair(test::long_bed + test::strewn_roller_text, test::neighbourhood);
-    std::vector<double> place, heights, awake_heights;
+    std::vector<double> place;
     double              share = 0, nearest = 1, furthest = 0, asleep = 0, steps = 0;
     const auto          drive = [&](const std::string& scene, auto watch)
     {
@@ -210,7 +210,6 @@ TYPED_TEST(StrewnSleep, AWheelWakesItsNeighbourhoodOnly)
                                       before = this->sleepers(run);
                                       return;
                                   }
-                                  heights.push_back(position[2]);
                                   const auto now = this->sleepers(run);
                                   for (std::size_t b = 1; b < now.size(); ++b)
                                   {
@@ -222,17 +221,8 @@ TYPED_TEST(StrewnSleep, AWheelWakesItsNeighbourhoodOnly)
                                   steps += 1;
                                   nearest = std::min(nearest, this->nearest_sleeping_point(run));
                               });
-    const Bed                 awake   = drive(text,
-                                              [&](auto& run, double time)
-                                              {
-                                if (time >= release)
-                                {
-                                    awake_heights.push_back(run.simulation().body_fields().position[2]);
-                                }
-                            });
-    const double              sinkage = 0.3 - test::late_mean(awake_heights), other = 0.3 - test::late_mean(heights);
-    const auto                far       = test::furthest_rock(place, 1);
-    const double              tolerance = 0.02 * std::abs(sinkage) + test::hidden_by_load;
+    const Bed                 awake   = drive(text, [](auto&, double) {});
+    const auto                far     = test::furthest_rock(place, 1);
     std::cout << "asleep on the mean of the drive " << asleep / steps << ", driven " << outcome.bodies[0] - place[0]
               << " m\n";
     test::report("share of points asleep at the release", share, 1, 0, "the roller hangs above");
@@ -241,15 +231,12 @@ TYPED_TEST(StrewnSleep, AWheelWakesItsNeighbourhoodOnly)
     test::report("nearest sleeping point to a body that is awake (m)", nearest, 0.75 * test::sleep_distance, 0,
                  "sand wakes before anything has moved a quarter of the distance");
     test::report("shift of the furthest rock (m)", test::shift_of(far, place, outcome.bodies), 0, 0, "it sleeps on");
-    test::report("mean sinkage of the second half (m)", other, sinkage, tolerance,
-                 "2 % as of sand alone, by chance, and what the criteria of load may hide in sleeping sand and rocks");
     EXPECT_EQ(share, 1);
     EXPECT_GT(asleep / steps, 0.3);
     EXPECT_GT(furthest, 0);
     EXPECT_LT(furthest, reach);
     EXPECT_GE(nearest, 0.75 * test::sleep_distance);
     EXPECT_EQ(test::shift_of(far, place, outcome.bodies), 0);
-    EXPECT_NEAR(other, sinkage, tolerance);
     this->expect_balanced("wheel on a strewn bed", outcome, awake);
 }
 
