@@ -19,6 +19,7 @@
 #include "kernels/mpm/pages/moves.hpp"
 #include "kernels/mpm/pages/pages.hpp"
 #include "kernels/mpm/transfers/gather.hpp"
+#include "solver/coupling/sand_body_coupling.hpp"
 #include "solver/ledger/sand_guard.hpp"
 #include "solver/pace_limits.hpp"
 
@@ -252,6 +253,20 @@ std::int64_t sleep_bytes_per_body(const solver::Plan& plan)
     return plan.rock_sleep ? of_body + static_cast<std::int64_t>(pairs_a_body * static_cast<double>(of_pair)) : 0;
 }
 
+/// Bytes of contacts of sleeping sand with sleeping rocks, if points cover the surface of each.
+std::int64_t strewn_bed_bytes(const world::World& world, const solver::Plan& plan)
+{
+    if (!plan.sleep || !plan.rock_sleep) { return 0; }
+    const double face = std::pow(world::largest_volume(world.sand), 2.0 / 3);
+    double       rows = 0;
+    for (auto b = static_cast<std::size_t>(world.bodies.named); b < world.bodies.size(); ++b)
+    {
+        rows += 4 * std::numbers::pi * world.bodies.radius[b] * world.bodies.radius[b] / face;
+    }
+    const auto of_wrenches = static_cast<std::int64_t>(world.bodies.size() * sizeof(dem::ContactWrench));
+    return of_wrenches + static_cast<std::int64_t>(rows * static_cast<double>(solver::sleeping_contact_bytes));
+}
+
 /// Bytes of the columns of doubles (run/recorder.cpp), which grow by 1024 rows (io/h5.cpp), and of their names.
 double time_series_bytes(double rows, std::int64_t named)
 {
@@ -335,7 +350,7 @@ Estimate estimate(const scene::Scene& scene, const world::World& world, const so
     Estimate         wants{};
     wants.time         = longest_time(scene);
     wants.memory_bytes = bodies * (bytes_per_body(plan) + sleep_bytes_per_body(plan)) + template_bytes(world) +
-                         (plan.rays ? ray_bytes(world) : 0);
+                         (plan.rays ? ray_bytes(world) : 0) + strewn_bed_bytes(world, plan);
     if (plan.sand)
     {
         const std::int64_t of_point = bytes_per_point(scene, plan) + sleep_bytes_per_point(scene, plan);

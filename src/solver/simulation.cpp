@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "backend/instantiate.hpp"
-#include "solver/bodies/body_reaches.hpp"
 #include "solver/ledger/contact_guards.hpp"
 #include "solver/pace_limits.hpp"
 #include "solver/ranks/page_owners.hpp"
@@ -168,21 +167,6 @@ void Simulation<Exec, Real>::repartition_pages()
     if (balance_->repartition(loads) && sand_) { sand_->follow_owners(); }
 }
 
-template<class Exec, class Real>
-void Simulation<Exec, Real>::update_sleeping_pages(StageClock& clock)
-{
-    if (!sand_ || !measured()) { return; }
-    const bool wakes = std::exchange(wakes_, false);
-    if (!wakes && !sand_->sleep_is_due(measuring_.pace.largest_speed, damping_)) { return; }
-    const auto update = [&]
-    {
-        std::vector<BodyReach> bodies;
-        if (rigid_) { bodies = body_reaches(exec_, rigid_->view(), world_); }
-        sand_->update_sleeping_pages(bodies, wakes ? 1.0 : damping_);
-    };
-    clock.run(exec_, stage::sleep, update);
-}
-
 /// Contact lists stay valid until the next measurement; the number of substeps follows from the contacts listed.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::find_contacts(TimeStep& step, double time, StageClock& clock)
@@ -201,6 +185,7 @@ void Simulation<Exec, Real>::list_contacts(double span, StageClock& clock)
     {
         clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs(span); });
         measuring_.pace.shortest_contact = rigid_->shortest_contact();
+        wake_sand_near_rocks(clock);
     }
     if (!coupling_) { return; }
     const auto find = [&]
@@ -280,7 +265,7 @@ ContactReport Simulation<Exec, Real>::measure_contacts()
     measuring_.pace.stiffest_point   = contacts.stiffest.value;
     require_unique_surface(
         contacts, [this](std::int64_t body) { return rigid_->name(body); }, last_.time);
-    return {contacts.dissipated, contacts.energy};
+    return {contacts.dissipated + coupling_->take_loss_at_rest(), coupling_->energy()};
 }
 
 /// Number of steps until the next measurement, for which the pair list must also need no check.
@@ -302,7 +287,7 @@ Census Simulation<Exec, Real>::census()
     Census now;
     if (sand_) { now.sand = sand_->census(); }
     if (rigid_) { now.rigid = rigid_->census(); }
-    if (coupling_) { now.sand_contact = coupling_->summary().energy; }
+    if (coupling_) { now.sand_contact = coupling_->energy(); }
     return now;
 }
 
@@ -371,8 +356,10 @@ void Simulation<Exec, Real>::transfer(StateFile& file)
     if (rigid_) { rigid_->transfer(file); }
     if (coupling_)
     {
-        coupling_->transfer(file, rigid_->view(),
-                            {world_.bodies.size(), static_cast<std::size_t>(sand_->view().count), world_.sand.size()});
+        const ContactPartners partners{world_.bodies.size(), static_cast<std::size_t>(sand_->view().count),
+                                       world_.sand.size(), scene_.materials.size()};
+        coupling_->transfer(file, rigid_->view(), partners);
+        if (rigid_->sleepers().sand.size() > 0) { coupling_->transfer_sleep(file, rigid_->sleepers(), partners); }
     }
     transfer_contacts(file);
     solver::transfer(file, measuring_, last_, damping_);

@@ -146,6 +146,11 @@ private:
     void move_sand(double dt, StageClock& clock);
     void measure_if_due(const TimeStep& step, double time, StageClock& clock);
 
+    void wake_sand_near_rocks(StageClock& clock);
+
+    /// Bodies that keep the sand around them awake.
+    std::vector<BodyReach> sand_wakers();
+
     void          set_gravity(const Vec3<double>& gravity);
     void          set_contacts(std::size_t phase);
     void          require_apart(double time);
@@ -166,6 +171,9 @@ private:
     {
         return (sand_ ? sand_->reorder_count() : 0) + (rigid_ ? rigid_->partition_version() : 0);
     }
+
+    /// Has rocks and their contacts follow the sand that sleeps; empty where rocks or sand do not.
+    typename MpmSolver<Exec, Real>::SleepFollower sleep_follower();
 
     Exec                         exec_;
     decomp::Decomposition<Exec>* decomposition_;

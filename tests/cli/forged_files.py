@@ -140,6 +140,14 @@ class Forged(RestartTest):
         for name in ("rock_sleep/asleep", "rock_sleep/position", "rock_sleep/orientation", "rock_sleep/quiet", "rock_sleep/moves", "rock_sleep/load", "rock_sleep/key", "rock_sleep/contact"):
             self.assertIn(name, datasets(original))
 
+    def test_every_data_set_of_sleeping_sand_and_rocks_is_checked(self):
+        rocks = '[[rocks]]\nshape = "roller"\nmaterial = "steel"\ncount = 1\ndiameter = 0.06\nplacement = "replace"\n' \
+            'region = { box = [[0.7, 0.0, 0.0], [0.9, 0.2, 0.1]] }\n'
+        text = ASLEEP.replace("[sleep]", rocks + "[sleep]") + "rock_speed = 1.0\nrock_rest = 0.001\n"
+        original = self.check_every_value(text)
+        for name in ("key", "tangential", "response", "material"):
+            self.assertIn(f"contact/asleep_{name}", datasets(original))
+
     def test_every_data_set_of_two_ranks_is_checked(self):
         text = re.sub(r"\[\[body\]\].*?velocity[^\n]*\n", "", lasting(MIXED, 0.02), flags=re.S)
         self.assertIn("ranks/page_owner", datasets(self.check_every_value(text, (*MPIRUN, "-n", "2"))))

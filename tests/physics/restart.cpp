@@ -1,15 +1,10 @@
-#include <cstring>
 #include <filesystem>
-#include <memory>
 
 #include "base/random.hpp"
-#include "harness.hpp"
 #include "io/h5.hpp"
 #include "joint_scenes.hpp"
 #include "mpi_session.hpp"
-#include "run/time_loop.hpp"
-#include "solver/state_file.hpp"
-#include "temporary_directory.hpp"
+#include "restart.hpp"
 #include "thrown_roller.hpp"
 
 // A run that is stopped and resumed from a checkpoint, compared with an uninterrupted one.
@@ -18,157 +13,9 @@ namespace
 
 using namespace tread;
 
-const std::string rocks_alone = R"(
-[domain]
-size    = [0.4, 0.4, 0.6]
-gravity = [0.0, 0.0, -9.81]
-[[contact]]
-between          = ["rock", "rock"]
-rolling_friction = 0.05
-[[phase]]
-name     = "rest"
-duration = 0.5
-)";
-
-/// A scene run step by step, which can be saved and loaded.
 template<class Exec>
-class Run
+class Restart : public test::RestartTest<Exec>
 {
-public:
-    Run(const Exec& exec, const std::string& text)
-        : scene_(test::load_text(text))
-        , world_(world::build_world(scene_))
-        , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_))
-        , loop_(scene_, world_, simulation_)
-    {
-    }
-
-    /// Runs at least `steps` steps, until the state may be saved. The last phase does not end.
-    void step(int steps)
-    {
-        for (int i = 0; i < steps || !simulation_.measured(); ++i)
-        {
-            tread::run::take_step(loop_, {});
-            if (loop_.phase.index + 1 < scene_.phases.size()) { tread::run::end_phases(loop_, {}); }
-        }
-    }
-
-    std::size_t phase() const { return loop_.phase.index; }
-    double      time() const { return loop_.progress.time; }
-
-    void save(const std::string& path)
-    {
-        io::CheckpointWriter writer(self_, path);
-        solver::StateFile    file(self_, writer, solver::Fidelity::exact);
-        transfer(file);
-        writer.finish();
-    }
-
-    void load(const std::string& path, solver::Fidelity fidelity)
-    {
-        const io::CheckpointReader reader(path);
-        solver::StateFile          file(self_, reader, fidelity);
-        transfer(file);
-    }
-
-    /// All data of snapshots, ledger and the next step, as bytes.
-    std::vector<std::byte> state()
-    {
-        std::vector<std::byte> bytes;
-        const auto             add = [&](const auto& values)
-        {
-            const auto* data = reinterpret_cast<const std::byte*>(values.data());
-            bytes.insert(bytes.end(), data, data + values.size() * sizeof(values[0]));
-        };
-        const io::PointFields points = simulation_.point_fields();
-        add(points.position);
-        add(points.velocity);
-        add(points.stress);
-        add(points.plastic_shear);
-        add(points.id);
-        const io::BodyFields bodies = simulation_.body_fields();
-        add(bodies.position);
-        add(bodies.orientation);
-        add(bodies.velocity);
-        add(bodies.angular_velocity);
-        const solver::EnergyRow energy = simulation_.ledger().energy(simulation_.census());
-        add(std::vector<double>{energy.total, energy.friction, energy.transfer, energy.coupling, energy.contact,
-                                loop_.progress.time, loop_.progress.chosen.dt, loop_.phase.start});
-        return bytes;
-    }
-
-    /// Number of sleeping points.
-    std::int64_t asleep() { return simulation_.sand().count() - simulation_.sand().view().count; }
-
-    /// Number of sleeping rocks.
-    std::int64_t rocks_asleep() const { return simulation_.rocks_asleep(); }
-
-    io::PointFields points() const { return simulation_.point_fields(); }
-    io::BodyFields  bodies() { return simulation_.body_fields(); }
-
-private:
-    void transfer(solver::StateFile& file)
-    {
-        simulation_.transfer(file);
-        tread::run::transfer(file, scene_, loop_.phase, loop_.watch);
-        tread::run::transfer(file, scene_, loop_.motions);
-        file.numbers("run", loop_.progress.time, loop_.progress.chosen.dt);
-        file.text("limit", loop_.progress.chosen.limit);
-    }
-
-    Communicator                       self_{MPI_COMM_SELF};
-    scene::Scene                       scene_;
-    world::World                       world_;
-    solver::Simulation<Exec, double>   simulation_;
-    tread::run::TimeLoop<Exec, double> loop_;
-};
-
-/// Numbers of points that slept in a run.
-struct Sleepers
-{
-    std::int64_t saved;
-    std::int64_t at_end;
-};
-
-template<class Exec>
-class Restart : public test::BackendTest<Exec>
-{
-protected:
-    static constexpr int before = 150, after = 150; ///< steps; lists of points, pairs and candidates change in both
-
-    /// Returns the numbers of points that slept.
-    Sleepers expect_same_bits(const std::string& text)
-    {
-        const test::TemporaryDirectory directory;
-        const std::string              path = directory.path("state.h5");
-
-        Run<Exec> whole(this->exec(), text);
-        whole.step(before);
-        whole.step(after);
-
-        Run<Exec> stopped(this->exec(), text);
-        stopped.step(before);
-        stopped.save(path);
-        phase_saved_              = stopped.phase();
-        time_saved_               = stopped.time();
-        const std::int64_t asleep = stopped.asleep();
-        rocks_saved_              = stopped.rocks_asleep();
-        Run<Exec> resumed(this->exec(), text);
-        resumed.load(path, solver::Fidelity::exact);
-        stopped.step(after);
-        resumed.step(after);
-        const auto expected = whole.state();
-        EXPECT_EQ(stopped.state(), expected) << "to save changed what came after it";
-        EXPECT_EQ(resumed.state(), expected) << "what went on from the file differs";
-        phase_at_end_ = resumed.phase();
-        rocks_at_end_ = resumed.rocks_asleep();
-        return {asleep, resumed.asleep()};
-    }
-
-    std::size_t phase_saved_ = 0, phase_at_end_ = 0;
-    double      time_saved_ = 0; ///< s
-
-    std::int64_t rocks_saved_ = 0, rocks_at_end_ = 0; ///< asleep
 };
 TYPED_TEST_SUITE(Restart, test::Backends, test::BackendNames);
 
@@ -285,7 +132,7 @@ weight   = { body = "roller", from = 0.5, to = 1.0, ramp = 0.5 }
 
 TYPED_TEST(Restart, OfRocksGivesTheSameBits)
 {
-    this->expect_same_bits(rocks_alone + test::rocks_text + "placement = \"rain\"\n" + test::thrown_roller_text);
+    this->expect_same_bits(test::rocks_alone + test::rocks_text + "placement = \"rain\"\n" + test::thrown_roller_text);
 }
 
 TYPED_TEST(Restart, OfSandRocksAndAWheelGivesTheSameBits)
@@ -307,27 +154,6 @@ TYPED_TEST(Restart, OfABodyWithAMotionAndAJointGivesTheSameBits)
                                                  "yaw = \"held\""));
 }
 
-/// Far from the roller: sleeping sand is saved asleep, and other sand falls asleep or wakes afterwards.
-TYPED_TEST(Restart, OfSleepingSandGivesTheSameBits)
-{
-    std::string text = test::sand_text + test::thrown_roller_text +
-                       "[sleep]\ndistance = 0.05\nspeed = 0.01\nrest = 2e-3\nload = 0.5\n";
-    for (const std::string box : {"[0.4, 0.4, 0.6]", "[0.4, 0.4, 0.2]"}) { text.replace(text.find(box), 4, "[1.6"); }
-    const Sleepers asleep = this->expect_same_bits(text);
-    EXPECT_GT(asleep.saved, 0);
-    EXPECT_NE(asleep.at_end, asleep.saved);
-}
-
-/// Sleeping rocks are saved asleep with their contacts; others fall asleep or wake afterwards.
-TYPED_TEST(Restart, OfSleepingRocksGivesTheSameBits)
-{
-    this->expect_same_bits(rocks_alone + test::rocks_text + "placement = \"grid\"\n" + test::thrown_roller_text +
-                           "[time]\ndt = 3e-3\n[sleep]\nrock_speed = 0.15\nrock_rest = 0.02\n");
-    std::cout << this->rocks_saved_ << " rocks asleep when saved, " << this->rocks_at_end_ << " at the end\n";
-    EXPECT_GT(this->rocks_saved_, 0);
-    EXPECT_NE(this->rocks_at_end_, this->rocks_saved_);
-}
-
 /// Moves all points and bodies of a saved state by up to `distance` (m) along each axis.
 void perturb(const std::string& path, double distance, std::uint64_t seed)
 {
@@ -346,7 +172,7 @@ void perturb(const std::string& path, double distance, std::uint64_t seed)
 
 /// Largest distance, m, of a point or body between two runs.
 template<class Exec>
-double furthest(Run<Exec>& run, Run<Exec>& other)
+double furthest(test::SavedRun<Exec>& run, test::SavedRun<Exec>& other)
 {
     const auto               points = run.points(), others = other.points();
     std::vector<std::size_t> place(points.id.size());
@@ -371,7 +197,7 @@ TYPED_TEST(Restart, WithListsMadeAnewAgreesAsFarAsChaosLetsIt)
     const std::string              path = directory.path("state.h5"), moved = directory.path("moved.h5");
     constexpr int                  steps = 100;
 
-    Run<TypeParam> whole(this->exec(), text);
+    test::SavedRun<TypeParam> whole(this->exec(), text);
     whole.step(100);
     whole.save(path);
     whole.step(steps);
@@ -380,12 +206,12 @@ TYPED_TEST(Restart, WithListsMadeAnewAgreesAsFarAsChaosLetsIt)
     {
         std::filesystem::copy_file(path, moved, std::filesystem::copy_options::overwrite_existing);
         perturb(moved, 1e-9, seed);
-        Run<TypeParam> repeat(this->exec(), text);
+        test::SavedRun<TypeParam> repeat(this->exec(), text);
         repeat.load(moved, solver::Fidelity::exact);
         repeat.step(steps);
         spread = std::max(spread, furthest(whole, repeat));
     }
-    Run<TypeParam> resumed(this->exec(), text);
+    test::SavedRun<TypeParam> resumed(this->exec(), text);
     resumed.load(path, solver::Fidelity::physical);
     resumed.step(steps);
     const double off = furthest(whole, resumed);

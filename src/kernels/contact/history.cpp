@@ -5,6 +5,7 @@ namespace tread::contact
 {
 
 template void                       resize(History<Cpu>&, std::int64_t);
+template void                       extend(History<Cpu>&, std::int64_t);
 template void                       fill_bins(const Cpu&, History<Cpu>&);
 template std::vector<HistoryRecord> read_out(const History<Cpu>&);
 template void                       put_back(const Cpu&, History<Cpu>&, const std::vector<HistoryRecord>&);

@@ -5,6 +5,7 @@ namespace tread::contact
 {
 
 template void                       resize(History<Gpu>&, std::int64_t);
+template void                       extend(History<Gpu>&, std::int64_t);
 template void                       fill_bins(const Gpu&, History<Gpu>&);
 template std::vector<HistoryRecord> read_out(const History<Gpu>&);
 template void                       put_back(const Gpu&, History<Gpu>&, const std::vector<HistoryRecord>&);

@@ -22,6 +22,9 @@ TREAD_HD std::uint64_t history_key(std::int32_t body, std::uint32_t point_id, in
            static_cast<std::uint64_t>(sub_id + 1);
 }
 
+/// Returns the body of a key.
+TREAD_HD std::int64_t body_of(std::uint64_t history_key) { return static_cast<std::int64_t>(history_key >> 36); }
+
 /// Returns the point id of a key.
 TREAD_HD std::uint32_t point_of(std::uint64_t history_key) { return static_cast<std::uint32_t>(history_key >> 4); }
 
@@ -57,6 +60,10 @@ struct History
 /// Allocates memory for `records` and for bins that are at most half full; old records are lost.
 template<class Exec>
 void resize(History<Exec>& history, std::int64_t records);
+
+/// Makes room for `more` records behind the present ones, which stay; the caller writes them, then fills the bins.
+template<class Exec>
+void extend(History<Exec>& history, std::int64_t more);
 
 /// Fills the bins from the records, whose keys must differ.
 template<class Exec>

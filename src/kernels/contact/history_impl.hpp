@@ -45,14 +45,29 @@ struct WriteRecord
 } // namespace history_steps
 
 template<class Exec>
-void resize(History<Exec>& history, std::int64_t records)
+void resize_bins(History<Exec>& history, std::int64_t records)
 {
     const std::int64_t bins =
         records == 0 ? 0 : static_cast<std::int64_t>(std::bit_ceil(2 * static_cast<std::uint64_t>(records)));
-    history.key.resize(records);
-    history.tangential.resize(records);
     history.bin_key.resize(bins);
     history.bin_record.resize(bins);
+}
+
+template<class Exec>
+void resize(History<Exec>& history, std::int64_t records)
+{
+    history.key.resize(records);
+    history.tangential.resize(records);
+    resize_bins(history, records);
+}
+
+template<class Exec>
+void extend(History<Exec>& history, std::int64_t more)
+{
+    const std::int64_t records = history.key.size() + more;
+    history.key.resize_keep(records);
+    history.tangential.resize_keep(records);
+    resize_bins(history, records);
 }
 
 template<class Exec>

@@ -22,12 +22,14 @@ struct CopyPoint
     PointMotion           motion;
     PrivatePoints         copy;
 
-    TREAD_HD void operator()(std::int64_t t) const
+    TREAD_HD void operator()(std::int64_t t) const { take(t, runs.key[t]); }
+
+    /// Copies point p.
+    TREAD_HD void take(std::int64_t t, std::int64_t p) const
     {
-        const std::int32_t p = runs.key[t];
-        copy.position[t]     = points.position.get(p);
-        copy.velocity[t]     = points.grid_velocity.get(p).template cast<double>();
-        copy.support[t]      = Vec3<double>::Zero();
+        copy.position[t] = points.position.get(p);
+        copy.velocity[t] = points.grid_velocity.get(p).template cast<double>();
+        copy.support[t]  = Vec3<double>::Zero();
         if (motion == PointMotion::supported) { copy.support[t] = points.support.get(p).template cast<double>(); }
         copy.impulse[t]  = Vec3<double>::Zero();
         copy.mass[t]     = static_cast<double>(points.mass[p]);

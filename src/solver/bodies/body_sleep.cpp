@@ -42,6 +42,25 @@ void begin_sleep(BodyState<Exec>& state)
     const scene::Sleep& sleep = state.scene.sleep;
     dem::begin_sleep(state.exec, state.pairs, state.bodies,
                      {sleep.rock_speed.value(), sleep.rock_rest, sleep.rock_load, state.named()});
+    if (!sleep.distance || state.world.sand.size() == 0) { return; }
+    dem::SleepingBodies<Exec>& all   = state.pairs.sleep;
+    const std::int64_t         count = state.bodies.position.size();
+    all.sand.resize(count);
+    all.sand.fill_zero();
+    all.next_bed.resize(count);
+    all.bed.assign(std::vector<std::int32_t>(static_cast<std::size_t>(count), dem::bed_awake));
+}
+
+template<class Exec>
+void follow_beds(BodyState<Exec>& state, PairLists<Exec>& lists, BodyReports<Exec>& reports, double substep)
+{
+    const dem::SleepCount found = dem::follow_beds(state.exec, state.pairs, state.view());
+    if (found.tired > 0)
+    {
+        dem::fall_asleep(state.exec, state.pairs, state.view(), state.tables.law, reports.totals.data(), substep,
+                         state.gravity);
+    }
+    if (found.tired > 0 || found.wake > 0) { lists.listed = false; }
 }
 
 template<class Exec>
@@ -97,6 +116,11 @@ void transfer_sleep(BodyState<Exec>& state, SleepSettings& settings, StateFile& 
                    accept::all(accept::rows(bodies), accept::unit_quaternions()));
     transfer_array(file, "rock_sleep/quiet", sleep.quiet, accept::all(accept::rows(bodies), accept::not_negative()));
     transfer_array(file, "rock_sleep/moves", sleep.moves, accept::all(accept::rows(bodies), accept::within(0, 1)));
+    if (sleep.bed.size() > 0)
+    {
+        transfer_array(file, "rock_sleep/bed", sleep.bed,
+                       accept::all(accept::rows(bodies), accept::within(dem::bed_none, dem::bed_asleep)));
+    }
     transfer_array(file, "rock_sleep/load", sleep.watch, accept::all(accept::rows(bodies), accept::finite()));
     transfer_array(file, "rock_sleep/key", pairs.key,
                    accept::all(accepted_keys(state.world), accept::ascending(), accept::distinct()));
@@ -110,6 +134,7 @@ void transfer_sleep(BodyState<Exec>& state, SleepSettings& settings, StateFile& 
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template void begin_sleep(BodyState<Exec>&);                                                                       \
+    template void follow_beds(BodyState<Exec>&, PairLists<Exec>&, BodyReports<Exec>&, double);                         \
     template void update_sleep(BodyState<Exec>&, PairLists<Exec>&, BodyReports<Exec>&, const SleepSettings&, double);  \
     template void wake_for_phase(BodyState<Exec>&, PairLists<Exec>&, SleepSettings&, std::size_t);                     \
     template std::optional<double> mean_asleep(const BodyState<Exec>&);                                                \

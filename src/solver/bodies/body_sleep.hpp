@@ -21,6 +21,11 @@ struct SleepSettings
 template<class Exec>
 void begin_sleep(BodyState<Exec>& state);
 
+/// Has rocks fall asleep or be marked to wake with the sand around them, after sleepers().next_bed has been written;
+/// the next update_pairs then builds a list. The list of pairs must be valid. `substep`: s, the last one.
+template<class Exec>
+void follow_beds(BodyState<Exec>& state, PairLists<Exec>& lists, BodyReports<Exec>& reports, double substep);
+
 /// Lets rocks at rest fall asleep and marks those that wake, if that is due; the next update_pairs then builds a list.
 /// `substep`: s, the last one. Does nothing where no rock may sleep.
 template<class Exec>

@@ -87,7 +87,9 @@ void DemSolver<Exec>::find_pairs(double dt)
 template<class Exec>
 void DemSolver<Exec>::list_moved(const dem::OutsideWrenches& outside)
 {
-    if (!state_.pairs.sleep.wanted || outside.run == nullptr) { return; }
+    const bool in_sand = outside.run != nullptr;
+    if (!state_.pairs.sleep.wanted || !(in_sand || moved_in_sand_)) { return; }
+    moved_in_sand_ = in_sand;
     dem::list_moved_bodies(state_.exec, state_.pairs, state_.view(), outside);
 }
 

@@ -102,6 +102,18 @@ public:
     /// Number of rocks that sleep.
     std::int64_t asleep() const { return static_cast<std::int64_t>(state_.pairs.sleep.count); }
 
+    /// Sleeping rocks, where rocks may sleep.
+    dem::SleepingBodies<Exec>& sleepers() { return state_.pairs.sleep; }
+
+    /// Whether the list of pairs is that of the present bodies, though it may have expired.
+    bool has_list() const { return lists_.listed; }
+
+    /// Has rocks follow the sand around them (follow_beds), after sleepers().next_bed has been written.
+    void follow_beds() { solver::follow_beds(state_, lists_, reports_, substep_); }
+
+    /// Call after the wrenches of sleeping sand on sleeping rocks, sleepers().sand, have changed.
+    void hold_sleepers() { dem::hold_sleepers(state_.exec, state_.pairs, state_.view()); }
+
     /// Has the next find_pairs list pairs anew, as where others touch from now on.
     void forget_list() { lists_.listed = false; }
 
@@ -213,7 +225,8 @@ private:
     BodyReports<Exec> reports_;
     NamedMeans<Exec>  means_;
     SleepSettings     sleep_;
-    double            substep_ = 0;             ///< s, duration of the last substep
+    double            substep_       = 0;       ///< s, duration of the last substep
+    bool              moved_in_sand_ = false;   ///< whether bodies were last listed for substeps with sand
     double            prescribed_acceleration_; ///< m/s2, bound on what prescribed forces cause
 
     std::optional<PrescribedMotions<Exec>> motions_; ///< only if some phase prescribes a motion

@@ -38,6 +38,7 @@ SandBodyCoupling<Exec, Real>::SandBodyCoupling(const Exec& exec, const scene::Sc
                                                decomp::Decomposition<Exec>* decomposition)
     : exec_(exec)
     , contact_(exec)
+    , asleep_(exec)
     , law_{templates,
            pairs,
            world::hertz_factor(scene.numerics.hertz),
@@ -90,6 +91,16 @@ void SandBodyCoupling<Exec, Real>::find_candidates(const mpm::PointsView<Real>& 
         begun_   = true;
     }
     used_ += nearer;
+}
+
+template<class Exec, class Real>
+void SandBodyCoupling<Exec, Real>::follow_sleep(const SleepChange<Real>& change, const dem::BodiesView& bodies,
+                                                dem::SleepingBodies<Exec>& sleepers)
+{
+    loss_at_rest_ += contact::take_contacts(exec_, contact_, asleep_, change.asleep, change.first_fallen, bodies, law_,
+                                            sleepers.watch.data());
+    contact::return_contacts(exec_, contact_, asleep_, change.awake, change.first_woken);
+    contact::sum_sleeping(exec_, asleep_, sleepers.sand);
 }
 
 template<class Exec, class Real>

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <utility>
+
 #include "backend/async_readback.hpp"
 #include "decomp/decomposition.hpp"
+#include "kernels/contact/sleeping_contacts.hpp"
 #include "kernels/contact/substeps.hpp"
+#include "solver/sand/sand_sleep.hpp"
 #include "solver/touch_change.hpp"
 #include "world/world.hpp"
 
@@ -17,7 +21,12 @@ struct ContactPartners
     std::size_t bodies;
     std::size_t points; ///< awake points of this rank: places in memory
     std::size_t ids;    ///< points of the scene
+    std::size_t materials;
 };
+
+/// Bytes of a contact that sleeps, and of its copy while contacts are merged.
+inline constexpr std::int64_t sleeping_contact_bytes =
+    2 * (sizeof(std::uint64_t) + sizeof(contact::Tangential) + sizeof(contact::HeldSand) + sizeof(std::int32_t));
 
 /// Contact of the sand with the bodies of a scene, on one backend.
 template<class Exec, class Real>
@@ -75,8 +84,22 @@ public:
     /// Requests the measurement early, so that one synchronisation serves several readbacks.
     void request_measure();
 
-    /// The last measurement (dissipated: since the one before it).
+    /// The last measurement (dissipated: since the one before it), of contacts that are awake.
     const contact::Summary& summary() const { return summary_; }
+
+    /// J, elastic energy of all contacts, sleeping ones included, as of the last measurement.
+    double energy() const { return summary_.energy + asleep_.energy; }
+
+    /// J, what friction dissipated in contacts that fell asleep since the last call.
+    double take_loss_at_rest() { return std::exchange(loss_at_rest_, 0.0); }
+
+    /// Takes the contacts of sleeping sand and rocks from the steps and gives those of woken sand back. Updates what
+    /// sleeping sand presses rocks with, `sleepers.sand`. Call before points are sorted.
+    void follow_sleep(const SleepChange<Real>& change, const dem::BodiesView& bodies,
+                      dem::SleepingBodies<Exec>& sleepers);
+
+    /// Saves or loads the contacts that sleep, where sand may sleep beside rocks.
+    void transfer_sleep(StateFile& file, dem::SleepingBodies<Exec>& sleepers, const ContactPartners& partners);
 
     /// Saves or loads contact records and candidates, after the sand and the bodies.
     void transfer(StateFile& file, const dem::BodiesView& bodies, const ContactPartners& partners);
@@ -96,6 +119,8 @@ private:
 
     Exec                                  exec_;
     contact::PointContact<Exec>           contact_;
+    contact::SleepingContacts<Exec>       asleep_;
+    double                                loss_at_rest_ = 0; ///< J
     contact::PointBodyLaw                 law_;
     double                                largest_radius_;
     double                                skin_;            ///< m

@@ -9,6 +9,18 @@
 // Saves sand-body contact records to a checkpoint, and loads them.
 namespace tread::solver
 {
+namespace
+{
+
+auto accepted_contact_keys(const ContactPartners& partners)
+{
+    const auto names_a_pair = [partners](std::uint64_t key)
+    { return key >> 36 < partners.bodies && contact::point_of(key) < partners.ids && (key & 15) != 0; };
+    return accept::each(fmt::format("the key of one of {} bodies and one of {} points", partners.bodies, partners.ids),
+                        names_a_pair);
+}
+
+} // namespace
 
 template<class Exec, class Real>
 void SandBodyCoupling<Exec, Real>::transfer(StateFile& file, const dem::BodiesView& bodies,
@@ -37,6 +49,19 @@ void SandBodyCoupling<Exec, Real>::transfer(StateFile& file, const dem::BodiesVi
     if (contact_.tangential.size() == 0) { contact::put_back(exec_, contact_.history, records); }
 }
 
+template<class Exec, class Real>
+void SandBodyCoupling<Exec, Real>::transfer_sleep(StateFile& file, dem::SleepingBodies<Exec>& sleepers,
+                                                  const ContactPartners& partners)
+{
+    file.own("contact/asleep_key", asleep_.key,
+             accept::all(accepted_contact_keys(partners), accept::ascending(), accept::distinct()));
+    const auto rows = accept::rows(static_cast<std::size_t>(asleep_.key.size()));
+    file.own("contact/asleep_tangential", asleep_.tangential, accept::all(rows, accept::finite()));
+    file.own("contact/asleep_response", asleep_.response, accept::all(rows, accept::finite()));
+    file.own("contact/asleep_material", asleep_.material, accept::all(rows, accept::index(partners.materials)));
+    if (file.loads()) { contact::sum_sleeping(exec_, asleep_, sleepers.sand); }
+}
+
 /// If pairs hold their records, moves them to the table, reads it, and clears it.
 template<class Exec, class Real>
 std::vector<contact::HistoryRecord> SandBodyCoupling<Exec, Real>::remembered()
@@ -59,11 +84,7 @@ void SandBodyCoupling<Exec, Real>::transfer_records(StateFile& file, std::vector
         keys.push_back(record.key);
         tangential.push_back(record.tangential);
     }
-    const auto names_a_pair = [&](std::uint64_t key)
-    { return key >> 36 < partners.bodies && contact::point_of(key) < partners.ids && (key & 15) != 0; };
-    const std::string pair =
-        fmt::format("the key of one of {} bodies and one of {} points", partners.bodies, partners.ids);
-    file.own_or_all("contact/key", keys, accept::all(accept::each(pair, names_a_pair), accept::distinct()));
+    file.own_or_all("contact/key", keys, accept::all(accepted_contact_keys(partners), accept::distinct()));
     file.own_or_all("contact/tangential", tangential, accept::all(accept::rows(keys.size()), accept::finite()));
     records.clear();
     for (std::size_t i = 0; i < keys.size(); ++i) { records.push_back({keys[i], tangential[i]}); }
@@ -103,7 +124,9 @@ void SandBodyCoupling<Exec, Real>::transfer_slots(StateFile& file, const Contact
 }
 
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
-    template void SandBodyCoupling<Exec, Real>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&)
+    template void SandBodyCoupling<Exec, Real>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);  \
+    template void SandBodyCoupling<Exec, Real>::transfer_sleep(StateFile&, dem::SleepingBodies<Exec>&,                 \
+                                                               const ContactPartners&)
 TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

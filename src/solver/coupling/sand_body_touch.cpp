@@ -15,12 +15,22 @@ void SandBodyCoupling<Exec, Real>::add_contact_energies(const std::vector<std::i
     const auto response = contact_.response.to_host();
     const auto body = contact_.candidates.body.to_host(), touched = contact_.candidates.touched.to_host(),
                sand = contact_.material.to_host();
+    const auto add  = [&](std::int32_t of_sand, std::int32_t of_body, double energy)
+    {
+        const auto low = std::min(of_sand, of_body), high = std::max(of_sand, of_body);
+        energies[static_cast<std::size_t>(low) * sides + static_cast<std::size_t>(high)] += energy;
+    };
     for (std::size_t c = 0; c < response.size(); ++c)
     {
-        const auto a      = static_cast<std::size_t>(sand[static_cast<std::size_t>(touched[c])]);
-        const auto b      = static_cast<std::size_t>(material[static_cast<std::size_t>(body[c])]);
-        const auto [i, j] = std::minmax(a, b);
-        energies[i * sides + j] += response[c].energy;
+        add(sand[static_cast<std::size_t>(touched[c])], material[static_cast<std::size_t>(body[c])],
+            response[c].energy);
+    }
+    const auto key            = asleep_.key.to_host();
+    const auto asleep         = asleep_.response.to_host();
+    const auto asleep_in_sand = asleep_.material.to_host();
+    for (std::size_t i = 0; i < key.size(); ++i)
+    {
+        add(asleep_in_sand[i], material[static_cast<std::size_t>(contact::body_of(key[i]))], asleep[i].energy);
     }
 }
 

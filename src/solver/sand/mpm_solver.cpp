@@ -79,12 +79,39 @@ void MpmSolver<Exec, Real>::make_room()
 }
 
 template<class Exec, class Real>
-void MpmSolver<Exec, Real>::update_sleeping_pages(const std::vector<BodyReach>& bodies, double damping)
+void MpmSolver<Exec, Real>::update_sleeping_pages(const std::vector<BodyReach>& bodies, double damping,
+                                                  const SleepFollower& follow)
 {
-    if (sleep_->look(points_, order_.pages, grid_.geometry, bodies, laws_.materials.data(), order_.scratch, damping))
+    const std::vector<std::uint64_t> chosen = sleep_->choose(order_.pages, bodies, damping);
+    if (follow.choose)
     {
-        order_in_memory();
+        Array<Exec, std::uint64_t> asleep(exec_, "pages that sleep");
+        asleep.assign(chosen);
+        const mpm::PagesView all = pages();
+        follow.choose({{all.spacing, all.stencil_shift},
+                       {all.point_pages, all.point_page_key},
+                       all.first_point,
+                       {asleep.size(), asleep.data()}});
     }
+    follow_moves(sleep_->sleep_on(sleeping_sand(), chosen), follow);
+}
+
+template<class Exec, class Real>
+void MpmSolver<Exec, Real>::wake_near(const std::vector<BodyReach>& bodies, const SleepFollower& follow)
+{
+    follow_moves(sleep_->wake_near(sleeping_sand(), bodies), follow);
+}
+
+template<class Exec, class Real>
+void MpmSolver<Exec, Real>::follow_moves(const std::optional<SleepMoves>& moves, const SleepFollower& follow)
+{
+    if (!moves) { return; }
+    if (follow.move)
+    {
+        const mpm::PointsView<Real> asleep = sleep_->points().view(), awake = points_.view();
+        follow.move({asleep, asleep.count - moves->fallen, awake, awake.count - moves->woken});
+    }
+    order_in_memory();
 }
 
 template<class Exec, class Real>

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "decomp/balance.hpp"
+#include "kernels/contact/beds.hpp"
 #include "solver/ledger/sand_report.hpp"
 #include "solver/ranks/sand_ranks.hpp"
 #include "solver/sand/point_copy.hpp"
@@ -57,10 +59,23 @@ public:
         if (sleep_) { sleep_->set_gravity(gravity.norm()); }
     }
 
+    /// Who follows the sleep of sand; empty: nobody.
+    struct SleepFollower
+    {
+        std::function<void(const contact::SandPages&)> choose; ///< gets the pages that sleep from now on, and others
+        std::function<void(const SleepChange<Real>&)>  move;   ///< gets the points that moved, before they are sorted
+    };
+
     /// Step 2, after order(). sleep_is_due: whether to update which pages sleep before a step with this damping, when
-    /// nothing is faster than `speed` (m/s). With damping none sleeps.
+    /// nothing is faster than `speed` (m/s). With damping none sleeps. `bodies` keep the sand around them awake.
     bool sleep_is_due(double speed, double damping) const { return sleep_ && sleep_->is_due(speed, damping); }
-    void update_sleeping_pages(const std::vector<BodyReach>& bodies, double damping);
+    void update_sleeping_pages(const std::vector<BodyReach>& bodies, double damping, const SleepFollower& follow);
+
+    /// Wakes the sand near these bodies, if any sleeps there.
+    void wake_near(const std::vector<BodyReach>& bodies, const SleepFollower& follow);
+
+    /// Number of sleeping points.
+    std::int64_t asleep() const { return sleep_ ? sleep_->points().count : 0; }
 
     /// Mean share of the points that have slept so far; empty where sleep is off.
     std::optional<double> mean_asleep() const;
@@ -122,6 +137,12 @@ private:
     void transfer_lists(StateFile& file, const world::Sand& built, std::vector<bool>& seen);
     void order_in_memory();
     void make_room();
+    void follow_moves(const std::optional<SleepMoves>& moves, const SleepFollower& follow);
+
+    typename SandSleep<Exec, Real>::Sand sleeping_sand()
+    {
+        return {points_, grid_.geometry, laws_.materials.data(), order_.scratch};
+    }
 
     const Communicator* communicator() const { return ranks_ ? &ranks_->communicator() : nullptr; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "kernels/mpm/pages/page_key.hpp"
 
@@ -10,9 +11,6 @@ namespace tread::solver
 {
 namespace
 {
-
-/// Hysteresis in pages: extra distance from a body beyond which pages fall asleep.
-constexpr int slack = 2;
 
 /// Share of the awake pages: fewer do not fall asleep by themselves, since all points are then sorted.
 constexpr double worth_a_sort = 1.0 / 16;
@@ -127,12 +125,12 @@ PageMarks around_all(const RestState& state)
     return {low, high};
 }
 
-/// Marks the pages that are nearer than `distance` (m) to a body.
-void mark_near(const std::vector<BodyReach>& bodies, double edge, double distance, PageMarks& marks)
+/// Marks the pages that are nearer to a body than a distance of it (m).
+void mark_near(const std::vector<BodyReach>& bodies, double edge, double BodyReach::*distance, PageMarks& marks)
 {
     for (const BodyReach& body : bodies)
     {
-        const double reach = body.radius + distance;
+        const double reach = body.*distance;
         Index        first, last;
         for (std::size_t c = 0; c < 3; ++c)
         {
@@ -155,6 +153,11 @@ void mark_near(const std::vector<BodyReach>& bodies, double edge, double distanc
     }
 }
 
+bool any_at(const PageMarks& marks, const std::vector<std::uint64_t>& pages)
+{
+    return std::any_of(pages.begin(), pages.end(), [&](std::uint64_t key) { return marks.at(key); });
+}
+
 } // namespace
 
 std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& state)
@@ -169,12 +172,11 @@ std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& 
     }
     moved.widen(moving_ring);
     stays.widen(moving_ring + 1);
-    mark_near(state.bodies, rule.page_edge, rule.distance, wakes);
+    mark_near(state.bodies, rule.page_edge, &BodyReach::wakes, wakes);
     PageMarks near = wakes;
-    mark_near(state.bodies, rule.page_edge, rule.distance + slack * rule.page_edge, near);
+    mark_near(state.bodies, rule.page_edge, &BodyReach::rests, near);
 
-    const bool any_wakes =
-        std::any_of(state.asleep.begin(), state.asleep.end(), [&](std::uint64_t key) { return wakes.at(key); });
+    const bool                 any_wakes = any_at(wakes, state.asleep);
     std::vector<std::uint64_t> asleep, tired;
     for (const std::uint64_t key : state.asleep)
     {
@@ -192,6 +194,19 @@ std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& 
     std::sort(asleep.begin(), asleep.end());
     asleep.erase(std::unique(asleep.begin(), asleep.end()), asleep.end()); // points may have entered a sleeping page
     return asleep;
+}
+
+std::vector<std::uint64_t> stay_asleep(const RestRule& rule, const std::vector<std::uint64_t>& asleep,
+                                       const std::vector<BodyReach>& bodies)
+{
+    PageMarks near = around_all({{}, asleep, {}, {}});
+    mark_near(bodies, rule.page_edge, &BodyReach::wakes, near);
+    if (!any_at(near, asleep)) { return asleep; }
+    mark_near(bodies, rule.page_edge, &BodyReach::rests, near);
+    std::vector<std::uint64_t> stay;
+    std::copy_if(asleep.begin(), asleep.end(), std::back_inserter(stay),
+                 [&](std::uint64_t key) { return !near.at(key); });
+    return stay;
 }
 
 } // namespace tread::solver

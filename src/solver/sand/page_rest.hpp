@@ -12,7 +12,7 @@ namespace tread::solver
 struct RestRule
 {
     double page_edge; ///< m
-    double distance;  ///< m, least distance of sleeping pages from every body
+    double distance;  ///< m, distance of sleeping pages from named bodies
     double speed;     ///< m/s, largest speed of points at rest
     double rest;      ///< s, time at rest before a page may sleep
 };
@@ -25,11 +25,12 @@ struct AwakePage
     double        quiet; ///< s, time since speeds last exceeded the threshold
 };
 
-/// A body's bounding sphere, m.
+/// A body that keeps the sand around it awake, m.
 struct BodyReach
 {
     Vec3<double> centre;
-    double       radius;
+    double       wakes; ///< sand that is nearer to the centre wakes
+    double       rests; ///< sand that is farther from it may fall asleep
 };
 
 /// Input of choose_asleep. Keys ascend. A page that points have entered since it fell asleep is in both lists.
@@ -44,10 +45,15 @@ struct RestState
 /// Distance in pages around a moving page within which pages stay awake.
 inline constexpr int moving_ring = 2;
 
-/// Chooses the pages that sleep from now on, keys ascending. A page wakes when a body is nearer than the threshold
-/// distance, when a page within moving_ring moves, or when its load or that of an adjacent page has changed. It falls
-/// asleep when it and all pages within moving_ring + 1 have been at rest for long enough and every body is two pages
-/// beyond the threshold distance, so that pages wake in slices that last a while.
+/// Chooses the pages that sleep from now on, keys ascending. A page wakes when a body is nearer than the distance at
+/// which it wakes sand, when a page within moving_ring moves, or when its load or that of an adjacent page has changed.
+/// It falls asleep when it and all pages within moving_ring + 1 have been at rest for long enough, beyond the distance
+/// at which bodies let sand rest: that is farther, so that pages wake in slices that last a while.
 std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& state);
+
+/// Chooses those of the pages `asleep`, keys ascending, that stay so beside these bodies: if one wakes a page, all
+/// pages wake that no body lets rest.
+std::vector<std::uint64_t> stay_asleep(const RestRule& rule, const std::vector<std::uint64_t>& asleep,
+                                       const std::vector<BodyReach>& bodies);
 
 } // namespace tread::solver

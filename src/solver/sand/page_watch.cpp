@@ -83,12 +83,19 @@ std::vector<AwakePage> PageWatch<Exec>::awake(const mpm::Pages<Exec>& pages, dou
         if (first[i] == first[i + 1]) { continue; }
         const auto   known   = rest_.find(keys_[i]);
         const double largest = known == rest_.end() ? 0 : std::sqrt(known->second.speed_squared);
-        const double quiet   = known == rest_.end() || largest > speed ? 0 : known->second.quiet + window_;
+        const double quiet =
+            known == rest_.end() || largest > speed ? 0 : known->second.quiet + window_ - known->second.late;
         awake.push_back({keys_[i], largest, quiet});
-        rest.emplace_hint(rest.end(), keys_[i], Rest{0, quiet});
+        rest.emplace_hint(rest.end(), keys_[i], Rest{0, quiet, 0});
     }
     rest_.swap(rest);
     return awake;
+}
+
+template<class Exec>
+void PageWatch<Exec>::note_woken(const std::vector<std::uint64_t>& pages)
+{
+    for (const std::uint64_t key : pages) { rest_[key] = {0, 0, window_}; }
 }
 
 template<class Exec>

@@ -40,6 +40,9 @@ public:
     /// ascending; call after collect.
     std::vector<std::uint64_t> pressed(double force);
 
+    /// Records pages that wake between two checks.
+    void note_woken(const std::vector<std::uint64_t>& pages);
+
     /// Begins the time window of the next check.
     void begin_window() { window_ = 0; }
 
@@ -51,6 +54,7 @@ private:
     {
         double speed_squared = 0; ///< m2/s2, largest since the last check
         double quiet         = 0; ///< s, time at rest at the last check
+        double late          = 0; ///< s, part of this window before it woke
     };
 
     /// Load of a held page.

@@ -38,8 +38,7 @@ std::vector<std::uint64_t> without(const std::vector<std::uint64_t>& all, const 
 /// Whether a field is zero for a point at rest.
 bool is_motion(std::string_view field)
 {
-    constexpr std::string_view names[] = {"velocity",      "affine",        "plastic_rate",
-                                          "contact_force", "grid_velocity", "support"};
+    constexpr std::string_view names[] = {"velocity", "affine", "plastic_rate", "grid_velocity"};
     return std::find(std::begin(names), std::end(names), field) != std::end(names);
 }
 
@@ -77,22 +76,43 @@ bool SandSleep<Exec, Real>::is_due(double speed, double damping) const
 }
 
 template<class Exec, class Real>
-bool SandSleep<Exec, Real>::look(mpm::Points<Exec, Real>& points, const mpm::Pages<Exec>& pages,
-                                 const mpm::GridGeometry& geometry, const std::vector<BodyReach>& bodies,
-                                 const mpm::MaterialParameters<Real>* materials, mpm::OrderScratch<Exec, Real>& scratch,
-                                 double damping)
+std::vector<std::uint64_t> SandSleep<Exec, Real>::choose(const mpm::Pages<Exec>&       pages,
+                                                         const std::vector<BodyReach>& bodies, double damping)
 {
     watch_.collect(held_);
     const RestState state{watch_.awake(pages, rule_.speed), asleep_, watch_.pressed(load_limit_), bodies};
     watch_.begin_window();
-    std::vector<std::uint64_t> chosen;
-    if (damping == 0) { chosen = choose_asleep(rule_, state); }
-    if (chosen == asleep_) { return false; }
+    return damping == 0 ? choose_asleep(rule_, state) : std::vector<std::uint64_t>{};
+}
 
+template<class Exec, class Real>
+std::optional<SleepMoves> SandSleep<Exec, Real>::sleep_on(const Sand& sand, const std::vector<std::uint64_t>& chosen)
+{
+    if (chosen == asleep_) { return {}; }
+    return sleep_on(sand, chosen, chosen);
+}
+
+template<class Exec, class Real>
+std::optional<SleepMoves> SandSleep<Exec, Real>::wake_near(const Sand& sand, const std::vector<BodyReach>& bodies)
+{
+    if (asleep_.empty()) { return {}; }
+    std::vector<std::uint64_t> chosen = stay_asleep(rule_, asleep_, bodies);
+    if (chosen == asleep_) { return {}; }
+    watch_.note_woken(without(asleep_, chosen));
+    return sleep_on(sand, std::move(chosen), {});
+}
+
+/// Has the chosen pages sleep from now on, and no others. `falling`: those whose awake points fall asleep; points may
+/// have entered a page since it did.
+template<class Exec, class Real>
+SleepMoves SandSleep<Exec, Real>::sleep_on(const Sand& sand, std::vector<std::uint64_t> chosen,
+                                           const std::vector<std::uint64_t>& falling)
+{
     SandCensus woken, fallen;
-    move(points_, points, without(asleep_, chosen), geometry, scratch, materials, woken);
+    SleepMoves moves;
+    moves.woken               = move(points_, sand.points, without(asleep_, chosen), sand, woken);
     const std::int64_t before = points_.count;
-    move(points, points_, chosen, geometry, scratch, materials, fallen);
+    moves.fallen              = move(sand.points, points_, falling, sand, fallen);
     stop(before);
     impulse_ -= fallen.momentum;
     fallen.kinetic  = 0;
@@ -101,34 +121,35 @@ bool SandSleep<Exec, Real>::look(mpm::Points<Exec, Real>& points, const mpm::Pag
     if (points_.count == 0) { census_ = {}; }
     asleep_ = std::move(chosen);
     asleep_key_.assign(asleep_);
-    return true;
+    return moves;
 }
 
-/// Moves the points of whole pages. `moved`: census of these points.
+/// Moves the points of whole pages; returns their number. `moved`: census of these points.
 template<class Exec, class Real>
-void SandSleep<Exec, Real>::move(mpm::Points<Exec, Real>& from, mpm::Points<Exec, Real>& to,
-                                 const std::vector<std::uint64_t>& pages_to_move, const mpm::GridGeometry& geometry,
-                                 mpm::OrderScratch<Exec, Real>& scratch, const mpm::MaterialParameters<Real>* materials,
-                                 SandCensus& moved)
+std::int64_t SandSleep<Exec, Real>::move(mpm::Points<Exec, Real>& from, mpm::Points<Exec, Real>& to,
+                                         const std::vector<std::uint64_t>& pages_to_move, const Sand& sand,
+                                         SandCensus& moved)
 {
-    if (pages_to_move.empty()) { return; }
+    if (pages_to_move.empty()) { return 0; }
     constexpr std::int32_t     nobody = -1, other = 0;
     Array<Exec, std::uint64_t> key(exec_, "pages that wake or fall asleep");
     Array<Exec, std::int32_t>  owner(exec_, "owners of pages that wake or fall asleep");
     key.assign(pages_to_move);
     owner.assign(std::vector<std::int32_t>(pages_to_move.size(), other));
-    mpm::find_leaving(exec_, from, geometry, {key.size(), key.data(), owner.data()}, nobody, leaving_, scratch);
+    mpm::find_leaving(exec_, from, sand.geometry, {key.size(), key.data(), owner.data()}, nobody, leaving_,
+                      sand.scratch);
     const std::int64_t count = leaving_.row.size();
-    if (count == 0) { return; }
-    moved = census_of_leaving(from, materials);
+    if (count == 0) { return 0; }
+    moved = census_of_leaving(from, sand.materials);
 
     const decomp::Columns      columns = decomp::point_columns(from);
     Array<Exec, std::uint32_t> rows(exec_, "points that wake or fall asleep", count * columns.words);
     decomp::pack_rows(exec_, columns, leaving_.row.data(), count, rows.data());
-    mpm::remove_leaving(exec_, from, leaving_, scratch);
+    mpm::remove_leaving(exec_, from, leaving_, sand.scratch);
     to.reserve(to.count + count);
     decomp::unpack_rows(exec_, rows.data(), count, decomp::point_columns(to), nullptr, to.count);
     to.count += count;
+    return count;
 }
 
 template<class Exec, class Real>

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "kernels/mpm/laws/material_parameters.hpp"
 #include "kernels/mpm/pages/leaving.hpp"
 #include "scene/scene.hpp"
@@ -9,6 +12,23 @@
 
 namespace tread::solver
 {
+
+/// Points that fell asleep and woke in an update: the last ones of either kind.
+template<class Real>
+struct SleepChange
+{
+    mpm::PointsView<Real> asleep;
+    std::int64_t          first_fallen;
+    mpm::PointsView<Real> awake;
+    std::int64_t          first_woken;
+};
+
+/// Numbers of points that fell asleep and woke.
+struct SleepMoves
+{
+    std::int64_t fallen = 0;
+    std::int64_t woken  = 0;
+};
 
 /// Sleeping sand of one rank: whole pages whose points are kept apart from the awake ones, with stress and without
 /// velocity, and cost no time. The grid nodes that they reach are held fixed.
@@ -38,11 +58,25 @@ public:
     /// Whether a sleep check is due when nothing is faster than `speed` (m/s). With damping none sleeps.
     bool is_due(double speed, double damping) const;
 
-    /// Moves points, listed in `pages`, to sleep and wakes others. Returns whether any did; all points must then be
-    /// sorted again. With damping none sleeps. Materials are indexed by PointsView::material.
-    bool look(mpm::Points<Exec, Real>& points, const mpm::Pages<Exec>& pages, const mpm::GridGeometry& geometry,
-              const std::vector<BodyReach>& bodies, const mpm::MaterialParameters<Real>* materials,
-              mpm::OrderScratch<Exec, Real>& scratch, double damping);
+    /// Memory and tables of the sand whose points sleep and wake.
+    struct Sand
+    {
+        mpm::Points<Exec, Real>&             points; ///< awake ones
+        const mpm::GridGeometry&             geometry;
+        const mpm::MaterialParameters<Real>* materials; ///< indexed by PointsView::material
+        mpm::OrderScratch<Exec, Real>&       scratch;
+    };
+
+    /// Chooses the pages that sleep from now on, keys ascending. `bodies` keep sand awake. With damping none sleeps.
+    std::vector<std::uint64_t> choose(const mpm::Pages<Exec>& pages, const std::vector<BodyReach>& bodies,
+                                      double damping);
+
+    /// Moves the points of these pages, listed when they were chosen, to sleep and wakes others; empty if no page did.
+    /// Otherwise all points must be sorted again; those that woke are then the last ones.
+    std::optional<SleepMoves> sleep_on(const Sand& sand, const std::vector<std::uint64_t>& chosen);
+
+    /// Wakes the pages near these bodies between two checks; result as of sleep_on().
+    std::optional<SleepMoves> wake_near(const Sand& sand, const std::vector<BodyReach>& bodies);
 
     /// Call before pages are rebuilt, and after.
     void leave_pages() { watch_.collect(held_); }
@@ -63,12 +97,11 @@ public:
     void set_gravity(double gravity) { load_limit_ = load_mass_ * gravity; }
 
 private:
-    void       move(mpm::Points<Exec, Real>& from, mpm::Points<Exec, Real>& to,
-                    const std::vector<std::uint64_t>& pages_to_move, const mpm::GridGeometry& geometry,
-                    mpm::OrderScratch<Exec, Real>& scratch, const mpm::MaterialParameters<Real>* materials,
-                    SandCensus& moved);
-    SandCensus census_of_leaving(mpm::Points<Exec, Real>& points, const mpm::MaterialParameters<Real>* materials);
-    void       stop(std::int64_t first);
+    SleepMoves sleep_on(const Sand& sand, std::vector<std::uint64_t> chosen, const std::vector<std::uint64_t>& falling);
+    std::int64_t move(mpm::Points<Exec, Real>& from, mpm::Points<Exec, Real>& to,
+                      const std::vector<std::uint64_t>& pages_to_move, const Sand& sand, SandCensus& moved);
+    SandCensus   census_of_leaving(mpm::Points<Exec, Real>& points, const mpm::MaterialParameters<Real>* materials);
+    void         stop(std::int64_t first);
 
     Exec                       exec_;
     RestRule                   rule_;

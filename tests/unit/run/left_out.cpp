@@ -89,6 +89,18 @@ TEST(LeftOut, RocksThatMaySleep)
                 bodies + pairs + pairs_without_sand + sleep);
 }
 
+/// Rocks in sand that may sleep with them have room for what it presses them with, and for what it does.
+TEST(LeftOut, SandAndRocksThatMaySleep)
+{
+    const std::string both = "[sleep]\ndistance = 0.2\n", rocks = both + "rock_speed = 1e-3\n";
+    const Part without = used_by(test::sand_text + within + both), with = used_by(test::sand_text + within + rocks);
+    const Part sleep = {{"bodies of substeps", "body sleep marks", "body times at rest", "loads of sleeping bodies",
+                         "sleeping bodies", "sleeping sand on bodies", "beds of bodies", "next beds of bodies",
+                         "body positions at rest", "body orientations at rest", "moving bodies"},
+                        {"bodies of substeps", "look at sleep", "time at rest"}};
+    expect_equal(with, without + sleep);
+}
+
 std::string bolton(const std::string& more)
 {
     std::string text = test::sand_text;

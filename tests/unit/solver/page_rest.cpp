@@ -17,6 +17,13 @@ constexpr int      row_pages = 40;
 
 std::uint64_t page(int x) { return mpm::page_key({x, 0, 0}); }
 
+/// A named body of 0.2 m, with the two pages of slack.
+BodyReach body_at(double x)
+{
+    const double wakes = 0.2 + rule.distance;
+    return {{x, 0.05, 0.05}, wakes, wakes + 2 * rule.page_edge};
+}
+
 /// A row of 40 pages along x, four metres, all at rest for a long time, none asleep.
 RestState quiet_row()
 {
@@ -76,7 +83,7 @@ TEST(PageRest, WhatHasNotRestedLongKeepsThreePagesAroundItFromSleep)
 TEST(PageRest, WhatIsNearABodyDoesNotSleep)
 {
     RestState state = quiet_row();
-    state.bodies    = {{{0.35, 0.05, 0.05}, 0.2}};
+    state.bodies    = {body_at(0.35)};
     EXPECT_EQ(along(choose_asleep(rule, state)), range(11, row_pages - 1));
 }
 
@@ -84,14 +91,14 @@ TEST(PageRest, WhatIsNearABodyDoesNotSleep)
 TEST(PageRest, SandBetweenBodiesFarApartSleeps)
 {
     RestState state = quiet_row();
-    state.bodies    = {{{0.35, 0.05, 0.05}, 0.2}, {{3.64, 0.05, 0.05}, 0.2}};
+    state.bodies    = {body_at(0.35), body_at(3.64)};
     EXPECT_EQ(along(choose_asleep(rule, state)), range(11, 27));
 }
 
 TEST(PageRest, PagesWakeInSlicesBeforeABodyReachesThem)
 {
     RestState state = quiet_row();
-    state.bodies    = {{{0.35, 0.05, 0.05}, 0.2}};
+    state.bodies    = {body_at(0.35)};
     state           = after(state, choose_asleep(rule, state));
 
     state.bodies[0].centre[0] = 0.54; // its range ends at 1.09 m
@@ -100,12 +107,25 @@ TEST(PageRest, PagesWakeInSlicesBeforeABodyReachesThem)
     EXPECT_EQ(along(choose_asleep(rule, state)), range(14, row_pages - 1));
 }
 
+/// Between two checks a body that wakes has the pages near it wake, with the slices of a check.
+TEST(PageRest, ABodyThatWakesWakesThePagesNearIt)
+{
+    const std::vector<std::uint64_t> all      = choose_asleep(rule, quiet_row());
+    auto                             expected = range(0, 11);
+    const auto                       beyond   = range(28, row_pages - 1);
+    expected.insert(expected.end(), beyond.begin(), beyond.end());
+    EXPECT_EQ(along(stay_asleep(rule, all, {body_at(2.0)})), expected); // 0.55 m and two pages
+    EXPECT_EQ(stay_asleep(rule, all, {body_at(-0.6)}), all);            // 5 cm too far
+    EXPECT_EQ(stay_asleep(rule, all, {}), all);
+    EXPECT_TRUE(stay_asleep(rule, {}, {body_at(2.0)}).empty());
+}
+
 TEST(PageRest, WhatTheBodyHasLeftSleepsAgain)
 {
     RestState state = quiet_row();
-    state.bodies    = {{{0.35, 0.05, 0.05}, 0.2}};
+    state.bodies    = {body_at(0.35)};
     state           = after(state, choose_asleep(rule, state));
-    state.bodies    = {{{3.0, 0.05, 0.05}, 0.2}};
+    state.bodies    = {body_at(3.0)};
     auto expected   = range(0, 21);
     expected.insert(expected.end(), {38, 39});
     EXPECT_EQ(along(choose_asleep(rule, state)), expected);

@@ -25,6 +25,11 @@ struct SleepCount
 template<class Exec>
 SleepCount look_at_sleep(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
+/// Takes pairs.sleep.next_bed as what sand does from now on, and marks the bodies that follow: those at rest in sand
+/// that falls asleep, and sleepers all of whose sand wakes. The list of pairs must be valid. Waits for the counts.
+template<class Exec>
+SleepCount follow_beds(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
+
 /// Stops the bodies marked as tired: their motion counts as work and impulse of what holds them. Their contacts are
 /// computed once more at rest and kept, with their records, among pairs.sleep.pairs. The list must then be found anew.
 /// `substep`: s, the last one; `gravity`: m/s2.
@@ -46,6 +51,11 @@ void wake_bodies(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, cons
 template<class Exec>
 void settle_sleepers(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
 
+/// Sums the contacts that hold sleepers anew, after those with sleeping bodies, walls or sand (pairs.sleep.sand) have
+/// changed.
+template<class Exec>
+void hold_sleepers(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
+
 /// Rebuilds what settle_sleepers derives, from loaded pairs and loads.
 template<class Exec>
 void resume_sleep(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
@@ -53,9 +63,5 @@ void resume_sleep(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
 /// Lists the bodies that substeps compute: awake ones, and sleepers with a listed pair or an external wrench.
 template<class Exec>
 void list_moved_bodies(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const OutsideWrenches& outside);
-
-/// Number of contacts beyond a body that wakes within which sleepers wake, too: a blow passes through several bodies
-/// before the next look.
-inline constexpr int waking_rings = 2; // assumed
 
 } // namespace tread::dem

@@ -205,11 +205,28 @@ SleepCount look_at_sleep(const Exec& exec, Pairs<Exec>& pairs, const BodiesView&
              WatchRest{bodies, law.templates, sleep.rule, clock.look, sleep.rest_watch()});
     for_each(exec, "look at sleep", bodies.count,
              LookAtBody{bodies, law.templates, pairs.view(), sleep.rule, ends ? clock.window : 0.0, clock.held,
-                        sleep.rest_watch(), sleep.watch.data(), sleep.mark.data(), pairs.measure.data()});
+                        sleep.rest_watch(), sleep.bed.data(), sleep.watch.data(), sleep.mark.data(),
+                        pairs.measure.data()});
     sum_rows(exec, pairs.measure.data(), bodies.count, width, counts);
     clock.look = 0;
     if (ends) { clock.window = clock.held = 0; }
     return read(exec, reinterpret_cast<const SleepCount*>(counts));
+}
+
+template<class Exec>
+SleepCount follow_beds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    SleepingBodies<Exec>& sleep = pairs.sleep;
+    constexpr int         width = sizeof(SleepCount) / sizeof(double);
+    pairs.measure.resize(bodies.count * width + width);
+    double* counts = pairs.measure.data() + bodies.count * width;
+    for_each(exec, "follow beds", bodies.count,
+             sleeping::FollowBed{bodies, sleep.rule, sleep.quiet.data(), sleep.next_bed.data(), sleep.bed.data(),
+                                 sleep.mark.data(), pairs.measure.data()});
+    sum_rows(exec, pairs.measure.data(), bodies.count, width, counts);
+    const auto count = read(exec, reinterpret_cast<const SleepCount*>(counts));
+    if (count.wake > 0) { sleep.change = true; }
+    return count;
 }
 
 template<class Exec>
@@ -235,7 +252,7 @@ void wake_all(Pairs<Exec>& pairs, Bodies<Exec>& bodies)
     pairs.sleep.quiet.fill_zero();
     pairs.sleep.moves.fill_zero();
     pairs.sleep.mark.fill_zero();
-    pairs.sleep.change = pairs.sleep.change || pairs.sleep.count > 0;
+    if (pairs.sleep.count > 0) { pairs.sleep.change = pairs.sleep.woken = true; }
 }
 
 template<class Exec>
@@ -255,9 +272,9 @@ void wake_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
     pairs.measure.resize(bodies.count + 1);
     double* woken = pairs.measure.data() + bodies.count;
     for_each(exec, "wake bodies", bodies.count,
-             WakeBody{bodies, sleep.mark.data(), sleep.rest_watch(), pairs.measure.data()});
+             WakeBody{bodies, sleep.rule, sleep.mark.data(), sleep.rest_watch(), pairs.measure.data()});
     sum_rows(exec, pairs.measure.data(), bodies.count, 1, woken);
-    if (read(exec, woken) > 0) { sleep.change = true; }
+    if (read(exec, woken) > 0) { sleep.change = sleep.woken = true; }
 }
 
 template<class Exec>
@@ -269,13 +286,20 @@ void settle_sleepers(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bod
     {
         drop_contacts(exec, pairs, bodies);
         order_contacts(exec, pairs, bodies);
-        for_each(exec, "hold bodies", bodies.count,
-                 HoldBody{bodies, sleep.pairs.view(), sleep.clock.held, sleep.watch.data()});
+        hold_sleepers(exec, pairs, bodies);
         weigh(exec, pairs, bodies);
-        sleep.clock.held = 0;
-        sleep.change     = false;
+        sleep.change = false;
     }
     list_moved_bodies(exec, pairs, bodies, {});
+}
+
+template<class Exec>
+void hold_sleepers(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    SleepingBodies<Exec>& sleep = pairs.sleep;
+    for_each(exec, "hold bodies", bodies.count,
+             sleeping::HoldBody{bodies, sleep.pairs.view(), sleep.sand.data(), sleep.clock.held, sleep.watch.data()});
+    sleep.clock.held = 0;
 }
 
 template<class Exec>
@@ -296,11 +320,13 @@ void list_moved_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& b
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template void       begin_sleep(const Exec&, Pairs<Exec>&, Bodies<Exec>&, const BodyRestRule&);                    \
     template SleepCount look_at_sleep(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                   \
+    template SleepCount follow_beds(const Exec&, Pairs<Exec>&, const BodiesView&);                                     \
     template void       fall_asleep(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, BodyTotal*, double,  \
                                     const Vec3<double>&);                                                              \
     template void       wake_all(Pairs<Exec>&, Bodies<Exec>&);                                                         \
     template void       wake_bodies(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, double);             \
     template void       settle_sleepers(const Exec&, Pairs<Exec>&, const BodiesView&);                                 \
+    template void       hold_sleepers(const Exec&, Pairs<Exec>&, const BodiesView&);                                   \
     template void       resume_sleep(const Exec&, Pairs<Exec>&, const BodiesView&);                                    \
     template void       list_moved_bodies(const Exec&, Pairs<Exec>&, const BodiesView&, const OutsideWrenches&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)

@@ -38,8 +38,9 @@ struct WatchRest
                      moved = displacement_since(bodies, b, watch.position[b], watch.orientation[b], radius);
         if (moved > near)
         {
-            const bool was_hit = moved > 2 * near;
-            watch.begin(bodies, b, was_hit || watch.quiet[b] < rule.rest);
+            const bool is_moving = moved > 2 * near || watch.quiet[b] < rule.rest;
+            watch.begin(bodies, b, 0);
+            watch.moves[b] = is_moving ? 1 : 0;
             return;
         }
         watch.quiet[b] += time;
@@ -62,6 +63,7 @@ struct LookAtBody
     double              window; ///< s, of the window that ends now; 0: it goes on
     double              held;   ///< s, since SleepWatch::held last changed, or the window began
     RestWatch           rest;
+    const std::int32_t* bed; ///< SandBed of each body; null if no sand sleeps beside bodies
     SleepWatch*         watch;
     std::int32_t*       mark;
     double*             rows; ///< [bodies x 3]
@@ -78,10 +80,13 @@ struct LookAtBody
     }
 
 private:
-    /// Whether a body that something holds and all that it may touch have been at rest for long enough.
+    TREAD_HD SandBed bed_of(std::int64_t b) const { return bed == nullptr ? bed_none : static_cast<SandBed>(bed[b]); }
+
+    /// Whether a body that something holds and all that it may touch have been at rest for long enough. In sand that
+    /// may sleep it follows its bed.
     TREAD_HD bool is_tired(std::int64_t b) const
     {
-        bool rests = rest.quiet[b] >= rule.rest && bodies.stiffness[b] > 0;
+        bool rests = rest.quiet[b] >= rule.rest && bodies.stiffness[b] > 0 && bed_of(b) == bed_none;
         if (!rests) { return false; }
         each_neighbour(pairs, b,
                        [&](std::int64_t other)
@@ -94,14 +99,15 @@ private:
 
     TREAD_HD bool wakes(std::int64_t b) const
     {
-        bool found = window > 0 && load_has_changed(b, watch[b]);
+        bool found = window > 0 && load_has_changed(b, watch[b]) && bed_of(b) != bed_asleep;
         each_neighbour(pairs, b,
                        [&](std::int64_t other)
                        { found = found || (other < bodies.count && is_moving(bodies, rest.moves, other)); });
         return found;
     }
 
-    /// Takes the mean load of the window that ends: the first whole one is that of rest.
+    /// Takes the mean load of the window that ends. The first whole one is the reference; a change that was there when
+    /// sand fell asleep on the body stays.
     TREAD_HD bool load_has_changed(std::int64_t b, SleepWatch& load) const
     {
         const double       inverse = 1.0 / window;
@@ -112,12 +118,38 @@ private:
         load.windows               = std::fmin(load.windows + 1, 3.0);
         if (load.windows < 3)
         {
-            load.rest_force  = force;
-            load.rest_torque = torque;
+            load.rest_force  = force - load.change_force;
+            load.rest_torque = torque - load.change_torque;
             return false;
         }
-        const double arm = bounding_radius(bodies, templates, b);
-        return (force - load.rest_force).norm() > load.limit || (torque - load.rest_torque).norm() > load.limit * arm;
+        load.change_force  = force - load.rest_force;
+        load.change_torque = torque - load.rest_torque;
+        const double arm   = bounding_radius(bodies, templates, b);
+        return load.change_force.norm() > load.limit || load.change_torque.norm() > load.limit * arm;
+    }
+};
+
+/// Marks a body that follows its bed; `row` as that of LookAtBody.
+struct FollowBed
+{
+    BodiesView          bodies;
+    BodyRestRule        rule;
+    const double*       quiet; ///< s, RestWatch::quiet
+    const std::int32_t* next;
+    std::int32_t*       bed;
+    std::int32_t*       mark;
+    double*             rows; ///< [bodies x 3]
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const bool sleeps = bodies.is_asleep(b), may = b >= rule.first;
+        const bool wakes = sleeps && bed[b] == bed_asleep && next[b] != bed_asleep;
+        const bool tired = may && !sleeps && next[b] == bed_asleep && quiet[b] >= rule.rest;
+        bed[b]           = wakes ? bed_awake : next[b]; // points that still sleep are in no awake page
+        mark[b]          = wakes ? mark_wakes_calm : tired ? mark_tired : mark_none;
+        rows[3 * b]      = wakes ? 1 : 0;
+        rows[3 * b + 1]  = tired ? 1 : 0;
+        rows[3 * b + 2]  = may && !sleeps ? 1 : 0;
     }
 };
 
@@ -187,7 +219,7 @@ struct BeginWatch
         }
         carried += (bodies.force[b] - between).norm(); // of sand
         const Vec3<double> zero = Vec3<double>::Zero();
-        watch[b]                = {ContactWrench::zero(), zero, zero, zero, zero, 0.5 * share * carried, 0};
+        watch[b]                = {ContactWrench::zero(), zero, zero, zero, zero, zero, zero, 0.5 * share * carried, 0};
     }
 
 private:
@@ -273,34 +305,37 @@ struct WidenMarks
 struct WakeBody
 {
     BodiesView    bodies;
+    BodyRestRule  rule;
     std::int32_t* mark;
     RestWatch     watch;
-    double*       woken; ///< [bodies]
+    double*       woken; ///< [bodies], 1: by what moves, so that the sand around it must wake
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        woken[b] = mark[b] >= mark_wakes ? 1 : 0;
-        if (woken[b] > 0)
+        const bool calm = mark[b] == mark_wakes_calm;
+        woken[b]        = mark[b] >= mark_wakes && !calm ? 1 : 0;
+        if (mark[b] >= mark_wakes)
         {
             bodies.asleep[b] = 0;
-            watch.begin(bodies, b, false);
+            watch.begin(bodies, b, calm ? rule.rest : 0.0);
         }
         mark[b] = mark_none;
     }
 };
 
-/// Sums the contacts of a sleeper with other sleepers and walls.
+/// Sums the contacts of a sleeper with other sleepers, walls and sleeping sand.
 struct HoldBody
 {
-    BodiesView        bodies;
-    SleepingPairsView pairs;
-    double            held; ///< s, for which the last sum was held
-    SleepWatch*       watch;
+    BodiesView           bodies;
+    SleepingPairsView    pairs;
+    const ContactWrench* sand; ///< null if no sand sleeps beside bodies
+    double               held; ///< s, for which the last sum was held
+    SleepWatch*          watch;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
         if (!bodies.is_asleep(b)) { return; }
-        ContactWrench sum = ContactWrench::zero();
+        ContactWrench sum = sand != nullptr ? sand[b] : ContactWrench::zero();
         for (std::int32_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p)
         {
             const HeldContact& contact = pairs.contact[p];

@@ -27,26 +27,28 @@ struct RestWatch
     double*       quiet;       ///< s, for which the body has stayed near it
     std::int32_t* moves; ///< 1: it left the place before in less than BodyRestRule::rest, and may not have stopped
 
-    /// Begins anew at the present place of body b.
-    TREAD_HD void begin(const BodiesView& bodies, std::int64_t b, bool is_moving) const
+    /// Begins anew at the present place of body b, which has rested for `rested` (s).
+    TREAD_HD void begin(const BodiesView& bodies, std::int64_t b, double rested) const
     {
         position[b]    = bodies.position[b];
         orientation[b] = bodies.orientation[b];
-        quiet[b]       = 0;
-        moves[b]       = is_moving ? 1 : 0;
+        quiet[b]       = rested;
+        moves[b]       = 0;
     }
 };
 
 /// Load on a sleeping body. Forces in N, torques in N m about its centre of mass.
 struct SleepWatch
 {
-    ContactWrench held;            ///< sum of its contacts with sleeping bodies and walls, constant while they sleep
-    Vec3<double>  rest_force;      ///< mean force of all contacts in the first whole window of its sleep
+    ContactWrench held;            ///< sum of its contacts with sleeping bodies, walls and sleeping sand, constant
+    Vec3<double>  rest_force;      ///< reference: mean force of all contacts in the first whole window of its sleep
     Vec3<double>  rest_torque;     ///< likewise
+    Vec3<double>  change_force;    ///< change of the mean force from the reference in the last window
+    Vec3<double>  change_torque;   ///< likewise
     Vec3<double>  impulse;         ///< N s, of all contacts in this window, `held` only up to when it last changed
     Vec3<double>  angular_impulse; ///< N m s, likewise
     double        limit;           ///< N, change of the mean force that wakes it
-    double        windows;         ///< whole windows since it fell asleep: 0, 1, or 2 for more
+    double        windows;         ///< windows since it, or sand on it, fell asleep; 3 for more
 };
 
 /// Response of a pair of sleepers.
@@ -105,12 +107,25 @@ struct SleepingPairs
     Array<Exec, std::int32_t>  second;
 };
 
+/// Number of contacts beyond a body that wakes within which sleepers wake, too: a blow passes through several bodies
+/// before the next look.
+inline constexpr int waking_rings = 2; // assumed
+
 /// Marks of bodies at a look.
 enum SleepMark : std::int32_t
 {
-    mark_none  = 0,
-    mark_wakes = 1,  ///< and higher: neighbours of bodies that wake, by distance in contacts
-    mark_tired = -1, ///< falls asleep
+    mark_none       = 0,
+    mark_wakes      = 1,                             ///< to 1 + waking_rings: by distance in contacts
+    mark_wakes_calm = mark_wakes + waking_rings + 1, ///< wakes alone and at rest, with the sand around it
+    mark_tired      = -1,                            ///< falls asleep
+};
+
+/// Sand that a body may touch.
+enum SandBed : std::int32_t
+{
+    bed_none   = 0,
+    bed_awake  = 1, ///< all of it
+    bed_asleep = 2, ///< some of it
 };
 
 /// Times of the substeps so far, s.
@@ -135,6 +150,9 @@ struct SleepingBodies
         , moves(exec, "moving bodies")
         , mark(exec, "body sleep marks")
         , watch(exec, "loads of sleeping bodies")
+        , sand(exec, "sleeping sand on bodies")
+        , bed(exec, "beds of bodies")
+        , next_bed(exec, "next beds of bodies")
         , moved(exec, "bodies of substeps")
         , pairs(exec)
     {
@@ -143,6 +161,7 @@ struct SleepingBodies
     bool         wanted = false; ///< whether bodies may sleep
     bool         wakes  = false; ///< whether bodies near moving ones wake when the next list is found
     bool         change = false; ///< whether some body fell asleep or woke since the last list
+    bool         woken  = false; ///< whether some body woke since sand last followed
     BodyRestRule rule{};
     SleepClock   clock;
     double       count  = 0; ///< number of sleepers
@@ -154,10 +173,13 @@ struct SleepingBodies
     Array<Exec, double>       quiet;       ///< RestWatch::quiet
     Array<Exec, std::int32_t> moves;       ///< RestWatch::moves
 
-    Array<Exec, std::int32_t> mark;  ///< SleepMark of each body
-    Array<Exec, SleepWatch>   watch; ///< of each body
-    Array<Exec, std::int32_t> moved; ///< bodies that the substeps compute: awake ones, and sleepers that they touch
-    SleepingPairs<Exec>       pairs;
+    Array<Exec, std::int32_t>  mark;     ///< SleepMark of each body
+    Array<Exec, SleepWatch>    watch;    ///< of each body
+    Array<Exec, ContactWrench> sand;     ///< wrench of sleeping sand on each body; empty if none sleeps beside bodies
+    Array<Exec, std::int32_t>  bed;      ///< SandBed of each body; empty if no sand sleeps beside bodies
+    Array<Exec, std::int32_t>  next_bed; ///< likewise, for follow_beds
+    Array<Exec, std::int32_t>  moved;    ///< bodies that the substeps compute: awake ones, and sleepers that they touch
+    SleepingPairs<Exec>        pairs;
 
     RestWatch rest_watch() { return {position.data(), orientation.data(), quiet.data(), moves.data()}; }
 

@@ -1,0 +1,69 @@
+#include <utility>
+
+#include "backend/instantiate.hpp"
+#include "solver/bodies/body_reaches.hpp"
+#include "solver/simulation.hpp"
+
+// Sleep of sand, and of the rocks in it with their contacts.
+namespace tread::solver
+{
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::update_sleeping_pages(StageClock& clock)
+{
+    if (!sand_ || !measured()) { return; }
+    const bool wakes = std::exchange(wakes_, false);
+    if (!wakes && !sand_->sleep_is_due(measuring_.pace.largest_speed, damping_)) { return; }
+    if (!wakes && sleep_follower().choose && !rigid_->has_list()) { return; }
+    const auto update = [&]
+    {
+        std::vector<BodyReach> bodies;
+        if (rigid_) { bodies = sand_wakers(); }
+        sand_->update_sleeping_pages(bodies, wakes ? 1.0 : damping_, sleep_follower());
+    };
+    clock.run(exec_, stage::sleep, update);
+}
+
+template<class Exec, class Real>
+typename MpmSolver<Exec, Real>::SleepFollower Simulation<Exec, Real>::sleep_follower()
+{
+    if (!coupling_ || rigid_->sleepers().sand.size() == 0) { return {}; }
+    const auto choose = [this](const contact::SandPages& pages)
+    {
+        contact::find_beds(exec_, rigid_->view(), rigid_->templates(), pages, scene_.grid.spacing,
+                           rigid_->sleepers().next_bed.data());
+        rigid_->follow_beds();
+    };
+    const auto move = [this](const SleepChange<Real>& change)
+    {
+        coupling_->follow_sleep(change, rigid_->view(), rigid_->sleepers());
+        if (rigid_->has_list()) { rigid_->hold_sleepers(); } // else the next list does
+    };
+    return {choose, move};
+}
+
+template<class Exec, class Real>
+std::vector<BodyReach> Simulation<Exec, Real>::sand_wakers()
+{
+    const double edge = mpm::page_edge * scene_.grid.spacing;
+    return bodies_that_wake_sand(exec_, rigid_->view(), rigid_->sleepers(), world_,
+                                 {scene_.sleep.distance.value(), edge, scene_.sleep.rest, gravity_.norm()});
+}
+
+/// Sand beside a rock that has just woken is awake before the rock can move.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::wake_sand_near_rocks(StageClock& clock)
+{
+    if (!std::exchange(rigid_->sleepers().woken, false) || !sand_ || sand_->asleep() == 0) { return; }
+    clock.run(exec_, stage::sleep, [&] { sand_->wake_near(sand_wakers(), sleep_follower()); });
+}
+
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void                                          Simulation<Exec, Real>::update_sleeping_pages(StageClock&); \
+    template void                                          Simulation<Exec, Real>::wake_sand_near_rocks(StageClock&);  \
+    template typename MpmSolver<Exec, Real>::SleepFollower Simulation<Exec, Real>::sleep_follower();                   \
+    template std::vector<BodyReach>                        Simulation<Exec, Real>::sand_wakers()
+TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
+#undef TREAD_INSTANTIATE
+
+} // namespace tread::solver
