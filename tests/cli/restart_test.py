@@ -246,3 +246,9 @@ class RestartTest(CommandTest):
             print(f"  {stem} to {name}: points {off[0]:.3g} m, bodies {off[1]:.3g} m off; "
                   f"five moved by 1e-9 m: {spread[0]:.3g}, {spread[1]:.3g} m")
             self.assertTrue((off <= 2 * spread).all(), name)
+
+    def check_other_number_of_ranks(self, scene, first, second):
+        """A run on `first` ranks that goes on on `second`, and on one."""
+        text = lasting(scene, 0.06)
+        checkpoint = self.stop_after_a_checkpoint(text, self.directory / f"on{first}", launcher=(*MPIRUN, "-n", str(first)))
+        self.check_agreement(text, checkpoint, {f"{second} ranks": {"launcher": (*MPIRUN, "-n", str(second))}})
