@@ -7,7 +7,7 @@
 #include "order.hpp"
 
 // Energy balance of sand (design section 7).
-namespace
+namespace energy_test
 {
 
 using namespace tread;
@@ -146,4 +146,4 @@ duration = 0.0625
     EXPECT_NEAR(fit.limit, 0, 1e-4);
 }
 
-} // namespace
+} // namespace energy_test

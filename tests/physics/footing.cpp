@@ -3,7 +3,7 @@
 
 #include "footing.hpp"
 
-namespace
+namespace footing_test
 {
 
 using namespace tread;
@@ -172,4 +172,4 @@ TYPED_TEST(FullSizeFooting, LimitsOfTheLawsMakeNoEnergy)
     }
 }
 
-} // namespace
+} // namespace footing_test

@@ -6,7 +6,7 @@
 #include "harness.hpp"
 
 // Bodies that are turned at the start, and ground that slopes: directions and signs.
-namespace
+namespace oriented_test
 {
 
 using namespace tread;
@@ -135,4 +135,4 @@ TYPED_TEST(Oriented, ABlockSlidesDownTheSlope)
     EXPECT_LT((gained.normalized() - downhill).norm(), tolerance);
 }
 
-} // namespace
+} // namespace oriented_test

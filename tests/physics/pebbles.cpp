@@ -6,7 +6,7 @@
 #include "energy_balance.hpp"
 
 // Rocks as small as the points of the bed under them, with nine samples per point and with one.
-namespace
+namespace pebbles_test
 {
 
 using namespace tread;
@@ -143,4 +143,4 @@ TYPED_TEST(Pebbles, EnergyBalanceOfAThrownRockCloses)
     }
 }
 
-} // namespace
+} // namespace pebbles_test

@@ -9,7 +9,7 @@
 // Machines of several joints: loops, rovers, and drift over many substeps.
 namespace tread::test
 {
-namespace
+namespace joint_machines_test
 {
 
 constexpr double pi = std::numbers::pi, g = 9.81;
@@ -366,5 +366,5 @@ TYPED_TEST(JointMachines, RoverOnFourSpringsSharesItsLoadByTheDifferential)
     }
 }
 
-} // namespace
+} // namespace joint_machines_test
 } // namespace tread::test

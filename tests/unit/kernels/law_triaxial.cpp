@@ -8,7 +8,7 @@
 #include "triaxial_tests.hpp"
 
 // Sand that knows its density beside measured drained triaxial compression: docs/soil_tests.md#measured-triaxial-tests.
-namespace
+namespace law_triaxial_test
 {
 
 using namespace tread;
@@ -229,4 +229,4 @@ TEST(BoltonTriaxialAnswers, docs_have_what_the_law_gives)
                  "three decimals; else, in tests/: TREAD_REGENERATE_DOCS=1 PATH_TO_BUILD/bin/unit_kernels");
 }
 
-} // namespace
+} // namespace law_triaxial_test
