@@ -37,6 +37,7 @@ poisson = 0.3
 name      = "wheel"
 generate  = {{ kind = "wheel", radius = {}, width = 0.08, wall_thickness = 0.03, grousers = 5, grouser_height = 0.01 }}
 sdf_cells = 48
+node_spacing = 0.01
 [[body]]
 name       = "wheel"
 shape      = "wheel"
