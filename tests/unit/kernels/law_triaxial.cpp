@@ -136,7 +136,7 @@ TYPED_TEST(BoltonTriaxial, AsFarFromMeasuredTestsAsBoltonsOwn)
     volume.expect_within("all", "end volume, %", 3, "2 degrees, as volume; Bolton's margin is one of all his sands");
 }
 
-TEST(BoltonTriaxialAnswers, YoungsModulusDecidesLittle)
+TEST(FullSizeBoltonTriaxialAnswers, YoungsModulusDecidesLittle)
 {
     const auto  sands = triaxial_sands(data + "triaxial_sands.csv");
     Differences peak;
