@@ -323,7 +323,7 @@ class BadLaunch(CommandTest):
 
 def with_mesh(name):
     """The scene with a body whose shape is a mesh file."""
-    return re.sub("^generate .*$", f'file = "{name}"', SCENE + BODY, flags=re.MULTILINE)
+    return re.sub("^generate .*$", f'file = "{name}"', SCENE + BODY, flags=re.MULTILINE).replace("node_spacing = 0.0075\n", "")
 
 
 def cube(edge):

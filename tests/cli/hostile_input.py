@@ -55,18 +55,18 @@ class HostileText(HostileInput):
     """What the parser calls itself for, or takes ages for."""
 
     def test_arrays_in_each_other(self):
-        self.refuse(SCENE + "a = " + 10_000 * "[" + 10_000 * "]", ["scene.toml:43: values nested 33 deep", "at most 32"])
+        self.refuse(SCENE + "a = " + 10_000 * "[" + 10_000 * "]", ["scene.toml:44: values nested 33 deep", "at most 32"])
 
     def test_tables_in_each_other(self):
-        self.refuse(SCENE + "a = " + 4_000 * "{a = ", ["scene.toml:43: values nested 33 deep", "at most 32"])
+        self.refuse(SCENE + "a = " + 4_000 * "{a = ", ["scene.toml:44: values nested 33 deep", "at most 32"])
 
     def test_key_of_many_segments(self):
-        self.refuse(SCENE + 10_000 * "a." + "a = 1\n", ["scene.toml:43: a key of 33 segments", "at most 32"])
+        self.refuse(SCENE + 10_000 * "a." + "a = 1\n", ["scene.toml:44: a key of 33 segments", "at most 32"])
 
     def test_missing_brace_on_a_long_line(self):
         line = "a = [" + 2_000 * "{ b = 1 }, " + "{ b = 1 ]\n"
-        self.refuse(SCENE + line, ["scene.toml:43: malformed TOML"])
-        self.refuse(SCENE + 2 * line.replace("\n", " ") + "\n", ["scene.toml:43: a line of ", "at most 32768 bytes"])
+        self.refuse(SCENE + line, ["scene.toml:44: malformed TOML"])
+        self.refuse(SCENE + 2 * line.replace("\n", " ") + "\n", ["scene.toml:44: a line of ", "at most 32768 bytes"])
 
     def test_long_override(self):
         for length in (20_000, 32_000, 100_000):
@@ -135,7 +135,7 @@ class HostileCounts(HostileInput):
         self.refuse(text, ["[[shape]] 'ball'", "a body of 0.0005 m radius", "0.0155 m", "at most 8 times"])
 
     def test_surface_nodes(self):
-        text = SCENE.replace("sdf_cells = 24", "sdf_cells = 24\nnode_spacing = 1e-6") + BODY
+        text = SCENE.replace("node_spacing = 0.0075", "node_spacing = 1e-6") + BODY
         self.refuse(text, ["scene.toml:27: ", "surface nodes", "at most 1000000"])
 
     def sparse(self, name, size):

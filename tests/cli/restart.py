@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs that are stopped and go on, started and ended as users and schedulers do it."""
+"""Runs on one rank that are stopped and go on, started and ended as users and schedulers do it."""
 
 import re
 import signal
@@ -9,7 +9,7 @@ import unittest
 import h5py
 
 from command import BODY, SCENE
-from restart_test import BACKEND, BODIES, EVERY_FEW_STEPS, JOINTED, MIXED, MPIRUN, RestartTest, lasting
+from restart_test import BACKEND, BODIES, EVERY_FEW_STEPS, MIXED, RestartTest, lasting
 
 
 class Restart(RestartTest):
@@ -27,15 +27,6 @@ class Restart(RestartTest):
 
     def test_sand_and_a_body_restarted_give_the_same_bits(self):
         self.check_uninterrupted_is_stopped_and_restarted(lasting(MIXED, 0.1))
-
-    def test_sand_on_three_ranks_restarted_gives_the_same_bits(self):
-        self.check_uninterrupted_is_stopped_and_restarted(lasting(SCENE, 0.1), (*MPIRUN, "-n", "3"))
-
-    def test_bodies_on_two_ranks_restarted_give_the_same_bits(self):
-        self.check_uninterrupted_is_stopped_and_restarted(lasting(BODIES, 0.3), (*MPIRUN, "-n", "2"))
-
-    def test_sand_and_jointed_bodies_on_three_ranks_restarted_give_the_same_bits(self):
-        self.check_uninterrupted_is_stopped_and_restarted(lasting(JOINTED, 0.06), (*MPIRUN, "-n", "3"))
 
     def test_a_lowering_restarted_gives_the_same_bits(self):
         lowered = 'until = "lowered"\nmax_duration = 0.5\nlower = { body = "roller", speed = 0.02 }\n'
@@ -98,13 +89,6 @@ class Restart(RestartTest):
         self.run_scene(text.replace("1000.0", "0.001"), other, "--restart", self.checkpoints()[0])
         self.assertGreater(self.summary(other)["asleep"], 0.1)
         self.run_scene(text.partition("[sleep]")[0], self.directory / "third", "--restart", self.checkpoints()[0], code=2)
-
-    def test_other_numbers_of_ranks_agree_as_far_as_chaos_lets_them(self):
-        for scene, first, second in ((MIXED, 1, 3), (MIXED, 3, 2), (JOINTED, 2, 3)):
-            text = lasting(scene, 0.06)
-            ranks = (*MPIRUN, "-n", str(first))
-            checkpoint = self.stop_after_a_checkpoint(text, self.directory / f"on{first}", launcher=ranks)
-            self.check_agreement(text, checkpoint, {f"{second} ranks": {"launcher": (*MPIRUN, "-n", str(second))}})
 
     @unittest.skipUnless(BACKEND == "cuda", "no GPU: TREAD_TEST_BACKEND=cuda")
     def test_backends_agree_as_far_as_chaos_lets_them(self):

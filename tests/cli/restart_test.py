@@ -18,8 +18,8 @@ from command import BODY, MPIRUN, SCENE, TREAD, CommandTest
 
 BACKEND = os.environ.get("TREAD_TEST_BACKEND", "cpu")
 
-# A rock is made eight times as fast as a wheel, and nothing here turns on what the body is.
-WITH_ROCK = re.sub(r"generate .*", 'generate  = { kind = "rock", seed = 3 }', SCENE)
+# A rock is made faster than a wheel, and nothing here turns on what the body is.
+WITH_ROCK = re.sub(r"generate .*", 'generate  = { kind = "rock", seed = 3 }', SCENE).replace("node_spacing = 0.0075\n", "")
 ROCK = BODY + "diameter = 0.1\n"
 
 MIXED = WITH_ROCK + ROCK.replace("0.3]", "0.155]") + "velocity = [0.3, 0.0, -0.8]\n"
@@ -246,3 +246,9 @@ class RestartTest(CommandTest):
             print(f"  {stem} to {name}: points {off[0]:.3g} m, bodies {off[1]:.3g} m off; "
                   f"five moved by 1e-9 m: {spread[0]:.3g}, {spread[1]:.3g} m")
             self.assertTrue((off <= 2 * spread).all(), name)
+
+    def check_other_number_of_ranks(self, scene, first, second):
+        """A run on `first` ranks that goes on on `second`, and on one."""
+        text = lasting(scene, 0.06)
+        checkpoint = self.stop_after_a_checkpoint(text, self.directory / f"on{first}", launcher=(*MPIRUN, "-n", str(first)))
+        self.check_agreement(text, checkpoint, {f"{second} ranks": {"launcher": (*MPIRUN, "-n", str(second))}})

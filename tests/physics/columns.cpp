@@ -8,7 +8,7 @@
 #include "harness.hpp"
 
 // Columns one cell wide between slip walls: hydrostatic stress above the floor, and local damping.
-namespace
+namespace columns_test
 {
 
 using namespace tread;
@@ -307,4 +307,4 @@ duration = 0.2
     EXPECT_EQ(this->counters.launches().count("update walls"), 0) << "no walls, no launch";
 }
 
-} // namespace
+} // namespace columns_test

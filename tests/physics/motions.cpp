@@ -42,6 +42,7 @@ young = 1.0e9
 name      = "drum"
 generate  = {{ kind = "wheel", radius = 0.1, width = 0.1, wall_thickness = 0.04, grousers = 0, grouser_height = 0.0 }}
 sdf_cells = 32
+node_spacing = 0.0125
 [[body]]
 name     = "drum"
 shape    = "drum"

@@ -6,7 +6,7 @@
 #include "harness.hpp"
 
 // Bodies that are turned at the start, and ground that slopes: directions and signs.
-namespace
+namespace oriented_test
 {
 
 using namespace tread;
@@ -37,6 +37,7 @@ poisson = 0.3
 name      = "wheel"
 generate  = {{ kind = "wheel", radius = {}, width = 0.08, wall_thickness = 0.03, grousers = 5, grouser_height = 0.01 }}
 sdf_cells = 48
+node_spacing = 0.01
 [[body]]
 name       = "wheel"
 shape      = "wheel"
@@ -135,4 +136,4 @@ TYPED_TEST(Oriented, ABlockSlidesDownTheSlope)
     EXPECT_LT((gained.normalized() - downhill).norm(), tolerance);
 }
 
-} // namespace
+} // namespace oriented_test

@@ -6,7 +6,7 @@
 #include "energy_balance.hpp"
 
 // Gravity and friction that change from one phase to the next (docs/phases.md#gravity-and-contacts).
-namespace
+namespace phase_settings_test
 {
 
 using namespace tread;
@@ -232,4 +232,4 @@ TYPED_TEST(PhaseSettings, SleepingSandWakesWhenTheGroundTilts)
     EXPECT_NEAR(speed, expected, 1e-10);
 }
 
-} // namespace
+} // namespace phase_settings_test

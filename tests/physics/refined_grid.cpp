@@ -5,7 +5,7 @@
 #include "energy_balance.hpp"
 
 // Sand on a grid with finer cells in boxes: results that refinement must not change.
-namespace
+namespace refined_grid_test
 {
 
 using namespace tread;
@@ -177,4 +177,4 @@ TYPED_TEST(FullSizeRefinedGrid, BallGoesAsDeepAsOnFineCellsEverywhere)
     EXPECT_NEAR(refined, fine, tolerance);
 }
 
-} // namespace
+} // namespace refined_grid_test

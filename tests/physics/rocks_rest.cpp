@@ -47,7 +47,7 @@ void rest_apart(const Exec& exec, double degrees)
 }
 
 TYPED_TEST(FullSizeRocksAtRest, OnAPlane) { rest_apart(this->exec(), 0); }
-TYPED_TEST(RocksAtRest, OnASlopeOfTenDegrees) { rest_apart(this->exec(), 10); }
+TYPED_TEST(FullSizeRocksAtRest, OnASlopeOfTenDegrees) { rest_apart(this->exec(), 10); }
 
 /// Two of each in a bin one and a half rocks wide: they lie on each other.
 TYPED_TEST(RocksAtRest, OnEachOther)

@@ -6,7 +6,7 @@
 #include "harness.hpp"
 
 // Rolling resistance: a ball on slopes and on the level.
-namespace
+namespace rolling_test
 {
 
 using namespace tread;
@@ -163,4 +163,4 @@ TYPED_TEST(Rolling, IsAbsentWhenOff)
     EXPECT_GT(bytes(mu_r), 0);
 }
 
-} // namespace
+} // namespace rolling_test

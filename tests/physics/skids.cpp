@@ -6,7 +6,7 @@
 #include "harness.hpp"
 
 // Wheels that skid on a rigid plane, yawed and cambered: side forces with their signs.
-namespace
+namespace skids_test
 {
 
 using namespace tread;
@@ -169,4 +169,4 @@ TYPED_TEST(Skids, AWheelThatTurnsIsPushedAgainstTheSlipOfItsLowestPoint)
     }
 }
 
-} // namespace
+} // namespace skids_test

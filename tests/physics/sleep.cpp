@@ -7,7 +7,7 @@
 #include "harness.hpp"
 
 // Sand that may sleep, compared with the same sand that may not.
-namespace
+namespace sleep_test
 {
 
 using namespace tread;
@@ -264,4 +264,4 @@ TYPED_TEST(Sleep, NotInADampedPhase)
     EXPECT_EQ(last, 0);
 }
 
-} // namespace
+} // namespace sleep_test

@@ -7,7 +7,7 @@
 #include "harness.hpp"
 
 // A long layer of sand on a rough slope; its ends do not influence its middle (docs/verification.md#layer-on-a-slope).
-namespace
+namespace slope_test
 {
 
 using namespace tread;
@@ -127,4 +127,4 @@ TYPED_TEST(Slope, LayerAcceleratesAboveItsAngle)
     EXPECT_LT(measured, most);
 }
 
-} // namespace
+} // namespace slope_test

@@ -5,7 +5,7 @@
 #include "energy_balance.hpp"
 
 // A column of sand whose stiffness grows with the root of pressure (docs/theory.md#stiffness-with-pressure).
-namespace
+namespace stiffening_test
 {
 
 using namespace tread;
@@ -85,4 +85,4 @@ TYPED_TEST(StiffeningColumn, SinksAsTheRootOfItsWeight)
     }
 }
 
-} // namespace
+} // namespace stiffening_test

@@ -17,6 +17,7 @@ poisson = 0.3
 name      = "roller"
 generate  = { kind = "wheel", radius = 0.1, width = 0.15, wall_thickness = 0.04, grousers = 6 }
 sdf_cells = 48
+node_spacing = 0.008
 [[body]]
 name     = "roller"
 shape    = "roller"

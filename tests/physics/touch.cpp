@@ -8,7 +8,7 @@
 #include "energy_balance.hpp"
 
 // Pairs that touch in some phases and not in others (docs/phases.md#pairs-that-do-not-touch).
-namespace
+namespace touch_test
 {
 
 using namespace tread;
@@ -272,4 +272,4 @@ TYPED_TEST(Touch, APairThatOverlapsMustNotBegin)
     EXPECT_THAT(sand, HasSubstr(" points of sand overlap it, by up to "));
 }
 
-} // namespace
+} // namespace touch_test

@@ -6,7 +6,7 @@
 #include "harness.hpp"
 
 // Conserved quantities and losses of the transfers between points and grid.
-namespace
+namespace transfers_test
 {
 
 using namespace tread;
@@ -205,4 +205,4 @@ TYPED_TEST(Transfers, TranslationMakesNoStress)
     }
 }
 
-} // namespace
+} // namespace transfers_test

@@ -8,7 +8,7 @@
 #include "harness.hpp"
 
 // Every kind of wall with blocks and beds that rest on it, slide over it or leave it.
-namespace
+namespace walls_test
 {
 
 using namespace tread;
@@ -342,4 +342,4 @@ TYPED_TEST(WallsOfSand, HighWallsMirrorLowOnes)
     }
 }
 
-} // namespace
+} // namespace walls_test

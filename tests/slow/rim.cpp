@@ -7,7 +7,7 @@
 #include "../physics/harness.hpp"
 
 // Sand inside and outside a rim interacts through the grid if the wall is too thin for the grid to resolve.
-namespace
+namespace rim_test
 {
 
 using namespace tread;
@@ -126,4 +126,4 @@ TYPED_TEST(Rim, KeepsWhatIsAroundFromWhatIsWithin)
     EXPECT_GT(coarse, 10 * std::abs(fine)); // otherwise there would be nothing to keep out
 }
 
-} // namespace
+} // namespace rim_test

@@ -2,7 +2,7 @@
 
 // Piles of a hundred rocks of each kind and of all kinds (docs/verification.md#rocks-at-rest): damped, then left alone
 // for 2 s.
-namespace
+namespace rock_piles_test
 {
 
 using namespace tread;
@@ -44,4 +44,4 @@ TYPED_TEST(RockPiles, RoundedCubesRest) { expect_pile_rests(this->exec(), {"roun
 TYPED_TEST(RockPiles, CubesRest) { expect_pile_rests(this->exec(), {"cube"}, 100); }
 TYPED_TEST(RockPiles, AllKindsTogetherRest) { expect_pile_rests(this->exec(), {"bumpy", "rounded", "cube"}, 34); }
 
-} // namespace
+} // namespace rock_piles_test

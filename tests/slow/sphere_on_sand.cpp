@@ -6,7 +6,7 @@
 #include "../physics/harness.hpp"
 
 // A sphere dropped on sand (docs/verification.md#sphere-dropped-on-sand).
-namespace
+namespace sphere_on_sand_test
 {
 
 using namespace tread;
@@ -122,4 +122,4 @@ TYPED_TEST(SphereOnSand, DepthGoesWithTheCubeRootOfTheFall)
     EXPECT_NEAR(power, 1.0 / 3, 0.07);
 }
 
-} // namespace
+} // namespace sphere_on_sand_test

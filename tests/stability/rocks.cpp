@@ -7,7 +7,7 @@
 
 // Rocks at the limits of what a scene may specify: stable at the automatic step, or stopped with a diagnosis; none
 // passes through a wall, and none gains energy.
-namespace
+namespace rocks_test
 {
 
 using namespace tread;
@@ -203,4 +203,4 @@ TYPED_TEST(RockStability, AThousandInACell)
     expect_sane(this->exec(), c);
 }
 
-} // namespace
+} // namespace rocks_test

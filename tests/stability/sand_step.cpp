@@ -6,7 +6,7 @@
 #include "physics/harness.hpp"
 
 // Sand is stable, or stopped with a diagnosis: never silently wrong.
-namespace
+namespace sand_step_test
 {
 
 using namespace tread;
@@ -239,4 +239,4 @@ TYPED_TEST(SandStep, LooseThinAndSteepSandIsStableAtTheAutomaticStep)
     }
 }
 
-} // namespace
+} // namespace sand_step_test

@@ -6,7 +6,7 @@
 // Bodies near pages of other ranks: which of them the host hears of.
 namespace tread::test
 {
-namespace
+namespace contact_borders_test
 {
 
 constexpr double               radius = 0.1, allowed = 0.05;
@@ -116,5 +116,5 @@ TYPED_TEST(Borders, RolesAndPlacesAreSetOneByOne)
     EXPECT_EQ(place.to_host(), (Bodies{-1, -1, -1, -1}));
 }
 
-} // namespace
+} // namespace contact_borders_test
 } // namespace tread::test

@@ -10,7 +10,7 @@
 // Points that use nine samples against bodies as small as themselves.
 namespace tread::test
 {
-namespace
+namespace contact_samples_test
 {
 
 const double radius = contact::point_radius(SceneNumbers{}.volume, contact::RadiusRule::sphere);
@@ -220,5 +220,5 @@ TYPED_TEST(ContactSamples, SceneWithoutThemHasNoSlots)
     EXPECT_EQ(this->counters.launches().count("sampled point-body forces"), 0u);
 }
 
-} // namespace
+} // namespace contact_samples_test
 } // namespace tread::test

@@ -11,7 +11,7 @@
 // Nine samples against the whole contact patch of a point, and around closed paths.
 namespace tread::test
 {
-namespace
+namespace contact_sampling_test
 {
 
 const double radius = contact::point_radius(SceneNumbers{}.volume, contact::RadiusRule::sphere);
@@ -193,5 +193,5 @@ TEST(ContactSampling, NoWorkAroundALoopButWhatIsLeftOut)
     EXPECT_LE(std::abs(work), 0.05 * highest);
 }
 
-} // namespace
+} // namespace contact_sampling_test
 } // namespace tread::test

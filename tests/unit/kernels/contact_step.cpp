@@ -12,7 +12,7 @@
 // Complete contact steps: forces, balance, private point copies, history, summaries.
 namespace tread::test
 {
-namespace
+namespace contact_step_test
 {
 
 template<class Case>
@@ -396,5 +396,5 @@ TEST(PointContactThreads, SameBitsForAnyNumber)
     omp_set_num_threads(wanted);
 }
 
-} // namespace
+} // namespace contact_step_test
 } // namespace tread::test

@@ -8,7 +8,7 @@
 
 namespace tread::test
 {
-namespace
+namespace dem_contact_test
 {
 
 template<class Exec>
@@ -91,7 +91,7 @@ ForceAndEnergy exact_spheres(double approach)
 /// Largest force of the head-on case, where all kinetic energy is in the contact.
 double exact_largest_force()
 {
-    const double energy = solid_sphere(radius, density, {}).mass * speed * speed;
+    const double energy = solid_sphere(radius, density, Vec3<double>::Zero()).mass * speed * speed;
     double       low = 0, high = radius;
     for (int bisection = 0; bisection < 60; ++bisection)
     {
@@ -299,5 +299,5 @@ TYPED_TEST(BodyContact, StiffnessIsExpectedBeforeItIsFelt)
     EXPECT_EQ(deepest_pair(scene.pairs, ratio), dem::pair_key(0, 1));
 }
 
-} // namespace
+} // namespace dem_contact_test
 } // namespace tread::test

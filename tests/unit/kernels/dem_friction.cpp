@@ -6,7 +6,7 @@
 
 namespace tread::test
 {
-namespace
+namespace dem_friction_test
 {
 
 template<class Exec>
@@ -197,5 +197,5 @@ TEST(Patch, SlidingIsCappedAndPaidFor)
     EXPECT_NEAR(lost + friction.energy, 0.3 * 1.0, 1e-3);
 }
 
-} // namespace
+} // namespace dem_friction_test
 } // namespace tread::test

@@ -10,7 +10,7 @@
 // Impacts of non-spherical bodies: restitution, and a law that dissipates and generates no energy.
 namespace tread::test
 {
-namespace
+namespace dem_impacts_test
 {
 
 template<class Exec>
@@ -203,5 +203,5 @@ TYPED_TEST(Impact, WorkOfAClosedLoopIsNothing)
     EXPECT_LT(std::abs(work), 1e-3 * largest);
 }
 
-} // namespace
+} // namespace dem_impacts_test
 } // namespace tread::test

@@ -10,7 +10,7 @@
 // Spheres with nodes in a distance field of 40 cells, as in the paper, compared with Hertz.
 namespace tread::test
 {
-namespace
+namespace dem_mesh_spheres_test
 {
 
 template<class Exec>
@@ -90,5 +90,5 @@ TYPED_TEST(MeshSpheres, LargestForceIsHertzsOnAverage)
     }
 }
 
-} // namespace
+} // namespace dem_mesh_spheres_test
 } // namespace tread::test

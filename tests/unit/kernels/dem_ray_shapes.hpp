@@ -119,7 +119,7 @@ inline std::vector<Solid> off_centre_rocks(const shape::ShapeTemplate& form, Ran
 }
 
 /// Result of an impact, after the bodies have separated.
-struct Impact
+struct RockImpact
 {
     double energy   = 0; ///< relative change
     double force    = 0; ///< N, largest
@@ -129,10 +129,10 @@ struct Impact
 };
 
 template<class Scene>
-Impact impact_of(Scene& scene, double dt, double duration)
+RockImpact impact_of(Scene& scene, double dt, double duration)
 {
     const dem::BodySums before = scene.sums();
-    Impact              found;
+    RockImpact          found;
     for (int block = 0; block < static_cast<int>(duration / dt) / 20; ++block)
     {
         scene.run(dt, 20);

@@ -12,7 +12,7 @@
 // Narrow phase by rays: single rays compared with all triangles, spheres with Hertz, impacts with distance fields.
 namespace tread::test
 {
-namespace
+namespace dem_rays_test
 {
 
 Vec3<double> random_vector(Random& random)
@@ -213,8 +213,8 @@ TYPED_TEST(RayContact, HeadOnSpheresApproachHertzWithTheirNodes)
             solids[1].velocity = -direction;
             for (Solid& solid : solids) { solid.orientation = random_turn(random); }
             typename TestFixture::Scene scene(this->exec(), {sphere}, solids, {});
-            scene.rays         = rays.views();
-            const Impact found = impact_of(scene, 2e-5, 0.04); // the contact lasts 32.5 ms (A1)
+            scene.rays             = rays.views();
+            const RockImpact found = impact_of(scene, 2e-5, 0.04); // the contact lasts 32.5 ms (A1)
             mean += found.force / turns;
             low    = std::min(low, found.force);
             high   = std::max(high, found.force);
@@ -294,8 +294,8 @@ TYPED_TEST(RayContact, OffCentreImpactOfDentedRocks)
             for (int turn = 0; turn < turns; ++turn)
             {
                 typename TestFixture::Scene scene(this->exec(), {solid}, off_centre_rocks(form, random), {});
-                scene.rays         = view;
-                const Impact found = impact_of(scene, 1e-5, 0.14);
+                scene.rays             = view;
+                const RockImpact found = impact_of(scene, 1e-5, 0.14);
                 square += found.energy * found.energy / turns;
                 largest = std::max(largest, std::abs(found.energy));
                 force += found.force / turns;
@@ -311,5 +311,5 @@ TYPED_TEST(RayContact, OffCentreImpactOfDentedRocks)
     }
 }
 
-} // namespace
+} // namespace dem_rays_test
 } // namespace tread::test

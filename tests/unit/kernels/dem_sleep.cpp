@@ -7,7 +7,7 @@
 // Bodies that fall asleep and wake: what they keep, and who is computed.
 namespace tread::test
 {
-namespace
+namespace dem_sleep_test
 {
 
 constexpr double radius = 0.1, dt = 1e-4, rest = 5e-3;
@@ -214,5 +214,5 @@ TYPED_TEST(BodySleep, WakesWhereTheLoadChanges)
     EXPECT_EQ(scene.bodies.asleep.to_host(), (std::vector<std::int32_t>{1, 1, 1, 0, 0, 0}));
 }
 
-} // namespace
+} // namespace dem_sleep_test
 } // namespace tread::test

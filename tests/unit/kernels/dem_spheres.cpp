@@ -9,7 +9,7 @@
 // are in dem_chung_ooi.cpp.
 namespace tread::test
 {
-namespace
+namespace dem_spheres_test
 {
 
 template<class Exec>
@@ -172,5 +172,5 @@ TYPED_TEST(Spheres, StepFollowsTheImpactToCome)
                  std::sqrt(pair[0].mass / stiffness), 1e-4);
 }
 
-} // namespace
+} // namespace dem_spheres_test
 } // namespace tread::test

@@ -8,7 +8,7 @@
 // Joints against closed forms: one or two bodies, whose motion or load follows by hand.
 namespace tread::test
 {
-namespace
+namespace joint_forms_test
 {
 
 constexpr double pi = std::numbers::pi, g = 9.81;
@@ -234,5 +234,5 @@ TYPED_TEST(JointForms, MotorAgainstAStopGivesItsLargestTorque)
     EXPECT_NEAR(record.angular_impulse[1] / 0.1, 0, 1e-9);
 }
 
-} // namespace
+} // namespace joint_forms_test
 } // namespace tread::test

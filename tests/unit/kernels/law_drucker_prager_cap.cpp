@@ -6,7 +6,7 @@
 
 // Drucker-Prager with a cap: closed forms of isotropic compression and shear, conditions that define the return
 // mapping, and the energy of random paths.
-namespace
+namespace law_drucker_prager_cap_test
 {
 
 using namespace tread;
@@ -229,4 +229,4 @@ TEST(DruckerPragerCapPath, RandomPathsCreateNoEnergy)
     expect_below("energy created, over the work done", created, 1e-12, "rounding of some hundred steps");
 }
 
-} // namespace
+} // namespace law_drucker_prager_cap_test

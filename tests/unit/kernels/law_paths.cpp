@@ -3,7 +3,7 @@
 #include "law_support.hpp"
 
 // Element tests with closed forms: triaxial, oedometric and simple shear of a Mohr-Coulomb material.
-namespace
+namespace law_paths_test
 {
 
 using namespace tread;
@@ -164,4 +164,4 @@ TEST(MohrCoulombPath, SimpleShearReachesDavis)
     }
 }
 
-} // namespace
+} // namespace law_paths_test

@@ -8,7 +8,7 @@
 #include "law_support.hpp"
 
 // Mohr-Coulomb return mapping: exact vectors, and the conditions that define it on random states.
-namespace
+namespace law_return_test
 {
 
 using namespace tread;
@@ -229,4 +229,4 @@ TEST(MohrCoulombReturn, FloatFollowsDouble)
     expect_below("|float - double| / |trial|", worst, 32 * 1.2e-7, "roundings of trial, moduli and decomposition");
 }
 
-} // namespace
+} // namespace law_return_test

@@ -4,7 +4,7 @@
 #include "law_support.hpp"
 
 // Stiffness that grows with the root of pressure: tangents, stored energy, and strength and flow that stay.
-namespace
+namespace law_stiffening_test
 {
 
 using namespace tread;
@@ -211,4 +211,4 @@ void random_paths()
 TEST(Stiffening, RandomPaths) { random_paths<double>(); }
 TEST(Stiffening, RandomPathsSingle) { random_paths<float>(); }
 
-} // namespace
+} // namespace law_stiffening_test

@@ -8,7 +8,7 @@
 #include "triaxial_tests.hpp"
 
 // Sand that knows its density beside measured drained triaxial compression: docs/soil_tests.md#measured-triaxial-tests.
-namespace
+namespace law_triaxial_test
 {
 
 using namespace tread;
@@ -136,7 +136,7 @@ TYPED_TEST(BoltonTriaxial, AsFarFromMeasuredTestsAsBoltonsOwn)
     volume.expect_within("all", "end volume, %", 3, "2 degrees, as volume; Bolton's margin is one of all his sands");
 }
 
-TEST(BoltonTriaxialAnswers, YoungsModulusDecidesLittle)
+TEST(FullSizeBoltonTriaxialAnswers, YoungsModulusDecidesLittle)
 {
     const auto  sands = triaxial_sands(data + "triaxial_sands.csv");
     Differences peak;
@@ -229,4 +229,4 @@ TEST(BoltonTriaxialAnswers, docs_have_what_the_law_gives)
                  "three decimals; else, in tests/: TREAD_REGENERATE_DOCS=1 PATH_TO_BUILD/bin/unit_kernels");
 }
 
-} // namespace
+} // namespace law_triaxial_test

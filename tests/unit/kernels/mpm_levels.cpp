@@ -8,7 +8,7 @@
 #include "kernels/mpm/grid/levels.hpp"
 #include "kernels/mpm/transfers/stencil_kern.hpp"
 
-namespace
+namespace mpm_levels_test
 {
 
 using namespace tread;
@@ -120,4 +120,4 @@ TEST(Levels, APositionBelongsToTheFinestBoxAroundIt)
     EXPECT_FALSE(replaced_cells(refinement, 2).contains({two + 70, two + 70, two + 70}));
 }
 
-} // namespace
+} // namespace mpm_levels_test

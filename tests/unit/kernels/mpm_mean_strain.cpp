@@ -8,7 +8,7 @@
 #include "kernels/mpm/transfers/mean_strain.hpp"
 
 // Nonlocal mean strain of points: moments of the weights, fields that must be kept, and gaps that nothing may cross.
-namespace
+namespace mpm_mean_strain_test
 {
 
 using namespace tread;
@@ -224,4 +224,4 @@ TEST(Smoothing, PassesAreStableAndSeldomEnough)
     }
 }
 
-} // namespace
+} // namespace mpm_mean_strain_test

@@ -15,7 +15,7 @@
 #include "kernels/mpm/transfers/gather.hpp"
 #include "kernels/mpm/transfers/scatter.hpp"
 
-namespace
+namespace mpm_seams_test
 {
 
 using namespace tread;
@@ -300,4 +300,4 @@ TYPED_TEST(SeamsTest, SlaveNodesOutsideTheBoxAreTheCoarseField)
     }
 }
 
-} // namespace
+} // namespace mpm_seams_test

@@ -8,7 +8,7 @@
 
 namespace tread::run
 {
-namespace
+namespace drive_watch_test
 {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -100,5 +100,5 @@ TEST(DriveWatch, ReadsWhereASpeedIsNoNumber)
     EXPECT_TRUE(watch.is_due());
 }
 
-} // namespace
+} // namespace drive_watch_test
 } // namespace tread::run

@@ -9,7 +9,7 @@
 // What `tread check` expects of phases, and the model of wall time.
 namespace tread::run
 {
-namespace
+namespace workload_test
 {
 
 /// The roller on its bed of 0.4 m, settled, lowered and driven.
@@ -128,5 +128,5 @@ TEST(WallTime, SharesOutPointsAndBodiesAlone)
     EXPECT_DOUBLE_EQ(wall_time(work, cost, 5), 100 + 15 + 51.0 / 5);
 }
 
-} // namespace
+} // namespace workload_test
 } // namespace tread::run

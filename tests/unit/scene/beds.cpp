@@ -10,7 +10,7 @@
 
 namespace tread::scene::test
 {
-namespace
+namespace beds_test
 {
 
 using ::testing::HasSubstr;
@@ -172,5 +172,5 @@ TEST(Formula, does_not_follow_the_locale)
     std::locale::global(before);
 }
 
-} // namespace
+} // namespace beds_test
 } // namespace tread::scene::test

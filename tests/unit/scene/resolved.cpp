@@ -7,7 +7,7 @@
 
 namespace tread::scene::test
 {
-namespace
+namespace resolved_test
 {
 
 using ::testing::HasSubstr;
@@ -298,5 +298,5 @@ TEST(SceneHash, of_an_empty_scene_is_fnv1a_of_its_text)
     EXPECT_EQ(std::stoull(scene_hash(Scene{}), nullptr, 16), hash);
 }
 
-} // namespace
+} // namespace resolved_test
 } // namespace tread::scene::test

@@ -169,11 +169,9 @@ void expect_the_drum_is_kept(int paddles)
 }
 
 /// 8 is a divisor of the drum's triangles: every eighth of them lies at a paddle.
-TEST(Repair, AWheelKeepsItsDrum) { expect_the_drum_is_kept(8); }
-
 TEST(FullSizeRepair, AWheelKeepsItsDrumWhateverTheNumberOfPaddles)
 {
-    for (const int paddles : {7, 12, 16}) { expect_the_drum_is_kept(paddles); }
+    for (const int paddles : {7, 8, 12, 16}) { expect_the_drum_is_kept(paddles); }
 }
 
 TEST(Repair, PartsThatCrossHoldNoneOfEachOther)

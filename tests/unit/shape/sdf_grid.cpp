@@ -14,7 +14,7 @@
 // The grid and its interpolant with exact node values: the remaining error is that of interpolation.
 namespace tread::shape
 {
-namespace
+namespace sdf_grid_test
 {
 
 using Eigen::Vector3d;
@@ -310,5 +310,5 @@ TEST(SdfGrid, ScalesWithTheShape)
     }
 }
 
-} // namespace
+} // namespace sdf_grid_test
 } // namespace tread::shape

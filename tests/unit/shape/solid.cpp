@@ -204,7 +204,7 @@ TEST(Solid, LargeHolesAreSignedByWindingNumber)
 }
 
 /// Six spheres that share most of their volume, in places three of them.
-TEST(Solid, PartsThatShareMostOfTheirVolumeAreTaken)
+TEST(FullSizeSolid, PartsThatShareMostOfTheirVolumeAreTaken)
 {
     TriangleMesh rock;
     for (int i = 0; i < 4; ++i)

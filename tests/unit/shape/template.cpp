@@ -12,7 +12,7 @@
 
 namespace tread::shape
 {
-namespace
+namespace template_test
 {
 
 using ::testing::HasSubstr;
@@ -236,5 +236,5 @@ TEST(Template, NamesTheFileThatIsWrong)
                 HasSubstr("/nowhere/no.stl"));
 }
 
-} // namespace
+} // namespace template_test
 } // namespace tread::shape

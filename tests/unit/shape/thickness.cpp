@@ -12,7 +12,7 @@
 
 namespace tread::shape
 {
-namespace
+namespace thickness_test
 {
 
 using Eigen::Vector3d;
@@ -121,5 +121,5 @@ TEST(SurfacePoints, AreSpreadByArea)
     EXPECT_NEAR(in_lower_half, 1400, 20);
 }
 
-} // namespace
+} // namespace thickness_test
 } // namespace tread::shape

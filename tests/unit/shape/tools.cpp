@@ -208,7 +208,7 @@ std::vector<scene::Shape> tools()
             shape("tray", scene::FrameGenerator{{0.06, 0.06}, 0.02, 0.005, 0.005})};
 }
 
-TEST(Tools, FieldsOfTheirDefaultCellsKeepSurfaceAndVolume)
+TEST(FullSizeTools, FieldsOfTheirDefaultCellsKeepSurfaceAndVolume)
 {
     for (const scene::Shape& tool : tools())
     {

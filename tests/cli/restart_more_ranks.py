@@ -1,0 +1,22 @@
+#!/usr/bin/env python3
+"""What restart_ranks.py has of sand, joints and changes of the number of ranks, for ci/full."""
+
+import unittest
+
+from command import MPIRUN, SCENE
+from restart_test import JOINTED, MIXED, RestartTest, lasting
+
+
+class RestartOnMoreRanks(RestartTest):
+    def test_sand_on_three_ranks_restarted_gives_the_same_bits(self):
+        self.check_uninterrupted_is_stopped_and_restarted(lasting(SCENE, 0.1), (*MPIRUN, "-n", "3"))
+
+    def test_from_one_rank_to_three_agrees_as_far_as_chaos_lets_it(self):
+        self.check_other_number_of_ranks(MIXED, 1, 3)
+
+    def test_jointed_bodies_from_two_ranks_to_three_agree_as_far_as_chaos_lets_them(self):
+        self.check_other_number_of_ranks(JOINTED, 2, 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
