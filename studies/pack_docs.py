@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Packs what docs/ keeps: runs as small time series, tables by gzip, pictures with few colours.
 
-    studies/pack_docs.py runs docs/paper/runs       # time series: rounded, equal columns of time once, no energies
+    studies/pack_docs.py runs docs/paper/runs       # time series: rounded, equal columns of time once, no energies; summaries without spaces
     studies/pack_docs.py tables docs/studies        # CSV of more than 6 kB
     studies/pack_docs.py pictures docs              # PNG
 
@@ -12,6 +12,7 @@ Needs Debian's python3-h5py, python3-numpy and python3-pil.
 import argparse
 import gzip
 import io
+import json
 from pathlib import Path
 
 import h5py
@@ -61,6 +62,9 @@ def pack_run(path):
 
         source.visititems(copy)
     packed.replace(path)
+    summary = path.with_name("summary.json")
+    if summary.is_file():
+        summary.write_text(json.dumps(json.loads(summary.read_text(encoding="utf-8")), separators=(",", ":")) + "\n", encoding="utf-8")
 
 
 def pack_table(path):
