@@ -48,6 +48,9 @@ def pack_run(path):
                 return
             if isinstance(item, h5py.Group):
                 target.require_group(key).attrs.update(item.attrs)
+                # Not visititems: it leaves out the columns that are links to one seen before, as all times of a packed file are.
+                for below, part in item.items():
+                    copy(f"{key}/{below}", part)
                 return
             values, column = item[:], key.rpartition("/")[2]
             if column == "time":
@@ -60,7 +63,8 @@ def pack_run(path):
             options = {"chunks": values.shape, "compression": "gzip", "compression_opts": 9, "shuffle": True} if values.size > 64 else {}
             target.create_dataset(key, data=values, **options).attrs.update(item.attrs)
 
-        source.visititems(copy)
+        for key, item in source.items():
+            copy(key, item)
     packed.replace(path)
     summary = path.with_name("summary.json")
     if summary.is_file():
