@@ -28,6 +28,7 @@ from dataclasses import dataclass
 
 from tread_paper.formulas import arithmetic
 from tread_paper.measures import Absent
+from tread_paper.runs import contradicted
 from tread_post import RunError
 from tread_post.verdict import resolution_of, text_of
 
@@ -193,6 +194,9 @@ class Table:
                 facts = [facts_of(self.measures.run(name).summary or {}) for name in there]
                 settings = [one for one in self.plan.groups[group][0].set if not one.startswith("output.")]
                 differences = f"; `--set {' '.join(settings)}`" if settings else ""
+                wrong = [key for run in self.plan.groups[group] if run.name in there for key in contradicted(self.measures.run(run.name).scene, run.set)]
+                if wrong:
+                    differences += f"; **not the run of the list: {', '.join(dict.fromkeys(wrong))}**"
                 repeats = f", {len(there)} of {len(self.plan.members(group))}" if len(self.plan.members(group)) > 1 else ""
                 parts.append(f"{group}{repeats}: {', '.join(dict.fromkeys(facts))}{differences}")
         return "; ".join(parts)

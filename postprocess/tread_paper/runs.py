@@ -1,9 +1,11 @@
 """The list of runs of the second round, configs/paper/round2/runs.toml: what each is called, and the command that makes it."""
 
+import re
 import shlex
 import tomllib
 from dataclasses import dataclass
 
+from tread_paper.measures import in_scene
 from tread_post import RunError
 
 KEYS = {"name", "scene", "set", "repeats", "values", "coarser", "stage", "seconds"}
@@ -74,3 +76,25 @@ def _planned(run, name, number, settings):
     if number > 1 or not any(one.startswith("output.snapshots_every") for one in settings):
         settings = [one for one in settings if not one.startswith("output.snapshots_every")] + ["output.snapshots_every=0"]
     return Planned(name if number == 1 else f"{name}_{number}", name, run["scene"], tuple(settings), run["stage"], run["seconds"])
+
+
+def contradicted(scene, settings):
+    """Keys whose value in a run's resolved scene is not that of its settings. Keys that a resolved scene does not keep, and places "on surface", say nothing."""
+    wanted = dict(setting.split("=", 1) for setting in settings)
+    return [key for key, text in wanted.items() if not _same(scene, re.sub(r"\[(\d+)\]", r".\1", key), text)]
+
+
+def _same(scene, key, text):
+    try:
+        value = tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        value = text
+    if "on surface" in text or isinstance(value, list) and any(isinstance(one, dict) for one in value):
+        return True
+    try:
+        found = in_scene(scene, key)
+    except RunError:
+        return True
+    if isinstance(value, dict):
+        return all(found.get(name) == one for name, one in value.items())
+    return found == value

@@ -18,9 +18,10 @@ from matplotlib.colors import to_rgba
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "postprocess"))
+sys.path[:0] = [str(ROOT / "postprocess"), str(ROOT / "studies")]
 
 import head_on  # noqa: E402
+import pack_docs  # noqa: E402
 from made_up_run import SCENE, STARTS, colours_of, make_run, write_columns  # noqa: E402
 from tread_paper import criteria, fields, formulas, round2, sensitivity, verdicts  # noqa: E402
 from tread_paper.cases import FIGURES, TABLES_ALONE  # noqa: E402
@@ -28,7 +29,7 @@ from tread_paper.history import history_of, smoothed  # noqa: E402
 from tread_paper.criteria import Number  # noqa: E402
 from tread_paper.measures import Absent, Measures, in_scene  # noqa: E402
 from tread_paper.rolling import centres, rolled_over  # noqa: E402
-from tread_paper.runs import Plan  # noqa: E402
+from tread_paper.runs import Plan, contradicted  # noqa: E402
 from tread_paper.table import put_into, rows_of, table_of  # noqa: E402
 from tread_post import Run, RunError  # noqa: E402
 from tread_post.style import GREY, LEVELS, packed_png  # noqa: E402
@@ -129,6 +130,16 @@ class PaperTest(unittest.TestCase):
             with h5py.File(folder / f"thinned_{every}" / "snapshots" / "bodies_0007.h5") as file:
                 self.assertEqual("displacement" in file, known)
             self.assertEqual(grey_in(fields.figure_of("any", [("any", Run(folder / f"thinned_{every}"), 7)])), not known)
+
+    def test_runs_are_packed_twice_without_a_loss(self):
+        folder = self.runs.parent / "packed"
+        shutil.copytree(self.runs / "head_on_27", folder / "head_on_27")
+        for _ in range(2):
+            pack_docs.pack_run(folder / "head_on_27" / "timeseries.h5")
+        packed = Measures(folder)
+        for name in ("force", "contact", "body_speed", "kinetic"):
+            np.testing.assert_allclose(packed(f"head_on_27 impact {name}"), self.measures(f"head_on_27 impact {name}"), rtol=1e-3, atol=1e-3)
+        self.assertNotIn(" ", (folder / "head_on_27" / "summary.json").read_text(encoding="utf-8"))
 
     def test_the_command_thins(self):
         folder = self.runs.parent / "by_command"
@@ -317,7 +328,7 @@ class SecondRound(unittest.TestCase):
         for name, factor in (("mixed", 44 / 45), ("mixed_2", 46 / 45), ("mixed_coarse", 55 / 45)):
             make_run(cls.runs / name)
             scene = SCENE.replace('shape = "drum"\n[[phase]]', f'shape = "drum"\n{MORE}[[phase]]', 1)
-            (cls.runs / name / "scene.toml").write_text(scene, encoding="utf-8")
+            (cls.runs / name / "scene.toml").write_text(f"{scene}[output]\nsnapshots_every = {int(name == 'mixed')}\n", encoding="utf-8")
             (cls.runs / name / "summary.json").write_text(ROUND2_SUMMARY, encoding="utf-8")
             with h5py.File(cls.runs / name / "timeseries.h5", "r+") as file:
                 file["wheel/front wheel/torque"][...] *= factor
@@ -440,6 +451,14 @@ class SecondRound(unittest.TestCase):
             (self.folder / "bad.toml").write_text(bad, encoding="utf-8")
             with self.assertRaises(RunError):
                 Plan(self.folder / "bad.toml")
+
+    def test_a_run_that_is_not_that_of_the_list(self):
+        scene = {"time": {"substeps": 100}, "rocks": [{"seed": 11}], "phase": [{"name": "lower", "duration": 2.0}], "numerics": {"point_motion": "frozen"},
+                 "body": [{"name": "wheel", "position": [0.3, 0.4, 0.7]}]}
+        settings = ["time.substeps=50", "time.substeps=100", "rocks[0].seed=11", 'phase.lower={name="lower",duration=2.0}', "numerics.point_motion=frozen",
+                    'body.wheel.position=[0.3,0.4,"on surface"]', "body.wheel.gap=0.5"]
+        self.assertEqual(contradicted(scene, settings), [])
+        self.assertEqual(contradicted(scene, ["rocks[0].seed=1", "time.substeps=5"]), ["rocks[0].seed", "time.substeps"])
 
     def test_criteria_ask_what_there_is(self):
         plan, asked = Plan(ROUND2 / "runs.toml"), set()
