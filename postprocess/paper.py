@@ -3,6 +3,7 @@
 
     postprocess/paper.py slip                     # pictures of section 3.4 and its table in docs/paper.md, from the runs kept in docs/paper/runs
     postprocess/paper.py all --runs runs          # of all sections, from runs of your own, named as their scenes
+    postprocess/paper.py round2                   # tables of the second round, from docs/paper/round2 and the criteria in configs/paper/round2
 
 Pictures whose runs or snapshots are not there stay as they are. Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
 """
@@ -11,7 +12,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from tread_paper import verdicts
+from tread_paper import round2, verdicts
 from tread_paper.cases import FIGURES, TABLES_ALONE
 from tread_paper.measures import Absent, Measures
 from tread_paper.sensitivity import lines_of
@@ -19,13 +20,15 @@ from tread_paper.table import put_into, rows_of, table_of
 from tread_post import RunError
 from tread_post.style import write
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
+ROOT = Path(__file__).resolve().parents[1]
+DOCS = ROOT / "docs"
 
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("case", choices=[*FIGURES, *TABLES_ALONE, "all"], help=f"{', '.join(TABLES_ALONE)} have tables alone")
     parser.add_argument("--runs", type=Path, default=DOCS / "paper" / "runs", metavar="DIR", help="default: docs/paper/runs")
+    parser.add_argument("--round2-runs", type=Path, default=DOCS / "paper" / "round2", metavar="DIR", help="of the second round; default: docs/paper/round2")
     parser.add_argument("--output", type=Path, default=DOCS / "paper", metavar="DIR", help="of pictures, where CASE.toml are; default: docs/paper")
     parser.add_argument("--document", type=Path, default=DOCS / "paper.md", metavar="FILE.md", help="whose tables are filled; default: docs/paper.md")
     return parser.parse_args()
@@ -62,6 +65,10 @@ def main():
         if case == "verdicts":
             document = options.document.read_text(encoding="utf-8")
             options.document.write_text(put_into(document, case, verdicts.lines_of(options.runs)), encoding="utf-8")
+            continue
+        if case == "round2":
+            lines = round2.lines_of(ROOT / "configs" / "paper" / "round2", options.round2_runs, ROOT)
+            options.document.write_text(put_into(options.document.read_text(encoding="utf-8"), case, lines), encoding="utf-8")
             continue
         draw_case(case, measures, options.output)
         fill_case(case, measures, options.output, options.document)

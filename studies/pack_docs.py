@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Packs what docs/ keeps: runs as small time series, tables by gzip, pictures with few colours.
 
-    studies/pack_docs.py runs docs/paper/runs       # time series: rounded, equal columns of time once, no energies
+    studies/pack_docs.py runs docs/paper/runs       # time series: rounded, equal columns of time once, no energies; summaries without spaces
     studies/pack_docs.py tables docs/studies        # CSV of more than 6 kB
     studies/pack_docs.py pictures docs              # PNG
 
@@ -12,6 +12,7 @@ Needs Debian's python3-h5py, python3-numpy and python3-pil.
 import argparse
 import gzip
 import io
+import json
 from pathlib import Path
 
 import h5py
@@ -47,6 +48,9 @@ def pack_run(path):
                 return
             if isinstance(item, h5py.Group):
                 target.require_group(key).attrs.update(item.attrs)
+                # Not visititems: it leaves out the columns that are links to one seen before, as all times of a packed file are.
+                for below, part in item.items():
+                    copy(f"{key}/{below}", part)
                 return
             values, column = item[:], key.rpartition("/")[2]
             if column == "time":
@@ -59,8 +63,12 @@ def pack_run(path):
             options = {"chunks": values.shape, "compression": "gzip", "compression_opts": 9, "shuffle": True} if values.size > 64 else {}
             target.create_dataset(key, data=values, **options).attrs.update(item.attrs)
 
-        source.visititems(copy)
+        for key, item in source.items():
+            copy(key, item)
     packed.replace(path)
+    summary = path.with_name("summary.json")
+    if summary.is_file():
+        summary.write_text(json.dumps(json.loads(summary.read_text(encoding="utf-8")), separators=(",", ":")) + "\n", encoding="utf-8")
 
 
 def pack_table(path):

@@ -147,7 +147,7 @@ def of_snapshots(shown):
     return shown
 
 
-TABLES_ALONE = ("method", "cost", "sensitivity", "verdicts")  # of no case
+TABLES_ALONE = ("method", "cost", "sensitivity", "verdicts", "round2")  # of no case
 
 FIGURES = {
     "head_on": {"head_on": impact},

@@ -14,6 +14,7 @@ PERSEVERANCE_VOLUME = 0.0058
 UNITS = {
     "way": "m", "rise": "m", "speed": "m/s", "vertical_speed": "m/s", "pull": "N", "lift": "N", "torque": "N m", "sinkage": "m", "slip": "1",
     "indentation": "m", "lift_share": "1", "torque_share": "1", "speed_share": "1",
+    "lateral_share": "1",
 }
 
 
@@ -97,6 +98,7 @@ class History:
             "sinkage": lambda: wheel["sinkage"],
             "indentation": self._indentation,
             "slip": lambda: wheel["slip"],
+            "lateral_share": lambda: wheel["force"][:, 1] / self.weight,
             "lift_share": lambda: wheel["force"][:, 2] / self.weight,
             "torque_share": lambda: -wheel["torque"][:, 1] / (self.friction() * self.weight * self.radius),
             "speed_share": lambda: wheel["velocity"][:, 0] / (self.spin * self.radius),

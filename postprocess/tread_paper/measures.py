@@ -1,13 +1,22 @@
 """Numbers of runs, by what a row of docs/paper/*.toml asks for.
 
     RUN mean|min|max|spread QUANTITY [FROM TO]      over a time of the last phase, s; all of it
-    RUN last QUANTITY                               in the last row
+    RUN first|last QUANTITY                         in the first or last row of the last phase
+    RUN kink QUANTITY FROM TO                       time at which two straight lines, fitted to it there, meet, s
+    RUN scene KEY                                   number of the resolved scene: domain.gravity.2, material.sand.young, rocks.0.count
+    RUN weight                                      of the first body, N
+    RUN settled PHASE                               1 where the phase `until = "equilibrium"` found rest, else 0
     RUN when QUANTITY over|under VALUE              first time of the last phase, s
     RUN quiet QUANTITY SHARE                        time from which on it stays within this share of its last value, s
     RUN summary NAME                                of summary.json, or substeps_a_step, mean_dt, memory_mb, simulated, driven
     RUN impact NAME                                 of head_on.py: force (N), contact (s), body_speed, points_speed (m/s), recovered,
                                                     ringing (J), and the largest errors total, kinetic, elastic, both_elastic
+
+FROM and TO are seconds since the last phase began, `end` of it, `touch` (first time with a twentieth of the weight on the wheel), or `way:M` (first time
+with M metres of way), each with +SECONDS or -SECONDS if need be: touch+1, end-0.3.
 """
+
+import re
 
 import numpy as np
 
@@ -29,19 +38,24 @@ class Measures:
 
     def run(self, name):
         if name not in self._runs:
-            if not (self.folder / name / "timeseries.h5").is_file():
+            if not self.has(name):
                 raise Absent(f"{name} was not run")
             self._runs[name] = Run(self.folder / name)
         return self._runs[name]
 
+    def has(self, name):
+        return (self.folder / name / "timeseries.h5").is_file()
+
     def __call__(self, text):
         """The number that `text` asks for. Absent where there is none yet; RunError where the question is none."""
         words = text.split()
+        if words[1:] == ["weight"]:
+            return float(history_of(self.run(words[0])).weight)
         if len(words) < 3:
             raise RunError(f"'{text}': expected RUN WHAT ...")
         name, what, *rest = words
-        ways = {"mean": _statistic, "min": _statistic, "max": _statistic, "spread": _statistic, "last": _statistic, "when": _when, "quiet": _quiet,
-                "summary": _summary, "impact": _impact}
+        ways = {"mean": _statistic, "min": _statistic, "max": _statistic, "spread": _statistic, "first": _statistic, "last": _statistic, "when": _when,
+                "quiet": _quiet, "kink": _kink, "scene": _scene, "settled": _settled, "summary": _summary, "impact": _impact}
         if what not in ways:
             raise RunError(f"'{text}': '{what}' is none of {', '.join(ways)}")
         return float(ways[what](self.run(name), what, rest))
@@ -52,23 +66,94 @@ def _statistic(run, what, words):
     time, values = history.time, history.series(words[0])
     rows = np.isfinite(values)
     if len(words) == 3:
-        begin, end = map(float, words[1:])
-        if not len(time) or time[-1] < end - 0.02 * (end - begin) - 0.05:
-            raise Absent(f"{run.path.name} ends after {time[-1] if len(time) else 0:.1f} s")
-        rows &= (time >= begin) & (time <= end)
+        rows &= _within(run, history, words[1:])
     if not rows.any():
         raise Absent(f"{run.path.name} has no {words[0]} there")
     known = values[rows]
-    return {"mean": np.mean, "min": np.min, "max": np.max, "spread": np.std, "last": lambda these: these[-1]}[what](known)
+    return {"mean": np.mean, "min": np.min, "max": np.max, "spread": np.std, "first": lambda these: these[0], "last": lambda these: these[-1]}[what](known)
+
+
+def _within(run, history, bounds):
+    """Rows of the time between two bounds. Absent where the run does not get there."""
+    time = history.time
+    begin, end = (_time_of(run, history, bound) for bound in bounds)
+    if not len(time) or time[-1] < end - 0.02 * (end - begin) - 0.05:
+        raise Absent(f"{run.path.name} ends after {time[-1] if len(time) else 0:.1f} s")
+    return (time >= begin) & (time <= end)
+
+
+def _time_of(run, history, bound):
+    """Time (s) since the last phase began of a bound of a window."""
+    found = re.fullmatch(r"(end|touch|way:([\d.]+))?([+-]?[\d.]+)?", bound)
+    if not bound or not found:
+        raise RunError(f"'{bound}': a time is a number, end, touch or way:M, with +S or -S")
+    event, way, offset = found.groups()
+    if event is None:
+        return float(offset)
+    if event == "end":
+        if (run.summary or {}).get("status", "finished") != "finished":
+            raise Absent(f"{run.path.name} did not get to its end")
+        when = history.time[-1]
+    elif event == "touch":
+        when = _first(history, history.series("lift") > 0.05 * history.weight)
+    else:
+        when = _first(history, history.series("way") > float(way))
+    return when + float(offset or 0.0)
+
+
+def _first(history, hit):
+    """Time (s) of the first row that is hit. Absent where none is."""
+    if not hit.any():
+        raise Absent(f"never within {history.time[-1]:.1f} s")
+    return history.time[np.argmax(hit)]
+
+
+def _kink(run, _, words):
+    history = history_of(run)
+    rows = _within(run, history, words[1:])
+    time, values = history.time[rows], history.series(words[0])[rows]
+    if len(time) < 10:
+        raise Absent(f"{run.path.name} has {len(time)} rows there")
+    left = {}
+    for place in np.linspace(time[0], time[-1], 101)[5:-5]:
+        columns = np.stack((np.ones_like(time), time, np.clip(time - place, 0, None)), axis=1)
+        fitted, *_ = np.linalg.lstsq(columns, values, rcond=None)
+        left[place] = np.sum((columns @ fitted - values) ** 2)
+    return min(left, key=left.get)
+
+
+def in_scene(scene, key):
+    """What stands in a scene under a key such as material.sand.young or domain.size.2. RunError where nothing does."""
+    found = scene
+    for word in key.split("."):
+        try:
+            if isinstance(found, list) and not word.isdigit():
+                found = next(item for item in found if item.get("name") == word)
+            else:
+                found = found[int(word) if isinstance(found, list) else word]
+        except (KeyError, IndexError, StopIteration, TypeError) as missing:
+            raise RunError(f"the scene has no {key}") from missing
+    return found
+
+
+def _scene(run, _, words):
+    value = in_scene(run.scene, words[0])
+    if isinstance(value, str):
+        raise Absent(f"{words[0]} is {value}")
+    return value
+
+
+def _settled(run, _, words):
+    for phase in (run.summary or {}).get("phases", []):
+        if phase["name"] == words[0] and phase.get("settled") is not None:
+            return phase["settled"]
+    raise Absent(f"{run.path.name} does not say whether {words[0]} found rest")
 
 
 def _when(run, _, words):
     history = history_of(run)
     values, limit = history.series(words[0]), float(words[2])
-    hit = values > limit if words[1] == "over" else values < limit
-    if not hit.any():
-        raise Absent(f"never within {history.time[-1]:.1f} s")
-    return history.time[np.argmax(hit)]
+    return _first(history, values > limit if words[1] == "over" else values < limit)
 
 
 def _quiet(run, _, words):

@@ -63,16 +63,16 @@ def predict(wheel, soil, slip):
     """Prediction at a slip in [0, 1); None where the soil does not carry the wheel."""
     soil = soil.at_width(wheel.width)
     low, high = 1e-3, 0.5 * np.pi
-    if _forces(wheel, soil, slip, high)[0] < wheel.weight:
+    if forces(wheel, soil, slip, high)[0] < wheel.weight:
         return None
     for _ in range(60):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if _forces(wheel, soil, slip, middle)[0] < wheel.weight else (low, middle)
-    lift, pull, torque = _forces(wheel, soil, slip, high)
+        low, high = (middle, high) if forces(wheel, soil, slip, middle)[0] < wheel.weight else (low, middle)
+    lift, pull, torque = forces(wheel, soil, slip, high)
     return Prediction(wheel.radius * (1 - np.cos(high)), pull, torque)
 
 
-def _forces(wheel, soil, slip, entry):
+def forces(wheel, soil, slip, entry):
     """Lift (N), drawbar pull (N) and torque (N m) with soil from the entry angle (rad) to the lowest point."""
     angle = np.linspace(0.0, entry, STEPS + 1)
     peak = np.clip((soil.c1 + soil.c2 * slip) * entry, 1e-6, 0.999 * entry)
