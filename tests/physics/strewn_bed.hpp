@@ -27,6 +27,10 @@ inline constexpr double neighbourhood = 0.1 + sleep_distance + 3 * 0.2 + 0.5 * d
 inline const std::string strewn_sleep_text =
     fmt::format("[sleep]\ndistance = {}\nrock_speed = {}\n", sleep_distance, rock_speed);
 
+/// For what has been disturbed: this coarse bed goes on trembling at 0.01 m/s.
+inline const std::string trembling_sleep_text =
+    fmt::format("[sleep]\ndistance = {}\nspeed = 0.03\nrock_speed = 0.01\n", sleep_distance);
+
 /// A trench of sand of a length (m).
 inline std::string strewn_ground(double length)
 {

@@ -199,7 +199,7 @@ TYPED_TEST(StrewnSleep, AWheelWakesItsNeighbourhoodOnly)
                          });
     };
     std::vector<std::int32_t> before;
-    const Bed                 outcome = drive(text + test::strewn_sleep_text,
+    const Bed                 outcome = drive(text + test::trembling_sleep_text,
                                               [&](auto& run, double time)
                                               {
                                   const auto position = run.simulation().body_fields().position;

@@ -9,7 +9,7 @@
 // Which sand bodies may touch, and who of them falls asleep and wakes with it.
 namespace tread::test
 {
-namespace
+namespace contact_beds_test
 {
 
 constexpr double           radius = 0.1, reach = 0.05;
@@ -98,5 +98,5 @@ TYPED_TEST(Beds, BodiesFollow)
     EXPECT_FALSE(sleep.woken);                // no other sand wakes for it
 }
 
-} // namespace
+} // namespace contact_beds_test
 } // namespace tread::test

@@ -269,12 +269,16 @@ void wake_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
         for_each(exec, "widen waking", bodies.count,
                  WidenMarks{bodies, sleep.pairs.view(), mark_wakes + ring, sleep.mark.data()});
     }
-    pairs.measure.resize(bodies.count + 1);
-    double* woken = pairs.measure.data() + bodies.count;
-    for_each(exec, "wake bodies", bodies.count,
-             WakeBody{bodies, sleep.rule, sleep.mark.data(), sleep.rest_watch(), pairs.measure.data()});
-    sum_rows(exec, pairs.measure.data(), bodies.count, 1, woken);
-    if (read(exec, woken) > 0) { sleep.change = sleep.woken = true; }
+    constexpr int width = sizeof(Woken) / sizeof(double);
+    pairs.measure.resize(width * bodies.count + width);
+    double* sum = pairs.measure.data() + width * bodies.count;
+    for_each(
+        exec, "wake bodies", bodies.count,
+        WakeBody{bodies, sleep.rule, sleep.bed.data(), sleep.mark.data(), sleep.rest_watch(), pairs.measure.data()});
+    sum_rows(exec, pairs.measure.data(), bodies.count, width, sum);
+    const auto woken = read(exec, reinterpret_cast<const Woken*>(sum));
+    sleep.change     = sleep.change || woken.bodies > 0;
+    sleep.woken      = sleep.woken || woken.in_sand > 0;
 }
 
 template<class Exec>

@@ -80,13 +80,10 @@ struct LookAtBody
     }
 
 private:
-    TREAD_HD SandBed bed_of(std::int64_t b) const { return bed == nullptr ? bed_none : static_cast<SandBed>(bed[b]); }
-
-    /// Whether a body that something holds and all that it may touch have been at rest for long enough. In sand that
-    /// may sleep it follows its bed.
+    /// Whether a body that something holds and all that it may touch have been at rest for long enough.
     TREAD_HD bool is_tired(std::int64_t b) const
     {
-        bool rests = rest.quiet[b] >= rule.rest && bodies.stiffness[b] > 0 && bed_of(b) == bed_none;
+        bool rests = rest.quiet[b] >= rule.rest && bodies.stiffness[b] > 0;
         if (!rests) { return false; }
         each_neighbour(pairs, b,
                        [&](std::int64_t other)
@@ -99,7 +96,8 @@ private:
 
     TREAD_HD bool wakes(std::int64_t b) const
     {
-        bool found = window > 0 && load_has_changed(b, watch[b]) && bed_of(b) != bed_asleep;
+        const bool follows = bed != nullptr && bed[b] == bed_asleep;
+        bool       found   = window > 0 && load_has_changed(b, watch[b]) && !follows;
         each_neighbour(pairs, b,
                        [&](std::int64_t other)
                        { found = found || (other < bodies.count && is_moving(bodies, rest.moves, other)); });
@@ -302,19 +300,28 @@ struct WidenMarks
     }
 };
 
+/// Numbers of bodies that wake.
+struct Woken
+{
+    double bodies;
+    double in_sand; ///< those around which sand that sleeps must wake, too
+};
+
 struct WakeBody
 {
-    BodiesView    bodies;
-    BodyRestRule  rule;
-    std::int32_t* mark;
-    RestWatch     watch;
-    double*       woken; ///< [bodies], 1: by what moves, so that the sand around it must wake
+    BodiesView          bodies;
+    BodyRestRule        rule;
+    const std::int32_t* bed; ///< SandBed of each body; null if no sand sleeps beside bodies
+    std::int32_t*       mark;
+    RestWatch           watch;
+    double*             woken; ///< Woken of each body
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const bool calm = mark[b] == mark_wakes_calm;
-        woken[b]        = mark[b] >= mark_wakes && !calm ? 1 : 0;
-        if (mark[b] >= mark_wakes)
+        const bool wakes = mark[b] >= mark_wakes, calm = mark[b] == mark_wakes_calm;
+        woken[2 * b]     = wakes ? 1 : 0;
+        woken[2 * b + 1] = wakes && !calm && bed != nullptr && bed[b] == bed_asleep ? 1 : 0;
+        if (wakes)
         {
             bodies.asleep[b] = 0;
             watch.begin(bodies, b, calm ? rule.rest : 0.0);

@@ -161,7 +161,7 @@ struct SleepingBodies
     bool         wanted = false; ///< whether bodies may sleep
     bool         wakes  = false; ///< whether bodies near moving ones wake when the next list is found
     bool         change = false; ///< whether some body fell asleep or woke since the last list
-    bool         woken  = false; ///< whether some body woke since sand last followed
+    bool         woken  = false; ///< whether some body in sleeping sand woke since sand last followed
     BodyRestRule rule{};
     SleepClock   clock;
     double       count  = 0; ///< number of sleepers
