@@ -176,7 +176,7 @@ ForceAndEnergy exact_spheres(double approach, double linear_overlap)
 /// Largest force in a head-on impact of two spheres, each at `speed`, when all kinetic energy is in the contact.
 double exact_largest_force(double speed, double linear_overlap)
 {
-    const double energy = solid_sphere(radius, density, {}).mass * speed * speed;
+    const double energy = solid_sphere(radius, density, Vec3<double>::Zero()).mass * speed * speed;
     double       low = 0, high = radius;
     for (int bisection = 0; bisection < 60; ++bisection)
     {
