@@ -3,7 +3,7 @@
 
     postprocess/paper.py slip                     # pictures of section 3.4 and its table in docs/paper.md, from the runs kept in docs/paper/runs
     postprocess/paper.py all --runs runs          # of all sections, from runs of your own, named as their scenes
-    postprocess/paper.py round2                   # tables of the second round, from docs/paper/round2 and the criteria in configs/paper/round2
+    postprocess/paper.py round2                   # tables of the second round, from studies/paper_round2 and the criteria in configs/paper/round2
 
 Pictures whose runs or snapshots are not there stay as they are. Needs Debian's python3-h5py, python3-numpy and python3-matplotlib.
 """
@@ -28,7 +28,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("case", choices=[*FIGURES, *TABLES_ALONE, "all"], help=f"{', '.join(TABLES_ALONE)} have tables alone")
     parser.add_argument("--runs", type=Path, default=DOCS / "paper" / "runs", metavar="DIR", help="default: docs/paper/runs")
-    parser.add_argument("--round2-runs", type=Path, default=DOCS / "paper" / "round2", metavar="DIR", help="of the second round; default: docs/paper/round2")
+    parser.add_argument("--round2-runs", type=Path, default=ROOT / "studies" / "paper_round2", metavar="DIR", help="of the second round; default: studies/paper_round2")
     parser.add_argument("--output", type=Path, default=DOCS / "paper", metavar="DIR", help="of pictures, where CASE.toml are; default: docs/paper")
     parser.add_argument("--document", type=Path, default=DOCS / "paper.md", metavar="FILE.md", help="whose tables are filled; default: docs/paper.md")
     return parser.parse_args()

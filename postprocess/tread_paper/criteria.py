@@ -23,6 +23,7 @@ whose error the runs' summaries estimate. `note` stands over the table of a file
 """
 
 import math
+import textwrap
 import tomllib
 from dataclasses import dataclass
 
@@ -331,5 +332,6 @@ def counts_of(tables):
     words = ("agrees", "differs", "undecided", "impossible in the paper", "not run", "not judged", "checked elsewhere", "read off the figure by eye", "not looked at yet")
     cells = [line.rpartition(" | ")[2] for lines in tables for line in lines[2:]]
     found = [(word, sum(cell.startswith(word) for cell in cells)) for word in words]
-    return f"**{len(cells)} rows: {', '.join(f'{count} {word}' for word, count in found if count)}.**"
+    counts = ", ".join(f"{count} {word}" for word, count in found if count)
+    return "\n".join(textwrap.wrap(f"**{len(cells)} rows: {counts}.**", 118))
 

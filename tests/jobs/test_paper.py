@@ -489,7 +489,7 @@ class SecondRound(unittest.TestCase):
 
     def test_the_document_is_made_of_the_criteria(self):
         text = (DOCS / "paper.md").read_text(encoding="utf-8")
-        self.assertEqual(put_into(text, "round2", round2.lines_of(ROUND2, DOCS / "paper" / "round2", ROOT)), text)
+        self.assertEqual(put_into(text, "round2", round2.lines_of(ROUND2, ROOT / "studies" / "paper_round2", ROOT)), text)
 
 
 class PackedPictures(unittest.TestCase):

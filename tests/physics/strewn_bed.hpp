@@ -21,8 +21,8 @@ inline constexpr double sleep_distance = 0.1;  ///< m
 inline constexpr double rock_speed     = 2e-3; ///< m/s
 
 /// m, within which rocks may wake around a wheel of 0.1 m: sand is awake up to two pages of 0.2 m beyond the distance,
-/// a page has a length, and a rock at its end feels it.
-inline constexpr double neighbourhood = 0.1 + sleep_distance + 3 * 0.2 + 0.5 * diameter;
+/// a page has a length, what moves on it wakes two pages around, and a rock at their end feels it.
+inline constexpr double neighbourhood = 0.1 + sleep_distance + 5 * 0.2 + 0.5 * diameter;
 
 inline const std::string strewn_sleep_text =
     fmt::format("[sleep]\ndistance = {}\nrock_speed = {}\n", sleep_distance, rock_speed);

@@ -19,6 +19,12 @@ class StrewnSleep : public StrewnBed<Exec>
 };
 TYPED_TEST_SUITE(StrewnSleep, test::Backends, test::BackendNames);
 
+template<class Exec>
+class FullSizeStrewnSleep : public StrewnBed<Exec>
+{
+};
+TYPED_TEST_SUITE(FullSizeStrewnSleep, test::Backends, test::BackendNames);
+
 /// Rocks on and in sand: all of it falls asleep; from then on nothing is computed, and nothing changes its place by a
 /// bit.
 TYPED_TEST(StrewnSleep, ABedAtRestSleepsEntirely)
@@ -101,7 +107,7 @@ TYPED_TEST(StrewnSleep, ANewPhaseWakesRocksAndTheirSandTogether)
 }
 
 /// Gravity turns: all wakes at once and goes the way of what never slept.
-TYPED_TEST(StrewnSleep, GravityTurns)
+TYPED_TEST(FullSizeStrewnSleep, GravityTurns)
 {
     const std::string text = test::short_bed + test::phase("settle", 0.3, test::settled) + test::phase("rest", 0, 0.4) +
                              test::phase("turn", 0, 0.1) + "gravity = [6.0, 0.0, -7.7]\n";
@@ -177,7 +183,7 @@ TYPED_TEST(StrewnSleep, ARockFallsOnASleepingStrewnBed)
 
 /// A roller falls on one end of the sleeping bed and drives half a metre: around it all is awake, beyond its
 /// neighbourhood nothing is.
-TYPED_TEST(StrewnSleep, AWheelWakesItsNeighbourhoodOnly)
+TYPED_TEST(FullSizeStrewnSleep, AWheelWakesItsNeighbourhoodOnly)
 {
     constexpr double release = test::settled + 0.3; ///< s
     const auto [text, reach] = std::pair(test::long_bed + test::strewn_roller_text, test::neighbourhood);
