@@ -19,7 +19,7 @@ from tread_post import Run  # noqa: E402
 from tread_post.answers import answers_of  # noqa: E402
 
 # Ends when it is told to.
-SETTINGS = {"phase.settle.max_duration": 0.01, "phase.lower.max_duration": 0.03, "phase.drive.duration": 1000, "phase.drive.drive.ramp": 0.01,
+SETTINGS = {"phase.settle.max_duration": 0.01, "phase.lower.max_duration": 0.03, "phase.drive.duration": 1000, "phase.drive.drive.ramp": 0.01, "phase.drive.drive.angular_velocity": 0.2,
             "output.every": 0.001, "output.snapshots_every": 0.02}
 
 
