@@ -39,6 +39,11 @@ function(tread_precompile target)
   endif()
 endfunction()
 
+# tread_optimise_less(TARGET): for what takes no time in a run; it compiles in half the time.
+function(tread_optimise_less target)
+  target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<COMPILE_LANGUAGE:CXX>>:-O1>)
+endfunction()
+
 # tread_room(NAME [LINK targets...] [PRECOMPILE headers...]): one room, one target. Takes every .cpp of the folder and of its
 # sub-folders and, with CUDA, every .cu.
 function(tread_room name)
@@ -64,10 +69,23 @@ function(tread_room name)
   endif()
 endfunction()
 
-# tread_gpu_syntax(NAME SOURCES files... LINK targets...): nvcc reads GPU code and makes none.
+# tread_gpu_syntax(NAME SOURCES files... LINK targets...): nvcc reads GPU code and makes none. It reads the files of a folder as one,
+# in a quarter of the time: most of what a file takes is its headers.
 function(tread_gpu_syntax name)
   cmake_parse_arguments(CHECK "" "" "SOURCES;LINK" ${ARGN})
-  add_library(${name} OBJECT ${CHECK_SOURCES})
+  foreach(source ${CHECK_SOURCES})
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/src OUTPUT_VARIABLE folder)
+    string(REPLACE "/" "_" folder ${folder})
+    string(APPEND includes_${folder} "#include \"${source}\"\n")
+    list(APPEND folders ${folder})
+  endforeach()
+  list(REMOVE_DUPLICATES folders)
+  list(TRANSFORM folders REPLACE "(.+)" "${CMAKE_CURRENT_BINARY_DIR}/gpu_syntax/\\1.cu" OUTPUT_VARIABLE files)
+  foreach(folder file IN ZIP_LISTS folders files)
+    file(CONFIGURE OUTPUT ${file} CONTENT "${includes_${folder}}")
+  endforeach()
+  add_library(${name} OBJECT ${files})
   target_link_libraries(${name} PRIVATE tread_flags ${CHECK_LINK})
   target_compile_definitions(${name} PRIVATE TREAD_WITH_CUDA)
   target_compile_options(${name} PRIVATE -fdevice-syntax-only)

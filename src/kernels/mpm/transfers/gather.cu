@@ -24,7 +24,7 @@ constexpr int threads_an_sm = std::is_same_v<Moment, WithMoment> ? 384 : 512;
 constexpr std::int64_t few_pages = 1024;
 
 /// Mean number of points per page below which a page has a single warp, which needs no block synchronisation.
-constexpr std::int64_t full_page = 128;
+constexpr std::int64_t gather_full_page = 128;
 
 /// Layout of tile node (x, y, z) in shared memory: with this pitch, the 16 cells of a layer, each reading the same node
 /// of its stencil with two channels, access all banks without conflicts.
@@ -35,7 +35,7 @@ __device__ int gather_slot(int x, int y, int z) { return motion_channels * x + g
 
 /// Two channels of a node.
 template<class Real>
-using Pair = Pack<Real, 2>;
+using TwoChannels = Pack<Real, 2>;
 
 /// Two channels of a row of tile nodes.
 template<class Real>
@@ -80,10 +80,10 @@ __device__ void load_tile(const Real* motion, const std::int32_t* node_page, Rea
             Real* row = tile + gather_slot(0, y, z) + channel;
             for (int x = 0; x < tile_edge; ++x)
             {
-                *reinterpret_cast<Pair<Real>*>(row + motion_channels * x) =
-                    x < page_edge
-                        ? Pair<Real>{{part[turn].low[0].at[x], part[turn].low[1].at[x]}}
-                        : Pair<Real>{{part[turn].high[0].at[x - page_edge], part[turn].high[1].at[x - page_edge]}};
+                *reinterpret_cast<TwoChannels<Real>*>(row + motion_channels * x) =
+                    x < page_edge ? TwoChannels<Real>{{part[turn].low[0].at[x], part[turn].low[1].at[x]}}
+                                  : TwoChannels<Real>{
+                                        {part[turn].high[0].at[x - page_edge], part[turn].high[1].at[x - page_edge]}};
             }
         });
 }
@@ -96,8 +96,8 @@ struct NodesOfTile
 
     __device__ NodeMotion<std::array<Real, 3>> operator()(int a, int b, int c) const
     {
-        const auto*      node = reinterpret_cast<const Pair<Real>*>(lowest + gather_slot(a, b, c));
-        const Pair<Real> low = node[0], middle = node[1], high = node[2];
+        const auto*             node = reinterpret_cast<const TwoChannels<Real>*>(lowest + gather_slot(a, b, c));
+        const TwoChannels<Real> low = node[0], middle = node[1], high = node[2];
         return {{{low.at[0], low.at[1], middle.at[0]}}, {{middle.at[1], high.at[0], high.at[1]}}};
     }
 };
@@ -291,7 +291,10 @@ void gather(const Exec& gpu, const PointsView<Real>& points, const PagesView& pa
     };
     constexpr int many_threads = sizeof(Real) == 4 ? 256 : 128;
     if (list.count < few_pages) { with_threads(std::integral_constant<int, many_threads>{}); }
-    else if (points.count < full_page * pages.point_pages) { with_threads(std::integral_constant<int, warp_size>{}); }
+    else if (points.count < gather_full_page * pages.point_pages)
+    {
+        with_threads(std::integral_constant<int, warp_size>{});
+    }
     else { with_threads(std::integral_constant<int, 64>{}); }
 }
 
