@@ -104,7 +104,7 @@ void expect_load_of_prandtl_and_reissner(const Exec& exec, const std::string& vo
 }
 
 /// With nodal forces from every single point's pressure, cell averages of dilating sand were unstable here.
-TYPED_TEST(FootingPhysics, CohesionAndFrictionCarryPrandtlsLoadWithCellAverages)
+TYPED_TEST(FullSizeFooting, CohesionAndFrictionCarryPrandtlsLoadWithCellAverages)
 {
     expect_load_of_prandtl_and_reissner(this->exec(), "cell-average");
 }

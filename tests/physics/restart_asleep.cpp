@@ -13,8 +13,14 @@ class RestartAsleep : public test::RestartTest<Exec>
 };
 TYPED_TEST_SUITE(RestartAsleep, test::Backends, test::BackendNames);
 
+template<class Exec>
+class FullSizeRestartAsleep : public RestartAsleep<Exec>
+{
+};
+TYPED_TEST_SUITE(FullSizeRestartAsleep, test::Backends, test::BackendNames);
+
 /// Far from the roller: sleeping sand is saved asleep, and other sand falls asleep or wakes afterwards.
-TYPED_TEST(RestartAsleep, OfSandGivesTheSameBits)
+TYPED_TEST(FullSizeRestartAsleep, OfSandGivesTheSameBits)
 {
     std::string text = test::sand_text + test::thrown_roller_text +
                        "[sleep]\ndistance = 0.05\nspeed = 0.01\nrest = 2e-3\nload = 0.5\n";
@@ -25,7 +31,7 @@ TYPED_TEST(RestartAsleep, OfSandGivesTheSameBits)
 }
 
 /// Sleeping rocks are saved asleep with their contacts; others fall asleep or wake afterwards.
-TYPED_TEST(RestartAsleep, OfRocksGivesTheSameBits)
+TYPED_TEST(FullSizeRestartAsleep, OfRocksGivesTheSameBits)
 {
     this->expect_same_bits(test::rocks_alone + test::rocks_text + "placement = \"grid\"\n" + test::thrown_roller_text +
                            "[time]\ndt = 3e-3\n[sleep]\nrock_speed = 0.15\nrock_rest = 0.02\n");

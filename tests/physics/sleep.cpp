@@ -220,7 +220,7 @@ TYPED_TEST(FullSizeSleep, ARollerFarAwayFeelsNothing)
 
 /// A column collapses over a sleeping bed: it wakes the sand that it reaches, and the deposit is the same as without
 /// sleep.
-TYPED_TEST(Sleep, ACollapseBesideSleepingPagesGoesItsWay)
+TYPED_TEST(FullSizeSleep, ACollapseBesideSleepingPagesGoesItsWay)
 {
     const auto profile = [](auto& experiment)
     {

@@ -55,7 +55,7 @@ TYPED_TEST(FullSizeSphereOnBed, CreepsWherePointsRecoilFreely)
 }
 
 /// Pulled slowly, the sphere needs a force of friction times its weight, whatever the number of substeps.
-TYPED_TEST(SphereOnBed, DragIsThatOfOneSubstep)
+TYPED_TEST(FullSizeSphereOnBed, DragIsThatOfOneSubstep)
 {
     const auto drag = [&](int substeps)
     {

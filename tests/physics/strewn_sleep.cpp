@@ -133,7 +133,7 @@ TYPED_TEST(FullSizeStrewnSleep, GravityTurns)
 }
 
 /// A rock falls on the sleeping bed: what it hits wakes, sand included, before it is there; what is far never does.
-TYPED_TEST(StrewnSleep, ARockFallsOnASleepingStrewnBed)
+TYPED_TEST(FullSizeStrewnSleep, ARockFallsOnASleepingStrewnBed)
 {
     constexpr double  release = test::settled + 0.4; ///< s
     const std::string text    = test::long_bed + test::held_stone_text +

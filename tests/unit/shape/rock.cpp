@@ -42,7 +42,7 @@ double worst_error(const scene::RockGenerator& asked)
                      std::abs(found.sphericity / asked.sphericity - 1), std::abs(found.solidity / asked.solidity - 1)});
 }
 
-TEST(Rock, OfThePaperHasItsFormForEverySeed)
+TEST(FullSizeRock, OfThePaperHasItsFormForEverySeed)
 {
     double worst = 0;
     for (std::uint64_t seed = 0; seed < 20; ++seed)

@@ -46,7 +46,7 @@ gap      = 0.002
 }
 
 /// Each tool as its generator makes it, and its twin from a file of the same mesh.
-TEST(ToolScenes, AreThoseOfTheirTwinsFromFiles)
+TEST(FullSizeToolScenes, AreThoseOfTheirTwinsFromFiles)
 {
     const test::TemporaryDirectory folder;
     const std::string              path = folder.path("tool.stl");
