@@ -15,16 +15,26 @@ struct BlockLanes
 
     __device__ double sum(double value) const
     {
-        constexpr int               warps = threads / warp_size;
-        __shared__ double           of_warp[warps];
-        const GroupLanes<warp_size> warp;
-        const double                own = warp.sum(value);
-        __syncthreads(); // lanes may still be reading of_warp for the previous sum
-        if (warp.lane() == 0) { of_warp[threadIdx.x / warp_size] = own; }
+        return of_warps(GroupLanes<warp_size>{}.sum(value), [](double a, double b) { return a + b; });
+    }
+
+    __device__ double largest(double value) const
+    {
+        return of_warps(GroupLanes<warp_size>{}.largest(value), [](double a, double b) { return fmax(a, b); });
+    }
+
+private:
+    template<class Combine>
+    __device__ static double of_warps(double value, Combine combine)
+    {
+        constexpr int     warps = threads / warp_size;
+        __shared__ double of_warp[warps];
+        __syncthreads(); // lanes may still be reading of_warp for the previous value
+        if (GroupLanes<warp_size>{}.lane() == 0) { of_warp[threadIdx.x / warp_size] = value; }
         __syncthreads();
-        double sum = 0;
-        for (const double part : of_warp) { sum += part; }
-        return sum;
+        double all = of_warp[0];
+        for (int warp = 1; warp < warps; ++warp) { all = combine(all, of_warp[warp]); }
+        return all;
     }
 };
 

@@ -27,7 +27,7 @@ struct ExpectContacts
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
     {
-        StiffnessShare sums{0, 0};
+        StiffnessShare sums{0, 0, 0};
         for (std::int64_t p = pairs.first[b] + lanes.lane(); p < pairs.first[b + 1]; p += lanes.lanes())
         {
             add(p, sums);
@@ -36,18 +36,18 @@ struct ExpectContacts
         {
             add(pairs.by_second[i], sums);
         }
-        sums = {lanes.sum(sums.touches), lanes.sum(sums.approach)};
+        sums = {lanes.sum(sums.touches), lanes.largest(sums.first_touch), lanes.sum(sums.approach)};
         if (lanes.lane() != 0) { return; }
-        expected[b] = most_of(sums);
+        expected[b] = sums.most();
         if (shared.is_shared(b)) { shared.stiffness[shared.place[b]] = sums; }
     }
-
-    TREAD_HD static double most_of(const StiffnessShare& sums) { return std::fmax(sums.touches, sums.approach); }
 
 private:
     TREAD_HD void add(std::int64_t p, StiffnessShare& sums) const
     {
-        sums.touches += first_touch(p);
+        const double touch = first_touch(p);
+        sums.touches += touch;
+        sums.first_touch = std::fmax(sums.first_touch, touch);
         sums.approach += pairs.patch[p].stiffness + entering[p];
     }
 
@@ -95,7 +95,7 @@ struct ExpectTogether
 
     TREAD_HD void operator()(std::int64_t i) const
     {
-        expected[shared.body[i]] = ExpectContacts::most_of(stiffness_of(shared, i));
+        expected[shared.body[i]] = stiffness_of(shared, i).most();
     }
 };
 

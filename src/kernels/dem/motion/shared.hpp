@@ -20,8 +20,13 @@ struct WrenchShare
 /// Expected stiffness of a body's contacts from one rank's pairs, which limits the substep (contact_limits.hpp). N/m.
 struct StiffnessShare
 {
-    double touches;  ///< first touches of separated pairs; in a bed most of them do not come about
-    double approach; ///< pairs in contact and pairs that approach
+    double touches;     ///< sum over first touches of separated pairs; in a bed most of them do not come about
+    double first_touch; ///< largest of them
+    double approach;    ///< sum over pairs in contact and pairs that approach
+
+    /// Stiffness to expect. A body that is set in motion leaves the neighbours behind it, so that half of its first
+    /// touches may come about together.
+    TREAD_HD double most() const { return std::fmax(approach, std::fmax(first_touch, 0.5 * touches)); }
 };
 
 struct SharedView
@@ -64,11 +69,12 @@ TREAD_HD double speed_of_all(const SharedView& shared, std::int64_t i)
 
 TREAD_HD StiffnessShare stiffness_of(const SharedView& shared, std::int64_t i)
 {
-    StiffnessShare sum{0, 0};
+    StiffnessShare sum{0, 0, 0};
     for (std::int32_t r = shared.first[i]; r < shared.first[i + 1]; ++r)
     {
         const StiffnessShare& share = shared.stiffness[shared.row[r]];
-        sum                         = {sum.touches + share.touches, sum.approach + share.approach};
+        sum = {sum.touches + share.touches, std::fmax(sum.first_touch, share.first_touch),
+               sum.approach + share.approach};
     }
     return sum;
 }
