@@ -181,7 +181,8 @@ TYPED_TEST(RockSleep, ARockFallsOnASleepingPile)
     this->expect_balanced("rock on a pile", outcome, awake);
 }
 
-/// A slab is pulled out from under sleeping rocks, within a phase: they fall to the floor.
+/// A slab is pulled out from under sleeping rocks, within a phase: they fall to the floor. Of twenty such pairs ten were both
+/// asleep 0.4 s after the damped phase, and of twelve eleven after 2 s: the others rocked on.
 TYPED_TEST(RockSleep, WhatSleptOnAPulledSlabFalls)
 {
     const std::string text =
@@ -191,8 +192,8 @@ TYPED_TEST(RockSleep, WhatSleptOnAPulledSlabFalls)
         "[[shape]]\nname = \"slab\"\ngenerate = { kind = \"box\", size = [0.7, 0.2, 0.04] }\n"
         "[[body]]\nname = \"slab\"\nshape = \"slab\"\nmaterial = \"stone\"\nmass = 5.0\nposition = [0.4, 0.1, 0.3]\n"
         "[[phase]]\nname = \"settle\"\ndamping = 0.3\nduration = 1.0\nhold = [\"slab\"]\n"
-        "[[phase]]\nname = \"pull\"\nduration = 1.5\nhold = [\"slab\"]\n";
-    constexpr double start  = 1.4; ///< s
+        "[[phase]]\nname = \"pull\"\nduration = 3.0\nhold = [\"slab\"]\n";
+    constexpr double start  = 2.9; ///< s
     std::int64_t     asleep = 0;
     double           lowest = 1;
     const auto       pull   = [&](const std::string& scene)
