@@ -299,7 +299,7 @@ Keys<Sleep> sleep_keys()
     return {
         optional("distance", "m", &Sleep::distance, number_or("", above_up_to(0, 1e5)),
                  "Sand falls asleep, page by page, only further than this from the bounding sphere of every body, and "
-                 "wakes when one comes nearer. Rocks that may sleep, too, follow it instead. One rank only.",
+                 "wakes when one comes nearer. Rocks that may sleep, too, follow it instead.",
                  "no sand sleeps"),
         optional("speed", "m/s", &Sleep::speed, number(speed()),
                  "A page is at rest while no point in it is faster. One that is not keeps two pages all around awake.")

@@ -151,11 +151,17 @@ void Simulation<Exec, Real>::list_points()
 {
     if (balance_ && measured() && balance_->is_due()) { repartition_pages(); }
     if (sand_) { sand_->order(); }
-    const std::int64_t moved = sand_ ? sand_->migrated() : 0;
-    if (coupling_ && moved > 0) { coupling_->send_records_after(sand_->migrated_out()); }
+    send_records();
     if (!balance_ || balance_->has_noted(layout_version())) { return; }
-    const double points = sand_ ? static_cast<double>(sand_->count()) : 0, bodies = rigid_ ? rigid_->load() : 0;
-    balance_->note(layout_version(), points + bodies, moved);
+    const double points = sand_ ? static_cast<double>(sand_->view().count) : 0, bodies = rigid_ ? rigid_->load() : 0;
+    balance_->note(layout_version(), points + bodies, sand_ ? sand_->migrated() : 0);
+}
+
+/// Sends the contact records of the points that migrated when points were last sorted.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::send_records()
+{
+    if (coupling_ && sand_->migrated() > 0) { coupling_->send_records_after(sand_->migrated_out()); }
 }
 
 template<class Exec, class Real>

@@ -156,6 +156,7 @@ private:
     void          require_apart(double time);
     void          transfer_contacts(StateFile& file);
     void          list_points();
+    void          send_records();
     void          repartition_pages();
     void          list_contacts(double span, StageClock& clock);
     void          measure();

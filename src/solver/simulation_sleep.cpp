@@ -19,7 +19,9 @@ void Simulation<Exec, Real>::update_sleeping_pages(StageClock& clock)
     {
         std::vector<BodyReach> bodies;
         if (rigid_) { bodies = sand_wakers(); }
+        const std::int64_t sorted = sand_->reorder_count();
         sand_->update_sleeping_pages(bodies, wakes ? 1.0 : damping_, sleep_follower());
+        if (sand_->reorder_count() != sorted) { send_records(); }
     };
     clock.run(exec_, stage::sleep, update);
 }

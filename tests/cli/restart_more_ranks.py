@@ -4,7 +4,7 @@
 import unittest
 
 from command import MPIRUN, SCENE
-from restart_test import JOINTED, MIXED, RestartTest, lasting
+from restart_test import ASLEEP, JOINTED, MIXED, RestartTest, lasting
 
 
 class RestartOnMoreRanks(RestartTest):
@@ -16,6 +16,22 @@ class RestartOnMoreRanks(RestartTest):
 
     def test_jointed_bodies_from_two_ranks_to_three_agree_as_far_as_chaos_lets_them(self):
         self.check_other_number_of_ranks(JOINTED, 2, 3)
+
+    def test_sleeping_sand_on_two_ranks_restarted_gives_the_same_bits(self):
+        self.check_uninterrupted_is_stopped_and_restarted(ASLEEP, (*MPIRUN, "-n", "2"))
+        self.assertGreater(self.summary()["asleep"], 0.1)
+
+    def test_sleeping_sand_goes_on_awake_on_another_number_of_ranks(self):
+        """It falls asleep again; chaos is no measure, as what wakes moves."""
+        checkpoint = self.stop_after_a_checkpoint(ASLEEP, self.directory / "on2", launcher=(*MPIRUN, "-n", "2"))
+        points = self.summary(self.directory / "on2")["points"]
+        for launcher in ((), (*MPIRUN, "-n", "3")):
+            output = self.directory / f"on{launcher[-1] if launcher else 1}"
+            self.run_scene(ASLEEP, output, "--restart", checkpoint, launcher=launcher)
+            ended = self.summary(output)
+            self.assertEqual((ended["status"], ended["points"]), ("finished", points))
+            self.assertGreater(ended["asleep"], 0.1)
+            self.assertLess(abs(ended["errors"]["energy"]), 1e-3)
 
 
 if __name__ == "__main__":

@@ -46,6 +46,11 @@ def lasting(scene, seconds):
     return scene.replace("duration = 0.02\n", f"duration = {seconds}\n", 1)
 
 
+# A long bed with a rock at one end, and sand that sleeps at the other.
+ASLEEP = lasting(MIXED, 0.06).replace("[0.4, 0.4, 0.4]", "[1.0, 0.2, 0.4]").replace("[0.4, 0.4, 0.1]", "[1.0, 0.2, 0.1]").replace(
+    "[0.2, 0.2, 0.155]", "[0.15, 0.1, 0.155]").replace("velocity = [0.3, 0.0, -0.8]\n", "") + "[sleep]\ndistance = 0.1\nrest = 0.001\nspeed = 1.0\n"
+
+
 def datasets(path):
     found = {}
     with h5py.File(path, "r") as file:

@@ -24,7 +24,8 @@ inline constexpr int reach_slack = 2;
 
 /// Lists the bodies that keep sand awake: named ones, and rocks that are awake and not at rest. A rock that moves wakes
 /// sand as far as it may come before the next look and a diameter beyond; another one, which only trembles, sand that
-/// it may touch. Rocks at rest follow the sand. Without rocks that sleep, all bodies are as named ones. Synchronises.
+/// it may touch. Rocks at rest follow the sand. Without rocks that sleep, all bodies are as named ones. On several
+/// ranks: those of this rank. Synchronises.
 template<class Exec>
 std::vector<BodyReach> bodies_that_wake_sand(const Exec& exec, const dem::BodiesView& bodies,
                                              const dem::SleepingBodies<Exec>& sleepers, const world::World& world,
@@ -36,11 +37,14 @@ std::vector<BodyReach> bodies_that_wake_sand(const Exec& exec, const dem::Bodies
     copy_to_host(exec, velocity.data(), bodies.velocity, count * sizeof(Vec3<double>));
     std::vector<std::int32_t> asleep(bodies.asleep != nullptr ? count : 0);
     copy_to_host(exec, asleep.data(), bodies.asleep, asleep.size() * sizeof(std::int32_t));
+    std::vector<std::int32_t> role(bodies.role != nullptr ? count : 0);
+    copy_to_host(exec, role.data(), bodies.role, role.size() * sizeof(std::int32_t));
     const std::vector<double>       quiet = sleepers.quiet.to_host();
     std::vector<BodyReach>          reaches;
     const std::vector<std::int32_t> moves = sleepers.moves.to_host();
     for (std::size_t b = 0; b < count; ++b)
     {
+        if (!role.empty() && role[b] != dem::role_owner) { continue; }
         const auto&  form   = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
         const double radius = form.bounding_radius * world.bodies.scale[b], far = radius + rule.distance;
         if (asleep.empty() || static_cast<std::int64_t>(b) < sleepers.rule.first)

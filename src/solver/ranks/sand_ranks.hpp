@@ -20,6 +20,16 @@ public:
     std::int64_t order(mpm::Points<Exec, Real>& points, mpm::Pages<Exec>& pages, const mpm::GridGeometry& geometry,
                        const mpm::GridWalls& walls, mpm::OrderScratch<Exec, Real>& scratch);
 
+    /// Migrates points that are not sorted to the owners of their pages.
+    void migrate(mpm::Points<Exec, Real>& points, const mpm::GridGeometry& geometry,
+                 mpm::OrderScratch<Exec, Real>& scratch)
+    {
+        migration_.run(points, geometry, scratch);
+    }
+
+    /// Whether this rank owns a page.
+    bool owns(std::uint64_t page) const { return decomposition_.owners.owner(page) == decomposition_.rank(); }
+
     /// Number of points of all ranks that changed rank in the last order().
     std::int64_t                         moved() const { return moved_; }
     const decomp::Migration<Exec, Real>& migration() const { return migration_; }

@@ -11,6 +11,14 @@
 namespace tread::solver
 {
 
+namespace
+{
+
+/// Load of a sleeping page, in points: it needs an owner, and costs no time.
+constexpr double load_asleep = 1;
+
+} // namespace
+
 template<class Exec, class Real>
 MpmSolver<Exec, Real>::MpmSolver(const Exec& exec, const scene::Scene& scene, const world::World& world,
                                  mpm::PointFields fields, decomp::Decomposition<Exec>* decomposition)
@@ -22,7 +30,7 @@ MpmSolver<Exec, Real>::MpmSolver(const Exec& exec, const scene::Scene& scene, co
     , tallies_(exec)
 {
     if (decomposition != nullptr) { ranks_.emplace(*decomposition); }
-    if (scene.sleep.distance) { sleep_.emplace(exec, scene, world, fields); }
+    if (scene.sleep.distance) { sleep_.emplace(exec, scene, world, fields, communicator()); }
     if (decomposition == nullptr) { upload_points(points_, world::make_points(scene, world, world.sand.rows), fields); }
     else { upload_points(points_, own_points(scene, world, *decomposition), fields); }
 }
@@ -118,12 +126,18 @@ template<class Exec, class Real>
 std::optional<double> MpmSolver<Exec, Real>::mean_asleep() const
 {
     if (!sleep_) { return {}; }
-    return count() > 0 ? sleep_->mean_count() / static_cast<double>(count()) : 0;
+    const std::int64_t all = communicator() == nullptr ? count() : communicator()->sum(count());
+    return all > 0 ? sleep_->mean_count() / static_cast<double>(all) : 0;
 }
 
 template<class Exec, class Real>
 void MpmSolver<Exec, Real>::follow_owners()
 {
+    if (sleep_)
+    {
+        sleep_->tell_ranks();
+        ranks_->migrate(sleep_->points(), grid_.geometry, order_.scratch);
+    }
     order_.listed      = false;
     order_.cell_change = mpm::CellChange::lost;
 }
@@ -136,6 +150,11 @@ void MpmSolver<Exec, Real>::add_loads(decomp::PageLoads& loads) const
     for (std::size_t i = 0; i < page.size(); ++i)
     {
         if (first[i + 1] > first[i]) { loads[page[i]] += first[i + 1] - first[i]; }
+    }
+    if (!sleep_) { return; }
+    for (const std::uint64_t key : sleep_->pages())
+    {
+        if (ranks_->owns(key)) { loads[key] += load_asleep; }
     }
 }
 
@@ -154,7 +173,7 @@ void MpmSolver<Exec, Real>::update_grid(double dt, double damping)
     const mpm::SharedPagesView<Real> shared = ranks_ ? ranks_->halo().view() : mpm::SharedPagesView<Real>{};
     double*                          rows   = tallies_.grid_rows.data();
     update_nodes(exec_, grid_, pages(), shared, step, rows);
-    if (sleep_) { sleep_->hold(pages(), grid_.tiles.data(), step, grid_.motion.data(), rows); }
+    if (sleep_) { sleep_->hold(pages(), shared, grid_.tiles.data(), step, grid_.motion.data(), rows); }
     if (grid_.seams)
     {
         mpm::follow_coarser(exec_, pages(), grid_.geometry.refinement, *grid_.seams, grid_.motion.data());
@@ -258,6 +277,12 @@ void MpmSolver<Exec, Real>::transfer(StateFile& file, const world::Sand& built)
     if (!file.loads()) { return; }
     if (!file.exact())
     {
+        if (sleep_)
+        {
+            transfer_points(file, sleep_->points(), "asleep", grid_.geometry, built, seen);
+            sleep_->transfer_means(file);
+            sleep_->wake_all(points_);
+        }
         order_in_memory();
         order_.migrated = 0; // no per-point data waits to be migrated
     }

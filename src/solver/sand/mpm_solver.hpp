@@ -74,17 +74,18 @@ public:
     /// Wakes the sand near these bodies, if any sleeps there.
     void wake_near(const std::vector<BodyReach>& bodies, const SleepFollower& follow);
 
-    /// Number of sleeping points.
+    /// Number of sleeping points of this rank.
     std::int64_t asleep() const { return sleep_ ? sleep_->points().count : 0; }
 
-    /// Mean share of the points that have slept so far; empty where sleep is off.
+    /// Mean share of the points of all ranks that have slept so far; empty where sleep is off.
     std::optional<double> mean_asleep() const;
 
-    /// Call after pages have got new owners, with no step since the last report: the next order() sorts and migrates
-    /// the points.
+    /// Call after pages have got new owners, with no step since the last report: sleeping points migrate at once, and
+    /// the next order() sorts and migrates the others.
     void follow_owners();
 
-    /// Adds the work of this rank's points to the pages where they were last listed.
+    /// Adds the work of this rank's points to the pages where they were last listed, and next to none to its sleeping
+    /// pages.
     void add_loads(decomp::PageLoads& loads) const;
 
     /// Counts reorderings in memory; a change invalidates indices into point arrays.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "backend/instantiate.hpp"
+#include "decomp/messages.hpp"
 #include "solver/state_file.hpp"
 
 namespace tread::solver
@@ -73,11 +74,10 @@ void PageWatch<Exec>::follow(const mpm::Pages<Exec>& pages, const mpm::HeldPages
 }
 
 template<class Exec>
-std::vector<AwakePage> PageWatch<Exec>::awake(const mpm::Pages<Exec>& pages, double speed)
+std::vector<AwakePage> PageWatch<Exec>::awake(const mpm::Pages<Exec>& pages, double speed) const
 {
     const std::vector<std::int32_t> first = pages.first_point.to_host();
     std::vector<AwakePage>          awake;
-    std::map<std::uint64_t, Rest>   rest;
     for (std::size_t i = 0; i < keys_.size(); ++i)
     {
         if (first[i] == first[i + 1]) { continue; }
@@ -86,10 +86,38 @@ std::vector<AwakePage> PageWatch<Exec>::awake(const mpm::Pages<Exec>& pages, dou
         const double quiet =
             known == rest_.end() || largest > speed ? 0 : known->second.quiet + window_ - known->second.late;
         awake.push_back({keys_[i], largest, quiet});
-        rest.emplace_hint(rest.end(), keys_[i], Rest{0, quiet, 0});
     }
-    rest_.swap(rest);
     return awake;
+}
+
+template<class Exec>
+void PageWatch<Exec>::remember(const std::vector<AwakePage>& awake)
+{
+    rest_.clear();
+    for (const AwakePage& page : awake) { rest_.emplace_hint(rest_.end(), page.key, Rest{0, page.quiet, 0}); }
+}
+
+template<class Exec>
+void PageWatch<Exec>::tell_ranks(const Communicator& communicator)
+{
+    struct PageSpeed
+    {
+        std::uint64_t key;
+        double        squared;
+    };
+    std::vector<PageSpeed> own;
+    for (const auto& [key, page] : rest_)
+    {
+        if (page.speed_squared > 0) { own.push_back({key, page.speed_squared}); }
+    }
+    for (const auto& of_rank : decomp::gather_values(communicator, own))
+    {
+        for (const PageSpeed& page : of_rank)
+        {
+            double& largest = rest_[page.key].speed_squared;
+            largest         = std::max(largest, page.squared);
+        }
+    }
 }
 
 template<class Exec>

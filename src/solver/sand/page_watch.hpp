@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "base/communicator.hpp"
 #include "kernels/mpm/grid/held_pages.hpp"
 #include "solver/sand/page_rest.hpp"
 
@@ -32,9 +33,16 @@ public:
     /// Sets the pages to observe from now on; call after collect.
     void follow(const mpm::Pages<Exec>& pages, const mpm::HeldPages<Exec>& held);
 
-    /// Lists the pages that hold points, keys ascending; call after collect. Speeds over `speed` (m/s) are not at
-    /// rest.
-    std::vector<AwakePage> awake(const mpm::Pages<Exec>& pages, double speed);
+    /// Lists the pages that hold points of this rank, keys ascending; call after collect. Speeds over `speed` (m/s) are
+    /// not at rest.
+    std::vector<AwakePage> awake(const mpm::Pages<Exec>& pages, double speed) const;
+
+    /// Records how long the awake pages of all ranks have been at rest, and forgets all others.
+    void remember(const std::vector<AwakePage>& awake);
+
+    /// Tells all ranks how fast pages have been since the last check; call after collect, before pages get other
+    /// owners. Collective.
+    void tell_ranks(const Communicator& communicator);
 
     /// Lists sleeping pages whose load has changed by more than `force` (N per page) since they were first held, keys
     /// ascending; call after collect.

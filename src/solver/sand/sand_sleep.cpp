@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -9,6 +10,8 @@
 #include "backend/reduce.hpp"
 #include "decomp/point_columns.hpp"
 #include "kernels/mpm/pages/census.hpp"
+#include "solver/ranks/over_ranks.hpp"
+#include "solver/ranks/rest_of_ranks.hpp"
 #include "solver/state_file.hpp"
 
 namespace tread::solver
@@ -46,8 +49,9 @@ bool is_motion(std::string_view field)
 
 template<class Exec, class Real>
 SandSleep<Exec, Real>::SandSleep(const Exec& exec, const scene::Scene& scene, const world::World& world,
-                                 mpm::PointFields fields)
+                                 mpm::PointFields fields, const Communicator* communicator)
     : exec_(exec)
+    , communicator_(communicator)
     , rule_{mpm::page_edge * world.geometry.spacing, scene.sleep.distance.value(), scene.sleep.speed, scene.sleep.rest}
     , load_mass_(scene.sleep.load * mass_on_floor(scene, world) * rule_.page_edge * rule_.page_edge)
     , points_(exec)
@@ -64,7 +68,7 @@ template<class Exec, class Real>
 void SandSleep<Exec, Real>::pass(double dt)
 {
     watch_.pass(dt);
-    slept_ += dt * static_cast<double>(points_.count);
+    slept_ += dt * static_cast<double>(count_);
     lived_ += dt;
 }
 
@@ -80,7 +84,9 @@ std::vector<std::uint64_t> SandSleep<Exec, Real>::choose(const mpm::Pages<Exec>&
                                                          const std::vector<BodyReach>& bodies, double damping)
 {
     watch_.collect(held_);
-    const RestState state{watch_.awake(pages, rule_.speed), asleep_, watch_.pressed(load_limit_), bodies};
+    RestState state{watch_.awake(pages, rule_.speed), asleep_, watch_.pressed(load_limit_), bodies};
+    gather_rest(communicator_, state);
+    watch_.remember(state.awake);
     watch_.begin_window();
     return damping == 0 ? choose_asleep(rule_, state) : std::vector<std::uint64_t>{};
 }
@@ -114,14 +120,23 @@ SleepMoves SandSleep<Exec, Real>::sleep_on(const Sand& sand, std::vector<std::ui
     const std::int64_t before = points_.count;
     moves.fallen              = move(sand.points, points_, falling, sand, fallen);
     stop(before);
+    sum_over_ranks(communicator_, woken);
+    sum_over_ranks(communicator_, fallen);
     impulse_ -= fallen.momentum;
     fallen.kinetic  = 0;
     fallen.momentum = Vec3<double>::Zero();
     census_         = census_ - woken + fallen;
-    if (points_.count == 0) { census_ = {}; }
+    count_points();
+    if (count_ == 0) { census_ = {}; }
     asleep_ = std::move(chosen);
     asleep_key_.assign(asleep_);
     return moves;
+}
+
+template<class Exec, class Real>
+void SandSleep<Exec, Real>::count_points()
+{
+    count_ = communicator_ == nullptr ? points_.count : communicator_->sum(points_.count);
 }
 
 /// Moves the points of whole pages; returns their number. `moved`: census of these points.
@@ -146,10 +161,40 @@ std::int64_t SandSleep<Exec, Real>::move(mpm::Points<Exec, Real>& from, mpm::Poi
     Array<Exec, std::uint32_t> rows(exec_, "points that wake or fall asleep", count * columns.words);
     decomp::pack_rows(exec_, columns, leaving_.row.data(), count, rows.data());
     mpm::remove_leaving(exec_, from, leaving_, sand.scratch);
+    append(rows, count, to);
+    return count;
+}
+
+/// Appends rows of decomp::pack_rows.
+template<class Exec, class Real>
+void SandSleep<Exec, Real>::append(const Array<Exec, std::uint32_t>& rows, std::int64_t count,
+                                   mpm::Points<Exec, Real>& to)
+{
     to.reserve(to.count + count);
     decomp::unpack_rows(exec_, rows.data(), count, decomp::point_columns(to), nullptr, to.count);
     to.count += count;
-    return count;
+}
+
+template<class Exec, class Real>
+void SandSleep<Exec, Real>::wake_all(mpm::Points<Exec, Real>& awake)
+{
+    const std::int64_t        count = points_.count;
+    std::vector<std::int32_t> all(static_cast<std::size_t>(count));
+    std::iota(all.begin(), all.end(), 0);
+    Array<Exec, std::int32_t> row(exec_, "all sleeping points");
+    row.assign(all);
+    const decomp::Columns      columns = decomp::point_columns(points_);
+    Array<Exec, std::uint32_t> rows(exec_, "points that wake", count * columns.words);
+    decomp::pack_rows(exec_, columns, row.data(), count, rows.data());
+    append(rows, count, awake);
+    points_.count = 0;
+}
+
+template<class Exec, class Real>
+void SandSleep<Exec, Real>::tell_ranks()
+{
+    watch_.collect(held_);
+    watch_.tell_ranks(*communicator_);
 }
 
 template<class Exec, class Real>
@@ -196,10 +241,10 @@ void SandSleep<Exec, Real>::enter_pages(const mpm::Pages<Exec>& pages, const mpm
 }
 
 template<class Exec, class Real>
-void SandSleep<Exec, Real>::hold(const mpm::PagesView& pages, const Real* tiles, const mpm::GridStep<Real>& step,
-                                 Real* motion, double* tallies)
+void SandSleep<Exec, Real>::hold(const mpm::PagesView& pages, const mpm::SharedPagesView<Real>& shared,
+                                 const Real* tiles, const mpm::GridStep<Real>& step, Real* motion, double* tallies)
 {
-    mpm::hold_still(exec_, pages, held_.view(), tiles, step, motion, tallies);
+    mpm::hold_still(exec_, pages, held_.view(), shared, tiles, step, motion, tallies);
 }
 
 template<class Exec, class Real>
@@ -212,16 +257,23 @@ template<class Exec, class Real>
 void SandSleep<Exec, Real>::transfer(StateFile& file, const mpm::Pages<Exec>& pages, const mpm::PagesView& view,
                                      SortScratch<Exec>& scratch)
 {
-    file.own("sleep/asleep", asleep_, accept::all(accept::ascending(), accept::distinct()));
+    file.common("sleep/asleep", asleep_, accept::all(accept::ascending(), accept::distinct()));
     solver::transfer(file, "sleep/census", census_);
     file.doubles("sleep/stopped", impulse_);
-    file.numbers("sleep/time", slept_, lived_);
+    transfer_means(file);
     if (file.loads())
     {
+        count_points();
         asleep_key_.assign(asleep_);
         enter_pages(pages, view, scratch);
     }
     watch_.transfer(file, held_);
+}
+
+template<class Exec, class Real>
+void SandSleep<Exec, Real>::transfer_means(StateFile& file)
+{
+    file.numbers("sleep/time", slept_, lived_);
 }
 
 #define TREAD_INSTANTIATE(Exec, Real) template class SandSleep<Exec, Real>

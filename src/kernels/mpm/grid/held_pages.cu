@@ -14,18 +14,19 @@ namespace
 template<class Real>
 struct HoldPage
 {
-    PagesView      pages;
-    HeldPagesView  held;
-    const Real*    tiles;
-    GridStep<Real> step;
-    Real*          motion;
-    double*        tallies;
+    PagesView             pages;
+    HeldPagesView         held;
+    SharedPagesView<Real> shared_pages;
+    const Real*           tiles;
+    GridStep<Real>        step;
+    Real*                 motion;
+    double*               tallies;
 
     __device__ void operator()(std::int64_t number) const
     {
         __shared__ double shared[page_cells / warp_size * grid_sums];
         Real              sum[grid_sums] = {};
-        hold_place(pages, held, number, static_cast<int>(threadIdx.x), tiles, step, motion, sum);
+        hold_place(pages, held, shared_pages, number, static_cast<int>(threadIdx.x), tiles, step, motion, sum);
         double* row     = tallies + std::int64_t{held.page[number]} * tally_width(grid_sums);
         double* impulse = held.impulse + 3 * number;
         block_sum<page_cells, grid_sums>(sum, shared,
@@ -41,16 +42,17 @@ struct HoldPage
 } // namespace
 
 template<class Exec, class Real>
-void hold_still(const Exec& gpu, const PagesView& pages, const HeldPagesView& held, const Real* tiles,
-                const GridStep<Real>& step, Real* motion, double* tallies)
+void hold_still(const Exec& gpu, const PagesView& pages, const HeldPagesView& held,
+                const SharedPagesView<Real>& shared_pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                double* tallies)
 {
     for_each_block<page_cells>(gpu, "hold still", held.count,
-                               HoldPage<Real>{pages, held, tiles, step, motion, tallies});
+                               HoldPage<Real>{pages, held, shared_pages, tiles, step, motion, tallies});
 }
 
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
-    template void hold_still(const Exec&, const PagesView&, const HeldPagesView&, const Real*, const GridStep<Real>&,  \
-                             Real*, double*)
+    template void hold_still(const Exec&, const PagesView&, const HeldPagesView&, const SharedPagesView<Real>&,        \
+                             const Real*, const GridStep<Real>&, Real*, double*)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

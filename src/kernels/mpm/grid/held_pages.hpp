@@ -43,10 +43,11 @@ void list_held_pages(const Exec& exec, const PagesView& pages, const Array<Exec,
                      HeldPages<Exec>& held, SortScratch<Exec>& scratch);
 
 /// Stops the nodes in the stencils of sleeping pages, after update_grid and update_walls, and adds this to the tallies
-/// like a wall's work and impulse. Precondition: a step without damping.
+/// like a wall's work and impulse. Takes the totals of shared pages. Precondition: a step without damping.
 template<class Exec, class Real>
-void hold_still(const Exec&, const PagesView& pages, const HeldPagesView& held, const Real* tiles,
-                const GridStep<Real>& step, Real* motion, double* tallies);
+void hold_still(const Exec&, const PagesView& pages, const HeldPagesView& held,
+                const SharedPagesView<Real>& shared_pages, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                double* tallies);
 
 /// Sets largest[page] to the maximum of itself and the page's peak_speed_squared, m2/s2.
 template<class Exec>

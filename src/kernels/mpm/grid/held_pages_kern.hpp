@@ -20,8 +20,8 @@ TREAD_HD bool is_held(unsigned sleeping, int place)
 }
 
 /// Stops a node after forces and walls have acted, and adds the difference to the sums. `channels`: result of
-/// sum_tiles. All forces on a node do work on the mean of its velocities before and after the step, and the latter is
-/// now 0.
+/// sum_tiles or read_total. All forces on a node do work on the mean of its velocities before and after the step, and
+/// the latter is now 0.
 template<class Real, class Sum>
 TREAD_HD void stop_node(const GridStep<Real>& step, Index3 node, const Real* channels, Real* motion, Sum* sums)
 {
@@ -42,15 +42,21 @@ TREAD_HD void stop_node(const GridStep<Real>& step, Index3 node, const Real* cha
 
 /// Stops one node of held page `number`, if it is held.
 template<class Real, class Sum>
-TREAD_HD void hold_place(const PagesView& pages, const HeldPagesView& held, std::int64_t number, int place,
-                         const Real* tiles, const GridStep<Real>& step, Real* motion, Sum* sums)
+TREAD_HD void hold_place(const PagesView& pages, const HeldPagesView& held, const SharedPagesView<Real>& shared_pages,
+                         std::int64_t number, int place, const Real* tiles, const GridStep<Real>& step, Real* motion,
+                         Sum* sums)
 {
     if (!is_held(held.octants[number], place)) { return; }
-    const std::int64_t page = held.page[number];
-    std::int32_t       tile_pages[octants];
-    for (int octant = 0; octant < octants; ++octant) { tile_pages[octant] = tile_page(pages, page, octant); }
-    Real channels[node_channels];
-    sum_tiles(tile_pages, tiles, place, channels);
+    const std::int64_t page   = held.page[number];
+    const std::int32_t shared = shared_pages.number(page);
+    Real               channels[node_channels];
+    if (shared >= 0) { read_total(shared_pages, shared, place, channels); }
+    else
+    {
+        std::int32_t tile_pages[octants];
+        for (int octant = 0; octant < octants; ++octant) { tile_pages[octant] = tile_page(pages, page, octant); }
+        sum_tiles(tile_pages, tiles, place, channels);
+    }
     const Index3 node = node_at(page_coordinates(pages.node_page_key[page]), place);
     stop_node(step, node, channels, motion + page * motion_channels * page_cells + place, sums);
 }
