@@ -7,13 +7,13 @@ NUMBERS = (1, 2, 5, 10, 20, 50, 100, 200)
 READINGS = (("wheel_drop_substeps", "points move with the bodies (default)"), ("wheel_drop_substeps_frozen", "points stand still (the paper's)"))
 
 
-def substep_figure(measures):
+def substep_figure(paper):
     figure, axes = figure_grid(1, 2, 13.0, 4.8)
     drawn = 0
     for (name, label), colour, marker in zip(READINGS, COLOURS, MARKERS):
         # Of a run that stopped before the wheel touched, as that of one substep does at this step, there is no force.
-        peaks = {number: peak for number, peak in _asked(measures, name, "max lift_share").items() if peak > 0}
-        rests = {number: rest for number, rest in _asked(measures, name, "quiet_mean").items() if number in peaks}
+        peaks = {number: peak for number, peak in _asked(paper.measures, name, "max lift_share").items() if peak > 0}
+        rests = {number: rest for number, rest in _asked(paper.measures, name, "quiet_mean").items() if number in peaks}
         if not peaks:
             continue
         drawn += 1
