@@ -10,7 +10,7 @@
     what    = ["Torque: sand", ...]           of the rows
     text    = "with 1 kPa it does {:.2f}"     with a place for each number
     measure = ["RUN ...", ...]                measures.py, each the mean of the run's repeats; none needed where the text links a page
-    scale   = 1.0
+    scale   = 1.0                             of all numbers, or [one each]
 """
 
 import tomllib
@@ -37,12 +37,12 @@ class Seen:
 class Because:
     text: str
     measures: tuple
-    scale: float
+    scales: tuple
 
     def words(self, number_of):
         """The reason with its numbers, of which `number_of` knows each. Empty where a run is not there."""
         try:
-            return self.text.format(*(self.scale * number_of(one) for one in self.measures))
+            return self.text.format(*(scale * number_of(one) for scale, one in zip(self.scales, self.measures)))
         except Absent:
             return ""
 
@@ -56,7 +56,11 @@ def because_in(path):
     """Reasons by the row's `what`. Empty without the file."""
     found = {}
     for one in _tables(path, "because", BECAUSE, {"what", "text"}):
-        reason = Because(one["text"], tuple(one.get("measure", [])), one.get("scale", 1.0))
+        measures, scale = one.get("measure", []), one.get("scale", 1.0)
+        scales = scale if isinstance(scale, list) else [scale] * len(measures)
+        if len(scales) != len(measures):
+            raise RunError(f"{path}: {one['what']}: {len(measures)} measures, {len(scales)} scales")
+        reason = Because(one["text"], tuple(measures), tuple(scales))
         for what in one["what"]:
             if what in found:
                 raise RunError(f"{path}: {what}: two reasons")
