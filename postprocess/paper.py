@@ -17,7 +17,7 @@ from tread_paper.cases import FIGURES
 from tread_paper.document import OTHERS, TITLES, Document, campaign_lines, figure_lines, put_into
 from tread_paper.measures import Absent
 from tread_post import RunError
-from tread_post.style import write
+from tread_post.style import pack_picture, write
 
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
@@ -39,6 +39,7 @@ def drawn(case, paper, folder):
         path = folder / f"{name}.png"
         try:
             write(draw(paper), path)
+            pack_picture(path)
         except Absent as absent:
             missing[name] = str(absent)
             path.unlink(missing_ok=True)
