@@ -47,7 +47,8 @@ def drop(paper):
 def at_the_end(title, named):
     """Displacement in the last snapshot of each run that has any."""
     def draw(paper):
-        shown = [(label, repeats[0].run, fields.last_snapshot(repeats[0].run)) for label, repeats in histories(paper, named) if repeats[0].run.snapshots]
+        with_any = [(label, [one.run for one in repeats if one.run.snapshots]) for label, repeats in histories(paper, named)]
+        shown = [(label, runs[0], fields.last_snapshot(runs[0])) for label, runs in with_any if runs]
         if not shown:
             raise Absent(f"no snapshots of {', '.join(name for name, _ in named)}")
         return fields.figure_of(title, shown, common_scale=False)
@@ -67,6 +68,7 @@ def roll(paper):
 
 
 SLIPS = (("slip_sand", "sand"), ("slip_mixed", "sand and rocks"))
+SLIP_TIMES = (0.5, 1.5, 2.5)  # s, of the drive; later the end wall acts
 
 
 def slip(paper):
@@ -87,10 +89,13 @@ def nearest(run, times):
 
 
 def slip_slices(name):
+    """Slices with one scale for both terrains."""
     def draw(paper):
-        run = paper.run(name)
-        numbers, _ = nearest(run, (0.5, 1.5, 2.5, 3.4))
-        return slices.figure_of(run, ("y", slices.default_place(run, 1, numbers[0])), numbers)
+        numbers, start = nearest(paper.run(name), SLIP_TIMES)
+        both = [paper.run(other) for other, _ in SLIPS if paper.measures.has(other) and paper.run(other).snapshots]
+        norms = zip(*(slices.norms_of(run, nearest(run, SLIP_TIMES)[0]) for run in both))
+        widest = [max(pair, key=lambda norm: norm.vmax) for pair in norms]
+        return slices.figure_of(paper.run(name), ("y", slices.default_place(paper.run(name), 1, numbers[0])), numbers, widest, start)
     return draw
 
 
@@ -98,11 +103,11 @@ def slip_surface(paper):
     shown = []
     for name, label in SLIPS:
         if paper.measures.has(name) and paper.run(name).snapshots:
-            numbers, start = nearest(paper.run(name), (2.5, 3.4))
+            numbers, start = nearest(paper.run(name), SLIP_TIMES[-1:])
             shown += [(f"{label}, {paper.run(name).points_times[number] - start:.2f} s", paper.run(name), number) for number in numbers]
     if not shown:
         raise Absent("slip_sand and slip_mixed have no snapshots")
-    return fields.surface_figure_of("Section 3.4: the surface and the track (Fig. 16); dark: the wheel at its axle", shown, (0.0, 0.2, 0.35))
+    return fields.surface_figure_of("Section 3.4: the surface and the track (Fig. 16); lines: the wheel at the height of its axle", shown, (0.0, 0.2, 0.35))
 
 
 SPIRITS = (("spirit", "the paper's wheel"), ("spirit_coarse", "the paper's wheel, coarse"), ("spirit_mer_coarse", "Spirit's wheel, coarse"))
@@ -121,11 +126,11 @@ def spirit_slip(paper):
 
 
 def at_times(title, name, times):
-    """Displacement at times (s) of the drive."""
+    """Displacement at times (s) of the drive, close to the wheel and from above."""
     def draw(paper):
         run = paper.run(name)
         numbers, start = nearest(run, times)
-        return fields.figure_of(title, [(f"t = {run.points_times[number] - start:.1f} s", run, number) for number in numbers])
+        return fields.close_up_of(title, [(f"t = {run.points_times[number] - start:.1f} s", run, number) for number in numbers])
     return draw
 
 

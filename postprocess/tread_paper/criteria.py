@@ -192,7 +192,7 @@ class Table:
             if there:
                 facts = [", ".join(facts_of(self.measures.run(name).summary or {})) for name in there]
                 differences = _differences(self.plan.groups[group][0].set)
-                wrong = [key for run in self.plan.groups[group] if run.name in there for key in contradicted(self.measures.run(run.name).scene, run.set)]
+                wrong = [key for run in self.plan.groups[group] if run.name in there for key in contradicted(self.measures.run(run.name).scene, _of_the_scene(run.set))]
                 if wrong:
                     differences += f"; **not the run of the list: {', '.join(dict.fromkeys(wrong))}**"
                 repeats = f", {len(there)} of {len(self.plan.members(group))}" if len(self.plan.members(group)) > 1 else ""
@@ -253,9 +253,14 @@ def number_of(plan, measures):
     return mean
 
 
+def _of_the_scene(settings):
+    """Settings without those of output, which change no bit of an answer."""
+    return [one for one in settings if not one.startswith("output.")]
+
+
 def _differences(settings):
     """What a run sets beside its scene, where it is short."""
-    shown = [one for one in settings if not one.startswith("output.")]
+    shown = _of_the_scene(settings)
     if not shown:
         return ""
     text = f"`--set {' '.join(shown)}`"

@@ -14,7 +14,7 @@ from tread_post.looks import COLOURS, GREY, GRID, readable, with_unit  # noqa: F
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 DASHES = ("-", "--", "-.", ":")
 LEVELS = 8  # of 255, by which a colour of a picture may be off
-FEW_COLOURS, LARGEST = 64, 130_000  # of a picture that docs/ keeps, and its bytes
+PALETTES, LARGEST = (256, 128, 64), 130_000  # colours of a picture that docs/ keeps, the first that fits, and its bytes
 
 
 def figure_grid(rows, columns, width=13.0, height_each=4.2, **options):
@@ -59,15 +59,18 @@ def write(figure, path):
 
 
 def pack_picture(path):
-    """Rewrites a PNG with FEW_COLOURS colours, and smaller where it is still over LARGEST."""
-    image, scale = Image.open(path).convert("RGB"), 1.0
+    """Rewrites a PNG with fewer colours, and smaller where it is still over LARGEST."""
+    image, scale, palettes = Image.open(path).convert("RGB"), 1.0, list(PALETTES)
     while True:
         size = (round(scale * image.width), round(scale * image.height))
-        few = image.resize(size, Image.Resampling.LANCZOS).quantize(FEW_COLOURS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+        few = image.resize(size, Image.Resampling.LANCZOS).quantize(palettes[0], method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
         data = io.BytesIO()
         few.save(data, format="png", optimize=True)
         if len(data.getvalue()) <= LARGEST or scale < 0.5:
             break
-        scale *= 0.93
+        if len(palettes) > 1:
+            palettes.pop(0)
+        else:
+            scale *= 0.93
     if len(data.getvalue()) < 0.97 * path.stat().st_size:
         path.write_bytes(data.getvalue())
