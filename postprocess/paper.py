@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The paper's numbers beside ours and its figures from our runs: docs/paper.md.
 
-    postprocess/paper.py all                      # every table and picture of docs/paper.md, from the runs in studies/paper_round2
+    postprocess/paper.py all                      # every table and picture of docs/paper.md and paper_in_short.md, from the runs in studies/paper_round2
     postprocess/paper.py slip                     # table and pictures of section 3.4
     postprocess/paper.py slip --runs runs --output . --document mine.md       # the same from runs of your own, named as in configs/paper/round2/runs.toml
 
@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 from tread_paper.cases import FIGURES
-from tread_paper.document import OTHERS, TITLES, Document, campaign_lines, figure_lines, put_into
+from tread_paper.document import IN_SHORT, OTHERS, TITLES, Document, campaign_lines, figure_lines, put_into
 from tread_paper.measures import Absent
 from tread_post import RunError
 from tread_post.style import pack_picture, write
@@ -25,10 +25,11 @@ DOCS = ROOT / "docs"
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("case", choices=[*TITLES, *OTHERS, "sensitivity", "all"])
+    parser.add_argument("case", choices=[*TITLES, *OTHERS, "sensitivity", "in_short", "all"])
     parser.add_argument("--runs", type=Path, default=ROOT / "studies" / "paper_round2", metavar="DIR", help="default: studies/paper_round2")
     parser.add_argument("--output", type=Path, default=DOCS / "paper", metavar="DIR", help="of pictures; default: docs/paper")
     parser.add_argument("--document", type=Path, default=DOCS / "paper.md", metavar="FILE.md", help="whose parts are filled; default: docs/paper.md")
+    parser.add_argument("--in-short", type=Path, default=DOCS / "paper_in_short.md", metavar="FILE.md", help="likewise; default: docs/paper_in_short.md")
     return parser.parse_args()
 
 
@@ -51,11 +52,16 @@ def main():
     options = arguments()
     paper = Document(ROOT / "configs" / "paper" / "round2", options.runs, ROOT)
     text = options.document.read_text(encoding="utf-8")
-    for name in [*TITLES, *OTHERS, "sensitivity"] if options.case == "all" else [options.case]:
+    for name in [*TITLES, *OTHERS, "sensitivity"] if options.case == "all" else {options.case} - {"in_short"}:
         text = put_into(text, name, campaign_lines(DOCS / "paper") if name == "sensitivity" else paper.part(name))
         if name in FIGURES:
             text = put_into(text, f"figures of {name}", drawn(name, paper, options.output))
     options.document.write_text(text, encoding="utf-8")
+    if options.case in ("in_short", "all"):
+        short = options.in_short.read_text(encoding="utf-8")
+        for name in IN_SHORT:
+            short = put_into(short, name, paper.part(name))
+        options.in_short.write_text(short, encoding="utf-8")
 
 
 if __name__ == "__main__":

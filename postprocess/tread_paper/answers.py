@@ -1,4 +1,4 @@
-"""What stands beside the criteria and may change: what a person read off figures, seen.toml, and why a row differs, because.toml.
+"""What stands beside the criteria and may change: what a person read off figures, seen.toml, why a row differs, because.toml, and in_short.toml.
 
     [[seen]]                                  the answer to a row that is judged by eye
     what   = "Track behind the wheel"         of the row
@@ -11,6 +11,8 @@
     text    = "with 1 kPa it does {:.2f}"     with a place for each number
     measure = ["RUN ...", ...]                measures.py, each the mean of the run's repeats; none needed where the text links a page
     scale   = 1.0                             of all numbers, or [one each]
+
+    [[does]], [[does_not]]                    a point of docs/paper_in_short.md: text, measure and scale likewise
 """
 
 import tomllib
@@ -56,16 +58,25 @@ def because_in(path):
     """Reasons by the row's `what`. Empty without the file."""
     found = {}
     for one in _tables(path, "because", BECAUSE, {"what", "text"}):
-        measures, scale = one.get("measure", []), one.get("scale", 1.0)
-        scales = scale if isinstance(scale, list) else [scale] * len(measures)
-        if len(scales) != len(measures):
-            raise RunError(f"{path}: {one['what']}: {len(measures)} measures, {len(scales)} scales")
-        reason = Because(one["text"], tuple(measures), tuple(scales))
+        reason = _reason(path, one)
         for what in one["what"]:
             if what in found:
                 raise RunError(f"{path}: {what}: two reasons")
             found[what] = reason
     return found
+
+
+def points_in(path, name):
+    """Points of docs/paper_in_short.md: `does` or `does_not`."""
+    return [_reason(path, one) for one in _tables(path, name, BECAUSE - {"what"}, {"text"})]
+
+
+def _reason(path, table):
+    measures, scale = table.get("measure", []), table.get("scale", 1.0)
+    scales = scale if isinstance(scale, list) else [scale] * len(measures)
+    if len(scales) != len(measures):
+        raise RunError(f"{path}: {table.get('what', table['text'])}: {len(measures)} measures, {len(scales)} scales")
+    return Because(table["text"], tuple(measures), tuple(scales))
 
 
 def _tables(path, name, known, needed):

@@ -4,7 +4,7 @@ import textwrap
 import tomllib
 
 from tread_paper import cost, criteria, sensitivity
-from tread_paper.answers import because_in, seen_in
+from tread_paper.answers import because_in, points_in, seen_in
 from tread_paper.formulas import Theories
 from tread_paper.measures import Measures
 from tread_paper.runs import Plan
@@ -12,6 +12,7 @@ from tread_post import RunError
 
 TITLES = {"method": "2 Method", "head_on": "3.1 Head-on collision", "wheel_drop": "3.2 Wheel drop", "rolling": "3.3 Rolling", "slip": "3.4 Slip 0.3 on Mars",
           "spirit": "4 Spirit", "curiosity": "5 Curiosity", "readings": "Readings"}
+IN_SHORT = ("in_short", "does", "does_not")  # of docs/paper_in_short.md
 OTHERS = ("counts", "compared", "cost", "not_run", "runs")  # parts that need all tables or none
 CAMPAIGNS = ("sensitivity", "sensitivity_sand")
 
@@ -53,7 +54,23 @@ class Document:
             "cost": lambda: cost.cost_lines(self.folder / "cost.toml", self.plan, self.measures),
             "not_run": lambda: cost.not_run_lines(self.plan, self.measures, everything),
             "runs": lambda: cost.run_lines(self.plan, self.measures),
+            "in_short": self._in_short,
+            "does": lambda: self._points("does"),
+            "does_not": lambda: self._points("does_not"),
         }[name]()
+
+    def _in_short(self):
+        """The sentences that count verdicts and targets."""
+        verdicts = [line for line in self.part("counts") if line and not line.startswith("|")]
+        targets = [line.rpartition(" | ")[2].split()[0].rstrip(";") for line in self.part("cost")[2:] if line.split(" | ")[-2]]
+        missed, open_yet = targets.count("missed"), targets.count("not")
+        return [*verdicts, *textwrap.wrap(f"Of {len(targets)} targets of wall time, {targets.count('met')} are met, {missed} missed and {open_yet} not tried "
+                                          "([cost](paper.md#cost)).", 118)]
+
+    def _points(self, name):
+        """A list of the points whose runs are there."""
+        words = [point.words(criteria.number_of(self.plan, self.measures)) for point in points_in(self.folder / "in_short.toml", name)]
+        return [line for text in words if text for line in textwrap.wrap(f"- {text}", 118, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)]
 
 
 def campaign_lines(pictures):

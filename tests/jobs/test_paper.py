@@ -30,7 +30,7 @@ from made_up_run import SCENE, STARTS, colours_of, make_run, write_columns  # no
 from tread_paper import answers, cost, criteria, fields, formulas, sensitivity  # noqa: E402
 from tread_paper.cases import FIGURES, SLIPS  # noqa: E402
 from tread_paper.criteria import Number  # noqa: E402
-from tread_paper.document import CAMPAIGNS, OTHERS, TITLES, Document, campaign_lines, put_into  # noqa: E402
+from tread_paper.document import CAMPAIGNS, IN_SHORT, OTHERS, TITLES, Document, campaign_lines, put_into  # noqa: E402
 from tread_paper.history import history_of, smoothed  # noqa: E402
 from tread_paper.measures import Absent, Measures, in_scene  # noqa: E402
 from tread_paper.rolling import centres, rolled_over  # noqa: E402
@@ -492,6 +492,9 @@ class Judging(unittest.TestCase):
             self.assertEqual(put_into(text, name, paper.part(name)), text, name)
         if all((DOCS / "paper" / name / "campaign.h5").is_file() for name in CAMPAIGNS):
             self.assertEqual(put_into(text, "sensitivity", campaign_lines(DOCS / "paper")), text)
+        short = (DOCS / "paper_in_short.md").read_text(encoding="utf-8")
+        for name in IN_SHORT:
+            self.assertEqual(put_into(short, name, paper.part(name)), short, name)
         for path in (DOCS / "paper").glob("*.png"):
             self.assertIn(f"](paper/{path.name})", text)
         for name in re.findall(r"\]\(paper/(\w+\.png)\)", text):
