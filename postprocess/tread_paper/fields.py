@@ -13,7 +13,7 @@ from matplotlib.colors import LightSource, Normalize
 
 from tread_post.geometry import point_spacing
 from tread_post.sections import outline_of
-from tread_post.style import COLOURS, GREY, figure_grid, finish
+from tread_post.style import COLOURS, DASHES, GREY, figure_grid, finish
 from tread_post.thinned import COLUMNS
 
 PERCENTILE = 99.5
@@ -74,10 +74,10 @@ def surface_figure_of(title, shown, behind):
         along.plot(place, 1e3 * (top - base), color="#222222", linewidth=1.1)
         along.set(xlim=(0, axle), xlabel="x  [m]", ylabel="height of the sand  [mm]", title="along the wheel's plane, to its axle")
         middles = cell * (np.arange(height.shape[1]) + 0.5)
-        for distance, colour in zip(behind, COLOURS):
+        for distance, colour, dash in zip(behind, COLOURS, DASHES):
             columns = slice(max(int((axle - distance) / cell) - 1, 0), int((axle - distance) / cell) + 2)
-            across.plot(middles, 1e3 * np.nanmean(height[columns], axis=0), color=colour, label=f"{1e3 * distance:.0f} mm behind the axle")
-            above.axvline(axle - distance, color=colour, linewidth=1.1, linestyle="--")
+            across.plot(middles, 1e3 * np.nanmean(height[columns], axis=0), color=colour, linestyle=dash, label=f"{1e3 * distance:.0f} mm behind the axle")
+            above.axvline(axle - distance, color=colour, linewidth=1.1, linestyle=dash)
         above.set(xlim=(0, size[0]), ylim=(0, size[1]), aspect="equal", xlabel="x  [m]", ylabel="y  [m]", title=label)
         across.set(xlabel="y  [m]", title="across the track, means over three columns")
         across.legend(edgecolor="none", fontsize=9.5, loc="lower right")

@@ -14,7 +14,7 @@ from tread_post.looks import COLOURS, GREY, GRID, readable, with_unit  # noqa: F
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 DASHES = ("-", "--", "-.", ":")
 LEVELS = 8  # of 255, by which a colour of a picture may be off
-PALETTES, LARGEST = (256, 128, 64), 130_000  # colours of a picture that docs/ keeps, the first that fits, and its bytes
+PALETTES, LARGEST = (256, 128, 64), 170_000  # colours of a picture that docs/ keeps, the first that fits, and its bytes
 
 
 def figure_grid(rows, columns, width=13.0, height_each=4.2, **options):

@@ -144,7 +144,18 @@ class PaperTest(unittest.TestCase):
         packed = Measures(folder)
         for name in ("force", "contact", "body_speed", "kinetic"):
             np.testing.assert_allclose(packed(f"head_on_27 impact {name}"), self.measures(f"head_on_27 impact {name}"), rtol=1e-3, atol=1e-3)
-        self.assertNotIn(" ", (folder / "head_on_27" / "summary.json").read_text(encoding="utf-8"))
+        self.assertNotIn(": ", (folder / "head_on_27" / "summary.json").read_text(encoding="utf-8"))
+
+    def test_snapshots_are_packed(self):
+        folder = self.runs.parent / "packed_snapshots"
+        thin(Run(self.runs / "slip_sand"), folder, 40, STARTS[2], [7])
+        before, bodies = Run(folder).points(7), Run(folder).bodies(7)
+        pack_docs.pack_run(folder / "timeseries.h5")
+        after = Run(folder).points(7)
+        np.testing.assert_allclose(after.position, before.position, atol=1e-4)
+        np.testing.assert_allclose(after.fields["displacement"], before.fields["displacement"], rtol=2e-3)
+        np.testing.assert_allclose(Run(folder).bodies(7).position, bodies.position, atol=1e-4)
+        self.assertEqual(len(Run(folder).shapes), len(Run(self.runs / "slip_sand").shapes))
 
     def test_the_command_thins(self):
         folder = self.runs.parent / "by_command"
