@@ -95,17 +95,17 @@ def window_of(run, plane, numbers):
     return (0.0, size[across]), (0.0, size[up] if plane[0] == "z" else min(size[up], ABOVE * highest))
 
 
-def figure_of(run, plane, numbers):
-    """`plane` is its normal's name and where it stands, m."""
+def figure_of(run, plane, numbers, norms=None, start=0.0):
+    """`plane` is its normal's name and where it stands, m. `norms` are scales of both fields, default: this run's; times count from `start` (s)."""
     normal, across, up = PLANES[plane[0]]
     wide, high = window_of(run, plane, numbers)
     figure, axes = figure_grid(len(numbers), 2, 15.0, 6.4 * high[1] / wide[1] + 0.5 + 1.8 / len(numbers), sharex=True, sharey=True)
     fields = ((displacement, "displacement  [mm]", "YlGnBu"), (shear_rate, "rate of equivalent plastic shear strain  [1/s]", "cividis"))
-    for column, ((field, label, colours), norm) in enumerate(zip(fields, norms_of(run, numbers))):
+    for column, ((field, label, colours), norm) in enumerate(zip(fields, norms or norms_of(run, numbers))):
         for row, number in enumerate(numbers):
             axis = axes[row, column]
             dots = draw_panel(axis, run, number, plane, field, norm, colours)
-            axis.set(xlim=wide, ylim=high, aspect="equal", title=f"t = {run.points(number).time:.2f} s")
+            axis.set(xlim=wide, ylim=high, aspect="equal", title=f"t = {run.points(number).time - start:.2f} s")
             axis.set_ylabel(f"{NAMES[up]}  [m]" if column == 0 else "")
         axes[-1, column].set_xlabel(f"{NAMES[across]}  [m]")
         figure.colorbar(dots, ax=axes[:, column], location="bottom", label=label, shrink=0.8, aspect=40, extend="max")

@@ -1,28 +1,31 @@
 #!/usr/bin/python3
-"""Packs what docs/ keeps: runs as small time series, tables by gzip, pictures with few colours.
+"""Packs what docs/ and studies/ keep: runs as small time series, tables by gzip, pictures with few colours.
 
-    studies/pack_docs.py runs docs/paper/runs       # time series: rounded, equal columns of time once, no energies; summaries without spaces
+    studies/pack_docs.py runs studies/paper_round2  # time series: rounded, equal columns of time once, no energies; snapshots rounded; summaries without spaces
     studies/pack_docs.py tables docs/studies        # CSV of more than 6 kB
     studies/pack_docs.py pictures docs              # PNG
 
-`postprocess/paper.py all` gives the same tables from packed runs; run it after packing and look at `git diff docs/paper.md`.
-Needs Debian's python3-h5py, python3-numpy and python3-pil.
+`postprocess/paper.py all` gives the same tables from packed runs; run it after packing and look at `git diff docs/paper.md`. It packs its own pictures.
+Needs Debian's python3-h5py, python3-numpy, python3-matplotlib and python3-pil.
 """
 
 import argparse
 import gzip
-import io
 import json
+import sys
 from pathlib import Path
 
 import h5py
 import numpy as np
-from PIL import Image
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "postprocess"))
+
+from tread_post.style import pack_picture
 
 BITS, PLACE_BITS = 10, 17  # of the mantissa: relative errors of 5e-4, and of 4e-6 for places and sinkage
 FINER = ("head_on", "wheel_drop_substeps")  # runs whose tables show four to five digits: 17 bits everywhere
 WITH_ENERGY = ("head_on",)  # runs whose figures show energies and momentum
-COLOURS, LARGEST = 64, 130_000  # of a picture, and its bytes
+SNAPSHOT_BITS = {"displacement": 8, "plastic_rate": 8, "plastic_shear": 8}  # of their values, in colours; of places and shapes 13: 0.1 mm in a metre
 
 
 def rounded(values, bits):
@@ -66,9 +69,29 @@ def pack_run(path):
         for key, item in source.items():
             copy(key, item)
     packed.replace(path)
+    for snapshot in sorted(path.parent.glob("snapshots/*.h*")):
+        pack_snapshot(snapshot)
     summary = path.with_name("summary.json")
     if summary.is_file():
         summary.write_text(json.dumps(json.loads(summary.read_text(encoding="utf-8")), separators=(",", ":")) + "\n", encoding="utf-8")
+
+
+def pack_snapshot(path):
+    """Rewrites a file of a thinned run's snapshots in place."""
+    packed = path.with_suffix(".packed")
+    with h5py.File(path, "r") as source, h5py.File(packed, "w", libver=("v110", "v110")) as target:
+        target.attrs.update(source.attrs)
+
+        def copy(name, item):
+            if isinstance(item, h5py.Group):
+                target.require_group(name).attrs.update(item.attrs)
+                return
+            values = rounded(item[()].astype(np.float32), SNAPSHOT_BITS.get(name.rpartition("/")[2], 13)) if item.dtype.kind == "f" else item[()]
+            options = {"compression": "gzip", "compression_opts": 9, "shuffle": True} if item.size > 64 else {}
+            target.create_dataset(name, data=values, **options).attrs.update(item.attrs)
+
+        source.visititems(copy)
+    packed.replace(path)
 
 
 def pack_table(path):
@@ -76,21 +99,6 @@ def pack_table(path):
     if path.stat().st_size > 6000:
         Path(f"{path}.gz").write_bytes(gzip.compress(path.read_bytes(), 9, mtime=0))
         path.unlink()
-
-
-def pack_picture(path):
-    """Rewrites a PNG with COLOURS colours, and smaller where it is still over LARGEST."""
-    image, scale = Image.open(path).convert("RGB"), 1.0
-    while True:
-        size = (round(scale * image.width), round(scale * image.height))
-        few = image.resize(size, Image.Resampling.LANCZOS).quantize(COLOURS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
-        data = io.BytesIO()
-        few.save(data, format="png", optimize=True)
-        if len(data.getvalue()) <= LARGEST or scale < 0.5:
-            break
-        scale *= 0.93
-    if len(data.getvalue()) < 0.97 * path.stat().st_size:
-        path.write_bytes(data.getvalue())
 
 
 KINDS = {"runs": ("timeseries.h5", pack_run), "tables": ("*.csv", pack_table), "pictures": ("*.png", pack_picture)}

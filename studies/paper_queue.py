@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Prints `name|seconds|command` for each run of the second round of docs/paper.md, in the order in which they should be made.
+"""Prints `name|seconds|command` for each run of the list of docs/paper.md, in the order in which they should be made.
 
     studies/paper_queue.py --stages 1 2 --tread build/cuda-release/bin/tread
     studies/paper_queue.py --check --tread build/bin/tread       # `tread check` of every scene with its settings instead

@@ -1,10 +1,10 @@
-"""Criteria of the second round, configs/paper/round2/CASE.toml, and the tables of docs/paper.md that they judge.
+"""Criteria, configs/paper/round2/CASE.toml, and the tables of docs/paper.md that they judge.
 
 A row has `what`, `paper` (what the paper says), `source` (text, table or figure), and one of
 
     measure = "RUN ..." or [several]      what is computed (measures.py); RUN is a run of runs.toml, of whose repeats the mean is taken
     impossible = "why"                    the paper's number cannot be; `formula` says what it should be; a measure may stand beside
-    by_eye = "what to look for"           read off a figure by a person; the answer stands in seen.toml, not here
+    by_eye = "what to look for"           read off a figure by a person; the answer stands in seen.toml (answers.py), not here
     elsewhere = "where it is checked"     a number that needs no run of this list
 
 and beside a measure one of these judges, each with `basis`, one sentence on where the tolerance comes from:
@@ -25,6 +25,7 @@ whose error the runs' summaries estimate. `note` stands over the table of a file
 import math
 import textwrap
 import tomllib
+from collections import Counter
 from dataclasses import dataclass
 
 from tread_paper.formulas import arithmetic
@@ -41,6 +42,8 @@ KEYS = {"what", "paper", "source", "tolerance", "relative", "basis", "ratio", "w
 SOURCES = {"text", "table", "figure", "nothing"}
 GRID = {"pull": "pull_error", "torque": "torque_error", "sinkage": "sinkage_error"}
 GAP = 0.05
+GRID_IS_LARGER = "the error of the grid is larger than the tolerance"
+LONGEST_SET = 90  # characters of --set in a row; longer ones stand in the table of runs alone
 HEAD = ("", "paper", "criterion", "independent", "here", "runs", "verdict")
 
 
@@ -92,13 +95,8 @@ class Number:
 class Table:
     """Judges rows with the runs that are there."""
 
-    def __init__(self, plan, measures, theories, seen):
-        self.plan, self.measures, self.theories, self.seen = plan, measures, theories, seen
-
-    def lines(self, rows):
-        """Lines of Markdown."""
-        lines = [f"| {' | '.join(HEAD)} |", "|---" * len(HEAD) + "|"]
-        return lines + [f"| {' | '.join(cell or ' ' for cell in self.cells(row))} |" for row in rows]
+    def __init__(self, plan, measures, theories, seen, because=None):
+        self.plan, self.measures, self.theories, self.seen, self.because = plan, measures, theories, seen, because or {}
 
     def cells(self, row):
         groups = groups_of(row)
@@ -192,10 +190,9 @@ class Table:
         for group in groups:
             there = [name for name in self.plan.members(group) if self.measures.has(name)]
             if there:
-                facts = [facts_of(self.measures.run(name).summary or {}) for name in there]
-                settings = [one for one in self.plan.groups[group][0].set if not one.startswith("output.")]
-                differences = f"; `--set {' '.join(settings)}`" if settings else ""
-                wrong = [key for run in self.plan.groups[group] if run.name in there for key in contradicted(self.measures.run(run.name).scene, run.set)]
+                facts = [", ".join(facts_of(self.measures.run(name).summary or {})) for name in there]
+                differences = _differences(self.plan.groups[group][0].set)
+                wrong = [key for run in self.plan.groups[group] if run.name in there for key in contradicted(self.measures.run(run.name).scene, _of_the_scene(run.set))]
                 if wrong:
                     differences += f"; **not the run of the list: {', '.join(dict.fromkeys(wrong))}**"
                 repeats = f", {len(there)} of {len(self.plan.members(group))}" if len(self.plan.members(group)) > 1 else ""
@@ -204,7 +201,7 @@ class Table:
 
     def _verdict(self, row, numbers, absent):
         if "by_eye" in row:
-            return f"read off the figure by eye: {self.seen[row['what']]}" if row["what"] in self.seen else "not looked at yet"
+            return self.seen[row["what"]].text if row["what"] in self.seen else "not looked at yet"
         if "impossible" in row:
             return f"impossible in the paper: {row['impossible']}"
         if "elsewhere" in row:
@@ -227,8 +224,47 @@ class Table:
         else:
             text = f"differs by {deviation:.1f} tolerances of {tolerance:.3g}{unit}"
         if any(number.grid is not None and number.grid > tolerance for number in numbers):
-            text += "; the error of the grid is larger than the tolerance"
-        return text
+            text += f"; {GRID_IS_LARGER}"
+        return f"{text}; {self._reason(row)}" if text.startswith("differs") else text
+
+    def _reason(self, row):
+        words = self.because[row["what"]].words(number_of(self.plan, self.measures)) if row["what"] in self.because else ""
+        return f"because {words}" if words else "why is open"
+
+
+def lines_of(cells):
+    """A table of the cells of rows, in Markdown."""
+    lines = [f"| {' | '.join(HEAD)} |", "|---" * len(HEAD) + "|"]
+    return lines + [f"| {' | '.join(cell or ' ' for cell in row)} |" for row in cells]
+
+
+def number_of(plan, measures):
+    """A function of a measure's text: the mean over the repeats of its run that are there. Absent where the run itself is not."""
+    def mean(text):
+        group, _, rest = text.partition(" ")
+        values = []
+        for name in plan.members(group):
+            try:
+                values.append(measures(f"{name} {rest}"))
+            except Absent:
+                if name == group:
+                    raise
+        return sum(values) / len(values)
+    return mean
+
+
+def _of_the_scene(settings):
+    """Settings without those of output, which change no bit of an answer."""
+    return [one for one in settings if not one.startswith("output.")]
+
+
+def _differences(settings):
+    """What a run sets beside its scene, where it is short."""
+    shown = _of_the_scene(settings)
+    if not shown:
+        return ""
+    text = f"`--set {' '.join(shown)}`"
+    return f"; {text}" if len(text) <= LONGEST_SET else f"; [{len(shown)} keys set](#runs)"
 
 
 def measures_of(row):
@@ -251,7 +287,7 @@ def facts_of(summary):
             parts.append(phase["end"])
     if summary.get("status", "finished") != "finished":
         parts.append(summary["status"])
-    return ", ".join([*parts, str(summary.get("commit", "no commit"))])
+    return [*parts, str(summary.get("commit", "no commit"))[:8]]
 
 
 def ratio_of(first, second):
@@ -327,11 +363,29 @@ def _criterion(row):
     return "; ".join(filter(None, (rule, row.get("window"), row.get("basis"))))
 
 
-def counts_of(tables):
-    """A sentence that counts the verdicts of tables of lines."""
-    words = ("agrees", "differs", "undecided", "impossible in the paper", "not run", "not judged", "checked elsewhere", "read off the figure by eye", "not looked at yet")
-    cells = [line.rpartition(" | ")[2] for lines in tables for line in lines[2:]]
-    found = [(word, sum(cell.startswith(word) for cell in cells)) for word in words]
-    counts = ", ".join(f"{count} {word}" for word, count in found if count)
-    return "\n".join(textwrap.wrap(f"**{len(cells)} rows: {counts}.**", 118))
+VERDICTS = ("agrees", "differs, because", "differs, open", "undecided", "impossible in the paper", "not run", "not judged", "checked elsewhere",
+            "by eye: agrees", "by eye: differs", "not looked at yet")
 
+
+def kind_of(verdict):
+    """Which one of VERDICTS a cell of a table says."""
+    if verdict.startswith("differs"):
+        return "differs, open" if verdict.endswith("why is open") else "differs, because"
+    if verdict.startswith("read off the figure by eye: "):
+        return f"by eye: {verdict.split()[6].rstrip(':')}"
+    return next(kind for kind in VERDICTS if verdict.startswith(kind))
+
+
+def counts_of(tables):
+    """Counts of verdicts: a sentence, and a table by section. `tables` are the verdicts of each title."""
+    everything = [verdict for verdicts in tables.values() for verdict in verdicts]
+    counts = Counter(map(kind_of, everything))
+    coarse = sum(verdict.startswith("agrees") and GRID_IS_LARGER in verdict for verdict in everything)
+    judged = sum(counts[kind] for kind in VERDICTS[:4])
+    sentence = (f"**{len(everything)} rows, of which runs judge {judged}: {counts['agrees']} agree, {counts['differs, because'] + counts['differs, open']} differ, "
+                f"{counts['undecided']} are undecided.** Of the {counts['agrees']} that agree, {coarse} have an error of the grid that is larger than their tolerance.")
+    lines = [*textwrap.wrap(sentence, 118), "", f"| section | rows | {' | '.join(VERDICTS)} |", "|---" * (len(VERDICTS) + 2) + "|"]
+    for title, verdicts in [*tables.items(), ("all", everything)]:
+        found = Counter(map(kind_of, verdicts))
+        lines.append(f"| {title} | {len(verdicts)} | {' | '.join(str(found[kind] or '') for kind in VERDICTS)} |")
+    return lines

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tread_paper.history import UNITS, smoothed
-from tread_post.style import COLOURS, GREY, figure_grid, finish, legend_below, readable, with_unit
+from tread_post.style import COLOURS, DASHES, GREY, figure_grid, finish, legend_below, readable, with_unit
 
 
 @dataclass(frozen=True)
@@ -19,25 +19,28 @@ class Panel:
 
 
 def figure_of(title, histories, panels, columns=2, width=15.0, height_each=3.9):
-    """`histories` are (label, History)."""
+    """`histories` are (label, [History of a run and of its repeats])."""
     rows = -(-len(panels) // columns)
     figure, axes = figure_grid(rows, columns, width, height_each)
-    for axis, panel in zip(axes.flat, panels):
-        draw(axis, panel, histories)
+    handles = [draw(axis, panel, histories) for axis, panel in zip(axes.flat, panels)][0]
     for axis in list(axes.flat)[len(panels):]:
         axis.remove()
-    handles = [axes[0, 0].lines[number] for number in range(len(histories))]
-    legend_below(figure, handles, min(len(handles), 4))
+    legend_below(figure, handles, min(len(handles), 3))
     figure.suptitle(title, fontsize=14)
     return figure
 
 
 def draw(axis, panel, histories):
-    drawn = [(label, history.time, smoothed(history.time, history.series(panel.quantity), panel.smooth)) for label, history in histories]
-    everything = np.concatenate([values for _, _, values in drawn] + [np.array([value for value, _ in panel.lines], float)])
+    """Draws a quantity, repeats as thin lines. Returns the line of each first run."""
+    smooth = [(label, [(one.time, smoothed(one.time, one.series(panel.quantity), panel.smooth)) for one in repeats]) for label, repeats in histories]
+    everything = np.concatenate([values for _, curves in smooth for _, values in curves] + [np.array([value for value, _ in panel.lines], float)])
     factor, unit = readable(everything, UNITS[panel.quantity])
-    for (label, time, values), colour in zip(drawn, COLOURS):
-        axis.plot(time, factor * values, color=colour, linewidth=1.4, label=label)
+    first = []
+    for number, (label, curves) in enumerate(smooth):
+        look = {"color": COLOURS[number % len(COLOURS)], "linestyle": DASHES[number // len(COLOURS)]}
+        for place, (time, values) in enumerate(curves):
+            lines = axis.plot(time, factor * values, linewidth=0.7 if place else 1.4, label=label, **look)
+            first += [] if place else lines
     for (value, label), style in zip(panel.lines, ("--", ":", "-.")):
         axis.axhline(factor * value, color="#444444", linestyle=style, linewidth=1.1)
         axis.annotate(label, (0.99, factor * value), xycoords=axis.get_yaxis_transform(), ha="right", va="bottom", fontsize=9.5, color="#444444")
@@ -45,3 +48,4 @@ def draw(axis, panel, histories):
         axis.axvline(mark, color=GREY, linewidth=0.9, linestyle=(0, (2, 3)))
     axis.set(xlabel="time  [s]", ylabel=with_unit(panel.label, unit), **panel.limits)
     finish(axis)
+    return first

@@ -1,4 +1,4 @@
-"""Numbers of runs, by what a row of docs/paper/*.toml asks for.
+"""Numbers of runs, by what a row of the criteria requests.
 
     RUN mean|min|max|spread QUANTITY [FROM TO]      over a time of the last phase, s; all of it
     RUN first|last QUANTITY                         in the first or last row of the last phase

@@ -1,4 +1,4 @@
-"""The list of runs of the second round, configs/paper/round2/runs.toml: what each is called, and the command that makes it."""
+"""The list of runs, configs/paper/round2/runs.toml: what each is called, and the command that makes it."""
 
 import re
 import shlex

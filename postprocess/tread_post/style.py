@@ -14,6 +14,7 @@ from tread_post.looks import COLOURS, GREY, GRID, readable, with_unit  # noqa: F
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 DASHES = ("-", "--", "-.", ":")
 LEVELS = 8  # of 255, by which a colour of a picture may be off
+PALETTES, LARGEST = (256, 128, 64), 170_000  # colours of a picture that docs/ keeps, the first that fits, and its bytes
 
 
 def figure_grid(rows, columns, width=13.0, height_each=4.2, **options):
@@ -55,3 +56,21 @@ def packed_png(data):
 def write(figure, path):
     path.write_bytes(png_of(figure, 110))
     print(path)
+
+
+def pack_picture(path):
+    """Rewrites a PNG with fewer colours, and smaller where it is still over LARGEST."""
+    image, scale, palettes = Image.open(path).convert("RGB"), 1.0, list(PALETTES)
+    while True:
+        size = (round(scale * image.width), round(scale * image.height))
+        few = image.resize(size, Image.Resampling.LANCZOS).quantize(palettes[0], method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+        data = io.BytesIO()
+        few.save(data, format="png", optimize=True)
+        if len(data.getvalue()) <= LARGEST or scale < 0.5:
+            break
+        if len(palettes) > 1:
+            palettes.pop(0)
+        else:
+            scale *= 0.93
+    if len(data.getvalue()) < 0.97 * path.stat().st_size:
+        path.write_bytes(data.getvalue())

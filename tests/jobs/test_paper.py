@@ -1,7 +1,10 @@
 #!/usr/bin/python3
 """Thinned runs, and the paper's numbers and figures beside ours, from made-up runs. Needs what postprocess/ needs."""
 
+import contextlib
 import io
+import json
+import re
 import shutil
 import subprocess
 import sys
@@ -22,15 +25,16 @@ sys.path[:0] = [str(ROOT / "postprocess"), str(ROOT / "studies")]
 
 import head_on  # noqa: E402
 import pack_docs  # noqa: E402
+import paper  # noqa: E402
 from made_up_run import SCENE, STARTS, colours_of, make_run, write_columns  # noqa: E402
-from tread_paper import criteria, fields, formulas, round2, sensitivity, verdicts  # noqa: E402
-from tread_paper.cases import FIGURES, TABLES_ALONE  # noqa: E402
-from tread_paper.history import history_of, smoothed  # noqa: E402
+from tread_paper import answers, cost, criteria, fields, formulas, sensitivity  # noqa: E402
+from tread_paper.cases import FIGURES, SLIPS  # noqa: E402
 from tread_paper.criteria import Number  # noqa: E402
+from tread_paper.document import CAMPAIGNS, IN_SHORT, OTHERS, TITLES, Document, campaign_lines, put_into  # noqa: E402
+from tread_paper.history import history_of, smoothed  # noqa: E402
 from tread_paper.measures import Absent, Measures, in_scene  # noqa: E402
 from tread_paper.rolling import centres, rolled_over  # noqa: E402
 from tread_paper.runs import Plan, contradicted  # noqa: E402
-from tread_paper.table import put_into, rows_of, table_of  # noqa: E402
 from tread_post import Run, RunError  # noqa: E402
 from tread_post.style import GREY, LEVELS, packed_png  # noqa: E402
 from tread_post.thinned import put_together, thin  # noqa: E402
@@ -39,11 +43,12 @@ from tread_post.thinned import put_together, thin  # noqa: E402
 SPEED, DRIVEN = 0.098, 2.1
 # What the made-up scene lacks for weights and friction; its radius stands in it.
 MORE = 'load = 635.0\n[[contact]]\nbetween = ["wheel", "sand"]\nfriction = 0.3\n'
-RUNS = ("wheel_drop_sand", "wheel_drop_mixed", "rolling_sand", "slip_sand", "slip_mixed", "spirit", "spirit_coarse", "curiosity_rock_coarse",
-        "wheel_drop_substeps_1", "wheel_drop_substeps_100")
+# Runs of the list that are made up, all alike.
+RUNS = ("wheel_drop_sand", "wheel_drop_mixed", "rolling_sand", "slip_sand", "slip_mixed", "spirit", "curiosity_rock_coarse",
+        "wheel_drop_substeps_2", "wheel_drop_substeps_100")
 DOCS = ROOT / "docs"
 SUMMARY = """{"points": 1, "bodies": 2, "steps": 3, "substeps": 6, "time": 3.0, "wall_s": 1.0, "sim_per_wall": 3.0, "steps_per_s": 3.0,
- "peak_device_bytes": 1e6, "errors": {"energy": 1e-6}}"""
+ "peak_device_bytes": 1e6, "errors": {"energy": 1e-6}, "devices": ["NVIDIA H100"], "restarts": 1, "commit": "abcdef0123"}"""
 
 
 def make_impact(path):
@@ -53,10 +58,9 @@ def make_impact(path):
     law = head_on.hertz(tomllib.loads(text), 1, time)
     path.mkdir()
     (path / "scene.toml").write_text(text, encoding="utf-8")
-    (path / "summary.json").write_text('{"terrain": [{"mass": %r}], "points": 904960, "steps": 400, "time": 0.1}' %
-                                       (2 * law.points_kinetic[0] / law.points_velocity[0] ** 2), encoding="utf-8")
-    mass = 2 * law.body_kinetic[0] / law.body_velocity[0] ** 2
     points_mass = 2 * law.points_kinetic[0] / law.points_velocity[0] ** 2
+    (path / "summary.json").write_text(json.dumps(json.loads(SUMMARY) | {"terrain": [{"mass": points_mass}]}), encoding="utf-8")
+    mass = 2 * law.body_kinetic[0] / law.body_velocity[0] ** 2
     zero = np.zeros_like(time)
     vector = lambda values: np.stack((values, zero, zero), axis=1)  # noqa: E731
     with h5py.File(path / "timeseries.h5", "w") as file:
@@ -82,6 +86,7 @@ class PaperTest(unittest.TestCase):
         first = cls.runs / RUNS[0]
         make_run(first)
         (first / "scene.toml").write_text(SCENE.replace('shape = "drum"\n[[phase]]', f'shape = "drum"\n{MORE}[[phase]]', 1), encoding="utf-8")
+        (first / "summary.json").write_text(SUMMARY, encoding="utf-8")
         for name in RUNS[1:]:
             shutil.copytree(first, cls.runs / name)
         for name in ("head_on_1", "head_on_8", "head_on_27"):
@@ -139,7 +144,18 @@ class PaperTest(unittest.TestCase):
         packed = Measures(folder)
         for name in ("force", "contact", "body_speed", "kinetic"):
             np.testing.assert_allclose(packed(f"head_on_27 impact {name}"), self.measures(f"head_on_27 impact {name}"), rtol=1e-3, atol=1e-3)
-        self.assertNotIn(" ", (folder / "head_on_27" / "summary.json").read_text(encoding="utf-8"))
+        self.assertNotIn(": ", (folder / "head_on_27" / "summary.json").read_text(encoding="utf-8"))
+
+    def test_snapshots_are_packed(self):
+        folder = self.runs.parent / "packed_snapshots"
+        thin(Run(self.runs / "slip_sand"), folder, 40, STARTS[2], [7])
+        before, bodies = Run(folder).points(7), Run(folder).bodies(7)
+        pack_docs.pack_run(folder / "timeseries.h5")
+        after = Run(folder).points(7)
+        np.testing.assert_allclose(after.position, before.position, atol=1e-4)
+        np.testing.assert_allclose(after.fields["displacement"], before.fields["displacement"], rtol=2e-3)
+        np.testing.assert_allclose(Run(folder).bodies(7).position, bodies.position, atol=1e-4)
+        self.assertEqual(len(Run(folder).shapes), len(Run(self.runs / "slip_sand").shapes))
 
     def test_the_command_thins(self):
         folder = self.runs.parent / "by_command"
@@ -177,95 +193,43 @@ class PaperTest(unittest.TestCase):
             self.assertAlmostEqual(self.measures(f"head_on_27 impact {name}"), expected, delta=tolerance, msg=name)
         self.assertGreater(self.measures("head_on_27 impact both_elastic"), 0.5)
 
-    def test_verdicts(self):
-        rows = [
-            {"what": "in", "paper": "1", "measure": "slip_sand mean speed 1 2", "within": [0.09, 0.1]},
-            {"what": "out", "paper": "1", "measure": "slip_sand mean speed 1 2", "scale": 1e3, "format": "{:.0f} mm/s", "within": [0.09, 0.1],
-             "otherwise": "differs because"},
-            {"what": "order", "paper": "<", "measure": ["slip_sand mean slip 1 2", "absent last way", "slip_sand mean lift 1 2"],
-             "format": "{:.1f}, {:.1f}, {:.0f}", "order": "<"},
-            {"what": "none", "paper": "1", "measure": "absent last way", "within": [0, 1]},
-            {"what": "said", "paper": "1", "ours": "2", "remark": "impossible"},
-            {"what": "seen", "paper": "a track", "ours": "a figure", "by_eye": "a track"},
-            {"what": "near", "paper": "0.1", "measure": "slip_sand mean speed 1 2", "expected": 0.1, "tolerance": 0.03, "remark": "by chance"},
-            {"what": "not near", "paper": "0.1", "measure": ["slip_sand mean speed 1 2", "slip_sand mean slip 1 2"], "expected": [0.1, 0.4], "tolerance": 0.03},
-            {"what": "the first is", "paper": "0.1", "measure": ["slip_sand mean speed 1 2", "slip_sand mean slip 1 2"], "expected": 0.1, "tolerance": 0.03, "first": 1},
-            {"what": "equal", "paper": "", "measure": ["slip_sand mean slip 1 1.5", "slip_sand mean slip 1.5 2"], "order": "=", "tolerance": 0.01},
-            {"what": "fast", "paper": "", "measure": "slip_sand mean speed 1 2", "target": 0.09, "remark": "late"},
-            {"what": "bare", "paper": "", "measure": "slip_sand mean speed 1 2"},
-        ]
-        lines = table_of(rows, self.measures)[2:]
-        self.assertEqual(lines[0], "| in | 1 | 0.098 | agrees [0.09 to 0.1] |")
-        self.assertEqual(lines[1], "| out | 1 | 98 mm/s | differs [0.09 to 0.1]; because |")
-        self.assertTrue(lines[2].startswith("| order | < | 0.3, -, 63") and lines[2].endswith("| agrees [rising] |"), lines[2])
-        self.assertEqual(lines[3], "| none | 1 | not measured: absent was not run | open |")
-        self.assertEqual([line.rpartition("| ")[0].rpartition(" | ")[2] if line.endswith("| |") else line.split(" | ")[3].removesuffix(" |") for line in lines[4:-1]],
-                         ["not judged: impossible", "read off by eye: a track", "agrees [0.1 within 3 %]; by chance", "differs [0.1, 0.4 within 3 %]",
-                          "agrees [0.1 within 3 %]", "agrees [equal to 1 %]", "missed [at most 0.09]; late"])
-        self.assertEqual(lines[-1], "| bare |  | 0.098 |  |")
-
-    def test_no_verdict_is_typed(self):
-        path = self.runs.parent / "typed.toml"
-        for bad, words in (('ours = "c"\nremark = "agrees well"\n', "only a computed verdict may"), ('ours = "c"\nverdict = "agrees"\n', "unknown: verdict"),
-                           ('ours = "c"\nremark = "the two differ"\n', "only a computed verdict may"), ('ours = "c"\nwithin = [0, 1]\n', "nothing is"),
-                           ('measure = "a b c"\nwithin = [0, 1]\norder = "<"\n', "at most one"), ('measure = "a b c"\nexpected = 1.0\n', "tolerance belongs")):
-            path.write_text(f'[[row]]\nwhat = "a"\npaper = "b"\n{bad}', encoding="utf-8")
-            with self.assertRaisesRegex(RunError, words):
-                rows_of(path)
-
-    def test_verdicts_of_stored_runs(self):
-        folder = self.runs.parent / "stored"
-        for name, text in (("a", '{"status": "finished", "resolution": {"verdict": "marginal", "figures": {"contact_cells": '
-                                 '{"value": 8.0, "resolved": 20.0, "marginal": 6.0, "verdict": "marginal"}}}}'),
-                           ("b", '{"status": "failed", "resolution": {"verdict": "resolved", "figures": {}}}'), ("c", '{"status": "finished"}')):
-            (folder / name).mkdir(parents=True)
-            (folder / name / "summary.json").write_text(text, encoding="utf-8")
-        self.assertEqual(verdicts.lines_of(folder), [
-            "**1 of 3 stored runs is marginal, 1 failed, 1 has no verdict; none resolved.**", "", "| run | verdict | worst figure |", "|---|---|---|",
-            "| a | marginal | contact_cells 8 (resolved from 20, marginal from 6) |", "| b | failed |  |", "| c | no verdict |  |"])
-
     def test_tables_take_their_place(self):
         self.assertEqual(put_into("a\n<!-- x -->\nold\n<!-- end of x -->\nb\n", "x", ["new"]), "a\n<!-- x -->\nnew\n<!-- end of x -->\nb\n")
         with self.assertRaises(RunError):
             put_into("a", "x", ["new"])
 
-    def test_every_row_of_the_documents_is_sound(self):
-        text = (DOCS / "paper.md").read_text(encoding="utf-8")
-        impacts = {f"head_on_{name}" for name in ("1", "8", "27", "27_paper_dt", "1_paper_dt")}
-        runs = self.runs.parent / "any"
-        runs.mkdir(exist_ok=True)
-        for case in {*FIGURES, *TABLES_ALONE} - {"sensitivity", "verdicts", "round2"}:
-            rows = rows_of(DOCS / "paper" / f"{case}.toml")
-            self.assertGreater(len(rows), 4)
-            put_into(text, case, [])
-            for row in rows:
-                asked = row.get("measure", [])
-                for name in {line.split()[0] for line in ([asked] if isinstance(asked, str) else asked)}:
-                    if not (runs / name).exists():
-                        (runs / name).symlink_to(self.runs / ("head_on_27" if name in impacts else "slip_sand"))
-            self.assertEqual(len(table_of([row for row in rows if "summary" not in str(row.get("measure"))], Measures(runs))[0]), len(
-                "| | paper | here | verdict |"))
-        for bad in ('[[row]]\nwhat = "a"\npaper = "b"\n', '[[row]]\nwhat = "a"\npaper = "b"\nours = "c"\nhue = 1\n'):
-            (self.runs.parent / "bad.toml").write_text(bad, encoding="utf-8")
-            with self.assertRaises(RunError):
-                rows_of(self.runs.parent / "bad.toml")
-
     def test_every_case_is_drawn(self):
-        folder, document = self.runs.parent / "drawn", self.runs.parent / "drawn.md"
+        folder = self.runs.parent / "drawn"
         folder.mkdir()
+        (folder / "spirit_coarse_fields.png").write_bytes(b"of a run that is gone")
+        made_up = Document(CRITERIA, self.runs, ROOT)
+        with contextlib.redirect_stdout(io.StringIO()):
+            text = "\n".join(line for case in FIGURES for line in paper.drawn(case, made_up, folder))
+        absent = {"spirit_coarse_fields", "curiosity_core_coarse_fields", "curiosity_core_fields", "curiosity_rock_fields"}  # no such runs were made up
+        for name in {name for figures in FIGURES.values() for name in figures} - absent:
+            self.assertGreater(colours_of(folder / f"{name}.png"), 8, name)
+            self.assertIn(f"](drawn/{name}.png)", text)
+        for name in absent:
+            self.assertFalse((folder / f"{name}.png").exists(), name)
+            self.assertIn(f"(No picture {name}: {name.removesuffix('_fields')} was not run.)", text)
+
+    def test_the_command_fills_the_document(self):
+        document = self.runs.parent / "filled.md"
         shutil.copyfile(DOCS / "paper.md", document)
-        for path in (DOCS / "paper").glob("*.toml"):
-            shutil.copyfile(path, folder / path.name)
-        for run in RUNS:  # what cost asks of a summary
-            (self.runs / run / "summary.json").write_text(SUMMARY, encoding="utf-8")
-        done = self.command("paper.py", "all", "--runs", self.runs, "--output", folder, "--document", document)
+        done = self.command("paper.py", "cost", "--runs", self.runs, "--output", self.runs.parent, "--document", document)
         self.assertEqual(done.returncode, 0, done.stderr)
-        drawn = {name for figures in FIGURES.values() for name in figures}
-        absent = {"curiosity_core_coarse_fields", "curiosity_core_fields", "curiosity_rock_fields"}  # no such runs were made up
-        for name in drawn - absent:
-            self.assertGreater(colours_of(folder / f"{name}.png"), 16, name)
-        self.assertIn("| 3.4 sand, own step | 4159 s at 127/s, 2600 MB | 1.0 s for 3.00 s simulated, 3 s/s; 3 steps/s, N 2.0; 1 MB; energy 1e-06 |",
+        self.assertIn("| 3.4 sand | 4159; 127; 2600 | 1.0 (NVIDIA H100) in 2 parts | 3 | 3 | 2.0 | 1 | 1e-06 | no verdict | 60 | met |",
                       document.read_text(encoding="utf-8"))
+
+    def test_the_surface_of_a_bed(self):
+        run = Run(self.runs / "slip_sand")
+        height, cell, base = fields._surface(run, 7)
+        self.assertAlmostEqual(cell, 0.02)
+        self.assertEqual(height.shape, (50, 25))
+        points = run.points(7).position
+        self.assertAlmostEqual(np.nanmax(height) + base, points[:, 2].max())
+        figure = fields.surface_figure_of("any", [(label, Run(self.runs / name), 7) for name, label in SLIPS], (0.0, 0.2))
+        self.assertEqual(len(figure.axes), 6)
 
     def test_sensitivity_is_mean_and_half_the_difference(self):
         class Table(dict):
@@ -291,7 +255,7 @@ class PaperTest(unittest.TestCase):
         np.testing.assert_allclose(smoothed(time, 3 * time, 0.095)[10:-10], 3 * time[10:-10], atol=1e-12)
 
 
-ROUND2 = ROOT / "configs" / "paper" / "round2"
+CRITERIA = ROOT / "configs" / "paper" / "round2"
 PLAN = """
 [[run]]
 name = "mixed"
@@ -313,11 +277,11 @@ values = { key = "time.substeps", list = [2, 5] }
 stage = 1
 seconds = 20
 """
-ROUND2_SUMMARY = """{"status": "finished", "commit": "abc", "phases": [{"name": "settle", "settled": true}, {"name": "lower", "settled": null, "end": "lowered"}],
+JUDGED_SUMMARY = """{"status": "finished", "commit": "abc", "phases": [{"name": "settle", "settled": true}, {"name": "lower", "settled": null, "end": "lowered"}],
  "resolution": {"verdict": "marginal", "figures": {"torque_error": {"value": 0.1, "resolved": 0.05, "marginal": 0.2, "verdict": "marginal"}}}}"""
 
 
-class SecondRound(unittest.TestCase):
+class Judging(unittest.TestCase):
     """Criteria against made-up runs: `mixed` and its repeat, whose torques are 44 and 46 N m, and coarse ones of 55."""
 
     @classmethod
@@ -329,7 +293,7 @@ class SecondRound(unittest.TestCase):
             make_run(cls.runs / name)
             scene = SCENE.replace('shape = "drum"\n[[phase]]', f'shape = "drum"\n{MORE}[[phase]]', 1)
             (cls.runs / name / "scene.toml").write_text(f"{scene}[output]\nsnapshots_every = {int(name == 'mixed')}\n", encoding="utf-8")
-            (cls.runs / name / "summary.json").write_text(ROUND2_SUMMARY, encoding="utf-8")
+            (cls.runs / name / "summary.json").write_text(JUDGED_SUMMARY, encoding="utf-8")
             with h5py.File(cls.runs / name / "timeseries.h5", "r+") as file:
                 file["wheel/front wheel/torque"][...] *= factor
         (cls.folder / "runs.toml").write_text(PLAN, encoding="utf-8")
@@ -340,8 +304,8 @@ class SecondRound(unittest.TestCase):
     def tearDownClass(cls):
         cls.directory.cleanup()
 
-    def verdict(self, seen=None, **row):
-        return criteria.Table(self.plan, self.measures, self.theories, seen or {}).cells({"what": "a", "paper": "b", "source": "text", **row})[-1]
+    def verdict(self, seen=None, because=None, **row):
+        return criteria.Table(self.plan, self.measures, self.theories, seen or {}, because).cells({"what": "a", "paper": "b", "source": "text", **row})[-1]
 
     def test_windows_of_events(self):
         measure = self.measures
@@ -377,7 +341,7 @@ class SecondRound(unittest.TestCase):
 
     def test_verdicts_in_tolerances(self):
         torque = {"measure": "mixed mean torque 1 2", "unit": "N m", "basis": "c"}
-        self.assertEqual(self.verdict(**torque, expected=60.0, tolerance=5.0), "differs by 3.0 tolerances of 5 N m; the error of the grid is larger than the tolerance")
+        self.assertEqual(self.verdict(**torque, expected=60.0, tolerance=5.0), "differs by 3.0 tolerances of 5 N m; the error of the grid is larger than the tolerance; why is open")
         # The repeats, 2 N m apart, widen a tolerance of 1 N m to 2.
         self.assertTrue(self.verdict(**torque, expected=46.5, tolerance=1.0).startswith("agrees"))
         self.assertTrue(self.verdict(**torque, at_least=49.0, tolerance=5.0).startswith("agrees"))
@@ -392,7 +356,43 @@ class SecondRound(unittest.TestCase):
         self.assertEqual(self.verdict(measure="steps_5 last way", impossible="too long", formula="1"), "impossible in the paper: too long")
         self.assertEqual(self.verdict(measure=["mixed last slip", "steps_5 last way"], shown="another card"), "not judged: another card")
         self.assertEqual(self.verdict(by_eye="a track"), "not looked at yet")
-        self.assertEqual(self.verdict(seen={"a": "a track, at abc"}, by_eye="a track"), "read off the figure by eye: a track, at abc")
+        seen = {"a": answers.Seen(False, "a track, at abc", "slip.png")}
+        self.assertEqual(self.verdict(seen=seen, by_eye="a track"), "read off the figure by eye: differs: a track, at abc ([figure](paper/slip.png))")
+
+    def test_a_reason_has_the_numbers_of_runs(self):
+        torque = {"measure": "mixed mean torque 1 2", "unit": "N m", "basis": "c", "expected": 60.0, "tolerance": 15.0}
+        path = self.folder / "because.toml"
+        path.write_text('[[because]]\nwhat = ["a"]\ntext = "coarse it is {:.0f} kN m"\nmeasure = ["mixed_coarse mean torque 1 2"]\nscale = 1e-3\n', encoding="utf-8")
+        because = answers.because_in(path)
+        self.assertEqual(self.verdict(because=because, **torque), "differs by 1.0 tolerances of 15 N m; because coarse it is 0 kN m")
+        self.assertTrue(self.verdict(because=because, **{**torque, "tolerance": 16.0}).startswith("agrees"))
+        self.assertTrue(self.verdict(because={"b": because["a"]}, **torque).endswith("; why is open"))
+        gone = answers.Because("it is {:.0f}", ("steps_5 last way",), (1.0,))
+        self.assertTrue(self.verdict(because={"a": gone}, **torque).endswith("; why is open"))
+        self.assertEqual(answers.because_in(self.folder / "none.toml"), {})
+        for bad, words in (('[[because]]\nwhat = ["a"]\n', "needs text, what"), ('[[because]]\nwhat = ["a", "a"]\ntext = "b"\n', "two reasons"),
+                           ('[[because]]\nwhat = ["a"]\ntext = "b"\nmeasure = ["c"]\nscale = [1, 2]\n', "1 measures, 2 scales")):
+            path.write_text(bad, encoding="utf-8")
+            with self.assertRaisesRegex(RunError, words):
+                answers.because_in(path)
+
+    def test_counts(self):
+        verdicts = ["agrees", "agrees; the error of the grid is larger than the tolerance", "differs by 2 tolerances of 1; why is open",
+                    "differs by 2 tolerances of 1; because of x", "undecided: 0.1 tolerances of 1 apart", "not run: x was not run",
+                    "read off the figure by eye: agrees: a track", "read off the figure by eye: differs: none", "not looked at yet"]
+        lines = criteria.counts_of({"3.1": verdicts[:4], "3.2": verdicts[4:]})
+        self.assertTrue(" ".join(lines).startswith("**9 rows, of which runs judge 5: 2 agree, 2 differ, 1 are undecided.** Of the 2 that agree, 1 have"))
+        self.assertEqual(lines[-3:], ["| 3.1 | 4 | 2 | 1 | 1 |  |  |  |  |  |  |  |  |", "| 3.2 | 5 |  |  |  | 1 |  | 1 |  |  | 1 | 1 | 1 |",
+                                      "| all | 9 | 2 | 1 | 1 | 1 |  | 1 |  |  | 1 | 1 | 1 |"])
+
+    def test_runs_that_were_not_made(self):
+        lines = cost.not_run_lines(self.plan, self.measures, [({"measure": "steps_5 last way"}, "not run: steps_5 was not run")])
+        self.assertEqual(lines[0], "3 of the 5 runs of the list are stored. The others need 40 s of one H200 together.")
+        self.assertEqual(lines[4:], ["| steps_2 | 20 | 1 | 0 |", "| steps_5 | 20 | 1 | 1 |"])
+
+    def test_rows_are_counted_by_reading(self):
+        rows = [({"what": "Gravity 9.8: torque"}, "agrees; coarse"), ({"what": "Gravity 9.8: speed"}, "differs by 2"), ({"what": "Crust: slip"}, "not judged: x")]
+        self.assertEqual(cost.readings_lines(rows)[2:], ["| Gravity 9.8 | 2 | 1 | 1 | 0 |"])
 
     def test_the_worst_number_decides(self):
         numbers = [Number(10.0, None, None), Number(14.0, 1.0, None), Number(13.0, None, None)]
@@ -461,9 +461,9 @@ class SecondRound(unittest.TestCase):
         self.assertEqual(contradicted(scene, ["rocks[0].seed=1", "time.substeps=5"]), ["rocks[0].seed", "time.substeps"])
 
     def test_criteria_ask_what_there_is(self):
-        plan, asked = Plan(ROUND2 / "runs.toml"), set()
+        plan, asked = Plan(CRITERIA / "runs.toml"), set()
         for case in criteria.CASES:
-            for row in criteria.rows_of(ROUND2 / f"{case}.toml"):
+            for row in criteria.rows_of(CRITERIA / f"{case}.toml"):
                 asked.update(criteria.measures_of(row))
                 for text in row.get("beside", []):
                     plan.members(text.split()[2] if text.split()[0] != "bearing_capacity" else text.split()[1])
@@ -487,9 +487,29 @@ class SecondRound(unittest.TestCase):
         unused = set(plan.groups) - {text.split()[0] for text in asked} - set(plan.coarser.values())
         self.assertEqual(unused, set())
 
+    def test_answers_are_those_of_rows(self):
+        rows = [row for case in criteria.CASES for row in criteria.rows_of(CRITERIA / f"{case}.toml")]
+        seen, because = answers.seen_in(CRITERIA / "seen.toml"), answers.because_in(CRITERIA / "because.toml")
+        self.assertLessEqual(set(seen), {row["what"] for row in rows if "by_eye" in row})
+        self.assertLessEqual(set(because), {row["what"] for row in rows if "measure" in row})
+        for one in seen.values():
+            self.assertTrue((DOCS / "paper" / one.figure).is_file(), one.figure)
+        self.assertNotIn("agrees", "".join(one.text for one in because.values()))
+
     def test_the_document_is_made_of_the_criteria(self):
         text = (DOCS / "paper.md").read_text(encoding="utf-8")
-        self.assertEqual(put_into(text, "round2", round2.lines_of(ROUND2, ROOT / "studies" / "paper_round2", ROOT)), text)
+        paper = Document(CRITERIA, ROOT / "studies" / "paper_round2", ROOT)
+        for name in [*TITLES, *OTHERS]:
+            self.assertEqual(put_into(text, name, paper.part(name)), text, name)
+        if all((DOCS / "paper" / name / "campaign.h5").is_file() for name in CAMPAIGNS):
+            self.assertEqual(put_into(text, "sensitivity", campaign_lines(DOCS / "paper")), text)
+        short = (DOCS / "paper_in_short.md").read_text(encoding="utf-8")
+        for name in IN_SHORT:
+            self.assertEqual(put_into(short, name, paper.part(name)), short, name)
+        for path in (DOCS / "paper").glob("*.png"):
+            self.assertIn(f"](paper/{path.name})", text)
+        for name in re.findall(r"\]\(paper/(\w+\.png)\)", text):
+            self.assertTrue((DOCS / "paper" / name).is_file(), name)
 
 
 class PackedPictures(unittest.TestCase):
