@@ -181,8 +181,8 @@ TYPED_TEST(RockSleep, ARockFallsOnASleepingPile)
     this->expect_balanced("rock on a pile", outcome, awake);
 }
 
-/// A slab is pulled out from under sleeping rocks, within a phase: they fall to the floor. Of twenty such pairs ten were both
-/// asleep 0.4 s after the damped phase, and of twelve eleven after 2 s: the others rocked on.
+/// A slab is pulled out from under sleeping rocks, within a phase: they fall to the floor. Of twenty such pairs ten
+/// were both asleep 0.4 s after the damped phase, and of twelve eleven after 2 s: the others rocked on.
 TYPED_TEST(RockSleep, WhatSleptOnAPulledSlabFalls)
 {
     const std::string text =

@@ -10,7 +10,6 @@
 
 namespace tread::solver
 {
-
 namespace
 {
 

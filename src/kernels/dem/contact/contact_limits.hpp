@@ -14,8 +14,8 @@ namespace tread::dem
 /// Computes pairs.expected_stiffness of every body that substeps compute, N/m: the largest of three figures of its
 /// listed pairs. The stiffest first touch (two nodes in the linear part of the traction) of a separated pair; half of
 /// the sum of all first touches; the sum over the nodes in contact and those that enter when they move by twice the
-/// displacement that velocity and gravity (m/s2) give in dt (s). Call after find_pairs. For bodies that several ranks integrate it uses this rank's
-/// pairs and writes their shares to shared.stiffness.
+/// displacement that velocity and gravity (m/s2) give in dt (s). Call after find_pairs. For bodies that several ranks
+/// integrate it uses this rank's pairs and writes their shares to shared.stiffness.
 template<class Exec>
 void expect_contacts(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law,
                      const Vec3<double>& gravity, double dt, const SharedView& shared = {});

@@ -93,10 +93,7 @@ struct ExpectTogether
     SharedView shared;
     double*    expected;
 
-    TREAD_HD void operator()(std::int64_t i) const
-    {
-        expected[shared.body[i]] = stiffness_of(shared, i).most();
-    }
+    TREAD_HD void operator()(std::int64_t i) const { expected[shared.body[i]] = stiffness_of(shared, i).most(); }
 };
 
 struct WriteFrequency

@@ -73,8 +73,8 @@ TREAD_HD StiffnessShare stiffness_of(const SharedView& shared, std::int64_t i)
     for (std::int32_t r = shared.first[i]; r < shared.first[i + 1]; ++r)
     {
         const StiffnessShare& share = shared.stiffness[shared.row[r]];
-        sum = {sum.touches + share.touches, std::fmax(sum.first_touch, share.first_touch),
-               sum.approach + share.approach};
+        sum                         = {sum.touches + share.touches, std::fmax(sum.first_touch, share.first_touch),
+                                       sum.approach + share.approach};
     }
     return sum;
 }
