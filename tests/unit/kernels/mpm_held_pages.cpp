@@ -49,6 +49,47 @@ TEST(HeldNodes, AreThoseThatSleepingPointsReach)
     EXPECT_FALSE(is_held(0, 0));
 }
 
+/// The grid of points, two of whose pages sleep.
+template<class Exec>
+struct HeldGrid
+{
+    HeldGrid(const Exec& exec, Points<Exec, double>& points)
+        : pages(exec)
+        , tiles(exec, "tiles")
+        , motion(exec, "motion")
+        , tallies(exec, "tallies")
+        , held(exec)
+    {
+        OrderScratch<Exec, double> scratch(exec);
+        order_points(exec, points, pages, {spacing, 0.5, {2, 2, 2}}, scratch);
+        view = pages.view(spacing, 0.5);
+        tiles.resize(view.point_pages * node_channels * tile_nodes);
+        motion.resize(view.node_pages * motion_channels * page_cells);
+        tallies.resize(view.node_pages * tally_width(grid_sums));
+        tallies.fill_zero();
+        Array<Exec, std::uint64_t> asleep(exec, "asleep");
+        asleep.assign({page_key({1, 2, 2}), page_key({2, 2, 2})});
+        list_held_pages(exec, view, asleep, held, scratch.sort);
+        scatter(exec, points.view(), view, all_point_pages(view), tiles.data());
+    }
+
+    void update(const Exec& exec, const SharedPagesView<double>& shared)
+    {
+        update_grid(exec, view, WallPagesView<double>{}, shared, tiles.data(), step, motion.data(), tallies.data());
+    }
+
+    void hold(const Exec& exec, const SharedPagesView<double>& shared)
+    {
+        hold_still(exec, view, held.view(), shared, tiles.data(), step, motion.data(), tallies.data());
+    }
+
+    GridStep<double>    step{dt, {0.3, 0, -9.81}, 0, 1e-20, {}};
+    Pages<Exec>         pages;
+    PagesView           view{};
+    Array<Exec, double> tiles, motion, tallies;
+    HeldPages<Exec>     held;
+};
+
 template<class Exec>
 class HeldPagesTest : public test::BackendTest<Exec>
 {
@@ -100,32 +141,17 @@ TYPED_TEST_SUITE(HeldPagesTest, test::Backends, test::BackendNames);
 /// A free grid in the air, so that the ledger contains only gravity, stress and the holding forces.
 TYPED_TEST(HeldPagesTest, StopTheNodesAndBookIt)
 {
-    const auto                      exec   = this->exec();
-    Points<TypeParam, double>       points = this->points();
-    Pages<TypeParam>                pages(exec);
-    OrderScratch<TypeParam, double> scratch(exec);
-    order_points(exec, points, pages, {spacing, 0.5, {2, 2, 2}}, scratch);
-    const PagesView view = pages.view(spacing, 0.5);
+    const auto                exec   = this->exec();
+    Points<TypeParam, double> points = this->points();
+    HeldGrid<TypeParam>       grid(exec, points);
+    const GridStep<double>&   step = grid.step;
+    EXPECT_EQ(grid.held.page.size(), 12); // two adjacent pages and the upper neighbours of both
+    grid.update(exec, {});
+    const auto free = grid.motion.to_host();
+    grid.hold(exec, {});
+    const auto still = grid.motion.to_host(), sums = grid.tallies.to_host();
 
-    Array<TypeParam, double>        tiles(exec, "tiles", view.point_pages * node_channels * tile_nodes);
-    Array<TypeParam, double>        motion(exec, "motion", view.node_pages * motion_channels * page_cells);
-    Array<TypeParam, double>        tallies(exec, "tallies", view.node_pages * tally_width(grid_sums));
-    Array<TypeParam, std::uint64_t> asleep(exec, "asleep");
-    HeldPages<TypeParam>            held(exec);
-    tallies.fill_zero();
-    asleep.assign({page_key({1, 2, 2}), page_key({2, 2, 2})});
-    list_held_pages(exec, view, asleep, held, scratch.sort);
-    EXPECT_EQ(held.page.size(), 12); // two adjacent pages and the upper neighbours of both
-
-    const GridStep<double> step{dt, {0.3, 0, -9.81}, 0, 1e-20, {}};
-    scatter(exec, points.view(), view, all_point_pages(view), tiles.data());
-    update_grid(exec, view, WallPagesView<double>{}, SharedPagesView<double>{}, tiles.data(), step, motion.data(),
-                tallies.data());
-    const auto free = motion.to_host();
-    hold_still(exec, view, held.view(), tiles.data(), step, motion.data(), tallies.data());
-    const auto still = motion.to_host(), sums = tallies.to_host();
-
-    const auto   keys = pages.node_page_key.to_host();
+    const auto   keys = grid.pages.node_page_key.to_host();
     const auto   mass = this->node_masses(points);
     Vec3<double> impulse(Vec3<double>::Zero());
     double       expected[grid_sums] = {};
@@ -167,7 +193,7 @@ TYPED_TEST(HeldPagesTest, StopTheNodesAndBookIt)
     }
     for (int c = 0; c < 3; ++c) { expected[grid_wall_impulse + c] = impulse[c]; }
 
-    const auto given = held.impulse.to_host();
+    const auto given = grid.held.impulse.to_host();
     for (std::size_t i = 0; i < given.size(); ++i) { impulse[static_cast<int>(i % 3)] -= given[i]; }
     EXPECT_LT(impulse.norm(), 1e-9);
     for (const int which :
@@ -184,6 +210,35 @@ TYPED_TEST(HeldPagesTest, StopTheNodesAndBookIt)
         EXPECT_EQ(of_steps, of_last) << which;
         EXPECT_NEAR(of_steps, expected[which], 1e-10 * std::abs(expected[which])) << which;
     }
+}
+
+/// Another process brings as much to one of the pages as this one: it takes twice the impulse to hold it.
+TYPED_TEST(HeldPagesTest, HoldTheTotalsOfSharedPages)
+{
+    const auto                exec   = this->exec();
+    Points<TypeParam, double> points = this->points();
+    HeldGrid<TypeParam>       alone(exec, points), together(exec, points);
+    alone.update(exec, {});
+    alone.hold(exec, {});
+
+    SharedPages<TypeParam, double> shared(exec);
+    const std::int32_t             page = alone.held.page.to_host()[0];
+    std::vector<std::int32_t>      number_of(static_cast<std::size_t>(alone.view.node_pages), -1);
+    number_of[static_cast<std::size_t>(page)] = 0;
+    shared.page.assign({page});
+    shared.number_of.assign(number_of);
+    shared.own.resize(node_page_values);
+    sum_own_parts(exec, together.view, together.tiles.data(), shared);
+    std::vector<double> twice = shared.own.to_host();
+    for (double& value : twice) { value *= 2; }
+    shared.total.assign(twice);
+    together.update(exec, shared.view());
+    together.hold(exec, shared.view());
+
+    EXPECT_EQ(alone.motion.to_host(), together.motion.to_host());
+    const auto one = alone.held.impulse.to_host(), both = together.held.impulse.to_host();
+    EXPECT_NE(one[2], 0);
+    for (std::size_t i = 0; i < one.size(); ++i) { EXPECT_EQ(both[i], (i < 3 ? 2 : 1) * one[i]) << i; }
 }
 
 TYPED_TEST(HeldPagesTest, KeepTheLargestSpeedOfSteps)
