@@ -146,6 +146,12 @@ void sum_rows(const Gpu& gpu, const double* rows, std::int64_t count, int width,
 
 void sum_rows(const Gpu& gpu, const double* rows, std::int64_t count, int width, double* out)
 {
+    if (count >= many_rows)
+    {
+        Array<Gpu, double> scratch(gpu, "sums of chunks");
+        sum_rows(gpu, rows, count, width, out, scratch);
+        return;
+    }
     for_each_block<fold_threads>(gpu, "sum rows", width, FoldColumn<Add>{rows, count, width, out, {}});
 }
 

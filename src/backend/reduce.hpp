@@ -11,7 +11,7 @@ namespace tread
 void sum_rows(const Cpu&, const double* rows, std::int64_t count, int width, double* out);
 void sum_rows(const Gpu&, const double* rows, std::int64_t count, int width, double* out);
 
-/// Computes this sum for very many rows; `scratch` is kept between calls.
+/// Computes this sum with memory that is kept between calls, where there are very many rows.
 void sum_rows(const Cpu&, const double* rows, std::int64_t count, int width, double* out, Array<Cpu, double>& scratch);
 void sum_rows(const Gpu&, const double* rows, std::int64_t count, int width, double* out, Array<Gpu, double>& scratch);
 
