@@ -85,7 +85,7 @@ Keys<TimeOptions> time_keys()
         optional("substeps", "", &TimeOptions::substeps, integer_or("auto", 1, most_substeps),
                  "Contact substeps in a step. \"auto\" takes as many as contact between bodies needs; a run that needs "
                  "more than 1000000 stops."),
-        optional("contact_share", "", &TimeOptions::contact_share, number(between(0.001, 0.4)),
+        optional("contact_share", "", &TimeOptions::contact_share, number(between(0.001, 0.8)),
                  "Substep over sqrt(m / sum K) of the stiffest body, where substeps are \"auto\". Contacts are stable "
                  "to 1.1; over "
                  "0.4 single impacts lose their energy balance; at 0.001 their error is that of rounding."),
