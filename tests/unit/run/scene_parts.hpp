@@ -166,6 +166,7 @@ inline const Part bodies = {{"bodies by cell",
                              "nodes of pairs",
                              "pair measures",
                              "pair properties",
+                             "pairs accepted",
                              "pairs by second body",
                              "pairs found",
                              "pairs of first body",
@@ -186,12 +187,12 @@ inline const Part bodies = {{"bodies by cell",
                              "contact frequencies",
                              "count pairs",
                              "expected contacts",
-                             "keep pairs",
                              "largest of rows",
                              "mark pairs",
                              "measure activity",
                              "measure displacements",
                              "move bodies",
+                             "nodes of kept pairs",
                              "pairs of bodies",
                              "scan",
                              "sort",
@@ -206,7 +207,7 @@ inline const Part named_bodies = {{"contact impulses", "shares of weight"}, {}};
 inline const Part concave_bodies = {{"patches of pairs"}, {"group pair nodes", "pairs of several patches"}};
 
 /// Bodies near each other or a wall.
-inline const Part pairs = {{"last pair keys", "pair keys"}, {"count pair nodes"}};
+inline const Part pairs = {{"last pair keys", "near clusters", "pair keys"}, {"count pair nodes", "keep pairs"}};
 
 /// All substeps run without sand.
 inline const Part pairs_without_sand = {{"pair second bodies"}, {}};

@@ -16,8 +16,9 @@ void count_contact_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& 
                     [&]<class Meet>(const Meet& meet)
                     {
                         const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
-                        for_each_group<node_lanes>(gpu, "count pair nodes", pairs.key.size(),
-                                                   contact_nodes::CountNodes<Meet>{walk, pairs.nodes.first.data()});
+                        for_each_group<node_lanes>(
+                            gpu, "count pair nodes", pairs.key.size(),
+                            contact_nodes::CountNodes<Meet>{walk, pairs.nodes.first.data(), pairs.search.near.data()});
                     });
 }
 
@@ -30,7 +31,8 @@ void list_contact_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& b
                         const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
                         for_each_group<node_lanes>(
                             gpu, "write pair nodes", pairs.key.size(),
-                            contact_nodes::WriteNodes<Meet>{walk, pairs.nodes.first.data(), pairs.nodes.node.data()});
+                            contact_nodes::WriteNodes<Meet>{walk, pairs.search.near.data(), pairs.search.counted.data(),
+                                                            pairs.nodes.first.data(), pairs.nodes.node.data()});
                     });
 }
 

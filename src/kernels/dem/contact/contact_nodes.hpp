@@ -9,10 +9,12 @@ namespace tread::dem
 {
 
 /// Sets pairs.nodes.first[p] to the number of nodes of pair p, or to -1 for exact spheres, which touch without nodes.
+/// Fills pairs.search.near, so that list_contact_nodes need not look for them again.
 template<class Exec>
 void count_contact_nodes(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// Fills pairs.nodes.node; pairs.nodes.first must already hold the start of each pair's run.
+/// Fills pairs.nodes.node; pairs.nodes.first must already hold the start of each pair's run, and pairs.search.counted
+/// the place of each pair in pairs.search.near.
 template<class Exec>
 void list_contact_nodes(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 

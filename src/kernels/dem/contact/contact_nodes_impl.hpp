@@ -12,14 +12,26 @@ namespace tread::dem::contact_nodes
 
 inline constexpr std::int32_t without_nodes = -1;
 
+/// Counts the nodes of a pair, and records the clusters that they are in, as far as there is room.
 struct Count
 {
-    std::int32_t found = 0;
+    NearCluster* near; ///< [near_clusters]
+    std::int32_t found    = 0;
+    std::int32_t clusters = 0;
 
     template<class Lanes>
-    TREAD_HD void operator()(bool near, std::int32_t, const Lanes& lanes)
+    TREAD_HD void operator()(const NearCluster& cluster, const Lanes& lanes)
     {
-        found += count_bits(lanes.vote(near));
+        found += count_bits(cluster.nodes);
+        if (clusters < near_clusters && lanes.lane() == 0) { near[clusters] = cluster; }
+        ++clusters;
+    }
+
+    /// Marks the end of the record; a record without an end is not complete.
+    template<class Lanes>
+    TREAD_HD void end(const Lanes& lanes) const
+    {
+        if (clusters < near_clusters && lanes.lane() == 0) { near[clusters] = {0, 0}; }
     }
 };
 
@@ -28,17 +40,21 @@ struct Write
     std::int32_t* place;
 
     template<class Lanes>
-    TREAD_HD void operator()(bool near, std::int32_t node, const Lanes& lanes)
+    TREAD_HD void operator()(const NearCluster& cluster, const Lanes& lanes)
     {
-        const std::uint32_t all = lanes.vote(near);
-        if (near) { place[count_bits(all & first_bits(lanes.lane()))] = node; }
-        place += count_bits(all);
+        for (std::int32_t bit = lanes.lane(); bit < cluster_size; bit += lanes.lanes())
+        {
+            if ((cluster.nodes >> bit & 1u) == 0) { continue; }
+            place[count_bits(cluster.nodes & first_bits(bit))] =
+                cluster.first_body() ? cluster.index() * cluster_size + bit : ~(cluster.index() * cluster_size + bit);
+        }
+        place += count_bits(cluster.nodes);
     }
 };
 
-/// Calls take(near, name of the node, lanes) for every node of the clusters that may enter; all lanes take part.
-template<class Field, class Name, class Lanes, class Take>
-TREAD_HD void walk(const Side<Field>& side, double way, Name name, const Lanes& lanes, Take& take)
+/// Calls take(cluster, lanes) for every cluster with nodes that may enter; all lanes take part.
+template<class Field, class Lanes, class Take>
+TREAD_HD void walk(const Side<Field>& side, double way, const Lanes& lanes, Take& take)
 {
     const std::int32_t clusters = side.owner.shape->cluster_count, nodes = side.owner.shape->node_count;
     for (std::int32_t base = 0; base < clusters; base += lanes.lanes())
@@ -48,12 +64,13 @@ TREAD_HD void walk(const Side<Field>& side, double way, Name name, const Lanes& 
         for (std::int32_t cluster = base; near != 0; ++cluster, near >>= 1)
         {
             if ((near & 1u) == 0) { continue; }
-            const std::int32_t last = cluster * cluster_size + cluster_size;
-            for (std::int32_t first = cluster * cluster_size; first < last; first += lanes.lanes())
+            std::uint32_t all = 0;
+            for (std::int32_t bit = 0; bit < cluster_size; bit += lanes.lanes())
             {
-                const std::int32_t i = first + lanes.lane();
-                take(i < nodes && side.near_node(i, way), name(i), lanes);
+                const std::int32_t i = cluster * cluster_size + bit + lanes.lane();
+                all |= lanes.vote(i < nodes && side.near_node(i, way)) << bit;
             }
+            if (all != 0) { take(NearCluster{side.sign > 0 ? cluster : ~cluster, all}, lanes); }
         }
     }
 }
@@ -80,21 +97,19 @@ struct Walk
     {
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
         Couple             couple;
-        couple.body[0]      = instance_of(bodies, law.templates, a, bodies.position[a]);
-        const double way    = pairs.allowed_displacement[a];
-        const auto   first  = [](std::int32_t i) { return i; };
-        const auto   second = [](std::int32_t i) { return ~i; };
+        couple.body[0]   = instance_of(bodies, law.templates, a, bodies.position[a]);
+        const double way = pairs.allowed_displacement[a];
         if (b >= bodies.count)
         {
             const PlaneField wall = field_of(law.planes[b - bodies.count], bodies.position[a]);
-            walk(Side<PlaneField>{couple.body[0], wall, 1.0, 1.0}, way, first, lanes, take);
+            walk(Side<PlaneField>{couple.body[0], wall, 1.0, 1.0}, way, lanes, take);
             return;
         }
         couple.body[1] = instance_of(bodies, law.templates, b, bodies.position[a]);
         const TwoSides<Meet> sides{meet, couple};
         const double         together = way + pairs.allowed_displacement[b];
-        walk(sides.first(), together, first, lanes, take);
-        walk(sides.second(), together, second, lanes, take);
+        walk(sides.first(), together, lanes, take);
+        walk(sides.second(), together, lanes, take);
     }
 };
 
@@ -103,13 +118,15 @@ struct CountNodes
 {
     Walk<Meet>    walk;
     std::int32_t* found; ///< [pairs]
+    NearCluster*  near;  ///< [pairs * near_clusters]
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
     {
         const bool closed_form = walk.closed_form(p);
-        Count      count;
+        Count      count{near + p * near_clusters};
         if (!closed_form) { walk(p, lanes, count); }
+        count.end(lanes);
         if (lanes.lane() == 0) { found[p] = closed_form ? without_nodes : count.found; }
     }
 };
@@ -118,15 +135,23 @@ template<class Meet>
 struct WriteNodes
 {
     Walk<Meet>          walk;
-    const std::int32_t* first; ///< [pairs + 1]
+    const NearCluster*  near;    ///< as CountNodes has recorded it
+    const std::int32_t* counted; ///< [pairs], where a pair was when it was counted
+    const std::int32_t* first;   ///< [pairs + 1]
     std::int32_t*       node;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
     {
         if (first[p] == first[p + 1]) { return; }
-        Write write{node + first[p]};
-        walk(p, lanes, write);
+        Write              write{node + first[p]};
+        const NearCluster* record = near + std::int64_t{counted[p]} * near_clusters;
+        if (record[near_clusters - 1].nodes != 0) // as many as there is room for, or more
+        {
+            walk(p, lanes, write);
+            return;
+        }
+        for (std::int32_t c = 0; record[c].nodes != 0; ++c) { write(record[c], lanes); }
     }
 };
 

@@ -28,17 +28,33 @@ struct WriteCell
     }
 };
 
+/// Number of candidates of a part whose test is remembered.
+inline constexpr std::int32_t remembered_candidates = 32;
+
 struct CountPairs
 {
-    PairSearch    search;
-    std::int32_t* found; ///< [bodies * parts + 1]
+    PairSearch     search;
+    std::int32_t*  found;    ///< [bodies * parts + 1]
+    std::uint32_t* accepted; ///< [bodies * parts]
 
     TREAD_HD void operator()(std::int64_t i) const
     {
-        std::int32_t own = 0;
+        std::int32_t  own = 0, candidate = 0;
+        std::uint32_t near = 0;
         if (i < search.bodies.count * PairSearch::parts)
         {
-            search(i / PairSearch::parts, i % PairSearch::parts, [&](std::uint64_t) { ++own; });
+            search.each_candidate(i / PairSearch::parts, i % PairSearch::parts,
+                                  [&](std::uint64_t, const auto& is_near)
+                                  {
+                                      const bool found_near = is_near();
+                                      own += found_near ? 1 : 0;
+                                      if (found_near && candidate < remembered_candidates)
+                                      {
+                                          near |= std::uint32_t{1} << candidate;
+                                      }
+                                      ++candidate;
+                                  });
+            accepted[i] = near;
         }
         found[i] = own;
     }
@@ -46,15 +62,24 @@ struct CountPairs
 
 struct WritePairs
 {
-    PairSearch          search;
-    const std::int32_t* found; ///< [bodies * parts + 1], after the scan
-    std::uint64_t*      key;
+    PairSearch           search;
+    const std::int32_t*  found;    ///< [bodies * parts + 1], after the scan
+    const std::uint32_t* accepted; ///< [bodies * parts]
+    std::uint64_t*       key;
 
     TREAD_HD void operator()(std::int64_t i) const
     {
-        std::int32_t place = found[i];
+        std::int32_t place = found[i], candidate = 0;
         if (place == found[i + 1]) { return; }
-        search(i / PairSearch::parts, i % PairSearch::parts, [&](std::uint64_t pair) { key[place++] = pair; });
+        search.each_candidate(i / PairSearch::parts, i % PairSearch::parts,
+                              [&](std::uint64_t pair, const auto& is_near)
+                              {
+                                  const bool near = candidate < remembered_candidates
+                                                        ? (accepted[i] >> candidate & 1u) != 0
+                                                        : is_near();
+                                  if (near) { key[place++] = pair; }
+                                  ++candidate;
+                              });
     }
 };
 
@@ -97,9 +122,12 @@ void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, cons
     const PairSearch   search = make_search(pairs, bodies, law, cell_size);
     const std::int64_t items  = bodies.count * PairSearch::parts;
     pairs.search.found.resize(items + 1);
-    for_each(exec, "count pairs", items + 1, CountPairs{search, pairs.search.found.data()});
+    pairs.search.accepted.resize(items);
+    for_each(exec, "count pairs", items + 1,
+             CountPairs{search, pairs.search.found.data(), pairs.search.accepted.data()});
     pairs.key.resize(exclusive_scan(exec, pairs.search.found, pairs.sort));
-    for_each(exec, "write pairs", items, WritePairs{search, pairs.search.found.data(), pairs.key.data()});
+    for_each(exec, "write pairs", items,
+             WritePairs{search, pairs.search.found.data(), pairs.search.accepted.data(), pairs.key.data()});
 }
 
 } // namespace tread::dem::pair_steps

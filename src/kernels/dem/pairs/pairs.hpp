@@ -168,6 +168,20 @@ struct AllowedDisplacement
     Array<Exec, double> per_step;      ///< bounding radii, of owned bodies: extra Verlet skin for one further step
 };
 
+/// The nodes of a cluster that may enter the other body of a pair.
+struct NearCluster
+{
+    std::int32_t  name;  ///< i of the first body, ~i of the second
+    std::uint32_t nodes; ///< bit n: node n of the cluster
+
+    TREAD_HD bool first_body() const { return name >= 0; }
+    TREAD_HD std::int32_t index() const { return first_body() ? name : ~name; }
+};
+
+/// Number of clusters that are recorded for a pair. Rocks seldom meet with more than five; a pair with at least as many
+/// as this looks for its nodes twice.
+inline constexpr std::int32_t near_clusters = 8;
+
 /// Scratch memory of the search by cells of a grid.
 template<class Exec>
 struct PairSearchScratch
@@ -176,14 +190,21 @@ struct PairSearchScratch
         : cell_key(exec, "body cells")
         , cell_body(exec, "bodies by cell")
         , found(exec, "pairs found")
+        , accepted(exec, "pairs accepted")
         , second_key(exec, "pair second bodies")
+        , near(exec, "near clusters")
+        , counted(exec, "pairs counted")
     {
     }
 
     Array<Exec, std::uint64_t> cell_key; ///< ascending
     Array<Exec, std::int32_t>  cell_body;
     Array<Exec, std::int32_t>  found;
+    Array<Exec, std::uint32_t>
+        accepted; ///< candidates of each part of a body's search that were found near, a bit each
     Array<Exec, std::uint64_t> second_key;
+    Array<Exec, NearCluster>   near;    ///< [pairs * near_clusters], up to the first without nodes
+    Array<Exec, std::int32_t>  counted; ///< place of each pair in `near`
 };
 
 /// Memory of PairsView, and of the search for pairs.

@@ -73,19 +73,31 @@ struct MarkPairs
 
 struct KeepPairs
 {
-    std::int64_t         count;
     const std::uint64_t* key;
-    const std::int32_t*  nodes; ///< of each pair; negative: none, but the pair is kept
     const std::int32_t*  place; ///< [pairs + 1], after the scan
     std::uint64_t*       kept_key;
-    std::int32_t*        kept_nodes; ///< followed by a zero for the end of the scan
+    std::int32_t*        counted; ///< the place that each kept pair had
 
     TREAD_HD void operator()(std::int64_t p) const
     {
-        if (p == count) { kept_nodes[place[p]] = 0; }
-        if (p == count || place[p] == place[p + 1]) { return; }
-        kept_key[place[p]]   = key[p];
-        kept_nodes[place[p]] = nodes[p] > 0 ? nodes[p] : 0;
+        if (place[p] == place[p + 1]) { return; }
+        kept_key[place[p]] = key[p];
+        counted[place[p]]  = static_cast<std::int32_t>(p);
+    }
+};
+
+/// Takes the number of nodes of each kept pair along to its new place, with a zero for the end of the scan.
+struct TakeCounts
+{
+    std::int64_t        kept;
+    const std::int32_t* counted;
+    const std::int32_t* nodes; ///< of each pair that was counted; negative: none, but the pair is kept
+    std::int32_t*       kept_nodes;
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        const std::int32_t number = p < kept ? nodes[counted[p]] : 0;
+        kept_nodes[p]             = number > 0 ? number : 0;
     }
 };
 
@@ -211,22 +223,27 @@ void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesVie
 {
     const std::int64_t count = pairs.key.size();
     pairs.nodes.first.resize(count + 1);
+    pairs.search.near.resize(count * near_clusters);
     count_contact_nodes(exec, pairs, bodies, law);
     pairs.search.found.resize(count + 1);
     for_each(exec, "mark pairs", count + 1, MarkPairs{count, pairs.nodes.first.data(), pairs.search.found.data()});
     const std::int64_t kept = exclusive_scan(exec, pairs.search.found, pairs.sort);
     pairs.search.second_key.resize(kept);
-    pairs.of_body.by_second.resize(kept + 1);
-    for_each(exec, "keep pairs", count + 1,
-             KeepPairs{count, pairs.key.data(), pairs.nodes.first.data(), pairs.search.found.data(),
-                       pairs.search.second_key.data(), pairs.of_body.by_second.data()});
+    pairs.search.counted.resize(kept);
+    for_each(exec, "keep pairs", count,
+             KeepPairs{pairs.key.data(), pairs.search.found.data(), pairs.search.second_key.data(),
+                       pairs.search.counted.data()});
     pairs.key.swap(pairs.search.second_key);
+    release_memory(pairs.search.second_key, pairs.search.found);
+    sort_by_key(exec, pairs.key, pairs.search.counted, pairs.sort, 32 + bits_below(bodies.count));
+
+    pairs.of_body.by_second.resize(kept + 1);
+    for_each(exec, "nodes of kept pairs", kept + 1,
+             TakeCounts{kept, pairs.search.counted.data(), pairs.nodes.first.data(), pairs.of_body.by_second.data()});
     pairs.nodes.first.swap(pairs.of_body.by_second);
-    release_memory(pairs.search.second_key, pairs.of_body.by_second, pairs.search.found);
-    sort_by_key(exec, pairs.key, pairs.nodes.first, pairs.sort,
-                32 + bits_below(bodies.count)); // the final zero keeps its place
     pairs.nodes.node.resize(exclusive_scan(exec, pairs.nodes.first, pairs.sort));
     list_contact_nodes(exec, pairs, bodies, law);
+    release_memory(pairs.of_body.by_second, pairs.search.near, pairs.search.counted);
 }
 
 /// Releases the substeps' memory of a list.
@@ -321,7 +338,7 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     if (pairs.sleep.wakes) { wake_bodies(exec, pairs, bodies, law, cell_size); }
     search(exec, pairs, bodies, law, cell_size);
     release_memory(pairs.displacement.search_radius, pairs.displacement.speed, pairs.displacement.per_step,
-                   pairs.search.cell_key, pairs.search.cell_body, pairs.search.found);
+                   pairs.search.cell_key, pairs.search.cell_body, pairs.search.found, pairs.search.accepted);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
     if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }

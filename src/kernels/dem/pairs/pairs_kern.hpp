@@ -173,8 +173,21 @@ struct PairSearch
     /// Parts of a body's search: the rows of cells around its own cell, and everything that is not in the cell grid.
     static constexpr std::int64_t cell_rows = 9, parts = cell_rows + 1;
 
+    /// Calls visit(key) for each pair that may touch.
     template<class Visit>
     TREAD_HD void operator()(std::int64_t a, std::int64_t part, Visit visit) const
+    {
+        each_candidate(a, part,
+                       [&](std::uint64_t pair, const auto& is_near)
+                       {
+                           if (is_near()) { visit(pair); }
+                       });
+    }
+
+    /// Calls visit(key, is_near) for each pair that is not ruled out at once, in the same order each time; is_near()
+    /// tells whether it may touch.
+    template<class Visit>
+    TREAD_HD void each_candidate(std::int64_t a, std::int64_t part, Visit visit) const
     {
         if (!bodies.is_here(a)) { return; }
         if (part == cell_rows) { beside_cells(a, visit); }
@@ -183,7 +196,7 @@ struct PairSearch
 
 private:
     template<class Visit>
-    TREAD_HD void in_row(std::int64_t a, std::int64_t row, Visit visit) const
+    TREAD_HD void in_row(std::int64_t a, std::int64_t row, Visit& visit) const
     {
         const Vec3<double>& position = bodies.position[a];
         const std::int64_t  x        = cell_coordinate(position[0], cell_size),
@@ -194,31 +207,33 @@ private:
         for (std::int64_t i = lower_bound(cell_key, gridded, cell_key_of(x - 1, y, z));
              i < gridded && cell_key[i] <= last; ++i)
         {
-            const std::int64_t b     = cell_body[i];
-            const bool         found = b > a || (b < a && bodies.is_asleep(b));
-            const std::int64_t first = a < b ? a : b, second = a < b ? b : a;
-            if (found && answered_here(first, second) && near(first, second)) { visit(pair_key(first, second)); }
+            const std::int64_t b = cell_body[i];
+            if (b > a || (b < a && bodies.is_asleep(b))) { visit_pair(a, b, visit); }
         }
     }
 
     /// Visits pairs with large bodies and walls.
     template<class Visit>
-    TREAD_HD void beside_cells(std::int64_t a, Visit visit) const
+    TREAD_HD void beside_cells(std::int64_t a, Visit& visit) const
     {
         for (std::int64_t l = 0; l < large_count; ++l)
         {
             const std::int64_t b = large[l];
             if ((is_large[a] != 0 && b <= a) || (bodies.is_asleep(a) && bodies.is_asleep(b))) { continue; }
-            const std::int64_t first = a < b ? a : b, second = a < b ? b : a;
-            if (answered_here(first, second) && near(first, second)) { visit(pair_key(first, second)); }
+            visit_pair(a, b, visit);
         }
         for (std::int32_t p = 0; p < law.plane_count; ++p)
         {
-            if (bodies.is_owned(a) && !bodies.is_asleep(a) && near(a, law.planes[p]))
-            {
-                visit(pair_key(a, bodies.count + p));
-            }
+            if (!bodies.is_owned(a) || bodies.is_asleep(a)) { continue; }
+            visit(pair_key(a, bodies.count + p), [&] { return near(a, law.planes[p]); });
         }
+    }
+
+    template<class Visit>
+    TREAD_HD void visit_pair(std::int64_t a, std::int64_t b, Visit& visit) const
+    {
+        const std::int64_t first = a < b ? a : b, second = a < b ? b : a;
+        visit(pair_key(first, second), [&] { return answered_here(first, second) && near(first, second); });
     }
 };
 
