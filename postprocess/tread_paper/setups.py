@@ -74,7 +74,7 @@ def figure_of(setup, program, scenes):
 
 SETUPS = {
     "head_on": {"head_on_setup": Setup(
-        "A rigid sphere meets a sphere of material points: before, at the closest, and after (Fig. 7 a)", (State("head_on_1", (EVERY,)),), "collision")},
+        "A rigid sphere meets one of material points: before, at the closest, and after (Fig. 7 a)", (State("head_on_1", (EVERY,)),), "collision")},
     "wheel_drop": {"wheel_drop_setup": Setup(
         "The three beds before gravity acts, and the rock (Fig. 9)",
         (State("wheel_drop_rock"), State("wheel_drop_sand"), State("wheel_drop_mixed")), "drops")},

@@ -60,7 +60,7 @@ def write(figure, path):
 
 def write_shaded(figure, path):
     """Writes a figure whose smooth shades `write` would band, small as docs/ keeps it."""
-    figure.savefig(path, dpi=100, bbox_inches="tight", pad_inches=0.15)
+    figure.savefig(path, dpi=110, bbox_inches="tight", pad_inches=0.15)
     plt.close(figure)
     pack_picture(path)
     print(path)
