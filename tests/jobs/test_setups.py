@@ -59,7 +59,7 @@ class Setups(unittest.TestCase):
         self.assertEqual(pixels.shape[:2], (200, 320))
         seen = where(box)
         self.assertTrue(((seen > 0) & (seen < (320, 200))).all(), seen)
-        column, row = np.rint(where([(0.45, 0.0, 0.02)])[0]).astype(int)  # low on the near side of the sand
+        column, row = np.rint(where([(0.45, 0.0, 0.06)])[0]).astype(int)  # on the near side of the sand
         self.assertLess(pixels[row, column, 2], 0.9 * pixels[row, column, 0])
         column, row = np.rint(where([(0.88, 0.0, 0.48)])[0]).astype(int)  # in the air
         self.assertEqual(list(pixels[row, column, :3]), [1, 1, 1])
