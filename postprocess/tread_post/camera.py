@@ -38,8 +38,8 @@ def around(bodies, row, shapes):
     return box_of(*(bodies.position[row] + radius * AROUND))
 
 
-def aim(renderer, content, size, view):
-    """Turns the camera to the drawing from one of VIEWS, and fits the points `content` into FRAME."""
+def aim(renderer, content, size, view, frame=FRAME):
+    """Turns the camera to the drawing from one of VIEWS, and fits the points `content` into a frame: shares of the width and of the height."""
     camera = renderer.GetActiveCamera()
     camera.SetPosition(*VIEWS[view])
     camera.SetFocalPoint(0.0, 0.0, 0.0)
@@ -48,13 +48,18 @@ def aim(renderer, content, size, view):
     low, high = content.min(axis=0), content.max(axis=0)
     renderer.ResetCamera(*np.stack((low, high), axis=1).ravel())
 
-    matrix = camera.GetCompositeProjectionTransformMatrix(size[0] / size[1], -1.0, 1.0)
-    projection = np.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
-    seen = np.column_stack((content, np.ones(len(content)))) @ projection.T
-    seen = seen[:, :2] / seen[:, 3:]  # -1 to 1 over the picture
+    seen = seen_from(renderer, content, size)[:, :2]
     low, high = seen.min(axis=0), seen.max(axis=0)
-    frame = 2 * np.array(FRAME) - 1
+    frame = 2 * np.array(frame) - 1
     zoom = ((frame[:, 1] - frame[:, 0]) / (high - low)).min()
     camera.Zoom(zoom)
     camera.SetWindowCenter(*(zoom * 0.5 * (low + high) - frame.mean(axis=1)))
     renderer.ResetCameraClippingRange()
+
+
+def seen_from(renderer, places, size):
+    """Where the camera sees places [n, 3] (m): -1 to 1 across and up the picture, and their depth, [n, 3]."""
+    matrix = renderer.GetActiveCamera().GetCompositeProjectionTransformMatrix(size[0] / size[1], -1.0, 1.0)
+    projection = np.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
+    seen = np.column_stack((places, np.ones(len(places)))) @ projection.T
+    return seen[:, :3] / seen[:, 3:]

@@ -77,9 +77,9 @@ def shown(run, snapshot, look):
     if look.cut is None:
         return points, bodies
     if points is not None:
-        points = _rows(points, _is_behind(points.position, look))
+        points = rows_of(points, _is_behind(points.position, look))
     if bodies is not None:
-        bodies = _rows(bodies, _is_behind(bodies.position, look) | (np.arange(len(bodies.shape)) < len(run.scene.get("body", []))))
+        bodies = rows_of(bodies, _is_behind(bodies.position, look) | (np.arange(len(bodies.shape)) < len(run.scene.get("body", []))))
     if not any(len(table.position) for table in (points, bodies) if table is not None):
         raise RunError(f"{run.path / 'snapshots'}: in snapshot {snapshot} nothing lies behind the cut")
     return points, bodies
@@ -90,7 +90,7 @@ def _is_behind(position, look):
     return position[:, axis] <= at if VIEWS[look.view][axis] > 0 else position[:, axis] >= at
 
 
-def _rows(table, kept):
+def rows_of(table, kept):
     """The rows of Points or Bodies that are kept."""
     columns = {name: values[kept] for name, values in vars(table).items() if isinstance(values, np.ndarray)}
     return replace(table, **columns, fields={name: values[kept] for name, values in table.fields.items()})
@@ -100,11 +100,19 @@ def draw(run, snapshot, view, output, size, look=Look(), remark=""):
     """Writes the picture of a snapshot to `output` (.png), `size` pixels wide and high. `remark` stands behind the time."""
     points, bodies = shown(run, snapshot, look)
     renderer = empty_picture(look.backdrop)
+    fill(renderer, run, points, bodies, look, view.displacement, size, with_floor=points is None)
+    add_title(renderer, f"{run.title}\nt = {(points or bodies).time:.3f} s{remark}", size)
+    aim(renderer, view.content, size, look.view)
+    write(renderer, output, size)
+
+
+def fill(renderer, run, points, bodies, look, largest, size, with_floor):
+    """Adds sand, bodies, their light and the scale, which ends at a displacement of `largest` (m), to the renderer of a picture."""
     meshes, sand = list(body_meshes(run, bodies)) if bodies is not None else [], None
-    if points is None:
+    if with_floor:
         meshes += floor_meshes(run)
-    elif len(points.position):
-        shades, spacings = shades_of(points, look.colour, view.displacement), point_spacings(run.scene, points)
+    if points is not None and len(points.position):
+        shades, spacings = shades_of(points, look.colour, largest), point_spacings(run.scene, points)
         if look.sand == "surface":
             sand = surface_of(points.position, shades.values, spacings, sand_box(run, look)), shades
         else:
@@ -115,9 +123,6 @@ def draw(run, snapshot, view, output, size, look=Look(), remark=""):
         add_lamplit(renderer, meshes, sand)
     else:
         add_under_sun(renderer, meshes, sand, VIEWS[look.view])
-    add_title(renderer, f"{run.title}\nt = {(points or bodies).time:.3f} s{remark}", size)
-    aim(renderer, view.content, size, look.view)
-    write(renderer, output, size)
 
 
 def sand_box(run, look):

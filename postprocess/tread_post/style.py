@@ -58,6 +58,14 @@ def write(figure, path):
     print(path)
 
 
+def write_shaded(figure, path):
+    """Writes a figure whose smooth shades `write` would band, small as docs/ keeps it."""
+    figure.savefig(path, dpi=110, bbox_inches="tight", pad_inches=0.15)
+    plt.close(figure)
+    pack_picture(path)
+    print(path)
+
+
 def pack_picture(path):
     """Rewrites a PNG with fewer colours, and smaller where it is still over LARGEST."""
     image, scale, palettes = Image.open(path).convert("RGB"), 1.0, list(PALETTES)
