@@ -33,7 +33,7 @@ def arguments():
     parser.add_argument("--output", type=Path, default=DOCS / "paper", metavar="DIR", help="of pictures; default: docs/paper")
     parser.add_argument("--document", type=Path, default=DOCS / "paper.md", metavar="FILE.md", help="whose parts are filled; default: docs/paper.md")
     parser.add_argument("--in-short", type=Path, default=DOCS / "paper_in_short.md", metavar="FILE.md", help="likewise; default: docs/paper_in_short.md")
-    parser.add_argument("--tread", type=Path, metavar="PROGRAM", help="draws the set-ups of the case anew, of all in about ten minutes on two cores")
+    parser.add_argument("--tread", type=Path, metavar="PROGRAM", help="draws the set-ups of the case anew, of all in about a quarter of an hour on two cores")
     return parser.parse_args()
 
 

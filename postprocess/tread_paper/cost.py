@@ -3,6 +3,7 @@
 import tomllib
 
 from tread_paper import criteria
+from tread_paper.measures import was_stopped
 from tread_paper.runs import IN_PARTS
 from tread_post import RunError
 from tread_post.verdict import headline, resolution_of, text_of
@@ -28,7 +29,7 @@ def cost_lines(path, plan, measures):
 def _cost_of(runs, measures):
     """Wall time of all repeats; everything else of the first."""
     summary, name = runs[0].summary, runs[0].path.name
-    walls = ", ".join(f"{run.summary['wall_s']:.{1 if run.summary['wall_s'] < 20 else 0}f}" for run in runs)
+    walls = ", ".join(_wall_of(run) for run in runs)
     cards = {card for run in runs for card in run.summary.get("devices", [])} - {USUAL}
     parts = 1 + summary.get("restarts", 0)
     return [walls + (f" ({', '.join(sorted(cards))})" if cards else "") + (f" in {parts} parts" if parts > 1 else ""), f"{summary['sim_per_wall']:.3g}",
@@ -36,12 +37,19 @@ def _cost_of(runs, measures):
             f"{measures(f'{name} summary energy_error'):.0e}", text_of(resolution_of(summary).verdict)]
 
 
+def _wall_of(run):
+    summary = run.summary
+    wall = f"{summary['wall_s']:.{1 if summary['wall_s'] < 20 else 0}f}"
+    return f"{wall} to {summary['time']:.1f} s, stopped" if was_stopped(run) else wall
+
+
 def _met(row, runs):
     if not runs:
         return "not run"
     if "target" not in row:
         return row.get("note", "")
-    word = "met" if all(run.summary["wall_s"] <= row["target"] for run in runs) else "missed"
+    met = all(run.summary["wall_s"] <= row["target"] and not was_stopped(run) for run in runs)
+    word = "met" if met else "missed"
     return f"{word}; {row['note']}" if "note" in row else word
 
 

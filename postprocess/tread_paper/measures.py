@@ -1,7 +1,7 @@
 """Numbers of runs, by what a row of the criteria requests.
 
-    RUN mean|min|max|spread QUANTITY [FROM TO]      over a time of the last phase, s; all of it
-    RUN first|last QUANTITY                         in the first or last row of the last phase
+    RUN mean|min|max|spread QUANTITY [FROM TO]      over a time of the last phase, s; all of it, where it has ended
+    RUN first|last QUANTITY                         in the first or last row of the last phase, where it has ended
     RUN kink QUANTITY FROM TO                       time at which two straight lines, fitted to it there, meet, s
     RUN scene KEY                                   number of the resolved scene: domain.gravity.2, material.sand.young, rocks.0.count
     RUN weight                                      of the first body, N
@@ -23,6 +23,8 @@ import numpy as np
 import head_on
 from tread_paper.history import history_of
 from tread_post.run import Run, RunError
+
+OF_WHOLE_RUNS = {"wall_s", "steps", "substeps", "time"}  # a run that was stopped has no such number to compare
 
 
 class Absent(Exception):
@@ -67,6 +69,8 @@ def _statistic(run, what, words):
     rows = np.isfinite(values)
     if len(words) == 3:
         rows &= _within(run, history, words[1:])
+    else:
+        _require_whole(run, history)
     if not rows.any():
         raise Absent(f"{run.path.name} has no {words[0]} there")
     known = values[rows]
@@ -82,6 +86,17 @@ def _within(run, history, bounds):
     return (time >= begin) & (time <= end)
 
 
+def was_stopped(run):
+    """Whether a run ended before its phases had."""
+    return (run.summary or {}).get("status", "finished") != "finished"
+
+
+def _require_whole(run, history):
+    """Absent where a run was stopped: what is asked of all of it, or of its end, it does not tell."""
+    if was_stopped(run):
+        raise Absent(f"{run.path.name} ends after {history.time[-1] if len(history.time) else 0:.1f} s")
+
+
 def _time_of(run, history, bound):
     """Time (s) since the last phase began of a bound of a window."""
     found = re.fullmatch(r"(end|touch|way:([\d.]+))?([+-]?[\d.]+)?", bound)
@@ -91,8 +106,7 @@ def _time_of(run, history, bound):
     if event is None:
         return float(offset)
     if event == "end":
-        if (run.summary or {}).get("status", "finished") != "finished":
-            raise Absent(f"{run.path.name} did not get to its end")
+        _require_whole(run, history)
         when = history.time[-1]
     elif event == "touch":
         when = _first(history, history.series("lift") > 0.05 * history.weight)
@@ -168,6 +182,8 @@ def _summary(run, _, words):
     summary = run.summary
     if summary is None:
         raise Absent(f"{run.path.name} has no summary")
+    if words[0] in OF_WHOLE_RUNS:
+        _require_whole(run, history_of(run))
     made_up = {
         "substeps_a_step": lambda: summary["substeps"] / max(summary["steps"], 1),
         "mean_dt": lambda: summary["time"] / max(summary["steps"], 1),

@@ -327,8 +327,9 @@ class Judging(unittest.TestCase):
         shutil.copytree(self.runs / "mixed", self.runs / "cut")
         (self.runs / "cut" / "summary.json").write_text('{"status": "stopped"}', encoding="utf-8")
         self.assertAlmostEqual(self.measures("cut mean speed 1 2"), SPEED, 6)
-        with self.assertRaisesRegex(Absent, "did not get to its end"):
-            self.measures("cut mean speed 1 end")
+        for text in ("cut mean speed 1 end", "cut last speed", "cut summary wall_s"):
+            with self.assertRaisesRegex(Absent, "cut ends after"):
+                self.measures(text)
 
     def test_a_row_says_what_it_rests_on(self):
         table = criteria.Table(self.plan, self.measures, self.theories, {})
