@@ -174,7 +174,8 @@ TYPED_TEST(BodyPairs, LeaveNothingOfTheSearchBehind)
     scene.find(step);
     EXPECT_EQ(this->counters.current_bytes(), held);
     for (const char* name : {"body search radii", "body speeds", "body displacement a step more", "body cells",
-                             "bodies by cell", "pairs found", "sort scratch"})
+                             "bodies by cell", "pairs found", "pairs accepted", "near clusters", "pairs counted",
+                             "sort scratch"})
     {
         EXPECT_EQ(this->counters.bytes().find(name)->second, 0) << name;
     }
