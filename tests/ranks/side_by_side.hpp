@@ -75,6 +75,16 @@ inline double difference(const std::vector<double>& one, const std::vector<doubl
     return largest;
 }
 
+/// Errors of the ledger with this census, which it knows only once it is asked for its rows.
+template<class Exec>
+auto errors_of(Experiment<Exec>& experiment, const solver::Census& now)
+{
+    solver::Ledger& ledger = experiment.simulation().ledger();
+    ledger.energy(now);
+    ledger.balance(now);
+    return ledger.errors();
+}
+
 enum class Owners
 {
     stay,  ///< page owners as assigned by the test

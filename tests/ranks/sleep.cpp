@@ -93,14 +93,6 @@ protected:
                                 run.together.simulation().body_fields().position, 1.0);
     }
 
-    /// Errors of the ledger with this census, which it knows only once it is asked for its rows.
-    static auto errors_of(test::Experiment<Exec>& experiment, const solver::Census& now)
-    {
-        experiment.simulation().ledger().energy(now);
-        experiment.simulation().ledger().balance(now);
-        return experiment.simulation().ledger().errors();
-    }
-
     /// Mass, energy and momentum agree.
     static void expect_same_balances(test::SideBySide<Exec>& run, double bound)
     {
@@ -110,7 +102,7 @@ protected:
         std::printf("strain energy %.6g J, alone %.6g J\n", all.sand.strain, one.sand.strain);
         EXPECT_NEAR(one.sand.strain, all.sand.strain, bound * energy);
         EXPECT_NEAR(one.sand.kinetic, all.sand.kinetic, bound * energy);
-        const auto of_one = errors_of(run.alone, one), of_all = errors_of(run.together, all);
+        const auto of_one = test::errors_of(run.alone, one), of_all = test::errors_of(run.together, all);
         EXPECT_NEAR(of_one.energy, of_all.energy, bound);
         EXPECT_NEAR(of_one.momentum, of_all.momentum, bound);
         const double slept = run.alone.simulation().mean_asleep().value();
@@ -152,7 +144,7 @@ TYPED_TEST(SleepRanks, PagesChangeTheirOwner)
     EXPECT_GT(most, points / 3);
     EXPECT_GE(found.repartitions, this->ranks() > 1 ? 1 : 0);
     const solver::Census now    = run.together.simulation().census();
-    const auto           errors = this->errors_of(run.together, now);
+    const auto           errors = test::errors_of(run.together, now);
     test::report("energy unaccounted", errors.energy, 0, 1e-3, "as the sleep of sand on one rank");
     test::report("momentum error", errors.momentum, 0, 1e-6, "what holds sleeping sand is accounted for; fp64");
     EXPECT_LT(std::abs(errors.energy), 1e-3);

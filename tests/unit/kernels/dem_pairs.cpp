@@ -173,9 +173,9 @@ TYPED_TEST(BodyPairs, LeaveNothingOfTheSearchBehind)
     const std::int64_t held = this->counters.current_bytes();
     scene.find(step);
     EXPECT_EQ(this->counters.current_bytes(), held);
-    for (const char* name : {"body search radii", "body speeds", "body displacement a step more", "body cells",
-                             "bodies by cell", "pairs found", "pairs accepted", "near clusters", "pairs counted",
-                             "sort scratch"})
+    for (const char* name :
+         {"body search radii", "body speeds", "body displacement a step more", "body cells", "bodies by cell",
+          "pairs found", "pairs accepted", "near clusters", "pairs counted", "sort scratch"})
     {
         EXPECT_EQ(this->counters.bytes().find(name)->second, 0) << name;
     }

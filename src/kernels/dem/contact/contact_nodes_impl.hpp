@@ -27,11 +27,11 @@ struct Count
         ++clusters;
     }
 
-    /// Marks the end of the record; a record without an end is not complete.
+    /// Marks the end of the record, and at its last place that it is complete.
     template<class Lanes>
     TREAD_HD void end(const Lanes& lanes) const
     {
-        if (clusters < near_clusters && lanes.lane() == 0) { near[clusters] = {0, 0}; }
+        if (clusters < near_clusters && lanes.lane() == 0) { near[clusters] = near[near_clusters - 1] = {0, 0}; }
     }
 };
 

@@ -178,8 +178,8 @@ struct NearCluster
     TREAD_HD std::int32_t index() const { return first_body() ? name : ~name; }
 };
 
-/// Number of clusters that are recorded for a pair. Rocks seldom meet with more than five; a pair with at least as many
-/// as this looks for its nodes twice.
+/// Room for the clusters that are recorded for a pair, and for the end of the record; the nodes of a pair with as many
+/// clusters as this, or more, are looked for twice.
 inline constexpr std::int32_t near_clusters = 8;
 
 /// Scratch memory of the search by cells of a grid.
@@ -200,10 +200,9 @@ struct PairSearchScratch
     Array<Exec, std::uint64_t> cell_key; ///< ascending
     Array<Exec, std::int32_t>  cell_body;
     Array<Exec, std::int32_t>  found;
-    Array<Exec, std::uint32_t>
-        accepted; ///< candidates of each part of a body's search that were found near, a bit each
+    Array<Exec, std::uint32_t> accepted; ///< per body and part: the candidates found near, a bit each
     Array<Exec, std::uint64_t> second_key;
-    Array<Exec, NearCluster>   near;    ///< [pairs * near_clusters], up to the first without nodes
+    Array<Exec, NearCluster>   near;    ///< [pairs * near_clusters], up to the first without nodes; 0 last if complete
     Array<Exec, std::int32_t>  counted; ///< place of each pair in `near`
 };
 
