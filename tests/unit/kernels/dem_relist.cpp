@@ -59,7 +59,7 @@ protected:
         for (std::size_t b = 0; b < places.size(); ++b)
         {
             far.push_back(random.uniform(0, 1) < 0.1);
-            places[b] += allowed[b] * (far.back() ? random.uniform(2, 40) : random.uniform(0, 0.2)) * any_way(random);
+            places[b] += allowed[b] * (far.back() ? random.uniform(2, 8) : random.uniform(0, 0.2)) * any_way(random);
         }
         scene.bodies.position.assign(places);
         return far;
