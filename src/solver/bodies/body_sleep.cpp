@@ -60,7 +60,7 @@ void follow_beds(BodyState<Exec>& state, PairLists<Exec>& lists, BodyReports<Exe
         dem::fall_asleep(state.exec, state.pairs, state.view(), state.tables.law, reports.totals.data(), substep,
                          state.gravity);
     }
-    if (found.tired > 0 || found.wake > 0) { lists.sleepers_changed = true; }
+    if (found.tired > 0 || found.wake > 0) { lists.listed = false; }
 }
 
 template<class Exec>
@@ -68,7 +68,7 @@ void update_sleep(BodyState<Exec>& state, PairLists<Exec>& lists, BodyReports<Ex
                   const SleepSettings& settings, double substep)
 {
     dem::SleepingBodies<Exec>& sleep = state.pairs.sleep;
-    if (!sleep.wanted || !lists.listed || lists.sleepers_changed) { return; }
+    if (!sleep.wanted || !lists.listed) { return; }
     if (settings.damping > 0)
     {
         sleep.clock.look = 0;
@@ -82,7 +82,7 @@ void update_sleep(BodyState<Exec>& state, PairLists<Exec>& lists, BodyReports<Ex
         dem::fall_asleep(state.exec, state.pairs, state.view(), state.tables.law, reports.totals.data(), substep,
                          state.gravity);
     }
-    if (sorts || tires) { lists.sleepers_changed = true; }
+    if (sorts || tires) { lists.listed = false; }
 }
 
 template<class Exec>

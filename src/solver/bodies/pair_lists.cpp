@@ -11,7 +11,6 @@
 #include "kernels/dem/contact/contact_limits.hpp"
 #include "kernels/dem/pairs/displacement_kern.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
-#include "kernels/dem/pairs/relist.hpp"
 #include "solver/ranks/over_ranks.hpp"
 #include "solver/state_file.hpp"
 
@@ -44,29 +43,16 @@ template<class Exec>
 bool is_valid(BodyState<Exec>& state, PairLists<Exec>& lists, double dt)
 {
     const Communicator* ranks = state.communicator();
-    if (!lists.listed || (state.ranks && state.ranks->pages_have_changed())) { return false; }
-    const double ahead = lists.checked_within_step ? watched_share * dt : dt;
-    const double share = largest_over_ranks(ranks, read(state.exec, displacement_ahead(state, lists, ahead)));
-    if (share > 1 || lists.sleepers_changed) { return false; }
+    const bool          known = lists.listed && !(state.ranks && state.ranks->pages_have_changed());
+    const double        ahead = lists.checked_within_step ? watched_share * dt : dt;
+    if (!known || largest_over_ranks(ranks, read(state.exec, displacement_ahead(state, lists, ahead))) > 1)
+    {
+        return false;
+    }
     if (!state.pairs.patches.wanted) { return true; }
     const bool suffices = dem::patch_rows_suffice(state.exec, state.pairs, state.view(), state.tables.law);
     if (largest_over_ranks(ranks, suffices ? 0 : 1) > 0) { return false; }
     dem::regroup_patches(state.exec, state.pairs, state.view(), state.tables.law);
-    return true;
-}
-
-/// Whether most of the last list can stay, as is_valid has just looked at it: fills pairs.relisting, and marks the
-/// places of bodies that have strayed. Where more than one in `few` has, a search of all is worth its time, since after
-/// it the others have all that they are allowed.
-template<class Exec>
-bool begin_relisting(BodyState<Exec>& state, PairLists<Exec>& lists)
-{
-    constexpr std::int64_t few = 8;
-    if (!lists.listed || state.ranks) { return false; }
-    const double*      share   = lists.displacements.share.data();
-    const std::int64_t strayed = dem::mark_strayed(state.exec, state.pairs, state.view(), share);
-    if (strayed * few > state.view().count) { return false; }
-    dem::mark_places(state.exec, lists.displacements, state.view(), state.pairs.relisting.mark.data());
     return true;
 }
 
@@ -76,7 +62,6 @@ void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double sub
     const Exec&         exec  = state.exec;
     dem::Pairs<Exec>&   pairs = state.pairs;
     const dem::BodyLaw& law   = state.tables.law;
-    const bool          most  = begin_relisting(state, lists);
     dem::begin_list(exec, pairs, state.view(), law);
     if (state.shares())
     {
@@ -85,20 +70,15 @@ void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double sub
     }
     dem::request_displacement(exec, pairs, state.view(), law, dt, state.shared());
     if (state.ranks) { state.ranks->sum_wanted_displacement(pairs); }
-    dem::allow_displacement(exec, pairs, state.view(), law, dt, substeps, most ? pairs.relisting.mark.data() : nullptr);
+    dem::allow_displacement(exec, pairs, state.view(), law, dt, substeps);
     if (state.ranks)
     {
         state.ranks->assign_owners(state.bodies, pairs);
         ++lists.partition_version;
     }
-    if (most) { dem::relist_pairs(exec, pairs, state.view(), lists.at_search(state.view()), law); }
-    else
-    {
-        dem::list_pairs(exec, pairs, state.view(), law);
-        dem::mark_places(exec, lists.displacements, state.view());
-    }
-    lists.listed           = true;
-    lists.sleepers_changed = false;
+    dem::list_pairs(exec, pairs, state.view(), law);
+    dem::mark_places(exec, lists.displacements, state.view());
+    lists.listed = true;
 }
 
 /// Number of nodes of a body's surface.
@@ -202,14 +182,6 @@ void request_lookahead(BodyState<Exec>& state, PairLists<Exec>& lists, const Tim
 }
 
 template<class Exec>
-dem::BodiesView PairLists<Exec>::at_search(dem::BodiesView bodies)
-{
-    bodies.position    = displacements.position.data();
-    bodies.orientation = displacements.orientation.data();
-    return bodies;
-}
-
-template<class Exec>
 void PairLists<Exec>::begin(const TimeStep& next)
 {
     lookahead_pending = expired = in_substeps = false;
@@ -261,7 +233,7 @@ void PairLists<Exec>::transfer(StateFile& file, BodyState<Exec>& state)
     }
     dem::Pairs<Exec>& pairs = state.pairs;
     const auto        count = static_cast<std::size_t>(state.bodies.position.size());
-    file.numbers("pairs/listed", listed, sleepers_changed);
+    file.numbers("pairs/listed", listed);
     const std::vector<std::uint64_t> keys = pairs.key.to_host();
     // Without a list there are no rows.
     const auto of_each = [&](std::size_t rows, auto bound)

@@ -33,9 +33,6 @@ struct PairLists
     /// Whether looks are launches between batches of substeps.
     bool between_batches() const { return checked_within_step && !in_substeps; }
 
-    /// The bodies at the places at which their pairs were found.
-    dem::BodiesView at_search(dem::BodiesView bodies);
-
     /// Begins the substeps of a step.
     void begin(const TimeStep& next);
 
@@ -51,7 +48,6 @@ struct PairLists
     Event<Exec>                    lookahead_done;
     bool                           lookahead_pending   = false; ///< a check was requested and not used yet
     bool                           listed              = false; ///< whether pairs were found
-    bool                           sleepers_changed    = false; ///< others sleep than when pairs were found
     bool                           checked_within_step = false; ///< the list is also checked within the step
     std::int64_t                   partition_version   = 0;     ///< counts assignments of bodies to ranks
 

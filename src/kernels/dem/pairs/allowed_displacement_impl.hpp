@@ -108,24 +108,17 @@ struct WriteAllowed
     double              substeps;
     const double*       speed;
     const double*       per_step;
-    const double*       sum;     ///< sum of `per_step`
-    const std::int32_t* strayed; ///< null: all are allowed anew
+    const double*       sum; ///< sum of `per_step`
     double*             allowed;
     double*             search_radius;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
         const double radius = bounding_radius(bodies, templates, b);
-        if (strayed == nullptr || strayed[b] == relist_strayed) { allowed[b] = allow(b, radius); }
-        search_radius[b] = is_large[b] != 0 ? 0.0 : radius + allowed[b];
-    }
-
-private:
-    TREAD_HD double allow(std::int64_t b, double radius) const
-    {
-        const double least = search_displacement(radius, speed[b], speed[b], dt).least;
-        const double steps = steps_to_last(*sum / static_cast<double>(bodies.count), substeps);
-        return radius * (least + std::fmin(steps * per_step[b], most_per_step));
+        const double least  = search_displacement(radius, speed[b], speed[b], dt).least;
+        const double steps  = steps_to_last(*sum / static_cast<double>(bodies.count), substeps);
+        allowed[b]          = radius * (least + std::fmin(steps * per_step[b], most_per_step));
+        search_radius[b]    = is_large[b] != 0 ? 0.0 : radius + allowed[b];
     }
 };
 
@@ -201,12 +194,12 @@ void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView
 
 template<class Exec>
 void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
-                        double substeps, const std::int32_t* strayed)
+                        double substeps)
 {
     for_each(exec, "body search radii", bodies.count,
              pair_steps::WriteAllowed{bodies, law.templates, pairs.sizes.is_large.data(), dt, substeps,
                                       pairs.displacement.speed.data(), pairs.displacement.per_step.data(),
-                                      pairs.measure.data(), strayed, pairs.displacement.allowed.data(),
+                                      pairs.measure.data(), pairs.displacement.allowed.data(),
                                       pairs.displacement.search_radius.data()});
 }
 

@@ -25,14 +25,9 @@ struct DisplacementTracker
     Array<Exec, double>       share; ///< share of its allowed displacement that each body used, followed by the maximum
 };
 
-/// Stores the present positions of the bodies, at which pairs are found.
+/// Stores the present positions of the bodies; call after find_pairs.
 template<class Exec>
 void mark_places(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies);
-
-/// Stores those of the bodies with relist_strayed alone. `mark`: RelistMark of every body.
-template<class Exec>
-void mark_places(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies,
-                 const std::int32_t* mark);
 
 /// Computes the displacement of every body's furthest point since mark_places as a share of the body's allowed
 /// displacement (m), and its maximum; tracker.share holds all. No pair is missing from the list while the maximum is at

@@ -53,21 +53,6 @@ struct MeasureAhead
     }
 };
 
-struct MarkStrayed
-{
-    BodiesView          bodies;
-    const std::int32_t* mark;
-    Vec3<double>*       position;
-    Quat*               orientation;
-
-    TREAD_HD void operator()(std::int64_t b) const
-    {
-        if (mark[b] != relist_strayed) { return; }
-        position[b]    = bodies.position[b];
-        orientation[b] = bodies.orientation[b];
-    }
-};
-
 template<class Exec>
 Measure measure(DisplacementTracker<Exec>& tracker, const BodiesView& bodies, const TemplateView* templates,
                 const double* allowed)
@@ -101,14 +86,6 @@ void mark_places(const Exec& exec, DisplacementTracker<Exec>& tracker, const Bod
 }
 
 template<class Exec>
-void mark_places(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies,
-                 const std::int32_t* mark)
-{
-    for_each(exec, "places of strayed bodies", bodies.count,
-             displacement_steps::MarkStrayed{bodies, mark, tracker.position.data(), tracker.orientation.data()});
-}
-
-template<class Exec>
 const double* largest_displacement(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies,
                                    const TemplateView* templates, const double* allowed)
 {
@@ -125,12 +102,11 @@ const double* largest_displacement_ahead(const Exec& exec, DisplacementTracker<E
     return displacement_steps::largest(exec, tracker, bodies.count, item);
 }
 
-#define TREAD_INSTANTIATE(Exec)                                                                                          \
-    template void          mark_places(const Exec&, DisplacementTracker<Exec>&, const BodiesView&);                      \
-    template void          mark_places(const Exec&, DisplacementTracker<Exec>&, const BodiesView&, const std::int32_t*); \
-    template const double* largest_displacement(const Exec&, DisplacementTracker<Exec>&, const BodiesView&,              \
-                                                const TemplateView*, const double*);                                     \
-    template const double* largest_displacement_ahead(const Exec&, DisplacementTracker<Exec>&, const BodiesView&,        \
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void          mark_places(const Exec&, DisplacementTracker<Exec>&, const BodiesView&);                    \
+    template const double* largest_displacement(const Exec&, DisplacementTracker<Exec>&, const BodiesView&,            \
+                                                const TemplateView*, const double*);                                   \
+    template const double* largest_displacement_ahead(const Exec&, DisplacementTracker<Exec>&, const BodiesView&,      \
                                                       const TemplateView*, const double*, double)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

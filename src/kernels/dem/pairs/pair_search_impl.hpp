@@ -34,27 +34,26 @@ inline constexpr std::int32_t remembered_candidates = 32;
 struct CountPairs
 {
     PairSearch     search;
-    std::int64_t   items;
-    std::int32_t*  found;    ///< [items + 1]
-    std::uint32_t* accepted; ///< [items]
+    std::int32_t*  found;    ///< [bodies * parts + 1]
+    std::uint32_t* accepted; ///< [bodies * parts]
 
     TREAD_HD void operator()(std::int64_t i) const
     {
         std::int32_t  own = 0, candidate = 0;
         std::uint32_t near = 0;
-        if (i < items)
+        if (i < search.bodies.count * PairSearch::parts)
         {
-            search.each_candidate_of(i,
-                                     [&](std::uint64_t, const auto& is_near)
-                                     {
-                                         const bool found_near = is_near();
-                                         own += found_near ? 1 : 0;
-                                         if (found_near && candidate < remembered_candidates)
-                                         {
-                                             near |= std::uint32_t{1} << candidate;
-                                         }
-                                         ++candidate;
-                                     });
+            search.each_candidate(i / PairSearch::parts, i % PairSearch::parts,
+                                  [&](std::uint64_t, const auto& is_near)
+                                  {
+                                      const bool found_near = is_near();
+                                      own += found_near ? 1 : 0;
+                                      if (found_near && candidate < remembered_candidates)
+                                      {
+                                          near |= std::uint32_t{1} << candidate;
+                                      }
+                                      ++candidate;
+                                  });
             accepted[i] = near;
         }
         found[i] = own;
@@ -64,23 +63,23 @@ struct CountPairs
 struct WritePairs
 {
     PairSearch           search;
-    const std::int32_t*  found;    ///< [items + 1], after the scan
-    const std::uint32_t* accepted; ///< [items]
+    const std::int32_t*  found;    ///< [bodies * parts + 1], after the scan
+    const std::uint32_t* accepted; ///< [bodies * parts]
     std::uint64_t*       key;
 
     TREAD_HD void operator()(std::int64_t i) const
     {
         std::int32_t place = found[i], candidate = 0;
         if (place == found[i + 1]) { return; }
-        search.each_candidate_of(i,
-                                 [&](std::uint64_t pair, const auto& is_near)
-                                 {
-                                     const bool near = candidate < remembered_candidates
-                                                           ? (accepted[i] >> candidate & 1u) != 0
-                                                           : is_near();
-                                     if (near) { key[place++] = pair; }
-                                     ++candidate;
-                                 });
+        search.each_candidate(i / PairSearch::parts, i % PairSearch::parts,
+                              [&](std::uint64_t pair, const auto& is_near)
+                              {
+                                  const bool near = candidate < remembered_candidates
+                                                        ? (accepted[i] >> candidate & 1u) != 0
+                                                        : is_near();
+                                  if (near) { key[place++] = pair; }
+                                  ++candidate;
+                              });
     }
 };
 
@@ -117,15 +116,15 @@ PairSearch make_search(const Pairs<Exec>& pairs, const BodiesView& bodies, const
             pairs.jointed.size()};
 }
 
-/// Fills pairs.key with what a search finds, unordered.
 template<class Exec>
-void find_keys(const Exec& exec, Pairs<Exec>& pairs, const PairSearch& search)
+void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double cell_size)
 {
-    const std::int64_t items = search.items();
+    const PairSearch   search = make_search(pairs, bodies, law, cell_size);
+    const std::int64_t items  = bodies.count * PairSearch::parts;
     pairs.search.found.resize(items + 1);
     pairs.search.accepted.resize(items);
     for_each(exec, "count pairs", items + 1,
-             CountPairs{search, items, pairs.search.found.data(), pairs.search.accepted.data()});
+             CountPairs{search, pairs.search.found.data(), pairs.search.accepted.data()});
     pairs.key.resize(exclusive_scan(exec, pairs.search.found, pairs.sort));
     for_each(exec, "write pairs", items,
              WritePairs{search, pairs.search.found.data(), pairs.search.accepted.data(), pairs.key.data()});

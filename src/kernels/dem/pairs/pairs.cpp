@@ -1,22 +1,18 @@
 #include "backend/launch.hpp"
-#include "kernels/dem/pairs/relist_impl.hpp"
 #include "kernels/dem/pairs/resume_list_impl.hpp"
 
 namespace tread::dem
 {
 
-template void         classify_bodies(const Cpu&, Pairs<Cpu>&, const BodiesView&, const TemplateView*);
-template void         stage_bodies(const Cpu&, Pairs<Cpu>&, const BodiesView&);
-template void         begin_list(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&);
-template void         share_speeds(const Cpu&, Pairs<Cpu>&, const BodiesView&, const SharedView&);
-template void         request_displacement(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double,
-                                           const SharedView&);
-template void         allow_displacement(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double,
-                                         const std::int32_t*);
-template void         list_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&);
-template void         resume_list(const Cpu&, Pairs<Cpu>&, const BodiesView&);
-template std::int64_t mark_strayed(const Cpu&, Pairs<Cpu>&, const BodiesView&, const double*);
-template void         relist_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodiesView&, const BodyLaw&);
-template void         find_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double);
+template void classify_bodies(const Cpu&, Pairs<Cpu>&, const BodiesView&, const TemplateView*);
+template void stage_bodies(const Cpu&, Pairs<Cpu>&, const BodiesView&);
+template void begin_list(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&);
+template void share_speeds(const Cpu&, Pairs<Cpu>&, const BodiesView&, const SharedView&);
+template void request_displacement(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double,
+                                   const SharedView&);
+template void allow_displacement(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double);
+template void list_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&);
+template void resume_list(const Cpu&, Pairs<Cpu>&, const BodiesView&);
+template void find_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double);
 
 } // namespace tread::dem

@@ -96,33 +96,6 @@ struct LastRecords
     Array<Exec, Rolling>       rolling;
 };
 
-/// Bodies whose pairs a new list finds anew while the others keep theirs (relist.hpp), and scratch memory of that.
-template<class Exec>
-struct Relisting
-{
-    explicit Relisting(const Exec& exec)
-        : mark(exec, "relisted body marks")
-        , body(exec, "relisted bodies")
-        , kept(exec, "kept pairs")
-        , key(exec, "merged pair keys")
-        , first(exec, "merged nodes of pairs")
-        , node(exec, "merged pair nodes")
-        , source(exec, "sources of merged nodes")
-        , old_first(exec, "last nodes of pairs")
-        , old_node(exec, "last pair nodes")
-    {
-    }
-
-    Array<Exec, std::int32_t>  mark; ///< RelistMark of every body
-    Array<Exec, std::int32_t>  body; ///< those that are relisted, ascending
-    Array<Exec, std::int32_t>  kept; ///< first rows of the pairs that stay, in the last list
-    Array<Exec, std::uint64_t> key;
-    Array<Exec, std::int32_t>  first;
-    Array<Exec, std::int32_t>  node;
-    Array<Exec, std::int32_t>  source; ///< where each pair's nodes start: i in the last list, ~i among the new ones
-    Array<Exec, std::int32_t>  old_first, old_node; ///< nodes of the last list, as in PairsView
-};
-
 /// Runs of pairs of each body, as in PairsView.
 template<class Exec>
 struct PairsOfBodies
@@ -247,7 +220,6 @@ struct Pairs
         , nodes(exec)
         , patches(exec)
         , last(exec)
-        , relisting(exec)
         , body(exec, "bodies in contact")
         , expected_stiffness(exec, "body expected stiffness")
         , jointed(exec, "pairs of jointed bodies")
@@ -293,7 +265,6 @@ struct Pairs
     PairNodes<Exec>            nodes;
     Patches<Exec>              patches;
     LastRecords<Exec>          last;
-    Relisting<Exec>            relisting;
     bool                       resists_rolling = false; ///< whether some pair of materials has rolling friction
 
     // The bodies.
@@ -344,11 +315,10 @@ template<class Exec>
 void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                           const SharedView& shared);
 
-/// Third part: computes pairs.displacement.allowed of owned bodies; owners send it to ghosts. `strayed`: RelistMark of
-/// every body if only those that have strayed are allowed anew; null: all.
+/// Third part: computes pairs.displacement.allowed of owned bodies; owners send it to ghosts.
 template<class Exec>
 void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
-                        double substeps, const std::int32_t* strayed = nullptr);
+                        double substeps);
 
 /// Last part: lists the pairs that this rank evaluates, except those of two sleepers (sleep/sleep.hpp).
 template<class Exec>

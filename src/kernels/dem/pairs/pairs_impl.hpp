@@ -246,12 +246,12 @@ void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesVie
     release_memory(pairs.of_body.by_second, pairs.search.near, pairs.search.counted);
 }
 
-/// Releases the substeps' memory of a list, except its nodes.
+/// Releases the substeps' memory of a list.
 template<class Exec>
 void end_substeps(Pairs<Exec>& pairs)
 {
     release_memory(pairs.answers);
-    release_memory(pairs.nodes.pair, pairs.nodes.found, pairs.nodes.inside);
+    release_memory(pairs.nodes.node, pairs.nodes.pair, pairs.nodes.found, pairs.nodes.inside, pairs.nodes.first);
 }
 
 /// Allocates and initialises the substeps' arrays in addition to the list.
@@ -280,27 +280,6 @@ void order_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
                     {pairs.sleep.pairs.key.size(), pairs.sleep.pairs.key.data(), pairs.sleep.pairs.patch.data(),
                      pairs.sleep.pairs.rolling.data()}});
     order_again(exec, pairs, bodies);
-}
-
-/// Releases the memory of a search for pairs.
-template<class Exec>
-void end_search(Pairs<Exec>& pairs)
-{
-    release_memory(pairs.displacement.search_radius, pairs.displacement.speed, pairs.displacement.per_step,
-                   pairs.search.cell_key, pairs.search.cell_body, pairs.search.found, pairs.search.accepted);
-}
-
-/// Computes from pairs.key and its nodes everything else that the substeps read.
-template<class Exec>
-void complete_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
-{
-    order_pairs(exec, pairs, bodies);
-    if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }
-    list_pairs_of_many_nodes(exec, pairs);
-    if (pairs.sleep.wanted) { settle_sleepers(exec, pairs, bodies); }
-    release_memory(pairs.last.key, pairs.last.patch, pairs.last.rolling, pairs.search.second_key, pairs.search.found);
-    release_memory(pairs.sort);
-    begin_substeps(exec, pairs);
 }
 
 } // namespace pair_steps
@@ -352,17 +331,24 @@ template<class Exec>
 void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     using namespace pair_steps;
-    release_memory(pairs.nodes.node, pairs.nodes.first, pairs.relisting.mark, pairs.relisting.body);
     stage_bodies(exec, pairs, bodies);
     update_search_radii(exec, pairs, bodies, law);
     release_memory(pairs.of_body.by_second);
-    const PairSearch search = make_search(pairs, bodies, law, fill_cells(exec, pairs, bodies));
-    if (pairs.sleep.wakes) { wake_bodies(exec, pairs, bodies, search); }
-    find_keys(exec, pairs, search);
-    end_search(pairs);
+    const double cell_size = fill_cells(exec, pairs, bodies);
+    if (pairs.sleep.wakes) { wake_bodies(exec, pairs, bodies, law, cell_size); }
+    search(exec, pairs, bodies, law, cell_size);
+    release_memory(pairs.displacement.search_radius, pairs.displacement.speed, pairs.displacement.per_step,
+                   pairs.search.cell_key, pairs.search.cell_body, pairs.search.found, pairs.search.accepted);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
-    complete_list(exec, pairs, bodies, law);
+    order_pairs(exec, pairs, bodies);
+    if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }
+    list_pairs_of_many_nodes(exec, pairs);
+    if (pairs.sleep.wanted) { settle_sleepers(exec, pairs, bodies); }
+    release_memory(pairs.last.key, pairs.last.patch, pairs.last.rolling, pairs.search.second_key, pairs.search.found);
+    release_memory(pairs.sort);
+    begin_substeps(exec, pairs);
 }
+
 template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                 double substeps)

@@ -132,22 +132,8 @@ TREAD_HD std::int64_t decider_of(const std::int32_t* is_large, std::int64_t a, s
     return is_large[b] > is_large[a] ? a : b;
 }
 
-/// What a new list does about a body while others keep their pairs.
-enum RelistMark : std::int32_t
-{
-    relist_none,    ///< it keeps its pairs with others that do
-    relist_strayed, ///< its pairs are found anew, because it has used up most of its allowed displacement
-    relist_slept,   ///< it slept so far: its pairs are found anew if it has woken since
-};
-
-TREAD_HD bool is_relisted(const BodiesView& bodies, const std::int32_t* mark, std::int64_t b)
-{
-    return mark[b] == relist_strayed || (mark[b] == relist_slept && !bodies.is_asleep(b));
-}
-
 /// Finds the pairs of one body; each pair is found from only one of its two bodies, one of an awake and a sleeping body
-/// from the awake one. Two sleepers have no pair. Where other bodies keep their pairs, those with one that is relisted
-/// are found, from that one. The search is split into parts, so that few bodies fill a device.
+/// from the awake one. Two sleepers have no pair. The search is split into parts, so that few bodies fill a device.
 struct PairSearch
 {
     BodiesView           bodies;
@@ -161,37 +147,6 @@ struct PairSearch
     const std::int32_t*  is_large;
     const std::uint64_t* jointed; ///< keys of pairs that never touch, ascending
     std::int64_t         jointed_count;
-
-    const std::int32_t* mark           = nullptr; ///< RelistMark of every body; null: all pairs are found
-    const std::int32_t* relisted       = nullptr; ///< bodies that are relisted
-    std::int64_t        relisted_count = 0;
-
-    /// Number of parts of the search of all bodies.
-    std::int64_t items() const
-    {
-        return mark == nullptr ? bodies.count * parts : relisted_count * cell_rows + bodies.count;
-    }
-
-    /// Calls visit(key, is_near) as each_candidate(a, part, visit) for part i of all.
-    template<class Visit>
-    TREAD_HD void each_candidate_of(std::int64_t i, Visit visit) const
-    {
-        if (mark == nullptr) { each_candidate(i / parts, i % parts, visit); }
-        else if (i < relisted_count * cell_rows) { each_candidate(relisted[i / cell_rows], i % cell_rows, visit); }
-        else { each_candidate(i - relisted_count * cell_rows, cell_rows, visit); }
-    }
-
-    /// Whether the pairs of body b are found from it.
-    TREAD_HD bool searches(std::int64_t b) const
-    {
-        return mark == nullptr ? !bodies.is_asleep(b) : is_relisted(bodies, mark, b);
-    }
-
-    /// Whether a pair of a large body, or of a body and a wall (b = a), is to be found.
-    TREAD_HD bool is_sought(std::int64_t a, std::int64_t b) const
-    {
-        return mark == nullptr || is_relisted(bodies, mark, a) || is_relisted(bodies, mark, b);
-    }
 
     TREAD_HD bool is_sphere(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
 
@@ -236,7 +191,7 @@ struct PairSearch
     {
         if (!bodies.is_here(a)) { return; }
         if (part == cell_rows) { beside_cells(a, visit); }
-        else if (is_large[a] == 0 && searches(a)) { in_row(a, part, visit); }
+        else if (is_large[a] == 0 && !bodies.is_asleep(a)) { in_row(a, part, visit); }
     }
 
 private:
@@ -252,9 +207,8 @@ private:
         for (std::int64_t i = lower_bound(cell_key, gridded, cell_key_of(x - 1, y, z));
              i < gridded && cell_key[i] <= last; ++i)
         {
-            const std::int64_t b         = cell_body[i];
-            const bool         from_here = b > a || (b < a && !searches(b));
-            if (from_here && !(bodies.is_asleep(a) && bodies.is_asleep(b))) { visit_pair(a, b, visit); }
+            const std::int64_t b = cell_body[i];
+            if (b > a || (b < a && bodies.is_asleep(b))) { visit_pair(a, b, visit); }
         }
     }
 
@@ -266,12 +220,11 @@ private:
         {
             const std::int64_t b = large[l];
             if ((is_large[a] != 0 && b <= a) || (bodies.is_asleep(a) && bodies.is_asleep(b))) { continue; }
-            if (!is_sought(a, b)) { continue; }
             visit_pair(a, b, visit);
         }
         for (std::int32_t p = 0; p < law.plane_count; ++p)
         {
-            if (!bodies.is_owned(a) || bodies.is_asleep(a) || !is_sought(a, a)) { continue; }
+            if (!bodies.is_owned(a) || bodies.is_asleep(a)) { continue; }
             visit(pair_key(a, bodies.count + p), [&] { return near(a, law.planes[p]); });
         }
     }

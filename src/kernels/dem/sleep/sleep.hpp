@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/dem/motion/totals.hpp"
-#include "kernels/dem/pairs/pairs_kern.hpp"
+#include "kernels/dem/pairs/pairs.hpp"
 
 // Sleep of bodies (docs/sleep.md). A look decides who falls asleep or wakes; both take effect with the next list of
 // pairs. Allocates only in scenes where pairs.sleep.wanted.
@@ -41,10 +41,10 @@ void fall_asleep(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, cons
 template<class Exec>
 void wake_all(Pairs<Exec>& pairs, Bodies<Exec>& bodies);
 
-/// Wakes the marked bodies, those that `search` finds near moving ones, and their neighbours up to waking_rings
-/// contacts on. Called by list_pairs and relist_pairs.
+/// Wakes the marked bodies, those near moving ones, and their neighbours up to waking_rings contacts on. Called by
+/// list_pairs, with the cells of the search.
 template<class Exec>
-void wake_bodies(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const PairSearch& search);
+void wake_bodies(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double cell_size);
 
 /// Drops the pairs of bodies that woke, updates what follows from the sleepers, and lists the bodies of the substeps.
 /// Called by list_pairs at its end.

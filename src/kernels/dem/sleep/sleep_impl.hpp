@@ -256,14 +256,14 @@ void wake_all(Pairs<Exec>& pairs, Bodies<Exec>& bodies)
 }
 
 template<class Exec>
-void wake_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const PairSearch& search)
+void wake_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double cell_size)
 {
     using namespace sleeping;
     SleepingBodies<Exec>& sleep = pairs.sleep;
     if (sleep.count == 0 && !sleep.change) { return; }
     if (sleep.change) { order_contacts(exec, pairs, bodies); }
     for_each(exec, "mark sleepers near", bodies.count * PairSearch::parts,
-             MarkNear{search, sleep.moves.data(), sleep.mark.data()});
+             MarkNear{pair_steps::make_search(pairs, bodies, law, cell_size), sleep.moves.data(), sleep.mark.data()});
     for (int ring = 0; ring < waking_rings; ++ring)
     {
         for_each(exec, "widen waking", bodies.count,
@@ -328,7 +328,7 @@ void list_moved_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& b
     template void       fall_asleep(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, BodyTotal*, double,  \
                                     const Vec3<double>&);                                                              \
     template void       wake_all(Pairs<Exec>&, Bodies<Exec>&);                                                         \
-    template void       wake_bodies(const Exec&, Pairs<Exec>&, const BodiesView&, const PairSearch&);                  \
+    template void       wake_bodies(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, double);             \
     template void       settle_sleepers(const Exec&, Pairs<Exec>&, const BodiesView&);                                 \
     template void       hold_sleepers(const Exec&, Pairs<Exec>&, const BodiesView&);                                   \
     template void       resume_sleep(const Exec&, Pairs<Exec>&, const BodiesView&);                                    \
