@@ -4,7 +4,7 @@
 import unittest
 
 from command import MPIRUN, SCENE
-from restart_test import ASLEEP, JOINTED, MIXED, RestartTest, lasting
+from restart_test import ASLEEP, JOINTED, MIXED, STREWN, RestartTest, lasting
 
 
 class RestartOnMoreRanks(RestartTest):
@@ -13,6 +13,15 @@ class RestartOnMoreRanks(RestartTest):
 
     def test_from_one_rank_to_three_agrees_as_far_as_chaos_lets_it(self):
         self.check_other_number_of_ranks(MIXED, 1, 3)
+
+    def test_strewn_sand_from_three_ranks_to_five_and_on_to_two_agrees_as_far_as_chaos_lets_it(self):
+        text = lasting(STREWN, 0.06)
+        three, five, two = ((*MPIRUN, "-n", str(ranks)) for ranks in (3, 5, 2))
+        checkpoint = self.stop_after_a_checkpoint(text, self.directory / "on3", launcher=three)
+        self.check_agreement(text, checkpoint, {"5 ranks": {"launcher": five}})
+        later = self.stop_after_a_checkpoint(text, self.directory / "on5", "--restart", checkpoint, launcher=five)
+        self.assertGreater(later.name, checkpoint.name)
+        self.check_agreement(text, later, {"2 ranks": {"launcher": two}})
 
     def test_jointed_bodies_from_two_ranks_to_three_agree_as_far_as_chaos_lets_them(self):
         self.check_other_number_of_ranks(JOINTED, 2, 3)

@@ -24,7 +24,19 @@ ROCK = BODY + "diameter = 0.1\n"
 
 MIXED = WITH_ROCK + ROCK.replace("0.3]", "0.155]") + "velocity = [0.3, 0.0, -0.8]\n"
 
-# The same with a second rock on a hinge above it, which swings as the first one hits the sand.
+# The same with a crowd of rocks that fall on the sand beside it.
+STREWN = MIXED + """
+[[rocks]]
+shape     = "roller"
+material  = "steel"
+count     = 50
+diameter  = 0.03
+region    = { box = [[0.0, 0.0, 0.105], [0.4, 0.14, 0.19]] }
+placement = "rain"
+seed      = 1
+"""
+
+# MIXED with a second rock on a hinge above it, which swings as the first one hits the sand.
 JOINTED = MIXED + ROCK.replace('"roller"\nshape', '"arm"\nshape').replace("[0.2, 0.2, 0.3]", "[0.23, 0.2, 0.26]") + """
 [[joint]]
 name    = "hinge"
@@ -212,9 +224,9 @@ class RestartTest(CommandTest):
             seen |= set(self.checkpoints()) - first
             time.sleep(0.002)
 
-    def stop_after_a_checkpoint(self, text, output, launcher=(), backend=BACKEND):
+    def stop_after_a_checkpoint(self, text, output, *options, launcher=(), backend=BACKEND):
         """What a run leaves that was stopped soon after its start: its newest checkpoint."""
-        job = self.begin(text, EVERY_FEW_STEPS, output=output, launcher=launcher, backend=backend)
+        job = self.begin(text, EVERY_FEW_STEPS, *options, output=output, launcher=launcher, backend=backend)
         self.wait_for(lambda: self.checkpoints(output), job)
         job.send_signal(signal.SIGUSR2)
         self.end(job, 75)
