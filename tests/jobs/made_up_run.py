@@ -44,6 +44,11 @@ STARTS = (0.0, 0.4, 0.9)
 RESOLUTION = {"verdict": "under-resolved", "figures": {"contact_cells": {
     "value": 2.0, "resolved": 20.0, "marginal": 6.0, "verdict": "under-resolved"}}}
 
+# The made-up wheel turns at 0.7 rad/s on 0.2 m with slip 0.3, which is 0.098 m/s, for 1.9 s of a ramp of 0.2 s.
+SPEED, DRIVEN = 0.098, 2.1
+# What the made-up scene lacks for weights and friction; its radius stands in it.
+MORE = 'load = 635.0\n[[contact]]\nbetween = ["wheel", "sand"]\nfriction = 0.3\n'
+
 
 def write_columns(group, columns):
     for name, (values, unit) in columns.items():
