@@ -150,8 +150,9 @@ class PostprocessTest(unittest.TestCase):
 
     def test_render(self):
         self.picture("render.py")
-        self.picture("render.py", "--snapshot", "0")
-        self.picture("render.py", "--colour", "rank")
+        small = ("--size", "480", "300")
+        self.picture("render.py", "--snapshot", "0", *small)
+        self.picture("render.py", "--colour", "rank", *small)
 
     def test_shapes(self):
         mesh = self.run_path.parent / "spindle.obj"
