@@ -166,11 +166,12 @@ std::vector<std::size_t> nearest_places(const SurfaceSamples& samples, const std
     const double   spacing = std::sqrt(total_area(samples) / static_cast<double>(places.size()));
     PointDirectory directory(1.5 * spacing);
     for (const std::size_t place : places) { directory.add(samples.positions[place], samples.normals[place]); }
-    std::vector<std::size_t> owners;
-    for (std::size_t i = 0; i < samples.positions.size(); ++i)
+    std::vector<std::size_t> owners(samples.positions.size());
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < owners.size(); ++i)
     {
         const auto near = directory.nearest(samples.positions[i], samples.normals[i]);
-        owners.push_back(near ? *near : nearest_of_all(samples, places, i));
+        owners[i]       = near ? *near : nearest_of_all(samples, places, i);
     }
     return owners;
 }
