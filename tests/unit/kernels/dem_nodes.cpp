@@ -33,9 +33,11 @@ std::size_t clusters_of(const std::vector<std::int32_t>& nodes)
 /// more and more displacement, their list only grows, past that number as before it.
 TYPED_TEST(ContactNodes, GrowWithTheAllowedDisplacement)
 {
-    constexpr double   radius = 0.01, speed = 0.1; // m, m/s
-    std::vector<Solid> solids{solid_sphere(radius, 1000, {0, 0, 0}), solid_sphere(radius, 1000, {2.01 * radius, 0, 0})};
-    solids[1].velocity = {-speed, 0, 0};
+    constexpr double   radius = 0.01, speed = 0.1;                     // m, m/s
+    const Vec3<double> way = Vec3<double>(0.8, 0.5, 0.3).normalized(); // along no symmetry of the balls' nodes
+    std::vector<Solid> solids{solid_sphere(radius, 1000, {0, 0, 0}), solid_sphere(radius, 1000, 2.03 * radius * way)};
+    solids[1].orientation = Quat(Eigen::AngleAxisd(0.7, Vec3<double>(0.3, -0.2, 0.9).normalized()));
+    solids[1].velocity    = -speed * way;
     typename TestFixture::Scene scene(this->exec(), {unit_sphere(3, 40)}, solids, {});
     std::set<std::int32_t>      before;
     std::set<std::size_t>       clusters;
